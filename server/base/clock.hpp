@@ -1,0 +1,37 @@
+// Time. A Duration is not a double: std::chrono keeps them apart. Loops take their clock from outside, so that tests can turn it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace mechane {
+
+using Duration = std::chrono::nanoseconds;
+/// Monotonic time. On the wire and in records it is nanoseconds since an origin of the sender's own.
+using TimePoint = std::chrono::time_point<std::chrono::steady_clock, Duration>;
+
+inline constexpr Duration kTickPeriod = std::chrono::milliseconds(1);
+inline constexpr double kTickSeconds = 1e-3;
+
+/// A clock that a loop waits on. Called from the loop's own thread only; no call allocates, locks or throws.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  [[nodiscard]] virtual TimePoint now() noexcept = 0;
+  /// Returns at `wake` or later.
+  virtual void sleep_until(TimePoint wake) noexcept = 0;
+  /// CPU time that the calling thread has used; tells an overrun of ours from a machine that stalled us.
+  [[nodiscard]] virtual Duration thread_cpu_time() noexcept = 0;
+};
+
+/// CLOCK_MONOTONIC with absolute waits (clock_nanosleep), and CLOCK_THREAD_CPUTIME_ID.
+class SystemClock final : public Clock {
+ public:
+  [[nodiscard]] TimePoint now() noexcept override;
+  void sleep_until(TimePoint wake) noexcept override;
+  [[nodiscard]] Duration thread_cpu_time() noexcept override;
+};
+
+[[nodiscard]] inline std::uint64_t to_ns(TimePoint t) { return static_cast<std::uint64_t>(t.time_since_epoch().count()); }
+
+}  // namespace mechane

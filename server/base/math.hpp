@@ -1,0 +1,60 @@
+// Vectors, poses, wrenches, in double precision. Monogram notation (see ARCHITECTURE.md): X_WB is the pose of frame B in frame W,
+// p_WQ the position of point Q in W, f_B_W the force on B expressed in W. SI units.
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace mechane {
+
+using Vec3 = Eigen::Vector3d;
+using Vec3f = Eigen::Vector3f;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// A rigid transform X_AB: rotates by R_AB, then shifts by p_AB. `R` must be of unit length.
+struct Pose {
+  Vec3 p = Vec3::Zero();
+  Quat R = Quat::Identity();
+
+  [[nodiscard]] Vec3 operator*(const Vec3& p_BQ) const { return R * p_BQ + p; }
+  [[nodiscard]] Pose operator*(const Pose& X_BC) const { return {R * X_BC.p + p, R * X_BC.R}; }
+  [[nodiscard]] Pose inverse() const {
+    const Quat R_BA = R.conjugate();
+    return {-(R_BA * p), R_BA};
+  }
+  [[nodiscard]] Vec3 rotate(const Vec3& v_B) const { return R * v_B; }
+};
+
+/// Linear and angular velocity of a frame, of its own origin, expressed in W: m/s, rad/s.
+struct Twist {
+  Vec3 v = Vec3::Zero();
+  Vec3 w = Vec3::Zero();
+
+  /// Velocity of a point that is fixed in the moving frame, `r` away from the frame's origin (in W).
+  [[nodiscard]] Vec3 at(const Vec3& r) const { return v + w.cross(r); }
+};
+
+/// Force and torque, expressed in W: N, N m.
+struct Wrench {
+  Vec3 f = Vec3::Zero();
+  Vec3 t = Vec3::Zero();
+};
+
+/// The rotation vector (axis times angle, |angle| <= pi) of a unit quaternion, radians.
+[[nodiscard]] inline Vec3 rotation_vector(const Quat& q) {
+  const Quat s = q.w() < 0 ? Quat(-q.w(), -q.x(), -q.y(), -q.z()) : q;
+  const double sine = s.vec().norm();
+  if (sine < 1e-12) return 2.0 * s.vec();
+  return (2.0 * std::atan2(sine, s.w()) / sine) * s.vec();
+}
+
+/// The unit quaternion of a rotation vector, radians.
+[[nodiscard]] inline Quat quat_from_rotation_vector(const Vec3& r) {
+  const double angle = r.norm();
+  if (angle < 1e-12) return Quat(1, r.x() / 2, r.y() / 2, r.z() / 2).normalized();
+  return Quat(Eigen::AngleAxisd(angle, r / angle));
+}
+
+}  // namespace mechane

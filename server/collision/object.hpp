@@ -1,0 +1,70 @@
+// An object made ready for contact queries: parts with superquadric bounds and distance maps, surface samples in clusters, spheres.
+// Immutable once built; any number of worlds and threads read one object.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/base/math.hpp"
+#include "server/collision/radial_map.hpp"
+#include "server/geometry/mesh.hpp"
+#include "server/geometry/superquadric.hpp"
+
+namespace mechane::collision {
+
+/// A part close to convex: its superquadric bounds it (F <= 1 on every vertex), its map holds the surface.
+struct Part {
+  std::string name;
+  Pose X_OQ;                          ///< the superquadric's frame in the object's frame
+  geometry::Superquadric superquadric;
+  RadialMap map;
+  geometry::Sphere bound_O;           ///< around the part's mesh
+};
+
+/// Up to 16 surface samples with a common bounding sphere, all of one part.
+struct Cluster {
+  geometry::Sphere bound_O;
+  std::uint32_t first = 0;            ///< into Object::samples
+  std::uint16_t count = 0;
+  std::uint16_t part = 0;
+};
+
+struct Object {
+  std::vector<Part> parts;
+  std::vector<Vec3f> samples_O;       ///< points of the surface
+  std::vector<Cluster> clusters;      ///< sorted by part
+  std::vector<std::uint32_t> first_cluster;  ///< of each part; one more entry closes the last
+  geometry::Sphere bound_O;           ///< around all parts
+};
+
+/// One point of overlap between objects A and B. See Drake's PenetrationAsPointPair for the conventions.
+struct PointContact {
+  Vec3 p_WC = Vec3::Zero();    ///< the point, on B's surface
+  Vec3 n_BA_W = Vec3::Zero();  ///< unit, from B into A: moving A along it separates
+  double depth_m = 0;          ///< > 0
+  std::uint16_t part_a = 0;
+  std::uint16_t part_b = 0;
+};
+
+/// A fixed buffer of contacts that keeps the deepest when it is full. The storage is the caller's.
+class ContactBuffer {
+ public:
+  explicit ContactBuffer(std::span<PointContact> storage) : storage_(storage) {}
+  void add(const PointContact& contact) noexcept;
+  void clear() noexcept { count_ = 0; }
+  [[nodiscard]] std::span<const PointContact> contacts() const { return storage_.first(count_); }
+
+ private:
+  std::span<PointContact> storage_;
+  std::size_t count_ = 0;
+};
+
+/// All overlaps of A and B: A's samples in B's parts and B's samples in A's parts, after culling by spheres (objects, parts,
+/// clusters). Both directions report the same way: the point on B's surface, the normal from B into A. Allocates nothing, throws
+/// nothing; cost grows with what the spheres let through. Any thread.
+void find_contacts(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, ContactBuffer& out) noexcept;
+
+}  // namespace mechane::collision

@@ -1,0 +1,23 @@
+// The readable log: one line an event, on stderr, with time and level. Used outside the loop only; a leaf that any room may use
+// in code that does not run in a tick.
+#pragma once
+
+#include <string_view>
+
+#include "server/base/error.hpp"
+
+namespace mechane::log {
+
+enum class Level { debug, info, warning, error };
+
+/// Names the program in each line and sets the least level shown. Call once, in main, before other threads start.
+void start(std::string_view program, Level least);
+
+/// Thread-safe. The text is one line for a person; build it with fmt::format where it has values.
+void debug(std::string_view text);
+void info(std::string_view text);
+void warning(std::string_view text);
+void error(std::string_view text);
+void error(const Error& e);
+
+}  // namespace mechane::log

@@ -1,0 +1,173 @@
+// A world as a scenario describes it: compiled once, never changed while the world runs. World state points into it by index.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "server/base/ids.hpp"
+#include "server/base/math.hpp"
+#include "server/collision/object.hpp"
+
+namespace mechane::state {
+
+/// Text by language code: {"el", "..."}, {"en", "..."}.
+using Texts = std::map<std::string, std::string>;
+
+/// What touch feels. Stiffness and damping are those that the visitor's device renders.
+struct HapticMaterial {
+  double stiffness_n_per_m = 600;
+  double damping_ns_per_m = 1.5;
+  double static_friction = 0.5;
+  double dynamic_friction = 0.3;
+};
+
+/// Where a body's picture is: a node of a mesh file.
+struct MeshReference {
+  std::string uri;           ///< relative to the scenario file
+  std::string content_hash;  ///< hex XXH3-128 of the file
+  std::string node;          ///< name of the node in the file; empty: the whole file
+};
+
+struct BodyDescription {
+  std::string name;            ///< DEF of the RigidBody
+  bool fixed = false;          ///< never moves; mass is not used
+  bool use_gravity = true;
+  double mass_kg = 1;          ///< the real one; the simulation uses mass * effort_scale
+  Mat3 inertia_kg_m2 = Mat3::Identity();  ///< about the centre of mass, in the body's frame, unscaled
+  Vec3 p_BCm = Vec3::Zero();   ///< centre of mass in the body's frame
+  double effort_scale = 1;     ///< what a visitor's hand has to lift of it (reference: caption says so)
+  double linear_damping = 0.02;   ///< share of velocity lost in a second, as Bullet's
+  double angular_damping = 0.02;
+  Pose X_WB;                   ///< at the start
+  HapticMaterial haptic;
+  std::shared_ptr<const collision::Object> object;  ///< null: cannot be touched
+  MeshReference mesh;
+  bool visible = true;
+  bool graspable = false;
+};
+
+enum class JointKind { hinge, slider, ball };
+
+/// An X3D joint. The constraint is on only while its agent, or a step, enables it.
+struct JointDescription {
+  std::string name;
+  JointKind kind = JointKind::hinge;
+  BodyId body1;            ///< the frame side
+  BodyId body2;            ///< the moving side; position and torque are of body2 against body1
+  Pose X_B1J;              ///< joint frame in body1: z is the axis of a hinge, x that of a slider
+  Pose X_B2J;              ///< joint frame in body2, coinciding with the former at position 0
+  double min_position = 0; ///< rad or m; min > max: no limits
+  double max_position = -1;
+  bool enabled_at_start = true;
+};
+
+/// A parameter as an author writes it.
+using Parameter = std::variant<bool, std::vector<double>, std::vector<std::string>>;
+
+/// An agent or a machine: a type from the registry, and its parameters. `line` is where the author wrote it.
+struct ComponentDescription {
+  std::string name;
+  std::string type;  ///< "geometry.hinge", "simulation.grasp", "machine.screw_pump" ...
+  std::map<std::string, Parameter> parameters;
+  int line = 0;
+};
+
+struct QuantityDescription {
+  std::string name;    ///< what rules and displays call it
+  std::string source;  ///< "HINGE.angle", "HINGE.rate", "SNAP.placed", "PUMP.basin_l", "GRASP.active", "CRANK.position.y"
+  std::string unit;    ///< SI or a unit that a visitor reads: "l", "rpm"
+};
+
+enum class Comparison { less, equal, greater };
+
+struct TriggerDescription {
+  QuantityId quantity;
+  Comparison comparison = Comparison::greater;
+  double value = 0;
+  double tolerance = 1e-6;  ///< for `equal`
+  double hold_s = 0;        ///< how long it must hold
+  StepId next;              ///< none: the activity is done
+};
+
+/// What a step changes of a body, against its description.
+struct BodyOverride {
+  BodyId body;
+  std::optional<bool> movable;
+  std::optional<bool> visible;
+  std::optional<bool> graspable;
+};
+
+struct StepDescription {
+  std::string name;
+  ActivityId activity;
+  std::vector<AgentId> enable;
+  std::vector<AgentId> disable;
+  std::vector<BodyOverride> bodies;
+  std::vector<TriggerDescription> triggers;
+  std::map<std::string, Texts> texts;  ///< "caption", "narration", "hint"
+  double hint_after_s = 20;
+};
+
+struct ActivityDescription {
+  std::string name;
+  StepId first;
+  Texts title;
+};
+
+/// One move of a scripted visit: what a person would do with one hand.
+struct VisitMove {
+  enum class Kind { reach, grasp, move_to, turn, release, wait };
+  Kind kind = Kind::wait;
+  BodyId body;                    ///< reach, grasp, move_to
+  Vec3 p_BG = Vec3::Zero();       ///< reach: the grip's centre in the body's frame
+  Pose X_WB;                      ///< move_to: where the body goes
+  JointId joint;                  ///< turn
+  double turns = 0;               ///< turn: how far, in turns of the joint
+  double rate_rpm = 0;            ///< turn: how fast
+  double duration_s = 1;          ///< reach, grasp, move_to, release, wait
+};
+
+struct VisitDescription {
+  std::string name;
+  ActivityId activity;
+  std::vector<VisitMove> moves;
+};
+
+struct Viewpoint {
+  std::string description;
+  Pose X_WV;  ///< looks along -z, y up, as X3D
+  double field_of_view_rad = kPi / 4;
+};
+
+struct WorldDescription {
+  std::string id;             ///< "archimedes-screw"
+  std::string content_hash;   ///< hex, of the scenario file and every mesh and setting that the physics depends on
+  std::string folder;         ///< where the scenario file lies; mesh URIs are relative to it
+  std::vector<std::string> languages;
+  Texts title;
+  Vec3 gravity_W{0, -9.81, 0};
+  double effort_scale = 1;    ///< of the machine's loads at the hand
+  std::vector<BodyDescription> bodies;
+  std::vector<JointDescription> joints;
+  std::vector<ComponentDescription> agents;
+  std::vector<ComponentDescription> machines;
+  std::vector<QuantityDescription> quantities;
+  std::vector<ActivityDescription> activities;
+  std::vector<StepDescription> steps;
+  std::vector<VisitDescription> visits;
+  std::vector<Viewpoint> viewpoints;
+
+  [[nodiscard]] BodyId find_body(const std::string& name) const;
+  [[nodiscard]] JointId find_joint(const std::string& name) const;
+  [[nodiscard]] AgentId find_agent(const std::string& name) const;
+  [[nodiscard]] MachineId find_machine(const std::string& name) const;
+  [[nodiscard]] QuantityId find_quantity(const std::string& name) const;
+  [[nodiscard]] StepId find_step(const std::string& name) const;
+  [[nodiscard]] ActivityId find_activity(const std::string& name) const;
+};
+
+}  // namespace mechane::state

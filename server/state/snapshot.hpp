@@ -1,0 +1,20 @@
+// A world's state as bytes: what a restarted server resumes from. Versioned and checksummed; a damaged one is an error, not a crash.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/state/world_state.hpp"
+
+namespace mechane::state {
+
+/// Everything that the next tick reads, but for what the dynamics engine keeps inside (contact caches, warm starts):
+/// so a resume starts a new journal segment. `out` is overwritten; it allocates only when its capacity is too small.
+void write_snapshot(const WorldState& state, std::vector<std::byte>& out);
+
+/// Fills a state that was made from the same description. Errors: wrong magic, version, checksum, or other table sizes.
+[[nodiscard]] Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state);
+
+}  // namespace mechane::state
