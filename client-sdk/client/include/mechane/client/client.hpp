@@ -1,0 +1,81 @@
+// A client of a Mechane server: joins a kiosk, sends the hand, receives force and scene, comes back by itself after a loss.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mechane/client/types.hpp>
+#include <optional>
+#include <string>
+
+#include "server/base/error.hpp"
+
+namespace mechane::client {
+
+/// What a process at a kiosk does. A kiosk has one `hand` session per user, and any number of watchers.
+enum class Role { hand, watcher };
+
+struct ClientConfig {
+  std::string kiosk = "kiosk-1";   ///< 1 to 31 characters: letters, digits, - and _
+  std::uint32_t user = 0;          ///< which hand of the kiosk, 0..3
+  Role role = Role::watcher;
+  std::string program = "client";  ///< for logs and status: "mechane-display"
+  std::string scenario;            ///< wish: id of the scenario; empty: the server's first
+  std::string join_kiosk;          ///< wish: share the world of this kiosk; empty: a world of one's own
+  std::uint32_t domain = 0;        ///< DDS domain; the network is set up by CYCLONEDDS_URI
+};
+
+enum class LinkState {
+  searching,    ///< no server has answered yet
+  joined,       ///< in a world
+  refused,      ///< another session owns this hand: see refusal()
+  lost,         ///< the server fell silent; joined again by itself when it is back
+};
+
+/// Owns the DDS endpoints and one thread that keeps the link. All functions may be called from any one thread of the caller's at a
+/// time; send(), newest_force() and newest_frame() never block and are meant for a 1 kHz loop (send() writes to the network: about
+/// 30 us). Example (compiled by the suite as client-sdk/examples/):
+///
+///   auto client = mechane::client::Client::connect({.kiosk = "kiosk-1", .role = mechane::client::Role::hand});
+///   (*client)->send(hand);
+///   if (auto force = (*client)->newest_force()) render(force->force_W.f);
+class Client {
+ public:
+  /// Starts; returns at once, in state `searching`. Errors: a bad name, no network interface, wrong CYCLONEDDS_URI.
+  [[nodiscard]] static Expected<std::unique_ptr<Client>> connect(const ClientConfig& config);
+  virtual ~Client() = default;
+
+  [[nodiscard]] virtual LinkState state() const = 0;
+  /// Waits until the state is `wanted`, at most `timeout`. True when it is.
+  [[nodiscard]] virtual bool wait_for(LinkState wanted, Duration timeout) = 0;
+  /// Why the server refused this hand: what, who owns it, what to do.
+  [[nodiscard]] virtual std::string refusal() const = 0;
+  [[nodiscard]] virtual std::uint64_t session() const = 0;
+
+  /// Sends one sample of the hand (role `hand`, state `joined`; otherwise nothing is sent and false returned).
+  virtual bool send(const HandInput& input) noexcept = 0;
+  /// Sequence number of the last sample that was sent.
+  [[nodiscard]] virtual std::uint64_t sent_sequence() const noexcept = 0;
+  /// The newest force, if one arrived since the last call.
+  [[nodiscard]] virtual std::optional<ForceSample> newest_force() noexcept = 0;
+  /// Waits for a force newer than the last one taken, at most `timeout`. For round-trip measurements.
+  [[nodiscard]] virtual std::optional<ForceSample> wait_force(Duration timeout) = 0;
+
+  /// The newest frame, as it came; false when none has come yet.
+  [[nodiscard]] virtual bool newest_frame(Frame& out) = 0;
+  /// The scene at `at - delay`, interpolated between the two frames around it (positions linear, rotations by slerp), extrapolated
+  /// by at most 50 ms. A display calls it with delay of about two frames. False when no frame has come yet.
+  [[nodiscard]] virtual bool interpolated_frame(TimePoint at, Duration delay, Frame& out) = 0;
+
+  [[nodiscard]] virtual std::vector<SceneObject> objects() const = 0;      ///< the manifest as known so far
+  [[nodiscard]] virtual std::optional<WorldStatus> world_status() const = 0;
+  [[nodiscard]] virtual std::optional<ServerStatus> server_status() const = 0;
+  /// Events since the last call, oldest first (the last 256 are kept).
+  [[nodiscard]] virtual std::vector<WorldEvent> take_events() = 0;
+
+  /// Sends a command to the world; returns its id, which a command_done or command_refused event answers.
+  virtual std::uint64_t start_activity(const std::string& activity) = 0;
+  virtual std::uint64_t restart_activity() = 0;
+  virtual std::uint64_t next_step() = 0;
+};
+
+}  // namespace mechane::client
