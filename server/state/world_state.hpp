@@ -34,6 +34,7 @@ struct JointState {
   double friction = 0;        ///< Coulomb friction, N m or N, as felt (already scaled)
   double viscous = 0;         ///< N m s/rad or N s/m, as felt
   double load = 0;            ///< torque or force along the axis this tick, from machines (signed). Cleared by `step_dynamics`.
+  double resistance = 0;      ///< torque or force this tick, from machines, that only opposes motion (>= 0). Cleared by `step_dynamics`.
 };
 
 /// One point where a hand and a body overlap.

@@ -1,0 +1,50 @@
+// Rigid bodies, their joints and the springs by which hands hold them, solved by Bullet (float64).
+#pragma once
+
+#include <memory>
+
+#include "server/base/error.hpp"
+#include "server/state/world_state.hpp"
+
+namespace mechane::dynamics {
+
+/// The bodies, joints and grasps of one world. All state is in WorldState: a step reads poses, velocities and joint positions from
+/// there, solves, and writes them back; what other rooms change between two steps (a body put elsewhere, a joint switched, a body
+/// held still) needs no further call. So a world that is made anew from a snapshot goes on with the same bits.
+///
+/// Bodies move with mass and inertia times their `effort_scale`; gravity and their own damping act on them, as do
+/// BodyState::load_W (at the body's origin), JointState::load and JointState::resistance; all of them are cleared by the step.
+/// A fixed body, and one with `movable` false, has infinite mass and no velocity.
+///
+/// A joint that is switched on pulls its bodies together at 1 m/s and 5 rad/s at most; limits are hard; friction and resistance
+/// hold up to their size and never drive. A hinge's position counts turns: it goes on from the position in the state. The position
+/// of a joint that is off stays as it was, its velocity is 0.
+///
+/// A grasp pulls the body towards X_WH * X_HB with the stiffness of the body's haptic material (and a lever of 7 cm for the
+/// rotation), critically damped, up to force_limit_n and torque_limit_nm times the user's freshness. Where the torque limit is
+/// reached the body turns in the grip, as a crank's handle does in a hand: the step then turns Grasp::X_HB about the grip, so
+/// that the spring's torque stays at the limit. Grasp::reaction_W is what the body does to the hand, at the grip.
+///
+/// Bodies do not collide with each other in this version: joints and grasps alone hold them apart.
+///
+/// One thread at a time. step() allocates nothing, locks nothing, throws nothing; same inputs give the same bits.
+class DynamicsWorld {
+ public:
+  /// Errors: a body that is not fixed has a mass or an inertia that is not positive, a joint has no second body or a frame that is
+  /// not finite. `state` must be made from `description`; neither is kept.
+  [[nodiscard]] static Expected<std::unique_ptr<DynamicsWorld>> create(const state::WorldDescription& description,
+                                                                       const state::WorldState& state);
+  ~DynamicsWorld();
+  DynamicsWorld(const DynamicsWorld&) = delete;
+  DynamicsWorld& operator=(const DynamicsWorld&) = delete;
+
+  /// Advances `state` by dt_s (> 0) seconds. `state` must be made from the description that this was made from.
+  void step(state::WorldState& state, double dt_s) noexcept;
+
+ private:
+  struct Impl;
+  explicit DynamicsWorld(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mechane::dynamics

@@ -1,0 +1,85 @@
+// What a type of agent or machine asks for and offers: the schema by which a scenario is checked, a studio makes its forms, and
+// create() of agents and machines reads parameters.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/state/description.hpp"
+
+namespace mechane::state {
+
+enum class ParameterKind {
+  number,   ///< one number
+  numbers,  ///< `count` numbers (0: any count)
+  text,     ///< one string
+  texts,    ///< any count of strings
+  boolean,
+};
+
+/// What a text names, so that a checker and an editor can offer the right list.
+enum class Reference { none, body, joint, agent, activity };
+
+struct ParameterType {
+  std::string_view name;
+  ParameterKind kind = ParameterKind::number;
+  std::string_view unit = {};              ///< SI, "" for none
+  std::string_view summary = {};           ///< what it does, one line
+  bool required = false;
+  double default_value = 0;                ///< of a number, and of every one of `numbers`; a boolean: not 0 is true
+  double min = -std::numeric_limits<double>::infinity();  ///< of a number, and of every one of `numbers`; inclusive
+  double max = std::numeric_limits<double>::infinity();
+  std::size_t count = 0;                   ///< of `numbers`
+  Reference reference = Reference::none;   ///< of a text and of every one of `texts`
+};
+
+/// A value that quantities can read as "<COMPONENT>.<name>".
+struct ValueType {
+  std::string_view name;
+  std::string_view unit = {};
+  std::string_view summary = {};
+};
+
+struct ComponentType {
+  std::string_view name;     ///< "geometry.hinge"
+  std::string_view summary;
+  std::span<const ParameterType> parameters;
+  std::span<const ValueType> values;
+};
+
+/// The parameters of one component, already held against its type. Any thread; immutable.
+class Parameters {
+ public:
+  /// Errors name the component, its line, what is wrong and what to write: an unknown or a missing name, the wrong kind or count, a
+  /// number that is not finite or out of range, and a text that names no such body, joint, agent or activity. The returned object
+  /// points into its arguments.
+  [[nodiscard]] static Expected<Parameters> check(const ComponentType& type, const ComponentDescription& component,
+                                                  const WorldDescription& description);
+
+  /// Whether the author wrote it.
+  [[nodiscard]] bool given(std::string_view name) const;
+  /// The author's value or the type's default. The name and kind must be of the type (our bug otherwise).
+  [[nodiscard]] double number(std::string_view name) const;
+  [[nodiscard]] bool boolean(std::string_view name) const;
+  [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
+  [[nodiscard]] std::string text(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> texts(std::string_view name) const;
+  /// A text that names a body or joint; none where it was not given.
+  [[nodiscard]] BodyId body(std::string_view name) const;
+  [[nodiscard]] JointId joint(std::string_view name) const;
+  [[nodiscard]] AgentId agent(std::string_view name) const;
+
+ private:
+  const ComponentType* type_ = nullptr;
+  const ComponentDescription* component_ = nullptr;
+  const WorldDescription* description_ = nullptr;
+};
+
+/// Where a component was written, for the `where` of an Error: "line 41, geometry.hinge HINGE".
+[[nodiscard]] std::string component_place(const ComponentDescription& component);
+
+}  // namespace mechane::state
