@@ -95,7 +95,9 @@ struct HapticOutput {
 struct UserState {
   bool present = false;
   bool stale = false;                ///< no new sample for 10 ms
+  bool jumped = false;               ///< this tick's sample is farther from the last than a hand can move: let go, start anew
   double freshness = 0;              ///< 1 while samples are new, falling to 0 from 10 ms to 50 ms of age
+  Duration age{0};                   ///< of the last new sample
   HandSample sample;                 ///< the last one (frozen while stale)
   Pose X_WH;                         ///< the hand as the tick uses it
   Twist V_WH;

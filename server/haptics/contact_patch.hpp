@@ -1,0 +1,30 @@
+// The contacts of one hand segment with one body, put together: what acts as one touch.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "server/state/world_state.hpp"
+
+namespace mechane::haptics {
+
+/// One touch. Vectors in W.
+struct ContactPatch {
+  BodyId body;
+  std::uint8_t segment = 0;
+  std::uint32_t points = 0;
+  Vec3 p_WC = Vec3::Zero();   ///< depth-weighted middle of the points
+  Vec3 push_m = Vec3::Zero(); ///< sum S_i^2 n_i / sum S_i: the way out; times stiffness it is the force on the hand
+  Vec3 n_BH_W = Vec3::Zero(); ///< unit, along push_m
+  double depth_m = 0;         ///< |push_m|
+};
+
+/// No hand touches more bodies with more segments than this at once.
+inline constexpr std::size_t kMaxPatches = 64;
+
+/// Groups contacts by segment and body, in the order of the contacts. Returns how many patches were filled.
+[[nodiscard]] std::size_t gather_patches(std::span<const state::Contact> contacts,
+                                         std::array<ContactPatch, kMaxPatches>& patches) noexcept;
+
+}  // namespace mechane::haptics

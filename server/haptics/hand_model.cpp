@@ -1,0 +1,145 @@
+#include "server/haptics/hand_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "server/collision/object_builder.hpp"
+
+namespace mechane::haptics {
+namespace {
+
+using state::HandKind;
+
+// Fingers are rounded boxes, nearly round across; the palm is flat with soft edges.
+constexpr double kFingerExponent1 = 0.6;
+constexpr double kFingerExponent2 = 0.9;
+constexpr double kPalmExponent = 0.5;
+
+geometry::Superquadric palm_shape(const HandSize& size, double scale) {
+  geometry::Superquadric shape;
+  shape.a = scale * size.palm_half_m;
+  shape.e1 = kPalmExponent;
+  shape.e2 = kPalmExponent;
+  return shape;
+}
+
+/// The phalanx's long axis is the superquadric's z: its frame S has x along the finger, so S is turned when it is placed.
+geometry::Superquadric phalanx_shape(const FingerSize& finger, std::size_t k, double scale) {
+  geometry::Superquadric shape;
+  // A phalanx reaches a little over its joints, so that a bent finger has no gaps.
+  const double half_length = 0.5 * finger.length_m[k] + 0.5 * finger.radius_m[k];
+  shape.a = scale * Vec3(half_length, finger.radius_m[k], finger.radius_m[k]);
+  shape.e1 = kFingerExponent1;
+  shape.e2 = kFingerExponent2;
+  return shape;
+}
+
+/// Where the thumb points when it is flat, and how it bends: across the palm.
+Quat thumb_base() {
+  const Vec3 x = Vec3(0.62, -0.30, -0.72).normalized();
+  const Vec3 towards_palm(0.25, -0.75, 0.60);
+  const Vec3 y = -(towards_palm - x * x.dot(towards_palm)).normalized();
+  Mat3 R;
+  R.col(0) = x;
+  R.col(1) = y;
+  R.col(2) = x.cross(y);
+  return Quat(R);
+}
+
+Expected<void> check(const HandSize& size) {
+  const auto bad = [](double v) { return !std::isfinite(v) || v <= 0 || v > 1; };
+  const char* remedy = "give sizes in metres, between 0 and 1";
+  if (bad(size.palm_half_m.x()) || bad(size.palm_half_m.y()) || bad(size.palm_half_m.z())) {
+    return fail("the palm's half sizes are not positive lengths", "hand size", remedy);
+  }
+  for (std::size_t f = 0; f < size.fingers.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (bad(size.fingers[f].length_m[k]) || bad(size.fingers[f].radius_m[k]) || !size.fingers[f].p_HF.allFinite()) {
+        return fail("finger " + std::to_string(f) + ", phalanx " + std::to_string(k) + " has an impossible size",
+                    "hand size", remedy);
+      }
+    }
+  }
+  if (bad(size.tip_radius_m) || bad(size.sample_spacing_m)) {
+    return fail("tip radius and sample spacing must be positive", "hand size", remedy);
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<HandModel> HandModel::create(const HandSize& size) {
+  if (auto ok = check(size); !ok) return tl::unexpected(ok.error());
+  HandModel model;
+  model.size_ = size;
+  model.thumb_base_ = thumb_base();
+  for (std::size_t s = 0; s < kScales.size(); ++s) {
+    const double scale = kScales[s];
+    Sized& sized = model.sizes_[s];
+    sized.segments.push_back(collision::make_superquadric_object(palm_shape(size, scale), size.sample_spacing_m));
+    for (const FingerSize& finger : size.fingers) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        sized.segments.push_back(
+            collision::make_superquadric_object(phalanx_shape(finger, k, scale), size.sample_spacing_m));
+      }
+    }
+    geometry::Superquadric tip;
+    tip.a = Vec3::Constant(size.tip_radius_m);
+    tip.e1 = 1;
+    tip.e2 = 1;
+    // The tip is small and alone: it can afford a finer skin than a hand.
+    sized.tip = collision::make_superquadric_object(tip, 0.5 * size.sample_spacing_m);
+  }
+  return model;
+}
+
+std::size_t HandModel::segment_count(HandKind kind) noexcept { return kind == HandKind::glove ? state::kHandSegments : 1; }
+
+std::size_t HandModel::nearest_size(double scale) noexcept {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < kScales.size(); ++i) {
+    if (std::abs(kScales[i] - scale) < std::abs(kScales[best] - scale)) best = i;
+  }
+  return best;
+}
+
+const collision::Object& HandModel::segment(const state::HandSample& sample, std::size_t index) const noexcept {
+  const Sized& of_size = sizes_[nearest_size(sample.hand_scale)];
+  return sample.kind == HandKind::glove ? of_size.segments[index] : of_size.tip;
+}
+
+double HandModel::reach_m(const state::HandSample& sample) const noexcept {
+  if (sample.kind == HandKind::one_point) return size_.tip_radius_m * kScales.back();
+  double reach = 2 * size_.palm_half_m.x();
+  for (const FingerSize& finger : size_.fingers) {
+    const double length = finger.length_m[0] + finger.length_m[1] + finger.length_m[2];
+    reach = std::max(reach, finger.p_HF.norm() + length + finger.radius_m[0]);
+  }
+  return reach * kScales.back();
+}
+
+void HandModel::place(const state::HandSample& sample, const Pose& X_WH,
+                      std::array<Pose, state::kHandSegments>& X_WS) const noexcept {
+  if (sample.kind == HandKind::one_point) {
+    X_WS[0] = X_WH;
+    return;
+  }
+  // Sizes are placed with the same scale that their shapes were made with, so that segments always meet at the joints.
+  const double scale = kScales[nearest_size(sample.hand_scale)];
+  X_WS[0] = X_WH * Pose{Vec3(scale * size_.palm_half_m.x(), 0, 0), Quat::Identity()};
+  for (std::size_t f = 0; f < state::kFingers; ++f) {
+    const FingerSize& finger = size_.fingers[f];
+    const double* angle = sample.joints.data() + 4 * f;
+    const Quat base = f == 0 ? thumb_base_ : Quat::Identity();
+    Pose X_WJ = X_WH * Pose{scale * finger.p_HF, base * Quat(Eigen::AngleAxisd(angle[0], Vec3::UnitY()))};
+    for (std::size_t k = 0; k < 3; ++k) {
+      X_WJ.R = X_WJ.R * Quat(Eigen::AngleAxisd(-angle[k + 1], Vec3::UnitZ()));
+      const double length = scale * finger.length_m[k];
+      X_WS[1 + 3 * f + k] = X_WJ * Pose{Vec3(0.5 * length, 0, 0), Quat::Identity()};
+      X_WJ.p = X_WJ * Vec3(length, 0, 0);
+    }
+  }
+}
+
+}  // namespace mechane::haptics

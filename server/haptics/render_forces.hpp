@@ -1,0 +1,43 @@
+// Phase 5 of the tick: from contacts and grasps to what the visitor feels and what the bodies get.
+#pragma once
+
+#include <array>
+
+#include "server/force/governor.hpp"
+#include "server/haptics/hand_model.hpp"
+#include "server/state/world_state.hpp"
+
+namespace mechane::haptics {
+
+/// How penetration depths become a force.
+enum class ForceMode {
+  /// Per segment and body, F = k sum S_i^2 n_i / sum S_i: continuous when points enter and leave, and a pinch does not cancel.
+  continuous,
+  /// Equation 18 as published, F = (k/N) sum S_i n_i over the whole hand, kept for comparison. No damping, no friction.
+  paper,
+};
+
+struct ForceConfig {
+  ForceMode mode = ForceMode::continuous;
+  double stiffness_scale = 1;            ///< on every material; 0 turns touch off (a test uses it)
+  double friction_speed_m_per_s = 0.02;  ///< below it, friction falls linearly to zero with the speed
+  double damping_depth_m = 0.001;        ///< damping comes in over this depth, so that a first touch is no step
+  force::GovernorConfig governor;        ///< the server's own limits: the first word; the client's governor has the last
+};
+
+/// Renders the forces of a world's users. Holds one governor per user and nothing else; called by the world's thread only.
+class ForceRenderer {
+ public:
+  explicit ForceRenderer(const ForceConfig& config);
+
+  /// Writes every user's HapticOutput and adds the opposite forces to the bodies' loads. Allocates nothing.
+  void run(const state::WorldDescription& description, state::WorldState& state) noexcept;
+
+ private:
+  void render_user(const state::WorldDescription& description, state::WorldState& state, std::size_t index) noexcept;
+
+  ForceConfig config_;
+  std::array<force::ForceGovernor, state::kMaxUsers> governors_;
+};
+
+}  // namespace mechane::haptics

@@ -1,0 +1,104 @@
+// One walk over the fields of a world that the next tick depends on, used by the hash, the writer and the reader of snapshots:
+// what is hashed is what is saved. Contacts, loads and events are made anew in each tick and are left out.
+#pragma once
+
+#include <type_traits>
+
+#include "server/state/world_state.hpp"
+
+namespace mechane::state {
+
+/// `Archive` has `void bytes(T& plain)` for numbers and enumerations. `State` is WorldState or const WorldState.
+template <class Archive, class State>
+class StateWalk {
+ public:
+  StateWalk(Archive& archive, State& state) : archive_(archive), state_(state) {}
+
+  void run() {
+    archive_.bytes(state_.tick);
+    for (auto& body : state_.bodies) walk_body(body);
+    for (auto& joint : state_.joints) walk_joint(joint);
+    for (auto& value : state_.quantities) archive_.bytes(value);
+    for (auto& enabled : state_.agent_enabled) archive_.bytes(enabled);
+    for (auto& value : state_.memory) archive_.bytes(value);
+    for (auto& user : state_.users) walk_user(user);
+    walk_progress(state_.progress);
+  }
+
+ private:
+  template <class V>
+  void vector(V& v) {
+    for (int i = 0; i < 3; ++i) archive_.bytes(v.coeffRef(i));
+  }
+  void vector(const Vec3& v) {
+    for (int i = 0; i < 3; ++i) archive_.bytes(v[i]);
+  }
+  template <class P>
+  void pose(P& X) {
+    vector(X.p);
+    for (int i = 0; i < 4; ++i) archive_.bytes(X.R.coeffs()[i]);
+  }
+  template <class T>
+  void twist(T& V) {
+    vector(V.v);
+    vector(V.w);
+  }
+  template <class B>
+  void walk_body(B& body) {
+    pose(body.X_WB);
+    twist(body.V_WB);
+    archive_.bytes(body.movable);
+    archive_.bytes(body.visible);
+    archive_.bytes(body.graspable);
+  }
+  template <class J>
+  void walk_joint(J& joint) {
+    archive_.bytes(joint.enabled);
+    archive_.bytes(joint.position);
+    archive_.bytes(joint.velocity);
+    archive_.bytes(joint.min_position);
+    archive_.bytes(joint.max_position);
+    archive_.bytes(joint.friction);
+    archive_.bytes(joint.viscous);
+  }
+  template <class U>
+  void walk_user(U& user) {
+    archive_.bytes(user.present);
+    archive_.bytes(user.stale);
+    archive_.bytes(user.jumped);
+    archive_.bytes(user.freshness);
+    archive_.bytes(user.sample.session);
+    archive_.bytes(user.sample.sequence);
+    archive_.bytes(user.sample.kind);
+    archive_.bytes(user.sample.grasp_intent);
+    archive_.bytes(user.sample.hand_scale);
+    for (auto& angle : user.sample.joints) archive_.bytes(angle);
+    pose(user.X_WH);
+    twist(user.V_WH);
+    archive_.bytes(user.grasp.active);
+    archive_.bytes(user.grasp.body);
+    pose(user.grasp.X_HB);
+    vector(user.grasp.p_BG);
+    archive_.bytes(user.grasp.force_limit_n);
+    archive_.bytes(user.grasp.torque_limit_nm);
+    vector(user.grasp.reaction_W.f);
+    vector(user.grasp.reaction_W.t);
+    vector(user.output.force_W.f);
+    vector(user.output.force_W.t);
+  }
+  template <class P>
+  void walk_progress(P& progress) {
+    archive_.bytes(progress.activity);
+    archive_.bytes(progress.step);
+    archive_.bytes(progress.done);
+    archive_.bytes(progress.step_tick);
+    archive_.bytes(progress.activity_tick);
+    archive_.bytes(progress.steps_done);
+    archive_.bytes(progress.hint_shown);
+  }
+
+  Archive& archive_;
+  State& state_;
+};
+
+}  // namespace mechane::state

@@ -1,0 +1,138 @@
+#include "server/state/snapshot.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "server/state/archive.hpp"
+
+namespace mechane::state {
+namespace {
+
+constexpr char kMagic[8] = {'M', 'E', 'C', 'H', 'S', 'N', 'A', 'P'};
+constexpr std::uint32_t kVersion = 1;
+
+/// In front of the fields. All numbers little-endian, as on every machine that the server runs on.
+struct Header {
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t bodies;
+  std::uint32_t joints;
+  std::uint32_t quantities;
+  std::uint32_t agents;
+  std::uint32_t memory;
+  std::uint64_t body_bytes;
+  std::uint64_t checksum;  ///< XXH3 of what follows
+};
+
+class WriteArchive {
+ public:
+  explicit WriteArchive(std::vector<std::byte>& out) : out_(out) {}
+  template <class T>
+  void bytes(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::size_t at = out_.size();
+    out_.resize(at + sizeof(T));
+    std::memcpy(out_.data() + at, &value, sizeof(T));
+  }
+
+ private:
+  std::vector<std::byte>& out_;
+};
+
+/// Reads within bounds; a bool takes any byte but 0 as true, and a number that is not finite fails the read.
+class ReadArchive {
+ public:
+  explicit ReadArchive(std::span<const std::byte> in) : in_(in) {}
+  template <class T>
+  void bytes(T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (in_.size() - at_ < sizeof(T)) {
+      ok_ = false;
+      return;
+    }
+    if constexpr (std::is_same_v<T, bool>) {
+      value = in_[at_] != std::byte{0};
+    } else {
+      std::memcpy(&value, in_.data() + at_, sizeof(T));
+    }
+    if constexpr (std::is_floating_point_v<T>) ok_ = ok_ && std::isfinite(value);
+    at_ += sizeof(T);
+  }
+  [[nodiscard]] bool complete() const { return ok_ && at_ == in_.size(); }
+
+ private:
+  std::span<const std::byte> in_;
+  std::size_t at_ = 0;
+  bool ok_ = true;
+};
+
+Header header_of(const WorldState& state) {
+  Header header{};
+  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  header.version = kVersion;
+  header.bodies = static_cast<std::uint32_t>(state.bodies.size());
+  header.joints = static_cast<std::uint32_t>(state.joints.size());
+  header.quantities = static_cast<std::uint32_t>(state.quantities.size());
+  header.agents = static_cast<std::uint32_t>(state.agent_enabled.size());
+  header.memory = static_cast<std::uint32_t>(state.memory.size());
+  return header;
+}
+
+bool same_tables(const Header& a, const Header& b) {
+  return a.bodies == b.bodies && a.joints == b.joints && a.quantities == b.quantities && a.agents == b.agents &&
+         a.memory == b.memory;
+}
+
+/// Ids that later index tables must lie inside them. Steps and activities are the world's to check: it has the description.
+bool ids_in_range(const WorldState& state) {
+  for (const UserState& user : state.users) {
+    if (user.grasp.active && (!user.grasp.body || user.grasp.body.index() >= state.bodies.size())) return false;
+    if (user.sample.kind != HandKind::one_point && user.sample.kind != HandKind::glove) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void write_snapshot(const WorldState& state, std::vector<std::byte>& out) {
+  Header header = header_of(state);
+  out.clear();
+  out.resize(sizeof header);
+  WriteArchive archive(out);
+  StateWalk<WriteArchive, const WorldState>(archive, state).run();
+  header.body_bytes = out.size() - sizeof header;
+  header.checksum = XXH3_64bits(out.data() + sizeof header, header.body_bytes);
+  std::memcpy(out.data(), &header, sizeof header);
+}
+
+Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state) {
+  const char* start_anew = "delete it; the world starts from the beginning";
+  Header header{};
+  if (bytes.size() < sizeof header) return fail("the snapshot is cut off in its header", "snapshot", start_anew);
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) return fail("not a snapshot", "snapshot", start_anew);
+  if (header.version != kVersion) {
+    return fail(fmt::format("the snapshot is of version {}, this program reads {}", header.version, kVersion), "snapshot",
+                start_anew);
+  }
+  if (!same_tables(header, header_of(state))) {
+    return fail("the snapshot is of another scenario, or of an earlier form of this one", "snapshot", start_anew);
+  }
+  const auto body = bytes.subspan(sizeof header);
+  if (body.size() != header.body_bytes || XXH3_64bits(body.data(), body.size()) != header.checksum) {
+    return fail("the snapshot is damaged", "snapshot", start_anew);
+  }
+  ReadArchive archive(body);
+  WorldState read = state;
+  StateWalk<ReadArchive, WorldState>(archive, read).run();
+  if (!archive.complete() || !ids_in_range(read)) {
+    return fail("the snapshot holds impossible values", "snapshot", start_anew);
+  }
+  state = read;
+  return {};
+}
+
+}  // namespace mechane::state

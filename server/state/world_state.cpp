@@ -1,0 +1,52 @@
+#include "server/state/world_state.hpp"
+
+#include <algorithm>
+
+namespace mechane::state {
+
+WorldState::WorldState(const WorldDescription& description)
+    : bodies(description.bodies.size()),
+      joints(description.joints.size()),
+      quantities(description.quantities.size(), 0.0),
+      agent_enabled(description.agents.size(), 0) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const BodyDescription& from = description.bodies[i];
+    bodies[i].X_WB = from.X_WB;
+    bodies[i].movable = !from.fixed;
+    bodies[i].visible = from.visible;
+    bodies[i].graspable = from.graspable;
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const JointDescription& from = description.joints[i];
+    joints[i].enabled = from.enabled_at_start;
+    joints[i].min_position = from.min_position;
+    joints[i].max_position = from.max_position;
+  }
+}
+
+void WorldState::emit(EventKind kind, std::uint32_t subject, std::uint32_t object, double value) noexcept {
+  if (event_count == events.size()) {
+    ++events_dropped;
+    return;
+  }
+  events[event_count++] = {tick, kind, subject, object, value};
+}
+
+void add_force(BodyState& body, const Vec3& f_B_W, const Vec3& p_WQ) noexcept {
+  body.load_W.f += f_B_W;
+  body.load_W.t += (p_WQ - body.X_WB.p).cross(f_B_W);
+}
+
+std::size_t MemoryLayout::add(const std::string& component, const std::string& value, double initial) {
+  const std::size_t index = slots_.size();
+  slots_.push_back({component + "." + value, index});
+  initial_.push_back(initial);
+  return index;
+}
+
+const MemorySlot* MemoryLayout::find(const std::string& name) const {
+  const auto it = std::find_if(slots_.begin(), slots_.end(), [&](const MemorySlot& slot) { return slot.name == name; });
+  return it == slots_.end() ? nullptr : &*it;
+}
+
+}  // namespace mechane::state
