@@ -1,0 +1,49 @@
+// One running scenario: its state, and the parts that a tick calls.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "server/agents/agent_set.hpp"
+#include "server/base/error.hpp"
+#include "server/dynamics/dynamics_world.hpp"
+#include "server/haptics/hand_model.hpp"
+#include "server/haptics/render_forces.hpp"
+#include "server/machines/machine_set.hpp"
+#include "server/state/world_state.hpp"
+
+namespace mechane::world {
+
+struct WorldConfig {
+  haptics::HandSize hand;
+  haptics::ForceConfig force;
+};
+
+/// All parts of a world. Made on the main thread, then stepped by one loop thread at a time; it starts no thread of its own.
+class World {
+ public:
+  /// A world at the beginning of its scenario. Errors: what the agents, machines or joints of the description cannot be.
+  [[nodiscard]] static Expected<std::unique_ptr<World>> create(std::shared_ptr<const state::WorldDescription> description,
+                                                               const WorldConfig& config);
+  /// A world where a snapshot of the same scenario left it. Hands come back by themselves; nobody holds anything, so that no
+  /// force is there before a hand is.
+  [[nodiscard]] static Expected<std::unique_ptr<World>> resume(std::shared_ptr<const state::WorldDescription> description,
+                                                               const WorldConfig& config,
+                                                               std::span<const std::byte> snapshot);
+
+  // The parts, in the order that a tick uses them. step() is the only caller.
+  const std::shared_ptr<const state::WorldDescription> description;
+  state::WorldState state;
+  const std::unique_ptr<agents::AgentSet> agents;
+  const std::unique_ptr<machines::MachineSet> machines;
+  const haptics::HandModel hand;
+  haptics::ForceRenderer forces;
+  std::unique_ptr<dynamics::DynamicsWorld> dynamics;
+
+ private:
+  World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<agents::AgentSet> its_agents,
+        std::unique_ptr<machines::MachineSet> its_machines, haptics::HandModel its_hand, const WorldConfig& config);
+};
+
+}  // namespace mechane::world
