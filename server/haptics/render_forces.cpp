@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/effective_mass.hpp"
@@ -134,11 +133,11 @@ void render_grasp(const state::WorldState& state, UserState& user) {
 
 }  // namespace
 
-ForceRenderer::ForceRenderer(const ForceConfig& config)
-    : config_(config),
-      governors_([&]<std::size_t... I>(std::index_sequence<I...>) {
-        return std::array<force::ForceGovernor, state::kMaxUsers>{((void)I, force::ForceGovernor(config.governor))...};
-      }(std::make_index_sequence<state::kMaxUsers>{})) {}
+Expected<ForceRenderer> ForceRenderer::create(const ForceConfig& config) {
+  auto governor = force::ForceGovernor::make(config.governor);
+  if (!governor) return tl::unexpected(governor.error());
+  return ForceRenderer(config, *governor);
+}
 
 void ForceRenderer::run(const state::WorldDescription& description, state::WorldState& state) noexcept {
   for (std::size_t i = 0; i < state.users.size(); ++i) render_user(description, state, i);
@@ -160,16 +159,18 @@ void ForceRenderer::render_user(const state::WorldDescription& description, stat
     }
     render_grasp(state, user);
   }
-  force::GovernorInput wanted;
-  wanted.force_W = user.output.force_W;
-  wanted.V_WH = user.V_WH;
-  wanted.age = user.age;
-  wanted.active = user.present && !user.jumped;
-  const force::GovernedForce governed = governors_[index].apply(wanted, kTickPeriod);
-  // Fingers and local contacts follow the same verdict: what is not felt at the wrist is not felt at a finger either.
+  force::ForceGovernor& governor = governors_[index];
+  if (user.jumped) governor.reset();
+  force::GovernorInput input;
+  input.wanted_W = user.output.force_W;
+  input.finger_force_n = user.output.finger_force_n;
+  input.V_WH = user.V_WH;
+  input.age = user.age;
+  input.engaged = user.present;
+  const force::GovernedForce governed = governor.apply(input, kTickPeriod);
   user.output.force_W = governed.force_W;
+  user.output.finger_force_n = governed.finger_force_n;
   user.output.reasons = governed.reasons;
-  for (double& pull_n : user.output.finger_force_n) pull_n *= governed.scale;
 }
 
 }  // namespace mechane::haptics

@@ -28,12 +28,17 @@ struct ForceConfig {
 /// Renders the forces of a world's users. Holds one governor per user and nothing else; called by the world's thread only.
 class ForceRenderer {
  public:
-  explicit ForceRenderer(const ForceConfig& config);
+  /// Errors: a setting of the governor that is out of range.
+  [[nodiscard]] static Expected<ForceRenderer> create(const ForceConfig& config);
 
   /// Writes every user's HapticOutput and adds the opposite forces to the bodies' loads. Allocates nothing.
   void run(const state::WorldDescription& description, state::WorldState& state) noexcept;
 
  private:
+  ForceRenderer(const ForceConfig& config, const force::ForceGovernor& governor)
+      : config_(config), governors_{governor, governor, governor, governor} {
+    static_assert(state::kMaxUsers == 4, "one governor a user");
+  }
   void render_user(const state::WorldDescription& description, state::WorldState& state, std::size_t index) noexcept;
 
   ForceConfig config_;

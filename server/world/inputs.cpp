@@ -49,7 +49,7 @@ void take_sample(state::WorldState& state, UserState& user, const UserInput& inp
 
 void take_user(state::WorldState& state, UserState& user, const UserInput& input, std::uint32_t index) {
   if (!input.present) return leave(state, user, index);
-  const bool same_session = user.present && user.sample.session == input.sample.session;
+  const bool same_session = user.present && (!input.fresh || user.sample.session == input.sample.session);
   if (!same_session) {
     leave(state, user, index);
     // A hand appears with its first sample: before it there is no pose to put it at.

@@ -7,13 +7,14 @@
 namespace mechane::world {
 
 World::World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<agents::AgentSet> its_agents,
-             std::unique_ptr<machines::MachineSet> its_machines, haptics::HandModel its_hand, const WorldConfig& config)
+             std::unique_ptr<machines::MachineSet> its_machines, haptics::HandModel its_hand,
+             haptics::ForceRenderer its_forces)
     : description(std::move(of)),
       state(*description),
       agents(std::move(its_agents)),
       machines(std::move(its_machines)),
       hand(std::move(its_hand)),
-      forces(config.force) {}
+      forces(std::move(its_forces)) {}
 
 Expected<std::unique_ptr<World>> World::create(std::shared_ptr<const state::WorldDescription> description,
                                                const WorldConfig& config) {
@@ -24,7 +25,10 @@ Expected<std::unique_ptr<World>> World::create(std::shared_ptr<const state::Worl
   if (!agents) return tl::unexpected(agents.error());
   auto hand = haptics::HandModel::create(config.hand);
   if (!hand) return tl::unexpected(hand.error());
-  std::unique_ptr<World> world(new World(description, std::move(*agents), std::move(*machines), std::move(*hand), config));
+  auto forces = haptics::ForceRenderer::create(config.force);
+  if (!forces) return tl::unexpected(forces.error());
+  std::unique_ptr<World> world(
+      new World(description, std::move(*agents), std::move(*machines), std::move(*hand), std::move(*forces)));
   world->state.memory = layout.initial();
   world->agents->start(world->state);
   auto dynamics = dynamics::DynamicsWorld::create(*description, world->state);

@@ -43,7 +43,8 @@ class World {
 
  private:
   World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<agents::AgentSet> its_agents,
-        std::unique_ptr<machines::MachineSet> its_machines, haptics::HandModel its_hand, const WorldConfig& config);
+        std::unique_ptr<machines::MachineSet> its_machines, haptics::HandModel its_hand,
+        haptics::ForceRenderer its_forces);
 };
 
 }  // namespace mechane::world
