@@ -27,14 +27,14 @@ enum class Reference { none, body, joint, agent, activity };
 struct ParameterType {
   std::string_view name;
   ParameterKind kind = ParameterKind::number;
-  std::string_view unit = {};              ///< SI, "" for none
-  std::string_view summary = {};           ///< what it does, one line
+  std::string_view unit = {};     ///< SI, "" for none
+  std::string_view summary = {};  ///< what it does, one line
   bool required = false;
-  double default_value = 0;                ///< of a number, and of every one of `numbers`; a boolean: not 0 is true
+  double default_value = 0;  ///< of a number, and of every one of `numbers`; a boolean: not 0 is true
   double min = -std::numeric_limits<double>::infinity();  ///< of a number, and of every one of `numbers`; inclusive
   double max = std::numeric_limits<double>::infinity();
-  std::size_t count = 0;                   ///< of `numbers`
-  Reference reference = Reference::none;   ///< of a text and of every one of `texts`
+  std::size_t count = 0;                  ///< of `numbers`
+  Reference reference = Reference::none;  ///< of a text and of every one of `texts`
 };
 
 /// A value that quantities can read as "<COMPONENT>.<name>".
@@ -45,7 +45,7 @@ struct ValueType {
 };
 
 struct ComponentType {
-  std::string_view name;     ///< "geometry.hinge"
+  std::string_view name;  ///< "geometry.hinge"
   std::string_view summary;
   std::span<const ParameterType> parameters;
   std::span<const ValueType> values;

@@ -1,0 +1,100 @@
+#include "server/dynamics/grasp_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mechane::dynamics {
+namespace {
+
+constexpr double kHandLever_m = 0.07;        // a palm's width: how far apart thumb and fingers press
+constexpr double kMaxDamping_ns_per_m = 60;  // a heavier damper is felt as a jolt when the grip begins
+constexpr double kAcrossShare = 0.25;        // of a limit, across the spring's direction
+
+struct SpringStep {
+  double softness = 0;    // 1/kg or 1/(kg m^2)
+  double bias_per_s = 0;  // bias velocity of a unit error
+};
+
+SpringStep implicit_step(double stiffness, double damping, double dt_s) {
+  const double drag = stiffness * dt_s + damping;
+  if (drag <= 0) return {};
+  return {1 / (dt_s * drag), stiffness / drag};
+}
+
+/// Three axes, the first along `direction` (any, where that is zero).
+Mat3 axes_along(const Vec3& direction) {
+  const double size = direction.norm();
+  const Vec3 first = size > 1e-12 ? Vec3(direction / size) : Vec3::UnitX();
+  Mat3 axes;
+  axes.col(0) = first;
+  axes.col(1) = first.unitOrthogonal();
+  axes.col(2) = first.cross(axes.col(1));
+  return axes;
+}
+
+void limit(Row& row, int axis, double most) {
+  const double share = axis == 0 ? 1.0 : kAcrossShare;
+  row.max_impulse = most * share;
+  row.min_impulse = -row.max_impulse;
+}
+
+/// Where the rotation is off by more than the torque limit can pull, the body turns in the grip about the grip's centre.
+Vec3 slip(const GripSpring& spring, const Pose& X_WB, state::UserState& user) {
+  state::Grasp& grasp = user.grasp;
+  const Vec3 error_W = rotation_vector(user.X_WH.R * grasp.X_HB.R * X_WB.R.conjugate());
+  const double angle = error_W.norm();
+  const double most = grasp.torque_limit_nm / spring.stiffness_nm_per_rad;
+  if (angle <= most) return error_W;
+  const Vec3 left_W = error_W * (most / angle);
+  const Vec3 p_HG = grasp.X_HB * grasp.p_BG;
+  grasp.X_HB.R = (user.X_WH.R.conjugate() * quat_from_rotation_vector(left_W) * X_WB.R).normalized();
+  grasp.X_HB.p = p_HG - grasp.X_HB.R * grasp.p_BG;
+  return left_W;
+}
+
+}  // namespace
+
+GripSpring grip_spring(const state::BodyDescription& body) noexcept {
+  const double mass = body.mass_kg * body.effort_scale;
+  const double k = std::max(0.0, body.haptic.stiffness_n_per_m);
+  const double d = std::min(2 * std::sqrt(k * mass), kMaxDamping_ns_per_m);
+  const double lever2 = kHandLever_m * kHandLever_m;
+  return {k, d, k * lever2, d * lever2};
+}
+
+GripStep grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
+                    RowSet& rows) noexcept {
+  rows.clear();
+  GripStep grip;
+  grip.p_WG = body.X_WB * user.grasp.p_BG;
+  const SpringStep linear = implicit_step(spring.stiffness_n_per_m, spring.damping_ns_per_m, dt_s);
+  const SpringStep angular = implicit_step(spring.stiffness_nm_per_rad, spring.damping_nms_per_rad, dt_s);
+  if (linear.softness <= 0 || angular.softness <= 0) return grip;
+
+  const Vec3 turn_error_W = slip(spring, body.X_WB, user);
+  const Vec3 p_WG_wanted = user.X_WH * (user.grasp.X_HB * user.grasp.p_BG);
+  const Vec3 error_W = p_WG_wanted - grip.p_WG;
+  grip.V_WG = {user.V_WH.at(p_WG_wanted - user.X_WH.p), user.V_WH.w};
+  grip.inverse_mass = linear.softness;
+  grip.inverse_inertia = angular.softness;
+
+  const double share = std::clamp(user.freshness, 0.0, 1.0) * dt_s;
+  const Frame hand{{grip.p_WG, Quat::Identity()}, grip.p_WG, grip.V_WG};
+  const Vec3 v_body = body.V_WCm.at(grip.p_WG - body.p_WCm);
+  const Mat3 n = axes_along(spring.stiffness_n_per_m * error_W + spring.damping_ns_per_m * (grip.V_WG.v - v_body));
+  const Mat3 a = axes_along(spring.stiffness_nm_per_rad * turn_error_W +
+                            spring.damping_nms_per_rad * (grip.V_WG.w - body.V_WCm.w));
+  for (int k = 0; k < 3; ++k) {
+    Row& row = rows.add(linear_row(hand, body, grip.p_WG, n.col(k)));
+    row.target = linear.bias_per_s * n.col(k).dot(error_W);
+    limit(row, k, user.grasp.force_limit_n * share);
+  }
+  for (int k = 0; k < 3; ++k) {
+    Row& row = rows.add(angular_row(a.col(k)));
+    row.target = angular.bias_per_s * a.col(k).dot(turn_error_W);
+    limit(row, k, user.grasp.torque_limit_nm * share);
+  }
+  return grip;
+}
+
+}  // namespace mechane::dynamics

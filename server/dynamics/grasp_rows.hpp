@@ -1,0 +1,38 @@
+// A hand that holds a body, as constraint rows between the body and a small proxy of the hand.
+#pragma once
+
+#include "server/dynamics/rows.hpp"
+#include "server/state/world_state.hpp"
+
+namespace mechane::dynamics {
+
+/// The spring and damper of a grip.
+struct GripSpring {
+  double stiffness_n_per_m = 0;
+  double damping_ns_per_m = 0;
+  double stiffness_nm_per_rad = 0;
+  double damping_nms_per_rad = 0;
+};
+
+/// The grip of a body: as stiff as its haptic material, critically damped with the body's simulated mass, over a lever of half a
+/// palm's width for the rotation.
+[[nodiscard]] GripSpring grip_spring(const state::BodyDescription& body) noexcept;
+
+/// The grip at the start of a step. The rows act between the body (body2) and a proxy of the hand (body1) whose centre of mass lies
+/// at `p_WG`, with the inverse mass and inertia given here. That is an implicit spring and damper (constraint force mixing:
+/// with spring k, damper d and step h, softness 1 / (h (k h + d)) and bias velocity k / (k h + d) times the error), put as a mass
+/// because the solver converges for a mass of any size.
+struct GripStep {
+  Vec3 p_WG = Vec3::Zero();    ///< the grip on the body
+  Twist V_WG;                  ///< velocity of the hand there
+  double inverse_mass = 0;     ///< 1/kg; 0: no spring, no rows
+  double inverse_inertia = 0;  ///< 1/(kg m^2)
+};
+
+/// Overwrites `rows` with the six rows of the grip of `user` on `body`. The impulse limits hold the force's and the torque's norm to their limits
+/// times the user's freshness, at most 6 % above where they act across the spring's own direction. Turns grasp.X_HB where the
+/// torque would pass its limit: the body slips in the hand.
+[[nodiscard]] GripStep grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
+                                  RowSet& rows) noexcept;
+
+}  // namespace mechane::dynamics
