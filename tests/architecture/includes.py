@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""Holds the table of rooms against the #include lines: a new arrow between rooms fails. The table below is ARCHITECTURE.md's."""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+from source_tree import HEADER_SUFFIXES, Fault, cpp_files, line_of, read, without_comments
+
+# room -> the rooms that it may include. Arrows are transitive: a room may include what its rooms may include.
+ARROWS = {
+    "server/base": [],
+    "server/log": ["server/base"],
+    "server/geometry": ["server/base"],
+    "server/collision": ["server/geometry"],
+    "server/realtime": ["server/base"],
+    "server/force": ["server/base"],
+    "server/state": ["server/collision"],
+    "server/dynamics": ["server/state"],
+    "server/haptics": ["server/state", "server/force"],
+    "server/machines": ["server/state"],
+    "server/agents": ["server/state"],
+    "server/world": ["server/dynamics", "server/haptics", "server/machines", "server/agents", "server/realtime"],
+    "server/content": ["server/geometry", "server/collision"],
+    "server/scenario": ["server/state", "server/content"],
+    "server/record": ["server/state", "server/realtime"],
+    "server/transport": ["proto", "server/state", "server/realtime"],
+    "server/app": ["server/world", "server/scenario", "server/record", "server/transport"],
+    "proto": ["server/base"],
+    "client-sdk/client": ["proto", "server/base", "server/realtime", "server/force"],
+    "client-sdk/haptic": ["client-sdk/client"],
+    "client-sdk/display": ["client-sdk/client", "server/content"],
+    "client-sdk/visitor": ["client-sdk/client", "server/scenario"],
+    "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/record"],
+    "client-sdk/examples": ["client-sdk/client"],
+}
+
+# Single headers that a room may include beyond its arrows: the scenario checks an author's parameters against these tables.
+EXTRA_HEADERS = {
+    "server/scenario": re.compile(r"server/(agents|machines)/\w*(schema|registry)\w*\.hpp"),
+}
+
+# These run in the tick, or are read by what does: no log there. Every other room may use it.
+NO_LOG = {"server/base", "server/geometry", "server/collision", "server/state", "server/dynamics", "server/haptics",
+          "server/machines", "server/agents", "server/force", "server/realtime"}
+
+# A third-party library: its headers, and the rooms that may know it. In those rooms it stays in .cpp files.
+LIBRARIES = {
+    "Bullet": (re.compile(r"(bt\w+\.h|(bullet|BulletDynamics|BulletCollision|LinearMath)/.*)$"), {"server/dynamics"}),
+    "assimp": (re.compile(r"assimp/"), {"server/content"}),
+    "pugixml": (re.compile(r"pugixml"), {"server/scenario"}),
+    "SQLite": (re.compile(r"(sqlite3|SQLiteCpp)"), {"server/content", "server/record"}),
+    "Cyclone DDS": (re.compile(r"(dds/|ddsc/)"), {"proto", "server/transport", "client-sdk/client", "client-sdk/cli"}),
+    "spdlog": (re.compile(r"spdlog/"), {"server/log"}),
+    "OpenGL": (re.compile(r"(epoxy|GLFW|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/display"}),
+}
+# proto is the wrapper: its headers are where Cyclone DDS becomes typed topics.
+IN_HEADERS = {("proto", "Cyclone DDS")}
+
+_INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"(?P<quoted>[^"]+)"|<(?P<angled>[^>]+)>)', re.MULTILINE)
+
+
+def reachable(room: str) -> set[str]:
+    seen: set[str] = set()
+    todo = list(ARROWS[room])
+    while todo:
+        other = todo.pop()
+        if other not in seen:
+            seen.add(other)
+            todo += ARROWS[other]
+    return seen
+
+
+def room_of_file(path: Path) -> str:
+    return "proto" if path.parts[0] == "proto" else "/".join(path.parts[:2])
+
+
+def room_of_include(name: str) -> str | None:
+    """The room that an include names, or None for a header from elsewhere."""
+    if name.startswith("mechane/client/"):
+        return "client-sdk/client"
+    if name.startswith(("mechane/proto/", "proto/")):
+        return "proto"
+    if name.startswith(("server/", "client-sdk/")):
+        return "/".join(name.split("/")[:2])
+    return None
+
+
+def may_include(room: str, other: str, name: str) -> bool:
+    if other == room or other in reachable(room):
+        return True
+    if other == "server/log":
+        return room not in NO_LOG
+    extra = EXTRA_HEADERS.get(room)
+    return extra is not None and extra.fullmatch(name) is not None
+
+
+def library_fault(room: str, path: Path, name: str) -> str | None:
+    for library, (headers, rooms) in LIBRARIES.items():
+        if not headers.match(name):
+            continue
+        if room not in rooms:
+            return f"{library} belongs to {', '.join(sorted(rooms))} alone; use what that room offers"
+        if path.suffix in HEADER_SUFFIXES and (room, library) not in IN_HEADERS:
+            return f"<{name}> in a header: keep {library} in .cpp files, behind a forward declaration or a pimpl"
+    return None
+
+
+def include_fault(room: str, path: Path, name: str, quoted: bool) -> tuple[str, str] | None:
+    other = room_of_include(name)
+    if other is not None:
+        if other not in ARROWS:
+            return "arrow", f"{other} is no room of the table in includes.py"
+        if not may_include(room, other, name):
+            return "arrow", f"{room} may not include {other} (\"{name}\"): see the table of rooms in ARCHITECTURE.md"
+        return None
+    library = library_fault(room, path, name)
+    if library:
+        return "third-party", library
+    if quoted and room != "proto":
+        return "include-path", f'"{name}": include by the path from the repository root, or with <> what is not ours'
+    return None
+
+
+def check(root: Path) -> list[Fault]:
+    faults = []
+    for path in cpp_files(root, "server", "proto", "client-sdk"):
+        room = room_of_file(path)
+        if room not in ARROWS:
+            faults.append(Fault("arrow", str(path), 1, f"{room} is no room: add it to the table in includes.py and to ARCHITECTURE.md"))
+            continue
+        text = without_comments(read(root / path))
+        for match in _INCLUDE.finditer(text):
+            name = match["quoted"] or match["angled"]
+            found = include_fault(room, path, name, match["quoted"] is not None)
+            if found:
+                faults.append(Fault(found[0], str(path), line_of(text, match.start("quoted" if match["quoted"] else "angled")), found[1]))
+    return faults
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parents[2])
+    faults = check(parser.parse_args().root)
+    for fault in faults:
+        print(fault)
+    print(f"includes: {len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""The checks checked: each rule must pass a sound little tree and fail the same tree with one violation planted in it."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import ceilings
+import includes
+from functions import functions
+
+SOUND = {
+    "server/base/CMakeLists.txt": "mechane_room(NAME base)\n",
+    "server/base/a.hpp": "#pragma once\n\nnamespace mechane {\nint a();\n}  // namespace mechane\n",
+    "server/base/a.cpp": '#include "server/base/a.hpp"\n\nint mechane::a() { return 1; }\n',
+    "server/dynamics/CMakeLists.txt": "mechane_room(NAME dynamics)\n",
+    "server/dynamics/d.cpp": '#include <btBulletDynamicsCommon.h>\n#include <vector>\n#include "server/state/s.hpp"\n',
+    "server/state/CMakeLists.txt": "mechane_room(NAME state)\n",
+    "server/state/s.hpp": '#pragma once\n#include "server/base/a.hpp"\n',
+    "server/world/CMakeLists.txt": "mechane_room(NAME world)\n",
+    "server/world/w.cpp": '#include "server/dynamics/d.hpp"\n#include "server/base/a.hpp"\n#include "server/log/log.hpp"\n',
+    "proto/CMakeLists.txt": "\n",
+    "proto/mechane/proto/p.hpp": "#pragma once\n#include <dds/dds.h>\n",
+    "client-sdk/client/CMakeLists.txt": "mechane_room(NAME client)\n",
+    "client-sdk/client/c.cpp": "#include <mechane/proto/p.hpp>\n#include <mechane/client/client.hpp>\n",
+    "tests/unit/base/CMakeLists.txt": "mechane_test_folder(NAME base)\n",
+    "tests/unit/base/a_test.cpp": '#include "server/base/a.hpp"\n',
+    "tests/architecture/exceptions.txt": "# none\n",
+}
+
+
+def long_function(lines: int) -> str:
+    return "int f(int x) {\n" + "  x += 1;\n" * (lines - 3) + "  return x;\n}\n"
+
+
+# rule, file, its whole new text
+PLANTED = [
+    ("arrow", "server/base/a.cpp", '#include "server/state/s.hpp"\n'),
+    ("arrow", "server/state/s.hpp", '#pragma once\n#include "server/world/w.hpp"\n'),
+    ("arrow", "server/dynamics/d.cpp", '#include "server/haptics/hand_model.hpp"\n'),
+    ("arrow", "server/dynamics/d.cpp", '#include "server/log/log.hpp"\n'),
+    ("arrow", "server/dynamics/d.cpp", '#include "server/garden/rose.hpp"\n'),
+    ("arrow", "server/garden/rose.hpp", "#pragma once\n"),
+    ("arrow", "server/world/w.cpp", '#include "server/transport/t.hpp"\n'),
+    ("arrow", "client-sdk/client/c.cpp", '#include "server/state/s.hpp"\n'),
+    ("arrow", "server/world/w.cpp", "#include <mechane/proto/p.hpp>\n"),
+    ("third-party", "server/dynamics/d.hpp", "#pragma once\n#include <btBulletDynamicsCommon.h>\n"),
+    ("third-party", "server/state/s.hpp", "#pragma once\n#include <pugixml.hpp>\n"),
+    ("third-party", "server/scenario/x.hpp", "#pragma once\n#include <pugixml.hpp>\n"),
+    ("third-party", "server/world/w.cpp", "#include <dds/dds.h>\n"),
+    ("third-party", "server/content/c.hpp", "#pragma once\n#include <assimp/scene.h>\n"),
+    ("third-party", "client-sdk/display/w.hpp", "#pragma once\n#include <epoxy/gl.h>\n"),
+    ("third-party", "server/base/a.cpp", "#include <spdlog/spdlog.h>\n"),
+    ("third-party", "server/record/r.hpp", "#pragma once\n#include <sqlite3.h>\n"),
+    ("include-path", "server/dynamics/d.cpp", '#include "d.hpp"\n'),
+    ("function-length", "server/base/a.cpp", long_function(71)),
+    ("function-length", "deploy/tool.py", "def f(x):\n" + "    x += 1\n" * 71),
+    ("header-length", "server/base/a.hpp", "#pragma once\n" + "int a();\n" * 350),
+    ("source-length", "server/base/a.cpp", "int a();\n" * 601),
+    ("pragma-once", "server/base/a.hpp", "int a();\n"),
+    ("pragma-once", "server/base/a.hpp", "// #pragma once\nint a();\n"),
+    ("using-namespace", "server/base/a.hpp", "#pragma once\nusing namespace std;\n"),
+    ("last-newline", "README.md", "no end"),
+    ("machine-path", "deploy/run.sh", "cd /wo" + "rk/main\n"),
+    ("machine-path", "tests/unit/base/a_test.cpp", 'auto p = "/ro' + 'ot/x";\n'),
+    ("machine-path", "README.md", "see /ho" + "me/somebody/mechane\n"),
+    ("machine-path", "server/base/a.cpp", 'auto p = "/t' + 'mp/x";\n'),
+    ("unfinished", "server/base/a.cpp", "// TO" + "DO: the rest\n"),
+    ("unfinished", "README.md", "FIX" + "ME\n"),
+    ("sleep", "tests/unit/base/a_test.cpp", "std::this_thread::sleep_" + "for(1ms);\n"),
+    ("folder-cmake", "server/agents/a.cpp", "int a();\n"),
+    ("folder-cmake", "tests/property/p_test.cpp", "int a();\n"),
+    ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90 | long ago\n"),
+    ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90\n"),
+]
+
+
+class Tree(unittest.TestCase):
+    def faults(self, changes: dict[str, str]):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for name, text in {**SOUND, **changes}.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text)
+            return includes.check(root) + ceilings.check(root)
+
+    def test_sound_tree_has_no_faults(self):
+        self.assertEqual([], [str(fault) for fault in self.faults({})])
+
+    def test_each_planted_violation_is_found(self):
+        for rule, name, text in PLANTED:
+            with self.subTest(rule=rule, file=name, text=text[:60]):
+                found = self.faults({name: text})
+                self.assertIn((rule, name.rsplit("/", 1)[0] if rule == "folder-cmake" else name),
+                              {(fault.rule, fault.path) for fault in found}, [str(fault) for fault in found])
+
+    def test_what_only_looks_like_a_violation_is_not(self):
+        innocent = {
+            "server/base/a.cpp": '// #include "server/world/w.hpp"\n/* #include <dds/dds.h> */\nauto s = "using namespace";\n' + long_function(70),
+            "server/base/a.hpp": "#pragma once\n// using namespace std;\n" + "int a();\n" * 348,
+            "tests/unit/base/a_test.cpp": "// sleep_" + "for(1ms) would hide a race\nauto p = \"server/root/x\";\n",
+        }
+        self.assertEqual([], [str(fault) for fault in self.faults(innocent)])
+
+    def test_an_exception_raises_one_ceiling_for_one_place(self):
+        listed = {"tests/architecture/exceptions.txt": "function-length | server/base/a.cpp:f | 75 | one table, read top to bottom\n"}
+        self.assertEqual([], self.faults({**listed, "server/base/a.cpp": long_function(75)}))
+        self.assertEqual(["function-length"], [fault.rule for fault in self.faults({**listed, "server/base/a.cpp": long_function(76)})])
+
+
+class Functions(unittest.TestCase):
+    def test_names_and_lengths(self):
+        source = """
+namespace n {
+struct P {
+  Vec3 p{1, 2, 3};
+  std::function<int()> g = [] { return 1; };
+  [[nodiscard]] int a() const { return 1; }
+
+ private:
+  int b() {
+    if (true) {
+      for (;;) {}
+    }
+    auto f = [](int x) {
+      return x;
+    };
+  }
+};
+template <class T>
+P::P(T x)
+    : a_{x},
+      b_(2) {
+  const char* brace = "{";
+  char other = '{';
+}
+constexpr std::array<int, 2> kTable = {1, 2};
+#define OPEN {
+bool operator==(const P& a, const P& b) {
+  return true;
+}
+}  // namespace n
+"""
+        found = {f.name: f.lines for f in functions(source)}
+        self.assertEqual(1, found["a"])
+        self.assertEqual(8, found["b"])
+        self.assertEqual(7, found["P::P"])
+        self.assertEqual(3, found["operator=="])
+
+
+class Table(unittest.TestCase):
+    def test_the_four_rooms_of_the_tick_never_meet(self):
+        four = {"server/dynamics", "server/haptics", "server/machines", "server/agents"}
+        for room in four:
+            self.assertEqual(set(), includes.reachable(room) & four)
+
+    def test_no_room_reaches_itself(self):
+        for room in includes.ARROWS:
+            self.assertNotIn(room, includes.reachable(room))
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
