@@ -39,8 +39,8 @@ PatchForce touch_force(const ContactPatch& patch, const HapticMaterial& material
   PatchForce out;
   const double k_bound = kStiffnessBound * m_eff_kg / (kTickSeconds * kTickSeconds);
   const double b_bound = kDampingBound * m_eff_kg / kTickSeconds;
-  out.stiffness_n_per_m = std::min(config.stiffness_scale * material.stiffness_n_per_m, k_bound);
-  out.damping_ns_per_m = std::min(config.stiffness_scale * material.damping_ns_per_m, b_bound);
+  out.stiffness_n_per_m = std::min(material.stiffness_n_per_m, k_bound);
+  out.damping_ns_per_m = std::min(material.damping_ns_per_m, b_bound);
   const double approach = std::max(0.0, -v_rel_W.dot(patch.n_BH_W));
   const double onset = std::min(1.0, patch.depth_m / config.damping_depth_m);
   const double normal_n = out.stiffness_n_per_m * patch.depth_m + onset * out.damping_ns_per_m * approach;
@@ -114,7 +114,7 @@ void render_paper(const state::WorldDescription& description, state::WorldState&
   const double n = user.contact_count;
   for (const state::Contact& contact : user.contact_span()) {
     if (user.grasp.active && user.grasp.body == contact.body) continue;
-    const double k = config.stiffness_scale * description.bodies[contact.body.index()].haptic.stiffness_n_per_m;
+    const double k = description.bodies[contact.body.index()].haptic.stiffness_n_per_m;
     const Vec3 f_H_W = k / n * contact.depth_m * contact.n_BH_W;
     add_to_hand(user, f_H_W, contact.p_WC);
     add_to_finger(user, contact.segment, f_H_W);

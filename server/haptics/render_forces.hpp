@@ -19,7 +19,6 @@ enum class ForceMode {
 
 struct ForceConfig {
   ForceMode mode = ForceMode::continuous;
-  double stiffness_scale = 1;            ///< on every material; 0 turns touch off (a test uses it)
   double friction_speed_m_per_s = 0.02;  ///< below it, friction falls linearly to zero with the speed
   double damping_depth_m = 0.001;        ///< damping comes in over this depth, so that a first touch is no step
   force::GovernorConfig governor;        ///< the server's own limits: the first word; the client's governor has the last

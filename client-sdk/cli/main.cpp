@@ -1,0 +1,80 @@
+// `mechane`: one command for people. Short tasks run here; long-running programs take its place.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client-sdk/cli/doctor.hpp"
+#include "client-sdk/cli/echo.hpp"
+#include "client-sdk/cli/sibling.hpp"
+#include "server/log/log.hpp"
+#include "server/scenario/checker.hpp"
+
+namespace {
+
+using namespace mechane;
+
+struct Program {
+  std::string_view command;
+  std::string_view summary;
+};
+
+/// Commands that are programs of their own: `mechane server` runs mechane-server.
+constexpr std::array<Program, 5> kPrograms{{
+    {"server", "run worlds and publish them"},
+    {"display", "show a world, in a window or to pictures"},
+    {"haptic", "run a haptic device, real or virtual"},
+    {"visitor", "play a scenario's visit like a person"},
+    {"replay", "run a journal again and compare its state hashes"},
+}};
+
+int add_and_parse(int argc, char** argv) {
+  CLI::App app{"Mechane: touch, assemble and work the machines of ancient Greek engineers."};
+  app.set_version_flag("--version", std::string("mechane ") + MECHANE_VERSION);
+  app.require_subcommand(1);
+  for (const Program& program : kPrograms) {
+    app.add_subcommand(std::string(program.command), std::string(program.summary) + " (--help tells more)");
+  }
+  cli::EchoOptions echo;
+  auto* echo_command = app.add_subcommand("echo", "print what goes over the wire");
+  echo_command->add_option("topic", echo.topic, "topic, e.g. SceneFrame; without one: the list");
+  echo_command->add_option("--kiosk", echo.kiosk, "only this kiosk");
+  echo_command->add_option("--world", echo.world, "only this world");
+  echo_command->add_option("--domain", echo.domain, "DDS domain");
+  echo_command->add_option("--count", echo.count, "stop after so many samples; 0: until interrupted");
+  echo_command->add_option("--seconds", echo.seconds, "stop after so long; 0: until interrupted");
+  echo_command->add_flag("--json", echo.json, "one JSON object a line");
+  std::vector<std::string> files;
+  auto* check_command = app.add_subcommand("check", "check scenario files: errors with line, node and remedy");
+  check_command->add_option("files", files, "X3D files")->required();
+  bool check_json = false;
+  check_command->add_flag("--json", check_json, "as JSON");
+  bool doctor_json = false;
+  double probe_s = 2;
+  auto* doctor_command = app.add_subcommand("doctor", "tell whether this machine can hold 1 kHz");
+  doctor_command->add_flag("--json", doctor_json, "as JSON");
+  doctor_command->add_option("--probe-seconds", probe_s, "how long wake-ups are measured");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e);
+  }
+  if (*echo_command) return cli::run_echo(echo);
+  if (*check_command) return scenario::run_check(files, check_json, std::cout);
+  return cli::run_doctor(doctor_json, probe_s);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  log::start("mechane", log::Level::info);
+  if (argc > 1) {
+    for (const Program& program : kPrograms) {
+      if (program.command == argv[1]) return cli::become("mechane-" + std::string(argv[1]), {argv + 2, argv + argc});
+    }
+  }
+  return add_and_parse(argc, argv);
+}

@@ -1,0 +1,26 @@
+// A haptic device as the loop sees it: where the hand is, and what force it shall feel.
+#pragma once
+
+#include <mechane/client/types.hpp>
+
+#include "server/base/clock.hpp"
+#include "server/force/governor.hpp"
+
+namespace mechane::haptic {
+
+/// One device. open() and close() on the main thread; read() and write() on the loop's thread, once a tick in that order: they must
+/// not block longer than the device's own transfer takes, and must not throw.
+class Device {
+ public:
+  virtual ~Device() = default;
+  /// Errors: not plugged in, no rights, another program has it.
+  [[nodiscard]] virtual Expected<void> open() = 0;
+  /// The hand now. `dt` is the time since the last call.
+  [[nodiscard]] virtual client::HandInput read(Duration dt) noexcept = 0;
+  /// The force to render until the next call. All zero on the way out.
+  virtual void write(const force::GovernedForce& force) noexcept = 0;
+  /// What the device can bear; the loop's governor is made from it.
+  [[nodiscard]] virtual force::GovernorConfig limits() const = 0;
+};
+
+}  // namespace mechane::haptic

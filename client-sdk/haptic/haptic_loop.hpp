@@ -1,0 +1,73 @@
+// The client's haptic loop: device in, network out, network in, governor, device out.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mechane/client/client.hpp>
+
+#include "client-sdk/haptic/device.hpp"
+#include "server/force/freshness.hpp"
+#include "server/force/governor.hpp"
+#include "server/force/local_contact_model.hpp"
+#include "server/realtime/histogram.hpp"
+
+namespace mechane::haptic {
+
+/// Which force the device renders.
+enum class RenderMode {
+  server,  ///< the server's force: on a LAN, where an answer is a millisecond old
+  local,   ///< from the server's contacts, at the device's own rate: under delay. A held object still pulls by the server's force.
+};
+
+struct LoopStats {
+  std::uint64_t ticks = 0;
+  std::uint64_t sent = 0;
+  std::uint64_t answers = 0;             ///< forces received
+  double force_max_n = 0;
+  double force_sum_n = 0;                ///< over ticks with force
+  std::uint64_t ticks_with_force = 0;
+  std::uint64_t holding_ticks = 0;
+};
+
+/// One tick of a haptic client. tick() is called by one thread at the device's rate (a PeriodicThread, or a device's own callback);
+/// after close-down call release() until it returns true: the force then is exactly zero.
+class HapticLoop {
+ public:
+  /// Errors: limits of the device that make no governor.
+  [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device, RenderMode mode);
+
+  /// Reads the device, sends the hand, takes the newest force, governs it, writes it. The governor judges the age of the last answer
+  /// by `now`: whatever fails, 50 ms after the last new answer the device renders nothing.
+  void tick(TimePoint now, Duration dt) noexcept;
+  /// Ramps the force down and out. True when the device renders exactly zero.
+  [[nodiscard]] bool release(TimePoint now, Duration dt) noexcept;
+
+  [[nodiscard]] const LoopStats& stats() const noexcept { return stats_; }
+  /// From sending a hand to receiving the force that answers it.
+  [[nodiscard]] const realtime::LatencyHistogram& round_trip() const noexcept { return round_trip_; }
+  [[nodiscard]] const force::ForceGovernor& governor() const noexcept { return governor_; }
+  [[nodiscard]] const force::GovernedForce& rendered() const noexcept { return rendered_; }
+  [[nodiscard]] bool holding() const noexcept { return answer_.holding; }
+
+ private:
+  HapticLoop(client::Client& client, Device& device, RenderMode mode, const force::ForceGovernor& governor)
+      : client_(client), device_(device), mode_(mode), governor_(governor) {}
+  bool take_answer() noexcept;
+  void set_local_contacts() noexcept;
+  void render(const client::HandInput& input, TimePoint now, Duration dt, bool engaged) noexcept;
+
+  client::Client& client_;
+  Device& device_;
+  RenderMode mode_;
+  force::ForceGovernor governor_;
+  force::LocalContactModel local_;
+  force::SampleAge age_;
+  client::ForceSample answer_;
+  std::array<Vec3, 256> sent_p_WH_{};  // by sequence number: where the hand was in the sample that an answer echoes
+  force::GovernedForce rendered_;
+  LoopStats stats_;
+  realtime::LatencyHistogram round_trip_;
+};
+
+}  // namespace mechane::haptic

@@ -1,0 +1,48 @@
+// A device without hardware: a simulated hand, so that a visit can be played, tested and measured with forces that really act.
+#pragma once
+
+#include "client-sdk/haptic/device.hpp"
+
+namespace mechane::haptic {
+
+/// What the person wants to do with the hand at this moment.
+struct HandIntent {
+  client::HandKind kind = client::HandKind::one_point;
+  Pose X_WH;                                         ///< where the hand is meant to be
+  std::array<double, client::kHandJoints> joints{};  ///< finger angles, rad
+  double grasp_intent = 0;
+};
+
+/// How a hand yields. A relaxed arm is soft: a force of 3 N moves this one by 5 mm.
+struct ArmConfig {
+  double mass_kg = 0.3;
+  double stiffness_n_per_m = 600;
+  double damping_ratio = 1;   ///< of critical
+};
+
+/// A hand on a spring: pulled towards the intended pose, pushed by the rendered force. It turns as intended, without lag.
+/// intend() and the device's functions are called by one thread, the loop's.
+class VirtualDevice final : public Device {
+ public:
+  explicit VirtualDevice(const ArmConfig& arm = {}) : arm_(arm) {}
+
+  [[nodiscard]] Expected<void> open() override { return {}; }
+  [[nodiscard]] client::HandInput read(Duration dt) noexcept override;
+  void write(const force::GovernedForce& force) noexcept override { force_ = force; }
+  /// Those of a desktop stylus device of the Phantom class.
+  [[nodiscard]] force::GovernorConfig limits() const override { return {}; }
+
+  void intend(const HandIntent& intent) noexcept;
+  /// The force that the hand feels now, N.
+  [[nodiscard]] const Wrench& felt_W() const noexcept { return force_.force_W; }
+
+ private:
+  ArmConfig arm_;
+  HandIntent intent_;
+  Pose X_WH_;
+  Twist V_WH_;
+  force::GovernedForce force_;
+  bool placed_ = false;
+};
+
+}  // namespace mechane::haptic

@@ -1,0 +1,115 @@
+#include "client-sdk/visitor/visit_player.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mechane::visitor {
+namespace {
+
+using state::VisitMove;
+
+// How fast a hand speeds up on a crank, turns a second squared.
+constexpr double kTurnRampRadPerS2 = 6.0;
+
+std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
+  switch (move.kind) {
+    case VisitMove::Kind::reach: return "reach " + description.bodies[move.body.index()].name;
+    case VisitMove::Kind::grasp: return "grasp " + description.bodies[move.body.index()].name;
+    case VisitMove::Kind::move_to: return "carry " + description.bodies[move.body.index()].name;
+    case VisitMove::Kind::turn: return "turn " + description.joints[move.joint.index()].name;
+    case VisitMove::Kind::release: return "release";
+    case VisitMove::Kind::wait: break;
+  }
+  return "wait";
+}
+
+}  // namespace
+
+double minimum_jerk(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * s * (10 + s * (-15 + 6 * s));
+}
+
+VisitPlayer::VisitPlayer(const state::WorldDescription& description, const state::VisitDescription& visit,
+                         const PlayerConfig& config)
+    : description_(description), visit_(visit), config_(config) {
+  intent_.kind = config.kind;
+  intent_.X_WH = config.X_WH_rest;
+  results_.reserve(visit.moves.size());
+}
+
+void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding) {
+  if (finished()) return;
+  if (!begun_) begin_move(X_WB);
+  time_s_ += dt_s;
+  last_dt_s_ = dt_s;
+  if (continue_move(holding)) end_move(ok_);
+}
+
+void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
+  const VisitMove& move = visit_.moves[index_];
+  begun_ = true;
+  ok_ = true;
+  time_s_ = 0;
+  turned_rad_ = 0;
+  X_WH_start_ = intent_.X_WH;
+  X_WH_goal_ = X_WH_start_;
+  if (move.kind == VisitMove::Kind::reach) {
+    X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W;
+  } else if (move.kind == VisitMove::Kind::move_to) {
+    // The hand goes with the body as it holds it now.
+    const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
+    X_WH_goal_ = move.X_WB * X_BH;
+  } else if (move.kind == VisitMove::Kind::grasp) {
+    intent_.grasp_intent = 1;
+  } else if (move.kind == VisitMove::Kind::release) {
+    intent_.grasp_intent = 0;
+  }
+}
+
+bool VisitPlayer::continue_move(bool holding) {
+  const VisitMove& move = visit_.moves[index_];
+  switch (move.kind) {
+    case VisitMove::Kind::reach: move_hand_towards_goal(move.duration_s); return time_s_ >= move.duration_s;
+    case VisitMove::Kind::move_to:
+      move_hand_towards_goal(move.duration_s);
+      ok_ = ok_ && (holding || time_s_ > 0.8 * move.duration_s);  // placed early: let go by the snap, not by the hand
+      return time_s_ >= move.duration_s;
+    case VisitMove::Kind::grasp:
+      ok_ = holding;
+      return time_s_ >= (holding ? move.duration_s : std::max(move.duration_s, config_.grasp_patience_s));
+    case VisitMove::Kind::turn: ok_ = ok_ && holding; return turn(move);
+    case VisitMove::Kind::release:
+    case VisitMove::Kind::wait: break;
+  }
+  return time_s_ >= move.duration_s;
+}
+
+void VisitPlayer::move_hand_towards_goal(double duration_s) {
+  const double s = duration_s > 0 ? minimum_jerk(time_s_ / duration_s) : 1.0;
+  intent_.X_WH.p = X_WH_start_.p + s * (X_WH_goal_.p - X_WH_start_.p);
+  intent_.X_WH.R = X_WH_start_.R.slerp(s, X_WH_goal_.R);
+}
+
+/// The hand goes round the joint's axis, speeding up and slowing down; the wrist keeps its direction, the handle turns in the hand.
+bool VisitPlayer::turn(const VisitMove& move) {
+  const state::JointDescription& joint = description_.joints[move.joint.index()];
+  const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
+  const double whole_rad = 2 * kPi * std::abs(move.turns);
+  const double rate = 2 * kPi / 60 * std::abs(move.rate_rpm);
+  const double left = whole_rad - turned_rad_;
+  const double speed = std::min({rate, kTurnRampRadPerS2 * time_s_, std::sqrt(2 * kTurnRampRadPerS2 * std::max(left, 0.0))});
+  turned_rad_ += std::max(speed, 0.01) * last_dt_s_;
+  const double angle = std::copysign(std::min(turned_rad_, whole_rad), move.turns);
+  const Vec3 arm_J = X_WJ.inverse() * X_WH_start_.p;
+  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle, Vec3::UnitZ()) * arm_J);
+  return turned_rad_ >= whole_rad;
+}
+
+void VisitPlayer::end_move(bool ok) {
+  results_.push_back({name_of(description_, visit_.moves[index_]), time_s_, ok});
+  ++index_;
+  begun_ = false;
+}
+
+}  // namespace mechane::visitor

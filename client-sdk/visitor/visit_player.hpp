@@ -1,0 +1,67 @@
+// Plays a scenario's scripted visit: what a person's hand would mean to do, moment by moment.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client-sdk/haptic/virtual_device.hpp"
+#include "server/state/description.hpp"
+
+namespace mechane::visitor {
+
+/// What came of one move.
+struct MoveResult {
+  std::string name;       ///< "reach INNER"
+  double seconds = 0;
+  bool ok = true;         ///< a grasp that caught nothing, a carry with an empty hand: false
+};
+
+struct PlayerConfig {
+  Pose X_WH_rest{Vec3(0, 1.2, 1.5), Quat::Identity()};  ///< where the hand waits
+  Vec3 offset_W = Vec3::Zero();   ///< added to every place that the hand reaches for: a visitor who misses
+  client::HandKind kind = client::HandKind::one_point;
+  double grasp_patience_s = 2;    ///< how long a grasp is tried before the visit goes on without it
+};
+
+/// One visit, from rest to rest. Deterministic in what it is told. One thread; advance() allocates only when a move ends.
+class VisitPlayer {
+ public:
+  /// Both outlive the player.
+  VisitPlayer(const state::WorldDescription& description, const state::VisitDescription& visit, const PlayerConfig& config);
+
+  /// Goes on by dt_s. `X_WB` are the bodies' poses in the order of the description, as last seen; `holding` is the server's word.
+  void advance(double dt_s, std::span<const Pose> X_WB, bool holding);
+
+  [[nodiscard]] const haptic::HandIntent& intent() const { return intent_; }
+  [[nodiscard]] bool finished() const { return index_ >= visit_.moves.size(); }
+  [[nodiscard]] std::span<const MoveResult> results() const { return results_; }
+
+ private:
+  void begin_move(std::span<const Pose> X_WB);
+  /// True when the move is over.
+  bool continue_move(bool holding);
+  void move_hand_towards_goal(double duration_s);
+  bool turn(const state::VisitMove& move);
+  void end_move(bool ok);
+
+  const state::WorldDescription& description_;
+  const state::VisitDescription& visit_;
+  PlayerConfig config_;
+  haptic::HandIntent intent_;
+  std::vector<MoveResult> results_;
+  std::size_t index_ = 0;
+  bool begun_ = false;
+  bool ok_ = true;
+  double time_s_ = 0;       // in this move
+  double last_dt_s_ = 0;
+  Pose X_WH_start_;
+  Pose X_WH_goal_;
+  double turned_rad_ = 0;
+};
+
+/// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).
+[[nodiscard]] double minimum_jerk(double s);
+
+}  // namespace mechane::visitor
