@@ -14,10 +14,10 @@ void step(World& world, const state::TickInputs& inputs, Publisher& publisher, P
   take_inputs(inputs, state);
   timer.ended(Phase::take_inputs);
 
-  move_hands(world.hand, state);
+  move_hands(*world.hand, state);
   timer.ended(Phase::move_hands);
 
-  haptics::find_contacts(description, world.hand, state);
+  haptics::find_contacts(description, *world.hand, state);
   timer.ended(Phase::find_contacts);
 
   world.agents->run(state, commands_of(inputs), kTickSeconds);

@@ -2,13 +2,14 @@
 
 #include <utility>
 
+#include "server/base/assert.hpp"
 #include "server/state/snapshot.hpp"
 
 namespace mechane::world {
 
 World::World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<agents::AgentSet> its_agents,
-             std::unique_ptr<machines::MachineSet> its_machines, haptics::HandModel its_hand,
-             haptics::ForceRenderer its_forces)
+             std::unique_ptr<machines::MachineSet> its_machines,
+             std::shared_ptr<const haptics::HandModel> its_hand, haptics::ForceRenderer its_forces)
     : description(std::move(of)),
       state(*description),
       agents(std::move(its_agents)),
@@ -23,12 +24,11 @@ Expected<std::unique_ptr<World>> World::create(std::shared_ptr<const state::Worl
   if (!machines) return tl::unexpected(machines.error());
   auto agents = agents::AgentSet::create(*description, layout);
   if (!agents) return tl::unexpected(agents.error());
-  auto hand = haptics::HandModel::create(config.hand);
-  if (!hand) return tl::unexpected(hand.error());
+  MECHANE_ASSERT(config.hand != nullptr);
   auto forces = haptics::ForceRenderer::create(config.force);
   if (!forces) return tl::unexpected(forces.error());
   std::unique_ptr<World> world(
-      new World(description, std::move(*agents), std::move(*machines), std::move(*hand), std::move(*forces)));
+      new World(description, std::move(*agents), std::move(*machines), config.hand, std::move(*forces)));
   world->state.memory = layout.initial();
   world->agents->start(world->state);
   auto dynamics = dynamics::DynamicsWorld::create(*description, world->state);

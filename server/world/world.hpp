@@ -15,8 +15,9 @@
 
 namespace mechane::world {
 
+/// What all worlds of a server share.
 struct WorldConfig {
-  haptics::HandSize hand;
+  std::shared_ptr<const haptics::HandModel> hand;  ///< made once: its shapes are the same in every world
   haptics::ForceConfig force;
 };
 
@@ -37,13 +38,13 @@ class World {
   state::WorldState state;
   const std::unique_ptr<agents::AgentSet> agents;
   const std::unique_ptr<machines::MachineSet> machines;
-  const haptics::HandModel hand;
+  const std::shared_ptr<const haptics::HandModel> hand;
   haptics::ForceRenderer forces;
   std::unique_ptr<dynamics::DynamicsWorld> dynamics;
 
  private:
   World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<agents::AgentSet> its_agents,
-        std::unique_ptr<machines::MachineSet> its_machines, haptics::HandModel its_hand,
+        std::unique_ptr<machines::MachineSet> its_machines, std::shared_ptr<const haptics::HandModel> its_hand,
         haptics::ForceRenderer its_forces);
 };
 
