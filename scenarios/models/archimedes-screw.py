@@ -172,7 +172,7 @@ def stone():
     broad, fine = fractal(shape, (3, 3), rng, 6, 0.55), fractal(shape, (48, 48), rng, 4, 0.6)
     pits = step(0.63, 0.78, fractal(shape, (40, 40), rng, 3)) * step(0.4, 0.6, broad)
     bedding = noise(shape, (26, 2), rng)
-    colour = tint((0.62, 0.56, 0.46), (0.44, 0.385, 0.30), np.clip(1.6 * broad - 0.4 + 0.25 * (bedding - 0.5), 0, 1))
+    colour = tint((0.50, 0.44, 0.345), (0.33, 0.28, 0.205), np.clip(1.6 * broad - 0.4 + 0.25 * (bedding - 0.5), 0, 1))
     colour *= (0.82 + 0.32 * fine)[..., None] * (1 - 0.5 * pits)[..., None]
     lichen = step(0.60, 0.70, fractal(shape, (9, 9), rng, 5, 0.6)) * 0.45
     colour = mix(colour, np.array([0.30, 0.29, 0.19])[None, None, :], lichen[..., None])
@@ -186,11 +186,12 @@ def ground():
     shape = (TEXTURE, TEXTURE)
     broad, grit = fractal(shape, (4, 4), rng, 6, 0.55), fractal(shape, (90, 90), rng, 3, 0.7)
     crumbs = fractal(shape, (28, 28), rng, 4, 0.6)
-    colour = tint((0.37, 0.285, 0.185), (0.235, 0.17, 0.105), np.clip(1.8 * broad - 0.4, 0, 1))
+    colour = tint((0.315, 0.235, 0.145), (0.185, 0.13, 0.078), np.clip(1.8 * broad - 0.4, 0, 1))
     colour *= (0.62 + 0.5 * grit + 0.3 * crumbs)[..., None]
     grass = step(0.50, 0.66, fractal(shape, (6, 6), rng, 6, 0.62)) * (0.35 + 0.65 * grit)
-    colour = mix(colour, np.array([0.225, 0.235, 0.085])[None, None, :] * (0.6 + 0.9 * grit[..., None]), 0.8 * grass[..., None])
-    straw = step(0.72, 0.80, noise(shape, (60, 260), rng)) + step(0.72, 0.80, noise(shape, (260, 60), rng))
+    colour = mix(colour, np.array([0.165, 0.185, 0.055])[None, None, :] * (0.6 + 0.9 * grit[..., None]), 0.8 * grass[..., None])
+    lie = fractal(shape, (5, 5), rng, 2) > 0.5
+    straw = np.where(lie, step(0.78, 0.86, noise(shape, (50, 300), rng)), step(0.78, 0.86, noise(shape, (300, 50), rng)))
     colour = mix(colour, np.array([0.52, 0.43, 0.25])[None, None, :], np.clip(0.35 * straw, 0, 0.5)[..., None])
     return np.clip(colour, 0, 1), 2.4 * crumbs + 1.6 * grit + 0.8 * grass
 
@@ -292,8 +293,7 @@ def make_materials(textures):
         "planks": material("planks", *barrel, roughness=0.78),
         "timber": material("timber", *core, roughness=0.62),
         "grip": material("grip", core[0], roughness=0.38),
-        "willow": material("willow", *blade, textures.image("willow_gloss", gloss[::2, ::2], linear=True)) if False else
-                  material("willow", *blade, willow_gloss),
+        "willow": material("willow", *blade, willow_gloss),
         "bronze": material("bronze", textures.image("bronze", bronze_colour), None, textures.image("bronze_orm", bronze_orm, linear=True)),
         "limestone": material("limestone", *limestone, roughness=0.85),
         "earth": material("earth", *earth, roughness=0.95),
@@ -392,11 +392,6 @@ def timber(shape, start, end, width, height, up=(0, 1, 0), bevel=0.006, seed=0, 
     strips = [seed * 3 + k for k in range(4)]
     offset = rng.uniform(0, 1)
 
-    def uv(i, j):
-        which, inside = divmod(j % count if j < count else j, 3)
-        across = (0.02, 0.06, 0.94)[inside] if which < 4 else 0.02
-        return strip_uv(strips[which % 4], across, offset + along[i] / 2.3)
-
     index = [shape.points(r) for r in rings]
     for i in range(len(rings) - 1):
         for j in range(count):
@@ -414,8 +409,10 @@ def timber(shape, start, end, width, height, up=(0, 1, 0), bevel=0.006, seed=0, 
     return shape
 
 
-def lathe(shape, profile, segments, origin=(0, 0, 0), axis=(0, 0, 1), up=(0, 1, 0), slots=None, uv_scale=(1.0, 1.0), uv_offset=(0.0, 0.0)):
-    """Turns (radius, height) points about the axis, bottom first. A radius of 0 closes the end in a point. u runs round, v along."""
+def lathe(shape, profile, segments, origin=(0, 0, 0), axis=(0, 0, 1), up=(0, 1, 0), slots=None, uv_scale=(1.0, 1.0), uv_offset=(0.0, 0.0),
+          end_grain=()):
+    """Turns (radius, height) points about the axis, bottom first. A radius of 0 closes the end in a point. u runs round, v along;
+    on the segments in `end_grain` u runs outwards, so that a timber's rings lie round its middle."""
     side, top, w = frame_of(axis, up)
     origin = np.asarray(origin, float)
     travelled = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(np.asarray(profile), axis=0).T))])
@@ -425,11 +422,14 @@ def lathe(shape, profile, segments, origin=(0, 0, 0), axis=(0, 0, 1), up=(0, 1, 
         ring = [origin + w * z + radius * (side * math.cos(a) + top * math.sin(a)) for a in angles]
         rings.append(shape.points(ring if radius > 0 else ring[:1]))
 
-    def uv(i, j):
-        return (uv_offset[0] + uv_scale[0] * j / segments, uv_offset[1] + uv_scale[1] * travelled[i])
-
     for i in range(len(profile) - 1):
         slot = slots[i] if slots else 0
+
+        def uv(row, j, across=i in end_grain):
+            if across:
+                return strip_uv(5, profile[row][0] / 0.077, 0.02 * math.sin(2 * math.pi * j / segments))
+            return (uv_offset[0] + uv_scale[0] * j / segments, uv_offset[1] + uv_scale[1] * travelled[row])
+
         for j in range(segments):
             k = (j + 1) % segments
             low, high = rings[i], rings[i + 1]
@@ -659,12 +659,12 @@ def make_blades(model, inner):
                 for j in range(count):
                     k = (j + 1) % count
                     root = j == count - 1
-                    quad = ((i, j), (i + 1, j), (i + 1, k), (i, k))
+                    quad = ((i, j), (i, k), (i + 1, k), (i + 1, j))
                     normals = [(-math.cos(angle_of[c]), -math.sin(angle_of[c]), 0) if root else
                                blade_normal(profile[p][0], profile[p][1], angle_of[c]) for c, p in quad]
                     shape.face(tuple(index[c][p] for c, p in quad), tuple((u_of[p], v_of[c]) for c, p in quad), 0, normals)
             for ring, angle, sign in ((index[0], angle_of[0], -1), (index[-1], angle_of[-1], 1)):
-                order = list(range(count)) if sign < 0 else list(range(count))[::-1]
+                order = list(range(count)) if sign > 0 else list(range(count))[::-1]
                 across = sign * np.array([-math.sin(angle), math.cos(angle), 0])
                 shape.face(tuple(ring[j] for j in order), tuple((u_of[j], 0.02 * profile[j][1]) for j in order), 0,
                            [across] * count)
@@ -678,12 +678,9 @@ def make_core(model, inner):
     stub = [(0.036, e), (0.030, e + 0.004), (0.030, 1.295), (0.025, 1.300), (0, 1.300)]
     profile = pivot + trunk + stub
     slots = [1] * 4 + [0] * (len(trunk) + 2) + [1] * 5
-    shape = lathe(Shape(), profile, 64, slots=slots[:len(profile) - 1], uv_scale=(0.999, 1 / 2.3), uv_offset=(0.0, 0.05))
+    shape = lathe(Shape(), profile, 64, slots=slots[:len(profile) - 1], uv_scale=(1, 1 / 2.3), uv_offset=(0, 0.05),
+                  end_grain=(4, len(pivot) + len(trunk) - 1))
     model.add("part_core", shape, ["timber", "bronze"], inner, 30)
-    collars = Shape()
-    for z in (-e + 0.05, e - 0.035):
-        pass
-    del collars
 
 
 def hull_outline(r0, r1, length, steps=14):
@@ -709,10 +706,10 @@ def make_crank(model, inner):
             k = (j + 1) % count
             quad = ((i, j), (i, k), (i + 1, k), (i + 1, j))
             shape.face(tuple(index[a][b] for a, b in quad),
-                       tuple(strip_uv(3, 0.3 + 6 * (rings[a][b][2] - CRANK_Z), 0.2 + rings[a][b][0] / 1.2) for a, b in quad))
+                       tuple(strip_uv(6, 0.5 + 8 * (rings[a][b][2] - CRANK_Z), 0.2 + rings[a][b][0] / 2.3) for a, b in quad))
     for ring, points, flip in ((index[0], rings[0], True), (index[-1], rings[-1], False)):
         order = list(range(count))[::-1] if flip else list(range(count))
-        shape.face(tuple(ring[j] for j in order), tuple(strip_uv(3, 0.5 + points[j][1] * 7, 0.2 + points[j][0] / 1.2) for j in order))
+        shape.face(tuple(ring[j] for j in order), tuple(strip_uv(5, 0.5 + points[j][1] * 8.5, 0.2 + points[j][0] / 2.3) for j in order))
     model.add("part_crank", shape, ["timber"], inner, 40)
 
     swell = [(0.0, -1.0), (0.0110, -1.0), (0.0140, -0.975), (0.0152, -0.93), (0.0150, -0.85), (0.0158, -0.6), (0.0168, -0.3), (GRIP_RADIUS, 0.0),
@@ -1001,13 +998,13 @@ def main():
         make_core(model, inner)
         make_blades(model, inner)
         make_crank(model, inner)
-        trestle(model, scene, "lower_trestle", -0.04, 0.85, 1)
+        trestle(model, scene, "lower_trestle", -0.12, 0.75, 1)
         trestle(model, scene, "upper_trestle", 0.78, 1.25, 3)
         make_basin(model, scene)
         make_ground(model, scene)
         make_quay(model, scene)
-        make_amphora(model, scene, "amphora_1", 1.15, 0.72, 0.0, 0.0)
-        make_amphora(model, scene, "amphora_2", 0.95, 0.90, 0.06, 1.0)
+        make_amphora(model, scene, "amphora_1", 1.79, 0.20, 0.26, math.pi)
+        make_amphora(model, scene, "amphora_2", 1.80, -0.12, 0.23, 3.3)
         make_plants(model, scene)
         make_pebbles(model, scene)
         make_water(model)
