@@ -99,6 +99,7 @@ struct BodyOverride {
   std::optional<bool> movable;
   std::optional<bool> visible;
   std::optional<bool> graspable;
+  std::optional<Pose> X_WB;  ///< where the step puts it when it begins, at rest
 };
 
 struct StepDescription {
