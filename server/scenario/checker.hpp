@@ -1,0 +1,26 @@
+// `mechane check`: everything that can be wrong in a scenario and can be known without building its collision objects.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/scenario/problem.hpp"
+
+namespace mechane::scenario {
+
+/// All that reading and compiling finds (mesh files must be there, but are not opened as meshes), and what an author likely did not
+/// mean: steps that no trigger leads to, triggers that no value can fire, texts that lack a language, activities without a visit,
+/// bodies that nothing uses. Any thread; no network.
+[[nodiscard]] std::vector<Problem> check(const std::filesystem::path& file);
+
+enum class CheckFormat { text, json };
+
+/// The body of `mechane check FILE...`: writes problems and a last line that counts them (or one JSON array). Returns the program's exit
+/// status: 0 without errors (warnings are none), 1 with errors, 2 without files.
+[[nodiscard]] int run_check(std::span<const std::string> files, std::ostream& out,
+                            CheckFormat format = CheckFormat::text);
+
+}  // namespace mechane::scenario

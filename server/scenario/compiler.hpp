@@ -1,0 +1,39 @@
+// From a document to a world: names become ids, X3D's physics nodes become bodies and joints, metadata become agents, machines, steps.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "server/base/error.hpp"
+#include "server/scenario/document.hpp"
+#include "server/state/description.hpp"
+
+namespace mechane::scenario {
+
+/// Where mesh files come from. The server's makes and caches collision objects; a checker's only looks whether the file is there.
+class ObjectLoader {
+ public:
+  virtual ~ObjectLoader() = default;
+  /// The collision object of a node of a mesh file (its children named part_*, or each child mesh). Errors name the file and the node.
+  /// A loader that builds nothing returns null.
+  [[nodiscard]] virtual Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
+                                                                                const std::string& node) = 0;
+  /// 32 hex digits, XXH3-128 of the file's bytes. Fails where the file cannot be read.
+  [[nodiscard]] virtual Expected<std::string> content_hash(const std::filesystem::path& file) = 0;
+};
+
+/// XXH3-128 of a file, 32 hex digits: what a loader needs for content_hash().
+[[nodiscard]] Expected<std::string> hash_file(const std::filesystem::path& file);
+
+/// A world. Every name in it is resolved; every component's parameters hold against its type's schema. All problems go to `problems`,
+/// errors and warnings; the Error is the first error. Calls the loader once a touchable body. One thread, not in a tick; the same
+/// document and meshes give the same description and content_hash.
+[[nodiscard]] Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader,
+                                                        Problems& problems);
+
+/// read_document and compile in one.
+[[nodiscard]] Expected<state::WorldDescription> read_scenario(const std::filesystem::path& file, ObjectLoader& loader,
+                                                              Problems& problems);
+
+}  // namespace mechane::scenario

@@ -1,0 +1,60 @@
+// What is wrong in a scenario, said so that its author can mend it.
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/base/error.hpp"
+
+namespace mechane::scenario {
+
+enum class Severity { warning, error };
+
+/// One fault. An error keeps the scenario from running; a warning does not.
+struct Problem {
+  Severity severity = Severity::error;
+  std::string file;    ///< as the caller named it
+  int line = 0;        ///< from 1; 0 where no line can be named
+  std::string node;    ///< "RigidBody INNER", "step turn"; empty where it is about the whole file
+  std::string what;    ///< what is wrong
+  std::string remedy;  ///< what to write instead
+};
+
+/// Collects the problems of one file. One thread.
+class Problems {
+ public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+
+  void error(int line, std::string node, std::string what, std::string remedy);
+  void warning(int line, std::string node, std::string what, std::string remedy);
+
+  [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+  /// The first error, as the Error of an Expected, with a count of the others. There must be one.
+  [[nodiscard]] Error first_error() const;
+  [[nodiscard]] const std::vector<Problem>& all() const { return problems_; }
+  [[nodiscard]] const std::string& file() const { return file_; }
+
+ private:
+  void add(Severity severity, int line, std::string node, std::string what, std::string remedy);
+
+  std::string file_;
+  std::vector<Problem> problems_;
+  std::size_t errors_ = 0;
+};
+
+/// One line for a person: "file:line: error: node: what; remedy".
+[[nodiscard]] std::string to_string(const Problem& problem);
+
+/// The same as JSON, an array of objects with the fields of Problem, for editors and build servers.
+[[nodiscard]] std::string to_json(std::span<const Problem> problems);
+
+/// The candidate nearest to `name` by edits, ignoring case; empty where none is near (more than a third of the letters differ).
+[[nodiscard]] std::string nearest(const std::string& name, std::span<const std::string> candidates);
+
+/// "did you mean X?" for a near candidate; else the list of them; else `if_none`.
+[[nodiscard]] std::string suggest(const std::string& name, std::span<const std::string> candidates,
+                                  const std::string& if_none);
+
+}  // namespace mechane::scenario
