@@ -169,6 +169,7 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
   app.add_option("--world-idle", s.world_idle_s, "seconds after which a world without clients is closed");
   app.add_option("--resume-within", s.resume_within_s, "seconds for which a restarted server puts a kiosk back at its step");
   app.add_option("--run-for", s.run_for_s, "stop after so many seconds; 0: run until told to stop");
+  app.add_option("--report", s.report, "write counters and tick times to this JSON file at the stop");
   app.add_option("--max-force", s.force.governor.max_force_n, "newtons that the server asks of a device at most");
   app.add_option("--stiffness-scale", s.stiffness_scale, "factor on every stiffness; 0 turns touch off");
   app.add_flag("--paper-force", paper, "average force over the whole hand, as published, for comparison");

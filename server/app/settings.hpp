@@ -27,6 +27,7 @@ struct Settings {
   double world_idle_s = 30;                         ///< a world without clients is closed after this long
   double resume_within_s = 600;                     ///< a restarted server puts a kiosk back where it was, up to this old
   double run_for_s = 0;                             ///< stops by itself after this long; 0: runs until it is told to stop
+  std::filesystem::path report;                     ///< JSON of counters and tick times, written at the stop; empty: none
   bool verbose = false;
   haptics::HandSize hand;
   haptics::ForceConfig force;

@@ -1,0 +1,237 @@
+"""Runs the demo: starts the programs, waits for the visitors, gathers what they report. Standard library only."""
+
+import argparse
+import glob
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+SCENARIO = "scenarios/archimedes-screw/archimedes-screw.x3d"
+KIOSKS = ["kiosk-1", "kiosk-2"]
+VISIT_LIMIT_S = 240
+
+
+class Programs:
+    """The running programs; all are stopped at the end, whatever happens."""
+
+    def __init__(self, bin_dir, out, environment):
+        self.bin_dir, self.out, self.environment = bin_dir, out, environment
+        self.running = {}
+
+    def start(self, name, *arguments):
+        log = open(self.out / f"{name}.log", "w")
+        command = [str(self.bin_dir / "mechane"), *arguments]
+        self.running[name] = subprocess.Popen(
+            command, env=self.environment, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        return self.running[name]
+
+    def wait(self, name, limit_s):
+        """The exit status, or None when the program was still running at the limit."""
+        try:
+            return self.running[name].wait(timeout=limit_s)
+        except subprocess.TimeoutExpired:
+            return None
+
+    def stop(self, name, limit_s=10):
+        process = self.running[name]
+        if process.poll() is None:
+            process.send_signal(signal.SIGTERM)
+            if self.wait(name, limit_s) is None:
+                process.kill()
+                process.wait()
+                return None
+        return process.returncode
+
+    def stop_all(self):
+        for name in list(self.running):
+            self.stop(name)
+
+
+def read_json(path):
+    try:
+        return json.loads(path.read_text())
+    except (OSError, ValueError):
+        return {}
+
+
+def has_screen():
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def environment_of(root):
+    env = dict(os.environ)
+    env["CYCLONEDDS_URI"] = "file://" + str(root / "deploy/cyclonedds/test.xml")
+    env["CYCLONEDDS_TEST_TAG"] = f"demo-{os.getpid()}"
+    return env
+
+
+def watch_visitors(programs, names):
+    """Waits for the visitors, telling where they are."""
+    started = time.monotonic()
+    shown = ""
+    while any(programs.running[n].poll() is None for n in names):
+        if time.monotonic() - started > VISIT_LIMIT_S:
+            return False
+        lines = []
+        for name in names:
+            text = (programs.out / f"{name}.log").read_text(errors="replace").splitlines()
+            lines.append(f"{name}: {text[-1][-60:] if text else 'starting'}")
+        line = " | ".join(lines)
+        if line != shown and sys.stdout.isatty():
+            print(f"\r\033[K  {time.monotonic() - started:5.1f} s  {line}", end="", flush=True)
+            shown = line
+        time.sleep(0.2)
+    if sys.stdout.isatty():
+        print()
+    return True
+
+
+def replay_journals(programs, records, out):
+    """Replays every journal twice; returns (replays that ended with the live hash, replays run)."""
+    good = asked = 0
+    for journal in sorted(glob.glob(str(records / "*.journal"))):
+        for again in range(2):
+            name = f"replay-{pathlib.Path(journal).stem}-{again}"
+            programs.start(name, "replay", journal, "--scenario", SCENARIO)
+            asked += 1
+            good += programs.wait(name, 120) == 0
+    return good, asked
+
+
+def start_all(programs, options, out):
+    domain = ["--domain", str(options.domain)]
+    programs.start("server", "server", "--scenario", SCENARIO, "--worlds", "4", "--records", str(out / "records"),
+                   "--report", str(out / "server.json"), *domain)
+    for i, kiosk in enumerate(KIOSKS):
+        show = ["display", "--kiosk", kiosk, "--assets", "scenarios", *domain]
+        if options.headless or not has_screen():
+            show += ["--offscreen", "--size", "1280x720", "--stereo", "mono" if i == 0 else "sbs", "--out",
+                     str(out / "pictures" / kiosk), "--every-step", "--fps", "4"]
+        elif i > 0:
+            continue
+        programs.start(f"display-{kiosk}", *show)
+    visitors = []
+    for kiosk in KIOSKS:
+        name = f"visitor-{kiosk}"
+        programs.start(name, "visitor", "--kiosk", kiosk, "--scenario", SCENARIO, "--report",
+                       str(out / f"{name}.json"), *domain)
+        visitors.append(name)
+    programs.start("haptic", "haptic", "--device", "virtual", "--kiosk", KIOSKS[0], "--user", "1", "--report",
+                   str(out / "haptic.json"), *domain)
+    return visitors
+
+
+def gather(out, visitors, replays):
+    server = read_json(out / "server.json")
+    reports = [read_json(out / f"{name}.json") for name in visitors]
+    activities = [a for r in reports for a in r.get("activities", [])]
+    pictures = sorted(glob.glob(str(out / "pictures" / "**" / "*.png"), recursive=True))
+    metrics = {
+        "activities.done": sum(1 for a in activities if a.get("done")),
+        "activities.asked": 2 * len(visitors),
+        "steps.done": sum(len([s for s in a.get("steps", []) if s.get("done")]) for a in activities),
+        "kiosks": len(visitors),
+        "overruns": server.get("overruns", -1),
+        "late_wakeups": server.get("late_wakeups", -1),
+        "preemptions": server.get("preemptions", -1),
+        "water_l": round(sum(r.get("water_l", 0) for r in reports), 2),
+        "pictures": len(pictures),
+        "replays.same_hash": replays[0],
+        "replays.asked": replays[1],
+        "force_n.max": max([r.get("force_n", {}).get("max", 0) for r in reports], default=0),
+    }
+    for key, value in server.get("tick_us", {}).items():
+        metrics[f"tick_us.{key}"] = value
+    for key in ("median", "p99", "p999", "max"):
+        values = [r["rtt_us"][key] for r in reports if key in r.get("rtt_us", {})]
+        if values:
+            metrics[f"rtt_us.{key}"] = max(values)
+    return metrics, activities, pictures
+
+
+def print_summary(metrics, activities, out):
+    print("\nArchimedes' screw, two kiosks")
+    for activity in activities:
+        mark = "done" if activity.get("done") else "NOT DONE"
+        print(f"  {activity.get('kiosk', ''):<9} {activity.get('name', '?'):<10} {mark:<9} {activity.get('seconds', 0):6.1f} s")
+        for step in activity.get("steps", []):
+            print(f"            {step['name']:<16} {step['seconds']:6.1f} s")
+    get = lambda key: metrics.get(key, float("nan"))
+    print(f"  water lifted             {get('water_l'):8.1f} l")
+    print(f"  strongest force          {get('force_n.max'):8.2f} N")
+    print("  tick, own CPU time       median {:.0f} us, p99 {:.0f}, p99.9 {:.0f}, max {:.0f}".format(
+        *(get(f"tick_us.{k}") for k in ("median", "p99", "p999", "max"))))
+    print(f"  overruns of ours         {get('overruns'):8.0f}      late wake-ups {get('late_wakeups'):.0f}")
+    print("  motion to force          median {:.0f} us, p99 {:.0f}, p99.9 {:.0f}, max {:.0f}".format(
+        *(get(f"rtt_us.{k}") for k in ("median", "p99", "p999", "max"))))
+    print(f"  journals replayed        {metrics['replays.same_hash']} of {metrics['replays.asked']} to the live hash")
+    print(f"  pictures                 {metrics['pictures']:8d}      in {out / 'pictures'}")
+
+
+def commit():
+    result = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
+    return result.stdout.strip() or "unknown"
+
+
+def cpu_model():
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":", 1)[1].strip()
+    return "unknown"
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Runs the demo of Archimedes' screw.")
+    parser.add_argument("--bin", type=pathlib.Path, required=True)
+    parser.add_argument("--out", type=pathlib.Path, required=True)
+    parser.add_argument("--headless", action="store_true", help="pictures, no window")
+    parser.add_argument("--domain", type=int, default=42)
+    options = parser.parse_args()
+    root, out = pathlib.Path.cwd(), options.out.resolve()
+    for stale in ("pictures", "records"):
+        shutil.rmtree(out / stale, ignore_errors=True)
+    for stale in out.glob("*.json"):
+        stale.unlink()
+    out.mkdir(parents=True, exist_ok=True)
+    started = time.monotonic()
+    programs = Programs(options.bin.resolve(), out, environment_of(root))
+    problems = []
+    try:
+        print("demo: a server, two kiosks with a visitor and a display each, a second hand at the first kiosk")
+        visitors = start_all(programs, options, out)
+        if not watch_visitors(programs, visitors):
+            problems.append(f"the visitors were not done after {VISIT_LIMIT_S} s")
+        for name in [n for n in programs.running if n.startswith("display") or n == "haptic"]:
+            if programs.stop(name, 30) != 0:
+                problems.append(f"{name} ended badly: see {out / (name + '.log')}")
+        if programs.stop("server", 20) != 0:
+            problems.append(f"the server ended badly: see {out / 'server.log'}")
+        replays = replay_journals(programs, out / "records", out)
+    finally:
+        programs.stop_all()
+    metrics, activities, _ = gather(out, visitors, replays)
+    if metrics["activities.done"] != metrics["activities.asked"]:
+        problems.append("not every activity was completed: see out/demo/visitor-*.log")
+    if replays[0] != replays[1] or replays[1] == 0:
+        problems.append("a journal did not replay to its live hash: see out/demo/replay-*.log")
+    if metrics["pictures"] == 0 and (options.headless or not has_screen()):
+        problems.append("no picture was made: see out/demo/display-*.log")
+    metrics["failed"] = len(problems)
+    report = {"name": "demo", "commit": commit(), "cpu": cpu_model(), "cores": os.cpu_count(), "simd": "scalar",
+              "seconds": round(time.monotonic() - started, 1), "metrics": metrics, "activities": activities,
+              "notes": problems}
+    (out / "report.json").write_text(json.dumps(report, indent=2) + "\n")
+    print_summary(metrics, activities, out)
+    for problem in problems:
+        print(f"demo: {problem}", file=sys.stderr)
+    print(f"  report                   {out / 'report.json'}")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,97 @@
+#include "server/state/snapshot.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::state {
+namespace {
+
+WorldDescription two_bodies() {
+  WorldDescription world;
+  world.bodies.resize(2);
+  world.joints.resize(1);
+  world.agents.resize(3);
+  world.quantities.resize(2);
+  return world;
+}
+
+WorldState sample_state(double x) {
+  WorldState state(two_bodies());
+  state.tick = 42;
+  state.bodies[1].X_WB.p = Vec3(x, 2, 3);
+  state.joints[0].position = 4.5;
+  state.memory = {1.0, x};
+  state.users[2].present = true;
+  state.users[2].grasp.active = true;
+  state.users[2].grasp.body = BodyId(1);
+  state.progress.step = StepId(3);
+  return state;
+}
+
+WorldState empty_state() {
+  WorldState state(two_bodies());
+  state.memory = {0.0, 0.0};
+  return state;
+}
+
+RC_GTEST_PROP(Snapshot, RoundTripGivesTheSameHash, ()) {
+  const double x = *rc::gen::arbitrary<int>() * 1e-3;
+  const WorldState written = sample_state(x);
+  std::vector<std::byte> bytes;
+  write_snapshot(written, bytes);
+  WorldState read = empty_state();
+  RC_ASSERT(read_snapshot(bytes, read).has_value());
+  RC_ASSERT(state_hash(read) == state_hash(written));
+}
+
+RC_GTEST_PROP(Snapshot, AnyChangedByteIsFoundAndChangesNothing, ()) {
+  std::vector<std::byte> bytes;
+  write_snapshot(sample_state(1), bytes);
+  const auto at = *rc::gen::inRange<std::size_t>(0, bytes.size());
+  const auto flip = *rc::gen::inRange(1, 256);
+  bytes[at] ^= static_cast<std::byte>(flip);
+  WorldState state = empty_state();
+  const std::uint64_t before = state_hash(state);
+  RC_ASSERT(!read_snapshot(bytes, state).has_value());
+  RC_ASSERT(state_hash(state) == before);
+}
+
+TEST(Snapshot, ACutFileIsAnErrorThatSaysWhatToDo) {
+  std::vector<std::byte> bytes;
+  write_snapshot(sample_state(1), bytes);
+  for (std::size_t size = 0; size < bytes.size(); size += 7) {
+    WorldState state = empty_state();
+    const auto read = read_snapshot(std::span(bytes).first(size), state);
+    ASSERT_FALSE(read.has_value()) << size;
+    EXPECT_FALSE(read.error().remedy.empty());
+  }
+}
+
+TEST(Snapshot, AnotherScenariosSnapshotIsRefused) {
+  std::vector<std::byte> bytes;
+  write_snapshot(sample_state(1), bytes);
+  WorldDescription other = two_bodies();
+  other.bodies.resize(5);
+  WorldState state(other);
+  EXPECT_FALSE(read_snapshot(bytes, state).has_value());
+}
+
+TEST(StateHash, SeesEveryTable) {
+  const WorldState base = sample_state(1);
+  const std::uint64_t hash = state_hash(base);
+  WorldState changed = base;
+  changed.agent_enabled[2] = 1;
+  EXPECT_NE(state_hash(changed), hash);
+  changed = base;
+  changed.bodies[0].V_WB.w.z() = 1e-300;
+  EXPECT_NE(state_hash(changed), hash);
+  changed = base;
+  changed.progress.done = true;
+  EXPECT_NE(state_hash(changed), hash);
+  changed = base;
+  changed.memory[0] = -changed.memory[0];
+  EXPECT_NE(state_hash(changed), hash);
+}
+
+}  // namespace
+}  // namespace mechane::state

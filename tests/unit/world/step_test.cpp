@@ -1,0 +1,180 @@
+#include "server/world/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "server/state/snapshot.hpp"
+#include "server/state/world_state.hpp"
+#include "tests/support/allocation_guard.hpp"
+#include "tests/support/crank_world.hpp"
+#include "tests/support/scripted_hand.hpp"
+
+namespace mechane::world {
+namespace {
+
+using state::EventKind;
+using state::TickInputs;
+using state::WorldState;
+
+const Pose kAxis;
+const Vec3 kGrip(test::kCrankRadiusM, 0, 0);
+
+/// Counts what it was told, and keeps the events.
+class Watch final : public Publisher {
+ public:
+  void publish(const WorldState& state) noexcept override {
+    ++ticks;
+    for (const state::Event& event : state.event_span()) counts[static_cast<std::size_t>(event.kind)] += 1;
+    const Vec3& f = state.users[0].output.force_W.f;
+    force_max_n = std::max(force_max_n, f.norm());
+  }
+  [[nodiscard]] int count(EventKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
+
+  std::uint64_t ticks = 0;
+  std::array<int, 32> counts{};
+  double force_max_n = 0;
+};
+
+class Stage {
+ public:
+  explicit Stage(double stiffness_n_per_m = 600) {
+    WorldConfig config;
+    config.hand = test::shared_hand();
+    auto made = World::create(test::make_crank_description(stiffness_n_per_m), config);
+    if (!made) throw std::runtime_error(made.error().to_string());
+    world = std::move(*made);
+  }
+  void step(const TickInputs& inputs) { world::step(*world, inputs, watch, timer); }
+  void play(const test::ScriptedHand& hand, std::uint64_t first, std::uint64_t ticks) {
+    for (std::uint64_t t = first; t < first + ticks; ++t) {
+      TickInputs inputs;
+      inputs.users[0] = hand.sample(t);
+      step(inputs);
+    }
+  }
+  [[nodiscard]] double turns() const { return world->state.joints[0].position / (2 * kPi); }
+
+  std::unique_ptr<World> world;
+  SystemClock clock;
+  PhaseTimer timer{clock};
+  Watch watch;
+};
+
+TEST(Step, AHandThatHoldsTheHandleTurnsTheCrankAndFeelsIt) {
+  Stage stage;
+  stage.play({kGrip, kAxis, 2 * kPi}, 0, 4000);
+  EXPECT_EQ(stage.watch.count(EventKind::grasped), 1);
+  EXPECT_GT(stage.turns(), 2.5);
+  EXPECT_GT(stage.watch.force_max_n, 0.05);
+  EXPECT_EQ(stage.watch.count(EventKind::activity_done), 1);
+}
+
+TEST(Step, TheSameVisitFiveCentimetresBesideTurnsNothing) {
+  Stage stage;
+  stage.play({kGrip, kAxis, 2 * kPi, Vec3(0, 0.05, 0)}, 0, 4000);
+  EXPECT_EQ(stage.watch.count(EventKind::grasped), 0);
+  EXPECT_EQ(stage.turns(), 0);
+  EXPECT_EQ(stage.watch.force_max_n, 0);
+}
+
+TEST(Step, TheSameVisitWithoutStiffnessTurnsNothing) {
+  Stage stage(0);
+  stage.play({kGrip, kAxis, 2 * kPi}, 0, 4000);
+  EXPECT_NEAR(stage.turns(), 0, 1e-6);
+  EXPECT_EQ(stage.watch.force_max_n, 0);
+}
+
+TEST(Step, SameInputsGiveTheSameBits) {
+  Stage first;
+  Stage second;
+  const test::ScriptedHand hand(kGrip, kAxis, 5);
+  for (std::uint64_t t = 0; t < 10'000; t += 1000) {
+    first.play(hand, t, 1000);
+    second.play(hand, t, 1000);
+    ASSERT_EQ(state::state_hash(first.world->state), state::state_hash(second.world->state)) << "after tick " << t + 1000;
+  }
+  Stage other;
+  other.play({kGrip, kAxis, 5.000001}, 0, 10'000);
+  EXPECT_NE(state::state_hash(first.world->state), state::state_hash(other.world->state));
+}
+
+TEST(Step, TicksAllocateNothing) {
+  if (!test::AllocationGuard::available()) GTEST_SKIP() << "a sanitizer's malloc cannot be counted";
+  Stage stage;
+  const test::ScriptedHand hand(kGrip, kAxis, 5);
+  std::vector<TickInputs> inputs(10'000);
+  for (std::uint64_t t = 0; t < inputs.size(); ++t) inputs[t].users[0] = hand.sample(t);
+  const test::AllocationGuard guard;
+  for (const TickInputs& input : inputs) stage.step(input);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(guard.frees(), 0u);
+}
+
+TEST(Step, WhenSamplesStopForcesAreHeldTenMillisecondsAndGoneAfterFifty) {
+  Stage stage;
+  const test::ScriptedHand hand(kGrip, kAxis, 5);
+  stage.play(hand, 0, 1500);
+  const double held_n = stage.world->state.users[0].output.force_W.f.norm();
+  ASSERT_GT(held_n, 0.01);
+  const double rate = stage.world->state.joints[0].velocity;
+  for (int age_ms = 1; age_ms <= 60; ++age_ms) {
+    TickInputs inputs;
+    inputs.users[0] = hand.sample(1499);
+    inputs.users[0].fresh = false;
+    inputs.users[0].age = std::chrono::milliseconds(age_ms);
+    stage.step(inputs);
+    const state::UserState& user = stage.world->state.users[0];
+    if (age_ms >= 50) {
+      EXPECT_EQ(user.output.force_W.f.norm(), 0) << age_ms;
+      EXPECT_EQ(user.grasp.reaction_W.f.norm(), 0) << "the body must not be held either";
+    }
+    if (age_ms <= 10) {
+      EXPECT_EQ(user.freshness, 1) << age_ms;
+    }
+  }
+  EXPECT_EQ(stage.watch.count(EventKind::input_stale), 1);
+  EXPECT_LE(std::abs(stage.world->state.joints[0].velocity), std::abs(rate) + 0.1);
+}
+
+TEST(Step, AJumpOfAMetreLetsGoAndPushesNobody) {
+  Stage stage;
+  const test::ScriptedHand hand(kGrip, kAxis, 5);
+  stage.play(hand, 0, 1500);
+  ASSERT_TRUE(stage.world->state.users[0].grasp.active);
+  TickInputs inputs;
+  inputs.users[0] = hand.sample(1500);
+  inputs.users[0].sample.X_WH.p += Vec3(1, 0, 0);
+  stage.step(inputs);
+  EXPECT_FALSE(stage.world->state.users[0].grasp.active);
+  EXPECT_EQ(stage.world->state.users[0].output.force_W.f.norm(), 0);
+  EXPECT_EQ(stage.watch.count(EventKind::released), 1);
+}
+
+TEST(Step, AUserWhoLeavesLetsGo) {
+  Stage stage;
+  const test::ScriptedHand hand(kGrip, kAxis, 5);
+  stage.play(hand, 0, 1500);
+  stage.step(TickInputs{});
+  EXPECT_FALSE(stage.world->state.users[0].present);
+  EXPECT_FALSE(stage.world->state.users[0].grasp.active);
+  EXPECT_EQ(stage.watch.count(EventKind::user_left), 1);
+}
+
+TEST(World, ResumesFromASnapshotWhereItWas) {
+  Stage stage;
+  const test::ScriptedHand hand(kGrip, kAxis, 5);
+  stage.play(hand, 0, 1500);
+  std::vector<std::byte> snapshot;
+  state::write_snapshot(stage.world->state, snapshot);
+  WorldConfig config;
+  config.hand = test::shared_hand();
+  auto resumed = World::resume(test::make_crank_description(), config, snapshot);
+  ASSERT_TRUE(resumed) << resumed.error().to_string();
+  EXPECT_EQ((*resumed)->state.joints[0].position, stage.world->state.joints[0].position);
+  EXPECT_EQ((*resumed)->state.tick, stage.world->state.tick);
+  EXPECT_FALSE((*resumed)->state.users[0].present);
+}
+
+}  // namespace
+}  // namespace mechane::world
