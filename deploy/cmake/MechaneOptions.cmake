@@ -30,6 +30,11 @@ if(MECHANE_SANITIZE)
   endif()
 endif()
 
+if(MECHANE_FUZZ)
+  # Every room tells libFuzzer which of its branches an input took.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 set(MECHANE_WARNINGS
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -Wcast-align -Wformat=2 -Wimplicit-fallthrough -Werror)

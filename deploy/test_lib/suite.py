@@ -1,0 +1,178 @@
+"""The test suite's phases, one after another. Run by deploy/test; see there."""
+
+import argparse
+import os
+import shutil
+import signal
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable
+
+import processes
+from results import Case, Tally, read_junit, write_junit
+
+ROOT = Path(__file__).resolve().parents[2]
+OUT = ROOT / "out/test"
+JOBS = str(os.cpu_count() or 2)
+FUZZ_SECONDS = 10
+
+SANITIZER_ENV = {
+    "ASAN_OPTIONS": "abort_on_error=1:detect_stack_use_after_return=1",
+    "UBSAN_OPTIONS": "print_stacktrace=1:abort_on_error=1",
+    "TSAN_OPTIONS": "halt_on_error=1:second_deadlock_stack=1",
+}
+
+
+@dataclass
+class Phase:
+    title: str
+    run: Callable[[Path], Tally]  # gets its log, returns its cases
+
+
+def build(preset: str, *targets: str) -> Phase:
+    def run(log: Path) -> Tally:
+        name = f"build {preset}"
+        configured = processes.run(["cmake", "--preset", preset], log, limit_s=300)
+        chosen = ["--target", *targets] if targets else []
+        if configured or processes.run(["cmake", "--build", f"build/{preset}", "-j", JOBS, *chosen], log, limit_s=3600):
+            return Tally([Case(name, "failed", tail(log))])
+        return Tally([Case(name, "passed")])
+
+    return Phase(f"build {preset}", run)
+
+
+def ctest(preset: str, only: str = "", leave_out: str = "") -> Phase:
+    """Runs the tests of a build. Those without DDS run side by side, the others alone (see tests/CMakeLists.txt)."""
+    def run(log: Path) -> Tally:
+        junit = log.with_suffix(".xml")
+        junit.unlink(missing_ok=True)
+        command = ["ctest", "--test-dir", f"build/{preset}", "-j", JOBS, "--output-on-failure", "--no-tests=error",
+                   "--output-junit", str(junit)]
+        command += ["-L", only] if only else []
+        command += ["-LE", leave_out] if leave_out else []
+        status = processes.run(command, log, limit_s=2400, env=SANITIZER_ENV)
+        tally = read_junit(junit)
+        if status and not tally.failed:
+            tally.cases.append(Case(f"ctest {preset}", "failed", tail(log)))
+        return tally
+
+    return Phase(f"test {preset}", run)
+
+
+def _fuzz_one(program: Path) -> Case:
+    name = program.name.removeprefix("fuzz_")
+    found = ROOT / ".cache/fuzz" / name  # what earlier runs found interesting starts the next one
+    found.mkdir(parents=True, exist_ok=True)
+    log = OUT / f"fuzz-{name}.log"
+    log.unlink(missing_ok=True)
+    status = processes.run(
+        [str(program), f"-max_total_time={FUZZ_SECONDS}", "-timeout=10", "-rss_limit_mb=3000", "-print_final_stats=1",
+         f"-artifact_prefix={OUT}/fuzz-{name}-", str(found), str(ROOT / "tests/fuzz/corpus" / name)],
+        log, limit_s=FUZZ_SECONDS + 120, env=SANITIZER_ENV)
+    return Case(f"fuzz.{name}", "failed" if status else "passed", tail(log) if status else "")
+
+
+def fuzz() -> Phase:
+    def run(log: Path) -> Tally:
+        programs = sorted(program for program in (ROOT / "build/fuzz/bin").glob("fuzz_*") if program.is_file())
+        with ThreadPoolExecutor(max_workers=int(JOBS)) as pool:
+            tally = Tally(list(pool.map(_fuzz_one, programs)))
+        if not programs:
+            tally.cases.append(Case("fuzz", "failed", "no fuzzer was built"))
+        write_junit(log.with_suffix(".xml"), "fuzz", tally)
+        return tally
+
+    return Phase(f"fuzz, {FUZZ_SECONDS} s each", run)
+
+
+def tidy() -> Phase:
+    def run(log: Path) -> Tally:
+        junit = log.with_suffix(".xml")
+        junit.unlink(missing_ok=True)
+        processes.run([sys.executable, "-B", "tests/architecture/tidy.py", "--build", "build/release", "--junit", str(junit)],
+                      log, limit_s=3600)
+        return read_junit(junit)
+
+    return Phase("clang-tidy", run)
+
+
+def tail(log: Path, lines: int = 30) -> str:
+    return "\n".join(log.read_text(errors="replace").splitlines()[-lines:])
+
+
+def phases(quick: bool) -> list[Phase]:
+    if quick:
+        return [build("dev", "in_process_tests"), ctest("dev", only="in-process", leave_out="slow")]
+    return [
+        build("release"), ctest("release"),
+        build("asan-ubsan"), ctest("asan-ubsan", leave_out="architecture|plain"),
+        build("tsan", "in_process_tests"), ctest("tsan", only="in-process", leave_out="architecture|plain"),
+        build("fuzz", "fuzzers"), fuzz(),
+        tidy(),
+    ]
+
+
+def clock(seconds: float) -> str:
+    return f"{int(seconds) // 60}:{int(seconds) % 60:02}"
+
+
+def run_phase(phase: Phase, log: Path) -> Tally:
+    log.unlink(missing_ok=True)
+    log.touch()
+    tally = phase.run(log)
+    left = processes.end_leftovers()
+    if left:
+        tally.cases.append(Case(f"{phase.title} ends its processes", "failed", "left running: " + ", ".join(sorted(set(left)))))
+    return tally
+
+
+def report(tally: Tally, log: Path, seconds: float) -> None:
+    skipped = f", {tally.count('skipped')} skipped" if tally.count("skipped") else ""
+    print(f"      {tally.count('passed')} passed, {len(tally.failed)} failed{skipped}, in {clock(seconds)}", flush=True)
+    for case in tally.failed:
+        print(f"\n  FAILED  {case.name}   (whole log: {log.relative_to(ROOT)})")
+        for line in case.detail.splitlines()[-25:]:
+            print(f"    {line}")
+    if tally.failed:
+        print()
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="deploy/test")
+    parser.add_argument("--quick", action="store_true", help="one build, the tests that need no network, style")
+    chosen = phases(parser.parse_args().quick)
+
+    os.chdir(ROOT)
+    shutil.rmtree(OUT, ignore_errors=True)
+    OUT.mkdir(parents=True)
+    processes.adopt_orphans()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+
+    total = Tally()
+    broken = ""  # the build that failed: its tests cannot run
+    started = time.monotonic()
+    try:
+        for number, phase in enumerate(chosen, 1):
+            print(f"[{number}/{len(chosen)}  {clock(time.monotonic() - started)}] {phase.title}", flush=True)
+            if broken and phase.title == broken.replace("build", "test"):
+                print("      not run: its build failed", flush=True)
+                continue
+            begun = time.monotonic()
+            log = OUT / f"{number}-{phase.title.split(',')[0].replace(' ', '-')}.log"
+            tally = run_phase(phase, log)
+            broken = phase.title if phase.title.startswith("build") and tally.failed else ""
+            report(tally, log, time.monotonic() - begun)
+            total.add(tally)
+    finally:
+        processes.end_leftovers(grace_s=0)
+    for name in sorted({case.name for case in total.failed}):
+        print(f"failed: {name}")
+    print(f"{total.count('passed')} passed, {len(total.failed)} failed")
+    return 1 if total.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
