@@ -25,7 +25,7 @@ btQuaternion to_bt(const Quat& q) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 btTransform to_bt(const Pose& X) {
-  return {to_bt(X.R), to_bt(X.p)};
+  return btTransform(to_bt(X.R), to_bt(X.p));
 }
 Vec3 from_bt(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
@@ -162,12 +162,13 @@ struct DynamicsWorld::Impl {
   void load_bodies(const state::WorldState& state);
   void apply_forces(state::WorldState& state, double dt_s);
   void apply_axis_force(const Joint& joint, const JointMeasure& now, double force);
+  static double most_viscous(const Joint& joint, const JointMeasure& now, double dt_s);
   void gather_joints(state::WorldState& state, double dt_s);
   void gather_grasps(state::WorldState& state, double dt_s);
   void integrate(double dt_s);
   void store_bodies(state::WorldState& state);
   void store_joints(state::WorldState& state);
-  void store_grasps(state::WorldState& state, double dt_s);
+  void store_grasps(state::WorldState& state);
   void solve(double dt_s);
 
   RowConstraint& grip(std::size_t user, std::size_t body) { return *grips[user * bodies.size() + body]; }
@@ -251,7 +252,7 @@ void DynamicsWorld::step(state::WorldState& state, double dt_s) noexcept {
   impl_->integrate(dt_s);
   impl_->store_bodies(state);
   impl_->store_joints(state);
-  impl_->store_grasps(state, dt_s);
+  impl_->store_grasps(state);
 }
 
 void DynamicsWorld::Impl::load_bodies(const state::WorldState& state) {
@@ -265,7 +266,10 @@ void DynamicsWorld::Impl::load_bodies(const state::WorldState& state) {
     }
     const Pose X_WC = from.X_WB * body.X_BC;
     const Twist V_WC = moves ? Twist{from.V_WB.at(X_WC.p - from.X_WB.p), from.V_WB.w} : Twist{};
-    body.frame = {from.X_WB, X_WC.p, V_WC};
+    const Mat3 R_WC(X_WC.R);
+    const Vec3 inverse = moves ? Vec3(body.principal_kg_m2.cwiseInverse()) : Vec3::Zero();
+    body.frame = {from.X_WB, X_WC.p, V_WC, moves ? 1 / body.mass_kg : 0,
+                  R_WC * inverse.asDiagonal() * R_WC.transpose()};
     body.bullet.setCenterOfMassTransform(to_bt(X_WC));
     body.bullet.setLinearVelocity(to_bt(V_WC.v));
     body.bullet.setAngularVelocity(to_bt(V_WC.w));
@@ -302,23 +306,27 @@ void DynamicsWorld::Impl::apply_axis_force(const Joint& joint, const JointMeasur
   }
 }
 
+/// The coefficient that stops the joint in one step: more would turn it back. By the bodies' own mass or inertia, at most the joint's.
+double DynamicsWorld::Impl::most_viscous(const Joint& joint, const JointMeasure& now, double dt_s) {
+  double inverse = 0;
+  for (const Body* body : {joint.body1, joint.body2}) {
+    const Frame& f = body->frame;
+    inverse += joint.description.kind == state::JointKind::hinge ? now.axis_W.dot(f.inverse_inertia_W * now.axis_W)
+                                                                 : f.inverse_mass;
+  }
+  return inverse > 0 ? 1 / (dt_s * inverse) : 0;
+}
+
 void DynamicsWorld::Impl::gather_joints(state::WorldState& state, double dt_s) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     Joint& joint = joints[i];
     state::JointState& at = state.joints[i];
     if (at.enabled) {
       const JointMeasure now = measure_joint(joint.description, joint.body1->frame, joint.body2->frame, at.position);
-      // Implicit in the bodies' own inverse inertia about the axis, which is at least the joint's: stable for any coefficient.
-      double inverse = 0;
-      for (const Body* body : {joint.body1, joint.body2}) {
-        const btVector3 axis = to_bt(now.axis_W);
-        const bool hinge = joint.description.kind == state::JointKind::hinge;
-        inverse += hinge ? axis.dot(body->bullet.getInvInertiaTensorWorld() * axis) : body->bullet.getInvMass();
-      }
-      const double drag = -at.viscous * now.velocity / (1 + at.viscous * dt_s * inverse);
+      const double drag = -std::min(at.viscous, most_viscous(joint, now, dt_s)) * now.velocity;
       apply_axis_force(joint, now, at.load + drag);
       joint_rows(joint.description, at, joint.body1->frame, joint.body2->frame, dt_s, joint.constraint->rows);
-      active.push_back(joint.constraint.get());
+      if (joint.constraint->rows.count > 0) active.push_back(joint.constraint.get());
     }
     at.load = 0;
     at.resistance = 0;
@@ -379,7 +387,9 @@ void DynamicsWorld::Impl::store_bodies(state::WorldState& state) {
     const Twist V_WC{from_bt(body.bullet.getLinearVelocity()), from_bt(body.bullet.getAngularVelocity())};
     to.X_WB = X_WB;
     to.V_WB = {V_WC.at(X_WB.p - X_WC.p), V_WC.w};
-    body.frame = {X_WB, X_WC.p, V_WC};
+    body.frame.X_WB = X_WB;
+    body.frame.p_WCm = X_WC.p;
+    body.frame.V_WCm = V_WC;
   }
 }
 
@@ -395,8 +405,7 @@ void DynamicsWorld::Impl::store_joints(state::WorldState& state) {
   }
 }
 
-void DynamicsWorld::Impl::store_grasps(state::WorldState& state, double dt_s) {
-  (void)dt_s;
+void DynamicsWorld::Impl::store_grasps(state::WorldState& state) {
   for (std::size_t u = 0; u < state.users.size(); ++u) {
     state::Grasp& grasp = state.users[u].grasp;
     grasp.reaction_W = {};

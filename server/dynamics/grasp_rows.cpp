@@ -79,7 +79,7 @@ GripStep grasp_rows(const GripSpring& spring, const Frame& body, state::UserStat
   grip.inverse_inertia = angular.softness;
 
   const double share = std::clamp(user.freshness, 0.0, 1.0) * dt_s;
-  const Frame hand{{grip.p_WG, Quat::Identity()}, grip.p_WG, grip.V_WG};
+  const Frame hand{{grip.p_WG, Quat::Identity()}, grip.p_WG, grip.V_WG, 0, Mat3::Zero()};
   const Vec3 v_body = body.V_WCm.at(grip.p_WG - body.p_WCm);
   const Mat3 n = axes_along(spring.stiffness_n_per_m * error_W + spring.damping_ns_per_m * (grip.V_WG.v - v_body));
   const Mat3 a = axes_along(spring.stiffness_nm_per_rad * turn_error_W +

@@ -93,17 +93,21 @@ JointMeasure measure_joint(const state::JointDescription& joint, const Frame& bo
 void joint_rows(const state::JointDescription& joint, const state::JointState& state, const Frame& body1,
                 const Frame& body2, double dt_s, RowSet& rows) noexcept {
   rows.clear();
+  if (body1.inverse_mass + body2.inverse_mass <= 0) return;
   const Pose X_WJ1 = body1.X_WB * joint.X_B1J;
   const Pose X_WJ2 = body2.X_WB * joint.X_B2J;
   const JointMeasure now = measure_joint(joint, body1, body2, state.position);
+  std::size_t locked = 0;
   switch (joint.kind) {
     case JointKind::ball:
       lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, dt_s, rows);
+      locked = rows.count;
       break;
     case JointKind::hinge: {
       const Vec3 error_W = X_WJ2.rotate(Vec3::UnitZ()).cross(now.axis_W);
       lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, dt_s, rows);
       lock_rotation(X_WJ1.R, error_W, false, dt_s, rows);
+      locked = rows.count;
       const Row axis_row = angular_row(now.axis_W);
       add_friction(axis_row, state, dt_s, rows);
       add_limits(axis_row, state, now, kMaxAngularCorrection, dt_s, rows);
@@ -113,12 +117,14 @@ void joint_rows(const state::JointDescription& joint, const state::JointState& s
       const Vec3 error_W = rotation_vector(X_WJ1.R * X_WJ2.R.conjugate());
       lock_position(body1, body2, X_WJ1, X_WJ2.p, 1, dt_s, rows);
       lock_rotation(X_WJ1.R, error_W, true, dt_s, rows);
+      locked = rows.count;
       const Row axis_row = linear_row(body1, body2, X_WJ2.p, now.axis_W);
       add_friction(axis_row, state, dt_s, rows);
       add_limits(axis_row, state, now, kMaxLinearCorrection, dt_s, rows);
       break;
     }
   }
+  decouple(body1, body2, locked, rows);
 }
 
 }  // namespace mechane::dynamics

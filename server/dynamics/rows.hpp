@@ -12,8 +12,10 @@ namespace mechane::dynamics {
 /// A body as the rows see it at the start of a step.
 struct Frame {
   Pose X_WB;
-  Vec3 p_WCm = Vec3::Zero();  ///< centre of mass
-  Twist V_WCm;                ///< velocity of the centre of mass
+  Vec3 p_WCm = Vec3::Zero();              ///< centre of mass
+  Twist V_WCm;                            ///< velocity of the centre of mass
+  double inverse_mass = 0;                ///< 1/kg; 0: it does not move
+  Mat3 inverse_inertia_W = Mat3::Zero();  ///< about the centre of mass, 1/(kg m^2)
 };
 
 /// One row: `target` is the wanted value of n.(v2 - v1) + a2.w2 - a1.w1, where v and w are velocities of the centres of mass after
@@ -58,5 +60,11 @@ struct RowSet {
 [[nodiscard]] inline double row_velocity(const Row& row, const Frame& body1, const Frame& body2) noexcept {
   return row.n_W.dot(body2.V_WCm.v - body1.V_WCm.v) + row.a2_W.dot(body2.V_WCm.w) - row.a1_W.dot(body1.V_WCm.w);
 }
+
+/// Combines rows so that they do not disturb each other: the first `locked` rows, whose impulses have no limits, become orthonormal
+/// in the bodies' inverse mass; what remains of the others is orthogonal to those. The solutions and the others' impulses stay the
+/// same, but a solver that goes row by row finds a joint's in one sweep, however far its bodies' centres of mass are.
+/// Leaves the rows as they are where neither body moves or where rows repeat each other.
+void decouple(const Frame& body1, const Frame& body2, std::size_t locked, RowSet& rows) noexcept;
 
 }  // namespace mechane::dynamics
