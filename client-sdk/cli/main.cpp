@@ -63,7 +63,7 @@ int add_and_parse(int argc, char** argv) {
     return app.exit(e);
   }
   if (*echo_command) return cli::run_echo(echo);
-  if (*check_command) return scenario::run_check(files, check_json, std::cout);
+  if (*check_command) return scenario::run_check(files, std::cout, check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);
   return cli::run_doctor(doctor_json, probe_s);
 }
 

@@ -1,0 +1,142 @@
+// mechane-haptic: runs a haptic device at a kiosk. `--device virtual` is a simulated hand that strokes a place of the world.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <atomic>
+
+#include "client-sdk/haptic/haptic_loop.hpp"
+#include "client-sdk/haptic/virtual_device.hpp"
+#include "server/log/log.hpp"
+#include "server/realtime/periodic_thread.hpp"
+
+namespace {
+
+using namespace mechane;
+
+volatile std::sig_atomic_t g_stop = 0;  // the one thing that a signal handler may write
+
+struct Arguments {
+  client::ClientConfig client;
+  std::string device = "virtual";
+  std::vector<double> center{0.0, 0.72, 0.19};
+  double radius_m = 0.05;
+  double seconds = 0;
+  int fifo_priority = 70;
+  bool local = false;
+  std::string report_file;
+};
+
+void add_options(CLI::App& app, Arguments& a) {
+  app.add_option("--device", a.device, "'virtual': a simulated hand that strokes a circle")->check(CLI::IsMember({"virtual"}));
+  app.add_option("--kiosk", a.client.kiosk, "name of the kiosk");
+  app.add_option("--user", a.client.user, "which hand of the kiosk, 0..3");
+  app.add_option("--join", a.client.join_kiosk, "share the world of this kiosk");
+  app.add_option("--domain", a.client.domain, "DDS domain");
+  app.add_option("--center", a.center, "middle of the virtual hand's circle in the world, metres: x y z")->expected(3);
+  app.add_option("--radius", a.radius_m, "radius of the circle, metres");
+  app.add_option("--seconds", a.seconds, "stop after so long; 0: until told to stop");
+  app.add_option("--fifo-priority", a.fifo_priority, "of the loop; 0: an ordinary thread");
+  app.add_option("--report", a.report_file, "write a JSON report to this file");
+  app.add_flag("--local", a.local, "render forces from the local contact model");
+}
+
+/// A hand that strokes a circle in the x-y plane around `center`, once in four seconds.
+haptic::HandIntent stroke(const Vec3& center, double radius_m, double t_s) {
+  haptic::HandIntent intent;
+  const double angle = 2 * kPi * t_s / 4;
+  intent.X_WH.p = center + radius_m * Vec3(std::cos(angle), std::sin(angle), 0);
+  return intent;
+}
+
+nlohmann::json to_json(const haptic::HapticLoop& loop, const realtime::PeriodicThread& thread) {
+  const auto us = [](Duration d) { return std::chrono::duration<double, std::micro>(d).count(); };
+  const haptic::LoopStats& s = loop.stats();
+  const realtime::PeriodicReport r = thread.report();
+  return {{"ticks", s.ticks},
+          {"sent", s.sent},
+          {"answers", s.answers},
+          {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}},
+          {"overruns", r.overruns},
+          {"late_wakeups", r.late_wakeups},
+          {"skipped", r.skipped},
+          {"rtt_us",
+           {{"median", us(loop.round_trip().quantile(0.5))},
+            {"p99", us(loop.round_trip().quantile(0.99))},
+            {"p999", us(loop.round_trip().quantile(0.999))},
+            {"max", us(loop.round_trip().max())}}}};
+}
+
+/// The loop runs on its own thread; this one waits for the end.
+int run(const Arguments& a, client::Client& client) {
+  haptic::VirtualDevice device;
+  auto loop = haptic::HapticLoop::create(client, device, a.local ? haptic::RenderMode::local : haptic::RenderMode::server);
+  if (!loop) {
+    log::error(loop.error());
+    return 2;
+  }
+  SystemClock clock;
+  realtime::PeriodicConfig config;
+  config.name = "haptic-loop";
+  config.fifo_priority = a.fifo_priority;
+  realtime::PeriodicThread thread(config, clock);
+  const Vec3 center(a.center[0], a.center[1], a.center[2]);
+  std::atomic<bool> leave{false};
+  std::atomic<bool> released{false};
+  const auto tick = [&](const realtime::TickTiming& timing) {
+    const Duration dt = config.period * static_cast<std::int64_t>(1 + timing.skipped);
+    device.intend(stroke(center, a.radius_m, static_cast<double>(timing.index) * kTickSeconds));
+    if (!leave.load(std::memory_order_relaxed)) {
+      (*loop)->tick(timing.woke, dt);
+    } else if ((*loop)->release(timing.woke, dt)) {
+      released.store(true, std::memory_order_relaxed);
+    }
+  };
+  if (auto started = thread.start(tick); !started) {
+    log::error(started.error());
+    return 2;
+  }
+  SystemClock waiting;
+  const TimePoint end = waiting.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.seconds));
+  while (g_stop == 0 && (a.seconds <= 0 || waiting.now() < end)) {
+    if (client.state() == client::LinkState::refused) log::warning(client.refusal());
+    waiting.sleep_until(waiting.now() + std::chrono::milliseconds(200));
+  }
+  // The force ramps down before the loop ends, so that nobody's hand feels the program stop.
+  leave = true;
+  for (int i = 0; i < 100 && !released; ++i) waiting.sleep_until(waiting.now() + std::chrono::milliseconds(10));
+  thread.stop();
+  const std::string json = to_json(**loop, thread).dump(2) + "\n";
+  if (a.report_file.empty()) {
+    std::fputs(json.c_str(), stdout);
+    return 0;
+  }
+  std::ofstream out(a.report_file);
+  out << json;
+  out.flush();
+  if (out) return 0;
+  log::error(Error{"the report could not be written", a.report_file, "check the folder and the free space"});
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments a;
+  CLI::App app{"Runs a haptic device at a kiosk: the hand goes to the server, the force comes back."};
+  add_options(app, a);
+  CLI11_PARSE(app, argc, argv);
+  log::start("haptic", log::Level::info);
+  a.client.role = client::Role::hand;
+  a.client.program = "mechane-haptic";
+  std::signal(SIGINT, [](int) { g_stop = 1; });
+  std::signal(SIGTERM, [](int) { g_stop = 1; });
+  auto client = client::Client::connect(a.client);
+  if (!client) {
+    log::error(client.error());
+    return 2;
+  }
+  return run(a, **client);
+}

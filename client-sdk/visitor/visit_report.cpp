@@ -1,0 +1,47 @@
+// The visitor's report as JSON.
+#include <nlohmann/json.hpp>
+
+#include "client-sdk/visitor/visit_session.hpp"
+
+namespace mechane::visitor {
+namespace {
+
+double us(Duration d) { return std::chrono::duration<double, std::micro>(d).count(); }
+
+nlohmann::json activity_json(const ActivityReport& activity, const std::string& kiosk) {
+  nlohmann::json steps = nlohmann::json::array();
+  for (const StepTime& step : activity.steps) steps.push_back({{"name", step.name}, {"seconds", step.seconds}, {"done", step.done}});
+  nlohmann::json moves = nlohmann::json::array();
+  for (const MoveResult& move : activity.moves) moves.push_back({{"name", move.name}, {"seconds", move.seconds}, {"ok", move.ok}});
+  return {{"kiosk", kiosk},       {"name", activity.name}, {"done", activity.done}, {"seconds", activity.seconds},
+          {"steps", std::move(steps)}, {"moves", std::move(moves)}};
+}
+
+}  // namespace
+
+std::string to_json(const VisitReport& report) {
+  nlohmann::json activities = nlohmann::json::array();
+  for (const ActivityReport& activity : report.activities) activities.push_back(activity_json(activity, report.kiosk));
+  nlohmann::json quantities = nlohmann::json::object();
+  for (const auto& [name, value] : report.quantities) quantities[name] = value;
+  const haptic::LoopStats& loop = report.loop;
+  const double mean_n = loop.ticks_with_force > 0 ? loop.force_sum_n / static_cast<double>(loop.ticks_with_force) : 0;
+  const nlohmann::json json = {
+      {"kiosk", report.kiosk},
+      {"world", report.world},
+      {"complete", report.complete()},
+      {"activities", std::move(activities)},
+      {"quantities", std::move(quantities)},
+      {"water_l", report.water_l},
+      {"force_n", {{"max", loop.force_max_n}, {"mean", mean_n}, {"ticks", loop.ticks_with_force}}},
+      {"holding_ticks", loop.holding_ticks},
+      {"samples", {{"sent", loop.sent}, {"answers", loop.answers}, {"ticks", loop.ticks}}},
+      {"rtt_us",
+       {{"median", us(report.round_trip.quantile(0.5))},
+        {"p99", us(report.round_trip.quantile(0.99))},
+        {"p999", us(report.round_trip.quantile(0.999))},
+        {"max", us(report.round_trip.max())}}}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace mechane::visitor

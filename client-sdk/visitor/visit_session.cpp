@@ -1,0 +1,200 @@
+#include "client-sdk/visitor/visit_session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "client-sdk/haptic/virtual_device.hpp"
+#include "client-sdk/visitor/null_loader.hpp"
+
+namespace mechane::visitor {
+namespace {
+
+using client::LinkState;
+using state::VisitDescription;
+using state::WorldDescription;
+
+constexpr Duration kTick = std::chrono::milliseconds(1);
+
+/// Plays activities one after another over one client and one device.
+class Session {
+ public:
+  Session(const VisitOptions& options, const WorldDescription& world, client::Client& client, const volatile std::sig_atomic_t& stop)
+      : options_(options), world_(world), client_(client), stop_(stop), X_WB_(world.bodies.size()) {
+    for (std::size_t i = 0; i < X_WB_.size(); ++i) X_WB_[i] = world.bodies[i].X_WB;
+  }
+
+  Expected<void> start() {
+    auto loop = haptic::HapticLoop::create(client_, device_, options_.render);
+    if (!loop) return tl::unexpected(loop.error());
+    loop_ = std::move(*loop);
+    next_ = clock_.now();
+    return {};
+  }
+
+  ActivityReport play(const VisitDescription& visit);
+  void release() {
+    for (int i = 0; i < 1000; ++i) {
+      wait_for_tick();
+      if (loop_->release(clock_.now(), kTick)) return;
+    }
+  }
+  void fill(VisitReport& report) const;
+
+ private:
+  void wait_for_tick() {
+    next_ += kTick;
+    // After a stall the grid moves on: a hand does not make up for lost time in a burst.
+    next_ = std::max(next_, clock_.now() - kTick);
+    clock_.sleep_until(next_);
+  }
+  void tick() {
+    wait_for_tick();
+    loop_->tick(clock_.now(), kTick);
+    if (++ticks_ % 8 == 0) look();
+  }
+  void look();
+  void note_step(ActivityReport& report);
+  [[nodiscard]] double seconds_since(TimePoint start) { return std::chrono::duration<double>(clock_.now() - start).count(); }
+
+  const VisitOptions& options_;
+  const WorldDescription& world_;
+  client::Client& client_;
+  const volatile std::sig_atomic_t& stop_;
+  SystemClock clock_;
+  haptic::VirtualDevice device_;
+  std::unique_ptr<haptic::HapticLoop> loop_;
+  std::vector<Pose> X_WB_;
+  client::Frame frame_;
+  std::optional<client::WorldStatus> status_;
+  TimePoint next_{};
+  TimePoint step_began_{};
+  std::string step_;
+  std::uint64_t ticks_ = 0;
+};
+
+/// Poses and progress as a visitor sees them: by looking at the scene, at some 120 Hz.
+void Session::look() {
+  if (client_.newest_frame(frame_)) {
+    for (const client::BodyPose& body : frame_.bodies) {
+      if (body.object < X_WB_.size()) X_WB_[body.object] = body.X_WB;
+    }
+  }
+  if (ticks_ % 40 == 0) status_ = client_.world_status();
+}
+
+void Session::note_step(ActivityReport& report) {
+  if (!status_ || status_->activity != report.name || (status_->step == step_ && !status_->done)) return;
+  if (!step_.empty() && !report.steps.empty() && !report.steps.back().done) {
+    report.steps.back().seconds = seconds_since(step_began_);
+    report.steps.back().done = true;
+  }
+  if (!status_->done) report.steps.push_back({status_->step, 0, false});
+  step_ = status_->done ? std::string() : status_->step;
+  step_began_ = clock_.now();
+  std::printf("%s: %s\n", report.name.c_str(), status_->done ? "done" : status_->step.c_str());
+  std::fflush(stdout);
+}
+
+ActivityReport Session::play(const VisitDescription& visit) {
+  ActivityReport report;
+  report.name = world_.activities[visit.activity.index()].name;
+  (void)client_.start_activity(report.name);
+  step_.clear();
+  status_.reset();
+  const TimePoint began = clock_.now();
+  step_began_ = began;
+  VisitPlayer player(world_, visit, options_.player);
+  device_.intend(player.intent());
+  // The hand waits until the world is at the activity's beginning, as a person would look before reaching out.
+  while (stop_ == 0 && seconds_since(began) < 5 && !(status_ && status_->activity == report.name && !status_->done)) tick();
+  TimePoint finished{};
+  while (stop_ == 0 && !report.done) {
+    player.advance(kTickSeconds, X_WB_, loop_->holding());
+    device_.intend(player.intent());
+    tick();
+    note_step(report);
+    report.done = status_ && status_->activity == report.name && status_->done;
+    if (player.finished() && finished == TimePoint{}) finished = clock_.now();
+    if (finished != TimePoint{} && clock_.now() - finished > options_.done_within) break;
+  }
+  // The script goes on to its end, so that the hand lets go and comes to rest.
+  while (stop_ == 0 && report.done && !player.finished()) {
+    player.advance(kTickSeconds, X_WB_, loop_->holding());
+    device_.intend(player.intent());
+    tick();
+  }
+  report.seconds = seconds_since(began);
+  report.moves.assign(player.results().begin(), player.results().end());
+  return report;
+}
+
+void Session::fill(VisitReport& report) const {
+  report.loop = loop_->stats();
+  report.round_trip = loop_->round_trip();
+  const auto status = client_.world_status();
+  if (!status) return;
+  report.world = status->world;
+  for (std::size_t i = 0; i < status->quantities.size() && i < frame_.quantities.size(); ++i) {
+    report.quantities.emplace_back(status->quantities[i].name, frame_.quantities[i]);
+    if (status->quantities[i].name == "lifted_l") report.water_l = frame_.quantities[i];
+  }
+}
+
+Expected<std::vector<const VisitDescription*>> choose_visits(const VisitOptions& options, const WorldDescription& world) {
+  std::vector<const VisitDescription*> chosen;
+  if (options.activities.empty()) {
+    for (const VisitDescription& visit : world.visits) chosen.push_back(&visit);
+  }
+  for (const std::string& name : options.activities) {
+    const ActivityId id = world.find_activity(name);
+    const auto visit = std::find_if(world.visits.begin(), world.visits.end(), [&](const auto& v) { return v.activity == id; });
+    if (!id || visit == world.visits.end()) {
+      return fail(fmt::format("no visit for the activity '{}'", name), options.scenario.string(),
+                  "name an activity that has one, or write a visit into the scenario");
+    }
+    chosen.push_back(&*visit);
+  }
+  if (chosen.empty()) return fail("the scenario has no visit to play", options.scenario.string(), "write one (see its reference)");
+  return chosen;
+}
+
+Expected<void> join(client::Client& client, const VisitOptions& options) {
+  if (client.wait_for(LinkState::joined, options.join_within)) return {};
+  if (client.state() == LinkState::refused) {
+    return fail(client.refusal(), options.client.kiosk, "stop the other program, or use another kiosk or user");
+  }
+  return fail("no server answered", options.client.kiosk, "start one with 'mechane server', in the same DDS domain and network");
+}
+
+}  // namespace
+
+bool VisitReport::complete() const {
+  return !activities.empty() && std::all_of(activities.begin(), activities.end(), [](const auto& a) { return a.done; });
+}
+
+Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std::sig_atomic_t& stop) {
+  NullLoader loader;
+  scenario::Problems problems(options.scenario.string());
+  const auto world = scenario::read_scenario(options.scenario, loader, problems);
+  if (!world) return tl::unexpected(world.error());
+  const auto visits = choose_visits(options, *world);
+  if (!visits) return tl::unexpected(visits.error());
+  auto client = client::Client::connect(options.client);
+  if (!client) return tl::unexpected(client.error());
+  if (auto joined = join(**client, options); !joined) return tl::unexpected(joined.error());
+  Session session(options, *world, **client, stop);
+  if (auto started = session.start(); !started) return tl::unexpected(started.error());
+  VisitReport report;
+  report.kiosk = options.client.kiosk;
+  do {
+    report.activities.clear();
+    for (const VisitDescription* visit : *visits) report.activities.push_back(session.play(*visit));
+  } while (options.endless && stop == 0);
+  session.release();
+  session.fill(report);
+  return report;
+}
+
+}  // namespace mechane::visitor

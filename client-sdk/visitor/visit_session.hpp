@@ -1,0 +1,59 @@
+// One visitor at one kiosk: joins, plays the scenario's visits, and reports.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mechane/client/client.hpp>
+#include <string>
+#include <vector>
+
+#include "client-sdk/haptic/haptic_loop.hpp"
+#include "client-sdk/visitor/visit_player.hpp"
+#include "server/state/description.hpp"
+
+namespace mechane::visitor {
+
+struct VisitOptions {
+  client::ClientConfig client;
+  std::filesystem::path scenario;          ///< the file that the visit is read from
+  std::vector<std::string> activities;     ///< in this order; empty: all that have a visit
+  PlayerConfig player;
+  haptic::RenderMode render = haptic::RenderMode::server;
+  Duration join_within = std::chrono::seconds(20);
+  Duration done_within = std::chrono::seconds(60);  ///< how long after its last move an activity may take to be done
+  bool endless = false;                    ///< begins again when it is through: load and attract mode
+};
+
+struct StepTime {
+  std::string name;
+  double seconds = 0;
+  bool done = false;
+};
+
+struct ActivityReport {
+  std::string name;
+  bool done = false;
+  double seconds = 0;
+  std::vector<StepTime> steps;
+  std::vector<MoveResult> moves;
+};
+
+struct VisitReport {
+  std::string kiosk;
+  std::string world;
+  std::vector<ActivityReport> activities;
+  std::vector<std::pair<std::string, double>> quantities;  ///< at the end, by name
+  double water_l = 0;                                      ///< what pumps lifted, where the world has such a quantity
+  haptic::LoopStats loop;
+  realtime::LatencyHistogram round_trip;
+  [[nodiscard]] bool complete() const;
+};
+
+/// The report as JSON; the names in it are stable.
+[[nodiscard]] std::string to_json(const VisitReport& report);
+
+/// Plays the visit with a virtual device at 1 kHz, on the calling thread, and tells on stdout where it is. `stop` is looked at in each
+/// tick. Errors: the scenario cannot be read, it has no visit for an activity, the kiosk could not be joined or was refused.
+[[nodiscard]] Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std::sig_atomic_t& stop);
+
+}  // namespace mechane::visitor
