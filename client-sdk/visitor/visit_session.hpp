@@ -1,6 +1,7 @@
 // One visitor at one kiosk: joins, plays the scenario's visits, and reports.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <mechane/client/client.hpp>

@@ -1,0 +1,71 @@
+#include "server/app/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "server/app/names.hpp"
+#include "server/world/step.hpp"
+
+namespace mechane::app {
+namespace {
+
+class NoPublisher final : public world::Publisher {
+ public:
+  void publish(const state::WorldState&) noexcept override {}
+};
+
+Expected<std::unique_ptr<world::World>> world_of(const record::JournalHeader& header,
+                                                 std::shared_ptr<const state::WorldDescription> description,
+                                                 const world::WorldConfig& config) {
+  if (header.scenario_hash != description->content_hash) {
+    return fail(fmt::format("the journal is of scenario {} in the form {}, this one is {}", header.scenario_id,
+                            header.scenario_hash, description->content_hash),
+                header.world_id, "replay it with the scenario and settings of the day it was recorded");
+  }
+  if (header.snapshot.empty()) return world::World::create(std::move(description), config);
+  return world::World::resume(std::move(description), config, header.snapshot);
+}
+
+void print_events(const world::World& world, const record::JournalTick& tick) {
+  for (const state::Event& event : tick.events) {
+    fmt::print("{:>8}  {}\n", event.tick, describe_event(*world.description, event));
+  }
+}
+
+void compare(const record::JournalTick& tick, const world::World& world, ReplayResult& result) {
+  if (!tick.hash) return;
+  ++result.hashes_compared;
+  if (*tick.hash != state::state_hash(world.state) && !result.first_difference) result.first_difference = tick.tick;
+}
+
+}  // namespace
+
+Expected<ReplayResult> replay(record::JournalReader& journal, std::shared_ptr<const state::WorldDescription> description,
+                              const world::WorldConfig& config, const ReplayOptions& options) {
+  auto world = world_of(journal.header(), std::move(description), config);
+  if (!world) return tl::unexpected(world.error());
+  SystemClock clock;
+  world::PhaseTimer timer(clock);
+  NoPublisher publisher;
+  ReplayResult result;
+  record::JournalTick tick;
+  const TimePoint began = clock.now();
+  while (journal.next(tick) && !tick.after_loss) {
+    if (options.real_time) clock.sleep_until(began + kTickPeriod * static_cast<std::int64_t>(result.ticks));
+    world::step(**world, tick.inputs, publisher, timer);
+    ++result.ticks;
+    compare(tick, **world, result);
+    if (options.show_events) print_events(**world, tick);
+  }
+  result.seconds = std::chrono::duration<double>(clock.now() - began).count();
+  result.end = journal.end();
+  result.final_hash = state::state_hash((*world)->state);
+  if (result.end.hash) {
+    ++result.hashes_compared;
+    if (*result.end.hash != result.final_hash && !result.first_difference) result.first_difference = (*world)->state.tick;
+  }
+  return result;
+}
+
+}  // namespace mechane::app

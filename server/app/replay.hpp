@@ -1,0 +1,36 @@
+// Runs a journal again and holds the result against the state hashes that the live world wrote into it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "server/base/error.hpp"
+#include "server/record/journal_reader.hpp"
+#include "server/world/world.hpp"
+
+namespace mechane::app {
+
+struct ReplayOptions {
+  bool real_time = false;   ///< at the pace of the visit instead of as fast as it can
+  bool show_events = false; ///< prints each event, with its tick, on stdout
+};
+
+struct ReplayResult {
+  std::uint64_t ticks = 0;
+  std::uint64_t hashes_compared = 0;
+  std::optional<std::uint64_t> first_difference;  ///< tick of the first hash that differs
+  std::uint64_t final_hash = 0;
+  record::JournalEnd end;
+  double seconds = 0;
+  /// The journal is whole, at least one hash was compared, and all agree.
+  [[nodiscard]] bool same() const { return !first_difference && hashes_compared > 0 && end.kind == record::JournalEnd::Kind::closed; }
+};
+
+/// Errors: the journal is of another form of the scenario (the hashes name both), or its snapshot cannot be read.
+[[nodiscard]] Expected<ReplayResult> replay(record::JournalReader& journal,
+                                            std::shared_ptr<const state::WorldDescription> description,
+                                            const world::WorldConfig& config, const ReplayOptions& options);
+
+}  // namespace mechane::app

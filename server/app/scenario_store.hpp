@@ -1,0 +1,34 @@
+// The scenarios that a program was given, read once and ready to become worlds.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/app/settings.hpp"
+#include "server/base/error.hpp"
+#include "server/state/description.hpp"
+#include "server/world/world.hpp"
+
+namespace mechane::app {
+
+/// Immutable after load(). Any thread.
+class ScenarioStore {
+ public:
+  /// Reads every scenario of the settings, builds or fetches its collision parts, and makes the hand. Takes seconds the first time;
+  /// says in the log what it does. Errors: the first problem of a scenario, with file and line; two scenarios of one id.
+  [[nodiscard]] static Expected<ScenarioStore> load(const Settings& settings);
+
+  /// Null when there is none of this id.
+  [[nodiscard]] std::shared_ptr<const state::WorldDescription> find(const std::string& id) const;
+  /// What a kiosk gets that asks for none: the first that was given.
+  [[nodiscard]] std::shared_ptr<const state::WorldDescription> first() const { return scenarios_.front(); }
+  [[nodiscard]] const world::WorldConfig& world_config() const { return config_; }
+
+ private:
+  std::vector<std::shared_ptr<const state::WorldDescription>> scenarios_;
+  world::WorldConfig config_;
+};
+
+}  // namespace mechane::app
