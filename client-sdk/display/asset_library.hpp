@@ -1,0 +1,67 @@
+// The pictures of a scenario's objects: loads each mesh file once, merges what moves together, and keeps a placeholder for what is
+// missing. Called from the display's thread only.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "client-sdk/display/render_scene.hpp"
+#include "server/base/error.hpp"
+#include "server/content/imported_scene.hpp"
+
+namespace mechane::display {
+
+/// Triangles of one material, in the frame of the object's node.
+struct ModelPart {
+  std::uint32_t mesh = 0;
+  std::uint32_t material = 0;
+  bool water = false;  ///< a node named WATER_...: drawn by the water pass, `material` means nothing
+};
+
+/// What an object looks like. B is its own frame.
+struct ObjectModel {
+  std::vector<ModelPart> parts;
+  Eigen::AlignedBox3f box_B;
+  bool missing = false;  ///< a placeholder stands for it
+};
+
+class AssetLibrary {
+ public:
+  /// Reads a mesh file, named relative to the scenario's folder.
+  using Loader = std::function<Expected<content::ImportedScene>(const std::string& uri)>;
+  explicit AssetLibrary(Loader loader);
+
+  /// The model of a node of a file (empty: the whole file), loaded on first use. What cannot be loaded is logged once and is a box.
+  const ObjectModel& model(const std::string& uri, const std::string& node);
+  /// The file itself, or null when it is missing.
+  [[nodiscard]] const content::ImportedScene* file(const std::string& uri);
+  /// Adds a mesh or material of our own.
+  std::uint32_t add_mesh(MeshData mesh);
+  std::uint32_t add_material(const MaterialData& material);
+
+  [[nodiscard]] const SceneAssets& assets() const { return assets_; }
+  /// "uri" or "uri#node", in order of name.
+  [[nodiscard]] const std::set<std::string>& missing() const { return missing_; }
+
+ private:
+  struct File {
+    std::unique_ptr<content::ImportedScene> scene;  ///< null: missing
+    std::uint32_t first_material = 0;
+  };
+  File& load(const std::string& uri);
+  ObjectModel build(const std::string& uri, const std::string& node);
+  ObjectModel placeholder(const std::string& name, const std::string& why);
+  void add_materials(const content::ImportedScene& scene, const std::string& uri);
+
+  Loader loader_;
+  SceneAssets assets_;
+  std::map<std::string, File> files_;
+  std::map<std::string, ObjectModel> models_;
+  std::set<std::string> missing_;
+};
+
+}  // namespace mechane::display

@@ -1,0 +1,116 @@
+#include "client-sdk/display/camera.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mechane::display {
+namespace {
+
+Eigen::Matrix4d frustum(double left, double right, double bottom, double top, double near_m, double far_m) {
+  Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
+  P(0, 0) = 2 * near_m / (right - left);
+  P(1, 1) = 2 * near_m / (top - bottom);
+  P(0, 2) = (right + left) / (right - left);
+  P(1, 2) = (top + bottom) / (top - bottom);
+  P(2, 2) = -(far_m + near_m) / (far_m - near_m);
+  P(2, 3) = -2 * far_m * near_m / (far_m - near_m);
+  P(3, 2) = -1;
+  return P;
+}
+
+/// Rows are the camera's axes in W: right, up, back.
+Mat3 axes_of(const Camera& camera) {
+  const Vec3 back = (camera.p_WC - camera.p_WT).normalized();
+  Vec3 right = camera.up_W.cross(back);
+  // Straight up or down: any horizontal axis serves.
+  if (right.norm() < 1e-9) right = Vec3::UnitX();
+  right.normalize();
+  Mat3 R_CW;
+  R_CW.row(0) = right;
+  R_CW.row(1) = back.cross(right);
+  R_CW.row(2) = back;
+  return R_CW;
+}
+
+}  // namespace
+
+EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
+  const Mat3 R_CW = axes_of(camera);
+  const double side = eye == Eye::left ? -0.5 : eye == Eye::right ? 0.5 : 0.0;
+  const double shift = side * camera.eye_distance_m;
+  const Vec3 p_WE = camera.p_WC + shift * R_CW.row(0).transpose();
+
+  const double half_tan = std::max(std::tan(camera.field_of_view_rad / 2),
+                                   std::tan(std::min(camera.least_horizontal_rad, 3.0) / 2) / aspect);
+  const double distance = camera.screen_distance_m > 0 ? camera.screen_distance_m : (camera.p_WT - camera.p_WC).norm();
+  const double half_height = half_tan * camera.near_m;
+  const double half_width = half_height * aspect;
+  // Both frusta meet in the same rectangle at the screen's distance.
+  const double offset = -shift * camera.near_m / std::max(distance, camera.near_m);
+
+  EyeView view;
+  view.V_CW.topLeftCorner<3, 3>() = R_CW.cast<float>();
+  view.V_CW.topRightCorner<3, 1>() = (-R_CW * p_WE).cast<float>();
+  view.P = frustum(offset - half_width, offset + half_width, -half_height, half_height, camera.near_m, camera.far_m)
+               .cast<float>();
+  view.p_WE = p_WE.cast<float>();
+  return view;
+}
+
+Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad) {
+  Camera camera;
+  camera.field_of_view_rad = field_of_view_rad;
+  const Vec3 middle = box_W.isEmpty() ? Vec3::Zero() : Vec3(box_W.center());
+  const Vec3 extent = box_W.isEmpty() ? Vec3::Ones() : Vec3(box_W.sizes());
+  camera.p_WT = middle;
+  camera.p_WC = middle + from_W.normalized();
+  const Mat3 R_CW = axes_of(camera);
+
+  // The distance at which every corner lies inside the upper three quarters of the picture.
+  const double tan_up = 0.86 * std::tan(field_of_view_rad / 2);
+  const double tan_across = 1.45 * std::tan(field_of_view_rad / 2);
+  double distance = 0.3;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
+    const Vec3 p_C = R_CW * sign.cwiseProduct(extent);
+    distance = std::max({distance, p_C.z() + std::abs(p_C.y()) / tan_up, p_C.z() + std::abs(p_C.x()) / tan_across});
+  }
+  // Looking a little below the middle leaves room for the caption.
+  const Vec3 up = R_CW.row(1);
+  camera.p_WT = middle - 0.12 * distance * std::tan(field_of_view_rad / 2) * up;
+  camera.p_WC = camera.p_WT + distance * from_W.normalized();
+  camera.least_horizontal_rad = 2 * std::atan(tan_across);
+  return camera;
+}
+
+Eigen::Matrix4f light_view(const Eigen::AlignedBox3f& box_W, const Vec3f& to_light_W) {
+  const Vec3f back = to_light_W.normalized();
+  Vec3f right = Vec3f::UnitY().cross(back);
+  if (right.norm() < 1e-4F) right = Vec3f::UnitX();
+  right.normalize();
+  Eigen::Matrix3f R_LW;
+  R_LW.row(0) = right;
+  R_LW.row(1) = back.cross(right);
+  R_LW.row(2) = back;
+  Eigen::AlignedBox3f box_L;
+  if (box_W.isEmpty()) {
+    box_L = Eigen::AlignedBox3f(Vec3f::Constant(-1), Vec3f::Constant(1));
+  } else {
+    for (int corner = 0; corner < 8; ++corner) {
+      box_L.extend(R_LW * box_W.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
+    }
+  }
+  const Vec3f half = 0.5F * box_L.sizes() + Vec3f::Constant(0.02F);
+  const Vec3f middle = box_L.center();
+  Eigen::Matrix4f M = Eigen::Matrix4f::Identity();
+  for (int axis = 0; axis < 3; ++axis) {
+    // OpenGL's depth grows away from the light.
+    const float sign = axis == 2 ? -1.0F : 1.0F;
+    M.block<1, 3>(axis, 0) = sign * R_LW.row(axis) / half(axis);
+    M(axis, 3) = -sign * middle(axis) / half(axis);
+  }
+  return M;
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,44 @@
+// Cameras and the two eyes. C is the camera's frame: it looks along -z, y up. Stereo uses parallel axes with off-axis frusta, so that
+// there is no vertical disparity; what lies at `screen_distance_m` has none at all and seems to lie in the screen.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Dense>
+
+#include "server/base/math.hpp"
+
+namespace mechane::display {
+
+enum class Eye : std::uint8_t { middle, left, right };
+
+struct Camera {
+  Vec3 p_WC{0, 1.6, 4};
+  Vec3 p_WT = Vec3::Zero();  ///< what it looks at
+  Vec3 up_W = Vec3::UnitY();
+  double field_of_view_rad = kPi / 4;  ///< vertical
+  double least_horizontal_rad = 0;     ///< narrow pictures widen until they show this much across
+  double near_m = 0.05;
+  double far_m = 400;
+  double eye_distance_m = 0.064;
+  double screen_distance_m = 0;  ///< 0: the distance of p_WT
+};
+
+/// What a shader needs to see through one eye. OpenGL clip space, depth -1..1.
+struct EyeView {
+  Eigen::Matrix4f V_CW = Eigen::Matrix4f::Identity();  ///< world to eye
+  Eigen::Matrix4f P = Eigen::Matrix4f::Identity();     ///< eye to clip
+  Vec3f p_WE = Vec3f::Zero();
+};
+
+/// `aspect` is width over height of one eye's picture.
+[[nodiscard]] EyeView eye_view(const Camera& camera, Eye eye, double aspect);
+
+/// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a third of the picture's height
+/// left free below for captions.
+[[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad);
+
+/// World to clip space of a light far away, covering the box.
+[[nodiscard]] Eigen::Matrix4f light_view(const Eigen::AlignedBox3f& box_W, const Vec3f& to_light_W);
+
+}  // namespace mechane::display

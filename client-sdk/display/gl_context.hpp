@@ -1,0 +1,39 @@
+// An OpenGL 3.3 core context: in a window, or of no surface at all. Belongs to the thread that makes it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "server/base/error.hpp"
+
+namespace mechane::display {
+
+struct PixelSize {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  friend bool operator==(const PixelSize&, const PixelSize&) = default;
+};
+
+class GlContext {
+ public:
+  virtual ~GlContext() = default;
+  /// What draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+  [[nodiscard]] virtual std::string renderer_name() const = 0;
+  /// Size of the window's picture, in pixels; offscreen: what was asked for.
+  [[nodiscard]] virtual PixelSize size() const = 0;
+  /// Shows the picture and takes the window's events. Offscreen: nothing.
+  virtual void present() = 0;
+  /// The visitor, or the operator, closed the window (Esc or its button).
+  [[nodiscard]] virtual bool close_wanted() const = 0;
+  /// A picture was asked for (key P) since the last call.
+  [[nodiscard]] virtual bool take_picture_wanted() = 0;
+};
+
+/// EGL on Mesa's surfaceless platform: no screen, no X server. Errors: no EGL, no such platform, no OpenGL 3.3.
+[[nodiscard]] Expected<std::unique_ptr<GlContext>> make_offscreen_context(PixelSize size);
+
+/// A window with a context of its own; F11 fills the screen. Errors: no screen to open a window on, no OpenGL 3.3.
+[[nodiscard]] Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const std::string& title);
+
+}  // namespace mechane::display

@@ -1,0 +1,68 @@
+#include <array>
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "client-sdk/display/gl_context.hpp"
+
+namespace mechane::display {
+namespace {
+
+constexpr const char* kRemedy =
+    "install libegl-mesa0 and libgl1-mesa-dri (deploy/install-deps does), or run without --offscreen";
+
+class OffscreenContext final : public GlContext {
+ public:
+  OffscreenContext(EGLDisplay display, EGLContext context, PixelSize size)
+      : display_(display), context_(context), size_(size) {}
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
+  ~OffscreenContext() override {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display_, context_);
+    eglTerminate(display_);
+    eglReleaseThread();
+  }
+
+  [[nodiscard]] std::string renderer_name() const override {
+    return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  }
+  [[nodiscard]] PixelSize size() const override { return size_; }
+  void present() override {}
+  [[nodiscard]] bool close_wanted() const override { return false; }
+  [[nodiscard]] bool take_picture_wanted() override { return false; }
+
+ private:
+  EGLDisplay display_;
+  EGLContext context_;
+  PixelSize size_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<GlContext>> make_offscreen_context(PixelSize size) {
+  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  if (extensions == nullptr || std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos) {
+    return fail("this machine's EGL cannot draw without a screen (no EGL_MESA_platform_surfaceless)",
+                "display, offscreen", kRemedy);
+  }
+  EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
+    return fail(fmt::format("EGL did not start (error 0x{:x})", eglGetError()), "display, offscreen", kRemedy);
+  }
+  eglBindAPI(EGL_OPENGL_API);
+  const std::array<EGLint, 7> wanted{
+      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
+  if (context == EGL_NO_CONTEXT || eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
+    const EGLint error = eglGetError();
+    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+    eglTerminate(display);
+    return fail(fmt::format("no OpenGL 3.3 core context (EGL error 0x{:x})", error), "display, offscreen", kRemedy);
+  }
+  return std::make_unique<OffscreenContext>(display, context, size);
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,92 @@
+#include <epoxy/gl.h>
+// After epoxy, which brings the OpenGL declarations.
+#include <GLFW/glfw3.h>
+
+#include "client-sdk/display/gl_context.hpp"
+
+namespace mechane::display {
+namespace {
+
+class WindowContext final : public GlContext {
+ public:
+  explicit WindowContext(GLFWwindow* window) : window_(window) {
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
+      if (action == GLFW_PRESS) static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_key(key);
+    });
+  }
+  WindowContext(const WindowContext&) = delete;
+  WindowContext& operator=(const WindowContext&) = delete;
+  ~WindowContext() override {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+
+  [[nodiscard]] std::string renderer_name() const override {
+    return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  }
+  [[nodiscard]] PixelSize size() const override {
+    int width = 0;
+    int height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+  }
+  void present() override {
+    glfwSwapBuffers(window_);
+    glfwPollEvents();
+  }
+  [[nodiscard]] bool close_wanted() const override { return glfwWindowShouldClose(window_) != 0; }
+  [[nodiscard]] bool take_picture_wanted() override { return std::exchange(picture_wanted_, false); }
+
+ private:
+  void on_key(int key) {
+    if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+    if (key == GLFW_KEY_P) picture_wanted_ = true;
+    if (key == GLFW_KEY_F11) toggle_full_screen();
+  }
+  void toggle_full_screen() {
+    if (glfwGetWindowMonitor(window_) != nullptr) {
+      glfwSetWindowMonitor(window_, nullptr, 80, 80, 1280, 720, GLFW_DONT_CARE);
+      return;
+    }
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+    if (mode != nullptr) glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+
+  GLFWwindow* window_;
+  bool picture_wanted_ = false;
+};
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text == nullptr ? "no reason given" : text;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const std::string& title) {
+  if (glfwInit() == GLFW_FALSE) {
+    return fail("cannot open a window: " + last_glfw_error(), "display, window",
+                "start it in a desktop session (DISPLAY set), or give --offscreen");
+  }
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  // Anti-aliasing is done in the renderer's own targets.
+  glfwWindowHint(GLFW_SAMPLES, 0);
+  GLFWwindow* window =
+      glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), title.c_str(), nullptr, nullptr);
+  if (window == nullptr) {
+    const std::string reason = last_glfw_error();
+    glfwTerminate();
+    return fail("no window with OpenGL 3.3: " + reason, "display, window",
+                "install a graphics driver, or give --offscreen");
+  }
+  glfwMakeContextCurrent(window);
+  glfwSwapInterval(1);
+  return std::make_unique<WindowContext>(window);
+}
+
+}  // namespace mechane::display

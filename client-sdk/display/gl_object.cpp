@@ -1,0 +1,56 @@
+#include "client-sdk/display/gl_object.hpp"
+
+#include <epoxy/gl.h>
+
+namespace mechane::display {
+
+void delete_texture(std::uint32_t name) noexcept {
+  glDeleteTextures(1, &name);
+}
+void delete_buffer(std::uint32_t name) noexcept {
+  glDeleteBuffers(1, &name);
+}
+void delete_vertex_array(std::uint32_t name) noexcept {
+  glDeleteVertexArrays(1, &name);
+}
+void delete_framebuffer(std::uint32_t name) noexcept {
+  glDeleteFramebuffers(1, &name);
+}
+void delete_renderbuffer(std::uint32_t name) noexcept {
+  glDeleteRenderbuffers(1, &name);
+}
+void delete_program(std::uint32_t name) noexcept {
+  glDeleteProgram(name);
+}
+
+TextureName make_texture() {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  return TextureName(name);
+}
+
+BufferName make_buffer() {
+  GLuint name = 0;
+  glGenBuffers(1, &name);
+  return BufferName(name);
+}
+
+VertexArrayName make_vertex_array() {
+  GLuint name = 0;
+  glGenVertexArrays(1, &name);
+  return VertexArrayName(name);
+}
+
+FramebufferName make_framebuffer() {
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  return FramebufferName(name);
+}
+
+RenderbufferName make_renderbuffer() {
+  GLuint name = 0;
+  glGenRenderbuffers(1, &name);
+  return RenderbufferName(name);
+}
+
+}  // namespace mechane::display

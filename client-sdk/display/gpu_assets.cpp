@@ -1,0 +1,116 @@
+#include "client-sdk/display/gpu_assets.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <epoxy/gl.h>
+
+#include "server/base/assert.hpp"
+
+namespace mechane::display {
+namespace {
+
+TextureName upload_image(const ImageData& image) {
+  TextureName texture = make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, image.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, static_cast<GLsizei>(image.width),
+               static_cast<GLsizei>(image.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4.0F);
+  return texture;
+}
+
+}  // namespace
+
+void describe_vertices() {
+  constexpr std::array<int, 4> kSizes{3, 3, 4, 2};
+  std::size_t offset = 0;
+  for (GLuint i = 0; i < kSizes.size(); ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, kSizes[i], GL_FLOAT, GL_FALSE, kVertexFloats * sizeof(float),
+                          reinterpret_cast<const void*>(offset));
+    offset += static_cast<std::size_t>(kSizes[i]) * sizeof(float);
+  }
+}
+
+std::vector<float> interleave(const MeshData& mesh) {
+  MECHANE_ASSERT(mesh.normals.size() == mesh.positions.size());
+  std::vector<float> out;
+  out.reserve(mesh.positions.size() * kVertexFloats);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Eigen::Vector4f t = i < mesh.tangents.size() ? mesh.tangents[i] : Eigen::Vector4f(1, 0, 0, 1);
+    const Eigen::Vector2f uv = i < mesh.uv.size() ? mesh.uv[i] : Eigen::Vector2f::Zero();
+    out.insert(out.end(), mesh.positions[i].begin(), mesh.positions[i].end());
+    out.insert(out.end(), mesh.normals[i].begin(), mesh.normals[i].end());
+    out.insert(out.end(), t.begin(), t.end());
+    out.insert(out.end(), uv.begin(), uv.end());
+  }
+  return out;
+}
+
+void GpuAssets::upload(const SceneAssets& assets) {
+  while (images_.size() < assets.images.size())
+    images_.push_back(upload_image(assets.images[images_.size()]));
+  while (materials_.size() < assets.materials.size())
+    materials_.push_back(assets.materials[materials_.size()]);
+  while (meshes_.size() < assets.meshes.size()) {
+    const MeshData& mesh = assets.meshes[meshes_.size()];
+    const std::vector<float> vertices = interleave(mesh);
+    GpuMesh gpu{make_vertex_array(), make_buffer(), make_buffer(), static_cast<std::int32_t>(mesh.indices.size())};
+    glBindVertexArray(gpu.vertex_array.get());
+    glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.get());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
+                 GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices.get());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
+                 mesh.indices.data(), GL_STATIC_DRAW);
+    describe_vertices();
+    meshes_.push_back(std::move(gpu));
+  }
+}
+
+void GpuAssets::draw(std::uint32_t mesh) const {
+  MECHANE_ASSERT(mesh < meshes_.size());
+  glBindVertexArray(meshes_[mesh].vertex_array.get());
+  glDrawElements(GL_TRIANGLES, meshes_[mesh].index_count, GL_UNSIGNED_INT, nullptr);
+}
+
+void GpuAssets::use_material(std::uint32_t material, const Program& program) const {
+  MECHANE_ASSERT(material < materials_.size());
+  const MaterialData& m = materials_[material];
+  program.set("base_colour", m.base_colour);
+  program.set("emissive", m.emissive);
+  program.set("metallic", m.metallic);
+  program.set("roughness", m.roughness);
+  program.set("alpha_cutoff", m.alpha_cutoff);
+  const std::array<std::optional<std::uint32_t>, 4> images{m.base_colour_image, m.normal_image,
+                                                           m.metallic_roughness_image, m.emissive_image};
+  int bits = 0;
+  for (std::uint32_t unit = 0; unit < images.size(); ++unit) {
+    if (!images[unit]) continue;
+    MECHANE_ASSERT(*images[unit] < images_.size());
+    bits |= 1 << unit;
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, images_[*images[unit]].get());
+  }
+  program.set("images", bits);
+  if (m.double_sided) {
+    glDisable(GL_CULL_FACE);
+  } else {
+    glEnable(GL_CULL_FACE);
+  }
+}
+
+void set_model(const Program& program, const Eigen::Affine3f& X_WM) {
+  program.set("X_WM", X_WM.matrix());
+  // A mesh squeezed flat has no inverse; its normals then stay as they are.
+  const Eigen::Matrix3f linear = X_WM.linear();
+  const Eigen::Matrix3f normal = std::abs(linear.determinant()) > 1e-12F ? Eigen::Matrix3f(linear.inverse().transpose())
+                                                                         : Eigen::Matrix3f(Eigen::Matrix3f::Identity());
+  program.set("N_WM", normal);
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,46 @@
+// Meshes, materials and images on the graphics card. Grows with SceneAssets; nothing is taken away before the renderer ends.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "client-sdk/display/gl_object.hpp"
+#include "client-sdk/display/render_scene.hpp"
+#include "client-sdk/display/shader.hpp"
+
+namespace mechane::display {
+
+/// One float vertex as the shaders read it: position 3, normal 3, tangent 4, uv 2.
+inline constexpr int kVertexFloats = 12;
+
+/// Describes the vertex format to the bound vertex array, from the bound array buffer.
+void describe_vertices();
+
+/// Interleaved vertices of a mesh; what is missing is filled with defaults.
+[[nodiscard]] std::vector<float> interleave(const MeshData& mesh);
+
+class GpuAssets {
+ public:
+  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged.
+  void upload(const SceneAssets& assets);
+  /// Draws the triangles; the program, with its uniforms, must be in use.
+  void draw(std::uint32_t mesh) const;
+  /// Sets uniforms and texture units 0..3 of surface.frag, and face culling.
+  void use_material(std::uint32_t material, const Program& program) const;
+
+ private:
+  struct GpuMesh {
+    VertexArrayName vertex_array;
+    BufferName vertices;
+    BufferName indices;
+    std::int32_t index_count = 0;
+  };
+  std::vector<GpuMesh> meshes_;
+  std::vector<TextureName> images_;
+  std::vector<MaterialData> materials_;
+};
+
+/// Sets X_WM and N_WM of mesh.vert (or depth.vert).
+void set_model(const Program& program, const Eigen::Affine3f& X_WM);
+
+}  // namespace mechane::display

@@ -1,0 +1,47 @@
+// Where the words go: a caption panel low on the left, readouts high on the right, a note above. Pure: content and size in, shapes
+// and lines of text out. Pixels, origin in the upper left corner; colours are sRGB with straight alpha.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "client-sdk/display/gl_context.hpp"
+#include "client-sdk/display/render_scene.hpp"
+#include "client-sdk/display/typesetter.hpp"
+
+namespace mechane::display {
+
+struct OverlayShape {
+  float x = 0, y = 0, width = 0, height = 0;
+  float corner_radius = 0;
+  Eigen::Vector4f colour = Eigen::Vector4f::Ones();
+};
+
+struct OverlayText {
+  float x = 0;  ///< left end
+  float baseline = 0;
+  int size_px = 16;
+  Face face = Face::regular;
+  Eigen::Vector4f colour = Eigen::Vector4f::Ones();
+  std::string text;
+};
+
+struct OverlayLayout {
+  std::vector<OverlayShape> shapes;  ///< drawn first, in order
+  std::vector<OverlayText> texts;
+};
+
+/// Width of a line, in pixels.
+using MeasureText = std::function<float(Face, int size_px, std::string_view utf8)>;
+
+[[nodiscard]] OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure);
+
+/// Breaks at blanks so that each line is at most `width` wide; a longer word has a line of its own.
+[[nodiscard]] std::vector<std::string> break_lines(std::string_view text, float width,
+                                                   const std::function<float(std::string_view)>& measure);
+
+}  // namespace mechane::display

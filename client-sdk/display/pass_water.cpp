@@ -1,0 +1,70 @@
+#include <epoxy/gl.h>
+
+#include "client-sdk/display/passes.hpp"
+#include "client-sdk/display/procedural_mesh.hpp"
+
+namespace mechane::display {
+
+WaterPass::WaterPass(Program surface, Program stream)
+    : surface_(std::move(surface)),
+      stream_(std::move(stream)),
+      stream_array_(make_vertex_array()),
+      stream_vertices_(make_buffer()),
+      stream_indices_(make_buffer()) {
+  glBindVertexArray(stream_array_.get());
+  glBindBuffer(GL_ARRAY_BUFFER, stream_vertices_.get());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, stream_indices_.get());
+  describe_vertices();
+}
+
+Expected<WaterPass> WaterPass::create() {
+  Expected<Program> surface = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "water.frag"});
+  if (!surface) return tl::unexpected(surface.error());
+  Expected<Program> stream = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "stream.frag"});
+  if (!stream) return tl::unexpected(stream.error());
+  return WaterPass(std::move(*surface), std::move(*stream));
+}
+
+void WaterPass::draw(const PassInput& input) const {
+  const RenderScene& scene = input.scene;
+  if (scene.waters.empty() && scene.streams.empty()) return;
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_FALSE);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  // Colours come multiplied by their opacity.
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  surface_.use();
+  set_lighting(surface_, input);
+  surface_.set("time_s", static_cast<float>(scene.time_s));
+  for (const WaterInstance& water : scene.waters) {
+    surface_.set("clearness", water.clearness);
+    surface_.set("ripple", water.ripple);
+    set_model(surface_, water.X_WM);
+    input.assets.draw(water.mesh);
+  }
+  stream_.use();
+  set_lighting(stream_, input);
+  stream_.set("time_s", static_cast<float>(scene.time_s));
+  set_model(stream_, Eigen::Affine3f::Identity());
+  for (const WaterStream& stream : scene.streams)
+    draw_stream(stream);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+}
+
+void WaterPass::draw_stream(const WaterStream& stream) const {
+  if (!(stream.width_m > 0)) return;
+  const MeshData mesh = stream_mesh(stream);
+  const std::vector<float> vertices = interleave(mesh);
+  glBindVertexArray(stream_array_.get());
+  glBindBuffer(GL_ARRAY_BUFFER, stream_vertices_.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
+               GL_STREAM_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
+               mesh.indices.data(), GL_STREAM_DRAW);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.indices.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,99 @@
+// The passes of a picture, in the order in which they are drawn. Each owns its programs; all run on the context's thread and
+// leave the framebuffer bound that they drew to.
+#pragma once
+
+#include "client-sdk/display/camera.hpp"
+#include "client-sdk/display/gpu_assets.hpp"
+#include "client-sdk/display/render_scene.hpp"
+#include "client-sdk/display/render_target.hpp"
+#include "client-sdk/display/shader.hpp"
+#include "client-sdk/display/sky_light.hpp"
+
+namespace mechane::display {
+
+/// What every pass over one eye's picture needs.
+struct PassInput {
+  const RenderScene& scene;
+  const GpuAssets& assets;
+  const EyeView& view;
+  const SkyHarmonics& sky;
+  const ShadowTarget& shadow;
+  Eigen::Matrix4f PV_light;
+};
+
+/// Depth from the sun, once for both eyes.
+class ShadowPass {
+ public:
+  [[nodiscard]] static Expected<ShadowPass> create(std::uint32_t map_size);
+  /// Returns world to clip space of the sun.
+  Eigen::Matrix4f draw(const RenderScene& scene, const GpuAssets& assets) const;
+  [[nodiscard]] const ShadowTarget& map() const { return map_; }
+
+ private:
+  ShadowPass(Program program, ShadowTarget map) : program_(std::move(program)), map_(std::move(map)) {}
+  Program program_;
+  ShadowTarget map_;
+};
+
+/// Everything solid, and the plain of earth.
+class OpaquePass {
+ public:
+  [[nodiscard]] static Expected<OpaquePass> create();
+  void draw(const PassInput& input) const;
+
+ private:
+  OpaquePass(Program surface, Program ground, GpuAssets plain)
+      : surface_(std::move(surface)), ground_(std::move(ground)), plain_(std::move(plain)) {}
+  Program surface_;
+  Program ground_;
+  GpuAssets plain_;
+};
+
+/// The sky, where nothing solid was drawn.
+class SkyPass {
+ public:
+  [[nodiscard]] static Expected<SkyPass> create();
+  void draw(const PassInput& input) const;
+
+ private:
+  SkyPass(Program program, VertexArrayName none) : program_(std::move(program)), no_vertices_(std::move(none)) {}
+  Program program_;
+  VertexArrayName no_vertices_;
+};
+
+/// Surfaces of water and falling water, blended over what is solid.
+class WaterPass {
+ public:
+  [[nodiscard]] static Expected<WaterPass> create();
+  void draw(const PassInput& input) const;
+
+ private:
+  WaterPass(Program surface, Program stream);
+  void draw_stream(const WaterStream& stream) const;
+
+  Program surface_;
+  Program stream_;
+  VertexArrayName stream_array_;
+  BufferName stream_vertices_;
+  BufferName stream_indices_;
+};
+
+/// From linear light with several samples a pixel to what a screen shows, into the bound framebuffer's viewport.
+class TonePass {
+ public:
+  [[nodiscard]] static Expected<TonePass> create();
+  void draw(const HdrTarget& from, float exposure) const;
+
+ private:
+  TonePass(Program program, VertexArrayName none) : program_(std::move(program)), no_vertices_(std::move(none)) {}
+  Program program_;
+  VertexArrayName no_vertices_;
+};
+
+/// Sets the uniforms of sky.glsl and lighting.glsl; texture unit 4 holds the shadow map.
+void set_lighting(const Program& program, const PassInput& input);
+
+/// Width of a shadow map's texel in the world, metres.
+[[nodiscard]] float shadow_texel_m(const Eigen::Matrix4f& PV_light, std::uint32_t map_size);
+
+}  // namespace mechane::display

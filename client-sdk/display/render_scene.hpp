@@ -1,0 +1,125 @@
+// What the renderer draws, as plain data: nothing here knows DDS, files or OpenGL. `SceneAssets` only ever grows; a `RenderScene`
+// is made anew for each frame. Frames: W is the world (y up, metres), M a mesh's own frame. Colours are linear unless said.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "client-sdk/display/camera.hpp"
+#include "server/base/math.hpp"
+
+namespace mechane::display {
+
+/// Triangles for one draw call. `normals` is as long as `positions`; `tangents` and `uv` may be empty.
+struct MeshData {
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;             ///< unit
+  std::vector<Eigen::Vector4f> tangents;  ///< xyz along +u; w is the sign of the bitangent
+  std::vector<Eigen::Vector2f> uv;        ///< (0, 0) is the image's upper left corner
+  std::vector<std::uint32_t> indices;     ///< three a triangle, counter-clockwise seen from outside
+};
+
+/// Eight bits a channel, upper row first.
+struct ImageData {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> rgba;
+  bool srgb = true;  ///< colour; false: numbers such as normals
+};
+
+/// Metallic-roughness, as glTF has it. Textures index SceneAssets::images.
+struct MaterialData {
+  Eigen::Vector4f base_colour = Eigen::Vector4f::Ones();
+  Vec3f emissive = Vec3f::Zero();
+  float metallic = 0;
+  float roughness = 0.8F;
+  float alpha_cutoff = 0;  ///< over 0: fragments with less opacity are left out
+  bool double_sided = false;
+  std::optional<std::uint32_t> base_colour_image;
+  std::optional<std::uint32_t> normal_image;
+  std::optional<std::uint32_t> metallic_roughness_image;
+  std::optional<std::uint32_t> emissive_image;
+};
+
+struct SceneAssets {
+  std::vector<MeshData> meshes;
+  std::vector<MaterialData> materials;
+  std::vector<ImageData> images;
+};
+
+struct Instance {
+  std::uint32_t mesh = 0;      ///< into SceneAssets::meshes
+  std::uint32_t material = 0;  ///< into SceneAssets::materials
+  Eigen::Affine3f X_WM = Eigen::Affine3f::Identity();
+  bool casts_shadow = true;
+};
+
+/// A surface of water: drawn after all that is opaque, with ripples of its own normals.
+struct WaterInstance {
+  std::uint32_t mesh = 0;
+  Eigen::Affine3f X_WM = Eigen::Affine3f::Identity();
+  float clearness = 0.5F;  ///< 0 deep and muddy .. 1 a thin clear sheet
+  float ripple = 1;        ///< slope of the waves against a calm basin's
+};
+
+/// Falling water: a parabola from the spout to where it lands.
+struct WaterStream {
+  Vec3f p_WS = Vec3f::Zero();  ///< where it leaves
+  Vec3f v_W = Vec3f::Zero();   ///< with what velocity, m/s
+  float landing_height_m = 0;  ///< y in W where it ends
+  float width_m = 0;           ///< 0: none
+};
+
+struct Sun {
+  Vec3f to_sun_W = Vec3f(0.48F, 0.72F, 0.50F).normalized();
+  Vec3f irradiance =
+      Vec3f(3.7F, 3.25F, 2.6F);  ///< on a surface that faces the sun; the sky's own radiance is about 0.5
+};
+
+/// A number that visitors read.
+struct Readout {
+  std::string label;    ///< "Water lifted"
+  std::string value;    ///< "12,4"
+  std::string unit;     ///< "l"
+  double fraction = 0;  ///< of the gauge's end, 0..1
+  std::string end;      ///< what the gauge's end stands for: "20"
+};
+
+/// Everything that is written over the picture, in one language, UTF-8.
+struct OverlayContent {
+  std::string title;
+  std::string caption;
+  std::string hint;
+  std::string note;  ///< calm word about the link: "The connection was lost. Waiting ..."
+  std::uint32_t steps_done = 0;
+  std::uint32_t steps_total = 0;
+  std::vector<Readout> readouts;
+};
+
+/// A sphere that darkens what is near it: contact shading of the hand.
+struct Occluder {
+  Vec3f p_WO = Vec3f::Zero();
+  float radius_m = 0;
+};
+
+inline constexpr std::size_t kMaxOccluders = 32;
+
+struct RenderScene {
+  std::vector<Instance> instances;
+  std::vector<WaterInstance> waters;
+  std::vector<WaterStream> streams;
+  std::vector<Occluder> occluders;   ///< the first kMaxOccluders count
+  Eigen::AlignedBox3f shadow_box_W;  ///< what the shadow map has to cover
+  Camera camera;
+  Sun sun;
+  bool sky = true;                       ///< false: black, no light but the sun's
+  std::optional<float> ground_height_m;  ///< an endless plain of dry earth at this height
+  double time_s = 0;                     ///< of the world, for ripples: the frame's tick, never the client's clock
+  OverlayContent overlay;
+};
+
+}  // namespace mechane::display

@@ -1,0 +1,54 @@
+// Where passes draw to: a multisampled HDR picture, a shadow map, a finished 8-bit picture.
+#pragma once
+
+#include <vector>
+
+#include "client-sdk/display/gl_context.hpp"
+#include "client-sdk/display/gl_object.hpp"
+#include "client-sdk/display/render_scene.hpp"
+#include "server/base/error.hpp"
+
+namespace mechane::display {
+
+/// Half-float colour and depth, `samples` a pixel. The colour is a multisample texture: the tone pass resolves it.
+struct HdrTarget {
+  FramebufferName framebuffer;
+  TextureName colour;
+  RenderbufferName depth;
+  PixelSize size;
+  int samples = 1;
+
+  [[nodiscard]] static Expected<HdrTarget> create(PixelSize size, int samples);
+};
+
+/// Square depth texture, read with comparison.
+struct ShadowTarget {
+  FramebufferName framebuffer;
+  TextureName depth;
+  std::uint32_t size = 0;
+
+  [[nodiscard]] static Expected<ShadowTarget> create(std::uint32_t size);
+};
+
+/// The finished picture, sRGB values in 8 bits.
+struct PictureTarget {
+  FramebufferName framebuffer;
+  RenderbufferName colour;
+  PixelSize size;
+
+  [[nodiscard]] static Expected<PictureTarget> create(PixelSize size);
+  /// Reads the picture back, upper row first, opaque.
+  [[nodiscard]] ImageData read() const;
+};
+
+/// One float picture without depth, for the sky's map. Radiance as RGB, rows from the zenith down.
+struct FloatTarget {
+  FramebufferName framebuffer;
+  TextureName colour;
+  PixelSize size;
+
+  [[nodiscard]] static Expected<FloatTarget> create(PixelSize size);
+  [[nodiscard]] std::vector<Vec3f> read() const;
+};
+
+}  // namespace mechane::display

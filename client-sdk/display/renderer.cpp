@@ -1,0 +1,103 @@
+#include "client-sdk/display/renderer.hpp"
+
+#include <array>
+
+#include <epoxy/gl.h>
+
+#include "server/base/assert.hpp"
+
+namespace mechane::display {
+
+Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& settings) {
+  Expected<ShadowPass> shadow = ShadowPass::create(settings.shadow_map_size);
+  if (!shadow) return tl::unexpected(shadow.error());
+  Expected<OpaquePass> opaque = OpaquePass::create();
+  if (!opaque) return tl::unexpected(opaque.error());
+  Expected<SkyPass> sky = SkyPass::create();
+  if (!sky) return tl::unexpected(sky.error());
+  Expected<WaterPass> water = WaterPass::create();
+  if (!water) return tl::unexpected(water.error());
+  Expected<TonePass> tone = TonePass::create();
+  if (!tone) return tl::unexpected(tone.error());
+  Expected<OverlayPass> overlay = OverlayPass::create(settings.font_folder);
+  if (!overlay) return tl::unexpected(overlay.error());
+  return std::unique_ptr<Renderer>(
+      new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water),
+                                    std::move(*tone), std::move(*overlay)}));
+}
+
+Expected<void> Renderer::fit_targets(PixelSize picture, PixelSize eye) {
+  if (!picture_ || picture_->size != picture) {
+    picture_.reset();
+    Expected<PictureTarget> made = PictureTarget::create(picture);
+    if (!made) return tl::unexpected(made.error());
+    picture_.emplace(std::move(*made));
+  }
+  if (!hdr_ || hdr_->size != eye) {
+    hdr_.reset();
+    Expected<HdrTarget> made = HdrTarget::create(eye, settings_.samples);
+    if (!made) return tl::unexpected(made.error());
+    hdr_.emplace(std::move(*made));
+  }
+  return {};
+}
+
+Expected<void> Renderer::fit_sky(const Sun& sun) {
+  if (baked_sun_ && baked_sun_->to_sun_W == sun.to_sun_W) return {};
+  Expected<SkyHarmonics> baked = bake_sky(sun);
+  if (!baked) return tl::unexpected(baked.error());
+  sky_ = *baked;
+  baked_sun_ = sun;
+  return {};
+}
+
+Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize size) {
+  const bool mono = stereo == Stereo::mono;
+  const PixelSize eye_size{mono ? size.width : size.width / 2, size.height};
+  if (eye_size.width == 0 || eye_size.height == 0) {
+    return fail("the picture has no pixels", "display", "give a --size of at least 2x1");
+  }
+  if (auto ok = fit_targets(size, eye_size); !ok) return ok;
+  if (auto ok = fit_sky(scene.sun); !ok) return ok;
+  const Eigen::Matrix4f PV_light = passes_.shadow.draw(scene, assets_);
+  const double aspect = static_cast<double>(eye_size.width) / eye_size.height;
+  constexpr std::array<Eye, 2> kBoth{Eye::left, Eye::right};
+  for (int half = 0; half < (mono ? 1 : 2); ++half) {
+    const Eye eye = mono ? Eye::middle : kBoth[static_cast<std::size_t>(half)];
+    draw_eye(scene, eye_view(scene.camera, eye, aspect), PV_light);
+    glBindFramebuffer(GL_FRAMEBUFFER, picture_->framebuffer.get());
+    glViewport(half * static_cast<GLint>(eye_size.width), 0, static_cast<GLsizei>(eye_size.width),
+               static_cast<GLsizei>(eye_size.height));
+    passes_.tone.draw(*hdr_, settings_.exposure);
+    passes_.overlay.draw(scene.overlay, eye_size);
+  }
+  return {};
+}
+
+void Renderer::draw_eye(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light) {
+  const PassInput input{scene, assets_, view, sky_, passes_.shadow.map(), PV_light};
+  glBindFramebuffer(GL_FRAMEBUFFER, hdr_->framebuffer.get());
+  glViewport(0, 0, static_cast<GLsizei>(hdr_->size.width), static_cast<GLsizei>(hdr_->size.height));
+  glDepthMask(GL_TRUE);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  passes_.opaque.draw(input);
+  passes_.sky.draw(input);
+  passes_.water.draw(input);
+}
+
+ImageData Renderer::read_picture() const {
+  MECHANE_ASSERT(picture_.has_value());
+  return picture_->read();
+}
+
+void Renderer::copy_to_window(PixelSize window) const {
+  MECHANE_ASSERT(picture_.has_value());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_->framebuffer.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  glBlitFramebuffer(0, 0, static_cast<GLint>(picture_->size.width), static_cast<GLint>(picture_->size.height), 0, 0,
+                    static_cast<GLint>(window.width), static_cast<GLint>(window.height), GL_COLOR_BUFFER_BIT,
+                    GL_LINEAR);
+}
+
+}  // namespace mechane::display

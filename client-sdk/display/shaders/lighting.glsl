@@ -1,0 +1,101 @@
+// Light on a surface: the sun with its shadow, the sky by spherical harmonics and by its own function, contact shading, haze.
+uniform vec3 eye_W;
+uniform vec3 sun_irradiance;
+uniform vec3 sh[9];
+uniform float sky_on;  // 1, or 0: black
+uniform mat4 PV_light;
+uniform sampler2DShadow shadow_map;
+uniform float shadow_texel_m;
+uniform float shadow_blur_texels;
+uniform vec4 occluders[32];  // xyz: middle in W, w: radius
+uniform int occluder_count;
+uniform vec4 occluder_bound;
+
+const float kPi = 3.14159265;
+
+struct Surface {
+  vec3 base;
+  float metallic;
+  float roughness;
+  vec3 n;  // shading normal, unit, in W
+};
+
+vec3 irradiance_from_sky(vec3 n) {
+  return sky_on * max(vec3(0.0), sh[0] + sh[1] * n.y + sh[2] * n.z + sh[3] * n.x + sh[4] * n.x * n.y + sh[5] * n.y * n.z +
+                                     sh[6] * (3.0 * n.z * n.z - 1.0) + sh[7] * n.x * n.z + sh[8] * (n.x * n.x - n.y * n.y));
+}
+
+// Share of the sun that arrives: a disc of taps, each already filtered over four texels.
+float sunlight(vec3 p_W, vec3 n_geometric) {
+  float slope = 1.0 - clamp(dot(n_geometric, to_sun), 0.0, 1.0);
+  vec3 p = p_W + n_geometric * shadow_texel_m * (1.0 + 2.5 * slope);
+  vec3 q = (PV_light * vec4(p, 1.0)).xyz * 0.5 + 0.5;
+  if (any(greaterThan(abs(q - 0.5), vec3(0.5)))) return 1.0;
+  vec2 texel = shadow_blur_texels / vec2(textureSize(shadow_map, 0));
+  float sum = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    float r = sqrt((float(i) + 0.5) / 12.0);
+    float a = float(i) * 2.39996;
+    sum += texture(shadow_map, vec3(q.xy + r * vec2(cos(a), sin(a)) * texel, q.z - 0.0006));
+  }
+  return sum / 12.0;
+}
+
+// Share of the sky that small spheres leave open, by their solid angle about the normal.
+float openness(vec3 p_W, vec3 n) {
+  if (occluder_count == 0 || distance(p_W, occluder_bound.xyz) > occluder_bound.w) return 1.0;
+  float open = 1.0;
+  for (int i = 0; i < occluder_count; ++i) {
+    vec3 to = occluders[i].xyz - p_W;
+    float d2 = max(dot(to, to), 1e-6);
+    float r2 = occluders[i].w * occluders[i].w;
+    float facing = max(dot(n, to * inversesqrt(d2)), 0.0);
+    // Points inside a sphere are the hand itself: they do not shade themselves.
+    if (d2 > r2 * 1.02) open *= 1.0 - 0.85 * clamp(facing * r2 / d2, 0.0, 1.0);
+  }
+  return open;
+}
+
+// Fit of the split-sum's second factor (Lazarov 2013): scale and bias of F0.
+vec2 environment_factor(float roughness, float nv) {
+  vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+  float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
+  return vec2(-1.04, 1.04) * a + r.zw;
+}
+
+vec3 reflected_sky(vec3 r, float roughness) {
+  vec3 sharp = sky_radiance(r);
+  vec3 blurred = irradiance_from_sky(r) / kPi;
+  return sky_on * mix(sharp, blurred, smoothstep(0.15, 0.75, roughness));
+}
+
+vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
+  vec3 v = normalize(eye_W - p_W);
+  float nv = max(dot(s.n, v), 1e-3);
+  float nl = max(dot(s.n, to_sun), 0.0);
+  vec3 f0 = mix(vec3(0.04), s.base, s.metallic);
+  vec3 diffuse = s.base * (1.0 - s.metallic);
+  float open = openness(p_W, s.n);
+  vec3 light = vec3(0.0);
+  if (nl > 0.0) {
+    float sun = sunlight(p_W, n_geometric);
+    vec3 h = normalize(v + to_sun);
+    float nh = max(dot(s.n, h), 0.0);
+    float a2 = s.roughness * s.roughness;
+    a2 *= a2;
+    float d = nh * nh * (a2 - 1.0) + 1.0;
+    float ggx = a2 / (kPi * d * d);
+    float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
+    vec3 f = f0 + (1.0 - f0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    light += ((1.0 - f) * diffuse / kPi + ggx * visible * f) * sun_irradiance * nl * sun * mix(1.0, open, 0.35);
+  }
+  vec2 split = environment_factor(s.roughness, nv);
+  light += diffuse / kPi * irradiance_from_sky(s.n) * open;
+  light += reflected_sky(reflect(-v, s.n), s.roughness) * (f0 * split.x + split.y) * open;
+  return light;
+}
+
+vec3 through_air(vec3 light, vec3 p_W) {
+  float share = 1.0 - exp(-distance(eye_W, p_W) * 0.010);
+  return mix(light, haze_colour(), share * sky_on);
+}
