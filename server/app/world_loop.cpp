@@ -1,0 +1,88 @@
+#include "server/app/world_loop.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "server/state/snapshot.hpp"
+
+namespace mechane::app {
+namespace {
+
+constexpr std::uint64_t kSnapshotInterval = 1000;  // ticks: what a killed server loses of a visit at most
+
+/// Sends a tick's result to the network and to the journal.
+class TickOutput final : public world::Publisher {
+ public:
+  TickOutput(RunningWorld& running, const state::TickInputs& inputs) : running_(running), inputs_(inputs) {}
+
+  void publish(const state::WorldState& state) noexcept override {
+    running_.port->publish(state);
+    if (!running_.recorder) return;
+    record::TickRecord record;
+    record.tick = state.tick;
+    record.inputs = &inputs_;
+    record.events = state.event_span();
+    if (state.tick % record::kHashInterval == 0) record.hash = state::state_hash(state);
+    running_.recorder->push(record);
+    if (state.tick % kSnapshotInterval != 0) return;
+    state::write_snapshot(state, running_.recorder->snapshot_buffer());
+    running_.recorder->commit_snapshot(state.tick);
+  }
+
+ private:
+  RunningWorld& running_;
+  const state::TickInputs& inputs_;
+};
+
+}  // namespace
+
+WorldLoop::WorldLoop(const LoopConfig& config, Clock& clock)
+    : max_worlds_(config.max_worlds),
+      arriving_(std::bit_ceil(config.max_worlds)),
+      clock_(clock),
+      timer_(clock),
+      thread_(config.thread, clock) {
+  worlds_.reserve(config.max_worlds);
+}
+
+WorldLoop::~WorldLoop() { stop(); }
+
+Expected<void> WorldLoop::start() {
+  return thread_.start([this](const realtime::TickTiming& timing) { tick(timing); });
+}
+
+bool WorldLoop::add(RunningWorld& world) {
+  if (assigned_ >= max_worlds_ || !arriving_.push(&world)) return false;
+  ++assigned_;
+  return true;
+}
+
+void WorldLoop::tick(const realtime::TickTiming& timing) noexcept {
+  take_new_worlds();
+  for (RunningWorld* running : worlds_) step(*running, timing.woke);
+  give_back_leaving();
+}
+
+void WorldLoop::take_new_worlds() noexcept {
+  RunningWorld* world = nullptr;
+  while (worlds_.size() < max_worlds_ && arriving_.pop(world)) worlds_.push_back(world);
+}
+
+void WorldLoop::give_back_leaving() noexcept {
+  const auto end = std::remove_if(worlds_.begin(), worlds_.end(), [](RunningWorld* running) {
+    if (!running->leave.load(std::memory_order_acquire)) return false;
+    running->left.store(true, std::memory_order_release);
+    return true;
+  });
+  worlds_.erase(end, worlds_.end());
+}
+
+void WorldLoop::step(RunningWorld& running, TimePoint now) noexcept {
+  state::TickInputs inputs;
+  running.port->gather(inputs, now);
+  TickOutput output(running, inputs);
+  world::step(*running.world, inputs, output, timer_);
+  for (std::size_t i = 0; i < world::kPhases; ++i) phases_[i].record(timer_.took()[i]);
+}
+
+}  // namespace mechane::app

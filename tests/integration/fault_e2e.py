@@ -1,0 +1,147 @@
+"""Killed processes, full disks, second sessions: what goes on, what comes back, and that no force is left."""
+
+import json
+import os
+import resource
+import signal
+import socket
+import unittest
+
+from harness import BIN, SCENARIO, EndToEnd, wait_until
+
+
+class Faults(EndToEnd):
+    def test_the_second_session_on_a_hand_is_told_so(self):
+        self.server()
+        first = self.visitor("kiosk-1", "--endless")
+        wait_until(lambda: "assemble" in first.text(), 30, "the first visitor has begun")
+        second = self.visitor("kiosk-1")
+        self.assertEqual(second.wait(60), 2)
+        self.assertIn("kiosk-1", second.text())
+        self.assertTrue(first.running())
+
+    def test_a_killed_visitor_lets_go_and_its_successor_is_back_in_the_world(self):
+        server = self.server()
+        visitor = self.visitor("kiosk-1", "--activity", "use")
+        wait_until(lambda: "use: turn" in visitor.text(), 60, "the visitor holds the handle")
+        bystander = self.visitor("kiosk-2", "--activity", "assemble")
+        visitor.kill()
+        successor = self.visitor("kiosk-1", "--activity", "use")
+        self.assertEqual(successor.wait(120), 0, successor.text())
+        self.assertEqual(bystander.wait(120), 0, bystander.text())
+        self.assertEqual(server.stop(), 0)
+        log = server.text()
+        self.assertEqual(log.count("world world-1 opened"), 1, log)
+
+    def test_a_killed_server_puts_the_kiosk_back_at_its_step(self):
+        server = self.server()
+        visitor = self.visitor("kiosk-1", "--activity", "use", "--endless", "--patience", "30")
+        wait_until(lambda: "use: turn" in visitor.text(), 60, "the visitor turns")
+        wait_until(lambda: list((self.folder / "records").glob("*.snapshot")), 10, "a snapshot is there")
+        server.kill()
+        again = self.server()
+        wait_until(lambda: "resumed" in again.text(), 30, "the world is resumed")
+        self.assertRegex(again.text(), r"resumed .*kiosk-1.* step (turn|fill)")
+        self.assertTrue(visitor.running())
+        self.assertEqual(again.stop(), 0)
+
+    def test_a_full_disk_under_the_journal_is_survived(self):
+        # RLIMIT_FSIZE stands for the full disk: a write beyond it fails with EFBIG where a full disk says ENOSPC.
+        command = self.environment.copy()
+        server_limit = 64 * 1024
+
+        def start_limited():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (server_limit, server_limit))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+        pid_log = self.folder / "limited.log"
+        with open(pid_log, "w") as log:
+            import subprocess
+
+            process = subprocess.Popen(
+                [str(BIN / "mechane"), "server", "--scenario", str(SCENARIO), "--records", str(self.folder / "records")],
+                stdout=log, stderr=subprocess.STDOUT, env=command, preexec_fn=start_limited, stdin=subprocess.DEVNULL)
+        try:
+            wait_until(lambda: "ready" in pid_log.read_text(), 60, "the server is ready")
+            visitor = self.visitor("kiosk-1", "--activity", "use")
+            self.assertEqual(visitor.wait(120), 0, visitor.text())
+            self.assertIsNone(process.poll(), "the server must go on")
+            self.assertRegex(pid_log.read_text(), r"(?i)journal|record")
+        finally:
+            process.terminate()
+            process.wait(20)
+        self.assertEqual(process.returncode, 0)
+
+    def test_a_clean_stop_and_systemd_are_told(self):
+        path = str(self.folder / "notify")
+        listener = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        listener.bind(path)
+        listener.settimeout(60)
+        self.environment["NOTIFY_SOCKET"] = path
+        server = self.server()
+        self.assertIn(b"READY=1", listener.recv(4096))
+        self.assertEqual(server.stop(), 0)
+        messages = b""
+        listener.settimeout(1)
+        while b"STOPPING=1" not in messages:
+            messages += listener.recv(4096)
+        report = json.loads((self.folder / "server.json").read_text())
+        self.assertGreater(report["ticks"], 0)
+
+    def test_two_users_share_a_world(self):
+        server = self.server()
+        first = self.visitor("kiosk-1", "--activity", "use", "--endless")
+        wait_until(lambda: "use: " in first.text(), 60, "the first visitor has begun")
+        second = self.start("haptic", "haptic", "--kiosk", "kiosk-2", "--join", "kiosk-1", "--seconds", "3", "--report",
+                            self.folder / "haptic.json")
+        self.assertEqual(second.wait(30), 0, second.text())
+        report = json.loads((self.folder / "haptic.json").read_text())
+        self.assertGreater(report["answers"], 1000)
+        self.assertEqual(first.stop(), 1)
+        self.assertEqual(server.stop(), 0)
+        self.assertNotIn("world world-2 opened", server.text())
+
+
+class BadInput(EndToEnd):
+    def refuse(self, text, expected):
+        path = self.folder / "bad.x3d"
+        path.write_text(text)
+        result = self.run_command("server", "--scenario", path, "--records", "")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("bad.x3d", result.stderr)
+        self.assertRegex(result.stderr, expected)
+
+    def test_a_scenario_that_is_not_xml(self):
+        self.refuse("<X3D><Scene>", r"bad\.x3d:\d+")
+
+    def test_a_scenario_with_nan(self):
+        text = SCENARIO.read_text().replace("mass='", "mass='nan", 1)
+        self.assertNotEqual(text, SCENARIO.read_text())
+        self.refuse(text, r"bad\.x3d:\d+.*mass")
+
+    def test_a_deep_scenario(self):
+        self.refuse("<X3D version='4.0'><Scene>" + "<Group>" * 100_000 + "</Group>" * 100_000 + "</Scene></X3D>", "deep|depth|nest")
+
+    def test_a_missing_file_and_a_wrong_setting(self):
+        result = self.run_command("server", "--scenario", self.folder / "nowhere.x3d")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("nowhere.x3d", result.stderr)
+        settings = self.folder / "server.toml"
+        settings.write_text("worlds = 2\nwurlds = 3\n")
+        result = self.run_command("server", "--settings", settings, "--scenario", SCENARIO)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("wurlds", result.stderr)
+        self.assertIn("server.toml:2", result.stderr)
+
+    def test_check_tells_good_from_bad(self):
+        self.assertEqual(self.run_command("check", SCENARIO).returncode, 0)
+        bad = self.folder / "bad.x3d"
+        bad.write_text(SCENARIO.read_text().replace("USE='", "USE='NO_", 1))
+        result = self.run_command("check", bad)
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stdout, r"bad\.x3d:\d+: error")
+
+
+if __name__ == "__main__":
+    os.chdir(SCENARIO.parents[2])
+    unittest.main(verbosity=2)

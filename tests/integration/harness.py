@@ -1,0 +1,119 @@
+"""Starts Mechane's programs for end-to-end tests: own DDS domain tag, loopback only, own folder, everything stopped at the end."""
+
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("MECHANE_BIN", ROOT / "build/release/bin"))
+SCENARIO = ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d"
+# A sanitizer makes everything some times slower.
+PATIENCE = float(os.environ.get("MECHANE_PATIENCE", "1"))
+
+
+def wait_until(condition, limit_s, what):
+    """Polls a condition; fails loudly. Not a sleep: the condition says when it is enough."""
+    end = time.monotonic() + limit_s * PATIENCE
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.02)
+    raise AssertionError(f"not within {limit_s * PATIENCE:.0f} s: {what}")
+
+
+class Process:
+    def __init__(self, name, command, folder, environment):
+        self.name, self.log = name, folder / f"{name}.log"
+        self._file = open(self.log, "w")
+        self.process = subprocess.Popen(command, stdout=self._file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                        env=environment)
+
+    def text(self):
+        return self.log.read_text(errors="replace")
+
+    def wait(self, limit_s):
+        return self.process.wait(timeout=limit_s * PATIENCE)
+
+    def running(self):
+        return self.process.poll() is None
+
+    def kill(self):
+        """kill -9."""
+        self.process.kill()
+        self.process.wait()
+
+    def stop(self, limit_s=15):
+        """A polite stop; returns the exit status."""
+        if self.running():
+            self.process.send_signal(signal.SIGTERM)
+        return self.wait(limit_s)
+
+
+class EndToEnd(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="mechane-test-")
+        self.folder = pathlib.Path(self._folder.name)
+        self.environment = dict(os.environ)
+        self.environment["CYCLONEDDS_URI"] = "file://" + str(ROOT / "deploy/cyclonedds/test.xml")
+        self.environment["CYCLONEDDS_TEST_TAG"] = f"{os.getpid()}-{self.id().split('.')[-1]}"
+        self.processes = []
+        self._count = 0
+
+    def tearDown(self):
+        for process in self.processes:
+            if process.running():
+                process.kill()
+        failed = any(error for _, error in getattr(self._outcome, "errors", [])) or (
+            getattr(self._outcome, "result", None) is not None
+            and any(test is self for test, _ in self._outcome.result.failures + self._outcome.result.errors))
+        if failed:
+            for process in self.processes:
+                print(f"---- {process.name} ----\n{process.text()[-4000:]}")
+        self._folder.cleanup()
+
+    def start(self, name, *arguments, environment=None):
+        self._count += 1
+        process = Process(f"{name}-{self._count}", [str(BIN / "mechane"), *map(str, arguments)], self.folder,
+                          environment or self.environment)
+        self.processes.append(process)
+        return process
+
+    def server(self, *arguments, scenario=SCENARIO, records=True):
+        record = ["--records", self.folder / "records"] if records else ["--records", ""]
+        process = self.start("server", "server", "--scenario", scenario, *record, "--report",
+                             self.folder / "server.json", *arguments)
+        wait_until(lambda: "ready" in process.text() or not process.running(), 60, "the server is ready")
+        self.assertTrue(process.running(), process.text())
+        return process
+
+    def visitor(self, kiosk, *arguments):
+        report = self.folder / f"visitor-{kiosk}-{self._count}.json"
+        process = self.start(f"visitor-{kiosk}", "visitor", "--kiosk", kiosk, "--scenario", SCENARIO, "--report", report,
+                             *arguments)
+        process.report_file = report
+        return process
+
+    def report_of(self, visitor):
+        return json.loads(visitor.report_file.read_text())
+
+    def journals(self):
+        return sorted((self.folder / "records").glob("*.journal"))
+
+    def replay(self, journal, *arguments):
+        result = subprocess.run([str(BIN / "mechane"), "replay", str(journal), "--scenario", str(SCENARIO), *arguments],
+                                capture_output=True, text=True, timeout=120 * PATIENCE, env=self.environment)
+        return result.returncode, result.stdout + result.stderr
+
+    def run_command(self, *arguments, limit_s=60):
+        return subprocess.run([str(BIN / "mechane"), *map(str, arguments)], capture_output=True, text=True,
+                              timeout=limit_s * PATIENCE, env=self.environment, stdin=subprocess.DEVNULL)
+
+    def hash_in(self, text):
+        return re.search(r"final hash\s+([0-9a-f]{16})", text).group(1)

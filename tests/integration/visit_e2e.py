@@ -1,0 +1,58 @@
+"""Whole visits over the network: what must turn the crank, what must not, and that a journal replays to the live hash."""
+
+import unittest
+
+from harness import EndToEnd
+
+
+class Visit(EndToEnd):
+    def test_two_kiosks_complete_both_activities_and_replay(self):
+        server = self.server("--worlds", "2")
+        visitors = [self.visitor("kiosk-1"), self.visitor("kiosk-2")]
+        for visitor in visitors:
+            self.assertEqual(visitor.wait(150), 0, visitor.text())
+            report = self.report_of(visitor)
+            self.assertEqual([a["done"] for a in report["activities"]], [True, True])
+            self.assertGreater(report["water_l"], 5)
+            self.assertGreater(report["force_n"]["max"], 0.2)
+            self.assertGreater(report["holding_ticks"], 1000)
+        self.assertNotEqual(self.report_of(visitors[0])["world"], self.report_of(visitors[1])["world"])
+        self.assertEqual(server.stop(), 0, server.text())
+        journals = self.journals()
+        self.assertEqual(len(journals), 2)
+        for journal in journals:
+            hashes = set()
+            for _ in range(2):
+                status, text = self.replay(journal)
+                self.assertEqual(status, 0, text)
+                hashes.add(self.hash_in(text))
+            self.assertEqual(len(hashes), 1)
+
+    def use_only(self, server_arguments=(), visitor_arguments=()):
+        server = self.server(*server_arguments)
+        visitor = self.visitor("kiosk-1", "--activity", "use", "--patience", "1", *visitor_arguments)
+        visitor.wait(120)
+        report = self.report_of(visitor)
+        server.stop()
+        return report
+
+    def assert_nothing_turned(self, report):
+        self.assertFalse(report["activities"][0]["done"])
+        self.assertEqual(report["water_l"], 0)
+        self.assertAlmostEqual(report["quantities"].get("turns", 0), 0, delta=0.01)
+
+    def test_five_centimetres_beside_the_handle_nothing_turns(self):
+        report = self.use_only(visitor_arguments=("--offset", "0", "0", "0.05"))
+        self.assert_nothing_turned(report)
+        self.assertEqual(report["holding_ticks"], 0)
+
+    def test_without_stiffness_nothing_turns(self):
+        self.assert_nothing_turned(self.use_only(server_arguments=("--stiffness-scale", "0")))
+
+    def test_a_whole_hand_completes_the_use(self):
+        report = self.use_only(visitor_arguments=("--glove",))
+        self.assertTrue(report["activities"][0]["done"], report)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
