@@ -1,0 +1,103 @@
+#include "server/haptics/hand_model.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::haptics {
+namespace {
+
+using state::HandKind;
+using state::HandSample;
+
+const HandModel& hand() {
+  static const HandModel kHand = HandModel::create(HandSize{}).value();
+  return kHand;
+}
+
+HandSample glove(double flexion) {
+  HandSample sample;
+  sample.kind = HandKind::glove;
+  for (std::size_t f = 0; f < state::kFingers; ++f) {
+    for (std::size_t k = 1; k < 4; ++k) sample.joints[4 * f + k] = flexion;
+  }
+  return sample;
+}
+
+std::array<Pose, state::kHandSegments> placed(const HandSample& sample, const Pose& X_WH = {}) {
+  std::array<Pose, state::kHandSegments> X_WS{};
+  hand().place(sample, X_WH, X_WS);
+  return X_WS;
+}
+
+TEST(HandModel, AFlatHandPointsItsFingersForward) {
+  const auto X_WS = placed(glove(0));
+  for (std::size_t f = 1; f < 5; ++f) {
+    EXPECT_GT(X_WS[1 + 3 * f + 2].p.x(), X_WS[1 + 3 * f].p.x());
+    EXPECT_NEAR(X_WS[1 + 3 * f + 2].p.y(), 0, 1e-9);
+  }
+  EXPECT_LT(X_WS[3].p.z(), X_WS[0].p.z()) << "a right hand's thumb is on the left";
+}
+
+TEST(HandModel, BendingBringsTheFingertipsTowardsThePalm) {
+  const auto flat = placed(glove(0));
+  const auto bent = placed(glove(1.0));
+  for (std::size_t f = 0; f < 5; ++f) EXPECT_LT(bent[3 + 3 * f].p.y(), flat[3 + 3 * f].p.y() - 0.01) << "finger " << f;
+}
+
+TEST(HandModel, AFistBringsThumbAndIndexTogether) {
+  const auto flat = placed(glove(0));
+  const auto fist = placed(glove(1.2));
+  EXPECT_LT((fist[3].p - fist[6].p).norm(), (flat[3].p - flat[6].p).norm());
+}
+
+RC_GTEST_PROP(HandModel, PhalangesMeetAtTheirJointsInEveryPose, ()) {
+  HandSample sample = glove(0);
+  for (double& angle : sample.joints) angle = 0.01 * *rc::gen::inRange(-30, 150);
+  const auto X_WS = placed(sample);
+  const HandSize size;
+  for (std::size_t f = 0; f < 5; ++f) {
+    for (std::size_t k = 0; k + 1 < 3; ++k) {
+      const Vec3 end = X_WS[1 + 3 * f + k] * Vec3(0.5 * size.fingers[f].length_m[k], 0, 0);
+      const Vec3 begin = X_WS[2 + 3 * f + k] * Vec3(-0.5 * size.fingers[f].length_m[k + 1], 0, 0);
+      RC_ASSERT((end - begin).norm() < 1e-9);
+    }
+  }
+}
+
+RC_GTEST_PROP(HandModel, MovingTheWristMovesEverySegmentRigidly, ()) {
+  Pose X_WH;
+  X_WH.p = Vec3(*rc::gen::inRange(-5, 5), *rc::gen::inRange(-5, 5), *rc::gen::inRange(-5, 5));
+  X_WH.R = quat_from_rotation_vector(Vec3(0.1 * *rc::gen::inRange(-9, 9), 0.2, -0.3));
+  const auto at_origin = placed(glove(0.4));
+  const auto moved = placed(glove(0.4), X_WH);
+  for (std::size_t s = 0; s < moved.size(); ++s) RC_ASSERT((moved[s].p - X_WH * at_origin[s].p).norm() < 1e-9);
+}
+
+TEST(HandModel, ReachCoversEverySegment) {
+  for (const double scale : {0.7, 1.0, 1.3}) {
+    HandSample sample = glove(0);
+    sample.hand_scale = scale;
+    const auto X_WS = placed(sample);
+    for (std::size_t s = 0; s < X_WS.size(); ++s) {
+      const auto& bound = hand().segment(sample, s).bound_O;
+      EXPECT_LE((X_WS[s] * bound.center).norm() + bound.radius, hand().reach_m(sample) + 1e-9) << "segment " << s;
+    }
+  }
+}
+
+TEST(HandModel, ASampleOfAGrownHandHasEnoughPointsForAFingertip) {
+  std::size_t points = 0;
+  for (std::size_t s = 0; s < state::kHandSegments; ++s) points += hand().segment(glove(0), s).samples_O.size();
+  EXPECT_GT(points, 1000u);
+}
+
+TEST(HandModel, ImpossibleSizesAreRefusedByName) {
+  HandSize size;
+  size.fingers[2].radius_m[1] = -1;
+  const auto made = HandModel::create(size);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().what.find("finger 2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mechane::haptics
