@@ -1,0 +1,97 @@
+"""Two plain plots as SVG: tails of distributions, and bars. No library: a plot is a few lines and some text."""
+
+import math
+from html import escape
+from pathlib import Path
+
+INK, QUIET, GRID, PAPER = "#1f1e1b", "#6b6a64", "#e4e2da", "#fcfcfb"
+COLOURS = ["#2a78d6", "#eb6834", "#1a9e77", "#7a5cc8"]
+FONT = "font-family='DejaVu Sans, Helvetica, Arial, sans-serif'"
+
+
+def _text(x: float, y: float, text: str, size: int = 12, colour: str = INK, anchor: str = "start", weight: str = "normal") -> str:
+    return (f"<text x='{x:.1f}' y='{y:.1f}' {FONT} font-size='{size}' font-weight='{weight}' fill='{colour}' "
+            f"text-anchor='{anchor}'>{escape(text)}</text>")
+
+
+def _line(x1: float, y1: float, x2: float, y2: float, colour: str = GRID) -> str:
+    return f"<line x1='{x1:.1f}' y1='{y1:.1f}' x2='{x2:.1f}' y2='{y2:.1f}' stroke='{colour}'/>"
+
+
+def _page(path: Path, width: int, height: int, title: str, subtitle: str, parts: list[str]) -> None:
+    head = [f"<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {width} {height}' width='{width}' height='{height}'>",
+            f"<rect width='{width}' height='{height}' fill='{PAPER}'/>",
+            _text(24, 32, title, 16, weight="bold"), _text(24, 52, subtitle, 12, QUIET)]
+    path.write_text("\n".join([*head, *parts, "</svg>\n"]))
+
+
+def number(value: float) -> str:
+    """Three digits that count."""
+    if value == 0:
+        return "0"
+    digits = max(0, 2 - math.floor(math.log10(abs(value))))
+    return f"{value:,.{digits}f}"
+
+
+def _marks(low: float, high: float) -> list[float]:
+    """1, 2, 5 in each decade, as a logarithmic axis from low to high needs them."""
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    return [m * 10.0 ** d for d in decades for m in (1, 2, 5) if low <= m * 10.0 ** d <= high]
+
+
+def _apart(wanted: list[float], gap: float) -> list[float]:
+    """The same heights, moved down just enough that labels do not overlap."""
+    placed = {}
+    last = -math.inf
+    for index in sorted(range(len(wanted)), key=lambda i: wanted[i]):
+        last = max(wanted[index], last + gap)
+        placed[index] = last
+    return [placed[i] for i in range(len(wanted))]
+
+
+def tails(path: Path, title: str, subtitle: str, series: dict[str, list[list[float]]]) -> None:
+    """One line each: how long the slowest share of the samples took at least. `series`: name -> pairs (share slower, us)."""
+    width, height, left, right, top, bottom = 760, 420, 64, 190, 76, 56
+    every = [us for curve in series.values() for _, us in curve if us > 0]
+    low, high = min(every) / 1.15, max(every) * 1.15
+    far = min(beyond for curve in series.values() for beyond, _ in curve)
+
+    def x(beyond: float) -> float:
+        return left + (width - left - right) * math.log10(1 / beyond) / math.log10(1 / far)
+
+    def y(us: float) -> float:
+        return top + (height - top - bottom) * (1 - math.log(us / low) / math.log(high / low))
+
+    parts = []
+    for mark in _marks(low, high):
+        parts += [_line(left, y(mark), width - right, y(mark)), _text(left - 8, y(mark) + 4, f"{mark:g}", 11, QUIET, "end")]
+    for beyond, name in ((0.5, "median"), (0.1, "90 %"), (0.01, "99 %"), (0.001, "99.9 %"), (0.0001, "99.99 %")):
+        if beyond >= far:
+            parts += [_line(x(beyond), top, x(beyond), height - bottom),
+                      _text(x(beyond), height - bottom + 18, name, 11, QUIET, "middle")]
+    parts += [_text(left - 8, top - 10, "µs", 11, QUIET, "end"),
+              _text((left + width - right) / 2, height - 14, "share of samples that are faster", 11, QUIET, "middle")]
+    label_y = _apart([y(max(curve[-1][1], low)) + 4 for curve in series.values()], 32)
+    for index, (name, curve) in enumerate(series.items()):
+        colour = COLOURS[index % len(COLOURS)]
+        points = " ".join(f"{x(beyond):.1f},{y(us):.1f}" for beyond, us in curve if us > 0)
+        median = min(curve, key=lambda pair: abs(pair[0] - 0.5))[1]
+        parts += [f"<polyline points='{points}' fill='none' stroke='{colour}' stroke-width='2.2' stroke-linejoin='round'/>",
+                  _text(width - right + 10, label_y[index], name, 12, colour, weight="bold"),
+                  _text(width - right + 10, label_y[index] + 14, f"median {number(median)} µs", 11, QUIET)]
+    _page(path, width, height, title, subtitle, parts)
+
+
+def bars(path: Path, title: str, subtitle: str, rows: list[tuple[str, float]], unit: str) -> None:
+    """One bar each, from zero, with its value at its end."""
+    left, right, top, step = 150, 110, 72, 30
+    width, height = 760, top + step * len(rows) + 24
+    longest = max((value for _, value in rows), default=0) or 1
+    parts = []
+    for index, (name, value) in enumerate(rows):
+        y, length = top + step * index, (width - left - right) * value / longest
+        parts += [_text(left - 10, y + 15, name, 12, INK, "end"),
+                  f"<rect x='{left}' y='{y}' width='{max(length, 1):.1f}' height='20' rx='2' fill='{COLOURS[0]}'/>",
+                  _text(left + length + 8, y + 15, f"{number(value)} {unit}", 12, QUIET)]
+    parts.append(_line(left, top - 6, left, height - 20, QUIET))
+    _page(path, width, height, title, subtitle, parts)
