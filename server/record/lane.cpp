@@ -1,0 +1,157 @@
+#include "server/record/lane.hpp"
+
+#include <chrono>
+#include <span>
+#include <utility>
+
+#include "server/record/byte_order.hpp"
+#include "server/record/snapshot_file.hpp"
+
+namespace mechane::record {
+namespace {
+
+std::uint64_t wall_now_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+}  // namespace
+
+Lane::Lane(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
+           std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after)
+    : ring_(ring_bytes),
+      snapshots_([snapshot_capacity] {
+        Snapshot slot;
+        slot.bytes.reserve(snapshot_capacity);
+        return slot;
+      }),
+      encoded_{},
+      through_tick_(header.first_tick),
+      header_(header),
+      journal_path_(std::move(journal)),
+      snapshot_path_(std::move(snapshot)),
+      retry_after_(retry_after),
+      writer_(header),
+      stored_(writer_.position()),
+      beginning_(writer_.take_bytes()) {
+  header_.snapshot = {};
+}
+
+void Lane::push(const TickRecord& record) noexcept {
+  const std::span<std::byte> buffer(encoded_);
+  SpanSink number(buffer);
+  put(number, record.tick);
+  const std::size_t size = encode_tick(record, buffer.subspan(8));
+  if (!ring_.push(buffer.first(8 + size))) {
+    refused_.store(refused_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+  through_tick_.store(record.tick + 1, std::memory_order_release);
+}
+
+void Lane::commit_snapshot(std::uint64_t tick) noexcept {
+  snapshots_.writable().tick = tick;
+  snapshots_.commit();
+}
+
+void Lane::drain(TimePoint now) {
+  write_snapshot();
+  if (given_up_ || (rest_until_ && now < *rest_until_)) return discard();
+  gather();
+  store(now);
+}
+
+// From the ring to the writer. Ticks that the ring had no room for, or that the disk refused before, are a gap that the writer finds.
+void Lane::gather() {
+  for (auto front = ring_.front(); front.found; front = ring_.front()) {
+    ByteSource number(front.record);
+    writer_.add_encoded(number.get<std::uint64_t>(), front.record.subspan(8));
+    ring_.pop();
+  }
+}
+
+void Lane::discard() {
+  while (ring_.front().found)
+    ring_.pop();
+}
+
+void Lane::store(TimePoint now) {
+  writer_.flush();
+  const std::vector<std::byte> bytes = writer_.take_bytes();
+  if (bytes.empty() && beginning_.empty()) return;
+  if (auto appended = append(bytes); !appended) {
+    journal_problem_ = appended.error().to_string();
+    writer_.rewind(stored_);
+    rest_until_ = now + retry_after_;
+    return;
+  }
+  stored_ = writer_.position();
+  journal_problem_.clear();
+  rest_until_.reset();
+}
+
+Expected<void> Lane::append(std::span<const std::byte> bytes) {
+  if (!file_.is_open()) {
+    auto created = AppendFile::create(journal_path_);
+    if (!created) return tl::unexpected(created.error());
+    file_ = std::move(*created);
+  }
+  if (!beginning_.empty()) {
+    if (auto begun = file_.append(beginning_); !begun) {
+      // An empty file is no journal: try from the start.
+      file_.close();
+      std::error_code ignored;
+      std::filesystem::remove(journal_path_, ignored);
+      return begun;
+    }
+    bytes_written_ += beginning_.size();
+    beginning_ = {};
+  }
+  if (bytes.empty()) return {};
+  auto appended = file_.append(bytes);
+  if (appended) bytes_written_ += bytes.size();
+  given_up_ = !file_.is_open();
+  return appended;
+}
+
+void Lane::write_snapshot() {
+  const Snapshot* snapshot = snapshots_.take();
+  if (snapshot == nullptr) return;
+  const SnapshotInfo info{header_.world_id,      header_.kiosk,  header_.scenario_id,
+                          header_.scenario_hash, snapshot->tick, wall_now_ns()};
+  auto written = write_snapshot_file(snapshot_path_, info, snapshot->bytes);
+  snapshot_problem_ = written ? std::string() : written.error().to_string();
+  if (written) ++snapshots_written_;
+}
+
+void Lane::sync() {
+  if (!file_.is_open()) return;
+  auto synced = file_.sync();
+  sync_problem_ = synced ? std::string() : synced.error().to_string();
+}
+
+const std::string& Lane::problem() const {
+  if (!journal_problem_.empty()) return journal_problem_;
+  return sync_problem_.empty() ? snapshot_problem_ : sync_problem_;
+}
+
+std::uint64_t Lane::ticks_lost() const {
+  if (journal_problem_.empty()) return writer_.lost_ticks();
+  return writer_.lost_ticks() + (through_tick() - stored_.next_tick);
+}
+
+void Lane::finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_snapshot) {
+  write_snapshot();
+  if (remove_snapshot) {
+    std::error_code ignored;  // it may never have been written
+    std::filesystem::remove(snapshot_path_, ignored);
+  }
+  if (given_up_) return discard();
+  // One last try, whether the disk rests or not.
+  gather();
+  writer_.close(hash, through_tick());
+  store(now);
+  sync();
+  file_.close();
+}
+
+}  // namespace mechane::record

@@ -1,0 +1,258 @@
+#include "server/record/recorder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <csignal>
+#include <system_error>
+#include <utility>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <pthread.h>
+
+#include "server/log/log.hpp"
+#include "server/record/file.hpp"
+#include "server/record/lane.hpp"
+#include "server/record/retention.hpp"
+#include "server/record/snapshot_file.hpp"
+
+namespace mechane::record {
+namespace {
+
+constexpr Duration kRetentionPeriod = std::chrono::seconds(10);
+
+TimePoint now() {
+  return TimePoint(std::chrono::steady_clock::now());
+}
+
+std::uint64_t wall_now_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+// "kiosk-3-20261121-174501-250.journal"; a number behind it where that name is taken.
+template <class Taken>
+std::filesystem::path journal_path_of(const std::filesystem::path& folder, const JournalHeader& header,
+                                      Taken is_taken) {
+  const auto seconds = static_cast<std::time_t>(header.start_wall_ns / 1'000'000'000);
+  const std::string stem = fmt::format("{}-{:%Y%m%d-%H%M%S}-{:03}", file_name_of(header.world_id), fmt::gmtime(seconds),
+                                       header.start_wall_ns / 1'000'000 % 1000);
+  std::filesystem::path path = folder / (stem + kJournalExtension);
+  for (int n = 2; is_taken(path); ++n)
+    path = folder / fmt::format("{}-{}{}", stem, n, kJournalExtension);
+  return path;
+}
+
+void add_counts(const Lane& lane, RecorderStatus& sum) {
+  sum.bytes_written += lane.bytes_written();
+  sum.ticks_lost += lane.ticks_lost();
+  sum.snapshots_written += lane.snapshots_written();
+}
+
+// Once when the trouble begins, once when it is over: a full disk must not fill the log too.
+void tell(const std::string& before, const std::string& problem) {
+  if (before.empty() && !problem.empty()) log::error("records are being lost: " + problem);
+  if (!before.empty() && problem.empty()) log::info("records are written again");
+}
+
+}  // namespace
+
+/// One open world. The disk side of its lane is the thread's alone; the rest is under the mutex.
+struct Recorder::Entry {
+  std::unique_ptr<Lane> lane;
+  bool closing = false;
+  bool closed = false;
+  bool remove_snapshot = false;
+  std::optional<std::uint64_t> final_hash;
+};
+
+/// What one round does with one world; copied out from under the mutex.
+struct Recorder::Work {
+  Entry* entry;
+  bool finish;
+  bool remove_snapshot;
+  std::optional<std::uint64_t> final_hash;
+};
+
+WorldRecorder::WorldRecorder(WorldRecorder&& other) noexcept
+    : recorder_(other.recorder_), lane_(std::exchange(other.lane_, nullptr)) {}
+
+WorldRecorder& WorldRecorder::operator=(WorldRecorder&& other) noexcept {
+  if (this != &other) {
+    close();
+    recorder_ = other.recorder_;
+    lane_ = std::exchange(other.lane_, nullptr);
+  }
+  return *this;
+}
+
+WorldRecorder::~WorldRecorder() {
+  close();
+}
+
+void WorldRecorder::push(const TickRecord& record) noexcept {
+  lane_->push(record);
+}
+std::uint64_t WorldRecorder::refused() const noexcept {
+  return lane_->refused();
+}
+std::vector<std::byte>& WorldRecorder::snapshot_buffer() noexcept {
+  return lane_->snapshot_buffer();
+}
+void WorldRecorder::commit_snapshot(std::uint64_t tick) noexcept {
+  lane_->commit_snapshot(tick);
+}
+const std::filesystem::path& WorldRecorder::journal_path() const noexcept {
+  return lane_->journal_path();
+}
+
+void WorldRecorder::close(std::optional<std::uint64_t> final_hash, Snapshot snapshot) {
+  if (lane_ != nullptr) recorder_->close_lane(*std::exchange(lane_, nullptr), final_hash, snapshot == Snapshot::remove);
+}
+
+Recorder::Recorder(const RecorderConfig& config) : config_(config) {}
+
+Expected<std::unique_ptr<Recorder>> Recorder::create(const RecorderConfig& config) {
+  const std::string where = "recorder, " + config.folder.string();
+  if (config.ring_bytes < (64u << 10) || !std::has_single_bit(config.ring_bytes)) {
+    return fail(fmt::format("ring_bytes is {}", config.ring_bytes), where, "use a power of two of at least 65536");
+  }
+  if (config.drain_period <= Duration{0} || config.sync_period < Duration{0} || config.retry_after < Duration{0}) {
+    return fail("a period is negative or zero", where, "use 20 ms, 1 s and 5 s");
+  }
+  std::error_code error;
+  std::filesystem::create_directories(config.folder, error);
+  if (error) return fail("the folder cannot be made: " + error.message(), where, "check the path and its rights");
+  std::unique_ptr<Recorder> recorder(new Recorder(config));
+  try {
+    recorder->thread_ = std::thread([self = recorder.get()] { self->run(); });
+  } catch (const std::system_error& e) {
+    return fail(std::string("cannot make the thread: ") + e.what(), where, "raise the limit of threads (ulimit -u)");
+  }
+  return recorder;
+}
+
+Recorder::~Recorder() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+WorldRecorder Recorder::open(JournalHeader header, std::size_t snapshot_capacity) {
+  if (header.start_wall_ns == 0) header.start_wall_ns = wall_now_ns();
+  const std::lock_guard lock(mutex_);
+  // A journal of the same millisecond may be on the disk, or about to be.
+  const auto is_taken = [this](const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) return true;
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [&](const auto& e) { return e->lane->journal_path() == path; });
+  };
+  auto entry = std::make_unique<Entry>();
+  entry->lane = std::make_unique<Lane>(header, journal_path_of(config_.folder, header, is_taken),
+                                       snapshot_path(config_.folder, header.world_id), config_.ring_bytes,
+                                       snapshot_capacity, config_.retry_after);
+  entries_.push_back(std::move(entry));
+  return {*this, *entries_.back()->lane};
+}
+
+RecorderStatus Recorder::status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+
+void Recorder::close_lane(const Lane& lane, std::optional<std::uint64_t> final_hash, bool remove_snapshot) {
+  std::unique_lock lock(mutex_);
+  const auto it = std::find_if(entries_.begin(), entries_.end(), [&](const auto& e) { return e->lane.get() == &lane; });
+  if (it == entries_.end()) return;
+  Entry& entry = **it;
+  entry.final_hash = final_hash;
+  entry.remove_snapshot = remove_snapshot;
+  entry.closing = true;
+  wake_.notify_one();
+  closed_.wait(lock, [&] { return entry.closed; });
+  // Whoever asked for the close takes the entry out: until here the thread may have looked at it.
+  std::erase_if(entries_, [&](const auto& e) { return e.get() == &entry; });
+}
+
+void Recorder::run() {
+  // No signal is handled here; and a file that grows over RLIMIT_FSIZE is an error of write(), not the end of the process.
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, nullptr);
+  pthread_setname_np(pthread_self(), "recorder");
+
+  next_sync_ = now() + config_.sync_period;
+  next_retention_ = now();
+  for (bool stopping = false; !stopping;) {
+    const std::vector<Work> work = wait_for_work(stopping);
+    do_work(work, now());
+    const std::string before = status().problem;
+    finish_work(work);
+    closed_.notify_all();
+    tell(before, status().problem);
+  }
+}
+
+std::vector<Recorder::Work> Recorder::wait_for_work(bool& stopping) {
+  std::unique_lock lock(mutex_);
+  wake_.wait_for(lock, config_.drain_period, [this] {
+    return stop_ ||
+           std::any_of(entries_.begin(), entries_.end(), [](const auto& e) { return e->closing && !e->closed; });
+  });
+  stopping = stop_;
+  std::vector<Work> work;
+  for (const auto& entry : entries_) {
+    if (!entry->closed)
+      work.push_back({entry.get(), entry->closing || stopping, entry->remove_snapshot, entry->final_hash});
+  }
+  return work;
+}
+
+void Recorder::do_work(const std::vector<Work>& work, TimePoint time) {
+  const bool sync = time >= next_sync_;
+  if (sync) next_sync_ = time + config_.sync_period;
+  bool finished = false;
+  for (const Work& w : work) {
+    Lane& lane = *w.entry->lane;
+    if (w.finish) {
+      lane.finish(time, w.final_hash, w.remove_snapshot);
+      finished = true;
+    } else {
+      lane.drain(time);
+      if (sync) lane.sync();
+    }
+  }
+  if (!finished && time < next_retention_) return;
+  next_retention_ = time + kRetentionPeriod;
+  auto kept = keep_within(config_.folder, config_.max_journal_bytes);
+  if (kept) journals_deleted_ += kept->deleted;
+  retention_problem_ = kept ? std::string() : kept.error().to_string();
+}
+
+void Recorder::finish_work(const std::vector<Work>& work) {
+  const std::lock_guard lock(mutex_);
+  RecorderStatus all = of_closed_;
+  all.problem = retention_problem_;
+  all.journals_deleted = journals_deleted_;
+  for (const Work& w : work) {
+    const Lane& lane = *w.entry->lane;
+    add_counts(lane, all);
+    if (w.finish) {
+      add_counts(lane, of_closed_);
+    } else {
+      ++all.open_journals;
+    }
+    if (!lane.ok()) all.problem = lane.problem();
+    w.entry->closed = w.finish;
+  }
+  all.records_ok = all.problem.empty();
+  status_ = all;
+}
+
+}  // namespace mechane::record

@@ -1,0 +1,123 @@
+// Recorder: the one thread that writes journals and snapshots of all worlds to the disk, whatever the disk does.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/base/clock.hpp"
+#include "server/base/error.hpp"
+#include "server/record/journal.hpp"
+#include "server/record/tick_record.hpp"
+
+namespace mechane::record {
+
+class Lane;
+class Recorder;
+
+struct RecorderConfig {
+  std::filesystem::path folder;                           ///< made when it is missing
+  std::uint64_t max_journal_bytes = 20ull << 30;          ///< of all journals together; the oldest closed ones go first
+  std::size_t ring_bytes = 4u << 20;                      ///< a world's buffer, a power of two: some 20 s of one hand
+  Duration drain_period = std::chrono::milliseconds(20);  ///< how often the rings are emptied: what a kill -9 loses
+  Duration sync_period =
+      std::chrono::seconds(1);  ///< how often journals are flushed to the disk: what a power cut loses
+  Duration retry_after = std::chrono::seconds(5);  ///< how long a journal rests after the disk refused it
+};
+
+/// For ServerStatus and the log.
+struct RecorderStatus {
+  bool records_ok = true;           ///< false while any file cannot be written
+  std::string problem;              ///< the newest one, for people; empty while all is well
+  std::uint64_t bytes_written = 0;  ///< to journals
+  std::uint64_t ticks_lost = 0;     ///< that no journal has, and that some journal says are missing
+  std::uint64_t snapshots_written = 0;
+  std::uint64_t journals_deleted = 0;  ///< to keep within max_journal_bytes
+  std::uint64_t open_journals = 0;
+};
+
+/// One world's way into the recorder. push() and the snapshot calls belong to the thread that runs the world; close() to any one
+/// thread after the last of them. Must not outlive its Recorder.
+class WorldRecorder {
+ public:
+  WorldRecorder(WorldRecorder&& other) noexcept;
+  WorldRecorder& operator=(WorldRecorder&& other) noexcept;
+  ~WorldRecorder();  ///< closes, without a hash
+
+  /// Called in the loop: no allocation, lock, or wait. A tick that finds no room is lost, counted, and marked in the journal.
+  void push(const TickRecord& record) noexcept;
+  /// Ticks that push() found no room for.
+  [[nodiscard]] std::uint64_t refused() const noexcept;
+
+  /// The loop fills this buffer with state::write_snapshot, once a second or so, and hands it over with commit_snapshot().
+  /// Its capacity is that given to open(): a snapshot of at most that size allocates nothing.
+  [[nodiscard]] std::vector<std::byte>& snapshot_buffer() noexcept;
+  void commit_snapshot(std::uint64_t tick) noexcept;
+
+  /// How a world ends: `keep` its snapshot for a restart, or `remove` it because the visit is over.
+  enum class Snapshot { keep, remove };
+  /// Waits until everything pushed is in the file, with the final hash, and the file is closed. Never from the loop.
+  void close(std::optional<std::uint64_t> final_hash = {}, Snapshot snapshot = Snapshot::keep);
+
+  /// The journal's path; known from the start, even where the file could not be made yet.
+  [[nodiscard]] const std::filesystem::path& journal_path() const noexcept;
+
+ private:
+  friend class Recorder;
+  WorldRecorder(Recorder& recorder, Lane& lane) : recorder_(&recorder), lane_(&lane) {}
+  Recorder* recorder_;
+  Lane* lane_;  // null after close() and after a move
+};
+
+/// Owns one thread of ordinary priority. A disk that is full or gone costs records, never a tick: the recorder says so once in the
+/// log and in status(), drops what it cannot write, tries again, and marks the gap in the journal.
+class Recorder {
+ public:
+  /// Errors: a folder that cannot be made or written, a bad setting.
+  [[nodiscard]] static Expected<std::unique_ptr<Recorder>> create(const RecorderConfig& config);
+  /// Writes what is left, closes all, joins.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Begins a journal "<folder>/<world>-<start time>.journal". `snapshot_capacity`: bytes of a snapshot of this world, with room to
+  /// spare. A start_wall_ns of 0 becomes now. A file that cannot be made now is tried again later. Any thread but the loops.
+  [[nodiscard]] WorldRecorder open(JournalHeader header, std::size_t snapshot_capacity);
+
+  /// Any thread but the loops.
+  [[nodiscard]] RecorderStatus status() const;
+
+ private:
+  friend class WorldRecorder;
+  struct Entry;
+  struct Work;
+  explicit Recorder(const RecorderConfig& config);
+  void run();
+  std::vector<Work> wait_for_work(bool& stopping);
+  void do_work(const std::vector<Work>& work, TimePoint time);
+  void finish_work(const std::vector<Work>& work);
+  void close_lane(const Lane& lane, std::optional<std::uint64_t> final_hash, bool remove_snapshot);
+
+  RecorderConfig config_;
+  mutable std::mutex mutex_;  // guards what follows, up to thread_; no loop ever takes it
+  std::condition_variable wake_;
+  std::condition_variable closed_;
+  bool stop_ = false;
+  std::vector<std::unique_ptr<Entry>> entries_;
+  RecorderStatus status_;
+  RecorderStatus of_closed_;  // the counts of lanes that are gone
+  // The thread's own.
+  TimePoint next_sync_;
+  TimePoint next_retention_;
+  std::uint64_t journals_deleted_ = 0;
+  std::string retention_problem_;
+  std::thread thread_;
+};
+
+}  // namespace mechane::record
