@@ -1,0 +1,50 @@
+// Makes an Object from meshes, or from a superquadric. Slow (seconds): offline, or while a scenario loads; never in a tick.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/collision/object.hpp"
+#include "server/geometry/fit.hpp"
+#include "server/geometry/mesh.hpp"
+
+namespace mechane::collision {
+
+struct BuildConfig {
+  int map_resolution = 32;                  ///< texels along an edge of the cube map: 16, 32 or 64
+  double sample_spacing_m = 0.005;          ///< between surface samples; under a third of a fingertip
+  std::size_t max_samples_per_part = 4096;  ///< a part that would need more gets a wider spacing instead
+  double seam_gap_m = 0.001;                ///< gaps between parts up to this width count as wood, not as a slot
+  std::uint64_t seed = 1;                   ///< same meshes, config and seed: same object, to the bit
+};
+
+/// What became of one part.
+struct PartReport {
+  std::string name;
+  geometry::FitReport fit;
+  bool closed = true;  ///< a part with open edges is mapped by its first surface from outside
+  std::size_t samples = 0;
+  double spacing_m = 0;          ///< of the samples, after the cap
+  double depth_error_p50_m = 0;  ///< of the map against the exact distance to the object's mesh, at points just inside
+  double depth_error_p99_m = 0;
+};
+
+struct BuildReport {
+  std::vector<PartReport> parts;
+  double seconds = 0;
+};
+
+/// Fits, maps and samples each part; each mesh is one part, close to convex, in the object's frame O. Parts that touch or overlap
+/// make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
+/// `report` may be null.
+[[nodiscard]] Expected<Object> build_object(std::span<const geometry::NamedMesh> parts, const BuildConfig& config,
+                                            BuildReport* report = nullptr);
+
+/// One part that is the superquadric itself, its frame Q being the object's frame. `shape` must be valid, the spacing positive.
+[[nodiscard]] Object make_superquadric_object(const geometry::Superquadric& shape, double sample_spacing_m);
+
+}  // namespace mechane::collision

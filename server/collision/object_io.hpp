@@ -1,0 +1,22 @@
+// The compiled object as bytes (a .part file): versioned, checksummed, little endian.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/collision/object.hpp"
+
+namespace mechane::collision {
+
+/// Raised with every change of the layout: a reader takes no other version, and the cache builds the object again.
+inline constexpr std::uint32_t kPartFileVersion = 1;
+
+[[nodiscard]] std::vector<std::byte> write_object(const Object& object);
+
+/// Reads what write_object wrote. Any other bytes are an Error: wrong magic or version, a checksum that does not match, counts or
+/// values out of their ranges. Never trusts a count beyond the bytes that are there.
+[[nodiscard]] Expected<Object> read_object(std::span<const std::byte> bytes);
+
+}  // namespace mechane::collision
