@@ -1,0 +1,80 @@
+#include "server/app/scenario_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/content/object_store.hpp"
+#include "server/log/log.hpp"
+#include "server/scenario/compiler.hpp"
+
+namespace mechane::app {
+namespace {
+
+/// The scenario's door to the content: builds a body's collision object, or takes it from the cache.
+class StoreLoader final : public scenario::ObjectLoader {
+ public:
+  explicit StoreLoader(content::ObjectStore& store) : store_(store) {}
+  [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
+                                                                        const std::string& node) override {
+    return store_.load(file, node, collision::BuildConfig{});
+  }
+  [[nodiscard]] Expected<std::string> content_hash(const std::filesystem::path& file) override {
+    return scenario::hash_file(file);
+  }
+
+ private:
+  content::ObjectStore& store_;
+};
+
+/// A scale that is not 1 makes another world: its journals must not be replayed against the unscaled one.
+void scale_touch(state::WorldDescription& description, double scale) {
+  if (scale == 1) return;
+  for (state::BodyDescription& body : description.bodies) {
+    body.haptic.stiffness_n_per_m *= scale;
+    body.haptic.damping_ns_per_m *= scale;
+  }
+  description.content_hash += fmt::format("-touch{}", scale);
+}
+
+Expected<std::shared_ptr<const state::WorldDescription>> load_one(const std::filesystem::path& file, StoreLoader& loader,
+                                                                  double stiffness_scale) {
+  log::info(fmt::format("reading {}", file.string()));
+  scenario::Problems problems(file.string());
+  auto description = scenario::read_scenario(file, loader, problems);
+  for (const scenario::Problem& problem : problems.all()) {
+    if (problem.severity == scenario::Severity::warning) log::warning(to_string(problem));
+  }
+  if (!description) return tl::unexpected(description.error());
+  scale_touch(*description, stiffness_scale);
+  return std::make_shared<const state::WorldDescription>(std::move(*description));
+}
+
+}  // namespace
+
+Expected<ScenarioStore> ScenarioStore::load(const Settings& settings) {
+  ScenarioStore result;
+  content::ObjectStore objects(settings.cache);
+  StoreLoader loader(objects);
+  for (const std::filesystem::path& file : settings.scenarios) {
+    auto description = load_one(file, loader, settings.stiffness_scale);
+    if (!description) return tl::unexpected(description.error());
+    if (result.find((*description)->id) != nullptr) {
+      return fail(fmt::format("two scenarios have the id '{}'", (*description)->id), file.string(), "give one of them another id");
+    }
+    result.scenarios_.push_back(std::move(*description));
+  }
+  auto hand = haptics::HandModel::create(settings.hand);
+  if (!hand) return tl::unexpected(hand.error());
+  result.config_.hand = std::make_shared<const haptics::HandModel>(std::move(*hand));
+  result.config_.force = settings.force;
+  return result;
+}
+
+std::shared_ptr<const state::WorldDescription> ScenarioStore::find(const std::string& id) const {
+  const auto it = std::find_if(scenarios_.begin(), scenarios_.end(), [&](const auto& s) { return s->id == id; });
+  return it == scenarios_.end() ? nullptr : *it;
+}
+
+}  // namespace mechane::app

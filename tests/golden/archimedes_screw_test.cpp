@@ -1,0 +1,104 @@
+// The shipped exhibit, ten thousand ticks with a hand that grasps and turns: the same bits every time, on every machine of one kind.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "server/app/scenario_store.hpp"
+#include "server/state/world_state.hpp"
+#include "server/world/step.hpp"
+#include "tests/support/allocation_guard.hpp"
+#include "tests/support/scripted_hand.hpp"
+
+namespace mechane {
+namespace {
+
+constexpr std::uint64_t kTicks = 10'000;
+
+class NoPublisher final : public world::Publisher {
+ public:
+  void publish(const state::WorldState&) noexcept override {}
+};
+
+const app::ScenarioStore& store() {
+  static const app::ScenarioStore kStore = [] {
+    app::Settings settings;
+    settings.scenarios = {std::string(MECHANE_SOURCE_DIR) + "/scenarios/archimedes-screw/archimedes-screw.x3d"};
+    return app::ScenarioStore::load(settings).value();
+  }();
+  return kStore;
+}
+
+/// The activity 'use', begun by a command; the hand where the scenario's own visit reaches.
+struct Play {
+  std::unique_ptr<world::World> world;
+  test::ScriptedHand hand;
+};
+
+Play make_play() {
+  const auto description = store().first();
+  const ActivityId use = description->find_activity("use");
+  const JointId joint = JointId(0);
+  const auto& hinge = description->joints[joint.index()];
+  const auto visit = std::find_if(description->visits.begin(), description->visits.end(), [&](const auto& v) { return v.activity == use; });
+  if (visit == description->visits.end() || visit->moves.empty()) throw std::runtime_error("the scenario has no visit for 'use'");
+  const auto& reach = visit->moves.front();
+  const Pose& X_WFrame = description->bodies[hinge.body1.index()].X_WB;
+  const Pose X_WAxis = X_WFrame * hinge.X_B1J;
+  // In 'use' the moving body stands in its joint.
+  const Pose X_WBody = X_WAxis * hinge.X_B2J.inverse();
+  return {world::World::create(description, store().world_config()).value(),
+          test::ScriptedHand(X_WBody * reach.p_BG, X_WAxis, 2 * kPi * 0.5)};
+}
+
+std::uint64_t run(Play& play, std::uint64_t* allocations = nullptr) {
+  SystemClock clock;
+  world::PhaseTimer timer(clock);
+  NoPublisher publisher;
+  state::TickInputs start;
+  start.commands[0] = {1, state::CommandKind::start_activity,
+                       static_cast<std::uint32_t>(store().first()->find_activity("use").index())};
+  start.command_count = 1;
+  world::step(*play.world, start, publisher, timer);
+  const test::AllocationGuard guard;
+  for (std::uint64_t t = 0; t < kTicks; ++t) {
+    state::TickInputs inputs;
+    inputs.users[0] = play.hand.sample(t);
+    world::step(*play.world, inputs, publisher, timer);
+  }
+  if (allocations != nullptr) *allocations = guard.allocations() + guard.frees();
+  return state::state_hash(play.world->state);
+}
+
+/// The mathematics library chooses its code by the processor; only those with FMA give the golden bits.
+bool has_fma() { return __builtin_cpu_supports("fma") != 0 && __builtin_cpu_supports("avx2") != 0; }
+
+TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
+  Play first = make_play();
+  const std::uint64_t hash = run(first);
+  Play second = make_play();
+  EXPECT_EQ(run(second), hash) << "two runs in one process must agree";
+  EXPECT_GT(first.world->state.joints[0].position, 2 * kPi) << "the visit must do something worth hashing";
+  if (!has_fma()) GTEST_SKIP() << "the golden hash is of processors with FMA";
+  std::ostringstream text;
+  text << std::hex << hash;
+  const std::string path = std::string(MECHANE_SOURCE_DIR) + "/tests/golden/archimedes-screw.hash";
+  if (std::getenv("MECHANE_ACCEPT_GOLDEN") != nullptr) std::ofstream(path) << text.str() << "\n";
+  std::ifstream file(path);
+  std::string golden;
+  file >> golden;
+  EXPECT_EQ(text.str(), golden) << "if the physics was meant to change, run this test once with MECHANE_ACCEPT_GOLDEN=1";
+}
+
+TEST(ArchimedesScrew, TenThousandTicksAllocateNothing) {
+  if (!test::AllocationGuard::available()) GTEST_SKIP() << "a sanitizer's malloc cannot be counted";
+  Play play = make_play();
+  std::uint64_t allocations = 1;
+  (void)run(play, &allocations);
+  EXPECT_EQ(allocations, 0u);
+}
+
+}  // namespace
+}  // namespace mechane
