@@ -1,0 +1,83 @@
+#include "server/agents/agent_set.hpp"
+
+#include <fmt/format.h>
+
+#include "server/agents/agent.hpp"
+#include "server/agents/progress.hpp"
+#include "server/agents/quantities.hpp"
+#include "server/agents/registry.hpp"
+#include "server/agents/touches.hpp"
+
+namespace mechane::agents {
+
+struct AgentSet::Impl {
+  std::vector<std::unique_ptr<Agent>> agents;
+  Touches touches;
+  ProgressRules progress;
+  Quantities quantities;
+};
+
+namespace {
+
+std::string known_types() {
+  std::string list;
+  for (const state::ComponentType& type : registry())
+    list += (list.empty() ? "" : ", ") + std::string(type.name);
+  return list;
+}
+
+Expected<std::unique_ptr<Agent>> make_agent(const state::WorldDescription& description, AgentId id,
+                                            state::MemoryLayout& layout) {
+  const state::ComponentDescription& component = description.agents[id.index()];
+  const AgentKind* kind = find_kind(component.type);
+  if (kind == nullptr)
+    return fail(fmt::format("there is no agent of type '{}'", component.type), state::component_place(component),
+                "use one of: " + known_types());
+  const auto parameters = state::Parameters::check(kind->type, component, description);
+  if (!parameters) return tl::unexpected(parameters.error());
+  return kind->make({description, component, *parameters, id, layout});
+}
+
+}  // namespace
+
+AgentSet::AgentSet(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+AgentSet::~AgentSet() = default;
+
+Expected<std::unique_ptr<AgentSet>> AgentSet::create(const state::WorldDescription& description,
+                                                     state::MemoryLayout& layout) {
+  auto impl = std::make_unique<Impl>();
+  for (std::size_t i = 0; i < description.agents.size(); ++i) {
+    auto agent = make_agent(description, AgentId(i), layout);
+    if (!agent) return tl::unexpected(agent.error());
+    impl->agents.push_back(std::move(*agent));
+  }
+  for (auto& agent : impl->agents) {
+    if (auto linked = agent->link(layout); !linked) return tl::unexpected(linked.error());
+  }
+  impl->touches = Touches(description, layout);
+  auto progress = ProgressRules::create(description, layout);
+  if (!progress) return tl::unexpected(progress.error());
+  impl->progress = std::move(*progress);
+  impl->progress.remember_start(layout);
+  auto quantities = Quantities::create(description, layout);
+  if (!quantities) return tl::unexpected(quantities.error());
+  impl->quantities = std::move(*quantities);
+  return std::unique_ptr<AgentSet>(new AgentSet(std::move(impl)));
+}
+
+void AgentSet::start(state::WorldState& state) const noexcept {
+  impl_->progress.start(state);
+  impl_->quantities.update(state);
+}
+
+void AgentSet::run(state::WorldState& state, std::span<const state::Command> commands, double dt_s) const noexcept {
+  for (const state::Command& command : commands)
+    impl_->progress.run_command(state, command);
+  for (std::size_t i = 0; i < impl_->agents.size(); ++i)
+    impl_->agents[i]->run(state, state.agent_enabled[i] != 0, dt_s);
+  impl_->touches.run(state, dt_s);
+  impl_->quantities.update(state);
+  impl_->progress.run_triggers(state, dt_s);
+}
+
+}  // namespace mechane::agents

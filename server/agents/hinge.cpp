@@ -1,0 +1,105 @@
+// geometry.hinge: a joint's switch, friction and limits.
+#include "server/agents/agent.hpp"
+
+namespace mechane::agents {
+namespace {
+
+using state::ParameterKind;
+
+class Hinge final : public Agent {
+ public:
+  explicit Hinge(const Build& build)
+      : joint_(build.parameters.joint("joint")),
+        friction_(build.parameters.number("frictionTorque") * build.description.effort_scale),
+        viscous_(build.parameters.number("viscous") * build.description.effort_scale),
+        limited_(build.parameters.given("minAngle")),
+        min_(build.parameters.number("minAngle")),
+        max_(build.parameters.number("maxAngle")),
+        angle_(build.slot("angle")),
+        rate_(build.slot("rate")),
+        turns_(build.slot("turns")) {}
+
+  void run(state::WorldState& state, bool enabled, double /*dt_s*/) const noexcept override {
+    state::JointState& joint = state[joint_];
+    joint.enabled = enabled;
+    joint.friction = friction_;
+    joint.viscous = viscous_;
+    if (limited_) {
+      joint.min_position = min_;
+      joint.max_position = max_;
+    }
+    state.memory[angle_] = joint.position;
+    state.memory[rate_] = joint.velocity;
+    state.memory[turns_] = joint.position / (2 * kPi);
+  }
+
+ private:
+  JointId joint_;
+  double friction_;
+  double viscous_;
+  bool limited_;
+  double min_;
+  double max_;
+  std::size_t angle_;
+  std::size_t rate_;
+  std::size_t turns_;
+};
+
+Expected<std::unique_ptr<Agent>> make(const Build& build) {
+  const std::string where = state::component_place(build.component);
+  const state::Parameters& p = build.parameters;
+  if (build.description.joints[p.joint("joint").index()].kind != state::JointKind::hinge)
+    return fail("the joint '" + p.text("joint") + "' is not a hinge", where, "name a SingleAxisHingeJoint");
+  if (p.given("minAngle") != p.given("maxAngle"))
+    return fail("only one of minAngle and maxAngle is given", where,
+                "give both, or none for a hinge that turns on and on");
+  if (p.given("minAngle") && p.number("minAngle") > p.number("maxAngle"))
+    return fail("minAngle is above maxAngle", where, "swap them");
+  for (const state::ComponentDescription& other : build.description.agents) {
+    const auto it = other.parameters.find("joint");
+    if (&other != &build.component && other.type == build.component.type && it != other.parameters.end() &&
+        it->second == build.component.parameters.at("joint"))
+      return fail("the agent " + other.name + " switches the same joint", where,
+                  "keep one geometry.hinge for each joint");
+  }
+  return std::make_unique<Hinge>(build);
+}
+
+constexpr state::ParameterType kParameters[] = {
+    {.name = "joint",
+     .kind = ParameterKind::text,
+     .summary = "the hinge that is on while this agent is",
+     .required = true,
+     .reference = state::Reference::joint},
+    {.name = "frictionTorque",
+     .unit = "N m",
+     .summary = "Coulomb friction of the real bearing; felt times the world's effort_scale",
+     .min = 0,
+     .max = 1e6},
+    {.name = "viscous",
+     .unit = "N m s/rad",
+     .summary = "drag that grows with the rate; felt times the world's effort_scale",
+     .min = 0,
+     .max = 1e6},
+    {.name = "minAngle",
+     .unit = "rad",
+     .summary = "lower stop; with maxAngle. Neither: the joint's own",
+     .min = -1e4,
+     .max = 1e4},
+    {.name = "maxAngle", .unit = "rad", .summary = "upper stop; with minAngle", .min = -1e4, .max = 1e4},
+};
+constexpr state::ValueType kValues[] = {
+    {"angle", "rad", "of body2 against body1; counts on over whole turns"},
+    {"rate", "rad/s", "how fast it turns"},
+    {"turns", "", "the angle in turns"},
+};
+
+}  // namespace
+
+const AgentKind& hinge_kind() {
+  static const AgentKind kKind{{"geometry.hinge", "Ties two bodies by a hinge while it is on", kParameters, kValues},
+                               make};
+  return kKind;
+}
+
+}  // namespace mechane::agents

@@ -1,0 +1,66 @@
+// simulation.placed: says when a snap has its object.
+#include "server/agents/agent.hpp"
+
+namespace mechane::agents {
+namespace {
+
+class Placed final : public Agent {
+ public:
+  Placed(const Build& build, std::string snap, BodyId object)
+      : id_(build.id), object_(object), snap_(std::move(snap)), placed_(build.slot("placed")) {}
+
+  Expected<void> link(const state::MemoryLayout& layout) override {
+    source_ = layout.find(snap_ + ".placed")->index;
+    return {};
+  }
+
+  void run(state::WorldState& state, bool enabled, double /*dt_s*/) const noexcept override {
+    const double now = state.memory[source_];
+    if (enabled && now != 0 && state.memory[placed_] == 0) {
+      state.emit(state::EventKind::placed, static_cast<std::uint32_t>(id_.index()),
+                 static_cast<std::uint32_t>(object_.index()));
+    }
+    state.memory[placed_] = now;
+  }
+
+ private:
+  AgentId id_;
+  BodyId object_;
+  std::string snap_;
+  std::size_t source_ = 0;
+  std::size_t placed_;
+};
+
+Expected<std::unique_ptr<Agent>> make(const Build& build) {
+  const state::ComponentDescription& snap = build.description.agents[build.parameters.agent("snap").index()];
+  if (snap.type != "geometry.snap")
+    return fail("'" + snap.name + "' is a " + snap.type, state::component_place(build.component),
+                "name a geometry.snap");
+  // The snap's own parameters are checked when it is made; here its object only names the event's body.
+  BodyId object;
+  const auto it = snap.parameters.find("object");
+  if (it != snap.parameters.end()) {
+    const auto* texts = std::get_if<std::vector<std::string>>(&it->second);
+    if (texts != nullptr && texts->size() == 1) object = build.description.find_body(texts->front());
+  }
+  return std::make_unique<Placed>(build, snap.name, object);
+}
+
+constexpr state::ParameterType kParameters[] = {
+    {.name = "snap",
+     .kind = state::ParameterKind::text,
+     .summary = "the geometry.snap that is watched",
+     .required = true,
+     .reference = state::Reference::agent},
+};
+constexpr state::ValueType kValues[] = {{"placed", "", "1 while the snap has its object"}};
+
+}  // namespace
+
+const AgentKind& placed_kind() {
+  static const AgentKind kKind{{"simulation.placed", "Says when a body has come to its place", kParameters, kValues},
+                               make};
+  return kKind;
+}
+
+}  // namespace mechane::agents

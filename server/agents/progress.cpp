@@ -1,0 +1,187 @@
+#include "server/agents/progress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/agents/agent.hpp"
+#include "server/base/assert.hpp"
+#include "server/base/clock.hpp"
+
+namespace mechane::agents {
+namespace {
+
+using state::EventKind;
+
+template <class Tag>
+bool in_table(Id<Tag> id, std::size_t size) {
+  return id && id.index() < size;
+}
+
+Expected<void> check_step(const state::WorldDescription& world, const state::StepDescription& step) {
+  const std::string where = "step " + step.name;
+  for (const auto* list : {&step.enable, &step.disable}) {
+    for (const AgentId agent : *list) {
+      if (!in_table(agent, world.agents.size()))
+        return fail("it switches an agent that is not there", where, "name an agent");
+    }
+  }
+  for (const state::BodyOverride& change : step.bodies) {
+    if (!in_table(change.body, world.bodies.size()))
+      return fail("it changes a body that is not there", where, "name a body");
+  }
+  for (const state::TriggerDescription& trigger : step.triggers) {
+    if (!in_table(trigger.quantity, world.quantities.size()))
+      return fail("a trigger tests a quantity that is not there", where, "name a quantity");
+    if (trigger.next && !in_table(trigger.next, world.steps.size()))
+      return fail("a trigger leads to a step that is not there", where, "name a step, or 'end'");
+    if (!std::isfinite(trigger.value) || !(trigger.hold_s >= 0))
+      return fail("a trigger's value or hold time is not a number", where, "write a number; the time is 0 s or more");
+  }
+  return {};
+}
+
+bool holds(const state::TriggerDescription& trigger, double quantity) {
+  switch (trigger.comparison) {
+    case state::Comparison::less:
+      return quantity < trigger.value;
+    case state::Comparison::equal:
+      return std::abs(quantity - trigger.value) <= trigger.tolerance;
+    case state::Comparison::greater:
+      return quantity > trigger.value;
+  }
+  return false;
+}
+
+double seconds_since(const state::WorldState& state, std::uint64_t tick) {
+  return static_cast<double>(state.tick - tick) * kTickSeconds;
+}
+
+template <class Tag>
+std::uint32_t subject(Id<Tag> id) {
+  return static_cast<std::uint32_t>(id.index());
+}
+
+}  // namespace
+
+Expected<ProgressRules> ProgressRules::create(const state::WorldDescription& description, state::MemoryLayout& layout) {
+  for (const state::ActivityDescription& activity : description.activities) {
+    if (!in_table(activity.first, description.steps.size()))
+      return fail("it has no first step", "activity " + activity.name, "name a step as its first");
+  }
+  ProgressRules out;
+  out.description_ = &description;
+  const state::WorldState at_start(description);
+  out.bodies_ = at_start.bodies;
+  out.joints_ = at_start.joints;
+  out.agent_enabled_.assign(description.agents.size(), 1);
+  for (const state::StepDescription& step : description.steps) {
+    if (auto good = check_step(description, step); !good) return tl::unexpected(good.error());
+    for (const AgentId agent : step.enable)
+      out.agent_enabled_[agent.index()] = 0;
+    out.first_hold_.push_back(layout.slots().size());
+    for (std::size_t i = 0; i < step.triggers.size(); ++i)
+      layout.add("step." + step.name, "trigger" + std::to_string(i) + ".held_s");
+  }
+  return out;
+}
+
+void ProgressRules::start(state::WorldState& state) const noexcept {
+  put_back(state);
+  if (!description_->activities.empty()) start_activity(state, ActivityId(0));
+}
+
+void ProgressRules::put_back(state::WorldState& state) const noexcept {
+  MECHANE_ASSERT(state.memory.size() == memory_.size());
+  for (std::size_t u = 0; u < state.users.size(); ++u)
+    let_go(state, u);
+  std::copy(bodies_.begin(), bodies_.end(), state.bodies.begin());
+  std::copy(joints_.begin(), joints_.end(), state.joints.begin());
+  std::copy(agent_enabled_.begin(), agent_enabled_.end(), state.agent_enabled.begin());
+  std::copy(memory_.begin(), memory_.end(), state.memory.begin());
+  state.progress = {};
+}
+
+void ProgressRules::start_activity(state::WorldState& state, ActivityId activity) const noexcept {
+  put_back(state);
+  state.progress.activity = activity;
+  state.progress.activity_tick = state.tick;
+  state.emit(EventKind::activity_started, subject(activity));
+  enter_step(state, description_->activities[activity.index()].first);
+}
+
+void ProgressRules::enter_step(state::WorldState& state, StepId id) const noexcept {
+  const state::StepDescription& step = description_->steps[id.index()];
+  state.progress.step = id;
+  state.progress.step_tick = state.tick;
+  state.progress.hint_shown = false;
+  for (const AgentId agent : step.enable)
+    state.agent_enabled[agent.index()] = 1;
+  for (const AgentId agent : step.disable)
+    state.agent_enabled[agent.index()] = 0;
+  for (const state::BodyOverride& change : step.bodies) {
+    state::BodyState& body = state[change.body];
+    if (change.movable) body.movable = *change.movable;
+    if (change.visible) body.visible = *change.visible;
+    if (change.graspable) body.graspable = *change.graspable;
+    if (!change.X_WB) continue;
+    for (std::size_t u = 0; u < state.users.size(); ++u) {
+      if (state.users[u].grasp.active && state.users[u].grasp.body == change.body) let_go(state, u);
+    }
+    body.X_WB = *change.X_WB;
+    body.V_WB = {};
+  }
+  for (std::size_t i = 0; i < step.triggers.size(); ++i)
+    state.memory[first_hold_[id.index()] + i] = 0;
+  state.emit(EventKind::step_started, subject(id));
+}
+
+void ProgressRules::leave_step(state::WorldState& state, StepId next) const noexcept {
+  ++state.progress.steps_done;
+  if (next) return enter_step(state, next);
+  state.progress.done = true;
+  state.emit(EventKind::activity_done, subject(state.progress.activity), 0xffffffffu,
+             seconds_since(state, state.progress.activity_tick));
+}
+
+void ProgressRules::run_command(state::WorldState& state, const state::Command& command) const noexcept {
+  const state::Progress& at = state.progress;
+  bool done = false;
+  switch (command.kind) {
+    case state::CommandKind::none:
+      break;
+    case state::CommandKind::start_activity:
+      done = command.argument < description_->activities.size();
+      if (done) start_activity(state, ActivityId(command.argument));
+      break;
+    case state::CommandKind::restart_activity:
+      done = static_cast<bool>(at.activity);
+      if (done) start_activity(state, at.activity);
+      break;
+    case state::CommandKind::next_step:
+      done = at.step && !at.done;
+      if (done) {
+        const auto& triggers = description_->steps[at.step.index()].triggers;
+        leave_step(state, triggers.empty() ? StepId::none() : triggers.front().next);
+      }
+      break;
+  }
+  state.emit(done ? EventKind::command_done : EventKind::command_refused, 0xffffffffu, 0xffffffffu,
+             static_cast<double>(command.id));
+}
+
+void ProgressRules::run_triggers(state::WorldState& state, double dt_s) const noexcept {
+  state::Progress& at = state.progress;
+  if (!at.step || at.done) return;
+  const state::StepDescription& step = description_->steps[at.step.index()];
+  if (seconds_since(state, at.step_tick) >= step.hint_after_s) at.hint_shown = true;
+  for (std::size_t i = 0; i < step.triggers.size(); ++i) {
+    const state::TriggerDescription& trigger = step.triggers[i];
+    double& held_s = state.memory[first_hold_[at.step.index()] + i];
+    const bool now = holds(trigger, state.quantities[trigger.quantity.index()]);
+    held_s = now ? held_s + dt_s : 0;
+    // Half a tick of slack: the sum of ticks must not miss its time by rounding.
+    if (now && held_s + 0.5 * dt_s >= trigger.hold_s) return leave_step(state, trigger.next);
+  }
+}
+
+}  // namespace mechane::agents

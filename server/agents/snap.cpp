@@ -1,0 +1,202 @@
+// geometry.snap: a body that comes close to its place goes there and stays.
+#include <algorithm>
+
+#include "server/agents/agent.hpp"
+
+namespace mechane::agents {
+namespace {
+
+using state::ParameterKind;
+
+/// A pose in seven slots of memory.
+class PoseSlots {
+ public:
+  PoseSlots(const Build& build, const std::string& name) {
+    for (std::size_t i = 0; i < at_.size(); ++i)
+      at_[i] = build.slot(name + "." + std::to_string(i), i == 6 ? 1 : 0);
+  }
+  [[nodiscard]] Pose read(const state::WorldState& state) const noexcept {
+    const auto& m = state.memory;
+    return {Vec3(m[at_[0]], m[at_[1]], m[at_[2]]), Quat(m[at_[6]], m[at_[3]], m[at_[4]], m[at_[5]])};
+  }
+  void write(state::WorldState& state, const Pose& X) const noexcept {
+    for (int i = 0; i < 3; ++i)
+      state.memory[at_[static_cast<std::size_t>(i)]] = X.p[i];
+    for (int i = 0; i < 4; ++i)
+      state.memory[at_[static_cast<std::size_t>(i + 3)]] = X.R.coeffs()[i];
+  }
+
+ private:
+  std::array<std::size_t, 7> at_{};
+};
+
+class Snap final : public Agent {
+ public:
+  explicit Snap(const Build& build, const Pose& X_IT, const Vec3& axis_B)
+      : object_(build.parameters.body("object")),
+        into_(build.parameters.body("into")),
+        X_IT_(X_IT),
+        axis_B_(axis_B),
+        reach_m_(build.parameters.numbers("tolerance")[0]),
+        reach_rad_(build.parameters.numbers("tolerance")[1]),
+        duration_s_(build.parameters.number("duration")),
+        placed_(build.slot("placed")),
+        distance_(build.slot("distance")),
+        angle_(build.slot("angle")),
+        moving_(build.slot("moving")),
+        time_s_(build.slot("time")),
+        X_IFrom_(build, "from"),
+        X_ITo_(build, "to") {}
+
+  void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
+    measure(state);
+    if (state.memory[moving_] != 0) {
+      move(state, dt_s);
+    } else if (state.memory[placed_] != 0) {
+      if (state[object_].movable && !within(state, 1.5)) state.memory[placed_] = 0;
+    } else if (enabled && within(state, 1)) {
+      begin(state);
+    }
+  }
+
+ private:
+  /// The frame that the place is in: a body's, or the world's.
+  [[nodiscard]] Pose X_WI(const state::WorldState& state) const noexcept { return into_ ? state[into_].X_WB : Pose{}; }
+
+  /// The place in the frame I. With an insertion axis the body may have any rotation about it: the one that it has.
+  [[nodiscard]] Pose place(const state::WorldState& state) const noexcept {
+    if (axis_B_.isZero()) return X_IT_;
+    const Pose X_IB = X_WI(state).inverse() * state[object_].X_WB;
+    const Quat tilt = Quat::FromTwoVectors(X_IB.R * axis_B_, X_IT_.R * axis_B_);
+    return {X_IT_.p, (tilt * X_IB.R).normalized()};
+  }
+
+  void measure(state::WorldState& state) const noexcept {
+    const Pose X_WT = X_WI(state) * place(state);
+    const Pose& X_WB = state[object_].X_WB;
+    state.memory[distance_] = (X_WT.p - X_WB.p).norm();
+    state.memory[angle_] = rotation_vector(X_WT.R * X_WB.R.conjugate()).norm();
+  }
+
+  [[nodiscard]] bool within(const state::WorldState& state, double share) const noexcept {
+    return state.memory[distance_] <= share * reach_m_ && state.memory[angle_] <= share * reach_rad_;
+  }
+
+  /// The hands let go first: the body is led home without pulling anyone's hand along.
+  void begin(state::WorldState& state) const noexcept {
+    for (std::size_t u = 0; u < state.users.size(); ++u) {
+      if (state.users[u].grasp.active && state.users[u].grasp.body == object_) let_go(state, u);
+    }
+    X_IFrom_.write(state, X_WI(state).inverse() * state[object_].X_WB);
+    X_ITo_.write(state, place(state));
+    state.memory[moving_] = 1;
+    state.memory[time_s_] = 0;
+    state[object_].movable = false;
+    state[object_].V_WB = {};
+  }
+
+  void move(state::WorldState& state, double dt_s) const noexcept {
+    state.memory[time_s_] += dt_s;
+    const double t = std::min(1.0, state.memory[time_s_] / duration_s_);
+    const double s = t * t * (3 - 2 * t);  // starts and ends at rest
+    const Pose from = X_IFrom_.read(state), to = X_ITo_.read(state);
+    const Pose X_IB{from.p + s * (to.p - from.p), t < 1 ? from.R.slerp(s, to.R) : to.R};
+    state::BodyState& body = state[object_];
+    body.X_WB = X_WI(state) * (t < 1 ? X_IB : to);
+    body.V_WB = {};
+    body.movable = false;
+    if (t < 1) return;
+    state.memory[moving_] = 0;
+    state.memory[placed_] = 1;
+  }
+
+  BodyId object_;
+  BodyId into_;
+  Pose X_IT_;
+  Vec3 axis_B_;
+  double reach_m_;
+  double reach_rad_;
+  double duration_s_;
+  std::size_t placed_;
+  std::size_t distance_;
+  std::size_t angle_;
+  std::size_t moving_;
+  std::size_t time_s_;
+  PoseSlots X_IFrom_;
+  PoseSlots X_ITo_;
+};
+
+Expected<std::unique_ptr<Agent>> make(const Build& build) {
+  const std::string where = state::component_place(build.component);
+  const state::Parameters& p = build.parameters;
+  if (build.description.bodies[p.body("object").index()].fixed)
+    return fail("the object '" + p.text("object") + "' is fixed", where,
+                "name a body that can be carried to its place");
+  if (p.given("into") && p.body("into") == p.body("object"))
+    return fail("the object is to go into itself", where, "name another body in 'into', or none for the world");
+  const std::vector<double> at = p.numbers("position"), turn = p.numbers("rotation"), axis = p.numbers("axis");
+  const Vec3 about(turn[0], turn[1], turn[2]);
+  if (about.norm() < 1e-9 && turn[3] != 0)
+    return fail("the rotation has no axis", where, "write axis and angle: x y z radians");
+  const Pose X_IT{Vec3(at[0], at[1], at[2]),
+                  about.norm() < 1e-9 ? Quat::Identity() : Quat(Eigen::AngleAxisd(turn[3], about.normalized()))};
+  const Vec3 axis_B(axis[0], axis[1], axis[2]);
+  if (p.given("axis") && axis_B.norm() < 1e-9)
+    return fail("the axis has no direction", where, "write a vector, or leave it out");
+  return std::make_unique<Snap>(build, X_IT, p.given("axis") ? Vec3(axis_B.normalized()) : Vec3(Vec3::Zero()));
+}
+
+constexpr state::ParameterType kParameters[] = {
+    {.name = "object",
+     .kind = ParameterKind::text,
+     .summary = "the body that goes to its place",
+     .required = true,
+     .reference = state::Reference::body},
+    {.name = "into",
+     .kind = ParameterKind::text,
+     .summary = "the body in whose frame the place is; none: the world",
+     .reference = state::Reference::body},
+    {.name = "position",
+     .kind = ParameterKind::numbers,
+     .unit = "m",
+     .summary = "where the object's frame goes",
+     .count = 3},
+    {.name = "rotation",
+     .kind = ParameterKind::numbers,
+     .unit = "rad",
+     .summary = "how it stands there: axis x y z, angle",
+     .count = 4},
+    {.name = "tolerance",
+     .kind = ParameterKind::numbers,
+     .unit = "m, rad",
+     .summary = "how close it must come: distance, angle",
+     .required = true,
+     .min = 0,
+     .max = 100,
+     .count = 2},
+    {.name = "axis",
+     .kind = ParameterKind::numbers,
+     .summary = "insertion axis in the object's frame: any rotation about it is right",
+     .count = 3},
+    {.name = "duration",
+     .unit = "s",
+     .summary = "how long the last way takes",
+     .default_value = 0.2,
+     .min = 0.001,
+     .max = 10},
+};
+constexpr state::ValueType kValues[] = {
+    {"placed", "", "1 once the object is in its place"},
+    {"distance", "m", "from the object to its place"},
+    {"angle", "rad", "between the object's attitude and the place's"},
+};
+
+}  // namespace
+
+const AgentKind& snap_kind() {
+  static const AgentKind kKind{
+      {"geometry.snap", "Leads a body that is close to its place home and holds it there", kParameters, kValues}, make};
+  return kKind;
+}
+
+}  // namespace mechane::agents
