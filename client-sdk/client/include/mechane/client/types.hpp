@@ -49,6 +49,7 @@ struct ForceSample {
   std::uint64_t echo_sequence = 0;            ///< the input that this answers
   TimePoint echo_sent;                        ///< when that input was sent, on this client's clock
   TimePoint received;                         ///< on this client's clock
+  Duration waited{0};                         ///< how long that input waited at the server for this tick to take it
   Wrench force_W;                             ///< on the hand, N and N m
   std::array<double, kFingers> finger_force_n{};
   std::array<LocalContact, kMaxLocalContacts> contacts{};
