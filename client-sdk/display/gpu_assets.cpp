@@ -19,8 +19,15 @@ TextureName upload_image(const ImageData& image) {
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4.0F);
   return texture;
+}
+
+void set_culling(const MaterialData& material) {
+  if (material.double_sided) {
+    glDisable(GL_CULL_FACE);
+  } else {
+    glEnable(GL_CULL_FACE);
+  }
 }
 
 }  // namespace
@@ -97,11 +104,13 @@ void GpuAssets::use_material(std::uint32_t material, const Program& program) con
     glBindTexture(GL_TEXTURE_2D, images_[*images[unit]].get());
   }
   program.set("images", bits);
-  if (m.double_sided) {
-    glDisable(GL_CULL_FACE);
-  } else {
-    glEnable(GL_CULL_FACE);
-  }
+  set_culling(m);
+}
+
+bool GpuAssets::prepare_depth(std::uint32_t material) const {
+  MECHANE_ASSERT(material < materials_.size());
+  set_culling(materials_[material]);
+  return !(materials_[material].alpha_cutoff > 0);
 }
 
 void set_model(const Program& program, const Eigen::Affine3f& X_WM) {

@@ -35,7 +35,18 @@ class ShadowPass {
   ShadowTarget map_;
 };
 
-/// Everything solid, and the plain of earth.
+/// Depth of what is solid, so that each pixel is shaded once: shading costs far more than triangles.
+class DepthPass {
+ public:
+  [[nodiscard]] static Expected<DepthPass> create();
+  void draw(const PassInput& input) const;
+
+ private:
+  explicit DepthPass(Program program) : program_(std::move(program)) {}
+  Program program_;
+};
+
+/// Everything solid, and the plain of earth. Comes after DepthPass.
 class OpaquePass {
  public:
   [[nodiscard]] static Expected<OpaquePass> create();

@@ -39,6 +39,7 @@ class Renderer {
  private:
   struct Passes {
     ShadowPass shadow;
+    DepthPass depth;
     OpaquePass opaque;
     SkyPass sky;
     WaterPass water;

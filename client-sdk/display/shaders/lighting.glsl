@@ -25,6 +25,12 @@ vec3 irradiance_from_sky(vec3 n) {
                                      sh[6] * (3.0 * n.z * n.z - 1.0) + sh[7] * n.x * n.z + sh[8] * (n.x * n.x - n.y * n.y));
 }
 
+float shadow_tap(vec3 q, int i, vec2 texel) {
+  float r = sqrt((float(i) + 0.5) / 12.0);
+  float a = float(i) * 2.39996;
+  return texture(shadow_map, vec3(q.xy + r * vec2(cos(a), sin(a)) * texel, q.z - 0.0006));
+}
+
 // Share of the sun that arrives: a disc of taps, each already filtered over four texels.
 float sunlight(vec3 p_W, vec3 n_geometric) {
   float slope = 1.0 - clamp(dot(n_geometric, to_sun), 0.0, 1.0);
@@ -32,12 +38,11 @@ float sunlight(vec3 p_W, vec3 n_geometric) {
   vec3 q = (PV_light * vec4(p, 1.0)).xyz * 0.5 + 0.5;
   if (any(greaterThan(abs(q - 0.5), vec3(0.5)))) return 1.0;
   vec2 texel = shadow_blur_texels / vec2(textureSize(shadow_map, 0));
+  // The outermost taps first: where they agree, the rest would too.
   float sum = 0.0;
-  for (int i = 0; i < 12; ++i) {
-    float r = sqrt((float(i) + 0.5) / 12.0);
-    float a = float(i) * 2.39996;
-    sum += texture(shadow_map, vec3(q.xy + r * vec2(cos(a), sin(a)) * texel, q.z - 0.0006));
-  }
+  for (int i = 8; i < 12; ++i) sum += shadow_tap(q, i, texel);
+  if (sum < 0.001 || sum > 3.999) return sum * 0.25;
+  for (int i = 0; i < 8; ++i) sum += shadow_tap(q, i, texel);
   return sum / 12.0;
 }
 
