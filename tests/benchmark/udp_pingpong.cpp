@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <arpa/inet.h>
 #include <netinet/in.h>
-#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -19,6 +18,7 @@
 #include "server/base/clock.hpp"
 #include "server/base/error.hpp"
 #include "tests/benchmark/bench_stats.hpp"
+#include "tests/benchmark/priority.hpp"
 
 namespace mechane::benchmark {
 namespace {
@@ -50,11 +50,6 @@ struct Socket {
     return socket;
   }
 };
-
-bool take_priority(int priority) {
-  const sched_param param{priority};
-  return priority == 0 || ::sched_setscheduler(0, SCHED_FIFO, &param) == 0;
-}
 
 // The other process: answers each datagram with its first bytes, until its parent ends it.
 [[noreturn]] void answer(const Socket& socket, const Socket& asker, const Config& config) {
