@@ -2,6 +2,7 @@
 its peer in the same run, in rounds, so that a slow minute of the machine falls on both."""
 
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -32,8 +33,9 @@ class Server:
         program = self.context.bin / "mechane-server"
         if not program.exists():
             raise Missing(f"mechane-server missing in {self.context.bin}: it was not built")
-        state = self.context.out / "path-server"
-        command = [str(program), "--scenario", SCENARIO, "--worlds", "1", "--state", str(state)]
+        records = self.context.out / "path-records"
+        shutil.rmtree(records, ignore_errors=True)
+        command = [str(program), "--scenario", SCENARIO, "--worlds", "1", "--records", str(records), "--fifo-priority", str(LOOP_PRIORITY)]
         self.process = subprocess.Popen(command, stdout=self.log.open("w"), stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                                         cwd=self.context.root, env={**os.environ, **_network(self.context.root)})
         time.sleep(0.2)  # long enough to see one that ends at once; a client waits for the server by itself
