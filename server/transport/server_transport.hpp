@@ -1,0 +1,103 @@
+// The DDS side of the server: who is at which kiosk, and the ports through which worlds reach the network.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/realtime/histogram.hpp"
+#include "server/transport/session_table.hpp"
+#include "server/transport/validate.hpp"
+#include "server/transport/world_port.hpp"
+
+namespace mechane::transport {
+
+struct TransportConfig {
+  std::string server = "server-1";  ///< name on the wire: 1 to 31 characters of A-Z a-z 0-9 - _
+  std::string version;              ///< of the program
+  std::uint32_t domain = 0;         ///< DDS domain, 0 .. 230; the network is set up by CYCLONEDDS_URI
+  int fifo_priority = 0;            ///< SCHED_FIFO of the thread that writes forces, 0 .. 98; 0: an ordinary thread
+  std::optional<int> cpu;           ///< pins that thread
+};
+
+/// What a server says of itself. Fields as in ServerStatus of idl/mechane.idl; the transport adds name, version and its own counts.
+struct ServerStatusData {
+  std::uint32_t worlds = 0;
+  std::uint32_t worlds_limit = 0;
+  std::uint32_t users = 0;
+  std::uint64_t ticks = 0;
+  std::uint64_t overruns = 0;
+  std::uint64_t late_wakeups = 0;
+  std::uint64_t preemptions = 0;
+  double tick_us_median = 0, tick_us_p99 = 0, tick_us_p999 = 0, tick_us_max = 0;
+  double wake_us_p99 = 0, wake_us_max = 0;
+  bool realtime = false;
+  bool records_ok = true;
+};
+
+/// What happened at the kiosks since the last poll, in order.
+enum class NewsKind {
+  kiosk_appeared,    ///< its first session came: give it a world, by the session's wishes
+  session_appeared,  ///< any session, after kiosk_appeared for the first; its wishes may differ
+  hand_granted,      ///< the session owns its kiosk's hand `user` now: bind it
+  hand_freed,        ///< it does not any more: unbind it
+  session_left,      ///< unregistered, or silent for 3 s
+  kiosk_left,        ///< its last session has left; hand_freed came before
+};
+
+struct News {
+  NewsKind kind;
+  Session session;
+};
+
+/// Owns the participant, all endpoints and two threads: one writes HapticOutput alone, one writes everything else. Listeners check
+/// and copy samples on Cyclone's own threads. Every function is for the main thread; the loops see only their WorldPort.
+///
+///   auto transport = *ServerTransport::start({.server = "server-1"});
+///   for (const News& n : transport->poll(clock.now())) ...          // 20 times a second or more
+///     kiosk_appeared: port = *transport->open_world("w1", description); transport->assign_kiosk(n.session.kiosk, *port);
+///     hand_granted:   port->bind_user(port->free_slot(), n.session.kiosk, n.session.user, n.session.id);
+class ServerTransport {
+ public:
+  /// Errors: a bad server name, no network interface, a wrong CYCLONEDDS_URI. A refused SCHED_FIFO is no error: see fifo_granted().
+  [[nodiscard]] static Expected<std::unique_ptr<ServerTransport>> start(const TransportConfig& config);
+  /// Worlds must be closed, or their loops stopped.
+  ~ServerTransport();
+  ServerTransport(const ServerTransport&) = delete;
+  ServerTransport& operator=(const ServerTransport&) = delete;
+
+  /// Takes what kiosks said, settles who owns which hand, tells kiosks. Call it 20 times a second or more. Never blocks long.
+  [[nodiscard]] std::vector<News> poll(TimePoint now);
+  [[nodiscard]] const SessionTable& sessions() const;
+
+  /// Makes a world's endpoints and publishes its manifest. `world` is a name of 1 to 31 characters, new among open worlds. The port
+  /// lives until close_world(). Errors: a bad or used name, DDS out of resources.
+  [[nodiscard]] Expected<WorldPort*> open_world(const std::string& world,
+                                                std::shared_ptr<const state::WorldDescription> description);
+  /// The world's loop must not use the port any more. Kiosks assigned to it are without a world then.
+  void close_world(WorldPort& port);
+
+  /// Tells a kiosk which world it is in.
+  void assign_kiosk(const std::string& kiosk, const WorldPort& port);
+  /// Tells a kiosk that it gets no world, and why, in words for a person.
+  void refuse_kiosk(const std::string& kiosk, const std::string& why);
+
+  /// What ServerStatus says from now on; it goes out ten times a second.
+  void publish_server_status(const ServerStatusData& data);
+
+  [[nodiscard]] bool fifo_granted() const;
+  [[nodiscard]] const RejectCounters& rejected() const;
+  /// What one dds_write of HapticOutput takes in its thread.
+  [[nodiscard]] const realtime::LatencyHistogram& haptic_write_time() const;
+  [[nodiscard]] std::uint64_t haptic_writes_failed() const;
+
+ private:
+  class Impl;
+  explicit ServerTransport(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mechane::transport

@@ -1,0 +1,74 @@
+// The check at the door: what a device's sample must be before the loop may see it. Nothing behind it checks again.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "server/state/input.hpp"
+#include "server/transport/session_table.hpp"
+#include <mechane/proto/topics.hpp>
+
+namespace mechane::transport {
+
+inline constexpr double kMaxDistanceM = 100;
+inline constexpr double kMaxSpeedMPerS = 50;
+inline constexpr double kMaxTurnRadPerS = 200;
+inline constexpr double kMaxJointRad = 7;
+inline constexpr double kMinHandScale = 0.5;
+inline constexpr double kMaxHandScale = 1.5;
+
+/// Why a sample is not taken.
+enum class Reject : std::uint8_t {
+  none = 0,
+  wrong_protocol,  ///< another version of the wire
+  not_finite,
+  bad_rotation,    ///< not of unit length within 1 %
+  too_far,         ///< |p| over 100 m
+  too_fast,        ///< over 50 m/s or 200 rad/s
+  bad_hand_scale,  ///< not 0.5 .. 1.5
+  bad_value,       ///< a joint over 7 rad, intent out of 0 .. 1, an unknown kind or user
+  wrong_kiosk,     ///< the sample names another kiosk than its partition
+  wrong_session,   ///< 0, or a session that does not own this hand
+  old_sequence,    ///< repeated or older
+  kinds
+};
+
+[[nodiscard]] std::string_view to_string(Reject reason);
+
+/// Fills `out` when the sample is fit for the loop, with the rotation brought to unit length; returns Reject::none. Does not know
+/// sessions and sequences. Allocates nothing.
+[[nodiscard]] Reject validate(const proto::HapticInput& sample, state::HandSample& out) noexcept;
+
+/// Fills `out` when the status is one of a client that can be served: version, names, user, role, session. Texts are cleaned of
+/// control characters.
+[[nodiscard]] Reject validate(const proto::KioskStatus& status, Session& out);
+
+/// Counts per reason. Any thread.
+class RejectCounters {
+ public:
+  void add(Reject reason) noexcept {
+    if (reason != Reject::none) counts_[static_cast<std::size_t>(reason)].fetch_add(1, std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t count(Reject reason) const noexcept {
+    return counts_[static_cast<std::size_t>(reason)].load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t total() const noexcept;
+
+ private:
+  std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(Reject::kinds)> counts_{};
+};
+
+/// Turns counters into at most one line a call: "rejected 12 samples: 10 not finite, 2 of another version". Empty when nothing
+/// was rejected since the last call. One thread.
+class RejectReport {
+ public:
+  [[nodiscard]] std::string since_last(const RejectCounters& counters);
+
+ private:
+  std::array<std::uint64_t, static_cast<std::size_t>(Reject::kinds)> seen_{};
+};
+
+}  // namespace mechane::transport

@@ -1,0 +1,175 @@
+#include "server/transport/world_port.hpp"
+
+#include <algorithm>
+
+#include "server/base/assert.hpp"
+#include "server/transport/lane.hpp"
+#include <mechane/proto/names.hpp>
+
+namespace mechane::transport {
+namespace {
+
+// The age of a hand that never sent: old enough for every rule, small enough to be added to.
+constexpr Duration kNeverHeard = std::chrono::hours(24);
+
+SceneSnapshot sized_for(const state::WorldDescription& world) {
+  SceneSnapshot s;
+  s.bodies.resize(world.bodies.size());
+  s.visible.resize(world.bodies.size());
+  s.quantities.resize(world.quantities.size());
+  s.agent_enabled.resize(world.agents.size());
+  return s;
+}
+
+template <class T>
+void copy_all(const std::vector<T>& from, std::vector<T>& to) noexcept {
+  std::copy_n(from.begin(), std::min(from.size(), to.size()), to.begin());
+}
+
+HandSnapshot snapshot_of(const state::UserState& user, const SlotName& name) noexcept {
+  HandSnapshot hand;
+  hand.present = user.present;
+  if (!user.present) return hand;
+  hand.stale = user.stale;
+  hand.holding = user.output.holding;
+  hand.kind = user.sample.kind;
+  hand.name = name;
+  hand.X_WS = user.X_WS;
+  hand.f_W = user.output.force_W.f;
+  return hand;
+}
+
+}  // namespace
+
+WorldPort::WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description,
+                     realtime::Wakeup& forces_wakeup, OpenLane open_lane, CloseLane close_lane)
+    : world_(std::move(world)),
+      description_(std::move(description)),
+      open_lane_(std::move(open_lane)),
+      close_lane_(std::move(close_lane)),
+      forces_wakeup_(forces_wakeup),
+      snapshots_([this] { return sized_for(*description_); }) {}
+
+WorldPort::~WorldPort() {
+  for (const auto& lane : lanes_) {
+    if (lane) close_lane_(lane);
+  }
+}
+
+bool WorldPort::bind_user(std::size_t slot, const std::string& kiosk, std::uint32_t user, std::uint64_t session) {
+  MECHANE_ASSERT(slot < lanes_.size());
+  if (lanes_[slot]) unbind_user(slot);
+  lanes_[slot] = open_lane_(kiosk, user, session);
+  if (!lanes_[slot]) return false;
+  wanted_.lanes[slot] = lanes_[slot].get();
+  SlotName& name = wanted_.names[slot];
+  name = SlotName{};
+  std::copy_n(kiosk.begin(), std::min(kiosk.size(), name.kiosk.size() - 1), name.kiosk.begin());
+  name.user = user;
+  name.session = session;
+  hand_over_bindings();
+  return true;
+}
+
+void WorldPort::unbind_user(std::size_t slot) {
+  MECHANE_ASSERT(slot < lanes_.size());
+  if (!lanes_[slot]) return;
+  close_lane_(lanes_[slot]);
+  wanted_.lanes[slot] = nullptr;
+  wanted_.names[slot] = SlotName{};
+  hand_over_bindings();
+  retired_.push_back({wanted_.generation, std::move(lanes_[slot])});
+}
+
+void WorldPort::hand_over_bindings() {
+  ++wanted_.generation;
+  bindings_.publish(wanted_);
+}
+
+std::size_t WorldPort::slot_of(std::uint64_t session) const {
+  const auto it = std::find_if(lanes_.begin(), lanes_.end(), [&](const auto& l) { return l && l->session == session; });
+  return static_cast<std::size_t>(it - lanes_.begin());
+}
+
+std::size_t WorldPort::free_slot() const {
+  return static_cast<std::size_t>(std::find(lanes_.begin(), lanes_.end(), nullptr) - lanes_.begin());
+}
+
+void WorldPort::collect() {
+  const std::uint64_t in_use = generation_in_use_.load(std::memory_order_acquire);
+  // The publisher may still hold a lane for a moment: whoever lets go last must not be a real-time thread.
+  std::erase_if(retired_, [&](const Retired& r) { return r.generation <= in_use && r.lane.use_count() == 1; });
+}
+
+void WorldPort::take_bindings() noexcept {
+  const Bindings* fresh = bindings_.take();
+  if (fresh == nullptr) return;
+  for (std::size_t i = 0; i < users_.size(); ++i) {
+    if (fresh->lanes[i] == current_.lanes[i]) continue;
+    users_[i] = state::UserInput{};
+    users_[i].present = fresh->lanes[i] != nullptr;
+    users_[i].age = kNeverHeard;
+    arrived_[i] = now_ - kNeverHeard;
+  }
+  current_ = *fresh;
+  generation_in_use_.store(current_.generation, std::memory_order_release);
+}
+
+void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
+  now_ = now;
+  take_bindings();
+  for (std::size_t i = 0; i < users_.size(); ++i) {
+    state::UserInput& user = users_[i];
+    user.fresh = false;
+    if (current_.lanes[i] != nullptr) {
+      if (const ArrivedSample* sample = current_.lanes[i]->inputs.take()) {
+        user.fresh = true;
+        user.sample = sample->sample;
+        arrived_[i] = sample->arrived;
+      }
+      user.age = std::max(now - arrived_[i], Duration{0});
+    }
+    inputs.users[i] = user;
+  }
+  inputs.command_count = 0;
+  while (inputs.command_count < inputs.commands.size() && commands_.pop(inputs.commands[inputs.command_count])) {
+    ++inputs.command_count;
+  }
+}
+
+void WorldPort::publish(const state::WorldState& state) noexcept {
+  bool any_force = false;
+  for (std::size_t i = 0; i < current_.lanes.size(); ++i) {
+    const state::UserState& user = state.users[i];
+    if (current_.lanes[i] == nullptr || !user.present) continue;
+    OutgoingForce& out = current_.lanes[i]->forces.writable();
+    out.output = user.output;
+    out.tick = state.tick;
+    current_.lanes[i]->forces.commit();
+    any_force = true;
+  }
+  if (any_force) forces_wakeup_.signal();
+  for (const state::Event& event : state.event_span()) {
+    if (!events_.push(event)) events_lost_.fetch_add(1, std::memory_order_relaxed);
+  }
+  if (state.tick % kTicksPerFrame == 1) publish_snapshot(state);
+}
+
+void WorldPort::publish_snapshot(const state::WorldState& state) noexcept {
+  SceneSnapshot& s = snapshots_.writable();
+  s.tick = state.tick;
+  s.sampled_ns = to_ns(now_);
+  const std::size_t bodies = std::min(s.bodies.size(), state.bodies.size());
+  for (std::size_t i = 0; i < bodies; ++i) {
+    s.bodies[i] = state.bodies[i].X_WB;
+    s.visible[i] = state.bodies[i].visible ? 1 : 0;
+  }
+  copy_all(state.quantities, s.quantities);
+  copy_all(state.agent_enabled, s.agent_enabled);
+  s.progress = state.progress;
+  for (std::size_t i = 0; i < s.hands.size(); ++i)
+    s.hands[i] = snapshot_of(state.users[i], current_.names[i]);
+  snapshots_.commit();
+}
+
+}  // namespace mechane::transport

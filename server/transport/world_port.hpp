@@ -1,0 +1,142 @@
+// WorldPort: where one world's loop meets the network. Its loop side is wait-free; it calls no DDS.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/realtime/mailbox.hpp"
+#include "server/realtime/ring.hpp"
+#include "server/realtime/wakeup.hpp"
+#include "server/state/description.hpp"
+#include "server/state/input.hpp"
+#include "server/state/world_state.hpp"
+
+namespace mechane::transport {
+
+struct Lane;
+
+/// Who sits in a slot of a world, as displays are told.
+struct SlotName {
+  std::array<char, 32> kiosk{};
+  std::uint32_t user = 0;
+  std::uint64_t session = 0;
+};
+
+/// What a frame shows of one hand.
+struct HandSnapshot {
+  bool present = false;
+  bool stale = false;
+  bool holding = false;
+  state::HandKind kind = state::HandKind::one_point;
+  SlotName name;
+  std::array<Pose, state::kHandSegments> X_WS{};
+  Vec3 f_W = Vec3::Zero();
+};
+
+/// All that displays and status need of one tick. Its vectors are sized once.
+struct SceneSnapshot {
+  std::uint64_t tick = 0;
+  std::uint64_t sampled_ns = 0;
+  std::vector<Pose> bodies;
+  std::vector<std::uint8_t> visible;
+  std::vector<double> quantities;
+  std::vector<std::uint8_t> agent_enabled;
+  state::Progress progress;
+  std::array<HandSnapshot, state::kMaxUsers> hands{};
+};
+
+/// Made and owned by ServerTransport. The main thread binds users; one loop thread gathers and publishes.
+class WorldPort {
+ public:
+  /// How many ticks lie between two frames: 62.5 a second.
+  static constexpr std::uint64_t kTicksPerFrame = 16;
+  static constexpr std::size_t kEventCapacity = 1024;
+  static constexpr std::size_t kCommandCapacity = 64;
+
+  /// Makes a lane for a hand, known to the kiosk's listener and to the publisher; null when the kiosk is gone.
+  using OpenLane =
+      std::function<std::shared_ptr<Lane>(const std::string& kiosk, std::uint32_t user, std::uint64_t session)>;
+  /// Takes a lane away from listener and publisher.
+  using CloseLane = std::function<void(const std::shared_ptr<Lane>&)>;
+
+  WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description,
+            realtime::Wakeup& forces_wakeup, OpenLane open_lane, CloseLane close_lane);
+  /// The loop must not use the port any more.
+  ~WorldPort();
+  WorldPort(const WorldPort&) = delete;
+  WorldPort& operator=(const WorldPort&) = delete;
+
+  // Main thread.
+  [[nodiscard]] const std::string& world() const { return world_; }
+  [[nodiscard]] const state::WorldDescription& description() const { return *description_; }
+  /// Gives a slot (0 .. kMaxUsers - 1) to a session's hand; the loop sees it in its next gather(). A slot in use is freed first.
+  /// False when the kiosk is not there any more.
+  bool bind_user(std::size_t slot, const std::string& kiosk, std::uint32_t user, std::uint64_t session);
+  void unbind_user(std::size_t slot);
+  /// The slot that this session's hand has; kMaxUsers when it has none.
+  [[nodiscard]] std::size_t slot_of(std::uint64_t session) const;
+  /// A slot that nobody has; kMaxUsers when all are taken.
+  [[nodiscard]] std::size_t free_slot() const;
+  /// Lets go of lanes that the loop has stopped using. ServerTransport::poll() calls it.
+  void collect();
+
+  // Loop thread: wait-free, no allocation, no DDS.
+  /// Fills all of `inputs`: for each slot the newest sample with its age on our clock, and the commands that came (at most
+  /// kMaxCommandsPerTick a tick; the rest wait for the next).
+  void gather(state::TickInputs& inputs, TimePoint now) noexcept;
+  /// Forces to their devices at once; every 16th tick a snapshot for displays; all events. One futex wake at most.
+  void publish(const state::WorldState& state) noexcept;
+
+  // The other sides, each for one thread of the transport's.
+  bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
+  [[nodiscard]] const SceneSnapshot* take_snapshot() noexcept { return snapshots_.take(); }       ///< scene publisher
+  bool take_event(state::Event& out) noexcept { return events_.pop(out); }                        ///< scene publisher
+  [[nodiscard]] std::uint64_t events_lost() const noexcept { return events_lost_.load(std::memory_order_relaxed); }
+
+ private:
+  /// What the loop knows of the slots; replaced as a whole.
+  struct Bindings {
+    std::uint64_t generation = 0;
+    std::array<Lane*, state::kMaxUsers> lanes{};
+    std::array<SlotName, state::kMaxUsers> names{};
+  };
+  struct Retired {
+    std::uint64_t generation = 0;  // from this one on the loop does not use the lane
+    std::shared_ptr<Lane> lane;
+  };
+
+  void hand_over_bindings();
+  void take_bindings() noexcept;
+  void publish_snapshot(const state::WorldState& state) noexcept;
+
+  // Main thread's.
+  std::string world_;
+  std::shared_ptr<const state::WorldDescription> description_;
+  OpenLane open_lane_;
+  CloseLane close_lane_;
+  std::array<std::shared_ptr<Lane>, state::kMaxUsers> lanes_;
+  Bindings wanted_;
+  std::vector<Retired> retired_;
+
+  // Between threads.
+  realtime::Wakeup& forces_wakeup_;
+  realtime::Mailbox<Bindings> bindings_;
+  std::atomic<std::uint64_t> generation_in_use_{0};
+  realtime::Mailbox<SceneSnapshot> snapshots_;
+  realtime::Ring<state::Event> events_{kEventCapacity};
+  realtime::Ring<state::Command> commands_{kCommandCapacity};
+  std::atomic<std::uint64_t> events_lost_{0};
+
+  // Loop thread's.
+  Bindings current_;
+  std::array<state::UserInput, state::kMaxUsers> users_{};
+  std::array<TimePoint, state::kMaxUsers> arrived_{};
+  TimePoint now_{};
+};
+
+}  // namespace mechane::transport
