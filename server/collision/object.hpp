@@ -18,26 +18,26 @@ namespace mechane::collision {
 /// A part close to convex: its superquadric bounds it (F <= 1 on every vertex), its map holds the surface.
 struct Part {
   std::string name;
-  Pose X_OQ;                          ///< the superquadric's frame in the object's frame
+  Pose X_OQ;  ///< the superquadric's frame in the object's frame
   geometry::Superquadric superquadric;
   RadialMap map;
-  geometry::Sphere bound_O;           ///< around the part's mesh
+  geometry::Sphere bound_O;  ///< around the part's mesh
 };
 
 /// Up to 16 surface samples with a common bounding sphere, all of one part.
 struct Cluster {
   geometry::Sphere bound_O;
-  std::uint32_t first = 0;            ///< into Object::samples
+  std::uint32_t first = 0;  ///< into Object::samples
   std::uint16_t count = 0;
   std::uint16_t part = 0;
 };
 
 struct Object {
   std::vector<Part> parts;
-  std::vector<Vec3f> samples_O;       ///< points of the surface
-  std::vector<Cluster> clusters;      ///< sorted by part
+  std::vector<Vec3f> samples_O;              ///< points of the surface
+  std::vector<Cluster> clusters;             ///< sorted by part
   std::vector<std::uint32_t> first_cluster;  ///< of each part; one more entry closes the last
-  geometry::Sphere bound_O;           ///< around all parts
+  geometry::Sphere bound_O;                  ///< around all parts
 };
 
 /// One point of overlap between objects A and B. See Drake's PenetrationAsPointPair for the conventions.

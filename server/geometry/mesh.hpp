@@ -23,7 +23,8 @@ struct Mesh {
   [[nodiscard]] bool empty() const { return triangles.empty(); }
   [[nodiscard]] Eigen::AlignedBox3d bounds() const {
     Eigen::AlignedBox3d box;
-    for (const Vec3& v : vertices) box.extend(v);
+    for (const Vec3& v : vertices)
+      box.extend(v);
     return box;
   }
 };

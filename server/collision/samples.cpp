@@ -1,0 +1,89 @@
+#include "server/collision/samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mechane::collision {
+namespace {
+
+/// Sorts the points so that each run of 16 is compact: halve along the longest side, at a multiple of 16.
+void sort_into_runs(std::span<Vec3> points) {
+  if (points.size() <= kClusterSize) return;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : points)
+    box.extend(p);
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  const std::size_t runs = (points.size() + kClusterSize - 1) / kClusterSize;
+  const std::size_t half = runs / 2 * kClusterSize;
+  // A total order, so that equal coordinates cannot leave the result to the library.
+  const auto less = [axis](const Vec3& l, const Vec3& r) {
+    if (l[axis] != r[axis]) return l[axis] < r[axis];
+    return std::lexicographical_compare(l.begin(), l.end(), r.begin(), r.end());
+  };
+  std::sort(points.begin(), points.end(), less);
+  sort_into_runs(points.first(half));
+  sort_into_runs(points.subspan(half));
+}
+
+}  // namespace
+
+geometry::Sphere bounding_sphere(std::span<const Vec3> points) {
+  geometry::Sphere sphere;
+  if (points.empty()) return sphere;
+  const auto farthest = [&](const Vec3& from) {
+    return *std::max_element(points.begin(), points.end(), [&](const Vec3& l, const Vec3& r) {
+      return (l - from).squaredNorm() < (r - from).squaredNorm();
+    });
+  };
+  const Vec3 p = farthest(points.front());
+  const Vec3 q = farthest(p);
+  sphere.center = 0.5 * (p + q);
+  sphere.radius = 0.5 * (p - q).norm();
+  for (const Vec3& x : points) {
+    const double distance = (x - sphere.center).norm();
+    if (distance <= sphere.radius) continue;
+    const double grown = 0.5 * (sphere.radius + distance);
+    sphere.center += (distance - grown) / distance * (x - sphere.center);
+    sphere.radius = grown;
+  }
+  for (const Vec3& x : points)
+    sphere.radius = std::max(sphere.radius, (x - sphere.center).norm());
+  sphere.radius *= 1 + 1e-6;  // the samples are rounded to float32
+  return sphere;
+}
+
+void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points_O) {
+  object.first_cluster.push_back(static_cast<std::uint32_t>(object.clusters.size()));
+  sort_into_runs(points_O);
+  const std::span<const Vec3> points(points_O);
+  for (std::size_t at = 0; at < points.size(); at += kClusterSize) {
+    const auto run = points.subspan(at, std::min(kClusterSize, points.size() - at));
+    Cluster cluster;
+    cluster.bound_O = bounding_sphere(run);
+    cluster.first = static_cast<std::uint32_t>(object.samples_O.size());
+    cluster.count = static_cast<std::uint16_t>(run.size());
+    cluster.part = part;
+    object.clusters.push_back(cluster);
+    for (const Vec3& p : run)
+      object.samples_O.push_back(p.cast<float>());
+  }
+}
+
+void close_clusters(Object& object) {
+  object.first_cluster.push_back(static_cast<std::uint32_t>(object.clusters.size()));
+  Eigen::AlignedBox3d box;
+  for (const Part& part : object.parts) {
+    box.extend(Vec3(part.bound_O.center.array() - part.bound_O.radius));
+    box.extend(Vec3(part.bound_O.center.array() + part.bound_O.radius));
+  }
+  object.bound_O = {};
+  if (object.parts.empty()) return;
+  object.bound_O.center = box.center();
+  for (const Part& part : object.parts) {
+    const double reach = (part.bound_O.center - object.bound_O.center).norm() + part.bound_O.radius;
+    object.bound_O.radius = std::max(object.bound_O.radius, reach);
+  }
+}
+
+}  // namespace mechane::collision

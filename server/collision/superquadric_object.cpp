@@ -1,0 +1,80 @@
+#include <cmath>
+
+#include "server/base/assert.hpp"
+#include "server/collision/object_builder.hpp"
+#include "server/collision/samples.hpp"
+#include "server/geometry/superquadric_mesh.hpp"
+#include "server/geometry/surface_samples.hpp"
+
+namespace mechane::collision {
+namespace {
+
+constexpr int kResolution = 32;
+constexpr int kMeshCells = 24;
+constexpr std::uint64_t kSeed = 1;
+
+/// Where the ray from the centre leaves the shape, in units of `direction`. F grows along the ray; without deformation the radial form
+/// is the answer itself, with one a bisection finds it.
+double surface_scale(const geometry::Superquadric& shape, const Vec3& direction) {
+  if (!geometry::is_deformed(shape)) return 1 / geometry::radial_form(shape, direction);
+  double inside = 0;
+  double outside = 1;
+  while (outside < 64 && geometry::inside_outside(shape, outside * direction) < 1)
+    outside *= 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (geometry::inside_outside(shape, middle * direction) < 1 ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+/// The extents of a deformed shape reach beyond its semi-axes; the map's box must hold them.
+Vec3 half_extents(const geometry::Mesh& mesh) {
+  Vec3 half = Vec3::Zero();
+  for (const Vec3& v : mesh.vertices)
+    half = half.cwiseMax(v.cwiseAbs());
+  return half;
+}
+
+RadialMap map_of(const geometry::Superquadric& shape, const Vec3& half) {
+  // A hair wider, so that points on the very surface are inside the box and not lost to rounding.
+  const Vec3f half_Q = (1.0001 * half).cast<float>();
+  std::vector<float> sigma;
+  sigma.reserve(6 * kResolution * kResolution);
+  for (int face = 0; face < 6; ++face) {
+    for (int texel = 0; texel < kResolution * kResolution; ++texel) {
+      const Vec3 direction =
+          RadialMap::texel_direction(kResolution, half_Q, face, texel % kResolution, texel / kResolution);
+      sigma.push_back(static_cast<float>(1 / surface_scale(shape, direction)));
+    }
+  }
+  return RadialMap::from_sigma(kResolution, Vec3f::Zero(), half_Q, sigma);
+}
+
+}  // namespace
+
+Object make_superquadric_object(const geometry::Superquadric& shape, double sample_spacing_m) {
+  MECHANE_ASSERT(geometry::is_valid(shape));
+  MECHANE_ASSERT(std::isfinite(sample_spacing_m) && sample_spacing_m > 0);
+  const geometry::Mesh mesh = geometry::tessellate(shape, kMeshCells);
+  const Vec3 half = geometry::is_deformed(shape) ? half_extents(mesh) : shape.a;
+
+  Object object;
+  Part part;
+  part.superquadric = shape;
+  part.map = map_of(shape, half);
+  part.bound_O = bounding_sphere(mesh.vertices);
+  // The mesh's chords lie inside the surface: its vertices' sphere may miss a sliver between them.
+  part.bound_O.radius *= 1.02;
+
+  std::vector<Vec3> points;
+  for (const auto& sample : geometry::sample_by_spacing(mesh, sample_spacing_m, kSeed)) {
+    points.push_back(sample.p * surface_scale(shape, sample.p));
+  }
+  object.parts.push_back(std::move(part));
+  append_samples(object, 0, std::move(points));
+  close_clusters(object);
+  return object;
+}
+
+}  // namespace mechane::collision

@@ -1,0 +1,80 @@
+#include "server/geometry/mesh_check.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace mechane::geometry {
+
+Expected<void> check_mesh(const Mesh& mesh, const std::string& where) {
+  if (mesh.triangles.empty()) return fail("the mesh has no triangles", where, "export the model with its faces");
+  if (mesh.triangles.size() > kMaxTriangles || mesh.vertices.size() > 3 * kMaxTriangles) {
+    return fail("the mesh has " + std::to_string(mesh.triangles.size()) + " triangles, more than " +
+                    std::to_string(kMaxTriangles),
+                where, "simplify the collision shape");
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    // A machine is a few metres large: a kilometre is a wrong unit, and squares of it still fit.
+    if (!mesh.vertices[i].allFinite() || mesh.vertices[i].cwiseAbs().maxCoeff() > 1000) {
+      return fail("vertex " + std::to_string(i) + " is not a finite point within 1000 m", where,
+                  "check the model's units and modifiers, and export it again");
+    }
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      if (v < mesh.vertices.size()) continue;
+      return fail("triangle " + std::to_string(i) + " refers to vertex " + std::to_string(v) + " of " +
+                      std::to_string(mesh.vertices.size()),
+                  where, "the file is damaged: export it again");
+    }
+  }
+  return {};
+}
+
+Mesh weld(const Mesh& mesh, double tolerance_m) {
+  using Key = std::array<std::int64_t, 3>;
+  const double scale = 1 / std::max(tolerance_m, 1e-12);
+  std::map<Key, std::uint32_t> seen;
+  Mesh out;
+  std::vector<std::uint32_t> new_index(mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3 scaled = mesh.vertices[i] * scale;
+    const Key center{std::llround(scaled.x()), std::llround(scaled.y()), std::llround(scaled.z())};
+    // A point beside a cell's border looks into the neighbouring cells too.
+    auto found = seen.end();
+    for (int n = 0; n < 27 && found == seen.end(); ++n) {
+      const auto candidate = seen.find({center[0] + n % 3 - 1, center[1] + n / 3 % 3 - 1, center[2] + n / 9 - 1});
+      if (candidate == seen.end()) continue;
+      if ((out.vertices[candidate->second] - mesh.vertices[i]).norm() <= tolerance_m) found = candidate;
+    }
+    if (found == seen.end()) {
+      found = seen.emplace(center, static_cast<std::uint32_t>(out.vertices.size())).first;
+      out.vertices.push_back(mesh.vertices[i]);
+    }
+    new_index[i] = found->second;
+  }
+  for (const auto& t : mesh.triangles) {
+    const std::array<std::uint32_t, 3> w{new_index[t[0]], new_index[t[1]], new_index[t[2]]};
+    if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) out.triangles.push_back(w);
+  }
+  return out;
+}
+
+std::size_t open_edges(const Mesh& welded) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+  for (const auto& t : welded.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t from = t[i];
+      const std::uint32_t to = t[(i + 1) % 3];
+      if (from < to) ++balance[{from, to}];
+      if (to < from) --balance[{to, from}];
+    }
+  }
+  std::size_t open = 0;
+  for (const auto& [edge, sum] : balance)
+    open += sum != 0 ? 1 : 0;
+  return open;
+}
+
+}  // namespace mechane::geometry

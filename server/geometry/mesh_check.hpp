@@ -1,0 +1,24 @@
+// Whether a mesh can be worked with at all, and whether it closes a volume.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "server/base/error.hpp"
+#include "server/geometry/mesh.hpp"
+
+namespace mechane::geometry {
+
+inline constexpr std::size_t kMaxTriangles = 2'000'000;
+
+/// An Error that names `where` when the mesh has no triangles or too many, an index out of range, or a number that is not finite.
+[[nodiscard]] Expected<void> check_mesh(const Mesh& mesh, const std::string& where);
+
+/// The mesh with vertices at the same place (within `tolerance_m`) made one and triangles without area left out. Exporters double
+/// vertices along creases and texture seams.
+[[nodiscard]] Mesh weld(const Mesh& mesh, double tolerance_m);
+
+/// How many directed edges have no partner that runs the other way: 0 means closed. The mesh must be welded.
+[[nodiscard]] std::size_t open_edges(const Mesh& welded);
+
+}  // namespace mechane::geometry

@@ -1,0 +1,192 @@
+#include "server/geometry/mesh_query.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mechane::geometry {
+namespace {
+
+constexpr std::uint32_t kLeafTriangles = 4;
+constexpr std::size_t kStackDepth = 96;  // a median split of 2^32 triangles is 30 levels deep, two entries a level
+
+/// Ericson, Real-Time Collision Detection, 5.1.5: the region of the triangle decides which feature is closest.
+Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ap = p - a;
+  const double d1 = ab.dot(ap);
+  const double d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3 bp = p - b;
+  const double d3 = ab.dot(bp);
+  const double d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 > d3 ? d1 / (d1 - d3) : 0.0);
+  const Vec3 cp = p - c;
+  const double d5 = ab.dot(cp);
+  const double d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 > d6 ? d2 / (d2 - d6) : 0.0);
+  const double va = d3 * d6 - d5 * d4;
+  const double e = d4 - d3;
+  const double f = d5 - d6;
+  if (va <= 0 && e >= 0 && f >= 0) return b + (c - b) * (e + f > 0 ? e / (e + f) : 0.0);
+  const double sum = va + vb + vc;
+  if (sum <= 0) return a;
+  return a + ab * (vb / sum) + ac * (vc / sum);
+}
+
+/// Slab test. `inverse` holds 1/direction, with infinities where a component is zero.
+bool ray_meets_box(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& inverse) {
+  double t0 = 0;
+  double t1 = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double pad = 1e-12 * (std::abs(box.min()[i]) + std::abs(box.max()[i]) + 1e-12);
+    double near_t = (box.min()[i] - pad - origin[i]) * inverse[i];
+    double far_t = (box.max()[i] + pad - origin[i]) * inverse[i];
+    if (near_t > far_t) std::swap(near_t, far_t);
+    t0 = std::max(t0, near_t);
+    t1 = std::min(t1, far_t);
+  }
+  return t0 <= t1;
+}
+
+}  // namespace
+
+MeshQuery::MeshQuery(const Mesh& mesh) : slot_of_(mesh.triangles.size()) {
+  triangles_.reserve(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    triangles_.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], i});
+  }
+  if (triangles_.empty()) return;
+  nodes_.reserve(triangles_.size());
+  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(triangles_.size())});
+  // Children are appended, so this loop reaches them too.
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n)
+    split(n);
+  for (std::uint32_t slot = 0; slot < triangles_.size(); ++slot)
+    slot_of_[triangles_[slot].index] = slot;
+}
+
+void MeshQuery::split(std::uint32_t n) {
+  const std::uint32_t first = nodes_[n].first;
+  const std::uint32_t count = nodes_[n].count;
+  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d centers;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const Triangle& t = triangles_[i];
+    box.extend(t.a).extend(t.b).extend(t.c);
+    centers.extend(Vec3(t.a + t.b + t.c));
+  }
+  nodes_[n].box = box;
+  if (count <= kLeafTriangles) return;
+  Eigen::Index axis = 0;
+  centers.sizes().maxCoeff(&axis);
+  const auto begin = triangles_.begin() + first;
+  const std::uint32_t half = count / 2;
+  std::nth_element(begin, begin + half, begin + count, [axis](const Triangle& l, const Triangle& r) {
+    const double cl = l.a[axis] + l.b[axis] + l.c[axis];
+    const double cr = r.a[axis] + r.b[axis] + r.c[axis];
+    return cl < cr || (cl == cr && l.index < r.index);
+  });
+  const auto children = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({{}, first, half});
+  nodes_.push_back({{}, first + half, count - half});
+  nodes_[n].first = children;
+  nodes_[n].count = 0;
+}
+
+SurfacePoint MeshQuery::closest(const Vec3& p, double max_distance_m) const {
+  SurfacePoint best;
+  if (nodes_.empty()) return best;
+  double best_square = max_distance_m * max_distance_m;
+  std::array<std::uint32_t, kStackDepth> stack{};
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[stack[--top]];
+    if (node.box.squaredExteriorDistance(p) > best_square) continue;
+    if (node.count == 0) {
+      const double d0 = nodes_[node.first].box.squaredExteriorDistance(p);
+      const double d1 = nodes_[node.first + 1].box.squaredExteriorDistance(p);
+      stack[top++] = d0 < d1 ? node.first + 1 : node.first;  // the nearer child is taken first
+      stack[top++] = d0 < d1 ? node.first : node.first + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Vec3 q = closest_on_triangle(p, triangles_[i].a, triangles_[i].b, triangles_[i].c);
+      const double square = (q - p).squaredNorm();
+      if (square < best_square || (square == best_square && std::isinf(best.distance_m))) {
+        best_square = square;
+        best = {q, std::sqrt(square), triangles_[i].index};
+      }
+    }
+  }
+  return best;
+}
+
+void MeshQuery::cast(const Vec3& origin, const Vec3& direction, std::vector<RayHit>& hits) const {
+  hits.clear();
+  if (nodes_.empty()) return;
+  const Vec3 inverse = direction.unaryExpr([](double d) { return 1 / (std::abs(d) < 1e-300 ? 1e-300 : d); });
+  std::array<std::uint32_t, kStackDepth> stack{};
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[stack[--top]];
+    if (!ray_meets_box(node.box, origin, inverse)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first + 1;
+      stack[top++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Triangle& tri = triangles_[i];
+      // Signed volumes: an edge shared by two triangles gives both the same number, so no ray slips between them.
+      const Vec3 a = tri.a - origin;
+      const Vec3 b = tri.b - origin;
+      const Vec3 c = tri.c - origin;
+      const double u = direction.dot(c.cross(b));
+      const double v = direction.dot(a.cross(c));
+      const double w = direction.dot(b.cross(a));
+      if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) continue;
+      const double sum = u + v + w;
+      if (sum == 0) continue;
+      const double t = (u * a + v * b + w * c).dot(direction) / (sum * direction.squaredNorm());
+      if (t > 0) hits.push_back({t, tri.index, sum > 0});
+    }
+  }
+  std::sort(hits.begin(), hits.end(),
+            [](const RayHit& l, const RayHit& r) { return l.t < r.t || (l.t == r.t && l.triangle < r.triangle); });
+}
+
+int MeshQuery::winding(const Vec3& p) const {
+  // Directions along no axis and no likely edge; three, so that one ray through an edge is outvoted.
+  static const std::array<Vec3, 3> kDirections = {Vec3(0.5773, 0.6113, 0.5412), Vec3(-0.7071, 0.3019, 0.6397),
+                                                  Vec3(0.1327, -0.8913, 0.4336)};
+  std::vector<RayHit> hits;
+  std::array<int, 3> counts{};
+  for (std::size_t i = 0; i < kDirections.size(); ++i) {
+    cast(p, kDirections[i], hits);
+    for (const RayHit& hit : hits)
+      counts[i] += hit.entering ? -1 : 1;
+  }
+  std::sort(counts.begin(), counts.end());
+  return counts[1];
+}
+
+double MeshQuery::signed_distance(const Vec3& p) const {
+  const double distance = closest(p).distance_m;
+  return winding(p) > 0 ? -distance : distance;
+}
+
+Vec3 MeshQuery::triangle_normal(std::uint32_t triangle) const {
+  const Triangle& t = triangles_[slot_of_[triangle]];
+  return (t.b - t.a).cross(t.c - t.a).normalized();
+}
+
+}  // namespace mechane::geometry

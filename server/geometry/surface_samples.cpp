@@ -1,0 +1,116 @@
+#include "server/geometry/surface_samples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "server/geometry/random.hpp"
+
+namespace mechane::geometry {
+namespace {
+
+constexpr double kClosest = 0.7;  // of the spacing
+constexpr double kCandidatesPerCell = 20;
+constexpr std::size_t kMaxCandidates = 4'000'000;
+
+/// Keeps points apart: a hash of cells as wide as the least distance.
+class ApartFilter {
+ public:
+  explicit ApartFilter(double least_m) : least_(least_m) {}
+
+  bool take(const Vec3& p) {
+    const Cell c = cell(p);
+    for (int n = 0; n < 27; ++n) {
+      const auto found = cells_.find(key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1}));
+      if (found == cells_.end()) continue;
+      for (const Vec3& q : found->second) {
+        if ((q - p).squaredNorm() < least_ * least_) return false;
+      }
+    }
+    cells_[key(c)].push_back(p);
+    return true;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  [[nodiscard]] Cell cell(const Vec3& p) const {
+    return {std::llround(p.x() / least_), std::llround(p.y() / least_), std::llround(p.z() / least_)};
+  }
+  // Two cells may share a key: then a few more points are compared, no more.
+  [[nodiscard]] static std::uint64_t key(const Cell& c) {
+    return static_cast<std::uint64_t>(c[0]) * 73856093U ^ static_cast<std::uint64_t>(c[1]) * 19349663U ^
+           static_cast<std::uint64_t>(c[2]) * 83492791U;
+  }
+
+  double least_;
+  std::unordered_map<std::uint64_t, std::vector<Vec3>> cells_;
+};
+
+double triangle_area(const Mesh& mesh, std::size_t i) {
+  const auto& t = mesh.triangles[i];
+  const Vec3& a = mesh.vertices[t[0]];
+  return 0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm();
+}
+
+}  // namespace
+
+double surface_area_m2(const Mesh& mesh) {
+  double area = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    area += triangle_area(mesh, i);
+  return area;
+}
+
+std::vector<SurfaceSample> sample_by_area(const Mesh& mesh, std::size_t count, std::uint64_t seed) {
+  std::vector<SurfaceSample> samples;
+  std::vector<double> running(mesh.triangles.size());
+  double area = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    running[i] = area += triangle_area(mesh, i);
+  if (!(area > 0)) return samples;
+  Random random(seed);
+  samples.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double at = area * (static_cast<double>(k) + random.unit()) / static_cast<double>(count);
+    const auto found = std::upper_bound(running.begin(), running.end(), at);
+    const auto i = std::min<std::size_t>(static_cast<std::size_t>(found - running.begin()), running.size() - 1);
+    // Uniform in a triangle: the root turns the square's density into the triangle's.
+    const double root = std::sqrt(random.unit());
+    const double v = random.unit();
+    const auto& t = mesh.triangles[i];
+    samples.push_back(
+        {(1 - root) * mesh.vertices[t[0]] + root * (1 - v) * mesh.vertices[t[1]] + root * v * mesh.vertices[t[2]],
+         static_cast<std::uint32_t>(i)});
+  }
+  return samples;
+}
+
+std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m, std::uint64_t seed) {
+  std::vector<SurfaceSample> candidates;
+  std::vector<bool> seen(mesh.vertices.size(), false);
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      if (seen[v]) continue;
+      seen[v] = true;
+      candidates.push_back({mesh.vertices[v], i});
+    }
+  }
+  const double wanted = kCandidatesPerCell * surface_area_m2(mesh) / (spacing_m * spacing_m);
+  const auto count = static_cast<std::size_t>(std::min(std::ceil(wanted), static_cast<double>(kMaxCandidates)));
+  std::vector<SurfaceSample> random = sample_by_area(mesh, count, seed);
+  // By area they come triangle after triangle; greedy choice wants them in no order (Fisher-Yates).
+  Random shuffle(seed + 1);
+  for (std::size_t i = random.size(); i > 1; --i)
+    std::swap(random[i - 1], random[shuffle.below(i)]);
+  candidates.insert(candidates.end(), random.begin(), random.end());
+
+  ApartFilter apart(kClosest * spacing_m);
+  std::vector<SurfaceSample> kept;
+  for (const SurfaceSample& candidate : candidates) {
+    if (apart.take(candidate.p)) kept.push_back(candidate);
+  }
+  return kept;
+}
+
+}  // namespace mechane::geometry
