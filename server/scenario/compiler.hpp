@@ -19,12 +19,9 @@ class ObjectLoader {
   /// A loader that builds nothing returns null.
   [[nodiscard]] virtual Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                                 const std::string& node) = 0;
-  /// 32 hex digits, XXH3-128 of the file's bytes. Fails where the file cannot be read.
+  /// The name of the file's bytes: content::content_hash(). Fails where the file cannot be read.
   [[nodiscard]] virtual Expected<std::string> content_hash(const std::filesystem::path& file) = 0;
 };
-
-/// XXH3-128 of a file, 32 hex digits: what a loader needs for content_hash().
-[[nodiscard]] Expected<std::string> hash_file(const std::filesystem::path& file);
 
 /// A world. Every name in it is resolved; every component's parameters hold against its type's schema. All problems go to `problems`,
 /// errors and warnings; the Error is the first error. Calls the loader once a touchable body. One thread, not in a tick; the same

@@ -1,7 +1,6 @@
 // What is wrong in a scenario, said so that its author can mend it.
 #pragma once
 
-#include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +30,8 @@ class Problems {
   void warning(int line, std::string node, std::string what, std::string remedy);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+  /// True once no more are kept: whoever looks for more may stop. A broken file can have one fault a line.
+  [[nodiscard]] bool full() const { return problems_.size() >= kMost; }
   /// The first error, as the Error of an Expected, with a count of the others. There must be one.
   [[nodiscard]] Error first_error() const;
   [[nodiscard]] const std::vector<Problem>& all() const { return problems_; }
@@ -38,6 +39,8 @@ class Problems {
 
  private:
   void add(Severity severity, int line, std::string node, std::string what, std::string remedy);
+
+  static constexpr std::size_t kMost = 200;
 
   std::string file_;
   std::vector<Problem> problems_;

@@ -1,0 +1,69 @@
+// What the stages of one compilation share. Inside this room only.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/scenario/attributes.hpp"
+#include "server/scenario/compiler.hpp"
+#include "server/scenario/document.hpp"
+#include "server/scenario/metadata.hpp"
+#include "server/state/component_type.hpp"
+#include "server/state/description.hpp"
+
+namespace mechane::scenario {
+
+/// A world in the making. Each stage reads the document and adds to the world; a fault becomes a problem and the stage goes on, so that
+/// an author sees all faults at once.
+struct Compilation {
+  const Document& document;
+  ObjectLoader& loader;
+  Problems& problems;
+  state::WorldDescription world;
+  std::optional<Metadata> scenario;                 ///< the tree of the WorldInfo
+  std::map<std::string, std::string> model_hashes;  ///< by url as written
+  std::vector<int> activity_lines;                  ///< by ActivityId
+  std::vector<int> step_lines;                      ///< by StepId
+};
+
+/// Stages, in the order in which they need each other.
+void compile_scenario(Compilation& c);    // id, languages, title, units
+void compile_bodies(Compilation& c);      // RigidBodyCollection, RigidBody, mechane:body, mechane:haptic
+void compile_joints(Compilation& c);      // X3D's joints
+void compile_components(Compilation& c);  // mechane:agent on nodes, agents and machines of the tree
+void compile_quantities(Compilation& c);
+void compile_activities(Compilation& c);  // activities and their steps
+void check_components(Compilation& c);    // parameters against their types; names may be of anything above
+void compile_visits(Compilation& c);
+void compile_viewpoints(Compilation& c);
+void compile_hash(Compilation& c);
+
+/// What a careful author would want to hear of a world that compiles: warnings.
+void lint(Compilation& c);
+
+/// All of it.
+void compile_all(Compilation& c);
+
+/// A set of the scenario's tree; null where there is none.
+[[nodiscard]] const Metadata* tree_set(const Compilation& c, std::string_view name);
+
+/// Texts of a `text` set: keys "<what>.<language>", with `what` among `allowed` (separated by blanks). By what, then by language.
+[[nodiscard]] std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* set,
+                                                             const std::string& where, std::string_view allowed);
+
+/// The type of an agent or machine; null where none has that name.
+[[nodiscard]] const state::ComponentType* find_agent_type(std::string_view name);
+[[nodiscard]] const state::ComponentType* find_machine_type(std::string_view name);
+
+template <class Item>
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const Item& item : items)
+    names.push_back(item.name);
+  return names;
+}
+
+}  // namespace mechane::scenario

@@ -1,0 +1,127 @@
+// X3D's joints. A joint ties the bodies as they stand at the start: its position is 0 there.
+#include <array>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+// X3D cannot write a hinge without stops: its defaults are -pi and pi. Both at pi or beyond is read as none, so that a crank turns on.
+constexpr double kNoStop = kPi - 1e-3;
+
+/// The body in a field of the joint; none for the world, after a problem too.
+BodyId body_of(Compilation& c, NodeId joint, std::string_view field, bool& good) {
+  for (const NodeId child : c.document.child_elements(joint)) {
+    if (c.document[child].name != "RigidBody" || c.document.container_field(child, "body1") != field) continue;
+    const std::string* name = c.document[c.document.resolve(child)].attribute("DEF");
+    const BodyId body = name != nullptr ? c.world.find_body(*name) : BodyId::none();
+    if (body) return body;
+    Attributes(c.document, child, c.problems)
+        .error(fmt::format("{} is not a body of this world", field), "USE a RigidBody that has a DEF");
+    good = false;
+  }
+  return BodyId::none();
+}
+
+bool read_bodies(Compilation& c, NodeId id, Attributes& attributes, state::JointDescription& joint) {
+  bool good = true;
+  joint.body1 = body_of(c, id, "body1", good);
+  joint.body2 = body_of(c, id, "body2", good);
+  if (!good) return false;
+  // One body alone hangs on the world, which is the frame side.
+  if (joint.body1 && !joint.body2) std::swap(joint.body1, joint.body2);
+  if (!joint.body2) {
+    attributes.error("the joint has no bodies", "add <RigidBody containerField='body1' USE='...'/> and body2");
+    return false;
+  }
+  if (joint.body1 == joint.body2) {
+    attributes.error("the joint ties a body to itself", "give two bodies");
+    return false;
+  }
+  if (c.world.bodies[joint.body2.index()].fixed) {
+    if (!joint.body1 || c.world.bodies[joint.body1.index()].fixed) {
+      attributes.error("the joint ties two fixed bodies", "let one of them move");
+      return false;
+    }
+    attributes.error("body2 is fixed; it is the side that moves", "write the fixed body as body1");
+    return false;
+  }
+  return true;
+}
+
+Vec3 read_axis(Attributes& attributes) {
+  const Vec3 axis = attributes.vector("axis", Vec3::UnitY());
+  if (axis.norm() > 1e-9) return axis.normalized();
+  attributes.error("the axis has no length", "write a direction, like 0 1 0");
+  return Vec3::UnitY();
+}
+
+void read_stops(Attributes& attributes, std::string_view least, std::string_view most, double least_default,
+                double most_default, state::JointDescription& joint) {
+  joint.min_position = attributes.number(least, least_default);
+  joint.max_position = attributes.number(most, most_default);
+  if (joint.min_position > joint.max_position)
+    attributes.error(fmt::format("{} is above {}", least, most), "swap them");
+}
+
+/// A frame whose axis number `which` is the joint's.
+Quat frame_along(const Vec3& axis_W, const Vec3& which) {
+  return Quat::FromTwoVectors(which, axis_W).normalized();
+}
+
+Pose read_geometry(Compilation& c, Attributes& attributes, state::JointDescription& joint) {
+  switch (joint.kind) {
+    case state::JointKind::hinge: {
+      read_stops(attributes, "minAngle", "maxAngle", -kPi, kPi, joint);
+      if (joint.min_position <= -kNoStop && joint.max_position >= kNoStop) {
+        joint.min_position = 0;
+        joint.max_position = -1;
+      }
+      return {attributes.vector("anchorPoint", Vec3::Zero()), frame_along(read_axis(attributes), Vec3::UnitZ())};
+    }
+    case state::JointKind::slider:
+      read_stops(attributes, "minSeparation", "maxSeparation", 0, 1, joint);
+      // X3D's slider has no anchor: it acts where its moving body is.
+      return {c.world.bodies[joint.body2.index()].X_WB.p, frame_along(read_axis(attributes), Vec3::UnitX())};
+    case state::JointKind::ball:
+      break;
+  }
+  return {attributes.vector("anchorPoint", Vec3::Zero()), Quat::Identity()};
+}
+
+void compile_joint(Compilation& c, NodeId id, state::JointKind kind) {
+  Attributes attributes(c.document, id, c.problems);
+  state::JointDescription joint;
+  joint.name = attributes.text("DEF");
+  if (joint.name.empty()) joint.name = fmt::format("{}-line-{}", c.document[id].name, attributes.line());
+  joint.kind = kind;
+  if (!read_bodies(c, id, attributes, joint)) return;
+  const Pose X_WJ = read_geometry(c, attributes, joint);
+  const Pose X_WB1 = joint.body1 ? c.world.bodies[joint.body1.index()].X_WB : Pose{};
+  joint.X_B1J = X_WB1.inverse() * X_WJ;
+  joint.X_B2J = c.world.bodies[joint.body2.index()].X_WB.inverse() * X_WJ;
+  c.world.joints.push_back(std::move(joint));
+}
+
+}  // namespace
+
+void compile_joints(Compilation& c) {
+  using Kind = state::JointKind;
+  for (const NodeId id : c.document.elements("SingleAxisHingeJoint"))
+    compile_joint(c, id, Kind::hinge);
+  for (const NodeId id : c.document.elements("SliderJoint"))
+    compile_joint(c, id, Kind::slider);
+  for (const NodeId id : c.document.elements("BallJoint"))
+    compile_joint(c, id, Kind::ball);
+  for (const char* type : {"DoubleAxisHingeJoint", "UniversalJoint", "MotorJoint"}) {
+    for (const NodeId id : c.document.elements(type)) {
+      Attributes(c.document, id, c.problems)
+          .warning(fmt::format("a {} is not simulated", type),
+                   "use SingleAxisHingeJoint, SliderJoint or BallJoint, or an agent");
+    }
+  }
+}
+
+}  // namespace mechane::scenario

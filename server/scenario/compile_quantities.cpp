@@ -1,0 +1,80 @@
+// Quantities: names for what components, joints and bodies offer.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+const state::ComponentDescription* find_component(const std::vector<state::ComponentDescription>& table,
+                                                  const std::string& name) {
+  const auto it = std::find_if(table.begin(), table.end(), [&](const auto& item) { return item.name == name; });
+  return it == table.end() ? nullptr : &*it;
+}
+
+void add_values(const state::ComponentType* type, std::vector<std::string>& values) {
+  if (type == nullptr) return;
+  for (const state::ValueType& value : type->values)
+    values.emplace_back(value.name);
+}
+
+/// What can stand behind the dot; empty where nothing has the name. One name may be an agent's and its joint's.
+std::vector<std::string> values_of(const state::WorldDescription& world, const std::string& name) {
+  std::vector<std::string> values;
+  if (const auto* agent = find_component(world.agents, name)) add_values(find_agent_type(agent->type), values);
+  if (const auto* machine = find_component(world.machines, name)) add_values(find_machine_type(machine->type), values);
+  if (world.find_joint(name)) values.insert(values.end(), {"position", "angle", "rate", "turns"});
+  if (world.find_body(name)) values.insert(values.end(), {"position.x", "position.y", "position.z"});
+  return values;
+}
+
+std::vector<std::string> all_sources(const state::WorldDescription& world) {
+  std::vector<std::string> names = names_of(world.agents);
+  for (const auto& more : {names_of(world.machines), names_of(world.joints), names_of(world.bodies)})
+    names.insert(names.end(), more.begin(), more.end());
+  return names;
+}
+
+void check_source(Compilation& c, const std::string& source, int line, const std::string& where) {
+  const std::size_t dot = source.find('.');
+  const std::string name = source.substr(0, dot);
+  const std::string value = dot == std::string::npos ? "" : source.substr(dot + 1);
+  const std::vector<std::string> values = values_of(c.world, name);
+  if (values.empty()) {
+    c.problems.error(line, where, fmt::format("the source '{}' names no agent, machine, joint or body", source),
+                     suggest(name, all_sources(c.world), "add an agent or a machine"));
+  } else if (std::find(values.begin(), values.end(), value) == values.end()) {
+    c.problems.error(line, where, fmt::format("'{}' has no value '{}'", name, value), suggest(value, values, ""));
+  }
+}
+
+}  // namespace
+
+void compile_quantities(Compilation& c) {
+  const Metadata* tree = tree_set(c, "quantities");
+  if (tree == nullptr) return;
+  for (const Metadata& item : tree->children) {
+    const std::string where = "quantity " + item.name;
+    state::QuantityDescription quantity;
+    quantity.name = item.name;
+    int line = item.line;
+    if (item.kind == MetadataKind::strings && item.strings.size() == 1) {
+      quantity.source = item.strings.front();
+    } else if (item.kind == MetadataKind::set) {
+      const Fields fields(&item, quantity_table(), where, c.problems);
+      quantity.source = fields.string("source");
+      quantity.unit = fields.string("unit");
+      line = fields.line("source");
+    } else {
+      c.problems.error(item.line, where, "it is neither a source nor a set",
+                       "write a MetadataString like \"PUMP.basin_l\"");
+      continue;
+    }
+    if (!quantity.source.empty()) check_source(c, quantity.source, line, where);
+    c.world.quantities.push_back(std::move(quantity));
+  }
+}
+
+}  // namespace mechane::scenario

@@ -1,0 +1,216 @@
+// Activities and their steps: two passes, so that a trigger may name a step that is written after it.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+/// One activity as written, with the ids that its steps get.
+struct Written {
+  ActivityId id;
+  Fields fields;
+  std::vector<const Metadata*> steps;
+  std::size_t first_step = 0;
+
+  [[nodiscard]] StepId find(const std::string& name) const {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (steps[i]->name == name) return StepId(first_step + i);
+    }
+    return StepId::none();
+  }
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const Metadata* step : steps)
+      names.push_back(step->name);
+    return names;
+  }
+};
+
+void collect_steps(Compilation& c, Written& activity) {
+  activity.first_step = c.world.steps.size();
+  const Metadata* steps = activity.fields.set("steps");
+  if (steps == nullptr) return;
+  for (const Metadata& step : steps->children) {
+    const std::string where = "step " + step.name;
+    if (step.kind != MetadataKind::set) {
+      c.problems.error(step.line, where, "the step is not a set", "write a MetadataSet");
+    } else if (step.name.empty() || step.name == "end") {
+      c.problems.error(step.line, where, fmt::format("a step cannot be called '{}'", step.name),
+                       "name it by what is to be done");
+    } else if (c.world.find_step(step.name)) {
+      c.problems.error(step.line, where, "another activity has a step of this name",
+                       "give each step a name of its own");
+    } else {
+      activity.steps.push_back(&step);
+      state::StepDescription description;
+      description.name = step.name;
+      description.activity = activity.id;
+      c.world.steps.push_back(std::move(description));
+      c.step_lines.push_back(step.line);
+    }
+  }
+  if (activity.steps.empty())
+    c.problems.error(activity.fields.line("steps"), activity.fields.where(), "the activity has no steps", "add one");
+}
+
+std::vector<AgentId> read_agents(Compilation& c, const Fields& fields, std::string_view key) {
+  std::vector<AgentId> agents;
+  for (const std::string& name : fields.strings(key)) {
+    const AgentId agent = c.world.find_agent(name);
+    if (agent) {
+      agents.push_back(agent);
+    } else if (c.world.find_joint(name)) {
+      c.problems.error(fields.line(key), fields.where(), fmt::format("the joint '{}' has no agent to switch", name),
+                       "put a 'mechane:agent' set on it, like geometry.hinge");
+    } else {
+      c.problems.error(fields.line(key), fields.where(), fmt::format("no agent is called '{}'", name),
+                       suggest(name, names_of(c.world.agents), "add it to the scenario's agents"));
+    }
+  }
+  return agents;
+}
+
+std::optional<bool> optional_boolean(const Fields& fields, std::string_view key) {
+  return fields.given(key) ? std::optional<bool>(fields.boolean(key)) : std::nullopt;
+}
+
+void read_override(Compilation& c, const Metadata& set, const std::string& step, state::StepDescription& out) {
+  const std::string name = set.name.substr(std::string_view("object:").size());
+  const Fields fields(&set, override_table(), fmt::format("{}, object {}", step, name), c.problems);
+  state::BodyOverride change;
+  change.body = c.world.find_body(name);
+  if (!change.body) {
+    c.problems.error(set.line, fields.where(), fmt::format("no body is called '{}'", name),
+                     suggest(name, names_of(c.world.bodies), "add a RigidBody of that DEF"));
+    return;
+  }
+  const state::BodyDescription& body = c.world.bodies[change.body.index()];
+  change.movable = optional_boolean(fields, "movable");
+  change.visible = optional_boolean(fields, "visible");
+  change.graspable = optional_boolean(fields, "graspable");
+  if (change.movable.value_or(false) && body.fixed) {
+    c.problems.error(fields.line("movable"), fields.where(), "the body is fixed and cannot be made movable",
+                     "remove fixed='true' of the RigidBody");
+  }
+  if (fields.given("position") || fields.given("orientation")) {
+    change.X_WB = body.X_WB;
+    if (fields.given("position")) change.X_WB->p = fields.vector("position");
+    if (fields.given("orientation")) change.X_WB->R = fields.rotation("orientation");
+    if (body.fixed)
+      c.problems.error(set.line, fields.where(), "the body is fixed and stays where it is",
+                       "remove fixed='true' of the RigidBody");
+  }
+  out.bodies.push_back(change);
+}
+
+state::Comparison comparison_of(const std::string& op) {
+  if (op == "<") return state::Comparison::less;
+  return op == "=" ? state::Comparison::equal : state::Comparison::greater;
+}
+
+void read_trigger(Compilation& c, const Written& activity, const Metadata& set, const std::string& step,
+                  state::StepDescription& out) {
+  const Fields fields(&set, trigger_table(), fmt::format("{}, {}", step, set.name), c.problems);
+  state::TriggerDescription trigger;
+  const std::string quantity = fields.string("quantity");
+  trigger.quantity = c.world.find_quantity(quantity);
+  if (fields.given("quantity") && !trigger.quantity) {
+    c.problems.error(fields.line("quantity"), fields.where(), fmt::format("no quantity is called '{}'", quantity),
+                     suggest(quantity, names_of(c.world.quantities), "add it to the scenario's quantities"));
+  }
+  trigger.comparison = comparison_of(fields.string("op"));
+  trigger.value = fields.number("value");
+  trigger.tolerance = fields.number("tolerance");
+  trigger.hold_s = fields.number("holdSeconds");
+  const std::string next = fields.string("next");
+  trigger.next = activity.find(next);
+  if (next != "end" && !trigger.next) {
+    c.problems.error(fields.line("next"), fields.where(), fmt::format("the activity has no step '{}'", next),
+                     suggest(next, activity.names(), "name one of its steps, or end"));
+  }
+  out.triggers.push_back(trigger);
+}
+
+void compile_step(Compilation& c, const Written& activity, const Metadata& set) {
+  const std::string where = "step " + set.name;
+  const Fields fields(&set, step_table(), where, c.problems);
+  state::StepDescription& step = c.world.steps[activity.find(set.name).index()];
+  step.enable = read_agents(c, fields, "enable");
+  step.disable = read_agents(c, fields, "disable");
+  for (const AgentId agent : step.enable) {
+    if (std::find(step.disable.begin(), step.disable.end(), agent) == step.disable.end()) continue;
+    c.problems.error(fields.line("disable"), where,
+                     fmt::format("'{}' is both enabled and disabled", c.world.agents[agent.index()].name), "keep one");
+  }
+  for (const Metadata* change : fields.sets_like("object:*"))
+    read_override(c, *change, where, step);
+  for (const Metadata* trigger : fields.sets_like("trigger:*"))
+    read_trigger(c, activity, *trigger, where, step);
+  step.texts = read_texts(c, fields.set("text"), where + ", text", "caption narration hint");
+  step.hint_after_s = fields.number("hintSeconds");
+}
+
+void compile_first(Compilation& c, const Written& activity) {
+  state::ActivityDescription& description = c.world.activities[activity.id.index()];
+  if (activity.steps.empty()) return;
+  description.first = StepId(activity.first_step);
+  if (!activity.fields.given("first")) return;
+  const std::string first = activity.fields.string("first");
+  description.first = activity.find(first);
+  if (!description.first) {
+    c.problems.error(activity.fields.line("first"), activity.fields.where(),
+                     fmt::format("the activity has no step '{}'", first),
+                     suggest(first, activity.names(), "name one of its steps"));
+  }
+}
+
+/// A joint that an agent switches, and that some step switches on, is off before: the world begins as the activity does.
+void open_switched_joints(state::WorldDescription& world) {
+  for (const state::StepDescription& step : world.steps) {
+    for (const AgentId agent : step.enable) {
+      const auto it = world.agents[agent.index()].parameters.find("joint");
+      if (!world.agents[agent.index()].type.starts_with("geometry.") ||
+          it == world.agents[agent.index()].parameters.end())
+        continue;
+      const auto* names = std::get_if<std::vector<std::string>>(&it->second);
+      if (names == nullptr || names->size() != 1) continue;
+      if (const JointId joint = world.find_joint(names->front())) world.joints[joint.index()].enabled_at_start = false;
+    }
+  }
+}
+
+}  // namespace
+
+void compile_activities(Compilation& c) {
+  const Metadata* tree = tree_set(c, "activities");
+  if (tree == nullptr) return;
+  std::vector<Written> written;
+  for (const Metadata& set : tree->children) {
+    const std::string where = "activity " + set.name;
+    if (set.kind != MetadataKind::set) {
+      c.problems.error(set.line, where, "the activity is not a set", "write a MetadataSet");
+      continue;
+    }
+    Written activity{ActivityId(c.world.activities.size()), Fields(&set, activity_table(), where, c.problems), {}, 0};
+    state::ActivityDescription description;
+    description.name = set.name;
+    description.title = read_texts(c, activity.fields.set("text"), where + ", text", "title")["title"];
+    c.world.activities.push_back(std::move(description));
+    c.activity_lines.push_back(set.line);
+    collect_steps(c, activity);
+    written.push_back(std::move(activity));
+  }
+  if (tree->children.empty())
+    c.problems.error(tree->line, "activities", "the scenario has no activity", "add one with its steps");
+  for (const Written& activity : written) {
+    for (const Metadata* step : activity.steps)
+      compile_step(c, activity, *step);
+    compile_first(c, activity);
+  }
+  open_switched_joints(c.world);
+}
+
+}  // namespace mechane::scenario

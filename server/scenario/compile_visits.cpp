@@ -1,0 +1,118 @@
+// Scripted visits: what a person's hand would do.
+#include <array>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+using Kind = state::VisitMove::Kind;
+
+Kind kind_of(const std::string& word) {
+  constexpr std::array<std::pair<std::string_view, Kind>, 6> kKinds{{{"reach", Kind::reach},
+                                                                     {"grasp", Kind::grasp},
+                                                                     {"move_to", Kind::move_to},
+                                                                     {"turn", Kind::turn},
+                                                                     {"release", Kind::release},
+                                                                     {"wait", Kind::wait}}};
+  for (const auto& [name, kind] : kKinds) {
+    if (name == word) return kind;
+  }
+  return Kind::wait;
+}
+
+void need(Compilation& c, const Fields& fields, std::string_view kind, std::string_view key) {
+  if (fields.given(key)) return;
+  c.problems.error(fields.line(key), fields.where(), fmt::format("a {} needs the key '{}'", kind, key), "add it");
+}
+
+BodyId read_body(Compilation& c, const Fields& fields, std::string_view kind) {
+  need(c, fields, kind, "body");
+  if (!fields.given("body")) return BodyId::none();
+  const std::string name = fields.string("body");
+  const BodyId body = c.world.find_body(name);
+  if (!body) {
+    c.problems.error(fields.line("body"), fields.where(), fmt::format("no body is called '{}'", name),
+                     suggest(name, names_of(c.world.bodies), "add a RigidBody of that DEF"));
+  }
+  return body;
+}
+
+void read_turn(Compilation& c, const Fields& fields, state::VisitMove& move) {
+  need(c, fields, "turn", "joint");
+  need(c, fields, "turn", "turns");
+  const std::string name = fields.string("joint");
+  move.joint = c.world.find_joint(name);
+  move.turns = fields.number("turns");
+  move.rate_rpm = fields.number("rpm");
+  if (!fields.given("joint")) return;
+  if (!move.joint) {
+    c.problems.error(fields.line("joint"), fields.where(), fmt::format("no joint is called '{}'", name),
+                     suggest(name, names_of(c.world.joints), "add a SingleAxisHingeJoint of that DEF"));
+  } else if (c.world.joints[move.joint.index()].kind != state::JointKind::hinge) {
+    c.problems.error(fields.line("joint"), fields.where(), fmt::format("the joint '{}' does not turn", name),
+                     "name a hinge");
+  }
+}
+
+state::VisitMove compile_move(Compilation& c, const Metadata& set, const std::string& visit) {
+  const Fields fields(&set, move_table(), fmt::format("{}, {}", visit, set.name), c.problems);
+  const std::string kind = fields.string("kind");
+  state::VisitMove move;
+  move.kind = kind_of(kind);
+  move.duration_s = fields.number("seconds");
+  switch (move.kind) {
+    case Kind::reach:
+      move.body = read_body(c, fields, kind);
+      need(c, fields, kind, "grip");
+      move.p_BG = fields.vector("grip");
+      break;
+    case Kind::grasp:
+      move.body = read_body(c, fields, kind);
+      break;
+    case Kind::move_to:
+      move.body = read_body(c, fields, kind);
+      need(c, fields, kind, "position");
+      if (move.body) move.X_WB = c.world.bodies[move.body.index()].X_WB;
+      move.X_WB.p = fields.vector("position");
+      if (fields.given("orientation")) move.X_WB.R = fields.rotation("orientation");
+      break;
+    case Kind::turn:
+      read_turn(c, fields, move);
+      break;
+    case Kind::release:
+    case Kind::wait:
+      break;
+  }
+  return move;
+}
+
+}  // namespace
+
+void compile_visits(Compilation& c) {
+  const Metadata* tree = tree_set(c, "visits");
+  if (tree == nullptr) return;
+  for (const Metadata& set : tree->children) {
+    const std::string where = "visit " + set.name;
+    if (set.kind != MetadataKind::set) {
+      c.problems.error(set.line, where, "the visit is not a set", "write a MetadataSet");
+      continue;
+    }
+    const Fields fields(&set, visit_table(), where, c.problems);
+    state::VisitDescription visit;
+    visit.name = set.name;
+    const std::string activity = fields.string("activity");
+    visit.activity = c.world.find_activity(activity);
+    if (fields.given("activity") && !visit.activity) {
+      c.problems.error(fields.line("activity"), where, fmt::format("no activity is called '{}'", activity),
+                       suggest(activity, names_of(c.world.activities), "add it to the scenario's activities"));
+    }
+    for (const Metadata* move : fields.sets_like("move:*"))
+      visit.moves.push_back(compile_move(c, *move, where));
+    c.world.visits.push_back(std::move(visit));
+  }
+}
+
+}  // namespace mechane::scenario

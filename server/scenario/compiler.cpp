@@ -1,0 +1,169 @@
+#include "server/scenario/compiler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "server/content/content_hash.hpp"
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+bool is_id(const std::string& text) {
+  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), allowed);
+}
+
+bool is_language(const std::string& text) {
+  return text.size() >= 2 && text.size() <= 8 && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+         });
+}
+
+/// <unit> statements in the head change what every number means; we read metres, kilograms and radians only.
+void refuse_units(Compilation& c) {
+  for (const NodeId head : c.document.child_elements(c.document.x3d())) {
+    if (c.document[head].name != "head") continue;
+    for (const NodeId id : c.document.child_elements(head)) {
+      if (c.document[id].name != "unit") continue;
+      Attributes unit(c.document, id, c.problems);
+      if (unit.number("conversionFactor", 1) != 1) {
+        unit.error(fmt::format("the unit '{}' is not SI", unit.text("name")),
+                   "write metres, kilograms, seconds and radians, and remove the unit");
+      }
+    }
+  }
+}
+
+void read_languages(Compilation& c, const Fields& fields) {
+  c.world.languages = fields.strings("languages");
+  if (fields.given("languages") && c.world.languages.empty()) {
+    c.problems.error(fields.line("languages"), fields.where(), "no language is named", "write \"el\" \"en\"");
+  }
+  for (const std::string& language : c.world.languages) {
+    if (!is_language(language)) {
+      c.problems.error(fields.line("languages"), fields.where(), fmt::format("'{}' is no language code", language),
+                       "write a code of BCP 47, like el or en");
+    }
+  }
+}
+
+}  // namespace
+
+const Metadata* tree_set(const Compilation& c, std::string_view name) {
+  if (!c.scenario) return nullptr;
+  const Metadata* found = c.scenario->find(name);
+  return found != nullptr && found->kind == MetadataKind::set ? found : nullptr;
+}
+
+std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* set, const std::string& where,
+                                               std::string_view allowed) {
+  std::map<std::string, state::Texts> texts;
+  const Fields fields(set, text_table(), where, c.problems);
+  if (set == nullptr) return texts;
+  const std::string padded = fmt::format(" {} ", allowed);
+  for (const Metadata& child : set->children) {
+    if (!fields.given(child.name)) continue;
+    const std::size_t dot = child.name.find('.');
+    const std::string what = child.name.substr(0, dot);
+    const std::string language = dot == std::string::npos ? "" : child.name.substr(dot + 1);
+    const auto& known = c.world.languages;
+    if (padded.find(" " + what + " ") == std::string::npos || language.empty()) {
+      c.problems.warning(child.line, where, fmt::format("the text '{}' is shown nowhere", child.name),
+                         fmt::format("name it <what>.<language>, with what one of: {}", allowed));
+    } else if (std::find(known.begin(), known.end(), language) == known.end()) {
+      c.problems.warning(child.line, where, fmt::format("'{}' is not among the scenario's languages", language),
+                         fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
+    } else {
+      texts[what][language] = child.strings.front();
+    }
+  }
+  return texts;
+}
+
+void compile_scenario(Compilation& c) {
+  refuse_units(c);
+  for (const NodeId info : c.document.elements("WorldInfo")) {
+    if (!c.scenario) c.scenario = read_metadata(c.document, info, "mechane:scenario", c.problems);
+  }
+  if (!c.scenario) {
+    if (!c.problems.has_errors()) {
+      c.problems.error(c.document[c.document.scene()].line, "WorldInfo", "there is no metadata set 'mechane:scenario'",
+                       "add <WorldInfo><MetadataSet containerField='metadata' name='mechane:scenario'>...");
+    }
+    return;
+  }
+  const Fields fields(&*c.scenario, scenario_table(), "mechane:scenario", c.problems);
+  if (fields.given("format") && fields.number("format") != kFormatVersion) {
+    c.problems.error(fields.line("format"), fields.where(),
+                     fmt::format("version {} of the scenario format is not known", fields.number("format")),
+                     fmt::format("write {}, or read the file with the program that it was made for", kFormatVersion));
+  }
+  c.world.id = fields.string("id");
+  if (fields.given("id") && !is_id(c.world.id)) {
+    c.problems.error(fields.line("id"), fields.where(), fmt::format("'{}' cannot be an id", c.world.id.substr(0, 80)),
+                     "use small letters, digits and '-', 64 at most");
+  }
+  c.world.effort_scale = fields.number("effortScale");
+  read_languages(c, fields);
+  c.world.title = read_texts(c, fields.set("text"), "the scenario's text", "title")["title"];
+}
+
+void compile_viewpoints(Compilation& c) {
+  for (const NodeId id : c.document.elements("Viewpoint")) {
+    Attributes attributes(c.document, id, c.problems);
+    state::Viewpoint viewpoint;
+    viewpoint.description = attributes.text("description");
+    viewpoint.X_WV = {attributes.vector("position", Vec3(0, 0, 10)), attributes.rotation("orientation")};
+    viewpoint.field_of_view_rad = attributes.number("fieldOfView", kPi / 4);
+    if (viewpoint.field_of_view_rad <= 0 || viewpoint.field_of_view_rad >= kPi) {
+      attributes.error("fieldOfView is not between 0 and pi", "write radians, like 0.7854");
+      continue;
+    }
+    if (c.document[id].parent != c.document.scene()) {
+      attributes.warning("the Viewpoint is read without the nodes around it", "put it directly under the Scene");
+    }
+    c.world.viewpoints.push_back(std::move(viewpoint));
+  }
+}
+
+void compile_hash(Compilation& c) {
+  std::string all = "mechane-scenario " + c.document.content_hash() + "\n";
+  for (const auto& [url, hash] : c.model_hashes)
+    all += fmt::format("{} {}\n", url, hash);
+  c.world.content_hash = content::content_hash(std::as_bytes(std::span(all)));
+}
+
+void compile_all(Compilation& c) {
+  c.world.folder = c.document.path().parent_path().string();
+  compile_scenario(c);
+  compile_bodies(c);
+  compile_joints(c);
+  compile_components(c);
+  compile_quantities(c);
+  compile_activities(c);
+  check_components(c);
+  compile_visits(c);
+  compile_viewpoints(c);
+  compile_hash(c);
+  if (!c.problems.has_errors()) lint(c);
+}
+
+Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader, Problems& problems) {
+  Compilation c{document, loader, problems, {}, {}, {}, {}, {}};
+  compile_all(c);
+  if (problems.has_errors()) return tl::unexpected(problems.first_error());
+  return std::move(c.world);
+}
+
+Expected<state::WorldDescription> read_scenario(const std::filesystem::path& file, ObjectLoader& loader,
+                                                Problems& problems) {
+  const auto document = read_document(file, problems);
+  if (!document) return tl::unexpected(document.error());
+  return compile(*document, loader, problems);
+}
+
+}  // namespace mechane::scenario
