@@ -1,0 +1,44 @@
+// What a machine is to the set that runs it, and how one is made. Inside this room only.
+#pragma once
+
+#include <memory>
+
+#include "server/base/error.hpp"
+#include "server/state/component_type.hpp"
+#include "server/state/world_state.hpp"
+
+namespace mechane::machines {
+
+/// One machine. Immutable: what it remembers lies in slots of WorldState::memory.
+class Machine {
+ public:
+  virtual ~Machine() = default;
+  /// One tick. Allocates nothing.
+  virtual void run(state::WorldState& state, double dt_s) const noexcept = 0;
+};
+
+/// What a maker gets. Parameters are checked against the type already.
+struct Build {
+  const state::WorldDescription& description;
+  const state::ComponentDescription& component;
+  const state::Parameters& parameters;
+  MachineId id;
+  state::MemoryLayout& layout;
+
+  [[nodiscard]] std::size_t slot(const std::string& value, double initial = 0) const {
+    return layout.add(component.name, value, initial);
+  }
+};
+
+struct MachineKind {
+  state::ComponentType type;
+  Expected<std::unique_ptr<Machine>> (*make)(const Build& build);
+};
+
+/// One file each.
+[[nodiscard]] const MachineKind& screw_pump_kind();
+
+/// Null where no type has this name.
+[[nodiscard]] const MachineKind* find_kind(std::string_view type);
+
+}  // namespace mechane::machines
