@@ -11,6 +11,7 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kClosest = 0.7;  // of the spacing
+constexpr double kRefusedReach = 0.25;
 constexpr double kCandidatesPerCell = 20;
 constexpr std::size_t kMaxCandidates = 4'000'000;
 
@@ -19,7 +20,8 @@ class ApartFilter {
  public:
   explicit ApartFilter(double least_m) : least_(least_m) {}
 
-  bool take(const Vec3& p) {
+  /// Whether a point would lie at least the least distance from all points put in so far.
+  [[nodiscard]] bool is_apart(const Vec3& p) const {
     const Cell c = cell(p);
     for (int n = 0; n < 27; ++n) {
       const auto found = cells_.find(key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1}));
@@ -28,9 +30,9 @@ class ApartFilter {
         if ((q - p).squaredNorm() < least_ * least_) return false;
       }
     }
-    cells_[key(c)].push_back(p);
     return true;
   }
+  void put(const Vec3& p) { cells_[key(cell(p))].push_back(p); }
 
  private:
   using Cell = std::array<std::int64_t, 3>;
@@ -86,15 +88,13 @@ std::vector<SurfaceSample> sample_by_area(const Mesh& mesh, std::size_t count, s
   return samples;
 }
 
-std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m, std::uint64_t seed) {
+std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m, std::uint64_t seed,
+                                             const std::function<bool(const SurfaceSample&)>& accept) {
+  // A vertex once for each of its triangles: one of them may be accepted where another is not.
   std::vector<SurfaceSample> candidates;
-  std::vector<bool> seen(mesh.vertices.size(), false);
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (const std::uint32_t v : mesh.triangles[i]) {
-      if (seen[v]) continue;
-      seen[v] = true;
+    for (const std::uint32_t v : mesh.triangles[i])
       candidates.push_back({mesh.vertices[v], i});
-    }
   }
   const double wanted = kCandidatesPerCell * surface_area_m2(mesh) / (spacing_m * spacing_m);
   const auto count = static_cast<std::size_t>(std::min(std::ceil(wanted), static_cast<double>(kMaxCandidates)));
@@ -103,12 +103,24 @@ std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m,
   Random shuffle(seed + 1);
   for (std::size_t i = random.size(); i > 1; --i)
     std::swap(random[i - 1], random[shuffle.below(i)]);
+  const std::size_t first_random = candidates.size();
   candidates.insert(candidates.end(), random.begin(), random.end());
 
   ApartFilter apart(kClosest * spacing_m);
+  ApartFilter refused(kRefusedReach * spacing_m);  // spares asking `accept` again and again beside a refused point
   std::vector<SurfaceSample> kept;
-  for (const SurfaceSample& candidate : candidates) {
-    if (apart.take(candidate.p)) kept.push_back(candidate);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const SurfaceSample& candidate = candidates[i];
+    if (!apart.is_apart(candidate.p)) continue;
+    if (accept) {
+      if (i >= first_random && !refused.is_apart(candidate.p)) continue;
+      if (!accept(candidate)) {
+        if (i >= first_random) refused.put(candidate.p);
+        continue;
+      }
+    }
+    apart.put(candidate.p);
+    kept.push_back(candidate);
   }
   return kept;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "server/base/math.hpp"
@@ -21,7 +22,10 @@ struct SurfaceSample {
 [[nodiscard]] std::vector<SurfaceSample> sample_by_area(const Mesh& mesh, std::size_t count, std::uint64_t seed);
 
 /// Points such that no two lie closer than 0.7 spacings and every place of the surface has one within a spacing (nearly: the
-/// candidates are random, 20 for each square of side `spacing_m`). Vertices come first, so that corners have their point.
-[[nodiscard]] std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m, std::uint64_t seed);
+/// candidates are random, 20 for each square of side `spacing_m`). Vertices come first, so that corners have their point. With
+/// `accept`, only the part of the surface where it holds.
+[[nodiscard]] std::vector<SurfaceSample> sample_by_spacing(
+    const Mesh& mesh, double spacing_m, std::uint64_t seed,
+    const std::function<bool(const SurfaceSample&)>& accept = {});
 
 }  // namespace mechane::geometry

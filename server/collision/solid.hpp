@@ -1,0 +1,41 @@
+// The parts of an object as one solid: what is wood and what is air, where parts touch, overlap, or leave a crack at a seam.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "server/geometry/mesh.hpp"
+#include "server/geometry/mesh_query.hpp"
+
+namespace mechane::collision {
+
+/// Built once from welded part meshes; any thread may ask.
+class Solid {
+ public:
+  /// `seam_gap_m`: cracks between parts up to this width are wood.
+  Solid(std::span<const geometry::Mesh> welded_parts, double seam_gap_m);
+
+  [[nodiscard]] bool is_closed(std::size_t part) const { return closed_[part]; }
+
+  /// Whether p lies inside some closed part.
+  [[nodiscard]] bool contains(const Vec3& p) const { return whole_.winding(p) > 0; }
+
+  /// Whether a surface point of `part`, n its triangle's outward normal, borders on air, and not on another part.
+  [[nodiscard]] bool is_exposed(std::size_t part, const Vec3& p, const Vec3& n) const;
+
+  /// How far one can go from `origin` along `direction` inside the solid, in units of `direction`; at most `limit`. Seams are passed.
+  /// For an open part: the outermost hit with its own mesh, whatever lies before it. 0: the ray starts in air, or never meets the part.
+  [[nodiscard]] double walk(std::size_t part, const Vec3& origin, const Vec3& direction, double limit) const;
+
+  [[nodiscard]] const geometry::MeshQuery& part(std::size_t part) const { return parts_[part]; }
+
+ private:
+  double seam_gap_m_;
+  std::vector<geometry::MeshQuery> parts_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  std::vector<bool> closed_;
+  geometry::MeshQuery whole_;  // all closed parts
+};
+
+}  // namespace mechane::collision
