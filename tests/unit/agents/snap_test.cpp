@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/unit/agents/stage.hpp"
+
+namespace mechane::agents::test {
+namespace {
+
+using state::EventKind;
+using ::testing::HasSubstr;
+
+constexpr double kTolerance_m = 0.05, kTolerance_rad = 0.2;
+
+/// PART goes to (0, 0.5, 0) in CRANK, turned by 90 degrees about y.
+state::WorldDescription with_snap(bool with_axis = false) {
+  state::WorldDescription world = stage_world();
+  world.bodies[2].X_WB = {Vec3(0.2, 0, 0.1), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitX()))};
+  world.agents = {{"SNAP",
+                   "geometry.snap",
+                   {{"object", text({"PART"})},
+                    {"into", text({"CRANK"})},
+                    {"position", number({0, 0.5, 0})},
+                    {"rotation", number({0, 1, 0, kPi / 2})},
+                    {"tolerance", number({kTolerance_m, kTolerance_rad})}},
+                   3}};
+  if (with_axis) world.agents[0].parameters["axis"] = number({0, 0, 2});
+  return world;
+}
+
+Pose place_in(const Stage& stage) {
+  return stage.state->bodies[2].X_WB * Pose{Vec3(0, 0.5, 0), Quat(Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()))};
+}
+
+state::BodyState& part(Stage& stage) {
+  return stage.state->bodies[1];
+}
+
+RC_GTEST_PROP(Snap, TakesTheBodyWithinBothTolerancesAndOnlyThen, ()) {
+  Stage stage(with_snap());
+  const auto unit = [] { return 0.01 * *rc::gen::inRange(-100, 101); };
+  const Vec3 off = 0.06 * Vec3(unit(), unit(), unit());
+  const Vec3 turn = 0.2 * Vec3(unit(), unit(), unit());
+  RC_PRE(std::abs(off.norm() - kTolerance_m) > 1e-6 && std::abs(turn.norm() - kTolerance_rad) > 1e-6);
+  const Pose X_WT = place_in(stage);
+  part(stage).X_WB = {X_WT.p + off, quat_from_rotation_vector(turn) * X_WT.R};
+  stage.tick();
+  RC_ASSERT(std::abs(stage.value("SNAP.distance") - off.norm()) < 1e-9);
+  RC_ASSERT(std::abs(stage.value("SNAP.angle") - turn.norm()) < 1e-9);
+  const bool close = off.norm() < kTolerance_m && turn.norm() < kTolerance_rad;
+  RC_ASSERT(part(stage).movable == !close);
+  stage.run(0.3);
+  RC_ASSERT((stage.value("SNAP.placed") == 1) == close);
+  if (!close) return;
+  RC_ASSERT((part(stage).X_WB.p - X_WT.p).norm() < 1e-12);
+  RC_ASSERT(rotation_vector(part(stage).X_WB.R * X_WT.R.conjugate()).norm() < 1e-9);
+}
+
+TEST(Snap, LeadsTheBodyHomeSmoothlyAndTakesItOutOfTheHand) {
+  Stage stage(with_snap());
+  const Pose X_WT = place_in(stage);
+  part(stage).X_WB = {X_WT.p + Vec3(0.04, 0, 0), X_WT.R};
+  stage.appear(0, state::HandKind::one_point, part(stage).X_WB.p);
+  stage.user().grasp.active = true;
+  stage.user().grasp.body = BodyId(1);
+  stage.tick();
+  EXPECT_FALSE(stage.user().grasp.active);
+  EXPECT_EQ(stage.count(EventKind::released), 1);
+  Vec3 last = part(stage).X_WB.p;
+  double fastest = 0;
+  for (int n = 0; n < 200; ++n) {
+    stage.tick();
+    fastest = std::max(fastest, (part(stage).X_WB.p - last).norm() / kStep);
+    last = part(stage).X_WB.p;
+  }
+  EXPECT_EQ(stage.value("SNAP.placed"), 1);
+  EXPECT_LE(fastest, 1.5 * 0.04 / 0.2 + 1e-3) << "a smooth step's greatest speed";
+}
+
+TEST(Snap, WithAnAxisAnyRotationAboutItIsRight) {
+  Stage stage(with_snap(true));
+  const Pose X_WT = place_in(stage);
+  const Quat about_own_z = X_WT.R * Quat(Eigen::AngleAxisd(2.3, Vec3::UnitZ()));
+  part(stage).X_WB = {X_WT.p + Vec3(0, 0.01, 0), quat_from_rotation_vector(Vec3(0.05, 0.05, 0)) * about_own_z};
+  stage.run(0.3);
+  EXPECT_EQ(stage.value("SNAP.placed"), 1);
+  EXPECT_LT(stage.value("SNAP.angle"), 1e-9);
+  EXPECT_LT((part(stage).X_WB.rotate(Vec3::UnitZ()) - X_WT.rotate(Vec3::UnitZ())).norm(), 1e-9);
+  EXPECT_LT(rotation_vector(part(stage).X_WB.R * about_own_z.conjugate()).norm(), 0.1)
+      << "it keeps the turn that it had";
+}
+
+TEST(Snap, WhileOffTakesNothing) {
+  Stage stage(with_snap());
+  stage.state->agent_enabled[0] = 0;
+  part(stage).X_WB = place_in(stage);
+  stage.run(0.3);
+  EXPECT_EQ(stage.value("SNAP.placed"), 0);
+  EXPECT_TRUE(part(stage).movable);
+}
+
+TEST(Snap, LosesABodyThatIsFreedAndTakenAway) {
+  Stage stage(with_snap());
+  part(stage).X_WB = place_in(stage);
+  stage.run(0.3);
+  ASSERT_EQ(stage.value("SNAP.placed"), 1);
+  part(stage).movable = true;
+  stage.run(0.3);
+  EXPECT_EQ(stage.value("SNAP.placed"), 1) << "still in its place";
+  part(stage).X_WB.p += Vec3(0.2, 0, 0);
+  stage.tick();
+  EXPECT_EQ(stage.value("SNAP.placed"), 0);
+  EXPECT_TRUE(part(stage).movable);
+}
+
+TEST(Snap, RefusesWhatCannotBe) {
+  state::WorldDescription world = with_snap();
+  world.agents[0].parameters["object"] = text({"FRAME"});
+  EXPECT_THAT(error_of(world), HasSubstr("is fixed"));
+  world = with_snap();
+  world.agents[0].parameters["into"] = text({"PART"});
+  EXPECT_THAT(error_of(world), HasSubstr("into itself"));
+  world = with_snap();
+  world.agents[0].parameters["rotation"] = number({0, 0, 0, 1});
+  EXPECT_THAT(error_of(world), HasSubstr("no axis"));
+  world = with_snap();
+  world.agents[0].parameters.erase("tolerance");
+  EXPECT_THAT(error_of(world), HasSubstr("'tolerance' is missing"));
+}
+
+}  // namespace
+}  // namespace mechane::agents::test
