@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,5 +19,9 @@ inline constexpr std::uint32_t kPartFileVersion = 1;
 /// Reads what write_object wrote. Any other bytes are an Error: wrong magic or version, a checksum that does not match, counts or
 /// values out of their ranges. Never trusts a count beyond the bytes that are there.
 [[nodiscard]] Expected<Object> read_object(std::span<const std::byte> bytes);
+
+/// Writes the checksum that belongs to the rest of the bytes into their end: for tests and fuzzers that damage a file on purpose and
+/// want to get past the checksum. Does nothing to fewer than 8 bytes.
+void reseal(std::span<std::byte> bytes);
 
 }  // namespace mechane::collision

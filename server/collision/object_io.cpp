@@ -1,0 +1,270 @@
+#include "server/collision/object_io.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+
+#include <xxhash.h>
+
+namespace mechane::collision {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "a .part file is little endian and is read in place");
+
+constexpr std::string_view kMagic = "MCHNPART";
+constexpr std::size_t kChecksumBytes = 8;
+constexpr std::size_t kMaxFileBytes = 512U << 20;
+constexpr std::uint32_t kMaxParts = 1024;
+constexpr std::uint32_t kMaxNameBytes = 1024;
+constexpr double kMaxLength_m = 10'000;
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+class Writer {
+ public:
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void put(T value) {
+    const auto* raw = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), raw, raw + sizeof value);
+  }
+  template <class Vector>
+  void put_vector(const Vector& v) {
+    for (int i = 0; i < 3; ++i)
+      put(v[i]);
+  }
+  void put_text(std::string_view text) {
+    put(static_cast<std::uint32_t>(text.size()));
+    put_raw(text);
+  }
+  void put_raw(std::string_view text) {
+    for (const char c : text)
+      bytes_.push_back(static_cast<std::byte>(c));
+  }
+  void put_sphere(const geometry::Sphere& s) {
+    put_vector(s.center);
+    put(s.radius);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+/// Reads values one after the other; after the first failure everything reads as zero and `ok` stays false.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  requires std::is_arithmetic_v<T> T get() {
+    T value{};
+    if (!has(sizeof value)) return value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  Vec3 get_vec3() {
+    const double x = get<double>();
+    const double y = get<double>();
+    return {x, y, get<double>()};
+  }
+  Vec3f get_vec3f() {
+    const float x = get<float>();
+    const float y = get<float>();
+    return {x, y, get<float>()};
+  }
+  std::string get_text() {
+    const auto size = get<std::uint32_t>();
+    require(size <= kMaxNameBytes);
+    if (!has(size)) return {};
+    std::string text(reinterpret_cast<const char*>(bytes_.data() + at_), size);
+    at_ += size;
+    return text;
+  }
+  geometry::Sphere get_sphere() {
+    geometry::Sphere s;
+    s.center = get_vec3();
+    s.radius = get<double>();
+    require(s.center.allFinite() && s.center.cwiseAbs().maxCoeff() <= kMaxLength_m);
+    require(s.radius >= 0 && s.radius <= kMaxLength_m);
+    return s;
+  }
+  /// A count of things of at least `least_bytes` each: never more than the bytes left could hold.
+  std::uint32_t get_count(std::size_t least_bytes) {
+    const auto count = get<std::uint32_t>();
+    require(count <= (bytes_.size() - at_) / least_bytes);
+    return ok_ ? count : 0;
+  }
+  void require(bool condition) { ok_ = ok_ && condition; }
+  [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
+
+ private:
+  bool has(std::size_t count) {
+    require(count <= bytes_.size() - at_);
+    return ok_;
+  }
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+  bool ok_ = true;
+};
+
+void put_part(Writer& w, const Part& part) {
+  w.put_text(part.name);
+  w.put_vector(part.X_OQ.p);
+  for (int i = 0; i < 4; ++i)
+    w.put(part.X_OQ.R.coeffs()[i]);
+  const geometry::Superquadric& s = part.superquadric;
+  w.put_vector(s.a);
+  for (const double v : {s.e1, s.e2, s.taper_x, s.taper_y, s.bend_per_m, s.bend_angle_rad})
+    w.put(v);
+  w.put_sphere(part.bound_O);
+  w.put(static_cast<std::uint32_t>(part.map.resolution()));
+  w.put_vector(part.map.center_Q());
+  w.put_vector(part.map.half_Q());
+  w.put(part.map.sigma_step());
+  for (const std::uint16_t texel : part.map.texels())
+    w.put(texel);
+}
+
+RadialMap get_map(Reader& r) {
+  const auto resolution = r.get<std::uint32_t>();
+  const Vec3f center_Q = r.get_vec3f();
+  const Vec3f half_Q = r.get_vec3f();
+  const auto step = r.get<float>();
+  if (resolution == 0) return {};
+  r.require(resolution <= static_cast<std::uint32_t>(RadialMap::kMaxResolution));
+  const std::size_t count = r.ok() ? std::size_t{6} * resolution * resolution : 0;
+  r.require(RadialMap::is_valid(static_cast<int>(resolution), center_Q, half_Q, step, count));
+  if (!r.ok()) return {};
+  std::vector<std::uint16_t> texels(count);
+  for (std::uint16_t& texel : texels)
+    texel = r.get<std::uint16_t>();
+  return {static_cast<int>(resolution), center_Q, half_Q, step, std::move(texels)};
+}
+
+Part get_part(Reader& r) {
+  Part part;
+  part.name = r.get_text();
+  part.X_OQ.p = r.get_vec3();
+  for (int i = 0; i < 4; ++i)
+    part.X_OQ.R.coeffs()[i] = r.get<double>();
+  r.require(part.X_OQ.p.allFinite() && part.X_OQ.p.cwiseAbs().maxCoeff() <= kMaxLength_m);
+  r.require(std::abs(part.X_OQ.R.squaredNorm() - 1) < 1e-6);
+  geometry::Superquadric& s = part.superquadric;
+  s.a = r.get_vec3();
+  for (double* v : {&s.e1, &s.e2, &s.taper_x, &s.taper_y, &s.bend_per_m, &s.bend_angle_rad})
+    *v = r.get<double>();
+  r.require(geometry::is_valid(s) && s.a.maxCoeff() <= kMaxLength_m);
+  part.bound_O = r.get_sphere();
+  part.map = get_map(r);
+  return part;
+}
+
+void get_samples(Reader& r, Object& object) {
+  const std::uint32_t samples = r.get_count(3 * sizeof(float));
+  for (std::uint32_t i = 0; i < samples && r.ok(); ++i) {
+    object.samples_O.push_back(r.get_vec3f());
+    const Vec3f& p = object.samples_O.back();
+    r.require(p.allFinite() && p.cwiseAbs().maxCoeff() <= static_cast<float>(kMaxLength_m));
+  }
+}
+
+void get_clusters(Reader& r, Object& object) {
+  const std::uint32_t clusters = r.get_count(4 * sizeof(double) + 8);
+  for (std::uint32_t i = 0; i < clusters && r.ok(); ++i) {
+    Cluster c;
+    c.bound_O = r.get_sphere();
+    c.first = r.get<std::uint32_t>();
+    c.count = r.get<std::uint16_t>();
+    c.part = r.get<std::uint16_t>();
+    r.require(c.count >= 1 && c.count <= 16 && c.part < object.parts.size());
+    r.require(c.first <= object.samples_O.size() && c.count <= object.samples_O.size() - c.first);
+    object.clusters.push_back(c);
+  }
+  for (std::size_t i = 0; i <= object.parts.size() && r.ok(); ++i) {
+    const auto first = r.get<std::uint32_t>();
+    r.require(first <= object.clusters.size() && (i > 0 || first == 0));
+    r.require(object.first_cluster.empty() || first >= object.first_cluster.back());
+    object.first_cluster.push_back(first);
+  }
+  r.require(r.ok() && object.first_cluster.back() == object.clusters.size());
+  for (std::size_t part = 0; part < object.parts.size() && r.ok(); ++part) {
+    for (std::uint32_t c = object.first_cluster[part]; c < object.first_cluster[part + 1]; ++c) {
+      r.require(object.clusters[c].part == part);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> write_object(const Object& object) {
+  Writer w;
+  w.put_raw(kMagic);
+  w.put(kPartFileVersion);
+  w.put(static_cast<std::uint32_t>(object.parts.size()));
+  for (const Part& part : object.parts)
+    put_part(w, part);
+  w.put(static_cast<std::uint32_t>(object.samples_O.size()));
+  for (const Vec3f& p : object.samples_O)
+    w.put_vector(p);
+  w.put(static_cast<std::uint32_t>(object.clusters.size()));
+  for (const Cluster& c : object.clusters) {
+    w.put_sphere(c.bound_O);
+    w.put(c.first);
+    w.put(c.count);
+    w.put(c.part);
+  }
+  for (const std::uint32_t first : object.first_cluster)
+    w.put(first);
+  w.put_sphere(object.bound_O);
+  w.put(std::uint64_t{0});
+  std::vector<std::byte> bytes = w.take();
+  reseal(bytes);
+  return bytes;
+}
+
+void reseal(std::span<std::byte> bytes) {
+  if (bytes.size() < kChecksumBytes) return;
+  const std::uint64_t sum = checksum(bytes.first(bytes.size() - kChecksumBytes));
+  std::memcpy(bytes.data() + bytes.size() - kChecksumBytes, &sum, sizeof sum);
+}
+
+Expected<Object> read_object(std::span<const std::byte> bytes) {
+  const char* where = "part file";
+  const char* remedy = "delete it, it is made again from the model";
+  if (bytes.size() < kMagic.size() + 4 + kChecksumBytes || bytes.size() > kMaxFileBytes ||
+      std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
+    return fail("this is not a part file", where, remedy);
+  }
+  std::uint32_t version = 0;
+  std::memcpy(&version, bytes.data() + kMagic.size(), sizeof version);
+  if (version != kPartFileVersion) {
+    return fail("the part file has version " + std::to_string(version) + ", this program reads version " +
+                    std::to_string(kPartFileVersion),
+                where, remedy);
+  }
+  const auto body = bytes.first(bytes.size() - kChecksumBytes);
+  std::uint64_t stored = 0;
+  std::memcpy(&stored, bytes.data() + body.size(), sizeof stored);
+  if (stored != checksum(body)) return fail("the part file is damaged: its checksum does not match", where, remedy);
+
+  Reader r(body.subspan(kMagic.size() + sizeof version));
+  Object object;
+  const auto parts = r.get<std::uint32_t>();
+  r.require(parts >= 1 && parts <= kMaxParts);
+  for (std::uint32_t i = 0; i < parts && r.ok(); ++i)
+    object.parts.push_back(get_part(r));
+  if (r.ok()) get_samples(r, object);
+  if (r.ok()) get_clusters(r, object);
+  if (r.ok()) object.bound_O = r.get_sphere();
+  if (!r.ok() || !r.at_end()) return fail("the part file holds values that cannot be", where, remedy);
+  return object;
+}
+
+}  // namespace mechane::collision
