@@ -22,14 +22,6 @@ TextureName upload_image(const ImageData& image) {
   return texture;
 }
 
-void set_culling(const MaterialData& material) {
-  if (material.double_sided) {
-    glDisable(GL_CULL_FACE);
-  } else {
-    glEnable(GL_CULL_FACE);
-  }
-}
-
 }  // namespace
 
 void describe_vertices() {
@@ -104,13 +96,11 @@ void GpuAssets::use_material(std::uint32_t material, const Program& program) con
     glBindTexture(GL_TEXTURE_2D, images_[*images[unit]].get());
   }
   program.set("images", bits);
-  set_culling(m);
-}
-
-bool GpuAssets::prepare_depth(std::uint32_t material) const {
-  MECHANE_ASSERT(material < materials_.size());
-  set_culling(materials_[material]);
-  return !(materials_[material].alpha_cutoff > 0);
+  if (m.double_sided) {
+    glDisable(GL_CULL_FACE);
+  } else {
+    glEnable(GL_CULL_FACE);
+  }
 }
 
 void set_model(const Program& program, const Eigen::Affine3f& X_WM) {

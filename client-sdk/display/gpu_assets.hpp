@@ -27,8 +27,6 @@ class GpuAssets {
   void draw(std::uint32_t mesh) const;
   /// Sets uniforms and texture units 0..3 of surface.frag, and face culling.
   void use_material(std::uint32_t material, const Program& program) const;
-  /// Sets face culling as use_material does. False when the material has holes, whose depth an early pass cannot know.
-  [[nodiscard]] bool prepare_depth(std::uint32_t material) const;
 
  private:
   struct GpuMesh {

@@ -19,7 +19,7 @@ Expected<OpaquePass> OpaquePass::create() {
 
 void OpaquePass::draw(const PassInput& input) const {
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
+  glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   surface_.use();

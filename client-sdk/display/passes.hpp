@@ -35,18 +35,8 @@ class ShadowPass {
   ShadowTarget map_;
 };
 
-/// Depth of what is solid, so that each pixel is shaded once: shading costs far more than triangles.
-class DepthPass {
- public:
-  [[nodiscard]] static Expected<DepthPass> create();
-  void draw(const PassInput& input) const;
-
- private:
-  explicit DepthPass(Program program) : program_(std::move(program)) {}
-  Program program_;
-};
-
-/// Everything solid, and the plain of earth. Comes after DepthPass.
+/// Everything solid, and the plain of earth. (A depth pass before it was tried: it costs more than it saves, here and with meshes of small
+/// triangles on a software renderer.)
 class OpaquePass {
  public:
   [[nodiscard]] static Expected<OpaquePass> create();

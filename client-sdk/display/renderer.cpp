@@ -11,8 +11,6 @@ namespace mechane::display {
 Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& settings) {
   Expected<ShadowPass> shadow = ShadowPass::create(settings.shadow_map_size);
   if (!shadow) return tl::unexpected(shadow.error());
-  Expected<DepthPass> depth = DepthPass::create();
-  if (!depth) return tl::unexpected(depth.error());
   Expected<OpaquePass> opaque = OpaquePass::create();
   if (!opaque) return tl::unexpected(opaque.error());
   Expected<SkyPass> sky = SkyPass::create();
@@ -24,7 +22,7 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& set
   Expected<OverlayPass> overlay = OverlayPass::create(settings.font_folder);
   if (!overlay) return tl::unexpected(overlay.error());
   return std::unique_ptr<Renderer>(
-      new Renderer(settings, Passes{std::move(*shadow), std::move(*depth), std::move(*opaque), std::move(*sky), std::move(*water),
+      new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water),
                                     std::move(*tone), std::move(*overlay)}));
 }
 
@@ -83,7 +81,6 @@ void Renderer::draw_eye(const RenderScene& scene, const EyeView& view, const Eig
   glDepthMask(GL_TRUE);
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  passes_.depth.draw(input);
   passes_.opaque.draw(input);
   passes_.sky.draw(input);
   passes_.water.draw(input);
@@ -93,6 +90,8 @@ ImageData Renderer::read_picture() const {
   MECHANE_ASSERT(picture_.has_value());
   return picture_->read();
 }
+
+void Renderer::finish() { glFinish(); }
 
 void Renderer::copy_to_window(PixelSize window) const {
   MECHANE_ASSERT(picture_.has_value());

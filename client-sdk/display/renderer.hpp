@@ -29,17 +29,20 @@ class Renderer {
 
   /// Uploads what is new in `assets`.
   void upload(const SceneAssets& assets) { assets_.upload(assets); }
+  /// Frees all that was uploaded: another scenario begins.
+  void forget_assets() { assets_ = {}; }
   /// Draws into the renderer's own picture. Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const RenderScene& scene, Stereo stereo, PixelSize size);
   /// The last picture, upper row first. Waits for the graphics card.
   [[nodiscard]] ImageData read_picture() const;
+  /// Waits until the last picture is drawn.
+  static void finish();
   /// Copies the last picture into the window.
   void copy_to_window(PixelSize window) const;
 
  private:
   struct Passes {
     ShadowPass shadow;
-    DepthPass depth;
     OpaquePass opaque;
     SkyPass sky;
     WaterPass water;

@@ -1,6 +1,4 @@
 layout(location = 0) in vec3 p_M;
 uniform mat4 X_WM;
 uniform mat4 PV;
-// The same sum as in mesh.vert, bit for bit, or the surfaces that are shaded later lose to their own depth.
-invariant gl_Position;
 void main() { gl_Position = PV * (X_WM * vec4(p_M, 1.0)); }

@@ -26,7 +26,7 @@ vec3 irradiance_from_sky(vec3 n) {
 }
 
 float shadow_tap(vec3 q, int i, vec2 texel) {
-  float r = sqrt((float(i) + 0.5) / 12.0);
+  float r = sqrt((float(i) + 0.5) / 9.0);
   float a = float(i) * 2.39996;
   return texture(shadow_map, vec3(q.xy + r * vec2(cos(a), sin(a)) * texel, q.z - 0.0006));
 }
@@ -40,10 +40,10 @@ float sunlight(vec3 p_W, vec3 n_geometric) {
   vec2 texel = shadow_blur_texels / vec2(textureSize(shadow_map, 0));
   // The outermost taps first: where they agree, the rest would too.
   float sum = 0.0;
-  for (int i = 8; i < 12; ++i) sum += shadow_tap(q, i, texel);
+  for (int i = 5; i < 9; ++i) sum += shadow_tap(q, i, texel);
   if (sum < 0.001 || sum > 3.999) return sum * 0.25;
-  for (int i = 0; i < 8; ++i) sum += shadow_tap(q, i, texel);
-  return sum / 12.0;
+  for (int i = 0; i < 5; ++i) sum += shadow_tap(q, i, texel);
+  return sum / 9.0;
 }
 
 // Share of the sky that small spheres leave open, by their solid angle about the normal.

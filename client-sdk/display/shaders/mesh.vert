@@ -12,8 +12,6 @@ out vec3 n_W;
 out vec4 t_W;
 out vec2 uv;
 
-invariant gl_Position;
-
 void main() {
   vec4 p = X_WM * vec4(p_M, 1.0);
   p_W = p.xyz;

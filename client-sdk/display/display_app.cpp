@@ -1,0 +1,243 @@
+#include "client-sdk/display/display_app.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "client-sdk/display/image_file.hpp"
+#include "server/base/assert.hpp"
+#include "server/content/mesh_import.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::display {
+namespace {
+
+using client::LinkState;
+
+/// Two frames of a world that sends sixty a second: so late the picture is, and so smooth.
+constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
+constexpr std::size_t kFrameTimesKept = 20'000;
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+Expected<void> make_folder(const std::string& folder) {
+  if (folder.empty()) return {};
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail("the folder for pictures cannot be made: " + error.message(), folder, "choose another with --out");
+  return {};
+}
+
+/// One display's life. Made and run on one thread.
+class DisplayLoop {
+ public:
+  DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
+              client::Client& client)
+      : options_(options), requests_(requests), context_(context), renderer_(renderer), client_(client) {}
+
+  Expected<DisplaySummary> run();
+
+ private:
+  [[nodiscard]] bool stop_wanted(TimePoint now) const;
+  [[nodiscard]] bool finished() const;
+  void take_news(TimePoint now);
+  void open_scenario();
+  Expected<void> draw(TimePoint now);
+  Expected<void> write_picture(const std::string& name);
+  void wait_for_next(TimePoint began);
+
+  const DisplayOptions& options_;
+  DisplayRequests& requests_;
+  GlContext& context_;
+  Renderer& renderer_;
+  client::Client& client_;
+  SystemClock clock_;
+  std::unique_ptr<AssetLibrary> library_;
+  std::unique_ptr<SceneBuilder> builder_;
+  std::optional<client::WorldStatus> status_;
+  client::Frame frame_;
+  bool have_frame_ = false;
+  std::string folder_;
+  std::string scenario_;
+  std::size_t objects_known_ = 0;
+  PictureSchedule schedule_;
+  std::optional<std::string> due_;
+  bool last_picture_taken_ = false;
+  std::uint32_t requested_pictures_ = 0;
+  TimePoint started_;
+  TimePoint next_;
+  std::vector<double> frame_ms_;
+  DisplaySummary summary_;
+};
+
+bool DisplayLoop::finished() const {
+  if (!status_ || !status_->done) return false;
+  return status_->activities.empty() || status_->activities.back() == status_->activity;
+}
+
+bool DisplayLoop::stop_wanted(TimePoint now) const {
+  if (requests_.stop || context_.close_wanted()) return true;
+  if (options_.seconds > 0 && now - started_ >= std::chrono::duration<double>(options_.seconds)) return true;
+  if (options_.frames > 0 && summary_.frames >= options_.frames) return true;
+  const bool owes_picture = options_.every_step && !last_picture_taken_;
+  return options_.until_done && finished() && !owes_picture;
+}
+
+void DisplayLoop::open_scenario() {
+  scenario_ = status_->scenario;
+  folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
+  renderer_.forget_assets();
+  library_ = std::make_unique<AssetLibrary>([folder = folder_](const std::string& uri) {
+    return content::import_mesh(std::filesystem::path(folder) / uri);
+  });
+  builder_ = std::make_unique<SceneBuilder>(*library_, options_.language);
+  objects_known_ = 0;
+}
+
+/// Status, manifest and frame as they are now.
+void DisplayLoop::take_news(TimePoint now) {
+  if (auto status = client_.world_status()) {
+    status_ = std::move(status);
+    if (builder_ == nullptr || status_->scenario != scenario_) open_scenario();
+    if (options_.every_step && !due_) due_ = schedule_.due(now, *status_);
+  }
+  if (builder_ != nullptr) {
+    const std::vector<client::SceneObject> objects = client_.objects();
+    if (objects.size() != objects_known_) {
+      objects_known_ = objects.size();
+      builder_->set_manifest(objects);
+      renderer_.upload(library_->assets());
+    }
+  }
+  // While the link is down the last frame stays.
+  client::Frame newer;
+  if (client_.state() == LinkState::joined && client_.interpolated_frame(now, kInterpolationDelay, newer)) {
+    frame_ = std::move(newer);
+    have_frame_ = true;
+  }
+}
+
+Expected<void> DisplayLoop::draw(TimePoint now) {
+  RenderScene scene;
+  if (builder_ != nullptr) {
+    scene = builder_->build(have_frame_ ? &frame_ : nullptr, status_ ? &*status_ : nullptr, client_.state());
+  } else {
+    scene.ground_height_m = 0.0F;
+    scene.camera.p_WT = Vec3(0, 1.2, 0);
+    scene.overlay.note = link_note(client_.state(), false, options_.language);
+  }
+  const PixelSize size = context_.size();
+  // A window that is minimised has no pixels.
+  if (size.width < 2 || size.height == 0) return {};
+  if (auto ok = renderer_.draw(scene, options_.stereo, size); !ok) return ok;
+  if (options_.offscreen) {
+    renderer_.finish();
+  } else {
+    renderer_.copy_to_window(size);
+  }
+  context_.present();
+  ++summary_.frames;
+  if (frame_ms_.size() < kFrameTimesKept) {
+    frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - now).count());
+  }
+  return {};
+}
+
+Expected<void> DisplayLoop::write_picture(const std::string& name) {
+  if (options_.out.empty()) return {};
+  const std::string path =
+      fmt::format("{}/{}-{}.png", options_.out, name, options_.stereo == Stereo::mono ? "mono" : "sbs");
+  if (auto ok = write_png(renderer_.read_picture(), path); !ok) return ok;
+  log::info("wrote " + path);
+  summary_.pictures.push_back(path);
+  return {};
+}
+
+void DisplayLoop::wait_for_next(TimePoint began) {
+  const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
+  const TimePoint now = clock_.now();
+  next_ = std::max(next_ + period, now);
+  // Drawing on the processor, a display leaves at least half of the time to the others on the machine.
+  if (options_.offscreen) next_ = std::max(next_, now + std::min<Duration>(now - began, std::chrono::seconds(1)));
+  clock_.sleep_until(next_);
+}
+
+Expected<DisplaySummary> DisplayLoop::run() {
+  started_ = next_ = clock_.now();
+  while (!stop_wanted(clock_.now())) {
+    const TimePoint now = clock_.now();
+    take_news(now);
+    const bool requested = requests_.picture.exchange(false) || context_.take_picture_wanted();
+    const bool only_pictures = options_.offscreen && options_.every_step;
+    if (!only_pictures || due_ || requested) {
+      if (auto ok = draw(now); !ok) return tl::unexpected(ok.error());
+    }
+    std::vector<std::string> names;
+    if (due_) names.push_back(*std::exchange(due_, std::nullopt));
+    if (requested) names.push_back(fmt::format("request-{:03}", ++requested_pictures_));
+    if (options_.frames > 0 && summary_.frames == options_.frames) names.emplace_back("frame");
+    for (const std::string& name : names) {
+      if (auto ok = write_picture(name); !ok) return tl::unexpected(ok.error());
+      if (finished() && name.ends_with("-done")) last_picture_taken_ = true;
+    }
+    wait_for_next(now);
+  }
+  summary_.done = finished();
+  summary_.frame_ms_median = percentile(frame_ms_, 0.5);
+  summary_.frame_ms_p99 = percentile(frame_ms_, 0.99);
+  summary_.steps_missed.assign(schedule_.missed().begin(), schedule_.missed().end());
+  if (library_) summary_.missing_assets.assign(library_->missing().begin(), library_->missing().end());
+  summary_.renderer = context_.renderer_name();
+  return std::move(summary_);
+}
+
+}  // namespace
+
+std::string DisplaySummary::to_json() const {
+  const nlohmann::ordered_json json{
+      {"pictures", pictures},           {"frames", frames}, {"frame_ms", {{"median", frame_ms_median}, {"p99", frame_ms_p99}}},
+      {"missing_assets", missing_assets}, {"steps_missed", steps_missed}, {"done", done}, {"renderer", renderer}};
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+Expected<PixelSize> parse_size(const std::string& text) {
+  PixelSize size;
+  const char* end = text.data() + text.size();
+  const auto [cross, error] = std::from_chars(text.data(), end, size.width);
+  const bool first = error == std::errc() && cross != end && *cross == 'x';
+  const auto last = first ? std::from_chars(cross + 1, end, size.height) : std::from_chars_result{cross, error};
+  const auto fits = [](std::uint32_t side) { return side >= 16 && side <= 8192; };
+  if (!first || last.ec != std::errc() || last.ptr != end || !fits(size.width) || !fits(size.height)) {
+    return fail("'" + text + "' is no size of a picture", "--size", "write width x height in pixels, 16 to 8192, as in 1280x720");
+  }
+  return size;
+}
+
+Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests) {
+  MECHANE_ASSERT(options.fps > 0);
+  if (auto ok = make_folder(options.out); !ok) return tl::unexpected(ok.error());
+  // Before the context: the driver's own threads inherit it. A refusal does no harm.
+  if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
+  auto context = options.offscreen ? make_offscreen_context(options.size) : make_window_context(options.size, "Mechane");
+  if (!context) return tl::unexpected(context.error());
+  auto renderer = Renderer::create(options.renderer);
+  if (!renderer) return tl::unexpected(renderer.error());
+  client::ClientConfig config;
+  config.kiosk = options.kiosk;
+  config.program = "mechane-display";
+  config.domain = options.domain;
+  auto client = client::Client::connect(config);
+  if (!client) return tl::unexpected(client.error());
+  return DisplayLoop(options, requests, **context, **renderer, **client).run();
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,65 @@
+// The display as a program: joins a kiosk as a watcher, draws its world into a window or offscreen, writes pictures.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mechane/client/client.hpp>
+
+#include "client-sdk/display/gl_context.hpp"
+#include "client-sdk/display/picture_schedule.hpp"
+#include "client-sdk/display/renderer.hpp"
+#include "client-sdk/display/scene_builder.hpp"
+
+namespace mechane::display {
+
+struct DisplayOptions {
+  std::string kiosk = "kiosk-1";
+  std::uint32_t domain = 0;
+  bool offscreen = false;
+  PixelSize size{1280, 720};
+  Stereo stereo = Stereo::mono;
+  std::string language = "el";
+  std::string assets;           ///< folder that mesh files are relative to; empty: the scenario's folder, as the server sees it
+  std::string out;              ///< folder for pictures; made when it is not there
+  bool every_step = false;      ///< a picture of each step and each finished activity; offscreen, nothing else is drawn
+  std::uint32_t frames = 0;     ///< stop after so many frames, the last of them a picture; 0: no limit
+  double seconds = 0;           ///< stop after so long; 0: no limit
+  bool until_done = false;      ///< stop when the world's last activity is done
+  double fps = 60;              ///< at most
+  RendererSettings renderer;
+};
+
+/// What was done, for scripts.
+struct DisplaySummary {
+  std::vector<std::string> pictures;       ///< paths
+  std::vector<std::string> steps_missed;   ///< too short for a picture
+  std::vector<std::string> missing_assets;
+  std::uint64_t frames = 0;
+  double frame_ms_median = 0;
+  double frame_ms_p99 = 0;
+  bool done = false;                       ///< the world's last activity was done
+  std::string renderer;
+
+  /// One line of JSON.
+  [[nodiscard]] std::string to_json() const;
+};
+
+/// Set from outside (a signal handler): stop at the next frame; take a picture of the next frame.
+struct DisplayRequests {
+  std::atomic<bool> stop{false};
+  std::atomic<bool> picture{false};
+};
+
+/// Draws until an option or a request says stop. The caller's thread is the display's. Errors: no context, no fonts, a bad kiosk name,
+/// a folder that cannot be written.
+[[nodiscard]] Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests);
+
+/// Reads "1280x720". Errors: not two numbers, or not within 16..8192.
+[[nodiscard]] Expected<PixelSize> parse_size(const std::string& text);
+
+}  // namespace mechane::display

@@ -1,0 +1,60 @@
+// mechane-display: shows a kiosk's world, in a window or offscreen.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <map>
+
+#include "client-sdk/display/display_app.hpp"
+#include "server/log/log.hpp"
+
+namespace {
+
+using namespace mechane;
+
+display::DisplayRequests g_requests;  // what a signal handler may write
+
+void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
+  app.add_option("--kiosk", o.kiosk, "name of the kiosk")->capture_default_str();
+  app.add_option("--domain", o.domain, "DDS domain")->capture_default_str();
+  app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
+  app.add_option("--size", size, "width x height, pixels")->capture_default_str();
+  const std::map<std::string, display::Stereo> stereo{{"mono", display::Stereo::mono}, {"sbs", display::Stereo::side_by_side}};
+  app.add_option("--stereo", o.stereo, "mono, or sbs: left and right eye side by side")
+      ->transform(CLI::CheckedTransformer(stereo));
+  app.add_option("--language", o.language, "language of the captions")->check(CLI::IsMember({"el", "en"}))->capture_default_str();
+  app.add_option("--assets", o.assets, "folder that mesh files are relative to; without: the scenario's folder");
+  app.add_option("--fonts", o.renderer.font_folder, "folder of the DejaVu fonts")->capture_default_str();
+  app.add_option("--out", o.out, "folder for pictures (PNG); SIGUSR1, or P in the window, asks for one");
+  app.add_flag("--every-step", o.every_step, "a picture of each step; offscreen, draw nothing else");
+  app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
+  app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);
+  app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
+  app.add_option("--fps", o.fps, "frames a second, at most")->check(CLI::Range(0.1, 240.0))->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  display::DisplayOptions options;
+  std::string size = "1280x720";
+  CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
+  add_options(app, options, size);
+  CLI11_PARSE(app, argc, argv);
+  log::start("mechane-display", log::Level::info);
+  const Expected<display::PixelSize> parsed = display::parse_size(size);
+  if (!parsed) {
+    log::error(parsed.error());
+    return 2;
+  }
+  options.size = *parsed;
+  std::signal(SIGINT, [](int) { g_requests.stop = true; });
+  std::signal(SIGTERM, [](int) { g_requests.stop = true; });
+  std::signal(SIGUSR1, [](int) { g_requests.picture = true; });
+  const Expected<display::DisplaySummary> summary = display::run_display(options, g_requests);
+  if (!summary) {
+    log::error(summary.error());
+    return 1;
+  }
+  std::puts(summary->to_json().c_str());
+  return 0;
+}
