@@ -154,14 +154,21 @@ const Metadata* Metadata::find(std::string_view child) const {
 
 std::optional<Metadata> read_metadata(const Document& document, NodeId owner, std::string_view name,
                                       Problems& problems) {
+  const auto is_named = [&](NodeId id) {
+    return document[id].name == "MetadataSet" && attribute_or(document[document.resolve(id)], "name", {}) == name;
+  };
+  NodeId found;
   for (const NodeId child : document.child_elements(owner)) {
-    if (document[child].name != "MetadataSet" || document.container_field(child, "metadata") != "metadata") continue;
-    if (attribute_or(document[document.resolve(child)], "name", {}) != name) continue;
-    Metadata metadata;
-    if (!MetadataReader(document, problems).read(child, 0, metadata)) return std::nullopt;
-    return metadata;
+    if (!document[child].name.starts_with("Metadata") || document.container_field(child, "metadata") != "metadata")
+      continue;
+    if (is_named(child)) found = child;
+    for (const NodeId inner : document.child_elements(document.resolve(child))) {
+      if (!found && is_named(inner)) found = inner;
+    }
   }
-  return std::nullopt;
+  Metadata metadata;
+  if (!found || !MetadataReader(document, problems).read(found, 0, metadata)) return std::nullopt;
+  return metadata;
 }
 
 Fields::Fields(const Metadata* set, const Table& table, std::string where, Problems& problems)

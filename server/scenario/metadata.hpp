@@ -28,8 +28,8 @@ struct Metadata {
   [[nodiscard]] const Metadata* find(std::string_view child) const;
 };
 
-/// The MetadataSet of that name on an element (its field `metadata`), read whole. None where there is none, or where its values are
-/// faulty (then there is a problem).
+/// The MetadataSet of that name on an element, read whole: the element's own metadata node, or a set in it, because X3D allows one
+/// metadata node an element. None where there is none, or where its values are faulty (then there is a problem).
 [[nodiscard]] std::optional<Metadata> read_metadata(const Document& document, NodeId owner, std::string_view name,
                                                     Problems& problems);
 

@@ -1,0 +1,126 @@
+#include "server/scenario/checker.hpp"
+
+#include <array>
+#include <cstdio>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/unit/scenario/scenario_fixture.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+std::vector<std::filesystem::path> shipped_scenarios() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder() / "scenarios")) {
+    if (entry.path().extension() == ".x3d") files.push_back(entry.path());
+  }
+  return files;
+}
+
+/// What a command prints, both channels; its exit status is added as a last line.
+std::string output_of(const std::string& command) {
+  std::string text;
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return "cannot be run";
+  std::array<char, 4096> block{};
+  for (std::size_t n = fread(block.data(), 1, block.size(), pipe); n > 0;
+       n = fread(block.data(), 1, block.size(), pipe)) {
+    text.append(block.data(), n);
+  }
+  const int status = pclose(pipe);
+  return text + "exit " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+}
+
+/// A copy of the shipped file with an edit, in a folder where its url finds a file.
+class EditedFile {
+ public:
+  EditedFile(const std::string& from, const std::string& to) {
+    folder_ = std::filesystem::temp_directory_path() / ("mechane-check-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_ / "exhibit");
+    std::filesystem::create_directories(folder_ / "models");
+    std::ofstream(folder_ / "models/archimedes-screw.glb") << "a file";
+    path = folder_ / "exhibit/test.x3d";
+    std::ofstream(path) << edited(from, to);
+  }
+  EditedFile(const EditedFile&) = delete;
+  EditedFile& operator=(const EditedFile&) = delete;
+  ~EditedFile() { std::filesystem::remove_all(folder_); }
+  std::filesystem::path path;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+void expect_warning(const std::string& from, const std::string& to, const std::string& words) {
+  const EditedFile file(from, to);
+  const std::vector<Problem> problems = check(file.path);
+  const bool said = std::any_of(problems.begin(), problems.end(), [&](const Problem& p) {
+    return p.severity == Severity::warning && p.line > 0 && to_string(p).find(words) != std::string::npos;
+  });
+  EXPECT_TRUE(said) << "wanted: " << words << (problems.empty() ? "" : "; got " + to_string(problems[0]));
+}
+
+TEST(Check, ShippedExhibitsAreWithoutFault) {
+  ASSERT_FALSE(shipped_scenarios().empty());
+  for (const auto& file : shipped_scenarios()) {
+    for (const Problem& p : check(file))
+      ADD_FAILURE() << to_string(p);
+  }
+}
+
+TEST(Check, ShippedExhibitsHoldAgainstTheStandardsSchema) {
+  const auto schema = shared_folder() / "x3d/schema/x3d-4.0.xsd";
+  if (!std::filesystem::exists(schema)) GTEST_SKIP() << "the standard's schema is not beside the project";
+  for (const auto& file : shipped_scenarios()) {
+    const std::string said =
+        output_of("xmllint --nonet --noout --schema '" + schema.string() + "' '" + file.string() + "'");
+    EXPECT_TRUE(said.ends_with("exit 0")) << said;
+  }
+}
+
+TEST(Check, AnotherReaderTakesShippedExhibitsWithoutWarning) {
+  for (const auto& file : shipped_scenarios()) {
+    const std::string said = output_of("tovrmlx3d '" + file.string() + "' --encoding=xml");
+    EXPECT_EQ(said.find("Warning:"), std::string::npos) << said.substr(said.find("Warning:"), 400);
+    EXPECT_TRUE(said.ends_with("exit 0")) << said.substr(said.size() < 400 ? 0 : said.size() - 400);
+  }
+}
+
+TEST(Check, WarnsOfWhatIsLikelyNotMeant) {
+  expect_warning("name='next' value='\"seat\"'", "name='next' value='\"end\"'", "no trigger leads to this step");
+  expect_warning("name='caption.el' value='\"Γυρίστε", "name='captoin.el' value='\"Γυρίστε",
+                 "the caption is missing in: el");
+  expect_warning("name='activity' value='\"assemble\"'", "name='activity' value='\"use\"'", "no visit plays it");
+  expect_warning("value='\"CARRY\" \"SEAT\"'/>",
+                 "value='\"SEAT\"'/><MetadataString containerField='value' name='disable' value='\"CARRY\"'/>",
+                 "can never fire");
+  expect_warning("name='holdSeconds'", "name='holdSecs'", "not known here");
+}
+
+TEST(Check, WritesForPeopleAndForPrograms) {
+  const EditedFile file("mass='42'", "mass='nan'");
+  const std::vector<std::string> names{file.path.string()};
+  std::ostringstream text;
+  EXPECT_EQ(run_check(names, text), 1);
+  const std::string place = file.path.string() + ":" + std::to_string(line_of(text_of(file.path), "mass='nan'"));
+  EXPECT_NE(text.str().find(place + ": error: RigidBody INNER: mass: 'nan' is not a finite number"), std::string::npos)
+      << text.str();
+  EXPECT_NE(text.str().find("1 file, 1 error, 0 warnings"), std::string::npos) << text.str();
+  std::ostringstream json;
+  EXPECT_EQ(run_check(names, json, CheckFormat::json), 1);
+  const auto parsed = nlohmann::json::parse(json.str());
+  ASSERT_EQ(parsed.size(), 1u);
+  EXPECT_EQ(parsed[0]["node"], "RigidBody INNER");
+  std::ostringstream clean;
+  EXPECT_EQ(run_check(std::vector<std::string>{shipped_file().string()}, clean), 0);
+  std::ostringstream none;
+  EXPECT_EQ(run_check({}, none), 2);
+}
+
+}  // namespace
+}  // namespace mechane::scenario

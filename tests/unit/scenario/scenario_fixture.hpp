@@ -1,0 +1,104 @@
+// What the tests of the scenario room share: the shipped file as text, edits of it, and a loader that needs no mesh files.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "server/scenario/compiler.hpp"
+
+namespace mechane::scenario {
+
+inline std::filesystem::path source_folder() {
+  return MECHANE_SOURCE_DIR;
+}
+inline std::filesystem::path shipped_file() {
+  return source_folder() / "scenarios/archimedes-screw/archimedes-screw.x3d";
+}
+/// The standard's schema and sample files lie beside the project; a clone alone does not have them.
+inline std::filesystem::path shared_folder() {
+  return source_folder().parent_path() / "shared";
+}
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The line on which `needle` first stands.
+inline int line_of(const std::string& text, const std::string& needle) {
+  const std::size_t at = text.find(needle);
+  EXPECT_NE(at, std::string::npos) << needle;
+  return static_cast<int>(
+             std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size())), '\n')) +
+         1;
+}
+
+/// The shipped file with the first `from` replaced.
+inline std::string edited(const std::string& from, const std::string& to) {
+  std::string text = text_of(shipped_file());
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << "the shipped file no longer holds: " << from;
+  if (at != std::string::npos) text.replace(at, from.size(), to);
+  return text;
+}
+
+/// Makes empty objects and remembers what was asked of it.
+class FakeLoader final : public ObjectLoader {
+ public:
+  Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
+                                                          const std::string& node) override {
+    loaded.push_back(file.filename().string() + "#" + node);
+    if (node == missing_node) return fail("the node does not exist", file.string(), "name one of: OUTER");
+    return std::make_shared<collision::Object>();
+  }
+  Expected<std::string> content_hash(const std::filesystem::path& file) override {
+    if (no_files) return fail("no such file", file.string(), "check the path");
+    return hash;
+  }
+
+  std::vector<std::string> loaded;
+  std::string hash = std::string(32, 'a');
+  std::string missing_node;
+  bool no_files = false;
+};
+
+struct Outcome {
+  Expected<state::WorldDescription> world;
+  std::vector<Problem> problems;
+
+  /// The first problem whose text holds `part`; a test failure where there is none.
+  [[nodiscard]] Problem find(const std::string& part) const {
+    for (const Problem& p : problems) {
+      if (to_string(p).find(part) != std::string::npos) return p;
+    }
+    std::string all;
+    for (const Problem& p : problems)
+      all += to_string(p) + "\n";
+    ADD_FAILURE() << "no problem says '" << part << "', but:\n" << all;
+    return {};
+  }
+};
+
+inline Outcome compile_text(const std::string& text, FakeLoader& loader) {
+  Problems problems("test.x3d");
+  const auto document = read_document(text, shipped_file(), problems);
+  if (!document) return {tl::unexpected(document.error()), problems.all()};
+  auto world = compile(*document, loader, problems);
+  return {std::move(world), problems.all()};
+}
+
+inline Outcome compile_text(const std::string& text) {
+  FakeLoader loader;
+  return compile_text(text, loader);
+}
+
+}  // namespace mechane::scenario
