@@ -31,7 +31,7 @@ ARROWS = {
     "client-sdk/client": ["proto", "server/base", "server/realtime", "server/force"],
     "client-sdk/haptic": ["client-sdk/client"],
     "client-sdk/display": ["client-sdk/client", "server/content"],
-    "client-sdk/visitor": ["client-sdk/client", "server/scenario"],
+    "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
     "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/record"],
     "client-sdk/examples": ["client-sdk/client"],
 }
@@ -57,6 +57,8 @@ LIBRARIES = {
 }
 # proto is the wrapper: its headers are where Cyclone DDS becomes typed topics.
 IN_HEADERS = {("proto", "Cyclone DDS")}
+# The sources of a program of its own inside a room: free among themselves, and nobody else's to include.
+OWN_PROGRAMS = ("server/content/importer/",)
 
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"(?P<quoted>[^"]+)"|<(?P<angled>[^>]+)>)', re.MULTILINE)
 
@@ -102,7 +104,8 @@ def library_fault(room: str, path: Path, name: str) -> str | None:
             continue
         if room not in rooms:
             return f"{library} belongs to {', '.join(sorted(rooms))} alone; use what that room offers"
-        if path.suffix in HEADER_SUFFIXES and (room, library) not in IN_HEADERS:
+        own = str(path).startswith(OWN_PROGRAMS)
+        if path.suffix in HEADER_SUFFIXES and (room, library) not in IN_HEADERS and not own:
             return f"<{name}> in a header: keep {library} in .cpp files, behind a forward declaration or a pimpl"
     return None
 
@@ -112,6 +115,8 @@ def include_fault(room: str, path: Path, name: str, quoted: bool) -> tuple[str, 
     if other is not None:
         if other not in ARROWS:
             return "arrow", f"{other} is no room of the table in includes.py"
+        if name.startswith(OWN_PROGRAMS) and not str(path).startswith(OWN_PROGRAMS):
+            return "arrow", f'"{name}" belongs to a program of its own, which runs apart from this one'
         if not may_include(room, other, name):
             return "arrow", f"{room} may not include {other} (\"{name}\"): see the table of rooms in ARCHITECTURE.md"
         return None
