@@ -95,10 +95,12 @@ std::string to_json(std::span<const Problem> problems) {
 std::string nearest(const std::string& name, std::span<const std::string> candidates) {
   if (name.empty() || name.size() > kLongestName) return {};
   std::string best;
-  std::size_t best_edits = std::max<std::size_t>(1, name.size() / 3) + 1;
+  std::size_t best_edits = std::max<std::size_t>(1, (name.size() + 1) / 3) + 1;
   for (const std::string& candidate : candidates.first(std::min(candidates.size(), kMostCompared))) {
     if (candidate.empty() || candidate.size() > kLongestName) continue;
-    const std::size_t distance = edits(name, candidate);
+    // A name that was cut short is near, however much is missing.
+    const bool begins = name.size() >= 3 && candidate.starts_with(name);
+    const std::size_t distance = begins ? 1 : edits(name, candidate);
     if (distance < best_edits) {
       best = candidate;
       best_edits = distance;

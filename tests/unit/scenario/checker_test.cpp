@@ -110,7 +110,7 @@ TEST(Check, WritesForPeopleAndForPrograms) {
   const std::string place = file.path.string() + ":" + std::to_string(line_of(text_of(file.path), "mass='nan'"));
   EXPECT_NE(text.str().find(place + ": error: RigidBody INNER: mass: 'nan' is not a finite number"), std::string::npos)
       << text.str();
-  EXPECT_NE(text.str().find("1 file, 1 error, 0 warnings"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("1 file: 1 error, 0 warnings"), std::string::npos) << text.str();
   std::ostringstream json;
   EXPECT_EQ(run_check(names, json, CheckFormat::json), 1);
   const auto parsed = nlohmann::json::parse(json.str());
