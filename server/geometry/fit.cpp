@@ -18,6 +18,9 @@ constexpr std::size_t kScreenPoints = 120;
 constexpr int kScreenIterations = 10;
 constexpr int kFullIterations = 60;
 constexpr std::size_t kFinalists = 3;
+constexpr double kGoodEnough = 0.002;  // mean error, of the diagonal: then taper and bend are not tried
+constexpr double kSlightBend = 0.2;    // per diagonal
+constexpr double kStrongBend = 1.0;
 // Exponents to start from: round, cylinder, box, and a section with corners under a round profile.
 constexpr std::array<std::array<double, 2>, 4> kExponentStarts = {{{1, 1}, {0.3, 1}, {0.3, 0.3}, {1, 0.3}}};
 
@@ -94,6 +97,12 @@ std::string start_name(const char* frame, int z_axis, const std::array<double, 2
          one_digit(e[1]);
 }
 
+void keep_best(std::vector<Attempt>& attempts) {
+  std::stable_sort(attempts.begin(), attempts.end(),
+                   [](const Attempt& l, const Attempt& r) { return l.score < r.score; });
+  if (attempts.size() > kFinalists) attempts.erase(attempts.begin() + kFinalists, attempts.end());
+}
+
 /// Short runs from every start on few points; the best few go on.
 std::vector<Attempt> screen(std::span<const Vec3> points, int& iterations) {
   const std::vector<Vec3> few = every_nth(points, kScreenPoints);
@@ -113,9 +122,7 @@ std::vector<Attempt> screen(std::span<const Vec3> points, int& iterations) {
       }
     }
   }
-  std::stable_sort(attempts.begin(), attempts.end(),
-                   [](const Attempt& l, const Attempt& r) { return l.score < r.score; });
-  attempts.resize(std::min(kFinalists, attempts.size()));
+  keep_best(attempts);
   return attempts;
 }
 
@@ -129,14 +136,33 @@ Attempt best_rigid(std::span<const Vec3> points, int& iterations) {
                            [](const Attempt& l, const Attempt& r) { return l.score < r.score; });
 }
 
-/// Taper and bend, started from the rigid fit with a slight bend towards each side: at exactly k = 0 its direction has no derivative.
+/// Taper and bend run along z, and the rigid fit's z need not be that axis: short runs from each axis and direction of bending, and from
+/// the rigid fit itself; the best few go on. At exactly k = 0 a bend's direction has no derivative, so each starts with one.
 std::optional<Attempt> best_deformed(const Attempt& rigid, std::span<const Vec3> points, int& iterations) {
+  const std::vector<Vec3> few = every_nth(points, kScreenPoints);
+  const Mat3 axes = principal_axes(points);
+  std::vector<Attempt> attempts;
+  const auto try_from = [&](Attempt attempt, double bend) {
+    for (int direction = 0; direction < 4; ++direction) {
+      Attempt bent = attempt;
+      bent.state.begin_deformation(bend, 0.5 * kPi * direction);
+      iterations += improve(bent.state, few, kScreenIterations, true);
+      bent.score = fit_errors(bent.state, few).mean;
+      if (std::isfinite(bent.score)) attempts.push_back(std::move(bent));
+    }
+  };
+  try_from(rigid, kSlightBend);
+  for (int z_axis = 0; z_axis < 3; ++z_axis) {
+    const StartFrame start = start_frame(points, axes, z_axis);
+    Attempt attempt;
+    attempt.state = FitState::start({start.p_OQ, Quat(start.R_OQ)}, start.half, 0.4, 0.5);
+    attempt.name = start_name("inertia", z_axis, {0.4, 0.5});
+    try_from(attempt, kStrongBend);
+  }
+  keep_best(attempts);
   std::optional<Attempt> best;
-  for (int direction = 0; direction < 4; ++direction) {
-    Attempt attempt = rigid;
-    attempt.state.begin_deformation(0.5 * kPi * direction);
+  for (Attempt& attempt : attempts) {
     iterations += improve(attempt.state, points, kFullIterations, true);
-    if (!is_valid(attempt.state.shape())) continue;
     attempt.score = fit_errors(attempt.state, points).mean;
     if (std::isfinite(attempt.score) && (!best || attempt.score < best->score)) best = std::move(attempt);
   }
@@ -197,7 +223,7 @@ Expected<FitResult> fit(std::span<const Vec3> points_O, std::span<const Vec3> al
   int iterations = 0;
   const Attempt rigid = best_rigid(points, iterations);
   std::optional<Attempt> deformed;
-  if (config.deformations) deformed = best_deformed(rigid, points, iterations);
+  if (config.deformations && rigid.score > kGoodEnough) deformed = best_deformed(rigid, points, iterations);
 
   std::vector<Vec3> all(points_O.begin(), points_O.end());
   all.insert(all.end(), also_bound_O.begin(), also_bound_O.end());

@@ -15,7 +15,7 @@ namespace mechane::geometry {
 
 struct FitConfig {
   std::size_t samples = 400;      ///< surface samples that the fit sees
-  bool deformations = true;       ///< try taper and bend in a second stage
+  bool deformations = true;       ///< try taper and bend where a mean error over 0.2 % is left
   double deformation_gain = 0.2;  ///< they stay only when they lower the mean error by this share
   std::uint64_t seed = 1;
 };

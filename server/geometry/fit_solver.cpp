@@ -13,7 +13,6 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kStartBend = 0.2;  // per diagonal
 constexpr double kMaxTaper = 0.95;
 
 double logit(double share) {
@@ -114,9 +113,9 @@ FitState FitState::start(const Pose& X_OQ, const Vec3& half, double e1, double e
   return state;
 }
 
-void FitState::begin_deformation(double angle_rad) {
+void FitState::begin_deformation(double bend_per_m, double angle_rad) {
   x[11] = x[12] = 0;
-  x[13] = kStartBend;
+  x[13] = bend_per_m;
   x[14] = angle_rad;
 }
 

@@ -19,8 +19,8 @@ struct FitState {
   std::array<double, kAll> x{};
 
   [[nodiscard]] static FitState start(const Pose& X_OQ, const Vec3& half, double e1, double e2);
-  /// A slight bend towards `angle_rad`, so that bend and angle have derivatives.
-  void begin_deformation(double angle_rad);
+  /// Starts taper at none and the bend at `bend_per_m` (not 0, where its angle has no derivative) towards `angle_rad`.
+  void begin_deformation(double bend_per_m, double angle_rad);
 
   [[nodiscard]] Superquadric shape() const;
   [[nodiscard]] Pose pose() const;

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Recovers,
                                            Case{"cylinder", {0.1, 0.1, 0.4}, 0.2, 1},
                                            Case{"disc", {0.3, 0.3, 0.05}, 0.4, 1},
                                            Case{"lens", {0.2, 0.15, 0.1}, 1.5, 0.9}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& shape) { return std::string(shape.param.name); });
 
 TEST(Fit, TaperIsFoundAndKept) {
   Superquadric s;
