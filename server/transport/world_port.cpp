@@ -28,12 +28,12 @@ void copy_all(const std::vector<T>& from, std::vector<T>& to) noexcept {
 
 HandSnapshot snapshot_of(const state::UserState& user, const SlotName& name) noexcept {
   HandSnapshot hand;
+  hand.name = name;
   hand.present = user.present;
   if (!user.present) return hand;
   hand.stale = user.stale;
   hand.holding = user.output.holding;
   hand.kind = user.sample.kind;
-  hand.name = name;
   hand.X_WS = user.X_WS;
   hand.f_W = user.output.force_W.f;
   return hand;
@@ -97,8 +97,7 @@ std::size_t WorldPort::free_slot() const {
 
 void WorldPort::collect() {
   const std::uint64_t in_use = generation_in_use_.load(std::memory_order_acquire);
-  // The publisher may still hold a lane for a moment: whoever lets go last must not be a real-time thread.
-  std::erase_if(retired_, [&](const Retired& r) { return r.generation <= in_use && r.lane.use_count() == 1; });
+  std::erase_if(retired_, [&](const Retired& r) { return r.generation <= in_use; });
 }
 
 void WorldPort::take_bindings() noexcept {

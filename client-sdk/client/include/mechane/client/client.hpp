@@ -72,7 +72,8 @@ class Client {
   /// Events since the last call, oldest first (the last 256 are kept).
   [[nodiscard]] virtual std::vector<WorldEvent> take_events() = 0;
 
-  /// Sends a command to the world; returns its id, which a command_done or command_refused event answers.
+  /// Sends a command to the world; returns its id, which is the value of the command_done or command_refused event that answers it.
+  /// 0, and nothing sent, while there is no world.
   virtual std::uint64_t start_activity(const std::string& activity) = 0;
   virtual std::uint64_t restart_activity() = 0;
   virtual std::uint64_t next_step() = 0;

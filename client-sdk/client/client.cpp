@@ -1,0 +1,358 @@
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include "client-sdk/client/hand_link.hpp"
+#include "client-sdk/client/parse.hpp"
+#include "client-sdk/client/world_link.hpp"
+#include "server/log/log.hpp"
+#include "server/realtime/wakeup.hpp"
+#include <mechane/client/client.hpp>
+#include <mechane/proto/convert.hpp>
+#include <mechane/proto/entity.hpp>
+
+namespace mechane::client {
+namespace {
+
+constexpr Duration kLookEvery = std::chrono::milliseconds(20);
+constexpr Duration kReportEvery = std::chrono::seconds(1);
+constexpr std::size_t kMaxServers = 16;
+
+std::uint64_t random_session() {
+  std::random_device device;
+  const std::uint64_t high = device();
+  return ((high << 32) | device()) | 1u;
+}
+
+TimePoint now() {
+  return std::chrono::steady_clock::now();
+}
+
+class ClientImpl final : public Client {
+ public:
+  ClientImpl(ClientConfig config, proto::Participant participant)
+      : config_(std::move(config)), session_(random_session()), participant_(std::move(participant)) {}
+  ~ClientImpl() override;
+
+  [[nodiscard]] Expected<void> open();
+
+  [[nodiscard]] LinkState state() const override { return state_.load(std::memory_order_acquire); }
+  [[nodiscard]] bool wait_for(LinkState wanted, Duration timeout) override;
+  [[nodiscard]] std::string refusal() const override;
+  [[nodiscard]] std::uint64_t session() const override { return session_; }
+  bool send(const HandInput& input) noexcept override {
+    return hand_ && state() == LinkState::joined && hand_->send(input);
+  }
+  [[nodiscard]] std::uint64_t sent_sequence() const noexcept override { return hand_ ? hand_->sent_sequence() : 0; }
+  [[nodiscard]] std::optional<ForceSample> newest_force() noexcept override {
+    return hand_ ? hand_->newest_force() : std::nullopt;
+  }
+  [[nodiscard]] std::optional<ForceSample> wait_force(Duration timeout) override {
+    return hand_ ? hand_->wait_force(timeout) : std::nullopt;
+  }
+  [[nodiscard]] bool newest_frame(Frame& out) override;
+  [[nodiscard]] bool interpolated_frame(TimePoint at, Duration delay, Frame& out) override;
+  [[nodiscard]] std::vector<SceneObject> objects() const override;
+  [[nodiscard]] std::optional<WorldStatus> world_status() const override;
+  [[nodiscard]] std::optional<ServerStatus> server_status() const override;
+  [[nodiscard]] std::vector<WorldEvent> take_events() override;
+  std::uint64_t start_activity(const std::string& activity) override { return send_command(1, activity); }
+  std::uint64_t restart_activity() override { return send_command(2, ""); }
+  std::uint64_t next_step() override { return send_command(3, ""); }
+
+ private:
+  struct Server {
+    ServerStatus status;
+    std::uint64_t incarnation = 0;
+    std::uint64_t sequence = 0;
+    TimePoint received;
+  };
+
+  void run();
+  void report(TimePoint at);
+  void take_servers(TimePoint at);
+  void take_assignments();
+  void follow_world(bool server_alive);
+  [[nodiscard]] bool server_alive(TimePoint at) const;
+  [[nodiscard]] LinkState judge(bool server_alive, std::string& why) const;
+  void enter(LinkState state, std::string why);
+  std::uint64_t send_command(std::uint32_t kind, const std::string& argument);
+
+  const ClientConfig config_;
+  const std::uint64_t session_;
+  std::string host_;
+  proto::Participant participant_;
+  std::atomic<LinkState> state_{LinkState::searching};
+  std::atomic<bool> stop_{false};
+  mutable WorldStore store_;
+  std::atomic<std::uint64_t> world_number_{0};
+
+  mutable std::mutex mutex_;  // for what follows
+  std::condition_variable changed_;
+  std::string refusal_;
+  std::map<std::string, Server> servers_;
+  std::optional<Assignment> assignment_;
+  std::unique_ptr<WorldLink> world_;
+  std::uint64_t commands_ = 0;
+
+  // The link thread's.
+  bool was_joined_ = false;
+  std::string world_name_;
+  std::uint64_t world_incarnation_ = 0;
+  TimePoint next_report_{};
+  std::uint64_t report_sequence_ = 0;
+  proto::Writer<proto::KioskStatus> kiosk_status_;
+
+  realtime::Wakeup news_;
+  std::unique_ptr<HandLink> hand_;
+  proto::Reader<proto::ServerStatus> server_reader_;
+  proto::Reader<proto::WorldAssignment> assignment_reader_;
+  std::thread thread_;  // last
+};
+
+Expected<void> ClientImpl::open() {
+  char host[64] = {};
+  host_ = ::gethostname(host, sizeof(host) - 1) == 0 ? host : "unknown";
+  auto writer = proto::Writer<proto::KioskStatus>::create(participant_, "");
+  if (!writer) return tl::unexpected<Error>(writer.error());
+  kiosk_status_ = std::move(*writer);
+  if (config_.role == Role::hand) {
+    auto hand = HandLink::create(participant_, config_.kiosk, config_.user, session_);
+    if (!hand) return tl::unexpected<Error>(hand.error());
+    hand_ = std::move(*hand);
+  }
+  auto servers = proto::Reader<proto::ServerStatus>::create(participant_, "", [this](auto) { news_.signal(); });
+  if (!servers) return tl::unexpected<Error>(servers.error());
+  server_reader_ = std::move(*servers);
+  auto assignments = proto::Reader<proto::WorldAssignment>::create(participant_, "", [this](auto) { news_.signal(); });
+  if (!assignments) return tl::unexpected<Error>(assignments.error());
+  assignment_reader_ = std::move(*assignments);
+  thread_ = std::thread([this] { run(); });
+  return {};
+}
+
+ClientImpl::~ClientImpl() {
+  stop_.store(true, std::memory_order_release);
+  news_.signal();
+  if (thread_.joinable()) thread_.join();
+}
+
+void ClientImpl::run() {
+  pthread_setname_np(pthread_self(), "client-link");
+  while (!stop_.load(std::memory_order_acquire)) {
+    const TimePoint at = now();
+    report(at);
+    take_servers(at);
+    take_assignments();
+    const bool alive = server_alive(at);
+    follow_world(alive);
+    std::string why;
+    const LinkState state = judge(alive, why);
+    enter(state, std::move(why));
+    news_.wait(kLookEvery);
+  }
+}
+
+void ClientImpl::report(TimePoint at) {
+  if (at < next_report_) return;
+  next_report_ = at + kReportEvery;
+  proto::KioskStatus wire{};
+  proto::set_text(wire.kiosk, config_.kiosk);
+  wire.session = session_;
+  wire.protocol = proto::kProtocol;
+  wire.seq = ++report_sequence_;
+  wire.sent_ns = to_ns(at);
+  wire.user = config_.user;
+  wire.role = config_.role == Role::hand ? 0 : 1;
+  proto::set_text(wire.program, config_.program);
+  proto::set_text(wire.host, host_);
+  wire.process_id = static_cast<std::uint32_t>(::getpid());
+  proto::set_text(wire.scenario, config_.scenario);
+  proto::set_text(wire.join_kiosk, config_.join_kiosk);
+  if (!kiosk_status_.write(wire)) log::warning("client: the network did not take this process' status");
+}
+
+void ClientImpl::take_servers(TimePoint at) {
+  const std::lock_guard lock(mutex_);
+  server_reader_.view().take_each([&](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
+    ServerStatus status;
+    if (!info.valid || !info.alive || !parse(wire, status)) return;
+    if (servers_.size() >= kMaxServers && servers_.find(status.server) == servers_.end()) return;
+    Server& server = servers_[status.server];
+    if (server.incarnation == wire.incarnation && wire.seq <= server.sequence) return;
+    server = {std::move(status), wire.incarnation, wire.seq, at};
+  });
+}
+
+void ClientImpl::take_assignments() {
+  const std::lock_guard lock(mutex_);
+  assignment_reader_.view().take_each([&](const proto::WorldAssignment& wire, const proto::SampleInfo& info) {
+    if (proto::text_of(wire.kiosk) != config_.kiosk) return;
+    Assignment assignment;
+    if (!info.alive) {
+      assignment_.reset();
+    } else if (info.valid && parse(wire, assignment)) {
+      assignment_ = std::move(assignment);
+    }
+  });
+}
+
+bool ClientImpl::server_alive(TimePoint at) const {
+  const std::lock_guard lock(mutex_);
+  if (!assignment_) return false;
+  const auto it = servers_.find(assignment_->server);
+  return it != servers_.end() && it->second.incarnation == assignment_->incarnation &&
+         at - it->second.received < proto::kServerLiveliness;
+}
+
+void ClientImpl::follow_world(bool server_alive) {
+  if (!server_alive) return;                      // a server that comes back finds its clients where they were
+  const std::string wanted = assignment_->world;  // written by this thread only
+  const std::uint64_t incarnation = assignment_->incarnation;
+  if (hand_) hand_->accept_epoch(assignment_->epoch);
+  if (wanted == world_name_ && incarnation == world_incarnation_) return;
+  world_name_ = wanted;
+  world_incarnation_ = incarnation;
+  std::unique_ptr<WorldLink> link;
+  {
+    const std::lock_guard lock(mutex_);
+    link = std::move(world_);
+  }
+  link.reset();  // waits for its listeners
+  store_.clear();
+  const std::uint64_t number = world_number_.fetch_add(1) + 1;  // frames of the world before are not this one's
+  if (wanted.empty()) return;
+  auto made = WorldLink::create(participant_, wanted, number, store_);
+  if (!made) {
+    log::error(made.error());
+    world_name_.clear();  // try again at the next look
+    return;
+  }
+  const std::lock_guard lock(mutex_);
+  world_ = std::move(*made);
+}
+
+LinkState ClientImpl::judge(bool server_alive, std::string& why) const {
+  const LinkState waiting = was_joined_ ? LinkState::lost : LinkState::searching;
+  const std::lock_guard lock(mutex_);
+  if (!server_alive) return waiting;
+  if (!assignment_->trouble.empty()) {
+    why = assignment_->trouble;
+    return LinkState::refused;
+  }
+  if (assignment_->world.empty()) return waiting;
+  if (config_.role == Role::hand) {
+    const Assignment::Owner& owner = assignment_->owners[config_.user];
+    if (owner.session == 0) return waiting;
+    if (owner.session != session_) {
+      why = fmt::format(
+          "hand {} of {} belongs to {} on {}; stop that program, or take another user or kiosk: this hand joins by "
+          "itself when it "
+          "is free",
+          config_.user, config_.kiosk, owner.program, owner.host);
+      return LinkState::refused;
+    }
+    if (!hand_->matched()) return waiting;
+  }
+  return world_ && world_->matched() ? LinkState::joined : waiting;
+}
+
+void ClientImpl::enter(LinkState state, std::string why) {
+  if (state == LinkState::joined) was_joined_ = true;
+  const std::lock_guard lock(mutex_);
+  refusal_ = std::move(why);
+  if (state_.exchange(state, std::memory_order_acq_rel) != state) changed_.notify_all();
+}
+
+bool ClientImpl::wait_for(LinkState wanted, Duration timeout) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, timeout, [&] { return state() == wanted; });
+}
+
+std::string ClientImpl::refusal() const {
+  const std::lock_guard lock(mutex_);
+  return refusal_;
+}
+
+bool ClientImpl::newest_frame(Frame& out) {
+  const WorldStore::Numbered* newest = store_.newest.newest();
+  if (newest == nullptr || newest->world != world_number_.load(std::memory_order_acquire)) return false;
+  out = newest->frame;
+  return true;
+}
+
+bool ClientImpl::interpolated_frame(TimePoint at, Duration delay, Frame& out) {
+  const std::lock_guard lock(store_.mutex);
+  return store_.history.at(at - delay, out);
+}
+
+std::vector<SceneObject> ClientImpl::objects() const {
+  const std::lock_guard lock(store_.mutex);
+  std::vector<SceneObject> all;
+  for (const auto& [index, object] : store_.objects)
+    all.push_back(object);
+  return all;
+}
+
+std::optional<WorldStatus> ClientImpl::world_status() const {
+  const std::lock_guard lock(store_.mutex);
+  return store_.status;
+}
+
+std::optional<ServerStatus> ClientImpl::server_status() const {
+  const std::lock_guard lock(mutex_);
+  if (!assignment_) return std::nullopt;
+  const auto it = servers_.find(assignment_->server);
+  return it == servers_.end() ? std::nullopt : std::optional<ServerStatus>(it->second.status);
+}
+
+std::vector<WorldEvent> ClientImpl::take_events() {
+  const std::lock_guard lock(store_.mutex);
+  std::vector<WorldEvent> events(store_.events.begin(), store_.events.end());
+  store_.events.clear();
+  return events;
+}
+
+std::uint64_t ClientImpl::send_command(std::uint32_t kind, const std::string& argument) {
+  const std::lock_guard lock(mutex_);
+  if (!world_) return 0;
+  // 20 bits of the session tell clients apart; 52 bits in all, so that an event's value holds the id exactly.
+  const std::uint64_t id = ((session_ >> 1 & 0xfffffu) << 32) | (++commands_ & 0xffffffffu);
+  return world_->send_command(session_, id, kind, argument) ? id : 0;
+}
+
+Expected<void> check(const ClientConfig& config) {
+  if (auto named = proto::check_name(config.kiosk, "kiosk"); !named) return named;
+  if (!config.join_kiosk.empty()) {
+    if (auto named = proto::check_name(config.join_kiosk, "kiosk"); !named) return named;
+  }
+  if (config.user >= proto::kMaxUsers) {
+    return fail(fmt::format("user {} is none of a kiosk's", config.user), "user", "choose one of 0 to 3");
+  }
+  if (config.program.size() > 31 || config.scenario.size() > 63) {
+    return fail("a name is too long", config.program.size() > 31 ? "program" : "scenario",
+                "a program has 31 characters at most, a scenario 63");
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Client>> Client::connect(const ClientConfig& config) {
+  if (auto good = check(config); !good) return tl::unexpected<Error>(good.error());
+  auto participant = proto::Participant::create(config.domain);
+  if (!participant) return tl::unexpected<Error>(participant.error());
+  auto client = std::make_unique<ClientImpl>(config, std::move(*participant));
+  if (auto opened = client->open(); !opened) return tl::unexpected<Error>(opened.error());
+  return client;
+}
+
+}  // namespace mechane::client

@@ -1,0 +1,86 @@
+#include "client-sdk/client/hand_link.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "client-sdk/client/parse.hpp"
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::client {
+
+HandLink::HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session)
+    : kiosk_(std::move(kiosk)), user_(user), session_(session) {
+  proto::set_text(sending_.kiosk, kiosk_);
+  sending_.user = user;
+  sending_.protocol = proto::kProtocol;
+  sending_.session = session;
+}
+
+Expected<std::unique_ptr<HandLink>> HandLink::create(const proto::Participant& participant, const std::string& kiosk,
+                                                     std::uint32_t user, std::uint64_t session) {
+  std::unique_ptr<HandLink> made(new HandLink(kiosk, user, session));
+  const std::string partition = proto::kiosk_partition(kiosk);
+  auto writer = proto::Writer<proto::HapticInput>::create(participant, partition);
+  if (!writer) return tl::unexpected<Error>(writer.error());
+  made->writer_ = std::move(*writer);
+  HandLink* const raw = made.get();
+  auto reader =
+      proto::Reader<proto::HapticOutput>::create(participant, partition, [raw](auto v) { raw->take_forces(v); });
+  if (!reader) return tl::unexpected<Error>(reader.error());
+  made->reader_ = std::move(*reader);
+  return made;
+}
+
+bool HandLink::send(const HandInput& input) noexcept {
+  proto::HapticInput& s = sending_;
+  s.seq = sent_.load(std::memory_order_relaxed) + 1;
+  proto::set_pose(s.X_WH, input.X_WH);
+  proto::set_vec3(s.v_WH, input.V_WH.v);
+  proto::set_vec3(s.w_WH, input.V_WH.w);
+  for (std::size_t i = 0; i < kHandJoints; ++i)
+    s.joints[i] = static_cast<float>(input.joints[i]);
+  s.hand_scale = static_cast<float>(input.hand_scale);
+  s.grasp_intent = static_cast<float>(input.grasp_intent);
+  s.buttons = input.buttons;
+  s.kind = static_cast<std::uint32_t>(input.kind);
+  s.sent_ns = to_ns(std::chrono::steady_clock::now());
+  sent_.store(s.seq, std::memory_order_relaxed);
+  return writer_.write(s);
+}
+
+void HandLink::take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept {
+  proto::HapticOutput wire;
+  proto::SampleInfo info;
+  while (view.take_into(wire, info)) {
+    const std::uint32_t epoch = epoch_.load(std::memory_order_relaxed);
+    if (!info.valid || wire.user != user_ || wire.session != session_ || epoch == 0 || wire.epoch != epoch) continue;
+    if (!parse(wire, arriving_)) continue;
+    if (wire.epoch != epoch_seen_) {
+      epoch_seen_ = wire.epoch;
+      base_ = last_;
+    }
+    arriving_.sequence = base_ + wire.seq;
+    if (arriving_.sequence <= last_) continue;
+    last_ = arriving_.sequence;
+    arriving_.received = std::chrono::steady_clock::now();
+    forces_.publish(arriving_);
+    arrived_.signal();
+  }
+}
+
+std::optional<ForceSample> HandLink::newest_force() noexcept {
+  const ForceSample* force = forces_.take();
+  return force == nullptr ? std::nullopt : std::optional<ForceSample>(*force);
+}
+
+std::optional<ForceSample> HandLink::wait_force(Duration timeout) {
+  const TimePoint deadline = std::chrono::steady_clock::now() + timeout;
+  for (;;) {
+    if (auto force = newest_force()) return force;
+    const Duration left = deadline - std::chrono::steady_clock::now();
+    if (left <= Duration{0}) return std::nullopt;
+    arrived_.wait(left);
+  }
+}
+
+}  // namespace mechane::client

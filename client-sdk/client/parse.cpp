@@ -1,0 +1,221 @@
+#include "client-sdk/client/parse.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::client {
+namespace {
+
+/// A text from the network as it may stand on a terminal: line ends and tabs stay, other control characters go.
+std::string clean(std::string text) {
+  std::erase_if(text, [](char c) {
+    const auto u = static_cast<unsigned char>(c);
+    return (u < 0x20 && c != '\n' && c != '\t') || u == 0x7f;
+  });
+  return text;
+}
+std::string clean(const char* text) {
+  return clean(proto::text_of(text));
+}
+template <std::size_t N>
+std::string clean(const char (&text)[N]) {
+  return clean(std::string(proto::text_of(text)));
+}
+
+bool parse_pose(const proto::WirePose& wire, Pose& out) noexcept {
+  if (!proto::all_finite(wire)) return false;
+  out = proto::to_pose(wire);
+  return proto::normalise(out);
+}
+
+bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexcept {
+  if (!(proto::all_finite(wire.p_W) && proto::all_finite(wire.n_W) && proto::all_finite(wire.v_W))) return false;
+  for (const float v :
+       {wire.depth_m, wire.curvature_per_m, wire.stiffness_n_per_m, wire.damping_ns_per_m, wire.friction}) {
+    if (!std::isfinite(v)) return false;
+  }
+  out.p_W = proto::to_vec3(wire.p_W);
+  out.n_W = proto::to_vec3(wire.n_W);
+  const double length = out.n_W.norm();
+  if (!(length > 0.99 && length < 1.01)) return false;
+  out.n_W /= length;
+  out.v_W = proto::to_vec3(wire.v_W);
+  out.depth_m = wire.depth_m;
+  out.curvature_per_m = wire.curvature_per_m;
+  out.stiffness_n_per_m = std::max(0.0f, wire.stiffness_n_per_m);
+  out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
+  out.friction = std::max(0.0f, wire.friction);
+  out.valid_for = std::chrono::microseconds(std::min<std::uint32_t>(wire.valid_us, 1'000'000));
+  return true;
+}
+
+bool parse_hand(const proto::WireHandPose& wire, HandPose& out) {
+  const auto segments = proto::elements(wire.X_WS);
+  if (segments.empty() || segments.size() > kHandSegments || wire.kind > 1 || !proto::all_finite(wire.f_W))
+    return false;
+  out.kiosk = clean(wire.kiosk);
+  out.user = wire.user;
+  out.kind = static_cast<HandKind>(wire.kind);
+  out.stale = wire.stale != 0;
+  out.holding = wire.holding != 0;
+  out.force_W = proto::to_vec3(wire.f_W);
+  out.X_WS.fill(Pose{});
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (!parse_pose(segments[i], out.X_WS[i])) return false;
+  }
+  return true;
+}
+
+template <class Sequence>
+bool parse_texts(const Sequence& wire, std::map<std::string, std::string>& out) {
+  const auto texts = proto::elements(wire);
+  if (texts.size() > kMaxTexts) return false;
+  out.clear();
+  for (const proto::WireText& text : texts)
+    out[clean(text.language)] = clean(text.content);
+  return true;
+}
+
+template <class Sequence>
+bool parse_strings(const Sequence& wire, std::vector<std::string>& out) {
+  const auto strings = proto::elements(wire);
+  if (strings.size() > kMaxQuantities) return false;
+  out.clear();
+  for (const char* text : strings)
+    out.push_back(clean(text));
+  return true;
+}
+
+}  // namespace
+
+bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
+  if (wire.protocol != proto::kProtocol || wire.contact_count > kMaxLocalContacts) return false;
+  if (!(proto::all_finite(wire.f_W) && proto::all_finite(wire.t_W) && proto::all_finite(wire.finger_force_n)))
+    return false;
+  out.sequence = wire.seq;
+  out.echo_sequence = wire.echo_seq;
+  out.echo_sent = TimePoint(Duration(static_cast<std::int64_t>(wire.echo_sent_ns)));
+  out.force_W = {proto::to_vec3(wire.f_W), proto::to_vec3(wire.t_W)};
+  std::copy(std::begin(wire.finger_force_n), std::end(wire.finger_force_n), out.finger_force_n.begin());
+  out.contact_count = wire.contact_count;
+  for (std::size_t i = 0; i < kMaxLocalContacts; ++i) {
+    out.contacts[i] = LocalContact{};
+    if (i < wire.contact_count && !parse_contact(wire.contacts[i], out.contacts[i])) return false;
+  }
+  out.reasons = wire.reasons;
+  out.holding = wire.holding != 0;
+  return true;
+}
+
+bool parse(const proto::SceneFrame& wire, Frame& out) {
+  const auto bodies = proto::elements(wire.bodies);
+  const auto visible = proto::elements(wire.visible);
+  const auto quantities = proto::elements(wire.quantities);
+  const auto hands = proto::elements(wire.hands);
+  if (wire.protocol != proto::kProtocol || bodies.size() > kMaxObjects || visible.size() > kMaxObjects ||
+      quantities.size() > kMaxQuantities || hands.size() > kMaxHands) {
+    return false;
+  }
+  out.sequence = wire.seq;
+  out.tick = wire.tick;
+  out.bodies.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].object >= visible.size() || !parse_pose(bodies[i].X_WB, out.bodies[i].X_WB)) return false;
+    out.bodies[i].object = bodies[i].object;
+  }
+  out.visible.assign(visible.begin(), visible.end());
+  out.quantities.assign(quantities.begin(), quantities.end());
+  if (!std::all_of(quantities.begin(), quantities.end(), [](double q) { return std::isfinite(q); })) return false;
+  out.hands.resize(hands.size());
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    if (!parse_hand(hands[i], out.hands[i])) return false;
+  }
+  return true;
+}
+
+bool parse(const proto::SceneObject& wire, SceneObject& out) {
+  if (wire.protocol != proto::kProtocol || wire.object >= kMaxObjects || !parse_pose(wire.X_WB, out.X_WB)) return false;
+  out.index = wire.object;
+  out.name = clean(wire.name);
+  out.mesh_uri = clean(wire.mesh_uri);
+  out.mesh_hash = clean(wire.mesh_hash);
+  out.mesh_node = clean(wire.mesh_node);
+  out.parent = clean(wire.parent);
+  out.movable = wire.movable;
+  return true;
+}
+
+bool parse(const proto::WorldStatus& wire, WorldStatus& out) {
+  const auto quantities = proto::elements(wire.quantities);
+  if (wire.protocol != proto::kProtocol || quantities.size() > kMaxQuantities) return false;
+  out.world = clean(wire.world);
+  out.scenario = clean(wire.scenario);
+  out.scenario_hash = clean(wire.scenario_hash);
+  out.scenario_folder = clean(wire.scenario_folder);
+  out.activity = clean(wire.activity);
+  out.step = clean(wire.step);
+  out.steps_done = wire.steps_done;
+  out.steps_total = wire.steps_total;
+  out.done = wire.done;
+  out.hint = wire.hint;
+  out.quantities.clear();
+  for (const proto::WireQuantity& q : quantities)
+    out.quantities.push_back({clean(q.name), clean(q.unit)});
+  return parse_strings(wire.enabled_agents, out.enabled_agents) && parse_texts(wire.title, out.title) &&
+         parse_texts(wire.caption, out.caption) && parse_texts(wire.hint_text, out.hint_text) &&
+         parse_strings(wire.activities, out.activities);
+}
+
+bool parse(const proto::Event& wire, WorldEvent& out) {
+  if (wire.protocol != proto::kProtocol || !std::isfinite(wire.value)) return false;
+  out.tick = wire.tick;
+  out.kind = clean(wire.kind);
+  out.subject = clean(wire.subject);
+  out.object = clean(wire.object);
+  out.value = wire.value;
+  return true;
+}
+
+bool parse(const proto::ServerStatus& wire, ServerStatus& out) {
+  if (wire.protocol != proto::kProtocol) return false;
+  for (const float v : {wire.tick_us_median, wire.tick_us_p99, wire.tick_us_p999, wire.tick_us_max, wire.wake_us_p99,
+                        wire.wake_us_max}) {
+    if (!std::isfinite(v)) return false;
+  }
+  out.server = clean(wire.server);
+  out.version = clean(wire.version);
+  out.worlds = wire.worlds;
+  out.worlds_limit = wire.worlds_limit;
+  out.users = wire.users;
+  out.ticks = wire.ticks;
+  out.overruns = wire.overruns;
+  out.late_wakeups = wire.late_wakeups;
+  out.preemptions = wire.preemptions;
+  out.tick_us_median = wire.tick_us_median;
+  out.tick_us_p99 = wire.tick_us_p99;
+  out.tick_us_p999 = wire.tick_us_p999;
+  out.tick_us_max = wire.tick_us_max;
+  out.wake_us_p99 = wire.wake_us_p99;
+  out.wake_us_max = wire.wake_us_max;
+  out.realtime = wire.realtime;
+  out.records_ok = wire.records_ok;
+  return true;
+}
+
+bool parse(const proto::WorldAssignment& wire, Assignment& out) {
+  if (wire.protocol != proto::kProtocol) return false;
+  out.server = clean(wire.server);
+  out.incarnation = wire.incarnation;
+  out.epoch = wire.epoch;
+  out.world = clean(wire.world);
+  if (!out.world.empty() && !proto::is_name(out.world)) return false;
+  out.trouble = clean(wire.trouble);
+  for (std::size_t i = 0; i < out.owners.size(); ++i) {
+    out.owners[i] = {wire.owners[i].session, clean(wire.owners[i].program), clean(wire.owners[i].host)};
+  }
+  return true;
+}
+
+}  // namespace mechane::client

@@ -1,0 +1,42 @@
+// From the wire to the client's own structs. What is not fit to be used is refused as a whole: nothing behind checks again.
+#pragma once
+
+#include <optional>
+
+#include <mechane/client/types.hpp>
+#include <mechane/proto/topics.hpp>
+
+namespace mechane::client {
+
+inline constexpr std::size_t kMaxObjects = 100'000;
+inline constexpr std::size_t kMaxQuantities = 10'000;
+inline constexpr std::size_t kMaxHands = 16;
+inline constexpr std::size_t kMaxTexts = 64;
+
+/// All of these return false, with `out` in no particular state, where the sample is of another protocol version, a number is not
+/// finite, a rotation is none, or a count is beyond its limit. Times of receipt and sequences of one's own are the caller's.
+/// This one allocates nothing.
+[[nodiscard]] bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept;
+[[nodiscard]] bool parse(const proto::SceneFrame& wire, Frame& out);
+[[nodiscard]] bool parse(const proto::SceneObject& wire, SceneObject& out);
+[[nodiscard]] bool parse(const proto::WorldStatus& wire, WorldStatus& out);
+[[nodiscard]] bool parse(const proto::Event& wire, WorldEvent& out);
+[[nodiscard]] bool parse(const proto::ServerStatus& wire, ServerStatus& out);
+
+/// What a WorldAssignment means for one kiosk.
+struct Assignment {
+  std::string server;
+  std::uint64_t incarnation = 0;
+  std::uint32_t epoch = 0;
+  std::string world;
+  std::string trouble;
+  struct Owner {
+    std::uint64_t session = 0;
+    std::string program;
+    std::string host;
+  };
+  std::array<Owner, proto::kMaxUsers> owners;
+};
+[[nodiscard]] bool parse(const proto::WorldAssignment& wire, Assignment& out);
+
+}  // namespace mechane::client

@@ -1,0 +1,102 @@
+#include "client-sdk/client/world_link.hpp"
+
+#include <chrono>
+
+#include "client-sdk/client/parse.hpp"
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::client {
+
+void WorldStore::clear() {
+  const std::lock_guard lock(mutex);
+  history.clear();
+  objects.clear();
+  status.reset();
+}
+
+WorldLink::WorldLink(std::string world, std::uint64_t number, WorldStore& store)
+    : world_(std::move(world)), number_(number), store_(store) {}
+
+Expected<std::unique_ptr<WorldLink>> WorldLink::create(const proto::Participant& participant, const std::string& world,
+                                                       std::uint64_t number, WorldStore& store) {
+  std::unique_ptr<WorldLink> made(new WorldLink(world, number, store));
+  WorldLink* const raw = made.get();
+  const std::string partition = proto::world_partition(world);
+  std::optional<Error> fault;
+  const auto open = [&](auto& endpoint, auto created) {
+    if (created) {
+      endpoint = std::move(*created);
+    } else if (!fault) {
+      fault = created.error();
+    }
+  };
+  open(raw->commands_, proto::Writer<proto::Command>::create(participant, partition));
+  open(raw->frames_,
+       proto::Reader<proto::SceneFrame>::create(participant, partition, [raw](auto v) { raw->take_frames(v); }));
+  open(raw->objects_,
+       proto::Reader<proto::SceneObject>::create(participant, partition, [raw](auto v) { raw->take_objects(v); }));
+  open(raw->status_,
+       proto::Reader<proto::WorldStatus>::create(participant, partition, [raw](auto v) { raw->take_status(v); }));
+  open(raw->events_,
+       proto::Reader<proto::Event>::create(participant, partition, [raw](auto v) { raw->take_events(v); }));
+  if (fault) return tl::unexpected<Error>(*fault);
+  return made;
+}
+
+bool WorldLink::matched() const {
+  return commands_.matched() > 0 && frames_.matched() > 0 && objects_.matched() > 0 && status_.matched() > 0 &&
+         events_.matched() > 0;
+}
+
+bool WorldLink::send_command(std::uint64_t session, std::uint64_t id, std::uint32_t kind, const std::string& argument) {
+  proto::Command wire{};
+  proto::set_text(wire.scope, proto::world_partition(world_));
+  wire.protocol = proto::kProtocol;
+  wire.seq = ++command_sequence_;
+  wire.sent_ns = to_ns(std::chrono::steady_clock::now());
+  wire.session = session;
+  wire.id = id;
+  wire.kind = kind;
+  wire.argument = proto::look_into(argument);
+  return commands_.write(wire);
+}
+
+void WorldLink::take_frames(proto::ReaderView<proto::SceneFrame> view) {
+  view.take_each([this](const proto::SceneFrame& wire, const proto::SampleInfo& info) {
+    if (!info.valid || !parse(wire, arriving_)) return;
+    arriving_.received = std::chrono::steady_clock::now();
+    store_.newest.publish({number_, arriving_});
+    const std::lock_guard lock(store_.mutex);
+    store_.history.add(arriving_, wire.sent_ns);
+  });
+}
+
+void WorldLink::take_objects(proto::ReaderView<proto::SceneObject> view) {
+  view.take_each([this](const proto::SceneObject& wire, const proto::SampleInfo& info) {
+    SceneObject object;
+    if (!info.valid || !parse(wire, object)) return;
+    const std::lock_guard lock(store_.mutex);
+    store_.objects[object.index] = std::move(object);
+  });
+}
+
+void WorldLink::take_status(proto::ReaderView<proto::WorldStatus> view) {
+  view.take_each([this](const proto::WorldStatus& wire, const proto::SampleInfo& info) {
+    WorldStatus status;
+    if (!info.valid || !parse(wire, status)) return;
+    const std::lock_guard lock(store_.mutex);
+    store_.status = std::move(status);
+  });
+}
+
+void WorldLink::take_events(proto::ReaderView<proto::Event> view) {
+  view.take_each([this](const proto::Event& wire, const proto::SampleInfo& info) {
+    WorldEvent event;
+    if (!info.valid || !parse(wire, event)) return;
+    const std::lock_guard lock(store_.mutex);
+    store_.events.push_back(std::move(event));
+    if (store_.events.size() > WorldStore::kEvents) store_.events.pop_front();
+  });
+}
+
+}  // namespace mechane::client

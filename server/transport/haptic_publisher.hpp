@@ -1,0 +1,50 @@
+// HapticPublisher: the thread that writes HapticOutput and nothing else, so that no reliable write ever holds a force back.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "server/realtime/histogram.hpp"
+#include "server/realtime/wakeup.hpp"
+#include "server/transport/lane.hpp"
+
+namespace mechane::transport {
+
+/// Owns one thread, SCHED_FIFO where that is granted. add() and remove() are the main thread's; loops signal wakeup().
+class HapticPublisher {
+ public:
+  HapticPublisher(int fifo_priority, std::optional<int> cpu);
+  ~HapticPublisher();
+  HapticPublisher(const HapticPublisher&) = delete;
+  HapticPublisher& operator=(const HapticPublisher&) = delete;
+
+  [[nodiscard]] realtime::Wakeup& wakeup() { return wakeup_; }
+  void add(const std::shared_ptr<Lane>& lane);
+  void remove(const std::shared_ptr<Lane>& lane);
+
+  [[nodiscard]] bool fifo_granted() const { return fifo_granted_.load(); }
+  [[nodiscard]] const realtime::LatencyHistogram& write_time() const { return write_time_; }
+  [[nodiscard]] std::uint64_t writes_failed() const { return failed_.load(std::memory_order_relaxed); }
+
+ private:
+  void follow_changes();
+  void write_all() noexcept;
+
+  realtime::Wakeup wakeup_;
+  std::mutex mutex_;  // for wanted_; the thread takes it only when the list has changed
+  std::vector<std::shared_ptr<Lane>> wanted_;
+  std::atomic<std::uint64_t> changes_{0};
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> fifo_granted_{false};
+  std::atomic<std::uint64_t> failed_{0};
+  realtime::LatencyHistogram write_time_;
+  std::vector<std::shared_ptr<Lane>> lanes_;  // the thread's
+  std::uint64_t changes_seen_ = 0;            // the thread's
+  std::thread thread_;
+};
+
+}  // namespace mechane::transport

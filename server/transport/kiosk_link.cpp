@@ -1,0 +1,110 @@
+#include "server/transport/kiosk_link.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "server/base/clock.hpp"
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::transport {
+namespace {
+
+// As long as the client's governor holds a force without a new sample.
+constexpr std::uint32_t kContactValidUs = 10'000;
+
+void set_contact(proto::WireLocalContact& out, const state::LocalContact& from) noexcept {
+  proto::set_vec3(out.p_W, from.p_W);
+  proto::set_vec3(out.n_W, from.n_W);
+  proto::set_vec3(out.v_W, from.v_W);
+  out.depth_m = static_cast<float>(from.depth_m);
+  out.curvature_per_m = static_cast<float>(from.curvature_per_m);
+  out.stiffness_n_per_m = static_cast<float>(from.stiffness_n_per_m);
+  out.damping_ns_per_m = static_cast<float>(from.damping_ns_per_m);
+  out.friction = static_cast<float>(from.friction);
+  out.valid_us = kContactValidUs;
+}
+
+void set_force(proto::HapticOutput& out, const state::HapticOutput& from) noexcept {
+  out.echo_seq = from.echo_sequence;
+  out.echo_sent_ns = from.echo_sent_ns;
+  out.reasons = from.reasons;
+  proto::set_vec3(out.f_W, from.force_W.f);
+  proto::set_vec3(out.t_W, from.force_W.t);
+  for (std::size_t i = 0; i < from.finger_force_n.size(); ++i) {
+    out.finger_force_n[i] = static_cast<float>(from.finger_force_n[i]);
+  }
+  out.holding = from.holding ? 1 : 0;
+  out.contact_count = std::min(from.contact_count, static_cast<std::uint32_t>(proto::kMaxLocalContacts));
+  for (std::size_t i = 0; i < proto::kMaxLocalContacts; ++i) {
+    set_contact(out.contacts[i], i < out.contact_count ? from.contacts[i] : state::LocalContact{});
+  }
+}
+
+}  // namespace
+
+Expected<std::shared_ptr<KioskLink>> KioskLink::create(const proto::Participant& participant, const std::string& kiosk,
+                                                       std::uint32_t epoch, RejectCounters& rejects) {
+  std::shared_ptr<KioskLink> link(new KioskLink(kiosk, epoch, rejects));
+  const std::string partition = proto::kiosk_partition(kiosk);
+  auto writer = proto::Writer<proto::HapticOutput>::create(participant, partition);
+  if (!writer) return tl::unexpected<Error>(writer.error());
+  link->writer_ = std::move(*writer);
+  KioskLink* const raw = link.get();  // the reader is the link's own, and goes before it
+  auto reader = proto::Reader<proto::HapticInput>::create(
+      participant, partition, [raw](proto::ReaderView<proto::HapticInput> view) { raw->take(view); });
+  if (!reader) return tl::unexpected<Error>(reader.error());
+  link->reader_ = std::move(*reader);
+  return link;
+}
+
+void KioskLink::open(const std::shared_ptr<Lane>& lane) {
+  const std::lock_guard lock(mutex_);
+  hands_[lane->user].lane = lane;
+}
+
+void KioskLink::close(const std::shared_ptr<Lane>& lane) {
+  const std::lock_guard lock(mutex_);
+  if (hands_[lane->user].lane == lane) hands_[lane->user].lane.reset();
+}
+
+void KioskLink::shut() {
+  reader_ = {};
+}
+
+void KioskLink::take(proto::ReaderView<proto::HapticInput> view) noexcept {
+  proto::HapticInput wire;
+  proto::SampleInfo info;
+  while (view.take_into(wire, info)) {
+    if (info.valid) rejects_.add(accept(wire, std::chrono::steady_clock::now()));
+  }
+}
+
+Reject KioskLink::accept(const proto::HapticInput& wire, TimePoint now) noexcept {
+  if (const Reject fault = validate(wire, arriving_.sample); fault != Reject::none) return fault;
+  if (proto::text_of(wire.kiosk) != kiosk_) return Reject::wrong_kiosk;
+  Hand& hand = hands_[wire.user];
+  if (hand.owner.load(std::memory_order_relaxed) != wire.session) return Reject::wrong_session;
+  hand.heard_ns.store(now.time_since_epoch().count(), std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  if (!hand.lane || hand.lane->session != wire.session) return Reject::none;  // its world is still being made
+  if (wire.seq <= hand.lane->last_sequence) return Reject::old_sequence;
+  hand.lane->last_sequence = wire.seq;
+  arriving_.arrived = now;
+  hand.lane->inputs.publish(arriving_);
+  return Reject::none;
+}
+
+bool KioskLink::write(const Lane& lane, const OutgoingForce& force) noexcept {
+  proto::set_text(wire_.kiosk, kiosk_);
+  wire_.user = lane.user;
+  wire_.protocol = proto::kProtocol;
+  wire_.session = lane.session;
+  wire_.seq = hands_[lane.user].next_sequence++;
+  wire_.tick = force.tick;
+  wire_.epoch = epoch_;
+  set_force(wire_, force.output);
+  wire_.sent_ns = to_ns(std::chrono::steady_clock::now());
+  return writer_.write(wire_);
+}
+
+}  // namespace mechane::transport

@@ -1,0 +1,72 @@
+// MuseumPublisher: the thread that writes everything but HapticOutput. A reliable write may block it; forces go on.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/realtime/wakeup.hpp"
+#include "server/transport/world_writer.hpp"
+#include <mechane/proto/entity.hpp>
+
+namespace mechane::transport {
+
+/// What WorldAssignment says of one kiosk.
+struct Assignment {
+  std::string world;
+  std::string trouble;
+  std::array<Session, state::kMaxUsers> owners;  ///< id 0: nobody
+};
+
+/// Owns one thread. All functions are the main thread's.
+class MuseumPublisher {
+ public:
+  /// `status` holds what never changes: server, incarnation, version, host point at texts that outlive this object.
+  MuseumPublisher(proto::Writer<proto::ServerStatus> status_writer,
+                  proto::Writer<proto::WorldAssignment> assignment_writer, const proto::ServerStatus& status,
+                  std::uint32_t epoch);
+  ~MuseumPublisher();
+  MuseumPublisher(const MuseumPublisher&) = delete;
+  MuseumPublisher& operator=(const MuseumPublisher&) = delete;
+
+  /// From now on its manifest, frames, status and events go out.
+  void add(std::unique_ptr<WorldWriter> writer);
+  /// Returns when the thread does not touch the port any more; the endpoints are gone then.
+  void remove(const WorldPort& port);
+  void assign(const std::string& kiosk, const Assignment& assignment);
+  /// The kiosk is gone.
+  void forget(const std::string& kiosk);
+  /// Health; the fields that never change stay.
+  void set_status(const proto::ServerStatus& status);
+  [[nodiscard]] std::uint64_t writes_failed() const { return failed_.load(std::memory_order_relaxed); }
+
+ private:
+  void run();
+  void write_assignments();
+  void write_status(TimePoint now);
+
+  struct Pending {
+    Assignment assignment;
+    bool gone = false;
+  };
+  std::mutex mutex_;  // for what follows, up to the thread's own
+  std::vector<std::unique_ptr<WorldWriter>> worlds_;
+  std::map<std::string, Pending> pending_;
+  proto::ServerStatus status_;
+
+  realtime::Wakeup wakeup_;
+  std::atomic<bool> stop_{false};
+  std::atomic<std::uint64_t> failed_{0};
+  std::uint32_t epoch_;
+  proto::Writer<proto::ServerStatus> status_writer_;
+  proto::Writer<proto::WorldAssignment> assignment_writer_;
+  std::uint64_t assignment_sequence_ = 0;
+  TimePoint next_status_{};
+  std::thread thread_;  // last
+};
+
+}  // namespace mechane::transport

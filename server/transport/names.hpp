@@ -1,0 +1,27 @@
+// State in words: what events and status say on the wire.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "server/state/description.hpp"
+#include "server/state/event.hpp"
+#include "server/transport/world_port.hpp"
+
+namespace mechane::transport {
+
+struct EventNames {
+  const char* kind = "";
+  std::string subject;
+  std::string object;
+};
+
+/// "kiosk-1/0", or "user 2" where nobody is known in that slot.
+[[nodiscard]] std::string user_name(const std::array<HandSnapshot, state::kMaxUsers>& hands, std::uint32_t slot);
+
+/// Indices that point at nothing give empty names.
+[[nodiscard]] EventNames names_of(const state::WorldDescription& world, const state::Event& event,
+                                  const std::array<HandSnapshot, state::kMaxUsers>& hands);
+
+}  // namespace mechane::transport

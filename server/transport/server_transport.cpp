@@ -1,0 +1,357 @@
+#include "server/transport/server_transport.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "server/log/log.hpp"
+#include "server/transport/haptic_publisher.hpp"
+#include "server/transport/kiosk_link.hpp"
+#include "server/transport/museum_publisher.hpp"
+#include <mechane/proto/convert.hpp>
+#include <mechane/proto/entity.hpp>
+
+namespace mechane::transport {
+namespace {
+
+constexpr Duration kReportEvery = std::chrono::seconds(1);
+
+std::uint64_t random_nonzero() {
+  std::random_device device;
+  const std::uint64_t high = device();
+  return ((high << 32) | device()) | 1u;
+}
+
+/// Rises from one start of a server to the next, as the wall clock does; tenths of a second, so that it wraps after 13 years.
+std::uint32_t epoch_now() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count() / 100);
+}
+
+std::string host_name() {
+  char name[64] = {};
+  return ::gethostname(name, sizeof(name) - 1) == 0 ? std::string(name) : std::string("unknown");
+}
+
+}  // namespace
+
+class ServerTransport::Impl {
+ public:
+  Impl(const TransportConfig& config, proto::Participant participant)
+      : server(config.server),
+        version(config.version),
+        host(host_name()),
+        incarnation(random_nonzero()),
+        epoch(epoch_now()),
+        participant_(std::move(participant)),
+        haptic_(config.fifo_priority, config.cpu) {}
+  ~Impl();
+
+  [[nodiscard]] Expected<void> open_endpoints();
+  [[nodiscard]] std::vector<News> poll(TimePoint now);
+  [[nodiscard]] Expected<WorldPort*> open_world(const std::string& world,
+                                                std::shared_ptr<const state::WorldDescription> description);
+  void close_world(WorldPort& port);
+  void assign(const std::string& kiosk, const std::string& world, const std::string& trouble);
+  [[nodiscard]] proto::ServerStatus wire_status(const ServerStatusData& data);
+
+  const std::string server;
+  const std::string version;
+  const std::string host;
+  const std::uint64_t incarnation;
+  const std::uint32_t epoch;
+  RejectCounters rejects;
+  SessionTable table;
+  [[nodiscard]] HapticPublisher& haptic() { return haptic_; }
+  [[nodiscard]] MuseumPublisher& museum() { return *museum_; }
+
+ private:
+  struct Kiosk {
+    std::shared_ptr<KioskLink> link;
+    Assignment assignment;
+  };
+
+  void take_kiosks(TimePoint now, std::vector<News>& news);
+  void session_appeared(const Session& session, TimePoint now, std::vector<News>& news);
+  void session_left(std::uint64_t id, std::vector<News>& news);
+  void drop_silent_sessions(TimePoint now, std::vector<News>& news);
+  void settle_hands(TimePoint now, std::vector<News>& news);
+  void drop_empty_kiosks(std::vector<News>& news);
+  void report(TimePoint now);
+  [[nodiscard]] std::shared_ptr<Lane> open_lane(const std::string& kiosk, std::uint32_t user, std::uint64_t session);
+  void close_lane(const std::shared_ptr<Lane>& lane);
+
+  proto::Participant participant_;
+  std::map<std::string, Kiosk> kiosks_;
+  std::map<std::uint64_t, TimePoint> last_status_;  // by session, on our clock
+  std::vector<std::unique_ptr<WorldPort>> ports_;
+  std::vector<std::shared_ptr<Lane>> closed_lanes_;  // until nobody holds them: a real-time thread must not be the last
+  RejectReport reject_report_;
+  TimePoint next_report_{};
+  HapticPublisher haptic_;
+  std::unique_ptr<MuseumPublisher> museum_;
+  proto::Reader<proto::KioskStatus> kiosk_status_;
+};
+
+ServerTransport::Impl::~Impl() {
+  while (!ports_.empty())
+    close_world(*ports_.back());
+  for (auto& [name, kiosk] : kiosks_)
+    kiosk.link->shut();
+}
+
+Expected<void> ServerTransport::Impl::open_endpoints() {
+  auto status_writer = proto::Writer<proto::ServerStatus>::create(participant_, "");
+  if (!status_writer) return tl::unexpected<Error>(status_writer.error());
+  auto assignment_writer = proto::Writer<proto::WorldAssignment>::create(participant_, "");
+  if (!assignment_writer) return tl::unexpected<Error>(assignment_writer.error());
+  auto reader = proto::Reader<proto::KioskStatus>::create(participant_, "");
+  if (!reader) return tl::unexpected<Error>(reader.error());
+  kiosk_status_ = std::move(*reader);
+  museum_ = std::make_unique<MuseumPublisher>(std::move(*status_writer), std::move(*assignment_writer),
+                                              wire_status(ServerStatusData{}), epoch);
+  return {};
+}
+
+std::vector<News> ServerTransport::Impl::poll(TimePoint now) {
+  std::vector<News> news;
+  take_kiosks(now, news);
+  drop_silent_sessions(now, news);
+  settle_hands(now, news);
+  drop_empty_kiosks(news);
+  for (const auto& port : ports_)
+    port->collect();
+  std::erase_if(closed_lanes_, [](const auto& lane) { return lane.use_count() == 1; });
+  report(now);
+  return news;
+}
+
+void ServerTransport::Impl::take_kiosks(TimePoint now, std::vector<News>& news) {
+  proto::KioskStatus wire;
+  proto::SampleInfo info;
+  while (kiosk_status_.view().take_into(wire, info)) {
+    if (!info.alive) {
+      session_left(wire.session, news);
+      continue;
+    }
+    if (!info.valid) continue;
+    Session session;
+    const Reject fault = validate(wire, session);
+    rejects.add(fault);
+    if (fault == Reject::none) session_appeared(session, now, news);
+  }
+}
+
+void ServerTransport::Impl::session_appeared(const Session& session, TimePoint now, std::vector<News>& news) {
+  if (kiosks_.find(session.kiosk) == kiosks_.end()) {
+    auto link = KioskLink::create(participant_, session.kiosk, epoch, rejects);
+    if (!link) {
+      log::error(link.error());
+      return;
+    }
+    kiosks_[session.kiosk].link = std::move(*link);
+  }
+  const bool first = table.sessions_at(session.kiosk) == 0;
+  const bool known = table.find(session.id) != nullptr;
+  if (!table.appeared(session) && !known) {
+    log::warning(fmt::format("{}: too many sessions ({}); {} on {} is left out", session.kiosk,
+                             SessionTable::kMaxSessions, session.program, session.host));
+    return;
+  }
+  last_status_[session.id] = now;
+  if (known) return;
+  if (first) news.push_back({NewsKind::kiosk_appeared, session});
+  news.push_back({NewsKind::session_appeared, session});
+}
+
+void ServerTransport::Impl::session_left(std::uint64_t id, std::vector<News>& news) {
+  const Session* known = table.find(id);
+  if (known == nullptr) return;
+  const Session session = *known;
+  (void)table.left(id);
+  last_status_.erase(id);
+  news.push_back({NewsKind::session_left, session});
+}
+
+void ServerTransport::Impl::drop_silent_sessions(TimePoint now, std::vector<News>& news) {
+  std::vector<std::uint64_t> silent;
+  for (const auto& [id, at] : last_status_) {
+    if (now - at > proto::kKioskLiveliness) silent.push_back(id);
+  }
+  for (const std::uint64_t id : silent)
+    session_left(id, news);
+}
+
+void ServerTransport::Impl::settle_hands(TimePoint now, std::vector<News>& news) {
+  for (auto& [name, kiosk] : kiosks_) {
+    for (std::uint32_t user = 0; user < state::kMaxUsers; ++user) {
+      const TimePoint heard = kiosk.link->heard(user);
+      if (const Session* owner = table.owner(name, user); owner != nullptr && heard > TimePoint{}) {
+        table.heard(owner->id, heard);
+      }
+    }
+  }
+  for (const HandChange& change : table.decide(now)) {
+    const Session& session = change.session;
+    const auto it = kiosks_.find(session.kiosk);
+    if (it == kiosks_.end()) continue;
+    it->second.link->set_owner(session.user, change.granted ? session.id : 0);
+    it->second.assignment.owners[session.user] = change.granted ? session : Session{};
+    museum_->assign(session.kiosk, it->second.assignment);
+    news.push_back({change.granted ? NewsKind::hand_granted : NewsKind::hand_freed, session});
+  }
+}
+
+void ServerTransport::Impl::drop_empty_kiosks(std::vector<News>& news) {
+  for (auto it = kiosks_.begin(); it != kiosks_.end();) {
+    if (table.sessions_at(it->first) > 0) {
+      ++it;
+      continue;
+    }
+    Session gone;
+    gone.kiosk = it->first;
+    it->second.link->shut();
+    museum_->forget(it->first);
+    news.push_back({NewsKind::kiosk_left, gone});
+    it = kiosks_.erase(it);
+  }
+}
+
+void ServerTransport::Impl::report(TimePoint now) {
+  if (now < next_report_) return;
+  next_report_ = now + kReportEvery;
+  const std::string line = reject_report_.since_last(rejects);
+  if (!line.empty()) log::warning(line);
+}
+
+std::shared_ptr<Lane> ServerTransport::Impl::open_lane(const std::string& kiosk, std::uint32_t user,
+                                                       std::uint64_t session) {
+  const auto it = kiosks_.find(kiosk);
+  if (it == kiosks_.end() || user >= state::kMaxUsers) return nullptr;
+  auto lane = std::make_shared<Lane>();
+  lane->link = it->second.link;
+  lane->user = user;
+  lane->session = session;
+  it->second.link->open(lane);
+  haptic_.add(lane);
+  return lane;
+}
+
+void ServerTransport::Impl::close_lane(const std::shared_ptr<Lane>& lane) {
+  lane->link->close(lane);
+  haptic_.remove(lane);
+  closed_lanes_.push_back(lane);
+}
+
+Expected<WorldPort*> ServerTransport::Impl::open_world(const std::string& world,
+                                                       std::shared_ptr<const state::WorldDescription> description) {
+  if (auto named = proto::check_name(world, "world"); !named) return tl::unexpected<Error>(named.error());
+  if (std::any_of(ports_.begin(), ports_.end(), [&](const auto& p) { return p->world() == world; })) {
+    return fail("a world of this name is open", world, "choose another name, or close it first");
+  }
+  auto port = std::make_unique<WorldPort>(
+      world, std::move(description), haptic_.wakeup(),
+      [this](const std::string& kiosk, std::uint32_t user, std::uint64_t session) {
+        return open_lane(kiosk, user, session);
+      },
+      [this](const std::shared_ptr<Lane>& lane) { close_lane(lane); });
+  auto writer = WorldWriter::create(participant_, *port, rejects);
+  if (!writer) return tl::unexpected<Error>(writer.error());
+  museum_->add(std::move(*writer));
+  ports_.push_back(std::move(port));
+  return ports_.back().get();
+}
+
+void ServerTransport::Impl::close_world(WorldPort& port) {
+  museum_->remove(port);
+  for (auto& [name, kiosk] : kiosks_) {
+    if (kiosk.assignment.world == port.world()) assign(name, "", "");
+  }
+  std::erase_if(ports_, [&](const auto& p) { return p.get() == &port; });
+}
+
+void ServerTransport::Impl::assign(const std::string& kiosk, const std::string& world, const std::string& trouble) {
+  const auto it = kiosks_.find(kiosk);
+  if (it == kiosks_.end()) return;
+  it->second.assignment.world = world;
+  it->second.assignment.trouble = trouble;
+  museum_->assign(kiosk, it->second.assignment);
+}
+
+proto::ServerStatus ServerTransport::Impl::wire_status(const ServerStatusData& data) {
+  proto::ServerStatus wire{};
+  proto::set_text(wire.server, server);
+  wire.protocol = proto::kProtocol;
+  wire.incarnation = incarnation;
+  wire.version = proto::look_into(version);
+  wire.host = proto::look_into(host);
+  wire.worlds = data.worlds;
+  wire.worlds_limit = data.worlds_limit;
+  wire.users = data.users;
+  wire.ticks = data.ticks;
+  wire.overruns = data.overruns;
+  wire.late_wakeups = data.late_wakeups;
+  wire.preemptions = data.preemptions;
+  wire.samples_rejected = rejects.total();
+  wire.tick_us_median = static_cast<float>(data.tick_us_median);
+  wire.tick_us_p99 = static_cast<float>(data.tick_us_p99);
+  wire.tick_us_p999 = static_cast<float>(data.tick_us_p999);
+  wire.tick_us_max = static_cast<float>(data.tick_us_max);
+  wire.wake_us_p99 = static_cast<float>(data.wake_us_p99);
+  wire.wake_us_max = static_cast<float>(data.wake_us_max);
+  wire.realtime = data.realtime;
+  wire.records_ok = data.records_ok;
+  return wire;
+}
+
+Expected<std::unique_ptr<ServerTransport>> ServerTransport::start(const TransportConfig& config) {
+  if (auto named = proto::check_name(config.server, "server"); !named) return tl::unexpected<Error>(named.error());
+  auto participant = proto::Participant::create(config.domain);
+  if (!participant) return tl::unexpected<Error>(participant.error());
+  auto impl = std::make_unique<Impl>(config, std::move(*participant));
+  if (auto opened = impl->open_endpoints(); !opened) return tl::unexpected<Error>(opened.error());
+  return std::unique_ptr<ServerTransport>(new ServerTransport(std::move(impl)));
+}
+
+ServerTransport::ServerTransport(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ServerTransport::~ServerTransport() = default;
+
+std::vector<News> ServerTransport::poll(TimePoint now) {
+  return impl_->poll(now);
+}
+const SessionTable& ServerTransport::sessions() const {
+  return impl_->table;
+}
+Expected<WorldPort*> ServerTransport::open_world(const std::string& world,
+                                                 std::shared_ptr<const state::WorldDescription> description) {
+  return impl_->open_world(world, std::move(description));
+}
+void ServerTransport::close_world(WorldPort& port) {
+  impl_->close_world(port);
+}
+void ServerTransport::assign_kiosk(const std::string& kiosk, const WorldPort& port) {
+  impl_->assign(kiosk, port.world(), "");
+}
+void ServerTransport::refuse_kiosk(const std::string& kiosk, const std::string& why) {
+  impl_->assign(kiosk, "", why);
+}
+void ServerTransport::publish_server_status(const ServerStatusData& data) {
+  impl_->museum().set_status(impl_->wire_status(data));
+}
+bool ServerTransport::fifo_granted() const {
+  return impl_->haptic().fifo_granted();
+}
+const RejectCounters& ServerTransport::rejected() const {
+  return impl_->rejects;
+}
+const realtime::LatencyHistogram& ServerTransport::haptic_write_time() const {
+  return impl_->haptic().write_time();
+}
+std::uint64_t ServerTransport::haptic_writes_failed() const {
+  return impl_->haptic().writes_failed();
+}
+
+}  // namespace mechane::transport

@@ -1,0 +1,263 @@
+#include "server/transport/world_writer.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "server/transport/names.hpp"
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::transport {
+namespace {
+
+std::uint64_t now_ns() {
+  return to_ns(std::chrono::steady_clock::now());
+}
+
+/// Texts by language as wire texts; the map must outlive them.
+std::vector<proto::WireText> wire_texts(const state::Texts& texts) {
+  std::vector<proto::WireText> wire;
+  for (const auto& [language, text] : texts) {
+    proto::WireText& one = wire.emplace_back();
+    proto::set_text(one.language, language);
+    one.content = proto::look_into(text);
+  }
+  return wire;
+}
+
+const state::Texts& texts_of(const state::StepDescription* step, const std::string& which) {
+  static const state::Texts none;
+  if (step == nullptr) return none;
+  const auto it = step->texts.find(which);
+  return it == step->texts.end() ? none : it->second;
+}
+
+template <class Item, class IdType>
+const Item* item_at(const std::vector<Item>& items, IdType id) {
+  return id && id.index() < items.size() ? &items[id.index()] : nullptr;
+}
+
+bool same_progress(const SceneSnapshot& a, const SceneSnapshot& b) {
+  const state::Progress& p = a.progress;
+  const state::Progress& q = b.progress;
+  return p.activity == q.activity && p.step == q.step && p.done == q.done && p.steps_done == q.steps_done &&
+         p.hint_shown == q.hint_shown && a.agent_enabled == b.agent_enabled;
+}
+
+bool same_pose(const Pose& a, const Pose& b) {
+  return a.p == b.p && a.R.coeffs() == b.R.coeffs();
+}
+
+}  // namespace
+
+WorldWriter::WorldWriter(WorldPort& port, RejectCounters& rejects) : port_(port), rejects_(rejects) {
+  const auto& bodies = port.description().bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].fixed) movable_.push_back(static_cast<std::uint32_t>(i));
+  }
+  bodies_.resize(movable_.size());
+  hands_.reserve(state::kMaxUsers);
+}
+
+Expected<std::unique_ptr<WorldWriter>> WorldWriter::create(const proto::Participant& participant, WorldPort& port,
+                                                           RejectCounters& rejects) {
+  std::unique_ptr<WorldWriter> made(new WorldWriter(port, rejects));
+  const std::string partition = proto::world_partition(port.world());
+  const auto open = [&](auto& endpoint, auto created) -> std::optional<Error> {
+    if (!created) return created.error();
+    endpoint = std::move(*created);
+    return std::nullopt;
+  };
+  WorldWriter* const raw = made.get();
+  std::optional<Error> fault = open(made->frames_, proto::Writer<proto::SceneFrame>::create(participant, partition));
+  if (!fault) fault = open(made->objects_, proto::Writer<proto::SceneObject>::create(participant, partition));
+  if (!fault) fault = open(made->status_, proto::Writer<proto::WorldStatus>::create(participant, partition));
+  if (!fault) fault = open(made->events_, proto::Writer<proto::Event>::create(participant, partition));
+  if (!fault) {
+    fault = open(made->commands_, proto::Reader<proto::Command>::create(
+                                      participant, partition,
+                                      [raw](proto::ReaderView<proto::Command> view) { raw->take_commands(view); }));
+  }
+  if (fault) return tl::unexpected<Error>(*fault);
+  return made;
+}
+
+void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
+  view.take_each([this](const proto::Command& wire, const proto::SampleInfo& info) {
+    if (!info.valid) return;
+    if (wire.protocol != proto::kProtocol) return rejects_.add(Reject::wrong_protocol);
+    state::Command command;
+    command.id = wire.id;
+    if (wire.kind < 1 || wire.kind > 3) return refuse(wire.id);
+    command.kind = static_cast<state::CommandKind>(wire.kind);
+    if (command.kind == state::CommandKind::start_activity) {
+      const ActivityId activity = port_.description().find_activity(proto::text_of(wire.argument));
+      if (!activity) return refuse(wire.id);
+      command.argument = static_cast<std::uint32_t>(activity.index());
+    }
+    if (!port_.offer_command(command)) refuse(wire.id);
+  });
+}
+
+void WorldWriter::refuse(std::uint64_t id) {
+  // A full ring: somebody sends refused commands faster than they can be answered; those go unanswered.
+  if (!refused_.push(id)) rejects_.add(Reject::bad_value);
+}
+
+void WorldWriter::write_manifest() {
+  const state::WorldDescription& world = port_.description();
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const state::BodyDescription& body = world.bodies[i];
+    const std::string parent;  // bodies stand in W
+    proto::SceneObject o{};
+    proto::set_text(o.world, port_.world());
+    o.object = static_cast<std::uint32_t>(i);
+    o.protocol = proto::kProtocol;
+    o.seq = i + 1;
+    o.sent_ns = now_ns();
+    o.objects_total = static_cast<std::uint32_t>(world.bodies.size());
+    o.name = proto::look_into(body.name);
+    o.mesh_uri = proto::look_into(body.mesh.uri);
+    o.mesh_hash = proto::look_into(body.mesh.content_hash);
+    o.mesh_node = proto::look_into(body.mesh.node);
+    o.parent = proto::look_into(parent);
+    proto::set_pose(o.X_WB, body.X_WB);
+    o.movable = !body.fixed;
+    o.visible = body.visible;
+    o.stiffness_n_per_m = static_cast<float>(body.haptic.stiffness_n_per_m);
+    o.damping_ns_per_m = static_cast<float>(body.haptic.damping_ns_per_m);
+    o.static_friction = static_cast<float>(body.haptic.static_friction);
+    o.dynamic_friction = static_cast<float>(body.haptic.dynamic_friction);
+    count(objects_.write(o));
+  }
+}
+
+void WorldWriter::write() {
+  state::Event event;
+  if (const SceneSnapshot* snapshot = port_.take_snapshot()) {
+    const bool status_changed = !last_ || !same_progress(*last_, *snapshot);
+    if (status_changed) write_status(*snapshot);
+    // When nothing moves every second frame is left out: 30 a second are enough to tell that the world lives.
+    skipped_last_ = !status_changed && !skipped_last_ && !moved(*snapshot);
+    if (!skipped_last_) {
+      write_frame(*snapshot);
+      last_ = *snapshot;
+    }
+  }
+  while (port_.take_event(event))
+    write_event(event);
+  std::uint64_t id = 0;
+  while (refused_.pop(id)) {
+    state::Event refusal;
+    refusal.tick = last_ ? last_->tick : 0;
+    refusal.kind = state::EventKind::command_refused;
+    refusal.value = static_cast<double>(id);
+    write_event(refusal);
+  }
+}
+
+bool WorldWriter::moved(const SceneSnapshot& snapshot) const {
+  if (!last_ || last_->visible != snapshot.visible || last_->quantities != snapshot.quantities) return true;
+  for (const std::uint32_t i : movable_) {
+    if (!same_pose(last_->bodies[i], snapshot.bodies[i])) return true;
+  }
+  return std::any_of(snapshot.hands.begin(), snapshot.hands.end(), [](const HandSnapshot& h) { return h.present; });
+}
+
+void WorldWriter::write_frame(const SceneSnapshot& snapshot) {
+  for (std::size_t i = 0; i < movable_.size(); ++i) {
+    bodies_[i].object = movable_[i];
+    proto::set_pose(bodies_[i].X_WB, snapshot.bodies[movable_[i]]);
+  }
+  hands_.clear();
+  for (std::size_t i = 0; i < snapshot.hands.size(); ++i) {
+    const HandSnapshot& hand = snapshot.hands[i];
+    if (!hand.present) continue;
+    const std::size_t segments = hand.kind == state::HandKind::glove ? state::kHandSegments : 1;
+    for (std::size_t s = 0; s < segments; ++s)
+      proto::set_pose(segments_[i][s], hand.X_WS[s]);
+    proto::WireHandPose& wire = hands_.emplace_back();
+    proto::set_text(wire.kiosk, hand.name.kiosk.data());
+    wire.user = hand.name.user;
+    wire.session = hand.name.session;
+    wire.kind = static_cast<std::uint8_t>(hand.kind);
+    wire.stale = hand.stale ? 1 : 0;
+    wire.holding = hand.holding ? 1 : 0;
+    wire.X_WS._buffer = segments_[i].data();
+    wire.X_WS._length = wire.X_WS._maximum = static_cast<std::uint32_t>(segments);
+    proto::set_vec3(wire.f_W, hand.f_W);
+  }
+  SceneSnapshot copy = snapshot;  // wire sequences point at writable buffers, though nobody writes to them
+  proto::SceneFrame frame{};
+  proto::set_text(frame.world, port_.world());
+  frame.protocol = proto::kProtocol;
+  frame.seq = ++frame_sequence_;
+  frame.sent_ns = snapshot.sampled_ns;
+  frame.tick = snapshot.tick;
+  proto::look_into(frame.bodies, bodies_);
+  proto::look_into(frame.visible, copy.visible);
+  proto::look_into(frame.quantities, copy.quantities);
+  proto::look_into(frame.hands, hands_);
+  count(frames_.write(frame));
+}
+
+void WorldWriter::write_status(const SceneSnapshot& snapshot) {
+  const state::WorldDescription& world = port_.description();
+  const state::Progress& progress = snapshot.progress;
+  const auto* activity = item_at(world.activities, progress.activity);
+  const auto* step = item_at(world.steps, progress.step);
+  const std::string none;
+  std::vector<char*> agents;
+  for (std::size_t i = 0; i < world.agents.size(); ++i) {
+    if (snapshot.agent_enabled[i] != 0) agents.push_back(proto::look_into(world.agents[i].name));
+  }
+  std::vector<char*> activities;
+  for (const auto& a : world.activities)
+    activities.push_back(proto::look_into(a.name));
+  std::vector<proto::WireQuantity> quantities;
+  for (const auto& q : world.quantities)
+    quantities.push_back({proto::look_into(q.name), proto::look_into(q.unit)});
+  auto title = wire_texts(world.title);
+  auto caption = wire_texts(texts_of(step, "caption"));
+  auto hint = wire_texts(texts_of(step, "hint"));
+
+  proto::WorldStatus status{};
+  proto::set_text(status.world, port_.world());
+  status.protocol = proto::kProtocol;
+  status.seq = ++status_sequence_;
+  status.sent_ns = now_ns();
+  status.scenario = proto::look_into(world.id);
+  status.scenario_hash = proto::look_into(world.content_hash);
+  status.scenario_folder = proto::look_into(world.folder);
+  status.activity = proto::look_into(activity != nullptr ? activity->name : none);
+  status.step = proto::look_into(step != nullptr ? step->name : none);
+  status.steps_done = progress.steps_done;
+  status.steps_total = static_cast<std::uint32_t>(std::count_if(
+      world.steps.begin(), world.steps.end(), [&](const auto& s) { return s.activity == progress.activity; }));
+  status.done = progress.done;
+  status.hint = progress.hint_shown;
+  proto::look_into(status.enabled_agents, agents);
+  proto::look_into(status.quantities, quantities);
+  proto::look_into(status.title, title);
+  proto::look_into(status.caption, caption);
+  proto::look_into(status.hint_text, hint);
+  proto::look_into(status.activities, activities);
+  count(status_.write(status));
+}
+
+void WorldWriter::write_event(const state::Event& event) {
+  static const std::array<HandSnapshot, state::kMaxUsers> nobody{};
+  const EventNames names = names_of(port_.description(), event, last_ ? last_->hands : nobody);
+  proto::Event wire{};
+  proto::set_text(wire.scope, proto::world_partition(port_.world()));
+  wire.protocol = proto::kProtocol;
+  wire.seq = ++event_sequence_;
+  wire.sent_ns = now_ns();
+  wire.tick = event.tick;
+  proto::set_text(wire.kind, names.kind);
+  wire.subject = proto::look_into(names.subject);
+  wire.object = proto::look_into(names.object);
+  wire.value = event.value;
+  count(events_.write(wire));
+}
+
+}  // namespace mechane::transport

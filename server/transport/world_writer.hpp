@@ -1,0 +1,62 @@
+// WorldWriter: one world's endpoints but for the hands', and how its state becomes samples.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/realtime/ring.hpp"
+#include "server/transport/validate.hpp"
+#include "server/transport/world_port.hpp"
+#include <mechane/proto/entity.hpp>
+
+namespace mechane::transport {
+
+/// Made by the main thread; write() is the museum publisher's; commands are checked on a thread of Cyclone's.
+class WorldWriter {
+ public:
+  [[nodiscard]] static Expected<std::unique_ptr<WorldWriter>> create(const proto::Participant& participant,
+                                                                     WorldPort& port, RejectCounters& rejects);
+  WorldWriter(const WorldWriter&) = delete;
+  WorldWriter& operator=(const WorldWriter&) = delete;
+
+  [[nodiscard]] WorldPort& port() const { return port_; }
+  /// Publishes the manifest and a first status. Once, before write().
+  void write_manifest();
+  /// Publishes what the loop has put out since the last call.
+  void write();
+  [[nodiscard]] std::uint64_t writes_failed() const { return failed_; }
+
+ private:
+  WorldWriter(WorldPort& port, RejectCounters& rejects);
+  void take_commands(proto::ReaderView<proto::Command> view);
+  void refuse(std::uint64_t id);
+  void write_frame(const SceneSnapshot& snapshot);
+  void write_status(const SceneSnapshot& snapshot);
+  void write_event(const state::Event& event);
+  [[nodiscard]] bool moved(const SceneSnapshot& snapshot) const;
+  void count(bool written) { failed_ += written ? 0 : 1; }
+
+  WorldPort& port_;
+  RejectCounters& rejects_;
+  realtime::Ring<std::uint64_t> refused_{64};  // command listener to publisher
+  std::uint64_t failed_ = 0;
+  std::uint64_t frame_sequence_ = 0;
+  std::uint64_t status_sequence_ = 0;
+  std::uint64_t event_sequence_ = 0;
+  std::optional<SceneSnapshot> last_;  // as written
+  bool skipped_last_ = false;
+  std::vector<std::uint32_t> movable_;  // bodies that are in every frame
+  std::vector<proto::WireBodyPose> bodies_;
+  std::vector<proto::WireHandPose> hands_;
+  std::array<std::array<proto::WirePose, state::kHandSegments>, state::kMaxUsers> segments_;
+  proto::Writer<proto::SceneFrame> frames_;
+  proto::Writer<proto::SceneObject> objects_;
+  proto::Writer<proto::WorldStatus> status_;
+  proto::Writer<proto::Event> events_;
+  proto::Reader<proto::Command> commands_;  // last: its listener ends first
+};
+
+}  // namespace mechane::transport

@@ -1,0 +1,225 @@
+// A server's transport and clients in one process, talking over the loopback network: each side in a DDS domain of its own that
+// shows the same number and tag on the network, so that samples really travel.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <dds/dds.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "server/realtime/periodic_thread.hpp"
+#include "server/realtime/wakeup.hpp"
+#include "server/transport/server_transport.hpp"
+#include <mechane/client/client.hpp>
+#include <mechane/proto/entity.hpp>
+
+namespace mechane::test {
+
+inline constexpr std::uint32_t kServerDomain = 41;
+inline constexpr std::uint32_t kClientDomain = 42;
+
+/// Holds the configuration of one domain while it lives.
+class LoopbackDomain {
+ public:
+  LoopbackDomain(std::uint32_t id, int loss_per_mille) {
+    const std::string xml = fmt::format(
+        "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"lo\" "
+        "multicast=\"true\"/></Interfaces>"
+        "<AllowMulticast>spdp</AllowMulticast></General><Discovery><Tag>mechane-{}</Tag><ExternalDomainId>{}</"
+        "ExternalDomainId>"
+        "<LeaseDuration>5s</LeaseDuration><SPDPInterval>100ms</SPDPInterval></Discovery><Internal>"
+        "<HeartbeatInterval>5ms</HeartbeatInterval><NackDelay>1ms</NackDelay>"
+        "<Test><XmitLossiness>{}</XmitLossiness></Test></Internal></Domain></CycloneDDS>",
+        ::getpid(), kServerDomain, loss_per_mille);
+    handle_ = dds_create_domain(id, xml.c_str());
+  }
+  ~LoopbackDomain() {
+    if (handle_ > 0) dds_delete(handle_);
+  }
+  LoopbackDomain(const LoopbackDomain&) = delete;
+  LoopbackDomain& operator=(const LoopbackDomain&) = delete;
+  [[nodiscard]] bool good() const { return handle_ > 0; }
+
+ private:
+  dds_entity_t handle_ = 0;
+};
+
+/// A world with some bodies, one step of an activity and a quantity.
+[[nodiscard]] inline std::shared_ptr<const state::WorldDescription> small_world(std::size_t bodies = 3) {
+  auto world = std::make_shared<state::WorldDescription>();
+  world->id = "small";
+  world->content_hash = "00ff";
+  world->title = {{"el", "Μικρός κόσμος"}, {"en", "A small world"}};
+  for (std::size_t i = 0; i < bodies; ++i) {
+    state::BodyDescription body;
+    body.name = fmt::format("BODY_{}", i);
+    body.fixed = i == 0;
+    body.X_WB.p = Vec3(static_cast<double>(i), 0, 0);
+    body.mesh = {"models/small.glb", "abcd", body.name};
+    world->bodies.push_back(body);
+  }
+  world->activities.push_back({"use", StepId(0), {}});
+  state::StepDescription step;
+  step.name = "turn";
+  step.activity = ActivityId(0);
+  step.texts["caption"] = {{"en", "Turn the crank"}};
+  world->steps.push_back(step);
+  world->quantities.push_back({"water", "PUMP.basin_l", "l"});
+  return world;
+}
+
+/// A server that gives every kiosk the same world, in which a hand feels its own position as a force: f = p, in newtons.
+class EchoServer {
+ public:
+  /// `spin`: the loop answers as soon as a sample is there, so that only the transport's time is measured.
+  explicit EchoServer(std::size_t bodies = 3, bool spin = false) : state_(*small_world(bodies)) {
+    auto transport = transport::ServerTransport::start(
+        {.server = "test", .version = "1.2.3", .domain = kServerDomain, .fifo_priority = spin ? 70 : 0});
+    if (!transport) {
+      ADD_FAILURE() << transport.error().to_string();
+      return;
+    }
+    transport_ = std::move(*transport);
+    auto port = transport_->open_world("w1", small_world(bodies));
+    if (!port) {
+      ADD_FAILURE() << port.error().to_string();
+      return;
+    }
+    port_ = *port;
+    state_.progress.activity = ActivityId(0);
+    state_.progress.step = StepId(0);
+    main_ = std::thread([this] { run_main(); });
+    loop_ = std::thread([this, spin] { run_loop(spin); });
+  }
+  ~EchoServer() {
+    stop_ = true;
+    if (main_.joinable()) main_.join();
+    if (loop_.joinable()) loop_.join();
+  }
+  EchoServer(const EchoServer&) = delete;
+  EchoServer& operator=(const EchoServer&) = delete;
+
+  [[nodiscard]] const transport::ServerTransport& transport() const { return *transport_; }
+  /// Every sample that the loop saw, newest last (the first 100 000).
+  [[nodiscard]] std::vector<state::HandSample> samples() const {
+    const std::lock_guard lock(mutex_);
+    return samples_;
+  }
+  [[nodiscard]] std::vector<transport::NewsKind> news() const {
+    const std::lock_guard lock(mutex_);
+    return news_;
+  }
+
+ private:
+  void run_main() {
+    realtime::Wakeup never;
+    while (!stop_) {
+      for (const transport::News& n : transport_->poll(std::chrono::steady_clock::now()))
+        handle(n);
+      never.wait(std::chrono::milliseconds(10));
+    }
+  }
+
+  void handle(const transport::News& n) {
+    const std::lock_guard lock(mutex_);
+    news_.push_back(n.kind);
+    switch (n.kind) {
+      case transport::NewsKind::kiosk_appeared:
+        transport_->assign_kiosk(n.session.kiosk, *port_);
+        break;
+      case transport::NewsKind::hand_granted:
+        EXPECT_TRUE(port_->bind_user(port_->free_slot(), n.session.kiosk, n.session.user, n.session.id));
+        break;
+      case transport::NewsKind::hand_freed:
+        port_->unbind_user(port_->slot_of(n.session.id));
+        break;
+      default:
+        break;
+    }
+  }
+
+  void run_loop(bool spin) {
+    SystemClock clock;
+    state::TickInputs inputs;
+    TimePoint next = clock.now();
+    while (!stop_) {
+      if (!spin) {
+        next += kTickPeriod;
+        clock.sleep_until(next);
+      }
+      port_->gather(inputs, clock.now());
+      const bool fresh = std::any_of(inputs.users.begin(), inputs.users.end(), [](const auto& u) { return u.fresh; });
+      if (!spin || fresh) tick(inputs);
+    }
+  }
+
+  void tick(const state::TickInputs& inputs) {
+    ++state_.tick;
+    state_.event_count = 0;
+    state_.bodies[1].X_WB.p.x() = static_cast<double>(state_.tick) * 1e-3;  // 1 m/s
+    for (std::size_t i = 0; i < inputs.users.size(); ++i) {
+      const state::UserInput& input = inputs.users[i];
+      state::UserState& user = state_.users[i];
+      if (!input.present) user.present = false;
+      if (!input.fresh) continue;
+      user.present = true;
+      user.sample = input.sample;
+      user.X_WS[0] = input.sample.X_WH;
+      user.output.echo_sequence = input.sample.sequence;
+      user.output.echo_sent_ns = input.sample.sent_ns;
+      user.output.force_W.f = input.sample.X_WH.p;
+      const std::lock_guard lock(mutex_);
+      if (samples_.size() < 100'000) samples_.push_back(input.sample);
+    }
+    for (std::uint32_t i = 0; i < inputs.command_count; ++i) {
+      state_.emit(state::EventKind::command_done, 0xffffffffu, 0xffffffffu, static_cast<double>(inputs.commands[i].id));
+    }
+    port_->publish(state_);
+  }
+
+  std::unique_ptr<transport::ServerTransport> transport_;
+  transport::WorldPort* port_ = nullptr;
+  state::WorldState state_;
+  std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;
+  std::vector<state::HandSample> samples_;
+  std::vector<transport::NewsKind> news_;
+  std::thread main_;
+  std::thread loop_;
+};
+
+/// Looks for `wanted` until it is there, at most `timeout`; `between` is done before each look.
+inline bool eventually(const std::function<bool()>& wanted, Duration timeout = std::chrono::seconds(10),
+                       const std::function<void()>& between = {}) {
+  realtime::Wakeup never;
+  const TimePoint deadline = std::chrono::steady_clock::now() + timeout;
+  while (std::chrono::steady_clock::now() < deadline) {
+    if (between) between();
+    if (wanted()) return true;
+    never.wait(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+[[nodiscard]] inline std::unique_ptr<client::Client> connect(client::Role role, const std::string& program = "tester",
+                                                             std::uint32_t user = 0) {
+  auto made = client::Client::connect(
+      {.kiosk = "kiosk-1", .user = user, .role = role, .program = program, .domain = kClientDomain});
+  if (!made) {
+    ADD_FAILURE() << made.error().to_string();
+    return nullptr;
+  }
+  return std::move(*made);
+}
+
+}  // namespace mechane::test
