@@ -2,7 +2,8 @@
 //
 // A glove's hand closes on a body when the thumb and another finger touch it from opposite sides; a one-point device (and a glove
 // that reports it) by its grasp intent while it touches. Either must last for holdTime. A hand must have been open before: what was
-// taken out of it (by a snap, a step, a jump) it does not take again without opening.
+// taken out of it (by a snap, a step, a jump) it does not take again without opening. Several agents may name one body, each with its
+// own limits, switched by the steps: each ends only the grasps that it began.
 #include <algorithm>
 #include <array>
 
@@ -86,6 +87,7 @@ class GraspAgent final : public Agent {
       was_open_[u] = build.slot(user + ".was_open", 1);
       closed_s_[u] = build.slot(user + ".closed_s");
       open_s_[u] = build.slot(user + ".open_s");
+      holds_[u] = build.slot(user + ".holds");
     }
   }
 
@@ -94,24 +96,23 @@ class GraspAgent final : public Agent {
     state.memory[body_] = -1;
     for (std::size_t u = 0; u < state.users.size(); ++u) {
       const state::Grasp& grasp = state.users[u].grasp;
+      if (!grasp.active) state.memory[holds_[u]] = 0;
       if (!state.users[u].present) {
         forget(state, u, true);
-      } else if (grasp.active && mine(grasp.body)) {
+      } else if (state.memory[holds_[u]] != 0) {
         hold_on(state, u, enabled, dt_s);
-      } else if (!grasp.active) {
+      } else if (grasp.active) {
+        forget(state, u, false);  // another agent's: this one does not take it over from a hand that never opened
+      } else {
         reach(state, u, enabled, dt_s);
       }
-      if (!grasp.active || !mine(grasp.body)) continue;
+      if (!grasp.active || state.memory[holds_[u]] == 0) continue;
       state.memory[active_] += 1;
       if (state.memory[body_] < 0) state.memory[body_] = static_cast<double>(grasp.body.index());
     }
   }
 
  private:
-  [[nodiscard]] bool mine(BodyId body) const {
-    return std::find(bodies_.begin(), bodies_.end(), body) != bodies_.end();
-  }
-
   void forget(state::WorldState& state, std::size_t u, bool was_open) const noexcept {
     state.memory[was_open_[u]] = was_open ? 1 : 0;
     state.memory[closed_s_[u]] = 0;
@@ -131,6 +132,7 @@ class GraspAgent final : public Agent {
     const bool gone = user.freshness <= 0;
     if (!opened && !gone && !torn && enabled && body.graspable && body.movable) return;
     let_go(state, u);
+    state.memory[holds_[u]] = 0;
     forget(state, u, opened || gone);  // a hand whose samples stopped may take hold again when they come back
   }
 
@@ -160,6 +162,7 @@ class GraspAgent final : public Agent {
     state::UserState& user = state.users[u];
     const Pose& X_WB = state[body].X_WB;
     user.grasp = {true, body, user.X_WH.inverse() * X_WB, X_WB.inverse() * p_WG, force_limit_n_, torque_limit_nm_, {}};
+    state.memory[holds_[u]] = 1;
     forget(state, u, false);
     state.emit(state::EventKind::grasped, static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(body.index()));
   }
@@ -174,6 +177,7 @@ class GraspAgent final : public Agent {
   std::size_t body_;
   std::array<std::size_t, state::kMaxUsers> was_open_{};
   std::array<std::size_t, state::kMaxUsers> closed_s_{};  // how long the hand has been closing on a body
+  std::array<std::size_t, state::kMaxUsers> holds_{};     // the grasp is this agent's: another may share its bodies
   std::array<std::size_t, state::kMaxUsers> open_s_{};    // how long the holding hand has been open
 };
 

@@ -95,6 +95,27 @@ RC_GTEST_PROP(Grasp, AGloveHoldsWhenThumbAndFingerAreOpposed, ()) {
   if (stage.user().grasp.active) RC_ASSERT(stage.user().grasp.p_BG.norm() < 1e-12);
 }
 
+TEST(Grasp, AnAgentThatIsOffLeavesAnothersGraspAlone) {
+  state::WorldDescription world = with_grasp();
+  world.agents.push_back({"OTHER", "simulation.grasp", {{"bodies", text({"PART"})}, {"torqueLimit", number({2})}}, 6});
+  Stage stage(std::move(world));
+  stage.state->agent_enabled[0] = 0;
+  stage.appear(0, HandKind::one_point);
+  stage.touch(0, kPart, 0, Vec3::UnitX());
+  stage.tick();
+  stage.user().sample.grasp_intent = 1;
+  stage.run(0.1);
+  ASSERT_TRUE(stage.user().grasp.active);
+  EXPECT_EQ(stage.user().grasp.torque_limit_nm, 2);
+  EXPECT_EQ(stage.count(EventKind::grasped), 1);
+  EXPECT_EQ(stage.value("GRASP.active"), 0);
+  EXPECT_EQ(stage.value("OTHER.active"), 1);
+  stage.state->agent_enabled[0] = 1;
+  stage.state->agent_enabled[1] = 0;
+  stage.run(0.1);
+  EXPECT_FALSE(stage.user().grasp.active) << "nor does it take the body over from a hand that never opened";
+}
+
 TEST(Grasp, OpposedFingersOnTwoBodiesHoldNeither) {
   Stage stage(with_grasp());
   stage.appear(0, HandKind::glove);
