@@ -1,12 +1,12 @@
 #include "client-sdk/display/display_app.hpp"
 
-#include <fmt/format.h>
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "client-sdk/display/image_file.hpp"
 #include "server/base/assert.hpp"
@@ -33,7 +33,8 @@ Expected<void> make_folder(const std::string& folder) {
   if (folder.empty()) return {};
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return fail("the folder for pictures cannot be made: " + error.message(), folder, "choose another with --out");
+  if (error)
+    return fail("the folder for pictures cannot be made: " + error.message(), folder, "choose another with --out");
   return {};
 }
 
@@ -96,9 +97,8 @@ void DisplayLoop::open_scenario() {
   scenario_ = status_->scenario;
   folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
   renderer_.forget_assets();
-  library_ = std::make_unique<AssetLibrary>([folder = folder_](const std::string& uri) {
-    return content::import_mesh(std::filesystem::path(folder) / uri);
-  });
+  library_ = std::make_unique<AssetLibrary>(
+      [folder = folder_](const std::string& uri) { return content::import_mesh(std::filesystem::path(folder) / uri); });
   builder_ = std::make_unique<SceneBuilder>(*library_, options_.language);
   objects_known_ = 0;
 }
@@ -203,9 +203,13 @@ Expected<DisplaySummary> DisplayLoop::run() {
 }  // namespace
 
 std::string DisplaySummary::to_json() const {
-  const nlohmann::ordered_json json{
-      {"pictures", pictures},           {"frames", frames}, {"frame_ms", {{"median", frame_ms_median}, {"p99", frame_ms_p99}}},
-      {"missing_assets", missing_assets}, {"steps_missed", steps_missed}, {"done", done}, {"renderer", renderer}};
+  const nlohmann::ordered_json json{{"pictures", pictures},
+                                    {"frames", frames},
+                                    {"frame_ms", {{"median", frame_ms_median}, {"p99", frame_ms_p99}}},
+                                    {"missing_assets", missing_assets},
+                                    {"steps_missed", steps_missed},
+                                    {"done", done},
+                                    {"renderer", renderer}};
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -217,7 +221,8 @@ Expected<PixelSize> parse_size(const std::string& text) {
   const auto last = first ? std::from_chars(cross + 1, end, size.height) : std::from_chars_result{cross, error};
   const auto fits = [](std::uint32_t side) { return side >= 16 && side <= 8192; };
   if (!first || last.ec != std::errc() || last.ptr != end || !fits(size.width) || !fits(size.height)) {
-    return fail("'" + text + "' is no size of a picture", "--size", "write width x height in pixels, 16 to 8192, as in 1280x720");
+    return fail("'" + text + "' is no size of a picture", "--size",
+                "write width x height in pixels, 16 to 8192, as in 1280x720");
   }
   return size;
 }
@@ -227,7 +232,8 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   if (auto ok = make_folder(options.out); !ok) return tl::unexpected(ok.error());
   // Before the context: the driver's own threads inherit it. A refusal does no harm.
   if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
-  auto context = options.offscreen ? make_offscreen_context(options.size) : make_window_context(options.size, "Mechane");
+  auto context =
+      options.offscreen ? make_offscreen_context(options.size) : make_window_context(options.size, "Mechane");
   if (!context) return tl::unexpected(context.error());
   auto renderer = Renderer::create(options.renderer);
   if (!renderer) return tl::unexpected(renderer.error());

@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include <mechane/client/client.hpp>
-
 #include "client-sdk/display/gl_context.hpp"
 #include "client-sdk/display/picture_schedule.hpp"
 #include "client-sdk/display/renderer.hpp"
 #include "client-sdk/display/scene_builder.hpp"
+#include <mechane/client/client.hpp>
 
 namespace mechane::display {
 
@@ -24,25 +23,25 @@ struct DisplayOptions {
   PixelSize size{1280, 720};
   Stereo stereo = Stereo::mono;
   std::string language = "el";
-  std::string assets;           ///< folder that mesh files are relative to; empty: the scenario's folder, as the server sees it
-  std::string out;              ///< folder for pictures; made when it is not there
-  bool every_step = false;      ///< a picture of each step and each finished activity; offscreen, nothing else is drawn
-  std::uint32_t frames = 0;     ///< stop after so many frames, the last of them a picture; 0: no limit
-  double seconds = 0;           ///< stop after so long; 0: no limit
-  bool until_done = false;      ///< stop when the world's last activity is done
-  double fps = 60;              ///< at most
+  std::string assets;  ///< folder that mesh files are relative to; empty: the scenario's folder, as the server sees it
+  std::string out;     ///< folder for pictures; made when it is not there
+  bool every_step = false;   ///< a picture of each step and each finished activity; offscreen, nothing else is drawn
+  std::uint32_t frames = 0;  ///< stop after so many frames, the last of them a picture; 0: no limit
+  double seconds = 0;        ///< stop after so long; 0: no limit
+  bool until_done = false;   ///< stop when the world's last activity is done
+  double fps = 60;           ///< at most
   RendererSettings renderer;
 };
 
 /// What was done, for scripts.
 struct DisplaySummary {
-  std::vector<std::string> pictures;       ///< paths
-  std::vector<std::string> steps_missed;   ///< too short for a picture
+  std::vector<std::string> pictures;      ///< paths
+  std::vector<std::string> steps_missed;  ///< too short for a picture
   std::vector<std::string> missing_assets;
   std::uint64_t frames = 0;
   double frame_ms_median = 0;
   double frame_ms_p99 = 0;
-  bool done = false;                       ///< the world's last activity was done
+  bool done = false;  ///< the world's last activity was done
   std::string renderer;
 
   /// One line of JSON.

@@ -1,8 +1,9 @@
 // mechane-display: shows a kiosk's world, in a window or offscreen.
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <map>
+
+#include <CLI/CLI.hpp>
 
 #include "client-sdk/display/display_app.hpp"
 #include "server/log/log.hpp"
@@ -18,10 +19,13 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--domain", o.domain, "DDS domain")->capture_default_str();
   app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();
-  const std::map<std::string, display::Stereo> stereo{{"mono", display::Stereo::mono}, {"sbs", display::Stereo::side_by_side}};
+  const std::map<std::string, display::Stereo> stereo{{"mono", display::Stereo::mono},
+                                                      {"sbs", display::Stereo::side_by_side}};
   app.add_option("--stereo", o.stereo, "mono, or sbs: left and right eye side by side")
       ->transform(CLI::CheckedTransformer(stereo));
-  app.add_option("--language", o.language, "language of the captions")->check(CLI::IsMember({"el", "en"}))->capture_default_str();
+  app.add_option("--language", o.language, "language of the captions")
+      ->check(CLI::IsMember({"el", "en"}))
+      ->capture_default_str();
   app.add_option("--assets", o.assets, "folder that mesh files are relative to; without: the scenario's folder");
   app.add_option("--fonts", o.renderer.font_folder, "folder of the DejaVu fonts")->capture_default_str();
   app.add_option("--out", o.out, "folder for pictures (PNG); SIGUSR1, or P in the window, asks for one");

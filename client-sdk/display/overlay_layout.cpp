@@ -113,7 +113,7 @@ void add_readouts(Page& page, const OverlayContent& content) {
   if (content.readouts.empty()) return;
   const float margin = page.px(kMargin);
   const float padding = page.px(18);
-  const float width = page.px(216);
+  const float width = page.px(224);
   const float row = page.px(92);
   const auto count = static_cast<float>(content.readouts.size());
   const float x = page.width - margin - width;
@@ -129,7 +129,7 @@ void add_readouts(Page& page, const OverlayContent& content) {
     const float bar_y = at + page.px(63);
     const float full = width - 2 * padding;
     const float end_width = page.measure(Face::regular, 13, readout.end);
-    add_text(page, x + width - padding - end_width, at + page.px(51), Face::regular, 13, kQuiet, readout.end);
+    add_text(page, x + width - padding - end_width, at + page.px(13), Face::regular, 13, kQuiet, readout.end);
     page.out.shapes.push_back({x + padding, bar_y, full, bar, bar / 2, kFaint});
     const float filled = full * static_cast<float>(std::clamp(readout.fraction, 0.0, 1.0));
     if (filled >= bar) page.out.shapes.push_back({x + padding, bar_y, filled, bar, bar / 2, kWater});

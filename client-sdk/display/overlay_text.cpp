@@ -22,8 +22,8 @@ struct ReadableUnit {
 };
 
 constexpr std::array<ReadableUnit, 6> kUnits{{
-    {"l", "Water lifted", "Νερό που ανέβηκε", "litres", "λίτρα", 5, 1},
-    {"rpm", "Turning", "Περιστροφή", "turns/min", "στροφές/λεπτό", 60, 0},
+    {"l", "Water", "Νερό", "litres", "λίτρα", 5, 1},
+    {"rpm", "Speed", "Ταχύτητα", "turns/min", "στρ./λεπτό", 60, 0},
     {"l/min", "Flow", "Ροή", "litres/min", "λίτρα/λεπτό", 30, 0},
     {"N", "Force", "Δύναμη", "newtons", "νιούτον", 5, 1},
     {"degC", "Temperature", "Θερμοκρασία", "°C", "°C", 100, 0},
@@ -88,7 +88,8 @@ OverlayContent OverlayWriter::write(const client::WorldStatus& status, const cli
   std::set<std::string> shown;
   for (std::size_t i = 0; i < std::min(status.quantities.size(), frame->quantities.size()); ++i) {
     const client::QuantityInfo& info = status.quantities[i];
-    const double value = frame->quantities[i];
+    // Which way a crank turns is seen; a minus before a speed only puzzles.
+    const double value = info.unit == "rpm" ? std::abs(frame->quantities[i]) : frame->quantities[i];
     const std::optional<ReadableUnit> unit = readable(info.unit);
     // One readout a unit, the first of its kind: three numbers are a panel, six are an instrument.
     if (!unit || !std::isfinite(value) || !shown.insert(info.unit).second) continue;

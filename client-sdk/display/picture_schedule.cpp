@@ -9,7 +9,8 @@ std::string file_name(const std::string& text) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   };
-  std::ranges::replace_if(out, [&](char c) { return !plain(c); }, '-');
+  std::ranges::replace_if(
+      out, [&](char c) { return !plain(c); }, '-');
   return out;
 }
 

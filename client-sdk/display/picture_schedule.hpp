@@ -6,9 +6,8 @@
 #include <set>
 #include <string>
 
-#include <mechane/client/types.hpp>
-
 #include "server/base/clock.hpp"
+#include <mechane/client/types.hpp>
 
 namespace mechane::display {
 

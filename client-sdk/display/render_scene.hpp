@@ -75,9 +75,9 @@ struct WaterStream {
 };
 
 struct Sun {
-  Vec3f to_sun_W = Vec3f(0.48F, 0.72F, 0.50F).normalized();
+  Vec3f to_sun_W = Vec3f(0.58F, 0.60F, 0.46F).normalized();
   Vec3f irradiance =
-      Vec3f(3.7F, 3.25F, 2.6F);  ///< on a surface that faces the sun; the sky's own radiance is about 0.5
+      Vec3f(4.6F, 3.85F, 2.8F);  ///< on a surface that faces the sun; the sky's own radiance is about 0.5
 };
 
 /// A number that visitors read.

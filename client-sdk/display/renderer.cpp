@@ -91,7 +91,9 @@ ImageData Renderer::read_picture() const {
   return picture_->read();
 }
 
-void Renderer::finish() { glFinish(); }
+void Renderer::finish() {
+  glFinish();
+}
 
 void Renderer::copy_to_window(PixelSize window) const {
   MECHANE_ASSERT(picture_.has_value());

@@ -18,7 +18,7 @@ enum class Stereo : std::uint8_t {
 struct RendererSettings {
   int samples = 4;  ///< a pixel, 1..8
   std::uint32_t shadow_map_size = 2048;
-  float exposure = 0.92F;
+  float exposure = 1.15F;
   std::string font_folder = default_font_folder();
 };
 

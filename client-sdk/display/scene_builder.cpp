@@ -140,7 +140,9 @@ void SceneBuilder::find_place() {
     }
   }
   if (interest_W.isEmpty()) interest_W = box_W_.cast<double>();
-  camera_ = frame_box(interest_W, Vec3(0.16, 0.30, 1.0), 40.0 * kPi / 180);
+  // A hand's breadth of air around what moves.
+  interest_W.extend(interest_W.max() + Vec3(0, 0.10, 0.15));
+  camera_ = frame_box(interest_W, Vec3(0.20, 0.27, 1.0), 40.0 * kPi / 180);
   // The plain lies under the modelled ground, which is never quite level.
   if (!box_W_.isEmpty()) ground_height_m_ = scenery_.empty() ? std::min(box_W_.min().y(), 0.0F) : -0.06F;
 }

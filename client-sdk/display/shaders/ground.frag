@@ -16,9 +16,9 @@ void main() {
     grain = mix(fine, 0.5, smoothstep(6.0, 25.0, far));
     tilt = (value_noise(q * 34.0 + 0.35) - value_noise(q * 34.0)) * (1.0 - smoothstep(3.0, 12.0, far));
   }
-  vec3 earth = mix(vec3(0.36, 0.275, 0.185), vec3(0.47, 0.385, 0.27), patches);
-  vec3 grass = vec3(0.215, 0.215, 0.095);
-  vec3 base = mix(earth, grass, 0.75 * smoothstep(0.55, 0.80, value_noise(q * 0.37 + 19.0) * 0.7 + grain * 0.3));
+  vec3 earth = mix(vec3(0.215, 0.155, 0.095), vec3(0.30, 0.225, 0.14), patches);
+  vec3 grass = vec3(0.115, 0.125, 0.045);
+  vec3 base = mix(earth, grass, 0.85 * smoothstep(0.38, 0.72, value_noise(q * 0.11 + 19.0) * 0.45 + value_noise(q * 0.63 + 3.0) * 0.3 + grain * 0.25));
   base *= 0.78 + 0.44 * grain;
   vec3 n = normalize(vec3(tilt * 0.35, 1.0, tilt * 0.25));
   Surface s = Surface(base, 0.0, 0.95, n);

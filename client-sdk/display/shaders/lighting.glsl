@@ -101,6 +101,6 @@ vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
 }
 
 vec3 through_air(vec3 light, vec3 p_W) {
-  float share = 1.0 - exp(-distance(eye_W, p_W) * 0.010);
+  float share = 1.0 - exp(-distance(eye_W, p_W) * 0.0055);
   return mix(light, haze_colour(), share * sky_on);
 }

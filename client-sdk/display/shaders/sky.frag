@@ -2,10 +2,29 @@ in vec2 place;
 out vec4 colour;
 uniform mat4 R_WP;  // clip space to directions in W
 
+// Height of a range of hills, by direction: the tangent of its elevation.
+float hills(vec3 d, float scale, float height) {
+  float a = atan(d.x, -d.z) * scale;
+  return height * (0.25 + 0.60 * value_noise(vec2(a, 1.7)) + 0.30 * value_noise(vec2(a * 2.7, 5.1)) +
+                   0.10 * value_noise(vec2(a * 8.3, 9.4)));
+}
+
 void main() {
   vec4 p = R_WP * vec4(place * 2.0 - 1.0, 1.0, 1.0);
   vec3 d = normalize(p.xyz / p.w);
   vec3 sky = sky_radiance(d);
+  if (d.y > 0.0) {
+    // Thin high cloud, drawn out by the wind.
+    vec2 q = d.xz / (d.y + 0.12) * vec2(0.9, 2.2);
+    float cloud = value_noise(q) * 0.5 + value_noise(q * 2.3 + 4.0) * 0.3 + value_noise(q * 5.1 + 9.0) * 0.2;
+    sky = mix(sky, vec3(1.02, 0.99, 0.95), 0.55 * smoothstep(0.48, 0.80, cloud) * smoothstep(0.02, 0.25, d.y));
+  }
+  float elevation = d.y / max(length(d.xz), 1e-4);
+  float soft = max(fwidth(elevation), 1e-5);
+  vec3 far_hills = mix(vec3(0.20, 0.23, 0.24), haze_colour(), 0.62);
+  vec3 near_hills = mix(vec3(0.15, 0.15, 0.10), haze_colour(), 0.34);
+  sky = mix(sky, far_hills, smoothstep(soft, -soft, elevation - hills(d, 5.0, 0.055)));
+  sky = mix(sky, near_hills, smoothstep(soft, -soft, elevation - hills(d, 9.0, 0.024)));
   float disc = smoothstep(0.99985, 0.99995, dot(d, to_sun));
   colour = vec4(sky + disc * vec3(12.0, 10.5, 8.0), 1.0);
 }

@@ -11,8 +11,8 @@ uniform float ripple;
 
 vec2 slope(vec2 q) {
   vec2 sum = vec2(0.0);
-  float strength = 0.022;
-  float length_m = 0.55;
+  float strength = 0.050;
+  float length_m = 0.85;
   float a = 0.4;
   for (int i = 0; i < 5; ++i) {
     vec2 d = vec2(cos(a), sin(a));
@@ -31,7 +31,7 @@ void main() {
   if (!gl_FrontFacing) flat_n = -flat_n;
   vec3 n = flat_n;
   if (abs(flat_n.y) > 0.5) {
-    vec2 sl = slope(p_W.xz) / (1.0 + 0.02 * dot(eye_W - p_W, eye_W - p_W));
+    vec2 sl = slope(p_W.xz) / (1.0 + 0.012 * dot(eye_W - p_W, eye_W - p_W));
     n = normalize(flat_n - vec3(sl.x, 0.0, sl.y));
   }
   float nv = clamp(dot(n, v), 0.02, 1.0);
@@ -40,7 +40,7 @@ void main() {
   r.y = abs(r.y);
   float sun = sunlight(p_W, flat_n);
   float glint = pow(max(dot(r, to_sun), 0.0), 420.0) * 30.0 * sun;
-  vec3 deep = vec3(0.035, 0.115, 0.115);
+  vec3 deep = vec3(0.022, 0.050, 0.042);
   vec3 body = deep * (irradiance_from_sky(vec3(0, 1, 0)) / kPi * 1.6 + sun_irradiance * 0.22 * sun);
   float cover = mix(0.92, 0.45, clearness);
   vec3 light = body * cover + reflected_sky(r, 0.05) * fresnel + vec3(1.0, 0.9, 0.75) * glint * fresnel * 6.0;

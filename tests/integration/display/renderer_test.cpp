@@ -1,0 +1,198 @@
+#include "client-sdk/display/renderer.hpp"
+
+#include "tests/integration/display/drawn_picture.hpp"
+
+namespace mechane::display {
+namespace {
+
+/// Pixels from the picture's upper left corner, of a point seen by a camera at the origin that looks along -z, with the eye `e` metres
+/// to the right and a screen at distance D: by similar triangles, not by the renderer's matrices.
+Eigen::Vector2d seen_at(const Vec3& p, double e, double D, double fov, double width, double height) {
+  const double scale = 0.5 * height / (D * std::tan(fov / 2));
+  const double x = e + (p.x() - e) * D / -p.z();
+  const double y = p.y() * D / -p.z();
+  return {0.5 * width + x * scale, 0.5 * height - y * scale};
+}
+
+struct Blob {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double weight = 0;
+};
+
+/// Centre of the light in columns [from, to), x counted from `from`.
+Blob blob(const ImageData& image, std::uint32_t from, std::uint32_t to) {
+  Blob out;
+  for (std::uint32_t y = 0; y < image.height; ++y) {
+    for (std::uint32_t x = from; x < to; ++x) {
+      const double w = image.rgba[4 * (std::size_t{y} * image.width + x)];
+      out.middle += w * Eigen::Vector2d(x - from + 0.5, y + 0.5);
+      out.weight += w;
+    }
+  }
+  if (out.weight > 0) out.middle /= out.weight;
+  return out;
+}
+
+/// A small glowing sphere in the dark.
+struct Lamp {
+  SceneAssets assets;
+  RenderScene scene;
+
+  explicit Lamp(const Vec3& p_W) {
+    assets.meshes.push_back(sphere_mesh(0.02, 24, 32));
+    MaterialData glow;
+    glow.base_colour = Eigen::Vector4f(0, 0, 0, 1);
+    glow.emissive = Vec3f(4, 4, 4);
+    assets.materials.push_back(glow);
+    Instance lamp;
+    lamp.X_WM.translation() = p_W.cast<float>();
+    scene.instances.push_back(lamp);
+    scene.sky = false;
+    scene.sun.irradiance = Vec3f::Zero();
+    scene.shadow_box_W = Eigen::AlignedBox3f(Vec3f(-1, -1, -4), Vec3f(1, 1, 0));
+    scene.camera.p_WC = Vec3::Zero();
+    scene.camera.p_WT = Vec3(0, 0, -1.5);
+    scene.camera.eye_distance_m = 0.10;
+  }
+};
+
+TEST_F(DrawnPicture, both_eyes_see_a_lamp_where_geometry_says) {
+  // Before the screen (crossed), behind it, and in it.
+  for (const Vec3& p : {Vec3(0.05, 0.10, -0.8), Vec3(-0.15, -0.20, -3.0), Vec3(0.10, 0.05, -1.5)}) {
+    const Lamp lamp(p);
+    renderer_->forget_assets();
+    const ImageData image = draw(lamp.assets, lamp.scene, Stereo::side_by_side);
+    constexpr std::uint32_t kHalf = kSize.width / 2;
+    const Blob left = blob(image, 0, kHalf);
+    const Blob right = blob(image, kHalf, kSize.width);
+    ASSERT_GT(left.weight, 0);
+    ASSERT_GT(right.weight, 0);
+    const double fov = lamp.scene.camera.field_of_view_rad;
+    EXPECT_LT((left.middle - seen_at(p, -0.05, 1.5, fov, kHalf, kSize.height)).norm(), 1.0) << p.transpose();
+    EXPECT_LT((right.middle - seen_at(p, 0.05, 1.5, fov, kHalf, kSize.height)).norm(), 1.0) << p.transpose();
+    if (p.z() > -1.4) {
+      EXPECT_GT(left.middle.x(), right.middle.x() + 5) << "before the screen the left eye sees it further right";
+    } else if (p.z() < -1.6) {
+      EXPECT_LT(left.middle.x(), right.middle.x() - 3);
+    }
+  }
+}
+
+TEST_F(DrawnPicture, mono_shows_what_lies_between_the_eyes) {
+  const Vec3 p(0.2, -0.1, -2);
+  const Lamp lamp(p);
+  const ImageData image = draw(lamp.assets, lamp.scene);
+  const Blob seen = blob(image, 0, kSize.width);
+  EXPECT_LT((seen.middle - seen_at(p, 0, 1.5, lamp.scene.camera.field_of_view_rad, kSize.width, kSize.height)).norm(),
+            1.0);
+}
+
+/// A white ball over a white floor, the sun from the right, seen from the front.
+struct Ball {
+  SceneAssets assets;
+  RenderScene scene;
+
+  Ball() {
+    assets.meshes.push_back(sphere_mesh(0.3, 48, 64));
+    assets.meshes.push_back(box_mesh(Vec3(4, 0.05, 4)));
+    MaterialData white;
+    white.base_colour = Eigen::Vector4f(0.6F, 0.6F, 0.6F, 1);
+    assets.materials.push_back(white);
+    Instance ball;
+    ball.X_WM.translation() = Vec3f(0, 0.5F, 0);
+    Instance floor;
+    floor.mesh = 1;
+    floor.X_WM.translation() = Vec3f(0, -0.05F, 0);
+    scene.instances = {ball, floor};
+    scene.sun.to_sun_W = Vec3f(1, 1, 0).normalized();
+    scene.shadow_box_W = Eigen::AlignedBox3f(Vec3f(-2, -0.1F, -2), Vec3f(2, 1, 2));
+    scene.camera.p_WC = Vec3(0, 1.2, 3);
+    scene.camera.p_WT = Vec3(0, 0.4, 0);
+  }
+  /// Pixel of a point in W.
+  [[nodiscard]] Eigen::Vector2d pixel(const Vec3& p_W, PixelSize size) const {
+    const EyeView view = eye_view(scene.camera, Eye::middle, static_cast<double>(size.width) / size.height);
+    const Eigen::Vector4f clip = view.P * view.V_CW * p_W.cast<float>().homogeneous();
+    return {(clip.x() / clip.w() * 0.5 + 0.5) * size.width, (0.5 - clip.y() / clip.w() * 0.5) * size.height};
+  }
+};
+
+TEST_F(DrawnPicture, the_sun_lights_one_side_and_throws_a_shadow_on_the_other) {
+  const Ball ball;
+  const ImageData image = draw(ball.assets, ball.scene);
+  const Eigen::Vector2d lit = ball.pixel(Vec3(0.18, 0.6, 0.2), kSize);
+  const Eigen::Vector2d unlit = ball.pixel(Vec3(-0.24, 0.45, 0.15), kSize);
+  EXPECT_GT(mean(image, lit.x(), lit.y(), 3), mean(image, unlit.x(), unlit.y(), 3) + 40);
+  // The ball's middle falls along the sun's ray to x = -0.5 on the floor.
+  const Eigen::Vector2d shadow = ball.pixel(Vec3(-0.55, 0, 0), kSize);
+  const Eigen::Vector2d open = ball.pixel(Vec3(0.9, 0, 0), kSize);
+  const double dark = mean(image, shadow.x(), shadow.y(), 3);
+  EXPECT_LT(dark, mean(image, open.x(), open.y(), 3) - 50);
+  EXPECT_GT(dark, 15) << "the sky lights the shadow";
+
+  RenderScene without = ball.scene;
+  without.instances[0].casts_shadow = false;
+  const ImageData bright = draw(ball.assets, without);
+  EXPECT_GT(mean(bright, shadow.x(), shadow.y(), 3), dark + 50);
+}
+
+TEST_F(DrawnPicture, a_hand_near_a_surface_darkens_it) {
+  const Ball ball;
+  RenderScene scene = ball.scene;
+  scene.instances.erase(scene.instances.begin());
+  const ImageData before = draw(ball.assets, scene);
+  scene.occluders.push_back({Vec3f(0.4F, 0.06F, 0.3F), 0.05F});
+  const ImageData after = draw(ball.assets, scene);
+  const Eigen::Vector2d near = ball.pixel(Vec3(0.4, 0, 0.3), kSize);
+  const Eigen::Vector2d far = ball.pixel(Vec3(-0.9, 0, 0.3), kSize);
+  EXPECT_LT(mean(after, near.x(), near.y(), 2), mean(before, near.x(), near.y(), 2) - 5);
+  EXPECT_NEAR(mean(after, far.x(), far.y(), 2), mean(before, far.x(), far.y(), 2), 1);
+}
+
+TEST_F(DrawnPicture, words_are_drawn_within_their_panel) {
+  RenderScene scene;
+  scene.overlay.title = "Ο κοχλίας";
+  scene.overlay.caption = "Γυρίστε τη χειρολαβή.";
+  scene.overlay.steps_total = 3;
+  const ImageData image = draw({}, scene);
+  // The panel is dark with bright letters; above it is the sky.
+  int bright = 0;
+  int dark = 0;
+  for (std::uint32_t y = kSize.height - 80; y < kSize.height - 24; ++y) {
+    for (std::uint32_t x = 24; x < 300; ++x) {
+      bright += brightness(image, x, y) > 200 ? 1 : 0;
+      dark += brightness(image, x, y) < 90 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(bright, 150);
+  EXPECT_GT(dark, 5000);
+}
+
+TEST(GlContext, tells_when_there_is_no_driver) {
+  // In a process of its own: EGL looks for drivers once.
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere.json", 1);
+        const auto context = make_offscreen_context({64, 64});
+        if (!context) std::fputs(context.error().to_string().c_str(), stderr);
+        std::_Exit(context ? 1 : 0);
+      },
+      testing::ExitedWithCode(0), "libegl-mesa0");
+}
+
+TEST(GlContext, tells_when_there_is_no_screen) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        unsetenv("DISPLAY");
+        unsetenv("WAYLAND_DISPLAY");
+        const auto context = make_window_context({64, 64}, "test");
+        if (!context) std::fputs(context.error().to_string().c_str(), stderr);
+        std::_Exit(context ? 1 : 0);
+      },
+      testing::ExitedWithCode(0), "--offscreen");
+}
+
+}  // namespace
+}  // namespace mechane::display

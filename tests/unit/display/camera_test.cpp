@@ -1,0 +1,61 @@
+#include "client-sdk/display/camera.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::display {
+namespace {
+
+/// Where a point of W comes out, in -1..1 across and up.
+Eigen::Vector2d project(const EyeView& view, const Vec3& p_WQ) {
+  const Eigen::Vector4f clip = view.P * view.V_CW * p_WQ.cast<float>().homogeneous();
+  return (clip.head<2>() / clip.w()).cast<double>();
+}
+
+double any(double low, double high) {
+  return low + (high - low) * (*rc::gen::inRange(0, 100'000)) / 100'000.0;
+}
+
+RC_GTEST_PROP(Camera, eyes_agree_at_the_screen_and_part_by_similar_triangles, ()) {
+  Camera camera;
+  camera.p_WC = Vec3::Zero();
+  camera.p_WT = Vec3(0, 0, -1);
+  camera.eye_distance_m = any(0.03, 0.2);
+  camera.screen_distance_m = any(0.5, 10);
+  const double depth = any(0.4, 30);
+  const Vec3 p_WQ(any(-0.3, 0.3) * depth, any(-0.3, 0.3) * depth, -depth);
+  const double aspect = any(0.5, 2.5);
+  const Eigen::Vector2d left = project(eye_view(camera, Eye::left, aspect), p_WQ);
+  const Eigen::Vector2d right = project(eye_view(camera, Eye::right, aspect), p_WQ);
+  // A window at distance D, half width D tan(fov/2) aspect: the eye's ray crosses it e (1 - D/z) further to its own side.
+  const double half_width = camera.screen_distance_m * std::tan(camera.field_of_view_rad / 2) * aspect;
+  const double disparity = camera.eye_distance_m * (1 - camera.screen_distance_m / depth) / half_width;
+  RC_ASSERT(std::abs((right.x() - left.x()) - disparity) < 2e-4);
+  RC_ASSERT(std::abs(right.y() - left.y()) < 1e-5);
+}
+
+RC_GTEST_PROP(Camera, a_framed_box_is_seen_whole, ()) {
+  Eigen::AlignedBox3d box(Vec3(any(-3, 0), any(-1, 0), any(-2, 0)), Vec3(any(0.1, 3), any(0.1, 2), any(0.1, 2)));
+  const Camera camera = frame_box(box, Vec3(any(-0.5, 0.5), any(0.05, 0.8), 1), any(0.4, 1.0));
+  for (const double aspect : {16.0 / 9, 8.0 / 9, 4.0 / 3}) {
+    const EyeView view = eye_view(camera, Eye::middle, aspect);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector2d at = project(view, box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+      RC_ASSERT(std::abs(at.x()) < 1.0);
+      RC_ASSERT(std::abs(at.y()) < 1.0);
+    }
+  }
+}
+
+RC_GTEST_PROP(Camera, the_light_covers_the_box, ()) {
+  const Eigen::AlignedBox3f box(Vec3(any(-3, 0), -1, -2).cast<float>(), Vec3(any(0.1, 3), 1, 2).cast<float>());
+  const Vec3 to_light(any(-1, 1), any(0.1, 1), any(-1, 1));
+  const Eigen::Matrix4f PV = light_view(box, to_light.cast<float>());
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3f at = (PV * box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)).homogeneous()).head<3>();
+    RC_ASSERT(at.cwiseAbs().maxCoeff() <= 1.0F);
+  }
+}
+
+}  // namespace
+}  // namespace mechane::display

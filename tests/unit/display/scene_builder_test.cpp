@@ -1,0 +1,161 @@
+#include "client-sdk/display/scene_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include "client-sdk/display/procedural_mesh.hpp"
+
+namespace mechane::display {
+namespace {
+
+content::ImportedMesh imported(const MeshData& mesh) {
+  content::ImportedMesh out;
+  out.positions = mesh.positions;
+  out.normals = mesh.normals;
+  out.indices = mesh.indices;
+  return out;
+}
+
+/// A barrel along z with two staves, scenery, and two surfaces of water: the names of the shipped models.
+content::ImportedScene machine_file() {
+  content::ImportedScene scene;
+  scene.materials.resize(2);
+  scene.meshes = {imported(box_mesh(Vec3(0.1, 0.1, 1))), imported(box_mesh(Vec3(2, 0.1, 2))),
+                  imported(disc_mesh(0.3, 8))};
+  const auto add = [&](const std::string& name, std::optional<std::uint32_t> parent,
+                       std::vector<std::uint32_t> meshes) {
+    content::ImportedNode node;
+    node.name = name;
+    node.parent = parent;
+    node.meshes = std::move(meshes);
+    scene.nodes.push_back(node);
+  };
+  add("OUTER", {}, {});
+  add("part_a", 0, {0});
+  add("part_b", 0, {0});
+  add("SCENE", {}, {1});
+  add("WATER_BASIN", {}, {2});
+  return scene;
+}
+
+AssetLibrary library_of(int& loads) {
+  return AssetLibrary([&loads](const std::string& uri) -> Expected<content::ImportedScene> {
+    ++loads;
+    if (uri != "machine.glb") return fail("no such file", uri, "export it");
+    return machine_file();
+  });
+}
+
+client::SceneObject object(std::uint32_t index, const std::string& uri, const std::string& node) {
+  client::SceneObject out;
+  out.index = index;
+  out.name = node;
+  out.mesh_uri = uri;
+  out.mesh_node = node;
+  out.movable = true;
+  return out;
+}
+
+client::WorldStatus water_status() {
+  client::WorldStatus status;
+  status.quantities = {{"level", "m"}, {"flow", "l/s"}};
+  return status;
+}
+
+TEST(AssetLibrary, a_missing_file_or_node_is_a_box_and_is_told) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  EXPECT_FALSE(library.model("machine.glb", "OUTER").missing);
+  const ObjectModel& no_file = library.model("gone.glb", "X");
+  EXPECT_TRUE(no_file.missing);
+  EXPECT_EQ(no_file.parts.size(), 1U);
+  EXPECT_TRUE(library.model("gone.glb", "Y").missing);
+  EXPECT_TRUE(library.model("machine.glb", "NOBODY").missing);
+  EXPECT_EQ(library.missing(), (std::set<std::string>{"gone.glb", "machine.glb#NOBODY"}));
+  EXPECT_EQ(loads, 2) << "each file is read once, found or not";
+}
+
+TEST(AssetLibrary, what_moves_together_is_one_mesh) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  const ObjectModel& model = library.model("machine.glb", "OUTER");
+  ASSERT_EQ(model.parts.size(), 1U);
+  EXPECT_EQ(library.assets().meshes[model.parts[0].mesh].indices.size(), 2 * 36U);
+}
+
+TEST(SceneBuilder, water_stands_where_the_level_says) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  builder.set_manifest({object(0, "machine.glb", "OUTER")});
+  const client::WorldStatus status = water_status();
+  client::Frame frame;
+  frame.quantities = {0.0, 0.0};
+  EXPECT_TRUE(builder.build(&frame, &status, client::LinkState::joined).waters.empty())
+      << "an empty basin shows its floor";
+  for (const double level : {0.1, 0.25}) {
+    frame.quantities = {level, 0.0};
+    const RenderScene scene = builder.build(&frame, &status, client::LinkState::joined);
+    ASSERT_EQ(scene.waters.size(), 1U);
+    EXPECT_FLOAT_EQ(scene.waters[0].X_WM.translation().y(), static_cast<float>(level));
+  }
+}
+
+TEST(SceneBuilder, the_stream_carries_the_flow) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  client::SceneObject barrel = object(0, "machine.glb", "OUTER");
+  barrel.X_WB = {Vec3(0, 1, 0),
+                 Quat(Eigen::AngleAxisd(kPi / 4, Vec3::UnitY()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX()))};
+  builder.set_manifest({barrel});
+  const client::WorldStatus status = water_status();
+  client::Frame frame;
+  frame.quantities = {0.1, 0.0};
+  EXPECT_TRUE(builder.build(&frame, &status, client::LinkState::joined).streams.empty());
+  frame.quantities = {0.1, 0.25};
+  const RenderScene slow = builder.build(&frame, &status, client::LinkState::joined);
+  frame.quantities = {0.1, 1.0};
+  const RenderScene fast = builder.build(&frame, &status, client::LinkState::joined);
+  ASSERT_EQ(slow.streams.size(), 1U);
+  EXPECT_NEAR(fast.streams[0].width_m, 2 * slow.streams[0].width_m, 1e-5) << "four times the water, twice the width";
+  EXPECT_FLOAT_EQ(slow.streams[0].landing_height_m, 0.1F);
+  // The barrel's +z end is the high one: water leaves there, below its axis.
+  const Vec3 end = barrel.X_WB * Vec3(0, 0, 1);
+  EXPECT_LT((slow.streams[0].p_WS.cast<double>() - end).norm(), 0.2);
+  EXPECT_LT(slow.streams[0].p_WS.y(), static_cast<float>(end.y()));
+}
+
+TEST(SceneBuilder, nothing_moves_but_what_the_frame_says) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  builder.set_manifest({object(7, "machine.glb", "OUTER")});
+  client::Frame frame;
+  frame.tick = 1500;
+  frame.bodies = {{7, {Vec3(1, 2, 3), Quat::Identity()}}};
+  const client::WorldStatus status;
+  const RenderScene first = builder.build(&frame, &status, client::LinkState::joined);
+  const RenderScene again = builder.build(&frame, &status, client::LinkState::lost);
+  EXPECT_EQ(first.time_s, 1.5);
+  EXPECT_EQ(again.time_s, 1.5);
+  ASSERT_FALSE(first.instances.empty());
+  EXPECT_EQ(first.instances[0].X_WM.translation(), Vec3f(1, 2, 3));
+  EXPECT_EQ(again.instances[0].X_WM.matrix(), first.instances[0].X_WM.matrix());
+  EXPECT_FALSE(again.overlay.note.empty());
+  frame.visible.assign(8, 1);
+  frame.visible[7] = 0;
+  EXPECT_LT(builder.build(&frame, &status, client::LinkState::joined).instances.size(), first.instances.size());
+}
+
+TEST(HandModel, knows_the_scale_from_the_poses) {
+  client::HandPose hand;
+  for (const double scale : {0.7, 1.0, 1.3}) {
+    const Quat bend(Eigen::AngleAxisd(-0.8, Vec3::UnitZ()));
+    hand.X_WS[0] = {Vec3(3, 2, 1), Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))};
+    hand.X_WS[4] = hand.X_WS[0] * Pose{scale * (Vec3(0.048, 0, -0.031) + bend * Vec3(0.0225, 0, 0)), bend};
+    EXPECT_NEAR(hand_scale(hand), scale, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace mechane::display
