@@ -6,9 +6,8 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 
-# Dev: fast enough to run the loop, assertions on. Release keeps debug symbols apart from speed, and keeps MECHANE_ASSERT.
-set(CMAKE_CXX_FLAGS_DEV "-O1 -g1" CACHE STRING "")
-set(CMAKE_C_FLAGS_DEV "-O1 -g1" CACHE STRING "")
+# Dev (its flags are in CMakePresets.json: project() has made them empty cache entries by now): fast enough to run the loop,
+# assertions on. Release keeps debug symbols apart from speed, and keeps MECHANE_ASSERT.
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1 -DNDEBUG" CACHE STRING "" FORCE)
 
 find_program(CCACHE ccache)
