@@ -97,6 +97,7 @@ bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
   out.sequence = wire.seq;
   out.echo_sequence = wire.echo_seq;
   out.echo_sent = TimePoint(Duration(static_cast<std::int64_t>(wire.echo_sent_ns)));
+  out.waited = std::chrono::microseconds(wire.waited_us);
   out.force_W = {proto::to_vec3(wire.f_W), proto::to_vec3(wire.t_W)};
   std::copy(std::begin(wire.finger_force_n), std::end(wire.finger_force_n), out.finger_force_n.begin());
   out.contact_count = wire.contact_count;

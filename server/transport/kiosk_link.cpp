@@ -12,6 +12,10 @@ namespace {
 // As long as the client's governor holds a force without a new sample.
 constexpr std::uint32_t kContactValidUs = 10'000;
 
+std::uint32_t to_us(Duration d) noexcept {
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(d.count() / 1000, 0, 0xffffffff));
+}
+
 void set_contact(proto::WireLocalContact& out, const state::LocalContact& from) noexcept {
   proto::set_vec3(out.p_W, from.p_W);
   proto::set_vec3(out.n_W, from.n_W);
@@ -101,6 +105,7 @@ bool KioskLink::write(const Lane& lane, const OutgoingForce& force) noexcept {
   wire_.session = lane.session;
   wire_.seq = hands_[lane.user].next_sequence++;
   wire_.tick = force.tick;
+  wire_.waited_us = to_us(force.waited);
   wire_.epoch = epoch_;
   set_force(wire_, force.output);
   wire_.sent_ns = to_ns(std::chrono::steady_clock::now());

@@ -22,6 +22,7 @@ struct ArrivedSample {
 struct OutgoingForce {
   state::HapticOutput output;
   std::uint64_t tick = 0;
+  Duration waited{0};  ///< age of the answered input when the tick took it
 };
 
 /// Each mailbox has one producer and one consumer for the lane's whole life: a hand that moves to another world, and so to another

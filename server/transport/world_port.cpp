@@ -144,6 +144,7 @@ void WorldPort::publish(const state::WorldState& state) noexcept {
     OutgoingForce& out = current_.lanes[i]->forces.writable();
     out.output = user.output;
     out.tick = state.tick;
+    out.waited = user.age;
     current_.lanes[i]->forces.commit();
     any_force = true;
   }
