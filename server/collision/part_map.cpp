@@ -87,7 +87,8 @@ RadialMap cast_map(const Solid& solid, std::size_t part, const geometry::Mesh& m
   Vec3 half = shape.a + center_Q.cwiseAbs();
   for (const Vec3& v : mesh.vertices)
     half = half.cwiseMax((X_OQ.inverse() * v - center_Q).cwiseAbs());
-  const Vec3f half_Q = (1.0001 * half).cast<float>();
+  // Half a crack more on each side, so that parts beside a crack meet in it.
+  const Vec3f half_Q = (1.0001 * half.array() + 0.5 * solid.seam_gap_m()).matrix().cast<float>();
 
   std::vector<float> sigma;
   sigma.reserve(static_cast<std::size_t>(6 * resolution * resolution));

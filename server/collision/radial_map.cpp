@@ -17,6 +17,12 @@ float largest_sigma(std::span<const float> sigma) {
   return largest;
 }
 
+int longest_axis(const Vec3f& x) noexcept {
+  const Vec3f ax = x.cwiseAbs();
+  if (ax.x() >= ax.y() && ax.x() >= ax.z()) return 0;
+  return ax.y() >= ax.z() ? 1 : 2;
+}
+
 }  // namespace
 
 bool RadialMap::is_valid(int resolution, const Vec3f& center_Q, const Vec3f& half_Q, float sigma_step,
@@ -58,20 +64,13 @@ Vec3 RadialMap::texel_direction(int resolution, const Vec3f& half_Q, int face, i
   return scaled.cwiseProduct(half_Q.cast<double>());
 }
 
-RadialMap::Local RadialMap::local(const Vec3f& p_CP) const noexcept {
-  const Vec3f x = p_CP.cwiseProduct(inverse_half_);
-  const Vec3f ax = x.cwiseAbs();
-  int axis = 2;
-  if (ax.x() >= ax.y() && ax.x() >= ax.z()) {
-    axis = 0;
-  } else if (ax.y() >= ax.z()) {
-    axis = 1;
-  }
+/// g and its gradient at the scaled point x, on the face of `axis`, which must be (nearly) the longest.
+RadialMap::Local RadialMap::local(const Vec3f& x, int axis) const noexcept {
   const int axis_u = axis == 2 ? 0 : axis + 1;
   const int axis_v = axis == 0 ? 2 : axis - 1;
   const float sign = x[axis] < 0 ? -1.0F : 1.0F;
   Local at;
-  at.m = ax[axis];
+  at.m = std::abs(x[axis]);
 
   const float half_n = 0.5F * static_cast<float>(resolution_ - 1);
   const float m = at.m + kTiny;
@@ -105,39 +104,53 @@ RadialMap::Local RadialMap::local(const Vec3f& p_CP) const noexcept {
   return at;
 }
 
+/// The tangent plane where the direction of `x_foot` meets the surface, and the depth of x under it. Depth 0: no such plane.
+RadialMap::Plane RadialMap::tangent_plane(const Vec3f& x, const Vec3f& x_foot, int axis) const noexcept {
+  const Local foot = local(x_foot, axis);
+  const float square = foot.gradient.squaredNorm();
+  if (!(square > kTiny)) return {};  // every direction hereabouts is covered: no surface
+  // g is nearly linear along a ray and from it to the sides, so the plane g + gradient (y - x_foot) = 0 is the tangent plane.
+  const float g_at_x = foot.g + foot.gradient.dot((x - x_foot).cwiseProduct(half_Q_));
+  const float norm = std::sqrt(square);
+  return {foot.gradient / norm, std::max(0.0F, -g_at_x / norm)};
+}
+
+RadialMap::Plane RadialMap::nearest_plane(const Vec3f& x, int own_axis) const noexcept {
+  Plane nearest = tangent_plane(x, x, own_axis);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3f x_foot = x;
+    x_foot[axis] = x[axis] < 0 ? -1.0F : 1.0F;
+    const Plane plane = tangent_plane(x, x_foot, axis);
+    if (plane.depth_m > 0 && (plane.depth_m < nearest.depth_m || !(nearest.depth_m > 0))) nearest = plane;
+  }
+  return nearest;
+}
+
+/// The surface's own normal where the guess lands, and the depth along it; the guess itself where the map says that it was better.
+RadialMap::Plane RadialMap::newton_step(const Vec3f& x, const Plane& guess) const noexcept {
+  const Vec3f x_landed = x + (guess.depth_m * guess.n).cwiseProduct(inverse_half_);
+  const Plane there = tangent_plane(x, x_landed, longest_axis(x_landed));
+  const bool sound = there.depth_m > 0 && there.n.dot(guess.n) > 0.5F && there.depth_m < 2 * guess.depth_m;
+  return sound ? there : guess;
+}
+
 MapHit RadialMap::evaluate(const Vec3f& p_QP) const noexcept {
   MapHit result;
   if (texels_.empty()) return result;
-  const Vec3f p_CP = p_QP - center_Q_;
-  const Vec3f x = p_CP.cwiseProduct(inverse_half_);
+  const Vec3f x = (p_QP - center_Q_).cwiseProduct(inverse_half_);
   // Written so that NaN is outside.
-  if (!(x.cwiseAbs().maxCoeff() <= 1.0F) || !x.allFinite()) return result;
-  const Local here = local(p_CP);
-  const float square = here.gradient.squaredNorm();
-  // No slope: every neighbouring direction is covered, the surface is nowhere near.
-  if (!(here.g < 0) || !(square > kTiny)) return result;
-  const float norm = std::sqrt(square);
-  float depth = -here.g / norm;
-  Vec3f n = here.gradient / norm;
-
-  // One Newton step: the surface's own normal where the first guess lands, and the depth along it.
-  const Vec3f p_CG = p_CP + depth * n;
-  const Local there = local(p_CG);
-  const float square_there = there.gradient.squaredNorm();
-  if (square_there > kTiny && std::abs(there.g) < std::abs(here.g)) {
-    const Vec3f p_CS = p_CG - (there.g / square_there) * there.gradient;
-    const Vec3f n_there = there.gradient / std::sqrt(square_there);
-    const float along = (p_CS - p_CP).dot(n_there);
-    if (along > 0 && n_there.dot(n) > 0) {
-      depth = along;
-      n = n_there;
-    }
-  }
-  result.hit = depth > 0;
-  result.depth_m = depth;
+  if (!(std::abs(x.x()) <= 1.0F && std::abs(x.y()) <= 1.0F && std::abs(x.z()) <= 1.0F)) return result;
+  const int own_axis = longest_axis(x);
+  const Local here = local(x, own_axis);
+  if (!(here.g < 0)) return result;
+  const Plane nearest = nearest_plane(x, own_axis);
+  if (!(nearest.depth_m > 0)) return result;  // covered on all sides: deep in the wood of several parts
+  const Plane surface = newton_step(x, nearest);
+  result.hit = true;
+  result.depth_m = surface.depth_m;
   result.m = here.m;
-  result.n_Q = n;
-  result.p_QS = p_QP + depth * n;
+  result.n_Q = surface.n;
+  result.p_QS = p_QP + surface.depth_m * surface.n;
   return result;
 }
 

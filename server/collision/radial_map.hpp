@@ -49,7 +49,11 @@ class RadialMap {
   /// The direction of a texel's centre, from the centre, in Q, with m = 1: the point where sigma = 1 would put the surface.
   [[nodiscard]] static Vec3 texel_direction(int resolution, const Vec3f& half_Q, int face, int iu, int iv);
 
-  /// Depth, normal and surface point, after one Newton step; no hit outside the box m <= 1 and outside the surface. Any thread.
+  /// Depth, normal and surface point; no hit outside the box m <= 1 and outside the surface. Any thread.
+  ///
+  /// Whether p is inside, its own ray from the centre says. That ray is no guide to the depth: in a plank it leads most points to the
+  /// far end. So four tangent planes are asked, where p's own ray and where three lines along the axes meet the surface; the nearest
+  /// counts, and one Newton step on the map improves it. Exact for boxes; still no search.
   [[nodiscard]] MapHit evaluate(const Vec3f& p_QP) const noexcept;
 
   [[nodiscard]] int resolution() const { return resolution_; }
@@ -64,7 +68,14 @@ class RadialMap {
     float g = 1;                     // m sigma - 1: below 0 inside
     Vec3f gradient = Vec3f::Zero();  // dg/dp, 1/m
   };
-  [[nodiscard]] Local local(const Vec3f& p_CP) const noexcept;
+  struct Plane {
+    Vec3f n = Vec3f::UnitZ();
+    float depth_m = 0;
+  };
+  [[nodiscard]] Local local(const Vec3f& x, int axis) const noexcept;
+  [[nodiscard]] Plane tangent_plane(const Vec3f& x, const Vec3f& x_foot, int axis) const noexcept;
+  [[nodiscard]] Plane nearest_plane(const Vec3f& x, int own_axis) const noexcept;
+  [[nodiscard]] Plane newton_step(const Vec3f& x, const Plane& guess) const noexcept;
 
   int resolution_ = 0;
   Vec3f center_Q_ = Vec3f::Zero();

@@ -28,7 +28,7 @@ Vec3 aside(const Vec3& direction) {
 }  // namespace
 
 Solid::Solid(std::span<const geometry::Mesh> welded_parts, double seam_gap_m)
-    : seam_gap_m_(seam_gap_m), whole_(merge_closed(welded_parts)) {
+    : seam_gap_m_(welded_parts.size() > 1 ? seam_gap_m : 0), whole_(merge_closed(welded_parts)) {
   for (const geometry::Mesh& part : welded_parts) {
     parts_.emplace_back(part);
     boxes_.push_back(part.bounds());
@@ -56,14 +56,25 @@ double Solid::walk(std::size_t part, const Vec3& origin, const Vec3& direction, 
   int winding = 0;
   for (const geometry::RayHit& hit : hits)
     winding += hit.entering ? -1 : 1;
-  const double gap = seam_gap_m_ / direction.norm();
-  double inside_until = 0;
+  const geometry::RayHit* last_exit = nullptr;
   for (const geometry::RayHit& hit : hits) {
-    if (winding <= 0 && hit.t > inside_until + gap) return std::min(inside_until, limit);
+    if (winding <= 0) {
+      if (last_exit == nullptr) return 0;
+      if (!is_crack(*last_exit, hit, direction)) break;
+    }
     winding += hit.entering ? 1 : -1;
-    inside_until = hit.t;
+    last_exit = &hit;
   }
-  return std::min(inside_until, limit);
+  return last_exit == nullptr ? 0 : std::min(last_exit->t, limit);
+}
+
+/// A ray may cross a crack at a slant, so its way through the air says little: the crack's width is that way seen along the faces' normals.
+bool Solid::is_crack(const geometry::RayHit& exit, const geometry::RayHit& entry, const Vec3& direction) const {
+  const Vec3 way = (entry.t - exit.t) * direction;
+  if (way.norm() < 1e-9) return true;  // faces in contact
+  const Vec3 n_exit = whole_.triangle_normal(exit.triangle);
+  const Vec3 n_entry = whole_.triangle_normal(entry.triangle);
+  return n_exit.dot(n_entry) < -0.5 && std::max(std::abs(way.dot(n_exit)), std::abs(way.dot(n_entry))) <= seam_gap_m_;
 }
 
 }  // namespace mechane::collision

@@ -28,9 +28,14 @@ class Solid {
   /// For an open part: the outermost hit with its own mesh, whatever lies before it. 0: the ray starts in air, or never meets the part.
   [[nodiscard]] double walk(std::size_t part, const Vec3& origin, const Vec3& direction, double limit) const;
 
+  /// Cracks at seams up to this width are wood; 0 for an object of one part.
+  [[nodiscard]] double seam_gap_m() const { return seam_gap_m_; }
+
   [[nodiscard]] const geometry::MeshQuery& part(std::size_t part) const { return parts_[part]; }
 
  private:
+  [[nodiscard]] bool is_crack(const geometry::RayHit& exit, const geometry::RayHit& entry, const Vec3& direction) const;
+
   double seam_gap_m_;
   std::vector<geometry::MeshQuery> parts_;
   std::vector<Eigen::AlignedBox3d> boxes_;

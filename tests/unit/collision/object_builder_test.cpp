@@ -1,0 +1,180 @@
+#include "server/collision/object_builder.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "server/geometry/mesh_query.hpp"
+#include "server/geometry/random.hpp"
+#include "tests/support/shapes.hpp"
+
+namespace mechane::collision {
+namespace {
+
+using geometry::NamedMesh;
+
+/// The hit that find_contacts would report for one point, over all parts.
+MapHit ask(const Object& object, const Vec3& p_O) {
+  MapHit best;
+  for (const Part& part : object.parts) {
+    const MapHit hit = part.map.evaluate((part.X_OQ.inverse() * p_O).cast<float>());
+    if (hit.hit && (!best.hit || hit.m < best.m)) best = hit;
+  }
+  return best;
+}
+
+void expect_sound(const Object& object) {
+  ASSERT_EQ(object.first_cluster.size(), object.parts.size() + 1);
+  for (const Cluster& c : object.clusters) {
+    ASSERT_GE(c.count, 1);
+    ASSERT_LE(c.count, 16);
+    for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
+      const Vec3 p = object.samples_O[i].cast<double>();
+      EXPECT_LE((p - c.bound_O.center).norm(), c.bound_O.radius);
+      EXPECT_LE((p - object.bound_O.center).norm(), object.bound_O.radius * (1 + 1e-6));
+    }
+  }
+}
+
+TEST(BuildObject, ABoxIsABox) {
+  const std::vector<NamedMesh> parts = {{"plank", test::box({0.2, 0.05, 0.01})}};
+  BuildReport report;
+  const auto object = build_object(parts, {}, &report);
+  ASSERT_TRUE(object) << object.error().to_string();
+  expect_sound(*object);
+  EXPECT_GT(object->samples_O.size(), 1500U);
+  ASSERT_EQ(report.parts.size(), 1U);
+  EXPECT_TRUE(report.parts[0].closed);
+  EXPECT_LT(report.parts[0].depth_error_p50_m, 2e-5);
+  EXPECT_LT(report.parts[0].depth_error_p99_m, 1.2e-3);  // at the edges, where two faces are near
+}
+
+class Barrel : public ::testing::TestWithParam<std::pair<int, double>> {
+ protected:
+  static constexpr double kInner = 0.13;
+  static constexpr double kOuter = 0.15;
+  static constexpr double kHalf = 0.3;
+  [[nodiscard]] static Vec3 at(double radius, double angle, double z) {
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+  }
+};
+
+TEST_P(Barrel, HollowIsAirAndWoodIsWoodAlsoAtTheSeams) {
+  const auto [staves, gap] = GetParam();
+  const auto parts = test::barrel(staves, kInner, kOuter, kHalf, 96 / staves, gap);
+  BuildConfig config;
+  config.sample_spacing_m = 0.02;
+  BuildReport report;
+  const auto object = build_object(parts, config, &report);
+  ASSERT_TRUE(object) << object.error().to_string();
+  expect_sound(*object);
+
+  geometry::Random random(11);
+  int missed = 0;
+  int sideways = 0;
+  double worst = 0;
+  const int kProbes = 4000;
+  for (int i = 0; i < kProbes; ++i) {
+    const double angle = 2 * kPi * random.unit();
+    const double z = 0.95 * kHalf * (2 * random.unit() - 1);
+    // Air, up to a millimetre from the inner wall: the 96 facets are chords, and a chord lies inside the circle.
+    EXPECT_FALSE(ask(*object, at((kInner - 0.0011) * std::sqrt(random.unit()), angle, z)).hit);
+    // Wood: under the outer wall by up to 5 mm, seen as such, with the wall's normal.
+    const double depth = 0.0005 + 0.0045 * random.unit();
+    const Vec3 wood = at(kOuter - depth, angle, z);
+    const MapHit hit = ask(*object, wood);
+    missed += hit.hit ? 0 : 1;
+    if (!hit.hit) continue;
+    worst = std::max(worst, std::abs(hit.depth_m - depth));
+    sideways += std::abs(hit.depth_m - depth) > 0.001 ? 1 : 0;
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_LT(sideways, kProbes / 100) << "worst " << worst;
+  for (const PartReport& part : report.parts) {
+    EXPECT_TRUE(part.closed);
+    EXPECT_LT(part.depth_error_p99_m, 0.002) << part.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Staves, Barrel,
+                         ::testing::Values(std::pair{16, 0.0}, std::pair{16, 0.0005}, std::pair{8, 0.0}),
+                         [](const auto& c) {
+                           return std::to_string(c.param.first) + (c.param.second > 0 ? "_with_cracks" : "_tight");
+                         });
+
+TEST(BuildObject, SeamsAreNotSampled) {
+  const auto parts = test::barrel(16, 0.13, 0.15, 0.3, 4);
+  BuildConfig config;
+  config.sample_spacing_m = 0.01;
+  const auto object = build_object(parts, config);
+  ASSERT_TRUE(object);
+  for (const Vec3f& p : object->samples_O) {
+    const double radius = std::hypot(p.x(), p.y());
+    const bool on_wall = radius < 0.1301 || radius > 0.1485;
+    const bool on_end = std::abs(p.z()) > 0.2999F;
+    EXPECT_TRUE(on_wall || on_end) << p.transpose();
+  }
+}
+
+TEST(BuildObject, SameInputSameBits) {
+  const auto once = build_object(test::crank(), {});
+  const auto again = build_object(test::crank(), {});
+  ASSERT_TRUE(once && again);
+  ASSERT_EQ(once->samples_O.size(), again->samples_O.size());
+  for (std::size_t i = 0; i < once->samples_O.size(); ++i)
+    ASSERT_EQ(once->samples_O[i], again->samples_O[i]);
+  for (std::size_t i = 0; i < once->parts.size(); ++i) {
+    const auto a = once->parts[i].map.texels();
+    const auto b = again->parts[i].map.texels();
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+  }
+}
+
+TEST(BuildObject, TheCapOnSamplesWidensTheSpacing) {
+  BuildConfig config;
+  config.max_samples_per_part = 200;
+  BuildReport report;
+  const std::vector<NamedMesh> parts = {{"plank", test::box({0.4, 0.2, 0.05})}};
+  const auto object = build_object(parts, config, &report);
+  ASSERT_TRUE(object);
+  EXPECT_LE(object->samples_O.size(), 200U);
+  EXPECT_GT(object->samples_O.size(), 100U);
+  EXPECT_GT(report.parts[0].spacing_m, config.sample_spacing_m);
+}
+
+TEST(BuildObject, AnOpenPartIsMappedAndReported) {
+  std::vector<NamedMesh> parts = {{"cup", test::box({0.05, 0.05, 0.05})}};
+  parts[0].mesh.triangles.erase(parts[0].mesh.triangles.begin(), parts[0].mesh.triangles.begin() + 2);
+  BuildReport report;
+  const auto object = build_object(parts, {}, &report);
+  ASSERT_TRUE(object);
+  EXPECT_FALSE(report.parts[0].closed);
+  const MapHit hit = ask(*object, {0.047, 0.01, 0.01});
+  ASSERT_TRUE(hit.hit);
+  EXPECT_NEAR(hit.depth_m, 0.003, 3e-4);
+}
+
+TEST(BuildObject, BadPartsAreNamedWithARemedy) {
+  const auto error_of = [](std::vector<NamedMesh> parts, BuildConfig config = {}) {
+    const auto object = build_object(parts, config);
+    EXPECT_FALSE(object);
+    return object ? Error{} : object.error();
+  };
+  EXPECT_EQ(error_of({}).where, "object");
+  EXPECT_EQ(error_of({{"good", test::box({1, 1, 1})}, {"empty", {}}}).where, "part 'empty'");
+  std::vector<NamedMesh> nan = {{"lid", test::box({1, 1, 1})}};
+  nan[0].mesh.vertices[0].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error_of(nan).where, "part 'lid'");
+  const Error flat = error_of({{"sheet", test::box({1, 1, 1e-7})}});
+  EXPECT_EQ(flat.where, "part 'sheet'");
+  EXPECT_FALSE(flat.remedy.empty());
+  BuildConfig config;
+  config.map_resolution = 20;
+  EXPECT_EQ(error_of({{"good", test::box({1, 1, 1})}}, config).where, "build settings");
+  config = {};
+  config.sample_spacing_m = 0;
+  EXPECT_EQ(error_of({{"good", test::box({1, 1, 1})}}, config).where, "build settings");
+}
+
+}  // namespace
+}  // namespace mechane::collision
