@@ -76,7 +76,7 @@ struct Body {
   bool fixed;
   bool use_gravity;
   bool moves = true;  // whether Bullet has its mass now
-  GripSpring grip;
+  GripBody grip;
   Frame frame;  // at the start of this step
 
   Body(const state::BodyDescription& from, double mass, const Vec3& principal, const Pose& X_BC_in)
@@ -87,7 +87,7 @@ struct Body {
         mass_kg(mass),
         fixed(from.fixed),
         use_gravity(from.use_gravity),
-        grip(grip_spring(from)) {
+        grip(grip_body(from)) {
     bullet.setDamping(from.linear_damping, from.angular_damping);
   }
 };
@@ -345,7 +345,7 @@ void DynamicsWorld::Impl::gather_grasps(state::WorldState& state, double dt_s) {
     MECHANE_ASSERT(held < bodies.size());
     const Body& body = *bodies[held];
     RowConstraint& constraint = grip(u, held);
-    const GripStep step = grasp_rows(body.grip, body.frame, user, dt_s, constraint.rows);
+    const GripStep step = grasp_rows(grip_spring(body.grip, user.grasp.p_BG), body.frame, user, dt_s, constraint.rows);
     if (constraint.rows.count == 0) continue;
     const double inertia = 1 / step.inverse_inertia;
     proxy.setMassProps(1 / step.inverse_mass, {inertia, inertia, inertia});

@@ -20,10 +20,11 @@ namespace mechane::dynamics {
 /// hold up to their size and never drive. A hinge's position counts turns: it goes on from the position in the state. The position
 /// of a joint that is off stays as it was, its velocity is 0.
 ///
-/// A grasp pulls the body towards X_WH * X_HB with the stiffness of the body's haptic material (and a lever of 7 cm for the
-/// rotation), critically damped, up to force_limit_n and torque_limit_nm times the user's freshness. Where the torque limit is
-/// reached the body turns in the grip, as a crank's handle does in a hand: the step then turns Grasp::X_HB about the grip, so
-/// that the spring's torque stays at the limit. Grasp::reaction_W is what the body does to the hand, at the grip.
+/// A grasp pulls the body towards X_WH * X_HB with the stiffness of the body's haptic material, critically damped, up to
+/// force_limit_n and torque_limit_nm times the user's freshness; in rotation as fast as in translation (see grasp_rows.hpp). Where
+/// the body lags more than 35 degrees behind the hand's rotation, as a crank's handle does in a hand that goes round, it turns in
+/// the grip: the step then turns Grasp::X_HB about the grip's centre. Grasp::reaction_W is what the body does to the hand, at the
+/// grip.
 ///
 /// Bodies do not collide with each other in this version: joints and grasps alone hold them apart.
 ///

@@ -6,7 +6,7 @@
 namespace mechane::dynamics {
 namespace {
 
-constexpr double kHandLever_m = 0.07;        // a palm's width: how far apart thumb and fingers press
+constexpr double kSlip_rad = 0.6;            // less, and the torque limit alone lets it lag: it comes back
 constexpr double kMaxDamping_ns_per_m = 60;  // a heavier damper is felt as a jolt when the grip begins
 constexpr double kAcrossShare = 0.25;        // of a limit, across the spring's direction
 
@@ -38,12 +38,13 @@ void limit(Row& row, int axis, double most) {
   row.min_impulse = -row.max_impulse;
 }
 
-/// Where the rotation is off by more than the torque limit can pull, the body turns in the grip about the grip's centre.
+/// Where the body lags too far behind the hand's rotation, it turns in the grip about the grip's centre: a crank's handle goes round
+/// in a hand that does not.
 Vec3 slip(const GripSpring& spring, const Pose& X_WB, state::UserState& user) {
   state::Grasp& grasp = user.grasp;
   const Vec3 error_W = rotation_vector(user.X_WH.R * grasp.X_HB.R * X_WB.R.conjugate());
   const double angle = error_W.norm();
-  const double most = grasp.torque_limit_nm / spring.stiffness_nm_per_rad;
+  const double most = std::clamp(grasp.torque_limit_nm / spring.stiffness_nm_per_rad, kSlip_rad, kPi / 2);
   if (angle <= most) return error_W;
   const Vec3 left_W = error_W * (most / angle);
   const Vec3 p_HG = grasp.X_HB * grasp.p_BG;
@@ -54,11 +55,15 @@ Vec3 slip(const GripSpring& spring, const Pose& X_WB, state::UserState& user) {
 
 }  // namespace
 
-GripSpring grip_spring(const state::BodyDescription& body) noexcept {
-  const double mass = body.mass_kg * body.effort_scale;
-  const double k = std::max(0.0, body.haptic.stiffness_n_per_m);
-  const double d = std::min(2 * std::sqrt(k * mass), kMaxDamping_ns_per_m);
-  const double lever2 = kHandLever_m * kHandLever_m;
+GripBody grip_body(const state::BodyDescription& body) noexcept {
+  const double gyration_m2 = body.mass_kg > 0 ? body.inertia_kg_m2.trace() / (2 * body.mass_kg) : 0;
+  return {std::max(0.0, body.haptic.stiffness_n_per_m), body.mass_kg * body.effort_scale, gyration_m2, body.p_BCm};
+}
+
+GripSpring grip_spring(const GripBody& body, const Vec3& p_BG) noexcept {
+  const double k = body.stiffness_n_per_m;
+  const double d = std::min(2 * std::sqrt(k * body.mass_kg), kMaxDamping_ns_per_m);
+  const double lever2 = body.gyration_m2 + (p_BG - body.p_BCm).squaredNorm();
   return {k, d, k * lever2, d * lever2};
 }
 

@@ -14,9 +14,20 @@ struct GripSpring {
   double damping_nms_per_rad = 0;
 };
 
-/// The grip of a body: as stiff as its haptic material, critically damped with the body's simulated mass, over a lever of half a
-/// palm's width for the rotation.
-[[nodiscard]] GripSpring grip_spring(const state::BodyDescription& body) noexcept;
+/// What a body brings to every grip of it: simulated mass, haptic stiffness, how its mass is spread.
+struct GripBody {
+  double stiffness_n_per_m = 0;
+  double mass_kg = 0;
+  double gyration_m2 =
+      0;  ///< half the trace of its inertia over its mass: for a long body, its transverse radius of gyration squared
+  Vec3 p_BCm = Vec3::Zero();
+};
+
+[[nodiscard]] GripBody grip_body(const state::BodyDescription& body) noexcept;
+
+/// The grip of a body at p_BG: as stiff as its haptic material, critically damped. In rotation it follows as fast as in translation:
+/// the lever squared of the rotational spring is the body's inertia about the grip over its mass.
+[[nodiscard]] GripSpring grip_spring(const GripBody& body, const Vec3& p_BG) noexcept;
 
 /// The grip at the start of a step. The rows act between the body (body2) and a proxy of the hand (body1) whose centre of mass lies
 /// at `p_WG`, with the inverse mass and inertia given here. That is an implicit spring and damper (constraint force mixing:
@@ -31,7 +42,7 @@ struct GripStep {
 
 /// Overwrites `rows` with the six rows of the grip of `user` on `body`. The impulse limits hold the force's and the torque's norm to their limits
 /// times the user's freshness, at most 6 % above where they act across the spring's own direction. Turns grasp.X_HB where the
-/// torque would pass its limit: the body slips in the hand.
+/// body lags more than 35 degrees behind the hand's rotation: it slips in the hand.
 [[nodiscard]] GripStep grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
                                   RowSet& rows) noexcept;
 
