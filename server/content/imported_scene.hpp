@@ -31,7 +31,8 @@ struct ImportedMesh {
   std::string name;
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;             ///< unit
-  std::vector<Eigen::Vector4f> tangents;  ///< xyz unit along +u; w = +1 or -1: bitangent = w * normal x tangent
+  std::vector<Eigen::Vector4f> tangents;  ///< xyz unit along +u; w = +1 or -1: w * normal x tangent points to the
+                                          ///< image's upper edge
   std::vector<Eigen::Vector2f> uv;        ///< (0, 0) is the upper left corner of the image, as in glTF
   std::vector<std::uint32_t> indices;     ///< three a triangle, counter-clockwise seen from outside
   std::uint32_t material = 0;             ///< into ImportedScene::materials

@@ -1,0 +1,155 @@
+#include "server/content/child_process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sched.h>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "server/base/assert.hpp"
+
+namespace mechane::content {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(); }
+  [[nodiscard]] int get() const { return fd_; }
+  void close() {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = -1;
+  }
+
+ private:
+  int fd_;
+};
+
+/// The attributes and file actions of posix_spawn, freed with the object.
+class SpawnPlan {
+ public:
+  explicit SpawnPlan(int output) {
+    posix_spawnattr_init(&attributes);
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_addclosefrom_np(&actions, 3);
+    sigset_t none, all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    const sched_param ordinary{};  // a caller of high priority must not hand it on
+    posix_spawnattr_setschedpolicy(&attributes, SCHED_OTHER);
+    posix_spawnattr_setschedparam(&attributes, &ordinary);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(
+        &attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSCHEDULER);
+  }
+  SpawnPlan(const SpawnPlan&) = delete;
+  SpawnPlan& operator=(const SpawnPlan&) = delete;
+  ~SpawnPlan() {
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+
+  posix_spawnattr_t attributes{};
+  posix_spawn_file_actions_t actions{};
+};
+
+/// Waits for something to happen on the descriptor; false when the deadline came first.
+bool wait_for(int fd, Clock::time_point deadline) {
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd wanted{fd, POLLIN, 0};
+    const int ready = poll(&wanted, 1, static_cast<int>(std::min<long long>(left, 60'000)));
+    if (ready > 0) return true;
+    if (ready < 0 && errno != EINTR) return false;
+  }
+}
+
+/// Reads until the writer closes (true), or time or room run out (false, with `result.end` set).
+bool read_all(int fd, Clock::time_point deadline, std::uint64_t most, ChildResult& result) {
+  std::array<std::byte, 65536> piece;
+  for (;;) {
+    if (!wait_for(fd, deadline)) {
+      result.end = ChildResult::End::timed_out;
+      return false;
+    }
+    const ssize_t n = read(fd, piece.data(), piece.size());
+    if (n == 0) return true;
+    if (n < 0) {
+      if (errno == EINTR) continue;
+      return true;
+    }
+    if (result.output.size() + static_cast<std::size_t>(n) > most) {
+      result.end = ChildResult::End::too_long;
+      return false;
+    }
+    result.output.insert(result.output.end(), piece.begin(), piece.begin() + n);
+  }
+}
+
+}  // namespace
+
+Expected<ChildResult> run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                                std::chrono::milliseconds wall_time, std::uint64_t most_output) {
+  const Clock::time_point deadline = Clock::now() + wall_time;
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    return fail(fmt::format("no pipe: {}", std::strerror(errno)), program.string());
+  const Descriptor ours(ends[0]);
+  Descriptor theirs(ends[1]);
+
+  std::string name = program.string();
+  std::vector<std::string> words = arguments;
+  std::vector<char*> argv{name.data()};
+  for (std::string& word : words)
+    argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = -1;
+  const SpawnPlan plan(theirs.get());
+  if (const int e = posix_spawn(&child, name.c_str(), &plan.actions, &plan.attributes, argv.data(), environ); e != 0) {
+    return fail(fmt::format("cannot be started: {}", std::strerror(e)), name, "check the installation");
+  }
+  theirs.close();
+
+  ChildResult result;
+  // The raw call: Debian 12's header declares its function without C linkage.
+  const Descriptor handle(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
+  bool ended = read_all(ours.get(), deadline, most_output, result);
+  if (ended && !wait_for(handle.get(), deadline)) {
+    result.end = ChildResult::End::timed_out;
+    ended = false;
+  }
+  if (!ended) {
+    kill(-child, SIGKILL);
+    kill(child, SIGKILL);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (ended && WIFSIGNALED(status)) {
+    result.end = ChildResult::End::signalled;
+    result.code = WTERMSIG(status);
+  } else if (ended) {
+    result.code = WEXITSTATUS(status);
+  }
+  return result;
+}
+
+}  // namespace mechane::content

@@ -1,0 +1,29 @@
+// What a mesh file may cost before it is refused. One set of limits for the child that reads the file and for the parent that
+// reads the child.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+
+namespace mechane::content {
+
+/// Defaults fit a detailed exhibit many times over.
+struct ImportLimits {
+  std::uint64_t file_bytes = 512ULL << 20U;
+  std::uint32_t nodes = 20'000;
+  std::uint32_t meshes = 20'000;
+  std::uint32_t materials = 2'000;
+  std::uint32_t textures = 500;
+  std::uint64_t vertices = 4'000'000;           ///< of all meshes together
+  std::uint64_t triangles = 4'000'000;          ///< of all meshes together
+  std::uint64_t texture_bytes = 256ULL << 20U;  ///< of all textures together, as they lie in the file
+  double largest_m = 1000;                      ///< a model wider than this was exported in other units than metres
+  double smallest_m = 0.0005;                   ///< and so was one narrower than this
+  std::uint64_t memory_bytes = 2ULL << 30U;     ///< address space of the child; not applied under the address sanitizer
+  std::uint32_t cpu_seconds = 15;               ///< processor time of the child
+  std::chrono::milliseconds wall_time{20'000};  ///< after this the child is killed
+  std::filesystem::path helper;                 ///< the program mechane-mesh-import; empty: looked for, see import_mesh
+};
+
+}  // namespace mechane::content

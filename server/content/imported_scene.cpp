@@ -1,0 +1,104 @@
+#include "server/content/imported_scene.hpp"
+
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "server/base/assert.hpp"
+#include "server/geometry/mesh_check.hpp"
+
+namespace mechane::content {
+namespace {
+
+constexpr std::string_view kPartPrefix = "part_";
+
+/// Exporters write the same corner once for each normal, to the same digits: anything farther apart was meant to be.
+constexpr double kWeldTolerance_m = 1e-6;
+
+/// Adds the triangles, turned round where the pose mirrors them: outwards stays outwards.
+void append(const ImportedMesh& mesh, const Eigen::Affine3d& X_ON, geometry::Mesh& to) {
+  const auto first = static_cast<std::uint32_t>(to.vertices.size());
+  for (const Vec3f& p : mesh.positions)
+    to.vertices.push_back(X_ON * p.cast<double>());
+  const bool mirrored = X_ON.linear().determinant() < 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::uint32_t b = mesh.indices[i + (mirrored ? 2 : 1)];
+    const std::uint32_t c = mesh.indices[i + (mirrored ? 1 : 2)];
+    to.triangles.push_back({first + mesh.indices[i], first + b, first + c});
+  }
+}
+
+bool in_scope(const ImportedScene& scene, std::uint32_t node, std::optional<std::uint32_t> top) {
+  return !top || is_under(scene, node, *top);
+}
+
+/// The nearest node, from `node` upwards to `top`, that is named as a part.
+std::optional<std::uint32_t> owner(const ImportedScene& scene, std::uint32_t node, std::optional<std::uint32_t> top) {
+  for (std::optional<std::uint32_t> at = node; at; at = scene.nodes[*at].parent) {
+    if (scene.nodes[*at].name.starts_with(kPartPrefix)) return at;
+    if (at == top) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> find_node(const ImportedScene& scene, const std::string& name) {
+  for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+    if (scene.nodes[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+bool is_under(const ImportedScene& scene, std::uint32_t node, std::uint32_t ancestor) {
+  for (std::optional<std::uint32_t> at = node; at; at = scene.nodes[*at].parent) {
+    if (*at == ancestor) return true;
+  }
+  return false;
+}
+
+Eigen::Affine3d pose_in(const ImportedScene& scene, std::uint32_t node, std::optional<std::uint32_t> ancestor) {
+  Eigen::Affine3d X_AN = Eigen::Affine3d::Identity();
+  std::optional<std::uint32_t> at = node;
+  for (; at && at != ancestor; at = scene.nodes[*at].parent)
+    X_AN = scene.nodes[*at].X_PN * X_AN;
+  MECHANE_ASSERT(at == ancestor);
+  return X_AN;
+}
+
+Expected<std::vector<geometry::NamedMesh>> collision_parts(const ImportedScene& scene, const std::string& node) {
+  std::optional<std::uint32_t> top;
+  if (!node.empty()) {
+    top = find_node(scene, node);
+    if (!top)
+      return fail("there is no node of that name", "node " + node,
+                  "name the object so in the model, or correct the name");
+  }
+  std::vector<std::uint32_t> shown;
+  bool named = false;
+  for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+    if (scene.nodes[i].meshes.empty() || !in_scope(scene, i, top)) continue;
+    shown.push_back(i);
+    named = named || owner(scene, i, top).has_value();
+  }
+  std::map<std::uint32_t, geometry::Mesh> gathered;  // by node, in the file's order
+  for (const std::uint32_t i : shown) {
+    const std::optional<std::uint32_t> part = named ? owner(scene, i, top) : i;
+    if (!part) continue;
+    const Eigen::Affine3d X_ON = pose_in(scene, i, top);
+    for (const std::uint32_t mesh : scene.nodes[i].meshes)
+      append(scene.meshes[mesh], X_ON, gathered[*part]);
+  }
+  std::vector<geometry::NamedMesh> parts;
+  for (const auto& [part, mesh] : gathered) {
+    geometry::Mesh welded = geometry::weld(mesh, kWeldTolerance_m);
+    if (!welded.empty()) parts.push_back({scene.nodes[part].name, std::move(welded)});
+  }
+  if (parts.empty()) {
+    return fail("nothing to touch: no mesh with a surface", node.empty() ? "" : "node " + node,
+                "give the node a mesh, or name its parts part_...");
+  }
+  return parts;
+}
+
+}  // namespace mechane::content

@@ -1,0 +1,144 @@
+#include "server/content/importer/assimp_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/GltfMaterial.h>
+#include <assimp/Importer.hpp>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include "server/content/importer/folder_io.hpp"
+#include "server/content/importer/material_reader.hpp"
+
+namespace mechane::content {
+namespace {
+
+constexpr std::array kRead{".glb", ".gltf", ".obj", ".stl", ".ply"};
+constexpr std::array kLoaders{"glTF2 Importer", "Wavefront Object Importer", "Stereolithography (STL) Importer",
+                              "Polygon Library (PLY) Importer"};
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return extension;
+}
+
+/// Assimp knows some fifty formats; each loader that is not there is one that a file cannot attack.
+void keep_our_loaders(Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* loader = importer.GetImporter(i);
+    const std::string_view name = loader->GetInfo()->mName;
+    if (std::find(kLoaders.begin(), kLoaders.end(), name) == kLoaders.end()) {
+      importer.UnregisterLoader(loader);
+      delete loader;  // unregistered loaders belong to the caller
+    }
+  }
+}
+
+Eigen::Vector3f vector(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// A unit vector, or what stands in for one that a degenerate triangle left without length.
+Vec3f unit_or(const Vec3f& v, const Vec3f& otherwise) {
+  const float length = v.norm();
+  return std::isfinite(length) && length > 1e-12F ? Vec3f(v / length) : otherwise;
+}
+
+/// Tangents of degenerate uv come as NaN: any vector in the surface serves then.
+Eigen::Vector4f tangent(const aiMesh& mesh, unsigned i, const Vec3f& normal) {
+  const Vec3f raw = vector(mesh.mTangents[i]);
+  const Vec3f t = unit_or(raw - normal * normal.dot(raw), normal.unitOrthogonal());
+  const float side = normal.cross(t).dot(vector(mesh.mBitangents[i]));
+  return {t.x(), t.y(), t.z(), side < 0 ? -1.0F : 1.0F};
+}
+
+ImportedMesh convert(const aiMesh& from) {
+  ImportedMesh mesh;
+  mesh.name = from.mName.C_Str();
+  mesh.material = from.mMaterialIndex;
+  for (unsigned i = 0; i < from.mNumVertices; ++i) {
+    mesh.positions.push_back(vector(from.mVertices[i]));
+    if (from.HasNormals()) mesh.normals.push_back(unit_or(vector(from.mNormals[i]), Vec3f::UnitY()));
+    if (from.HasTextureCoords(0)) mesh.uv.emplace_back(from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y);
+    if (from.HasTangentsAndBitangents() && from.HasNormals())
+      mesh.tangents.push_back(tangent(from, i, mesh.normals.back()));
+  }
+  for (unsigned f = 0; f < from.mNumFaces; ++f) {
+    const aiFace& face = from.mFaces[f];
+    if (face.mNumIndices == 3) mesh.indices.insert(mesh.indices.end(), face.mIndices, face.mIndices + 3);
+  }
+  return mesh;
+}
+
+Eigen::Affine3d convert(const aiMatrix4x4& m) {
+  Eigen::Affine3d X;
+  X.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, 0, 0, 0, 1;
+  return X;
+}
+
+/// Parents before children, without recursion: a file may be nested deeper than a stack.
+void convert_nodes(const aiNode& root, ImportedScene& scene, std::size_t most) {
+  std::vector<std::pair<const aiNode*, std::optional<std::uint32_t>>> waiting{{&root, std::nullopt}};
+  while (!waiting.empty() && scene.nodes.size() <= most) {
+    const auto [from, parent] = waiting.back();
+    waiting.pop_back();
+    ImportedNode& node = scene.nodes.emplace_back();
+    node.name = from->mName.C_Str();
+    node.parent = parent;
+    node.X_PN = convert(from->mTransformation);
+    node.meshes.assign(from->mMeshes, from->mMeshes + from->mNumMeshes);
+    const auto self = static_cast<std::uint32_t>(scene.nodes.size() - 1);
+    for (unsigned i = from->mNumChildren; i-- > 0;)
+      waiting.emplace_back(from->mChildren[i], self);
+  }
+}
+
+void configure(Assimp::Importer& importer) {
+  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 40.0F);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, static_cast<int>(aiComponent_COLORS) | aiComponent_BONEWEIGHTS |
+                                                          aiComponent_ANIMATIONS | aiComponent_LIGHTS |
+                                                          aiComponent_CAMERAS);
+}
+
+}  // namespace
+
+Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, const ImportLimits& limits) {
+  const std::string extension = lower_extension(file);
+  if (std::find(kRead.begin(), kRead.end(), extension) == kRead.end()) {
+    return fail(fmt::format("the format '{}' is not read", extension), {},
+                "export the model as .glb, .gltf, .obj, .stl or .ply");
+  }
+  FolderIo io(file.parent_path(), limits.file_bytes);
+  Assimp::Importer importer;
+  keep_our_loaders(importer);
+  configure(importer);
+  importer.SetIOHandler(&io);
+  constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_RemoveComponent |
+                              aiProcess_GenSmoothNormals | aiProcess_CalcTangentSpace |
+                              aiProcess_JoinIdenticalVertices | aiProcess_FlipUVs;
+  const aiScene* from = importer.ReadFile(file.string(), kSteps);
+  importer.SetIOHandler(nullptr);  // `io` is ours; assimp would delete it
+  if (from == nullptr || from->mRootNode == nullptr) {
+    std::string why = importer.GetErrorString();
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    return fail("it cannot be read: " + (why.empty() ? "no scene in it" : why), {},
+                "open the file in a modelling program and export it again, best as .glb");
+  }
+  ImportedScene scene;
+  for (unsigned i = 0; i < from->mNumMeshes; ++i)
+    scene.meshes.push_back(convert(*from->mMeshes[i]));
+  convert_nodes(*from->mRootNode, scene, limits.nodes);
+  if (auto looks = read_materials(*from, io, scene); !looks) return tl::unexpected<Error>(looks.error());
+  return scene;
+}
+
+}  // namespace mechane::content

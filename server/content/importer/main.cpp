@@ -1,0 +1,84 @@
+// mechane-mesh-import: reads one mesh file and writes it to standard output in the form of scene_codec.hpp. Started by import_mesh;
+// everything that can go wrong with a foreign file goes wrong in here.
+#include <cerrno>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "server/content/importer/assimp_reader.hpp"
+#include "server/content/importer/confinement.hpp"
+#include "server/content/scene_check.hpp"
+#include "server/content/scene_codec.hpp"
+
+namespace mechane::content {
+namespace {
+
+Expected<ImportedScene> read_checked(const std::filesystem::path& file, const ImportLimits& limits) {
+  try {
+    Expected<ImportedScene> scene = read_with_assimp(file, limits);
+    if (!scene) return scene;
+    if (auto good = check_scene(*scene, limits); !good) return tl::unexpected<Error>(good.error());
+    return scene;
+  } catch (const std::bad_alloc&) {
+    return fail(fmt::format("reading it takes more than {} MiB of memory", limits.memory_bytes >> 20U), {},
+                "simplify the model");
+  } catch (const std::exception& e) {
+    return fail(fmt::format("it cannot be read: {}", e.what()), {},
+                "open the file in a modelling program and export it again, best as .glb");
+  }
+}
+
+bool write_all(int fd, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
+int run(int argc, char** argv) {
+  ImportLimits limits;
+  std::filesystem::path file;
+  CLI::App app{"Reads a mesh file for Mechane; its output is for programs. See server/content/scene_codec.hpp."};
+  app.add_option("--memory-bytes", limits.memory_bytes);
+  app.add_option("--cpu-seconds", limits.cpu_seconds);
+  app.add_option("--file-bytes", limits.file_bytes);
+  app.add_option("--nodes", limits.nodes);
+  app.add_option("--meshes", limits.meshes);
+  app.add_option("--materials", limits.materials);
+  app.add_option("--textures", limits.textures);
+  app.add_option("--vertices", limits.vertices);
+  app.add_option("--triangles", limits.triangles);
+  app.add_option("--texture-bytes", limits.texture_bytes);
+  app.add_option("--largest-m", limits.largest_m);
+  app.add_option("--smallest-m", limits.smallest_m);
+  app.add_option("file", file)->required();
+  CLI11_PARSE(app, argc, argv);
+  if (isatty(STDOUT_FILENO) != 0) {
+    std::fputs("mechane-mesh-import: the output is binary; redirect it\n", stderr);
+    return 2;
+  }
+  // Whatever a library prints must not get between the bytes of the result.
+  const int result = dup(STDOUT_FILENO);
+  if (result < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
+  if (!confine_this_process(limits.memory_bytes, limits.cpu_seconds)) {
+    std::fputs("mechane-mesh-import: this system does not let the import be confined\n", stderr);
+    return 3;
+  }
+  const Expected<ImportedScene> scene = read_checked(file, limits);
+  const std::vector<std::byte> message = scene ? encode_scene(*scene) : encode_failure(scene.error());
+  return write_all(result, message) ? 0 : 4;
+}
+
+}  // namespace
+}  // namespace mechane::content
+
+int main(int argc, char** argv) {
+  return mechane::content::run(argc, argv);
+}

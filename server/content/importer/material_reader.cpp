@@ -1,0 +1,152 @@
+#include "server/content/importer/material_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <span>
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+namespace mechane::content {
+namespace {
+
+std::optional<TextureEncoding> encoding_of(std::span<const std::byte> bytes) {
+  constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G'};
+  constexpr unsigned char kJpeg[] = {0xFF, 0xD8, 0xFF};
+  if (bytes.size() > sizeof kPng && std::memcmp(bytes.data(), kPng, sizeof kPng) == 0) return TextureEncoding::png;
+  if (bytes.size() > sizeof kJpeg && std::memcmp(bytes.data(), kJpeg, sizeof kJpeg) == 0) return TextureEncoding::jpeg;
+  return std::nullopt;
+}
+
+class MaterialReader {
+ public:
+  MaterialReader(const aiScene& from, const FolderIo& io, ImportedScene& scene) : from_(from), io_(io), scene_(scene) {}
+
+  Expected<void> read() {
+    for (unsigned i = 0; i < from_.mNumMaterials; ++i) {
+      if (auto good = read_one(*from_.mMaterials[i]); !good) return good;
+    }
+    if (scene_.materials.empty()) scene_.materials.emplace_back();  // every mesh has one
+    return {};
+  }
+
+ private:
+  Expected<void> read_one(const aiMaterial& from) {
+    ImportedMaterial& to = scene_.materials.emplace_back();
+    aiString text;
+    if (from.Get(AI_MATKEY_NAME, text) == AI_SUCCESS) to.name = text.C_Str();
+    read_factors(from, to);
+    if (auto t = texture(from, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, to.base_colour_texture); !t) return t;
+    if (auto t = texture(from, {aiTextureType_NORMALS}, to.normal_texture); !t) return t;
+    if (auto t = texture(from, {aiTextureType_UNKNOWN}, to.metallic_roughness_texture); !t)
+      return t;  // glTF's place for it
+    return texture(from, {aiTextureType_EMISSIVE}, to.emissive_texture);
+  }
+
+  static void read_factors(const aiMaterial& from, ImportedMaterial& to) {
+    aiColor4D colour;
+    if (from.Get(AI_MATKEY_BASE_COLOR, colour) == AI_SUCCESS ||
+        from.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS) {
+      to.base_colour = {colour.r, colour.g, colour.b, colour.a};
+    }
+    aiColor3D emissive;
+    if (from.Get(AI_MATKEY_COLOR_EMISSIVE, emissive) == AI_SUCCESS) to.emissive = {emissive.r, emissive.g, emissive.b};
+    float value = 0;
+    if (from.Get(AI_MATKEY_METALLIC_FACTOR, value) == AI_SUCCESS) to.metallic = value;
+    if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == AI_SUCCESS) {
+      to.roughness = value;
+    } else if (from.Get(AI_MATKEY_SHININESS, value) == AI_SUCCESS && value > 0) {
+      to.roughness =
+          std::clamp(std::sqrt(2.0F / (value + 2.0F)), 0.05F, 1.0F);  // Blinn-Phong's exponent as a roughness
+    }
+    aiString mode;
+    if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS) {
+      if (std::strcmp(mode.C_Str(), "BLEND") == 0) to.alpha_mode = AlphaMode::blend;
+      if (std::strcmp(mode.C_Str(), "MASK") == 0) to.alpha_mode = AlphaMode::mask;
+    } else if (from.Get(AI_MATKEY_OPACITY, value) == AI_SUCCESS && value < 1) {
+      to.base_colour.w() = value;
+      to.alpha_mode = AlphaMode::blend;
+    }
+    if (from.Get(AI_MATKEY_GLTF_ALPHACUTOFF, value) == AI_SUCCESS) to.alpha_cutoff = value;
+    int two_sided = 0;
+    if (from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS) to.double_sided = two_sided != 0;
+  }
+
+  /// The first of the types that the material has.
+  Expected<void> texture(const aiMaterial& from, std::initializer_list<aiTextureType> types,
+                         std::optional<std::uint32_t>& to) {
+    for (const aiTextureType type : types) {
+      aiString path;
+      if (from.GetTexture(type, 0, &path) != AI_SUCCESS || path.length == 0) continue;
+      const auto known = known_.find(path.C_Str());
+      if (known == known_.end()) {
+        Expected<ImportedTexture> image = load(path);
+        if (!image) return tl::unexpected<Error>(image.error());
+        to = static_cast<std::uint32_t>(scene_.textures.size());
+        scene_.textures.push_back(std::move(*image));
+        known_[path.C_Str()] = *to;
+      } else {
+        to = known->second;
+      }
+      return {};
+    }
+    return {};
+  }
+
+  Expected<ImportedTexture> load(const aiString& path) const {
+    const auto [embedded, index] = from_.GetEmbeddedTextureAndIndex(path.C_Str());
+    if (embedded == nullptr) return load_file(path.C_Str());
+    const std::string name =
+        embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : fmt::format("image {}", index);
+    if (embedded->mHeight > 0) return raw(*embedded, name);
+    return encoded(name, {reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth});
+  }
+
+  static ImportedTexture raw(const aiTexture& from, const std::string& name) {
+    ImportedTexture to{name, TextureEncoding::rgba8, from.mWidth, from.mHeight, {}};
+    for (std::size_t i = 0; i < std::size_t{from.mWidth} * from.mHeight; ++i) {
+      const aiTexel& texel = from.pcData[i];
+      for (const unsigned char c : {texel.r, texel.g, texel.b, texel.a})
+        to.bytes.push_back(std::byte{c});
+    }
+    return to;
+  }
+
+  Expected<ImportedTexture> load_file(std::string name) const {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const auto file = io_.allowed(name);
+    if (!file)
+      return fail("there is no such image beside the model", "texture " + name,
+                  "put it there, or export with the images inside (.glb)");
+    std::ifstream in(*file, std::ios::binary | std::ios::ate);
+    std::vector<std::byte> bytes(in ? static_cast<std::size_t>(in.tellg()) : 0);
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!in) return fail("the image cannot be read", "texture " + name, "check the file's rights");
+    return encoded(name, bytes);
+  }
+
+  static Expected<ImportedTexture> encoded(const std::string& name, std::span<const std::byte> bytes) {
+    const auto encoding = encoding_of(bytes);
+    if (!encoding)
+      return fail("the image is neither PNG nor JPEG", "texture " + name, "export the images as PNG or JPEG");
+    return ImportedTexture{name, *encoding, 0, 0, {bytes.begin(), bytes.end()}};
+  }
+
+  const aiScene& from_;
+  const FolderIo& io_;
+  ImportedScene& scene_;
+  std::map<std::string, std::uint32_t> known_;
+};
+
+}  // namespace
+
+Expected<void> read_materials(const aiScene& from, const FolderIo& io, ImportedScene& scene) {
+  return MaterialReader(from, io, scene).read();
+}
+
+}  // namespace mechane::content

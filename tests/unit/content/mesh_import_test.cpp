@@ -1,0 +1,250 @@
+#include "server/content/mesh_import.hpp"
+
+#include <chrono>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/content/scene_codec.hpp"
+#include "tests/unit/content/model_files.hpp"
+
+namespace mechane::content {
+namespace {
+
+using testing::AllOf;
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+/// Six times the volume that the triangles enclose, and 1e9 if an edge does not meet its opposite: closed and turned outwards.
+double closed_volume(const geometry::Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  double volume = 0;
+  for (const auto& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i)
+      ++edges[{t[i], t[(i + 1) % 3]}];
+    volume += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
+  }
+  for (const auto& [edge, count] : edges) {
+    const auto opposite = edges.find({edge.second, edge.first});
+    if (count != 1 || opposite == edges.end()) return 1e9;
+  }
+  return volume;
+}
+
+class MeshImport : public testing::Test {
+ protected:
+  Expected<ImportedScene> import(const std::string& name, std::string_view bytes) {
+    return import_mesh(folder_.write(name, bytes), limits_);
+  }
+  std::string fault(const std::string& name, std::string_view bytes) {
+    const auto scene = import(name, bytes);
+    return scene ? "read without complaint" : scene.error().to_string();
+  }
+  std::string fault_with(const std::filesystem::path& helper) {
+    limits_.helper = helper;
+    return fault("cube.obj", cube_obj());
+  }
+
+  ScratchFolder folder_;
+  ImportLimits limits_;
+};
+
+TEST_F(MeshImport, ReadsACubeFromEachFormatAsOneClosedPart) {
+  const std::pair<const char*, std::string> files[] = {{"cube.obj", cube_obj()},
+                                                       {"cube.ply", cube_ply()},
+                                                       {"cube.stl", cube_stl()},
+                                                       {"cube.glb", cube_glb()},
+                                                       {"CUBE.GLB", cube_glb()}};
+  for (const auto& [name, bytes] : files) {
+    const auto scene = import(name, bytes);
+    ASSERT_TRUE(scene) << scene.error().to_string();
+    const auto parts = collision_parts(*scene, "");
+    ASSERT_TRUE(parts) << name << ": " << parts.error().to_string();
+    ASSERT_THAT(*parts, SizeIs(1)) << name;
+    EXPECT_THAT(parts->front().mesh.vertices, SizeIs(8)) << name;
+    EXPECT_NEAR(closed_volume(parts->front().mesh), 8.0, 1e-6) << name;
+  }
+}
+
+TEST_F(MeshImport, KeepsNodesMaterialsAndImagesOfAGlb) {
+  const auto scene = import("cube.glb", cube_glb());
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  const auto block = find_node(*scene, "part_block");
+  ASSERT_TRUE(block);
+  EXPECT_TRUE(pose_in(*scene, *block, std::nullopt).translation().isApprox(Vec3::UnitX()));
+  EXPECT_TRUE(pose_in(*scene, *block, find_node(*scene, "BODY")).isApprox(Eigen::Affine3d::Identity()));
+  ASSERT_THAT(scene->nodes[*block].meshes, SizeIs(1));
+  const ImportedMesh& mesh = scene->meshes[scene->nodes[*block].meshes[0]];
+  EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
+  const ImportedMaterial& material = scene->materials[mesh.material];
+  EXPECT_EQ(material.name, "bronze");
+  EXPECT_TRUE(material.base_colour.isApprox(Eigen::Vector4f(0.8F, 0.5F, 0.2F, 0.9F)));
+  EXPECT_FLOAT_EQ(material.metallic, 0.75F);
+  EXPECT_FLOAT_EQ(material.roughness, 0.25F);
+  EXPECT_EQ(material.alpha_mode, AlphaMode::blend);
+  EXPECT_TRUE(material.double_sided);
+  ASSERT_TRUE(material.base_colour_texture);
+  const ImportedTexture& image = scene->textures[*material.base_colour_texture];
+  EXPECT_EQ(image.encoding, TextureEncoding::png);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()), kPng);
+}
+
+TEST_F(MeshImport, AMirroredPartIsTurnedOutwardsAgain) {
+  const auto scene = import("cube.glb", cube_glb());
+  ASSERT_TRUE(scene);
+  const auto parts = collision_parts(*scene, "trimming");
+  ASSERT_TRUE(parts) << parts.error().to_string();
+  EXPECT_NEAR(closed_volume(parts->front().mesh), 8.0, 1e-6);  // in its own frame neither mirror nor scale show
+  const auto whole = collision_parts(*scene, "BODY");
+  ASSERT_TRUE(whole);
+  EXPECT_THAT(*whole, ElementsAre(testing::Field(&geometry::NamedMesh::name,
+                                                 "part_block")));  // a part is named, so the rest is trimming
+  ImportedScene unnamed = *scene;
+  unnamed.nodes[*find_node(unnamed, "part_block")].name = "block";
+  const auto all = collision_parts(unnamed, "BODY");
+  ASSERT_TRUE(all);
+  ASSERT_THAT(*all, SizeIs(2));
+  EXPECT_NEAR(closed_volume(all->at(1).mesh), 1.0, 1e-6);
+}
+
+TEST_F(MeshImport, TangentFrameLooksToTheUpperEdgeOfTheImage) {
+  // A sign on a wall, seen from +z: u grows to the right, v (as OBJ has it) upwards.
+  const auto scene =
+      import("sign.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  const ImportedMesh& mesh = scene->meshes.at(0);
+  ASSERT_THAT(mesh.uv, SizeIs(4));
+  ASSERT_THAT(mesh.tangents, SizeIs(4));
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(mesh.uv[i].y(), 1 - mesh.positions[i].y(), 1e-6);  // the image's upper edge is v = 0
+    EXPECT_TRUE(mesh.tangents[i].isApprox(Eigen::Vector4f(1, 0, 0, 1), 1e-5F)) << mesh.tangents[i].transpose();
+  }
+}
+
+TEST_F(MeshImport, RefusesFaultyFilesWithAReason) {
+  const std::string obj = cube_obj();
+  const std::string good = cube_glb();
+  std::string empty_glb = glb(R"({"asset":{"version":"2.0"}})", "");
+  EXPECT_THAT(fault("half.glb", good.substr(0, good.size() / 2)),
+              AllOf(HasSubstr("half.glb"), HasSubstr("cannot be read")));
+  EXPECT_THAT(fault("empty.glb", empty_glb), HasSubstr("empty.glb"));
+  EXPECT_THAT(fault("range.obj", obj + "f 1 2 99\n"), HasSubstr("range.obj"));
+  EXPECT_THAT(fault("nan.glb", cube_glb(std::numeric_limits<float>::quiet_NaN())), HasSubstr("not finite"));
+  EXPECT_THAT(fault("far.glb", cube_glb(-1e30F)), HasSubstr("metres"));
+  EXPECT_THAT(fault("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), HasSubstr("points.obj"));
+  EXPECT_THAT(fault("text.stl", "this is not a mesh"), HasSubstr("text.stl"));
+  EXPECT_THAT(fault("nothing.obj", ""), HasSubstr("empty"));
+  EXPECT_THAT(fault("scene.x3d", "<X3D/>"), AllOf(HasSubstr("'.x3d' is not read"), HasSubstr(".glb")));
+  EXPECT_THAT(import_mesh(folder_.path() / "missing.glb").error().to_string(), HasSubstr("no such file"));
+  EXPECT_THAT(import_mesh(folder_.path()).error().to_string(), HasSubstr("not a file"));
+}
+
+TEST_F(MeshImport, AnyTruncationOfAGlbIsRefusedOrReadWithoutCrash) {
+  const std::string good = cube_glb();
+  for (std::size_t size = 1; size < good.size(); size += good.size() / 23) {
+    EXPECT_THAT(fault("cut.glb", good.substr(0, size)), HasSubstr("cut.glb")) << size;
+  }
+}
+
+TEST_F(MeshImport, ReadsNothingOutsideTheModelsFolder) {
+  ScratchFolder elsewhere;
+  const auto secret = elsewhere.write("secret.png", kPng);
+  const std::string textured = "mtllib look.mtl\nusemtl m\n" + cube_obj() + "vt 0 0\n";
+  folder_.write("look.mtl", "newmtl m\nKd 1 1 1\nmap_Kd " + secret.string() + "\n");
+  EXPECT_THAT(fault("cube.obj", textured), HasSubstr("no such image"));
+  std::filesystem::create_symlink(secret, folder_.path() / "link.png");
+  folder_.write("look.mtl", "newmtl m\nKd 1 1 1\nmap_Kd link.png\n");
+  EXPECT_THAT(fault("cube.obj", textured), HasSubstr("no such image"));
+  folder_.write("own.png", kPng);
+  folder_.write("look.mtl", "newmtl m\nKd 1 1 1\nmap_Kd own.png\n");
+  const auto scene = import("cube.obj", textured);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  EXPECT_THAT(scene->textures, SizeIs(1));
+}
+
+TEST_F(MeshImport, LimitsHold) {
+  limits_.triangles = 11;
+  EXPECT_THAT(fault("cube.obj", cube_obj()), HasSubstr("12 triangles, of which 11"));
+  limits_ = {};
+  limits_.texture_bytes = 10;
+  EXPECT_THAT(fault("cube.glb", cube_glb()), HasSubstr("bytes of textures"));
+  limits_ = {};
+  limits_.file_bytes = 100;
+  EXPECT_THAT(fault("cube.glb", cube_glb()), HasSubstr("of which 100"));
+}
+
+TEST_F(MeshImport, SurvivesEveryEndOfItsHelper) {
+  EXPECT_THAT(fault_with("/bin/false"), HasSubstr("without a result (status 1)"));
+  EXPECT_THAT(fault_with(folder_.path() / "absent"), HasSubstr("cannot be started"));
+  EXPECT_THAT(fault_with(folder_.script("crash", "kill -SEGV $$")),
+              AllOf(HasSubstr("cube.obj"), HasSubstr("crashed"), HasSubstr("signal 11")));
+  EXPECT_THAT(fault_with(folder_.script("slow", "kill -XCPU $$")), HasSubstr("processor time"));
+  EXPECT_THAT(fault_with(folder_.script("garbage", "cat /bin/sh")), HasSubstr("does not begin"));
+  EXPECT_THAT(fault_with(folder_.script("half", "printf MSCN")), HasSubstr("4 bytes instead of a header"));
+  limits_.vertices = limits_.triangles = limits_.texture_bytes = limits_.nodes = limits_.meshes = limits_.materials = 1;
+  limits_.textures = 1;
+  EXPECT_THAT(fault_with(folder_.script("flood", "exec cat /dev/zero")), HasSubstr("over the limits"));
+}
+
+TEST_F(MeshImport, AHelperThatHangsIsKilledWithItsChildren) {
+  limits_.wall_time = std::chrono::milliseconds(300);
+  const auto started = std::chrono::steady_clock::now();
+  EXPECT_THAT(fault_with(folder_.script("hang", "sleep 60 & sleep 60")), HasSubstr("more than 300 ms"));
+  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(20));
+}
+
+TEST_F(MeshImport, AChildThatClosesItsOutputAndLingersIsKilledToo) {
+  limits_.wall_time = std::chrono::milliseconds(300);
+  EXPECT_THAT(fault_with(folder_.script("linger", "exec >&-; sleep 60")), HasSubstr("more than 300 ms"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(MeshImport, AFileThatEatsMemoryIsRefused) {
+  limits_.memory_bytes = 128ULL << 20U;
+  std::string obj;
+  for (int i = 0; i < 400'000; ++i)
+    obj += "v " + std::to_string(i % 100) + " 0 1\n";
+  for (int i = 1; i + 2 < 400'000; ++i)
+    obj += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+  EXPECT_THAT(fault("big.obj", obj),
+              AnyOf(HasSubstr("128 MiB of memory"), HasSubstr("bad_alloc"), HasSubstr("memory")));
+}
+#endif
+
+TEST_F(MeshImport, ReadsMeshesFromElsewhere) {
+  const std::filesystem::path shared = std::filesystem::path(MECHANE_SOURCE_DIR) / "../shared/meshes";
+  if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared meshes beside the source tree";
+  for (const char* name : {"fandisk.obj", "rocker-arm.obj", "spot.obj"}) {
+    const auto scene = import_mesh(shared / name, limits_);
+    ASSERT_TRUE(scene) << scene.error().to_string();
+    const auto parts = collision_parts(*scene, "");
+    ASSERT_TRUE(parts) << parts.error().to_string();
+    for (const auto& part : *parts)
+      EXPECT_LT(closed_volume(part.mesh), 1e8) << name << ", " << part.name << " is not closed";
+  }
+}
+
+TEST_F(MeshImport, TheShippedScrewHasItsPartsAndTheyAreClosed) {
+  const auto scene =
+      import_mesh(std::filesystem::path(MECHANE_SOURCE_DIR) / "scenarios/models/archimedes-screw.glb", limits_);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  const auto inner = collision_parts(*scene, "INNER");
+  const auto outer = collision_parts(*scene, "OUTER");
+  ASSERT_TRUE(inner && outer);
+  EXPECT_THAT(*outer, SizeIs(16));
+  EXPECT_THAT(*inner, SizeIs(8 * 28 + 3));
+  for (const auto* parts : {&*inner, &*outer}) {
+    for (const auto& part : *parts) {
+      const double volume = closed_volume(part.mesh);
+      EXPECT_TRUE(volume > 0 && volume < 1) << part.name << ": " << volume;
+    }
+  }
+  for (const char* node : {"SCENE", "WATER_BASIN", "WATER_RIVER"})
+    EXPECT_TRUE(find_node(*scene, node)) << node;
+}
+
+}  // namespace
+}  // namespace mechane::content

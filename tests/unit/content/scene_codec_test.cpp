@@ -1,0 +1,89 @@
+#include "server/content/scene_codec.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::content {
+namespace {
+
+/// A scene that is right, of any size: the codec must carry it whole.
+rc::Gen<ImportedScene> any_scene() {
+  return rc::gen::exec([] {
+    ImportedScene scene;
+    const auto number = [] { return static_cast<float>(*rc::gen::inRange(-1000, 1000)) / 8.0F; };
+    const int meshes = *rc::gen::inRange(1, 4);
+    for (int i = 0; i < *rc::gen::inRange(1, 3); ++i) {
+      auto& t = scene.textures.emplace_back();
+      t.name = *rc::gen::string<std::string>();
+      for (const char c : *rc::gen::string<std::string>())
+        t.bytes.push_back(static_cast<std::byte>(c));
+    }
+    auto& m = scene.materials.emplace_back();
+    m.name = *rc::gen::string<std::string>();
+    m.base_colour = {number(), number(), number(), number()};
+    m.alpha_mode = *rc::gen::element(AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend);
+    m.double_sided = *rc::gen::arbitrary<bool>();
+    if (*rc::gen::arbitrary<bool>()) m.normal_texture = 0;
+    for (int i = 0; i < meshes; ++i) {
+      auto& mesh = scene.meshes.emplace_back();
+      const int vertices = *rc::gen::inRange(3, 12);
+      for (int v = 0; v < vertices; ++v) {
+        mesh.positions.emplace_back(number(), number(), static_cast<float>(v));
+        mesh.uv.emplace_back(number(), number());
+        mesh.tangents.emplace_back(1.0F, 0.0F, number(), -1.0F);
+      }
+      mesh.indices = *rc::gen::container<std::vector<std::uint32_t>>(
+          3, rc::gen::inRange(0U, static_cast<std::uint32_t>(vertices)));
+    }
+    for (int i = 0; i < meshes; ++i) {
+      auto& node = scene.nodes.emplace_back();
+      node.name = *rc::gen::string<std::string>();
+      if (i > 0) node.parent = static_cast<std::uint32_t>(*rc::gen::inRange(0, i));
+      node.X_PN.translation() = Vec3(number(), number(), number());
+      node.meshes = {static_cast<std::uint32_t>(i)};
+    }
+    return scene;
+  });
+}
+
+const ImportLimits kWide = [] {
+  ImportLimits limits;
+  limits.largest_m = 1e6;
+  return limits;
+}();
+
+RC_GTEST_PROP(SceneCodec, CarriesASceneWhole, ()) {
+  const ImportedScene scene = *any_scene();
+  const std::vector<std::byte> message = encode_scene(scene);
+  RC_ASSERT(message.size() <= longest_message(kWide));
+  const auto back = decode_scene(message, kWide);
+  RC_ASSERT(back.has_value());
+  RC_ASSERT(encode_scene(*back) == message);
+  RC_ASSERT(back->nodes.back().name == scene.nodes.back().name);
+  RC_ASSERT(back->meshes.front().positions == scene.meshes.front().positions);
+  RC_ASSERT(back->materials.front().normal_texture == scene.materials.front().normal_texture);
+}
+
+RC_GTEST_PROP(SceneCodec, RefusesAnyChangedByte, ()) {
+  std::vector<std::byte> message = encode_scene(*any_scene());
+  const auto at = *rc::gen::inRange<std::size_t>(0, message.size());
+  message[at] ^= static_cast<std::byte>(*rc::gen::inRange(1, 256));
+  const auto back = decode_scene(message, kWide);
+  RC_ASSERT(!back.has_value());
+}
+
+RC_GTEST_PROP(SceneCodec, RefusesAnyShorterMessage, ()) {
+  std::vector<std::byte> message = encode_scene(*any_scene());
+  message.resize(*rc::gen::inRange<std::size_t>(0, message.size()));
+  RC_ASSERT(!decode_scene(message, kWide).has_value());
+}
+
+TEST(SceneCodec, CarriesAnError) {
+  const auto back = decode_scene(encode_failure({"what", "where", "remedy"}), {});
+  ASSERT_FALSE(back);
+  EXPECT_EQ(back.error().to_string(), "where: what; remedy");
+}
+
+}  // namespace
+}  // namespace mechane::content
