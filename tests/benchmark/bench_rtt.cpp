@@ -75,8 +75,12 @@ void measure(client::Client& client, double seconds, Trips& trips) {
 int run(const Config& config) {
   Report report;
   if (!take_priority(config.priority)) report.note("rtt: SCHED_FIFO was refused, ordinary priority");
-  auto client = client::Client::connect(
-      {.kiosk = "bench-rtt", .role = client::Role::hand, .program = "bench_rtt", .domain = config.domain});
+  client::ClientConfig who;
+  who.kiosk = "bench-rtt";
+  who.role = client::Role::hand;
+  who.program = "bench_rtt";
+  who.domain = config.domain;
+  auto client = client::Client::connect(who);
   if (!client || !(*client)->wait_for(client::LinkState::joined, std::chrono::seconds(30))) {
     std::cerr << "bench_rtt: "
               << (client ? "no server let the hand in within 30 s " + (*client)->refusal() : client.error().to_string())
