@@ -17,7 +17,7 @@ class FileFinder final : public ObjectLoader {
   Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path&, const std::string&) override {
     return nullptr;
   }
-  Expected<std::string> content_hash(const std::filesystem::path& file) override { return content::content_hash(file); }
+  Expected<std::string> content_hash(const std::filesystem::path& file) override { return hash_file(file); }
 };
 
 std::string count(std::size_t number, std::string_view word) {

@@ -152,6 +152,10 @@ void compile_all(Compilation& c) {
   if (!c.problems.has_errors()) lint(c);
 }
 
+Expected<std::string> hash_file(const std::filesystem::path& file) {
+  return content::content_hash(file);
+}
+
 Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader, Problems& problems) {
   Compilation c{document, loader, problems, {}, {}, {}, {}, {}};
   compile_all(c);

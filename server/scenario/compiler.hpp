@@ -23,6 +23,9 @@ class ObjectLoader {
   [[nodiscard]] virtual Expected<std::string> content_hash(const std::filesystem::path& file) = 0;
 };
 
+/// What a loader's content_hash() is: content::content_hash() of the file.
+[[nodiscard]] Expected<std::string> hash_file(const std::filesystem::path& file);
+
 /// A world. Every name in it is resolved; every component's parameters hold against its type's schema. All problems go to `problems`,
 /// errors and warnings; the Error is the first error. Calls the loader once a touchable body. One thread, not in a tick; the same
 /// document and meshes give the same description and content_hash.
