@@ -67,18 +67,22 @@ Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double fi
   camera.p_WC = middle + from_W.normalized();
   const Mat3 R_CW = axes_of(camera);
 
-  // The distance at which every corner lies inside the upper three quarters of the picture.
-  const double tan_up = 0.86 * std::tan(field_of_view_rad / 2);
-  const double tan_across = 1.45 * std::tan(field_of_view_rad / 2);
+  // Looking a little below the middle leaves room for the caption: by this share of the picture's half height.
+  constexpr double kDrop = 0.12;
+  constexpr double kMostUp = 0.98;
+  constexpr double kMostAcross = 1.45;
+  const double t = std::tan(field_of_view_rad / 2);
+  const double tan_across = kMostAcross * t;
+  // The least distance at which every corner is inside.
   double distance = 0.3;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
     const Vec3 p_C = R_CW * sign.cwiseProduct(extent);
-    distance = std::max({distance, p_C.z() + std::abs(p_C.y()) / tan_up, p_C.z() + std::abs(p_C.x()) / tan_across});
+    distance = std::max({distance, (std::abs(p_C.y()) / t + kMostUp * p_C.z()) / (kMostUp - kDrop),
+                         p_C.z() + std::abs(p_C.x()) / tan_across});
   }
-  // Looking a little below the middle leaves room for the caption.
   const Vec3 up = R_CW.row(1);
-  camera.p_WT = middle - 0.12 * distance * std::tan(field_of_view_rad / 2) * up;
+  camera.p_WT = middle - kDrop * distance * t * up;
   camera.p_WC = camera.p_WT + distance * from_W.normalized();
   camera.least_horizontal_rad = 2 * std::atan(tan_across);
   return camera;

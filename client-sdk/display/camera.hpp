@@ -34,8 +34,7 @@ struct EyeView {
 /// `aspect` is width over height of one eye's picture.
 [[nodiscard]] EyeView eye_view(const Camera& camera, Eye eye, double aspect);
 
-/// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a third of the picture's height
-/// left free below for captions.
+/// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a little room left below for captions.
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad);
 
 /// World to clip space of a light far away, covering the box.

@@ -13,13 +13,17 @@ const Eigen::Vector4f kQuiet(0.97F, 0.96F, 0.93F, 0.66F);
 const Eigen::Vector4f kFaint(0.97F, 0.96F, 0.93F, 0.24F);
 const Eigen::Vector4f kWater(0.45F, 0.74F, 0.86F, 1.0F);
 
+float unit_of(PixelSize size) {
+  return std::max(std::min(static_cast<float>(size.height) / 720.0F, static_cast<float>(size.width) / 800.0F), 0.35F);
+}
+
 /// All lengths are for a picture of 1280 x 720 and grow with it; a narrow picture (half of a stereo pair) shrinks them less than
 /// its width, for the sake of the reader.
 class Page {
  public:
   Page(PixelSize size, const MeasureText& measure)
       : width(static_cast<float>(size.width)), height(static_cast<float>(size.height)), measure_(measure) {
-    unit_ = std::max(std::min(height / 720.0F, width / 800.0F), 0.35F);
+    unit_ = unit_of(size);
   }
   [[nodiscard]] float px(float design) const { return std::round(design * unit_); }
   [[nodiscard]] int font(float design) const { return std::max(8, static_cast<int>(std::lround(design * unit_))); }
@@ -109,27 +113,34 @@ void add_caption(Page& page, const OverlayContent& content) {
   }
 }
 
+/// A narrow picture has no room beside the machine: there the unit must say what the number is.
 void add_readouts(Page& page, const OverlayContent& content) {
   if (content.readouts.empty()) return;
+  const bool narrow = page.width < page.px(900);
   const float margin = page.px(kMargin);
-  const float padding = page.px(18);
+  const float padding = page.px(narrow ? 14 : 18);
   const float width = page.px(224);
-  const float row = page.px(92);
+  const float row = page.px(narrow ? 56 : 92);
+  const float label_height = page.px(narrow ? 0 : 21);
+  const float number_size = narrow ? 28 : 34;
   const auto count = static_cast<float>(content.readouts.size());
   const float x = page.width - margin - width;
   const float y = margin;
-  page.out.shapes.push_back({x, y, width, count * row + 2 * padding - page.px(14), page.px(14), kInk});
+  page.out.shapes.push_back({x, y, width, count * row + 2 * padding - page.px(12), page.px(14), kInk});
   float at = y + padding;
   for (const Readout& readout : content.readouts) {
-    add_text(page, x + padding, at + page.px(13), Face::regular, 15, kQuiet, readout.label);
-    add_text(page, x + padding, at + page.px(51), Face::bold, 34, kPaper, readout.value);
-    const float value_width = page.measure(Face::bold, 34, readout.value);
-    add_text(page, x + padding + value_width + page.px(7), at + page.px(51), Face::regular, 17, kQuiet, readout.unit);
-    const float bar = page.px(6);
-    const float bar_y = at + page.px(63);
-    const float full = width - 2 * padding;
+    const float baseline = at + label_height + page.px(narrow ? 24 : 30);
     const float end_width = page.measure(Face::regular, 13, readout.end);
-    add_text(page, x + width - padding - end_width, at + page.px(13), Face::regular, 13, kQuiet, readout.end);
+    if (!narrow) add_text(page, x + padding, at + page.px(13), Face::regular, 15, kQuiet, readout.label);
+    add_text(page, x + padding, baseline, Face::bold, number_size, kPaper, readout.value);
+    const float value_width = page.measure(Face::bold, number_size, readout.value);
+    add_text(page, x + padding + value_width + page.px(7), baseline, Face::regular, 17, kQuiet, readout.unit);
+    if (!narrow) {
+      add_text(page, x + width - padding - end_width, at + page.px(13), Face::regular, 13, kQuiet, readout.end);
+    }
+    const float bar = page.px(6);
+    const float bar_y = baseline + page.px(narrow ? 9 : 12);
+    const float full = width - 2 * padding;
     page.out.shapes.push_back({x + padding, bar_y, full, bar, bar / 2, kFaint});
     const float filled = full * static_cast<float>(std::clamp(readout.fraction, 0.0, 1.0));
     if (filled >= bar) page.out.shapes.push_back({x + padding, bar_y, filled, bar, bar / 2, kWater});
@@ -149,7 +160,33 @@ void add_note(Page& page, const OverlayContent& content) {
   add_text(page, x + padding, y + page.px(30), Face::regular, 20, kPaper, content.note);
 }
 
+void add_inset_frame(Page& page, PixelSize size, const std::string& caption) {
+  const PixelRectangle inset = inset_rectangle(size);
+  const auto x = static_cast<float>(inset.x);
+  const auto y = static_cast<float>(inset.y);
+  const auto width = static_cast<float>(inset.width);
+  const auto height = static_cast<float>(inset.height);
+  const float line = std::max(page.px(3), 1.0F);
+  const float strip = page.px(30);
+  Eigen::Vector4f frame = kInk;
+  frame.w() = 1;
+  page.out.shapes.push_back({x, y + height - strip, width, strip, 0, kInk});
+  page.out.shapes.push_back({x - line, y - line, width + 2 * line, line, 0, frame});
+  page.out.shapes.push_back({x - line, y + height, width + 2 * line, line, 0, frame});
+  page.out.shapes.push_back({x - line, y, line, height, 0, frame});
+  page.out.shapes.push_back({x + width, y, line, height, 0, frame});
+  add_text(page, x + page.px(14), y + height - page.px(10), Face::regular, 15, kPaper, caption);
+}
+
 }  // namespace
+
+PixelRectangle inset_rectangle(PixelSize size) {
+  const float unit = unit_of(size);
+  const auto px = [unit](float design) { return static_cast<std::uint32_t>(std::lround(design * unit)); };
+  // Narrow pictures have little room beside the readouts.
+  const float width = static_cast<float>(size.width) < 900 * unit ? 220 : 300;
+  return {px(kMargin), px(kMargin), px(width), px(0.68F * width)};
+}
 
 std::vector<std::string> break_lines(std::string_view text, float width,
                                      const std::function<float(std::string_view)>& measure) {
@@ -173,8 +210,10 @@ std::vector<std::string> break_lines(std::string_view text, float width,
   return lines;
 }
 
-OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure) {
+OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure,
+                      const std::string* inset_caption) {
   Page page(size, measure);
+  if (inset_caption != nullptr) add_inset_frame(page, size, *inset_caption);
   add_caption(page, content);
   add_readouts(page, content);
   add_note(page, content);

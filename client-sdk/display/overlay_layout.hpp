@@ -30,6 +30,11 @@ struct OverlayText {
   std::string text;
 };
 
+/// Pixels of a picture, origin in the upper left corner.
+struct PixelRectangle {
+  std::uint32_t x = 0, y = 0, width = 0, height = 0;
+};
+
 struct OverlayLayout {
   std::vector<OverlayShape> shapes;  ///< drawn first, in order
   std::vector<OverlayText> texts;
@@ -38,7 +43,12 @@ struct OverlayLayout {
 /// Width of a line, in pixels.
 using MeasureText = std::function<float(Face, int size_px, std::string_view utf8)>;
 
-[[nodiscard]] OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure);
+/// `inset_caption`: of a close-up that lies in inset_rectangle(size); null: there is none.
+[[nodiscard]] OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure,
+                                    const std::string* inset_caption = nullptr);
+
+/// Where a close-up goes: the upper left corner.
+[[nodiscard]] PixelRectangle inset_rectangle(PixelSize size);
 
 /// Breaks at blanks so that each line is at most `width` wide; a longer word has a line of its own.
 [[nodiscard]] std::vector<std::string> break_lines(std::string_view text, float width,

@@ -77,9 +77,12 @@ void OverlayPass::upload_atlas() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-void OverlayPass::draw(const OverlayContent& content, PixelSize size) {
-  const OverlayLayout layout = lay_out(
-      content, size, [this](Face face, int px, std::string_view text) { return typesetter_->width(face, px, text); });
+void OverlayPass::draw(const RenderScene& scene, PixelSize size) {
+  const std::string* inset_caption = scene.inset ? &scene.inset->caption : nullptr;
+  const MeasureText measure = [this](Face face, int px, std::string_view text) {
+    return typesetter_->width(face, px, text);
+  };
+  const OverlayLayout layout = lay_out(scene.overlay, size, measure, inset_caption);
   std::vector<Vertex> vertices;
   for (const OverlayShape& shape : layout.shapes)
     add_shape(vertices, shape);

@@ -10,7 +10,7 @@ namespace mechane::display {
 class OverlayPass {
  public:
   [[nodiscard]] static Expected<OverlayPass> create(const std::string& font_folder);
-  void draw(const OverlayContent& content, PixelSize size);
+  void draw(const RenderScene& scene, PixelSize size);
 
  private:
   OverlayPass(Program program, std::unique_ptr<Typesetter> typesetter);

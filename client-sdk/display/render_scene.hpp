@@ -106,6 +106,12 @@ struct Occluder {
   float radius_m = 0;
 };
 
+/// A close-up in a corner of the picture, for what the main view shows too small. Flat: the same for both eyes.
+struct Inset {
+  Camera camera;
+  std::string caption;
+};
+
 inline constexpr std::size_t kMaxOccluders = 32;
 
 struct RenderScene {
@@ -120,6 +126,7 @@ struct RenderScene {
   std::optional<float> ground_height_m;  ///< an endless plain of dry earth at this height
   double time_s = 0;                     ///< of the world, for ripples: the frame's tick, never the client's clock
   OverlayContent overlay;
+  std::optional<Inset> inset;
 };
 
 }  // namespace mechane::display

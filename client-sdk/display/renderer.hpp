@@ -50,9 +50,12 @@ class Renderer {
     OverlayPass overlay;
   };
   Renderer(const RendererSettings& settings, Passes passes) : settings_(settings), passes_(std::move(passes)) {}
-  [[nodiscard]] Expected<void> fit_targets(PixelSize picture, PixelSize eye);
+  [[nodiscard]] Expected<void> fit_targets(PixelSize picture, PixelSize eye, bool inset);
   [[nodiscard]] Expected<void> fit_sky(const Sun& sun);
-  void draw_eye(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light);
+  void draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
+                 const HdrTarget& target);
+  /// Tone, close-up and words of one eye, into the picture from column x on.
+  void finish_eye(const RenderScene& scene, PixelSize eye, std::int32_t x);
 
   RendererSettings settings_;
   Passes passes_;
@@ -60,6 +63,7 @@ class Renderer {
   SkyHarmonics sky_{};
   std::optional<Sun> baked_sun_;
   std::optional<HdrTarget> hdr_;
+  std::optional<HdrTarget> inset_;
   std::optional<PictureTarget> picture_;
 };
 

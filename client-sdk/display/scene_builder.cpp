@@ -130,12 +130,13 @@ void SceneBuilder::add_scenery(const std::vector<client::SceneObject>& objects) 
 void SceneBuilder::find_place() {
   Eigen::AlignedBox3d interest_W;
   box_W_.setEmpty();
+  basin_W_.setEmpty();
   for (const auto* list : {&objects_, &scenery_}) {
     for (const Placed& placed : *list) {
       const Eigen::AlignedBox3f box_W = moved(placed.model->box_B, placed.object.X_WB);
       box_W_.extend(box_W);
       const bool basin = placed.object.mesh_node == kBasin;
-      if (basin) basin_height_m_ = box_W.min().y();
+      if (basin) basin_W_ = box_W;
       if (placed.object.movable || basin || placed.object.mesh_node == kBarrel) interest_W.extend(box_W.cast<double>());
     }
   }
@@ -172,9 +173,21 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
       hand_.draw(hand, scene);
   }
   if (known) add_stream(*frame, *status, level_m, scene);
+  if (!basin_W_.isEmpty() && (level_m > 0.002 || !scene.streams.empty())) scene.inset = basin_inset();
   if (status != nullptr) scene.overlay = writer_.write(*status, frame);
   scene.overlay.note = link_note(link, status != nullptr, language_);
   return scene;
+}
+
+Inset SceneBuilder::basin_inset() const {
+  Inset inset;
+  inset.caption = language_ == "el" ? "Η δεξαμενή" : "The basin";
+  const Vec3 middle = basin_W_.center().cast<double>();
+  const double side = basin_W_.sizes().cast<double>().maxCoeff();
+  inset.camera.p_WT = middle + Vec3(0, 0.30 * side, 0);
+  inset.camera.p_WC = middle + side * Vec3(0.45, 2.5, 1.9);
+  inset.camera.field_of_view_rad = 30 * kPi / 180;
+  return inset;
 }
 
 void SceneBuilder::add_object(const Placed& placed, const Pose& X_WB, double level_m, RenderScene& out) const {
@@ -206,7 +219,7 @@ void SceneBuilder::add_stream(const client::Frame& frame, const client::WorldSta
   stream.p_WS = affine(X_WB) * spout_.p_BS;
   const Vec3f axis_W = X_WB.R.toRotationMatrix().cast<float>() * spout_.axis_B;
   stream.v_W = kSpoutSpeed_m_per_s * Vec3f(axis_W.x(), 0.15F * axis_W.y(), axis_W.z());
-  stream.landing_height_m = basin_height_m_ + static_cast<float>(level_m);
+  stream.landing_height_m = (basin_W_.isEmpty() ? 0.0F : basin_W_.min().y()) + static_cast<float>(level_m);
   stream.width_m = std::min(static_cast<float>(width), 0.25F);
   out.streams.push_back(stream);
 }

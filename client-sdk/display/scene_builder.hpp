@@ -45,6 +45,8 @@ class SceneBuilder {
   };
   void add_scenery(const std::vector<client::SceneObject>& objects);
   void find_place();
+  /// A close-up of the basin, once there is water.
+  [[nodiscard]] Inset basin_inset() const;
   void add_object(const Placed& placed, const Pose& X_WB, double level_m, RenderScene& out) const;
   void add_stream(const client::Frame& frame, const client::WorldStatus& status, double level_m,
                   RenderScene& out) const;
@@ -60,7 +62,7 @@ class SceneBuilder {
   std::optional<float> ground_height_m_;
   std::optional<std::size_t> spout_object_;
   Spout spout_;
-  float basin_height_m_ = 0;
+  Eigen::AlignedBox3f basin_W_;  ///< the water's surface when the basin is empty
 };
 
 }  // namespace mechane::display

@@ -19,7 +19,7 @@ void main() {
   vec3 earth = mix(vec3(0.215, 0.155, 0.095), vec3(0.30, 0.225, 0.14), patches);
   vec3 grass = vec3(0.115, 0.125, 0.045);
   vec3 base = mix(earth, grass, 0.85 * smoothstep(0.38, 0.72, value_noise(q * 0.11 + 19.0) * 0.45 + value_noise(q * 0.63 + 3.0) * 0.3 + grain * 0.25));
-  base *= 0.78 + 0.44 * grain;
+  base *= 0.66 + 0.5 * grain;
   vec3 n = normalize(vec3(tilt * 0.35, 1.0, tilt * 0.25));
   Surface s = Surface(base, 0.0, 0.95, n);
   colour = vec4(through_air(shade(s, p_W, vec3(0, 1, 0)), p_W), 1.0);
