@@ -142,10 +142,17 @@ def folder_faults(root: Path) -> list[Fault]:
     return faults
 
 
+def fuzz_faults(root: Path) -> list[Fault]:
+    """A fuzzer without a seed starts from nothing, and its test would run over nothing."""
+    return [Fault("fuzz-corpus", str(path), 1, "no seed in tests/fuzz/corpus/" + path.name.removesuffix("_fuzz.cpp"))
+            for path in cpp_files(root, "tests") if path.name.endswith("_fuzz.cpp")
+            and not any(file.is_file() for file in (root / "tests/fuzz/corpus" / path.name.removesuffix("_fuzz.cpp")).glob("*"))]
+
+
 def check(root: Path) -> list[Fault]:
     listed = root / "tests/architecture/exceptions.txt"
     ceilings = Ceilings(read(listed) if listed.exists() else "")
-    found = length_faults(root, ceilings) + header_faults(root) + text_faults(root) + folder_faults(root)
+    found = length_faults(root, ceilings) + header_faults(root) + text_faults(root) + folder_faults(root) + fuzz_faults(root)
     return found + ceilings.faults + ceilings.unused()
 
 

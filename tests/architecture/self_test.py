@@ -74,6 +74,7 @@ PLANTED = [
     ("sleep", "tests/unit/base/a_test.cpp", "std::this_thread::sleep_" + "for(1ms);\n"),
     ("folder-cmake", "server/agents/a.cpp", "int a();\n"),
     ("folder-cmake", "tests/property/p_test.cpp", "int a();\n"),
+    ("fuzz-corpus", "tests/fuzz/wire_fuzz.cpp", "int a();\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90 | long ago\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90\n"),
 ]
