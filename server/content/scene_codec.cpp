@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "server/base/assert.hpp"
 #include "server/content/scene_check.hpp"
 
 namespace mechane::content {
@@ -27,6 +28,14 @@ struct Header {
   std::uint64_t checksum = 0;
 };
 static_assert(sizeof(Header) == kSceneHeaderBytes && std::has_unique_object_representations_v<Header>);
+
+void seal(std::span<std::byte> message, Kind kind) {
+  Header header;
+  header.kind = kind;
+  header.length = message.size() - kSceneHeaderBytes;
+  header.checksum = XXH3_64bits(message.data() + kSceneHeaderBytes, header.length);
+  std::memcpy(message.data(), &header, sizeof header);
+}
 
 class Writer {
  public:
@@ -50,11 +59,7 @@ class Writer {
     bytes_.insert(bytes_.end(), first, first + size);
   }
   [[nodiscard]] std::vector<std::byte> finish(Kind kind) {
-    Header header;
-    header.kind = kind;
-    header.length = bytes_.size() - kSceneHeaderBytes;
-    header.checksum = XXH3_64bits(bytes_.data() + kSceneHeaderBytes, header.length);
-    std::memcpy(bytes_.data(), &header, sizeof header);
+    seal(bytes_, kind);
     return std::move(bytes_);
   }
 
@@ -240,6 +245,11 @@ std::vector<std::byte> encode_failure(const Error& error) {
   return out.finish(Kind::failure);
 }
 
+void seal_scene(std::span<std::byte> message) {
+  MECHANE_ASSERT(message.size() >= kSceneHeaderBytes);
+  seal(message, Kind::scene);
+}
+
 std::uint64_t longest_message(const ImportLimits& limits) {
   constexpr std::uint64_t kName =
       1200;  // longest name (assimp's strings end at 1024), lengths and fixed fields of an item
@@ -252,6 +262,7 @@ Expected<ImportedScene> decode_scene(std::span<const std::byte> message, const I
   if (message.size() < sizeof header) return damaged(fmt::format("{} bytes instead of a header", message.size()));
   std::memcpy(&header, message.data(), sizeof header);
   if (header.magic != kMagic) return damaged("it does not begin as one");
+  if (header.zero != 0) return damaged("its header is not as it should be");
   if (header.version != kSceneCodecVersion) {
     return damaged(fmt::format("version {} instead of {}", header.version, kSceneCodecVersion));
   }

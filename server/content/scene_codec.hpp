@@ -31,6 +31,10 @@ inline constexpr std::size_t kSceneHeaderBytes = 32;
 [[nodiscard]] std::vector<std::byte> encode_scene(const ImportedScene& scene);
 [[nodiscard]] std::vector<std::byte> encode_failure(const Error& error);
 
+/// Sets the header of a scene message right for the payload that follows it: for tests and fuzzers that change payloads.
+/// `message` must hold at least kSceneHeaderBytes.
+void seal_scene(std::span<std::byte> message);
+
 /// The longest message that a scene within the limits can make: what a reader need accept.
 [[nodiscard]] std::uint64_t longest_message(const ImportLimits& limits);
 

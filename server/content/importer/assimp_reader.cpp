@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::array kRead{".glb", ".gltf", ".obj", ".stl", ".ply"};
 constexpr std::array kLoaders{"glTF2 Importer", "Wavefront Object Importer", "Stereolithography (STL) Importer",
-                              "Polygon Library (PLY) Importer"};
+                              "Stanford Polygon Library (PLY) Importer"};
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -57,7 +57,7 @@ Eigen::Vector4f tangent(const aiMesh& mesh, unsigned i, const Vec3f& normal) {
   const Vec3f raw = vector(mesh.mTangents[i]);
   const Vec3f t = unit_or(raw - normal * normal.dot(raw), normal.unitOrthogonal());
   const float side = normal.cross(t).dot(vector(mesh.mBitangents[i]));
-  return {t.x(), t.y(), t.z(), side < 0 ? -1.0F : 1.0F};
+  return {t.x(), t.y(), t.z(), side > 0 ? -1.0F : 1.0F};  // assimp's bitangent runs along v, which is downwards
 }
 
 ImportedMesh convert(const aiMesh& from) {

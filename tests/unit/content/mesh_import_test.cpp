@@ -206,7 +206,7 @@ TEST_F(MeshImport, AFileThatEatsMemoryIsRefused) {
   limits_.memory_bytes = 128ULL << 20U;
   std::string obj;
   for (int i = 0; i < 400'000; ++i)
-    obj += "v " + std::to_string(i % 100) + " 0 1\n";
+    obj += "v " + std::to_string(i % 600) + " " + std::to_string(i / 600) + " 1\n";
   for (int i = 1; i + 2 < 400'000; ++i)
     obj += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
   EXPECT_THAT(fault("big.obj", obj),

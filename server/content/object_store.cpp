@@ -1,0 +1,147 @@
+#include "server/content/object_store.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "server/collision/object_io.hpp"
+#include "server/content/content_hash.hpp"
+#include "server/content/mesh_import.hpp"
+#include "server/content/scene_codec.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::content {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLongestPartFile = 1ULL << 30U;
+
+/// What the file of the object is called: whatever can change the object is in the name.
+std::string cache_name(const std::string& file_hash, const std::string& node, const collision::BuildConfig& config) {
+  const std::string key = fmt::format(
+      "part file {} build {} import {} mesh {} node {}:{} resolution {} spacing {:a} samples {} seam {:a} seed {}",
+      collision::kPartFileVersion, kObjectBuildVersion, kSceneCodecVersion, file_hash, node.size(), node,
+      config.map_resolution, config.sample_spacing_m, config.max_samples_per_part, config.seam_gap_m, config.seed);
+  return content_hash(std::as_bytes(std::span(key))) + ".part";
+}
+
+/// The object in a cache file; nothing when there is none or it is damaged.
+std::shared_ptr<const collision::Object> read_cached(const fs::path& file) {
+  std::error_code code;
+  const std::uintmax_t size = fs::file_size(file, code);
+  if (code) return nullptr;
+  std::vector<std::byte> bytes;
+  if (size <= kLongestPartFile) {
+    bytes.resize(size);
+    std::ifstream in(file, std::ios::binary);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (!in) bytes.clear();
+  }
+  Expected<collision::Object> object = collision::read_object(bytes);
+  if (object) return std::make_shared<const collision::Object>(std::move(*object));
+  log::warning(fmt::format("{}: {}; it is built again", file.string(), object.error().what));
+  return nullptr;
+}
+
+/// Under its own name at once and whole, or not at all: two servers may build the same object.
+Expected<void> write_cached(const fs::path& file, std::span<const std::byte> bytes) {
+  std::error_code code;
+  fs::create_directories(file.parent_path(), code);
+  std::string draft = file.string() + ".XXXXXX";
+  const int fd = mkstemp(draft.data());
+  if (fd < 0) return fail("cannot be written", file.string());
+  ::close(fd);
+  std::ofstream out(draft, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (out) fs::rename(draft, file, code);
+  if (out && !code) return {};
+  std::error_code ignored;
+  fs::remove(draft, ignored);
+  return fail(code ? code.message() : "cannot be written whole", file.string());
+}
+
+const char* setting(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value == '/' ? value : nullptr;  // the XDG rules: a relative path counts as absent
+}
+
+}  // namespace
+
+fs::path default_cache_folder() {
+  if (const char* cache = setting("XDG_CACHE_HOME")) return fs::path(cache) / "mechane";
+  if (const char* home = setting("HOME")) return fs::path(home) / ".cache/mechane";
+  std::error_code code;
+  return fs::temp_directory_path(code) / fmt::format("mechane-{}", getuid());
+}
+
+ObjectStore::ObjectStore(fs::path cache_folder, ImportLimits limits)
+    : cache_folder_(cache_folder.empty() ? default_cache_folder() : std::move(cache_folder)),
+      limits_(std::move(limits)) {}
+
+Expected<fs::path> ObjectStore::cache_file(const fs::path& file, const std::string& node,
+                                           const collision::BuildConfig& config) const {
+  const Expected<std::string> hash = content_hash(file);
+  if (!hash) return tl::unexpected(hash.error());
+  return cache_folder_ / cache_name(*hash, node, config);
+}
+
+Expected<std::shared_ptr<const collision::Object>> ObjectStore::load(const fs::path& file, const std::string& node,
+                                                                     const collision::BuildConfig& config) {
+  const Expected<fs::path> cached = cache_file(file, node, config);
+  if (!cached) return tl::unexpected(cached.error());
+  std::weak_ptr<const collision::Object>& known = known_[*cached];
+  if (auto object = known.lock()) return object;
+  if (auto object = read_cached(*cached)) {
+    known = object;
+    return object;
+  }
+  Expected<collision::Object> built = build(file, node, config);
+  if (!built) return tl::unexpected(built.error());
+  if (auto kept = write_cached(*cached, collision::write_object(*built)); !kept) {
+    log::warning(fmt::format("{}; the object is built again at each start", kept.error().to_string()));
+  }
+  auto object = std::make_shared<const collision::Object>(std::move(*built));
+  known = object;
+  return object;
+}
+
+Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::string& node,
+                                               const collision::BuildConfig& config) {
+  const auto at = [&](Error error) {
+    error.where = error.where.empty() ? file.string() : file.string() + ", " + error.where;
+    return tl::unexpected<Error>(std::move(error));
+  };
+  const Expected<const ImportedScene*> scene = scene_of(file);
+  if (!scene) return tl::unexpected(scene.error());
+  const auto parts = collision_parts(**scene, node);
+  if (!parts) return at(parts.error());
+  if (progress_) progress_(node, parts->size());
+  log::info(fmt::format("{}, node {}: building {} parts for touch; the next start finds them ready", file.string(),
+                        node.empty() ? "(all)" : node, parts->size()));
+  collision::BuildReport report;
+  Expected<collision::Object> object = collision::build_object(*parts, config, &report);
+  if (!object) return at(object.error());
+  log::info(
+      fmt::format("{}, node {}: built in {:.1f} s", file.string(), node.empty() ? "(all)" : node, report.seconds));
+  return object;
+}
+
+Expected<const ImportedScene*> ObjectStore::scene_of(const fs::path& file) {
+  const Expected<std::string> hash = content_hash(file);
+  if (!hash) return tl::unexpected(hash.error());
+  if (!last_import_ || last_import_->content_hash != *hash) {
+    Expected<ImportedScene> scene = import_mesh(file, limits_);
+    if (!scene) return tl::unexpected(scene.error());
+    last_import_ = LastImport{*hash, std::move(*scene)};
+  }
+  return &last_import_->scene;
+}
+
+}  // namespace mechane::content

@@ -1,0 +1,64 @@
+// Collision objects by model file and node. Fitting takes seconds a part, so what was built once is kept, by content, as a .part file.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/base/error.hpp"
+#include "server/collision/object_builder.hpp"
+#include "server/content/import_limits.hpp"
+#include "server/content/imported_scene.hpp"
+
+namespace mechane::content {
+
+/// Raised when the builder makes other objects from the same meshes: the cache then builds them again.
+inline constexpr int kObjectBuildVersion = 1;
+
+/// $XDG_CACHE_HOME/mechane, or ~/.cache/mechane, or a folder under the system's temporary one when there is no home.
+[[nodiscard]] std::filesystem::path default_cache_folder();
+
+/// Not thread-safe, and never for a loop thread: it reads, runs the import and builds. The objects it gives may go anywhere.
+class ObjectStore {
+ public:
+  /// For a person who waits: `parts` parts of the node are about to be built. Not called for what the cache has.
+  using Progress = std::function<void(const std::string& node, std::size_t parts)>;
+
+  /// An empty `cache_folder` means default_cache_folder(). The folder is made when the first object is kept.
+  explicit ObjectStore(std::filesystem::path cache_folder = {}, ImportLimits limits = {});
+
+  void on_progress(Progress progress) { progress_ = std::move(progress); }
+
+  /// The object of the parts under `node` (of the whole file when empty; see collision_parts), in the node's frame: from the cache,
+  /// or imported, built and kept. The cache's key is the file's content, the node, the config and the formats' versions, so nothing
+  /// stale is ever found. A damaged cache file is built again, and a cache that cannot be written costs time only: both are logged.
+  /// Errors: those of import_mesh, collision_parts and build_object.
+  [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
+                                                                        const std::string& node,
+                                                                        const collision::BuildConfig& config);
+
+  /// Where `load` keeps this object.
+  [[nodiscard]] Expected<std::filesystem::path> cache_file(const std::filesystem::path& file, const std::string& node,
+                                                           const collision::BuildConfig& config) const;
+
+ private:
+  struct LastImport {
+    std::string content_hash;
+    ImportedScene scene;
+  };
+  [[nodiscard]] Expected<collision::Object> build(const std::filesystem::path& file, const std::string& node,
+                                                  const collision::BuildConfig& config);
+  [[nodiscard]] Expected<const ImportedScene*> scene_of(const std::filesystem::path& file);
+
+  std::filesystem::path cache_folder_;
+  ImportLimits limits_;
+  Progress progress_;
+  std::optional<LastImport> last_import_;  ///< the bodies of a scenario are mostly nodes of one file
+  std::map<std::filesystem::path, std::weak_ptr<const collision::Object>> known_;  ///< by cache file
+};
+
+}  // namespace mechane::content
