@@ -115,8 +115,10 @@ RadialMap::Plane RadialMap::tangent_plane(const Vec3f& x, const Vec3f& x_foot, i
   return {foot.gradient / norm, std::max(0.0F, -g_at_x / norm)};
 }
 
-RadialMap::Plane RadialMap::nearest_plane(const Vec3f& x, int own_axis) const noexcept {
-  Plane nearest = tangent_plane(x, x, own_axis);
+RadialMap::Plane RadialMap::nearest_plane(const Vec3f& x, const Local& here) const noexcept {
+  Plane nearest;
+  const float norm_here = here.gradient.norm();
+  if (norm_here > kTiny) nearest = {here.gradient / norm_here, -here.g / norm_here};
   for (int axis = 0; axis < 3; ++axis) {
     Vec3f x_foot = x;
     x_foot[axis] = x[axis] < 0 ? -1.0F : 1.0F;
@@ -140,10 +142,9 @@ MapHit RadialMap::evaluate(const Vec3f& p_QP) const noexcept {
   const Vec3f x = (p_QP - center_Q_).cwiseProduct(inverse_half_);
   // Written so that NaN is outside.
   if (!(std::abs(x.x()) <= 1.0F && std::abs(x.y()) <= 1.0F && std::abs(x.z()) <= 1.0F)) return result;
-  const int own_axis = longest_axis(x);
-  const Local here = local(x, own_axis);
+  const Local here = local(x, longest_axis(x));
   if (!(here.g < 0)) return result;
-  const Plane nearest = nearest_plane(x, own_axis);
+  const Plane nearest = nearest_plane(x, here);
   if (!(nearest.depth_m > 0)) return result;  // covered on all sides: deep in the wood of several parts
   const Plane surface = newton_step(x, nearest);
   result.hit = true;

@@ -74,7 +74,7 @@ class RadialMap {
   };
   [[nodiscard]] Local local(const Vec3f& x, int axis) const noexcept;
   [[nodiscard]] Plane tangent_plane(const Vec3f& x, const Vec3f& x_foot, int axis) const noexcept;
-  [[nodiscard]] Plane nearest_plane(const Vec3f& x, int own_axis) const noexcept;
+  [[nodiscard]] Plane nearest_plane(const Vec3f& x, const Local& here) const noexcept;
   [[nodiscard]] Plane newton_step(const Vec3f& x, const Plane& guess) const noexcept;
 
   int resolution_ = 0;

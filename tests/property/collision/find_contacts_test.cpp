@@ -4,8 +4,8 @@
 #include "server/collision/object.hpp"
 #include "server/collision/object_builder.hpp"
 #include "server/geometry/mesh_query.hpp"
+#include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
-#include "tests/support/shapes.hpp"
 
 namespace mechane::collision {
 namespace {
@@ -22,41 +22,51 @@ Vec3 any_unit() {
 }
 
 struct Convex {
+  geometry::Superquadric shape;
   Object object;
   geometry::MeshQuery exact;
 };
 
-/// A superquadric of a hand's kind, with its exact mesh.
-Convex any_convex() {
-  geometry::Superquadric s;
-  s.a = Vec3(*between(0.008, 0.02), *between(0.008, 0.02), *between(0.01, 0.04));
-  s.e1 = *between(0.4, 1.2);
-  s.e2 = *between(0.4, 1.2);
-  return {make_superquadric_object(s, 0.003), geometry::MeshQuery(geometry::tessellate(s, 48))};
+/// Superquadrics of a hand's kind, with their exact meshes: a dozen, made once.
+const Convex& any_convex() {
+  static const std::vector<Convex> shapes = [] {
+    std::vector<Convex> made;
+    geometry::Random random(21);
+    for (int i = 0; i < 12; ++i) {
+      geometry::Superquadric s;
+      s.a = Vec3(0.008 + 0.012 * random.unit(), 0.008 + 0.012 * random.unit(), 0.01 + 0.03 * random.unit());
+      s.e1 = 0.4 + 0.8 * random.unit();
+      s.e2 = 0.4 + 0.8 * random.unit();
+      made.push_back({s, make_superquadric_object(s, 0.003), geometry::MeshQuery(geometry::tessellate(s, 48))});
+    }
+    return made;
+  }();
+  return shapes[*rc::gen::inRange<std::size_t>(0, shapes.size())];
 }
 
-/// A touching B: A's centre starts at B's centre and moves out until the exact meshes overlap by less than `depth_m` or so.
 struct Touch {
   Pose X_WA;
   Pose X_WB;
 };
 
+/// A touching B: A comes nearer to B until its deepest sample lies `depth_m` inside.
 Touch any_touch(const Convex& a, const Convex& b, double depth_m) {
   Touch touch;
   touch.X_WB = {Vec3(*between(-1, 1), *between(-1, 1), *between(-1, 1)), quat_from_rotation_vector(3 * any_unit())};
   const Quat R_WA = quat_from_rotation_vector(3 * any_unit());
   const Vec3 direction = any_unit();
   const auto overlap_of = [&](double distance) {
-    const Pose X_WA{touch.X_WB.p + distance * direction, R_WA};
+    const Pose X_BA = touch.X_WB.inverse() * Pose{touch.X_WB.p + distance * direction, R_WA};
     double deepest = 0;
-    for (const Vec3f& p : a.object.samples_O) {
-      deepest = std::max(deepest, -b.exact.signed_distance(touch.X_WB.inverse() * (X_WA * p.cast<double>())));
+    for (const Vec3f& p_A : a.object.samples_O) {
+      const Vec3 p_B = X_BA * p_A.cast<double>();
+      if (geometry::inside_outside(b.shape, p_B) < 1) deepest = std::max(deepest, b.exact.closest(p_B).distance_m);
     }
     return deepest;
   };
   double inside = 0;
   double outside = 0.12;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < 12; ++i) {
     const double middle = 0.5 * (inside + outside);
     (overlap_of(middle) > depth_m ? inside : outside) = middle;
   }
@@ -75,8 +85,8 @@ std::vector<PointContact> contacts_of(const Object& a, const Pose& X_WA, const O
 constexpr double kDepthBound_m = 0.00025;
 
 RC_GTEST_PROP(FindContacts, DepthAndSideAgreeWithTheExactDistance, ()) {
-  const Convex a = any_convex();
-  const Convex b = any_convex();
+  const Convex& a = any_convex();
+  const Convex& b = any_convex();
   const Touch touch = any_touch(a, b, *between(0.0005, 0.004));
   const auto contacts = contacts_of(a.object, touch.X_WA, b.object, touch.X_WB);
   RC_ASSERT(!contacts.empty());
@@ -95,8 +105,8 @@ RC_GTEST_PROP(FindContacts, DepthAndSideAgreeWithTheExactDistance, ()) {
 }
 
 RC_GTEST_PROP(FindContacts, TheNormalLeadsOutOfBOrBackwardsOutOfA, ()) {
-  const Convex a = any_convex();
-  const Convex b = any_convex();
+  const Convex& a = any_convex();
+  const Convex& b = any_convex();
   const Touch touch = any_touch(a, b, *between(0.0005, 0.004));
   const double step = 0.001;
   for (const PointContact& c : contacts_of(a.object, touch.X_WA, b.object, touch.X_WB)) {
@@ -111,8 +121,8 @@ RC_GTEST_PROP(FindContacts, TheNormalLeadsOutOfBOrBackwardsOutOfA, ()) {
 }
 
 RC_GTEST_PROP(FindContacts, MovingAByTheDeepestContactLeavesLittleOverlap, ()) {
-  const Convex a = any_convex();
-  const Convex b = any_convex();
+  const Convex& a = any_convex();
+  const Convex& b = any_convex();
   const Touch touch = any_touch(a, b, *between(0.0005, 0.002));
   const auto contacts = contacts_of(a.object, touch.X_WA, b.object, touch.X_WB);
   RC_ASSERT(!contacts.empty());
