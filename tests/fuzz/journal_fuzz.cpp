@@ -1,0 +1,51 @@
+// The journal's reader takes any bytes. With the first byte odd, the rest is the content of a frame of ticks whose checksum is right:
+// a fuzzer would not get past the checksum else.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+#include <xxhash.h>
+
+#include "server/record/byte_order.hpp"
+#include "server/record/journal_reader.hpp"
+#include "server/record/journal_writer.hpp"
+
+namespace {
+
+using namespace mechane::record;
+
+std::vector<std::byte> journal_with_frame(std::uint8_t kind, std::span<const std::byte> payload) {
+  JournalWriter writer(JournalHeader{});
+  std::vector<std::byte> bytes = writer.take_bytes();
+  std::vector<std::byte> checked;
+  VectorSink sink(checked);
+  put(sink, kind);
+  put(sink, static_cast<std::uint32_t>(payload.size()));
+  sink.append(payload.data(), payload.size());
+  VectorSink file(bytes);
+  file.append(checked.data(), 5);
+  put(file, static_cast<std::uint64_t>(XXH3_64bits_withSeed(checked.data(), checked.size(), 1)));
+  file.append(payload.data(), payload.size());
+  return bytes;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span<const std::byte> input = std::as_bytes(std::span(data, size));
+  const bool frame = size > 0 && data[0] % 2 == 1;
+  const std::vector<std::byte> bytes =
+      frame ? journal_with_frame(static_cast<std::uint8_t>(data[0] / 2 % 8), input.subspan(1))
+            : std::vector<std::byte>(input.begin(), input.end());
+  auto reader = JournalReader::open_bytes(bytes, "fuzz");
+  if (!reader) return 0;
+  JournalTick tick;
+  std::uint64_t ticks = 0;
+  while (ticks < 10'000 && reader->next(tick))
+    ++ticks;
+  if (ticks < 10'000 && reader->end().ticks != ticks) std::abort();
+  if (ticks < 10'000 && reader->end().offset > bytes.size()) std::abort();
+  return 0;
+}
