@@ -69,7 +69,7 @@ Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double fi
 
   // Looking a little below the middle leaves room for the caption: by this share of the picture's half height.
   constexpr double kDrop = 0.12;
-  constexpr double kMostUp = 0.98;
+  constexpr double kMost = 0.98;
   constexpr double kMostAcross = 1.45;
   const double t = std::tan(field_of_view_rad / 2);
   const double tan_across = kMostAcross * t;
@@ -78,8 +78,8 @@ Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double fi
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
     const Vec3 p_C = R_CW * sign.cwiseProduct(extent);
-    distance = std::max({distance, (std::abs(p_C.y()) / t + kMostUp * p_C.z()) / (kMostUp - kDrop),
-                         p_C.z() + std::abs(p_C.x()) / tan_across});
+    distance = std::max({distance, (std::abs(p_C.y()) / t + kMost * p_C.z()) / (kMost - kDrop),
+                         p_C.z() + std::abs(p_C.x()) / (kMost * tan_across)});
   }
   const Vec3 up = R_CW.row(1);
   camera.p_WT = middle - kDrop * distance * t * up;

@@ -38,6 +38,11 @@ Expected<void> make_folder(const std::string& folder) {
   return {};
 }
 
+/// Another world may bring another manifest, even of the same scenario.
+std::string scenario_key(const client::WorldStatus& status) {
+  return status.world + " " + status.scenario + " " + status.scenario_hash;
+}
+
 /// One display's life. Made and run on one thread.
 class DisplayLoop {
  public:
@@ -94,7 +99,7 @@ bool DisplayLoop::stop_wanted(TimePoint now) const {
 }
 
 void DisplayLoop::open_scenario() {
-  scenario_ = status_->scenario;
+  scenario_ = scenario_key(*status_);
   folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
   renderer_.forget_assets();
   library_ = std::make_unique<AssetLibrary>(
@@ -107,7 +112,7 @@ void DisplayLoop::open_scenario() {
 void DisplayLoop::take_news(TimePoint now) {
   if (auto status = client_.world_status()) {
     status_ = std::move(status);
-    if (builder_ == nullptr || status_->scenario != scenario_) open_scenario();
+    if (builder_ == nullptr || scenario_key(*status_) != scenario_) open_scenario();
     if (options_.every_step && !due_) due_ = schedule_.due(now, *status_);
   }
   if (builder_ != nullptr) {
