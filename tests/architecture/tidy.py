@@ -114,7 +114,7 @@ def main() -> int:
     configuration = version + " ".join(COMMAND).encode() + _content(ROOT / ".clang-tidy") + _content(ROOT / "tests/.clang-tidy")
     entries = [entry for entry in _entries(arguments.build)
                if not arguments.only or any(word in entry["file"] for word in arguments.only)]
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with ThreadPoolExecutor(max_workers=int(os.environ.get("MECHANE_JOBS") or os.cpu_count() or 2)) as pool:
         tally = Tally(list(pool.map(lambda entry: _check(entry, arguments.build, configuration), entries)))
     if not entries:
         tally.cases.append(Case("tidy", "failed", f"{arguments.build}/compile_commands.json names no source of ours"))
