@@ -1,8 +1,12 @@
 #include <array>
+#include <string>
+#include <string_view>
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include "client-sdk/display/gl_context.hpp"
 
@@ -11,6 +15,23 @@ namespace {
 
 constexpr const char* kRemedy =
     "install libegl-mesa0 and libgl1-mesa-dri (deploy/install-deps does), or run without --offscreen";
+
+#if defined(__SANITIZE_ADDRESS__)
+/// Keeps the driver's code loaded after its context is gone: a leak report can then name the driver, and tests/support/lsan.supp can
+/// leave Mesa's own leaks out.
+void keep_driver_loaded() {
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void*) {
+        if (std::string_view(info->dlpi_name).find("_dri.so") != std::string_view::npos) {
+          dlopen(info->dlpi_name, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+        }
+        return 0;
+      },
+      nullptr);
+}
+#else
+void keep_driver_loaded() {}
+#endif
 
 class OffscreenContext final : public GlContext {
  public:
@@ -62,6 +83,7 @@ Expected<std::unique_ptr<GlContext>> make_offscreen_context(PixelSize size) {
     eglTerminate(display);
     return fail(fmt::format("no OpenGL 3.3 core context (EGL error 0x{:x})", error), "display, offscreen", kRemedy);
   }
+  keep_driver_loaded();
   return std::make_unique<OffscreenContext>(display, context, size);
 }
 

@@ -2,6 +2,12 @@
 
 #include "tests/integration/display/drawn_picture.hpp"
 
+/// Mesa keeps some memory until the process ends; the same as tests/support/lsan.supp, for programs that set no LSAN_OPTIONS.
+extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier): the sanitizer's name
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:_dri.so\nleak:libEGL_mesa\nleak:libGLdispatch\n";
+}
+
 namespace mechane::display {
 namespace {
 
