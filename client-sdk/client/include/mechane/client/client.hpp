@@ -19,8 +19,8 @@ struct ClientConfig {
   std::uint32_t user = 0;          ///< which hand of the kiosk, 0..3
   Role role = Role::watcher;
   std::string program = "client";  ///< for logs and status: "mechane-display"
-  std::string scenario;            ///< wish: id of the scenario; empty: the server's first
-  std::string join_kiosk;          ///< wish: share the world of this kiosk; empty: a world of one's own
+  std::string scenario{};          ///< wish: id of the scenario; empty: the server's first
+  std::string join_kiosk{};        ///< wish: share the world of this kiosk; empty: a world of one's own
   std::uint32_t domain = 0;        ///< DDS domain; the network is set up by CYCLONEDDS_URI
 };
 
