@@ -142,7 +142,7 @@ std::optional<Attempt> best_deformed(const Attempt& rigid, std::span<const Vec3>
   const std::vector<Vec3> few = every_nth(points, kScreenPoints);
   const Mat3 axes = principal_axes(points);
   std::vector<Attempt> attempts;
-  const auto try_from = [&](Attempt attempt, double bend) {
+  const auto try_from = [&](const Attempt& attempt, double bend) {
     for (int direction = 0; direction < 4; ++direction) {
       Attempt bent = attempt;
       bent.state.begin_deformation(bend, 0.5 * kPi * direction);

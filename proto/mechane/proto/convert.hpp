@@ -73,6 +73,7 @@ void look_into(Sequence& sequence, std::vector<Element>& storage) noexcept {
 /// Pointers to the texts of a vector of strings, for a sequence<string>.
 [[nodiscard]] inline std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
   std::vector<char*> pointers;
+  pointers.reserve(texts.size());
   for (const std::string& text : texts)
     pointers.push_back(look_into(text));
   return pointers;
