@@ -1,0 +1,272 @@
+#include "client-sdk/cli/echo.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include <mechane/proto/convert.hpp>
+#include <mechane/proto/entity.hpp>
+
+namespace mechane::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+template <std::size_t N>
+Json list(const float (&values)[N]) {
+  return Json(std::vector<float>(std::begin(values), std::end(values)));
+}
+template <std::size_t N>
+std::string text(const char (&chars)[N]) {
+  return std::string(proto::text_of(chars));
+}
+Json pose(const proto::WirePose& X) {
+  return {{"p", list(X.p)}, {"q", list(X.q)}};
+}
+template <class Sequence>
+Json texts(const Sequence& sequence) {
+  Json all = Json::object();
+  for (const auto& t : proto::elements(sequence))
+    all[text(t.language)] = proto::text_of(t.content);
+  return all;
+}
+template <class Sequence>
+Json strings(const Sequence& sequence) {
+  Json all = Json::array();
+  for (const char* s : proto::elements(sequence))
+    all.push_back(proto::text_of(s));
+  return all;
+}
+template <class T>
+Json head(const T& s) {
+  return {{"protocol", s.protocol}, {"seq", s.seq}, {"sent_ns", s.sent_ns}};
+}
+
+Json to_json(const proto::HapticInput& s) {
+  Json j = head(s);
+  j.update(
+      {{"kiosk", text(s.kiosk)}, {"user", s.user}, {"session", s.session}, {"kind", s.kind}, {"X_WH", pose(s.X_WH)}});
+  j.update({{"v_WH", list(s.v_WH)}, {"w_WH", list(s.w_WH)}, {"joints", list(s.joints)}, {"hand_scale", s.hand_scale}});
+  j.update({{"grasp_intent", s.grasp_intent}, {"buttons", s.buttons}});
+  return j;
+}
+
+Json to_json(const proto::HapticOutput& s) {
+  Json j = head(s);
+  j.update({{"kiosk", text(s.kiosk)}, {"user", s.user}, {"session", s.session}, {"tick", s.tick}, {"epoch", s.epoch}});
+  j.update({{"echo_seq", s.echo_seq}, {"echo_sent_ns", s.echo_sent_ns}, {"f_W", list(s.f_W)}, {"t_W", list(s.t_W)}});
+  j.update({{"finger_force_n", list(s.finger_force_n)}, {"reasons", s.reasons}, {"holding", s.holding != 0}});
+  Json contacts = Json::array();
+  for (std::size_t i = 0; i < s.contact_count && i < proto::kMaxLocalContacts; ++i) {
+    const auto& c = s.contacts[i];
+    contacts.push_back({{"p_W", list(c.p_W)},
+                        {"n_W", list(c.n_W)},
+                        {"v_W", list(c.v_W)},
+                        {"depth_m", c.depth_m},
+                        {"curvature_per_m", c.curvature_per_m},
+                        {"stiffness_n_per_m", c.stiffness_n_per_m},
+                        {"damping_ns_per_m", c.damping_ns_per_m},
+                        {"friction", c.friction},
+                        {"valid_us", c.valid_us}});
+  }
+  j["contacts"] = contacts;
+  return j;
+}
+
+Json to_json(const proto::SceneFrame& s) {
+  Json j = head(s);
+  j.update({{"world", text(s.world)}, {"tick", s.tick}});
+  Json bodies = Json::array();
+  for (const auto& b : proto::elements(s.bodies))
+    bodies.push_back({{"object", b.object}, {"X_WB", pose(b.X_WB)}});
+  Json hands = Json::array();
+  for (const auto& h : proto::elements(s.hands)) {
+    Json segments = Json::array();
+    for (const auto& X : proto::elements(h.X_WS))
+      segments.push_back(pose(X));
+    hands.push_back({{"kiosk", text(h.kiosk)},
+                     {"user", h.user},
+                     {"session", h.session},
+                     {"kind", h.kind},
+                     {"stale", h.stale != 0},
+                     {"holding", h.holding != 0},
+                     {"f_W", list(h.f_W)},
+                     {"X_WS", segments}});
+  }
+  const auto visible = proto::elements(s.visible);
+  const auto quantities = proto::elements(s.quantities);
+  j["bodies"] = bodies;
+  j["visible"] = std::vector<int>(visible.begin(), visible.end());
+  j["quantities"] = std::vector<double>(quantities.begin(), quantities.end());
+  j["hands"] = hands;
+  return j;
+}
+
+Json to_json(const proto::SceneObject& s) {
+  Json j = head(s);
+  j.update({{"world", text(s.world)}, {"object", s.object}, {"objects_total", s.objects_total}});
+  j.update({{"name", proto::text_of(s.name)}, {"mesh_uri", proto::text_of(s.mesh_uri)}});
+  j.update({{"mesh_hash", proto::text_of(s.mesh_hash)}, {"mesh_node", proto::text_of(s.mesh_node)}});
+  j.update(
+      {{"parent", proto::text_of(s.parent)}, {"X_WB", pose(s.X_WB)}, {"movable", s.movable}, {"visible", s.visible}});
+  j.update({{"stiffness_n_per_m", s.stiffness_n_per_m}, {"damping_ns_per_m", s.damping_ns_per_m}});
+  j.update({{"static_friction", s.static_friction}, {"dynamic_friction", s.dynamic_friction}});
+  return j;
+}
+
+Json to_json(const proto::WorldStatus& s) {
+  Json j = head(s);
+  j.update({{"world", text(s.world)}, {"scenario", proto::text_of(s.scenario)}});
+  j.update(
+      {{"scenario_hash", proto::text_of(s.scenario_hash)}, {"scenario_folder", proto::text_of(s.scenario_folder)}});
+  j.update({{"activity", proto::text_of(s.activity)}, {"step", proto::text_of(s.step)}, {"steps_done", s.steps_done}});
+  j.update({{"steps_total", s.steps_total}, {"done", s.done}, {"hint", s.hint}});
+  Json quantities = Json::array();
+  for (const auto& q : proto::elements(s.quantities)) {
+    quantities.push_back({{"name", proto::text_of(q.name)}, {"unit", proto::text_of(q.unit)}});
+  }
+  j.update({{"enabled_agents", strings(s.enabled_agents)}, {"quantities", quantities}, {"title", texts(s.title)}});
+  j.update({{"caption", texts(s.caption)}, {"hint_text", texts(s.hint_text)}, {"activities", strings(s.activities)}});
+  return j;
+}
+
+Json to_json(const proto::Event& s) {
+  Json j = head(s);
+  j.update(
+      {{"scope", text(s.scope)}, {"tick", s.tick}, {"kind", text(s.kind)}, {"subject", proto::text_of(s.subject)}});
+  j.update({{"object", proto::text_of(s.object)}, {"value", s.value}});
+  return j;
+}
+
+Json to_json(const proto::Command& s) {
+  Json j = head(s);
+  j.update({{"scope", text(s.scope)}, {"session", s.session}, {"id", s.id}, {"kind", s.kind}});
+  j["argument"] = proto::text_of(s.argument);
+  return j;
+}
+
+Json to_json(const proto::WorldAssignment& s) {
+  Json j = head(s);
+  j.update({{"kiosk", text(s.kiosk)}, {"server", text(s.server)}, {"incarnation", s.incarnation}, {"epoch", s.epoch}});
+  j.update({{"world", text(s.world)}, {"trouble", proto::text_of(s.trouble)}});
+  Json owners = Json::array();
+  for (const auto& o : s.owners) {
+    owners.push_back({{"session", o.session}, {"program", text(o.program)}, {"host", text(o.host)}});
+  }
+  j["owners"] = owners;
+  return j;
+}
+
+Json to_json(const proto::ServerStatus& s) {
+  Json j = head(s);
+  j.update({{"server", text(s.server)}, {"incarnation", s.incarnation}, {"version", proto::text_of(s.version)}});
+  j.update(
+      {{"host", proto::text_of(s.host)}, {"worlds", s.worlds}, {"worlds_limit", s.worlds_limit}, {"users", s.users}});
+  j.update({{"ticks", s.ticks}, {"overruns", s.overruns}, {"late_wakeups", s.late_wakeups}});
+  j.update({{"preemptions", s.preemptions}, {"samples_rejected", s.samples_rejected}});
+  j.update({{"tick_us_median", s.tick_us_median}, {"tick_us_p99", s.tick_us_p99}, {"tick_us_p999", s.tick_us_p999}});
+  j.update({{"tick_us_max", s.tick_us_max}, {"wake_us_p99", s.wake_us_p99}, {"wake_us_max", s.wake_us_max}});
+  j.update({{"realtime", s.realtime}, {"records_ok", s.records_ok}});
+  return j;
+}
+
+Json to_json(const proto::KioskStatus& s) {
+  Json j = head(s);
+  j.update(
+      {{"kiosk", text(s.kiosk)}, {"session", s.session}, {"user", s.user}, {"role", s.role == 0 ? "hand" : "watcher"}});
+  j.update({{"program", text(s.program)}, {"host", text(s.host)}, {"process_id", s.process_id}});
+  j.update({{"scenario", text(s.scenario)}, {"join_kiosk", text(s.join_kiosk)}});
+  return j;
+}
+
+/// Whether a sample's key names the kiosk and world that were asked for.
+bool wanted(const Json& j, const EchoOptions& options) {
+  const bool kiosk = options.kiosk.empty() || !j.contains("kiosk") || j["kiosk"] == options.kiosk;
+  return kiosk && (options.world.empty() || !j.contains("world") || j["world"] == options.world);
+}
+
+void print(const std::string& topic, const Json& j, bool as_json) {
+  constexpr auto kReplace = Json::error_handler_t::replace;  // a text from the network need not be UTF-8
+  if (as_json) {
+    std::cout << j.dump(-1, ' ', false, kReplace) << std::endl;
+    return;
+  }
+  std::cout << topic << "\n";
+  for (const auto& [name, value] : j.items())
+    std::cout << "  " << name << ": " << value.dump(-1, ' ', false, kReplace) << "\n";
+  std::cout << std::flush;
+}
+
+template <proto::TopicType T>
+std::string partition_of(const EchoOptions& options) {
+  if (proto::TopicOf<T>::place == proto::Place::kiosk)
+    return proto::kiosk_partition(options.kiosk.empty() ? "*" : options.kiosk);
+  if (proto::TopicOf<T>::place == proto::Place::world)
+    return proto::world_partition(options.world.empty() ? "*" : options.world);
+  return "";
+}
+
+template <proto::TopicType T>
+int echo(const EchoOptions& options) {
+  auto participant = proto::Participant::create(options.domain);
+  if (!participant) return std::cerr << "mechane echo: " << participant.error().to_string() << "\n", 1;
+  auto reader = proto::Reader<T>::create(*participant, partition_of<T>(options));
+  if (!reader) return std::cerr << "mechane echo: " << reader.error().to_string() << "\n", 1;
+  interrupted = 0;
+  const auto previous = std::signal(SIGINT, [](int) { interrupted = 1; });
+  const auto begin = std::chrono::steady_clock::now();
+  std::uint64_t seen = 0;
+  const auto enough = [&] { return options.count > 0 && seen >= options.count; };
+  while (interrupted == 0 && !enough() &&
+         (options.seconds <= 0 ||
+          std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(options.seconds))) {
+    reader->view().take_each([&](const T& sample, const proto::SampleInfo& info) {
+      if (!info.valid || enough()) return;
+      const Json j = to_json(sample);
+      if (!wanted(j, options)) return;
+      ++seen;
+      print(proto::TopicOf<T>::name, j, options.json);
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  std::signal(SIGINT, previous);
+  return 0;
+}
+
+struct Topic {
+  const char* name;
+  int (*run)(const EchoOptions&);
+};
+
+template <proto::TopicType T>
+constexpr Topic topic() {
+  return {proto::TopicOf<T>::name, echo<T>};
+}
+
+}  // namespace
+
+int run_echo(const EchoOptions& options) {
+  static constexpr Topic kTopics[] = {topic<proto::HapticInput>(),  topic<proto::HapticOutput>(),
+                                      topic<proto::SceneFrame>(),   topic<proto::SceneObject>(),
+                                      topic<proto::WorldStatus>(),  topic<proto::Event>(),
+                                      topic<proto::Command>(),      topic<proto::WorldAssignment>(),
+                                      topic<proto::ServerStatus>(), topic<proto::KioskStatus>()};
+  for (const Topic& t : kTopics) {
+    if (options.topic == t.name) return t.run(options);
+  }
+  std::ostream& out = options.topic.empty() ? std::cout : std::cerr;
+  if (!options.topic.empty()) out << "mechane echo: there is no topic '" << options.topic << "'. ";
+  out << "Topics:\n";
+  for (const Topic& t : kTopics)
+    out << "  " << t.name << "\n";
+  return options.topic.empty() ? 0 : 2;
+}
+
+}  // namespace mechane::cli

@@ -1,0 +1,53 @@
+#include "server/transport/validate.hpp"
+
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::transport {
+namespace {
+
+proto::HapticInput honest() {
+  proto::HapticInput s{};
+  s.protocol = proto::kProtocol;
+  s.session = 7;
+  s.X_WH.q[0] = 1;
+  s.hand_scale = 1;
+  return s;
+}
+
+TEST(Validate, TakesAnHonestSample) {
+  state::HandSample out;
+  EXPECT_EQ(validate(honest(), out), Reject::none);
+}
+
+RC_GTEST_PROP(Validate, WhatItTakesIsFitForTheLoop, ()) {
+  // Honest but for one word of random bits: whatever is taken keeps its promises.
+  proto::HapticInput s = honest();
+  const auto words = sizeof(s) / 4;
+  const auto where = *rc::gen::inRange<std::size_t>(0, words);
+  const auto bits = *rc::gen::arbitrary<std::uint32_t>();
+  std::memcpy(reinterpret_cast<char*>(&s) + 4 * where, &bits, 4);
+  state::HandSample out;
+  if (validate(s, out) != Reject::none) return;
+  RC_ASSERT(out.X_WH.p.norm() < kMaxDistanceM);
+  RC_ASSERT(std::abs(out.X_WH.R.norm() - 1) < 1e-9);
+  RC_ASSERT(out.V_WH.v.norm() < kMaxSpeedMPerS);
+  RC_ASSERT(out.hand_scale >= kMinHandScale && out.hand_scale <= kMaxHandScale);
+  RC_ASSERT(out.grasp_intent >= 0 && out.grasp_intent <= 1);
+  RC_ASSERT(out.session != 0);
+}
+
+TEST(Validate, ReportsEachReasonOnce) {
+  RejectCounters counters;
+  RejectReport report;
+  EXPECT_TRUE(report.since_last(counters).empty());
+  counters.add(Reject::not_finite);
+  counters.add(Reject::not_finite);
+  EXPECT_EQ(report.since_last(counters), "rejected 2 samples: 2 not finite");
+  EXPECT_TRUE(report.since_last(counters).empty());
+}
+
+}  // namespace
+}  // namespace mechane::transport
