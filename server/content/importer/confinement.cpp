@@ -81,7 +81,7 @@ constexpr std::uint32_t kRefused[] = {
 constexpr std::uint32_t kUnknown[] = {__NR_clone3, __NR_openat2};
 
 /// Refuses a few system calls and lets the others through: a list of what is allowed would break with each new libc.
-bool refuse_system_calls() {
+[[maybe_unused]] bool refuse_system_calls() {
   constexpr std::size_t kOpenFlags =
       offsetof(seccomp_data, args) + 2 * sizeof(std::uint64_t);  // third of openat; its low half
   constexpr std::uint32_t kWrites = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
