@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
     std::fputs("mechane-mesh-import: this system does not let the import be confined\n", stderr);
     return 3;
   }
-  const Expected<ImportedScene> scene = read_checked(file, limits);
+  const Expected<ImportedScene> scene = read_checked(std::filesystem::absolute(file), limits);
   const std::vector<std::byte> message = scene ? encode_scene(*scene) : encode_failure(scene.error());
   return write_all(result, message) ? 0 : 4;
 }
