@@ -34,14 +34,14 @@ template <class Sequence>
 Json texts(const Sequence& sequence) {
   Json all = Json::object();
   for (const auto& t : proto::elements(sequence))
-    all[text(t.language)] = proto::text_of(t.content);
+    all[text(t.language)] = proto::string_of(t.content);
   return all;
 }
 template <class Sequence>
 Json strings(const Sequence& sequence) {
   Json all = Json::array();
   for (const char* s : proto::elements(sequence))
-    all.push_back(proto::text_of(s));
+    all.push_back(proto::string_of(s));
   return all;
 }
 template <class T>
@@ -112,10 +112,10 @@ Json to_json(const proto::SceneFrame& s) {
 Json to_json(const proto::SceneObject& s) {
   Json j = head(s);
   j.update({{"world", text(s.world)}, {"object", s.object}, {"objects_total", s.objects_total}});
-  j.update({{"name", proto::text_of(s.name)}, {"mesh_uri", proto::text_of(s.mesh_uri)}});
-  j.update({{"mesh_hash", proto::text_of(s.mesh_hash)}, {"mesh_node", proto::text_of(s.mesh_node)}});
+  j.update({{"name", proto::string_of(s.name)}, {"mesh_uri", proto::string_of(s.mesh_uri)}});
+  j.update({{"mesh_hash", proto::string_of(s.mesh_hash)}, {"mesh_node", proto::string_of(s.mesh_node)}});
   j.update(
-      {{"parent", proto::text_of(s.parent)}, {"X_WB", pose(s.X_WB)}, {"movable", s.movable}, {"visible", s.visible}});
+      {{"parent", proto::string_of(s.parent)}, {"X_WB", pose(s.X_WB)}, {"movable", s.movable}, {"visible", s.visible}});
   j.update({{"stiffness_n_per_m", s.stiffness_n_per_m}, {"damping_ns_per_m", s.damping_ns_per_m}});
   j.update({{"static_friction", s.static_friction}, {"dynamic_friction", s.dynamic_friction}});
   return j;
@@ -123,14 +123,15 @@ Json to_json(const proto::SceneObject& s) {
 
 Json to_json(const proto::WorldStatus& s) {
   Json j = head(s);
-  j.update({{"world", text(s.world)}, {"scenario", proto::text_of(s.scenario)}});
+  j.update({{"world", text(s.world)}, {"scenario", proto::string_of(s.scenario)}});
   j.update(
-      {{"scenario_hash", proto::text_of(s.scenario_hash)}, {"scenario_folder", proto::text_of(s.scenario_folder)}});
-  j.update({{"activity", proto::text_of(s.activity)}, {"step", proto::text_of(s.step)}, {"steps_done", s.steps_done}});
+      {{"scenario_hash", proto::string_of(s.scenario_hash)}, {"scenario_folder", proto::string_of(s.scenario_folder)}});
+  j.update(
+      {{"activity", proto::string_of(s.activity)}, {"step", proto::string_of(s.step)}, {"steps_done", s.steps_done}});
   j.update({{"steps_total", s.steps_total}, {"done", s.done}, {"hint", s.hint}});
   Json quantities = Json::array();
   for (const auto& q : proto::elements(s.quantities)) {
-    quantities.push_back({{"name", proto::text_of(q.name)}, {"unit", proto::text_of(q.unit)}});
+    quantities.push_back({{"name", proto::string_of(q.name)}, {"unit", proto::string_of(q.unit)}});
   }
   j.update({{"enabled_agents", strings(s.enabled_agents)}, {"quantities", quantities}, {"title", texts(s.title)}});
   j.update({{"caption", texts(s.caption)}, {"hint_text", texts(s.hint_text)}, {"activities", strings(s.activities)}});
@@ -140,22 +141,22 @@ Json to_json(const proto::WorldStatus& s) {
 Json to_json(const proto::Event& s) {
   Json j = head(s);
   j.update(
-      {{"scope", text(s.scope)}, {"tick", s.tick}, {"kind", text(s.kind)}, {"subject", proto::text_of(s.subject)}});
-  j.update({{"object", proto::text_of(s.object)}, {"value", s.value}});
+      {{"scope", text(s.scope)}, {"tick", s.tick}, {"kind", text(s.kind)}, {"subject", proto::string_of(s.subject)}});
+  j.update({{"object", proto::string_of(s.object)}, {"value", s.value}});
   return j;
 }
 
 Json to_json(const proto::Command& s) {
   Json j = head(s);
   j.update({{"scope", text(s.scope)}, {"session", s.session}, {"id", s.id}, {"kind", s.kind}});
-  j["argument"] = proto::text_of(s.argument);
+  j["argument"] = proto::string_of(s.argument);
   return j;
 }
 
 Json to_json(const proto::WorldAssignment& s) {
   Json j = head(s);
   j.update({{"kiosk", text(s.kiosk)}, {"server", text(s.server)}, {"incarnation", s.incarnation}, {"epoch", s.epoch}});
-  j.update({{"world", text(s.world)}, {"trouble", proto::text_of(s.trouble)}});
+  j.update({{"world", text(s.world)}, {"trouble", proto::string_of(s.trouble)}});
   Json owners = Json::array();
   for (const auto& o : s.owners) {
     owners.push_back({{"session", o.session}, {"program", text(o.program)}, {"host", text(o.host)}});
@@ -166,9 +167,9 @@ Json to_json(const proto::WorldAssignment& s) {
 
 Json to_json(const proto::ServerStatus& s) {
   Json j = head(s);
-  j.update({{"server", text(s.server)}, {"incarnation", s.incarnation}, {"version", proto::text_of(s.version)}});
+  j.update({{"server", text(s.server)}, {"incarnation", s.incarnation}, {"version", proto::string_of(s.version)}});
   j.update(
-      {{"host", proto::text_of(s.host)}, {"worlds", s.worlds}, {"worlds_limit", s.worlds_limit}, {"users", s.users}});
+      {{"host", proto::string_of(s.host)}, {"worlds", s.worlds}, {"worlds_limit", s.worlds_limit}, {"users", s.users}});
   j.update({{"ticks", s.ticks}, {"overruns", s.overruns}, {"late_wakeups", s.late_wakeups}});
   j.update({{"preemptions", s.preemptions}, {"samples_rejected", s.samples_rejected}});
   j.update({{"tick_us_median", s.tick_us_median}, {"tick_us_p99", s.tick_us_p99}, {"tick_us_p999", s.tick_us_p999}});

@@ -16,8 +16,8 @@ std::string clean(std::string text) {
   });
   return text;
 }
-std::string clean(const char* text) {
-  return clean(proto::text_of(text));
+std::string clean_string(const char* text) {
+  return clean(proto::string_of(text));
 }
 template <std::size_t N>
 std::string clean(const char (&text)[N]) {
@@ -74,7 +74,7 @@ bool parse_texts(const Sequence& wire, std::map<std::string, std::string>& out) 
   if (texts.size() > kMaxTexts) return false;
   out.clear();
   for (const proto::WireText& text : texts)
-    out[clean(text.language)] = clean(text.content);
+    out[clean(text.language)] = clean_string(text.content);
   return true;
 }
 
@@ -84,7 +84,7 @@ bool parse_strings(const Sequence& wire, std::vector<std::string>& out) {
   if (strings.size() > kMaxQuantities) return false;
   out.clear();
   for (const char* text : strings)
-    out.push_back(clean(text));
+    out.push_back(clean_string(text));
   return true;
 }
 
@@ -139,11 +139,11 @@ bool parse(const proto::SceneFrame& wire, Frame& out) {
 bool parse(const proto::SceneObject& wire, SceneObject& out) {
   if (wire.protocol != proto::kProtocol || wire.object >= kMaxObjects || !parse_pose(wire.X_WB, out.X_WB)) return false;
   out.index = wire.object;
-  out.name = clean(wire.name);
-  out.mesh_uri = clean(wire.mesh_uri);
-  out.mesh_hash = clean(wire.mesh_hash);
-  out.mesh_node = clean(wire.mesh_node);
-  out.parent = clean(wire.parent);
+  out.name = clean_string(wire.name);
+  out.mesh_uri = clean_string(wire.mesh_uri);
+  out.mesh_hash = clean_string(wire.mesh_hash);
+  out.mesh_node = clean_string(wire.mesh_node);
+  out.parent = clean_string(wire.parent);
   out.movable = wire.movable;
   return true;
 }
@@ -152,18 +152,18 @@ bool parse(const proto::WorldStatus& wire, WorldStatus& out) {
   const auto quantities = proto::elements(wire.quantities);
   if (wire.protocol != proto::kProtocol || quantities.size() > kMaxQuantities) return false;
   out.world = clean(wire.world);
-  out.scenario = clean(wire.scenario);
-  out.scenario_hash = clean(wire.scenario_hash);
-  out.scenario_folder = clean(wire.scenario_folder);
-  out.activity = clean(wire.activity);
-  out.step = clean(wire.step);
+  out.scenario = clean_string(wire.scenario);
+  out.scenario_hash = clean_string(wire.scenario_hash);
+  out.scenario_folder = clean_string(wire.scenario_folder);
+  out.activity = clean_string(wire.activity);
+  out.step = clean_string(wire.step);
   out.steps_done = wire.steps_done;
   out.steps_total = wire.steps_total;
   out.done = wire.done;
   out.hint = wire.hint;
   out.quantities.clear();
   for (const proto::WireQuantity& q : quantities)
-    out.quantities.push_back({clean(q.name), clean(q.unit)});
+    out.quantities.push_back({clean_string(q.name), clean_string(q.unit)});
   return parse_strings(wire.enabled_agents, out.enabled_agents) && parse_texts(wire.title, out.title) &&
          parse_texts(wire.caption, out.caption) && parse_texts(wire.hint_text, out.hint_text) &&
          parse_strings(wire.activities, out.activities);
@@ -173,8 +173,8 @@ bool parse(const proto::Event& wire, WorldEvent& out) {
   if (wire.protocol != proto::kProtocol || !std::isfinite(wire.value)) return false;
   out.tick = wire.tick;
   out.kind = clean(wire.kind);
-  out.subject = clean(wire.subject);
-  out.object = clean(wire.object);
+  out.subject = clean_string(wire.subject);
+  out.object = clean_string(wire.object);
   out.value = wire.value;
   return true;
 }
@@ -186,7 +186,7 @@ bool parse(const proto::ServerStatus& wire, ServerStatus& out) {
     if (!std::isfinite(v)) return false;
   }
   out.server = clean(wire.server);
-  out.version = clean(wire.version);
+  out.version = clean_string(wire.version);
   out.worlds = wire.worlds;
   out.worlds_limit = wire.worlds_limit;
   out.users = wire.users;
@@ -212,7 +212,7 @@ bool parse(const proto::WorldAssignment& wire, Assignment& out) {
   out.epoch = wire.epoch;
   out.world = clean(wire.world);
   if (!out.world.empty() && !proto::is_name(out.world)) return false;
-  out.trouble = clean(wire.trouble);
+  out.trouble = clean_string(wire.trouble);
   for (std::size_t i = 0; i < out.owners.size(); ++i) {
     out.owners[i] = {wire.owners[i].session, clean(wire.owners[i].program), clean(wire.owners[i].host)};
   }

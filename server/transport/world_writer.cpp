@@ -90,7 +90,7 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
     if (wire.kind < 1 || wire.kind > 3) return refuse(wire.id);
     command.kind = static_cast<state::CommandKind>(wire.kind);
     if (command.kind == state::CommandKind::start_activity) {
-      const ActivityId activity = port_.description().find_activity(proto::text_of(wire.argument));
+      const ActivityId activity = port_.description().find_activity(proto::string_of(wire.argument));
       if (!activity) return refuse(wire.id);
       command.argument = static_cast<std::uint32_t>(activity.index());
     }

@@ -37,8 +37,9 @@ void set_text(char (&chars)[N], std::string_view text) noexcept {
   if (n > 0) std::memcpy(chars, text.data(), n);
 }
 
-/// Text of a wire string, which may be null.
-[[nodiscard]] inline std::string text_of(const char* text) {
+/// Text of a wire string, which may be null. Another name than text_of: an overload would win over it for char arrays, and read
+/// past one that has no closing zero.
+[[nodiscard]] inline std::string string_of(const char* text) {
   return text == nullptr ? std::string() : std::string(text);
 }
 

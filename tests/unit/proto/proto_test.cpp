@@ -11,7 +11,7 @@ namespace {
 TEST(Names, AreKeptToWhatAPartitionCanHold) {
   EXPECT_TRUE(is_name("kiosk-1"));
   EXPECT_TRUE(is_name(std::string(31, 'a')));
-  for (const std::string bad :
+  for (const std::string& bad :
        {std::string(), std::string(32, 'a'), std::string("a*"), std::string("a/b"), std::string("ä")}) {
     EXPECT_FALSE(is_name(bad)) << bad;
   }
