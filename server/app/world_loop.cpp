@@ -58,8 +58,10 @@ bool WorldLoop::add(RunningWorld& world) {
 }
 
 void WorldLoop::tick(const realtime::TickTiming& timing) noexcept {
+  const Duration before = clock_.thread_cpu_time();
   take_new_worlds();
   for (RunningWorld* running : worlds_) step(*running, timing.woke);
+  if (!worlds_.empty()) busy_time_.record(clock_.thread_cpu_time() - before);
   give_back_leaving();
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "server/realtime/histogram.hpp"
@@ -46,6 +47,8 @@ class WorldLoop {
 
   [[nodiscard]] const realtime::PeriodicThread& thread() const { return thread_; }
   [[nodiscard]] const std::array<realtime::LatencyHistogram, world::kPhases>& phases() const { return phases_; }
+  /// Own CPU time of ticks that had a world to step: those without would only flatter the median.
+  [[nodiscard]] const realtime::LatencyHistogram& busy_time() const { return busy_time_; }
 
  private:
   void tick(const realtime::TickTiming& timing) noexcept;
@@ -60,6 +63,7 @@ class WorldLoop {
   Clock& clock_;
   world::PhaseTimer timer_;
   std::array<realtime::LatencyHistogram, world::kPhases> phases_;
+  realtime::LatencyHistogram busy_time_;
   realtime::PeriodicThread thread_;  // last: its thread ends before what it uses does
 };
 

@@ -11,9 +11,9 @@ namespace {
 
 using state::HandKind;
 
-// Fingers are rounded boxes, nearly round across; the palm is flat with soft edges.
-constexpr double kFingerExponent1 = 0.6;
-constexpr double kFingerExponent2 = 0.9;
+// A phalanx is nearly round across and blunt at its ends; the palm is flat with soft edges.
+constexpr double kFingerExponent1 = 0.85;
+constexpr double kFingerExponent2 = 0.6;
 constexpr double kPalmExponent = 0.5;
 
 geometry::Superquadric palm_shape(const HandSize& size, double scale) {
@@ -24,7 +24,7 @@ geometry::Superquadric palm_shape(const HandSize& size, double scale) {
   return shape;
 }
 
-/// The phalanx's long axis is the superquadric's z: its frame S has x along the finger, so S is turned when it is placed.
+/// Frame S of a phalanx: x along the finger, y out of its back.
 geometry::Superquadric phalanx_shape(const FingerSize& finger, std::size_t k, double scale) {
   geometry::Superquadric shape;
   // A phalanx reaches a little over its joints, so that a bent finger has no gaps.

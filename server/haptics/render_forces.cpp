@@ -108,8 +108,7 @@ void render_patches(const state::WorldDescription& description, state::WorldStat
 }
 
 /// Equation 18 as published. Its flaws (method.md, section 6) are the point of keeping it.
-void render_paper(const state::WorldDescription& description, state::WorldState& state, UserState& user,
-                  const ForceConfig& config) {
+void render_paper(const state::WorldDescription& description, state::WorldState& state, UserState& user) {
   if (user.contact_count == 0) return;
   const double n = user.contact_count;
   for (const state::Contact& contact : user.contact_span()) {
@@ -153,7 +152,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, stat
   user.output.echo_sent_ns = echo_sent_ns;
   if (user.present) {
     if (config_.mode == ForceMode::paper) {
-      render_paper(description, state, user, config_);
+      render_paper(description, state, user);
     } else {
       render_patches(description, state, user, config_);
     }

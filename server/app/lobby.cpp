@@ -1,0 +1,262 @@
+#include "server/app/lobby.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "server/app/version.hpp"
+#include "server/log/log.hpp"
+#include "server/state/snapshot.hpp"
+
+namespace mechane::app {
+namespace {
+
+using transport::NewsKind;
+using transport::Session;
+
+std::uint64_t wall_ns() {
+  return static_cast<std::uint64_t>(
+      std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()).count());
+}
+
+std::string step_name(const state::WorldDescription& description, const state::WorldState& state) {
+  return state.progress.step ? description.steps[state.progress.step.index()].name : std::string("none");
+}
+
+std::string who(const Session& session) {
+  return fmt::format("{} of {} (user {}, {} on {})", session.role == transport::Role::hand ? "hand" : "watcher", session.kiosk,
+                     session.user, session.program, session.host);
+}
+
+}  // namespace
+
+Lobby::Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
+             record::Recorder* recorder, std::vector<std::unique_ptr<WorldLoop>>& loops)
+    : settings_(settings), scenarios_(scenarios), transport_(transport), recorder_(recorder), loops_(loops) {
+  if (recorder_ == nullptr) return;
+  for (const auto& path : record::find_snapshots(settings.records)) {
+    auto file = record::read_snapshot_file(path);
+    if (file) {
+      from_before_.push_back(std::move(*file));
+    } else {
+      log::warning(file.error().to_string());
+    }
+  }
+  // A new world must not write over the snapshot of a kiosk that has not come back yet.
+  for (const auto& file : from_before_) {
+    std::uint32_t number = 0;
+    if (std::sscanf(file.info.world_id.c_str(), "world-%u", &number) == 1) next_number_ = std::max(next_number_, number + 1);
+  }
+}
+
+Lobby::~Lobby() { close_all(); }
+
+std::uint32_t Lobby::users() const {
+  std::uint32_t count = 0;
+  for (const Session& session : transport_.sessions().sessions()) {
+    const Session* owner = transport_.sessions().owner(session.kiosk, session.user);
+    count += owner != nullptr && owner->id == session.id ? 1 : 0;
+  }
+  return count;
+}
+
+void Lobby::take(const transport::News& news, TimePoint now) {
+  switch (news.kind) {
+    case NewsKind::kiosk_appeared: kiosk_appeared(news.session, now); break;
+    case NewsKind::session_appeared: log::info(who(news.session) + " appeared"); break;
+    case NewsKind::hand_granted: hand_granted(news.session); break;
+    case NewsKind::hand_freed: hand_freed(news.session); break;
+    case NewsKind::session_left: log::info(who(news.session) + " left"); break;
+    case NewsKind::kiosk_left: kiosk_left(news.session.kiosk, now); break;
+  }
+}
+
+Lobby::Entry* Lobby::world_of(const std::string& kiosk) {
+  for (auto& [name, entry] : worlds_) {
+    if (std::find(entry->kiosks.begin(), entry->kiosks.end(), kiosk) != entry->kiosks.end()) return entry.get();
+  }
+  return nullptr;
+}
+
+void Lobby::kiosk_appeared(const Session& session, TimePoint) {
+  Entry* entry = world_of(session.kiosk);  // it was away for a moment only
+  if (entry == nullptr && !session.join_kiosk.empty()) {
+    entry = world_of(session.join_kiosk);
+    if (entry == nullptr) {
+      const std::string why = fmt::format("kiosk {} has no world to share; start it first", session.join_kiosk);
+      log::warning(fmt::format("{}: {}", session.kiosk, why));
+      return transport_.refuse_kiosk(session.kiosk, why);
+    }
+    entry->kiosks.push_back(session.kiosk);
+    log::info(fmt::format("{} shares world {}", session.kiosk, entry->name));
+  }
+  if (entry == nullptr) {
+    auto opened = open(session);
+    if (!opened) {
+      log::error(opened.error());
+      return transport_.refuse_kiosk(session.kiosk, opened.error().what + "; " + opened.error().remedy);
+    }
+    entry = *opened;
+  }
+  entry->idle_since.reset();
+  transport_.assign_kiosk(session.kiosk, *entry->running.port);
+}
+
+Expected<Lobby::Entry*> Lobby::open(const Session& session) {
+  if (worlds_.size() >= settings_.worlds) {
+    return fail(fmt::format("all {} worlds of this server are in use", settings_.worlds), session.kiosk,
+                "wait for one to be free, or start the server with more --worlds");
+  }
+  auto entry = std::make_unique<Entry>();
+  entry->name = fmt::format("world-{}", next_number_);
+  entry->description = session.scenario.empty() ? scenarios_.first() : scenarios_.find(session.scenario);
+  if (entry->description == nullptr) {
+    return fail(fmt::format("this server has no scenario '{}'", session.scenario), session.kiosk,
+                "start the server with its file, or ask for another");
+  }
+  entry->kiosks = {session.kiosk};
+  record::JournalHeader header;
+  auto world = make_world(session, *entry, header);
+  if (!world) return tl::unexpected(world.error());
+  auto port = transport_.open_world(entry->name, entry->description);
+  if (!port) return tl::unexpected(port.error());
+  entry->running.world = std::move(*world);
+  entry->running.port = *port;
+  start_records(*entry, std::move(header));
+  const auto least = std::min_element(loops_.begin(), loops_.end(), [](const auto& a, const auto& b) { return a->size() < b->size(); });
+  entry->loop = least->get();
+  if (!entry->loop->add(entry->running)) {
+    transport_.close_world(**port);
+    return fail("the loop takes no more worlds", entry->name, "start the server with more --loop-threads");
+  }
+  ++next_number_;
+  Entry* result = entry.get();
+  worlds_.emplace(entry->name, std::move(entry));
+  log::info(fmt::format("world {} opened for {}: {}", result->name, session.kiosk, result->description->id));
+  return result;
+}
+
+/// Where the kiosk was before a restart, or the scenario's beginning.
+Expected<std::unique_ptr<world::World>> Lobby::make_world(const Session& session, Entry& entry, record::JournalHeader& header) {
+  if (auto snapshot = take_snapshot_of(session.kiosk, *entry.description)) {
+    auto resumed = world::World::resume(entry.description, scenarios_.world_config(), snapshot->state);
+    if (resumed) {
+      log::info(fmt::format("resumed {} where it was: step {}, tick {}", session.kiosk,
+                            step_name(*entry.description, (*resumed)->state), (*resumed)->state.tick));
+      header.snapshot = std::move(snapshot->state);
+      header.first_tick = (*resumed)->state.tick + 1;
+      return resumed;
+    }
+    log::warning(resumed.error().to_string());
+  }
+  header.first_tick = 1;
+  return world::World::create(entry.description, scenarios_.world_config());
+}
+
+std::optional<record::SnapshotFile> Lobby::take_snapshot_of(const std::string& kiosk, const state::WorldDescription& description) {
+  std::optional<record::SnapshotFile> found;
+  for (auto it = from_before_.begin(); it != from_before_.end();) {
+    if (it->info.kiosk != kiosk) {
+      ++it;
+      continue;
+    }
+    const double age_s = 1e-9 * static_cast<double>(wall_ns() - std::min(wall_ns(), it->info.wall_ns));
+    const bool usable = it->info.scenario_hash == description.content_hash && age_s <= settings_.resume_within_s;
+    if (usable && (!found || it->info.wall_ns > found->info.wall_ns)) found = *it;
+    std::error_code ignored;
+    std::filesystem::remove(record::snapshot_path(settings_.records, it->info.world_id), ignored);
+    it = from_before_.erase(it);
+  }
+  return found;
+}
+
+void Lobby::start_records(Entry& entry, record::JournalHeader header) {
+  if (recorder_ == nullptr) return;
+  header.world_id = entry.name;
+  header.kiosk = entry.kiosks.front();
+  header.scenario_id = entry.description->id;
+  header.scenario_hash = entry.description->content_hash;
+  header.build_id = kVersion;
+  std::vector<std::byte> sample;
+  state::write_snapshot(entry.running.world->state, sample);
+  entry.running.recorder.emplace(recorder_->open(std::move(header), sample.size() + 4096));
+}
+
+void Lobby::hand_granted(const Session& session) {
+  Entry* entry = world_of(session.kiosk);
+  if (entry == nullptr) return;  // it was told why it has no world
+  transport::WorldPort& port = *entry->running.port;
+  const std::size_t slot = port.free_slot();
+  if (slot >= state::kMaxUsers || !port.bind_user(slot, session.kiosk, session.user, session.id)) {
+    log::warning(fmt::format("{}: no place for this hand in world {}, which has {} at most", who(session), entry->name,
+                             state::kMaxUsers));
+    return;
+  }
+  log::info(fmt::format("{} is in world {}", who(session), entry->name));
+}
+
+void Lobby::hand_freed(const Session& session) {
+  Entry* entry = world_of(session.kiosk);
+  if (entry == nullptr) return;
+  const std::size_t slot = entry->running.port->slot_of(session.id);
+  if (slot < state::kMaxUsers) entry->running.port->unbind_user(slot);
+}
+
+void Lobby::kiosk_left(const std::string& kiosk, TimePoint now) {
+  Entry* entry = world_of(kiosk);
+  if (entry == nullptr) return;
+  // A kiosk that shares a world goes; the one whose world it is may come back to it.
+  if (entry->kiosks.size() > 1) {
+    std::erase(entry->kiosks, kiosk);
+    return;
+  }
+  entry->idle_since = now;
+}
+
+void Lobby::tidy(TimePoint now) {
+  const auto limit = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings_.world_idle_s));
+  for (auto it = worlds_.begin(); it != worlds_.end();) {
+    Entry& entry = *it->second;
+    if (!entry.idle_since || now - *entry.idle_since < limit) {
+      ++it;
+      continue;
+    }
+    close(entry, record::WorldRecorder::Snapshot::remove);
+    it = worlds_.erase(it);
+  }
+}
+
+void Lobby::close_all() {
+  for (auto& [name, entry] : worlds_) close(*entry, record::WorldRecorder::Snapshot::keep);
+  worlds_.clear();
+}
+
+void Lobby::wait_until_left(Entry& entry) {
+  entry.running.leave.store(true, std::memory_order_release);
+  SystemClock clock;
+  // The loop gives the world back at the end of its next tick. A loop that has stopped never will, and uses it no more.
+  while (!entry.running.left.load(std::memory_order_acquire) && entry.loop->thread().report().running) {
+    clock.sleep_until(clock.now() + kTickPeriod);
+  }
+  entry.loop->forget_one();
+}
+
+void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot) {
+  wait_until_left(entry);
+  const state::WorldState& state = entry.running.world->state;
+  if (entry.running.recorder) {
+    // The last state, not that of a second ago.
+    if (snapshot == record::WorldRecorder::Snapshot::keep) {
+      state::write_snapshot(state, entry.running.recorder->snapshot_buffer());
+      entry.running.recorder->commit_snapshot(state.tick);
+    }
+    entry.running.recorder->close(state::state_hash(state), snapshot);
+  }
+  transport_.close_world(*entry.running.port);
+  log::info(fmt::format("world {} closed after {} ticks, at step {}", entry.name, state.tick, step_name(*entry.description, state)));
+}
+
+}  // namespace mechane::app

@@ -1,0 +1,71 @@
+// Who gets which world: the main thread's policy. A kiosk that appears gets its world; one that asks to join another's shares it; a
+// world without clients is closed after a while; after a restart a kiosk is put back where it was.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/app/scenario_store.hpp"
+#include "server/app/settings.hpp"
+#include "server/app/world_loop.hpp"
+#include "server/record/recorder.hpp"
+#include "server/record/snapshot_file.hpp"
+#include "server/transport/server_transport.hpp"
+
+namespace mechane::app {
+
+/// Main thread only.
+class Lobby {
+ public:
+  /// All arguments outlive the lobby. `recorder` may be null: nothing is kept.
+  Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
+        record::Recorder* recorder, std::vector<std::unique_ptr<WorldLoop>>& loops);
+  ~Lobby();
+
+  void take(const transport::News& news, TimePoint now);
+  /// Closes what has been idle long enough, takes apart what its loop has given back.
+  void tidy(TimePoint now);
+  /// Takes all worlds off their loops and closes their journals. Snapshots stay, for a restart.
+  void close_all();
+
+  [[nodiscard]] std::size_t worlds() const { return worlds_.size(); }
+  [[nodiscard]] std::uint32_t users() const;
+
+ private:
+  struct Entry {
+    std::string name;
+    std::shared_ptr<const state::WorldDescription> description;
+    RunningWorld running;
+    WorldLoop* loop = nullptr;
+    std::vector<std::string> kiosks;
+    std::optional<TimePoint> idle_since;
+  };
+
+  void kiosk_appeared(const transport::Session& session, TimePoint now);
+  void kiosk_left(const std::string& kiosk, TimePoint now);
+  void hand_granted(const transport::Session& session);
+  void hand_freed(const transport::Session& session);
+  [[nodiscard]] Entry* world_of(const std::string& kiosk);
+  [[nodiscard]] Expected<Entry*> open(const transport::Session& session);
+  [[nodiscard]] Expected<std::unique_ptr<world::World>> make_world(const transport::Session& session, Entry& entry,
+                                                                   record::JournalHeader& header);
+  [[nodiscard]] std::optional<record::SnapshotFile> take_snapshot_of(const std::string& kiosk,
+                                                                     const state::WorldDescription& description);
+  void start_records(Entry& entry, record::JournalHeader header);
+  void close(Entry& entry, record::WorldRecorder::Snapshot snapshot);
+  void wait_until_left(Entry& entry);
+
+  const Settings& settings_;
+  const ScenarioStore& scenarios_;
+  transport::ServerTransport& transport_;
+  record::Recorder* recorder_;
+  std::vector<std::unique_ptr<WorldLoop>>& loops_;
+  std::map<std::string, std::unique_ptr<Entry>> worlds_;
+  std::vector<record::SnapshotFile> from_before_;  // of the run before this one
+  std::uint32_t next_number_ = 1;
+};
+
+}  // namespace mechane::app

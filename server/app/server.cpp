@@ -1,0 +1,155 @@
+#include "server/app/server.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "server/app/lobby.hpp"
+#include "server/app/report.hpp"
+#include "server/app/scenario_store.hpp"
+#include "server/app/version.hpp"
+#include "server/app/world_loop.hpp"
+#include "server/log/log.hpp"
+#include "server/record/recorder.hpp"
+#include "server/transport/server_transport.hpp"
+
+namespace mechane::app {
+namespace {
+
+// The main thread looks at the kiosks so often; a visitor never notices, and the loops do not wait for it.
+constexpr int kLookEveryMs = 20;
+constexpr int kLooksPerStatus = 5;    // ten a second
+constexpr int kLooksPerWatchdog = 25;  // twice a second
+
+LoopConfig loop_config(const Settings& settings, std::size_t index) {
+  LoopConfig config;
+  config.thread.name = fmt::format("loop-{}", index);
+  config.thread.fifo_priority = settings.fifo_priority;
+  config.thread.lock_memory = settings.fifo_priority > 0;
+  if (settings.first_cpu) config.thread.cpu = *settings.first_cpu + static_cast<int>(index);
+  config.max_worlds = settings.worlds;
+  return config;
+}
+
+transport::TransportConfig transport_config(const Settings& settings) {
+  transport::TransportConfig config;
+  config.server = settings.name;
+  config.version = kVersion;
+  config.domain = settings.domain;
+  // Above the loop: a force that is ready goes out before the next tick is made.
+  config.fifo_priority = settings.fifo_priority > 0 ? settings.fifo_priority + 1 : 0;
+  return config;
+}
+
+}  // namespace
+
+class Server::Impl {
+ public:
+  explicit Impl(const Settings& settings) : settings_(settings) {}
+
+  Expected<void> start();
+  int run(StopSignals& signals);
+
+ private:
+  void look(TimePoint now);
+  void say_status();
+
+  Settings settings_;
+  SystemClock main_clock_;
+  std::optional<ScenarioStore> scenarios_;
+  std::unique_ptr<record::Recorder> recorder_;
+  std::unique_ptr<transport::ServerTransport> transport_;
+  std::vector<std::unique_ptr<SystemClock>> clocks_;
+  std::vector<std::unique_ptr<WorldLoop>> loops_;
+  std::unique_ptr<Lobby> lobby_;
+};
+
+Expected<void> Server::Impl::start() {
+  log::info(fmt::format("mechane server {}; settings:\n{}", kVersion, to_string(settings_)));
+  auto scenarios = ScenarioStore::load(settings_);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  scenarios_ = std::move(*scenarios);
+  if (!settings_.records.empty()) {
+    record::RecorderConfig config;
+    config.folder = settings_.records;
+    config.max_journal_bytes = settings_.records_limit_mb * 1'000'000;
+    auto recorder = record::Recorder::create(config);
+    if (!recorder) return tl::unexpected(recorder.error());
+    recorder_ = std::move(*recorder);
+  }
+  auto transport = transport::ServerTransport::start(transport_config(settings_));
+  if (!transport) return tl::unexpected(transport.error());
+  transport_ = std::move(*transport);
+  for (std::size_t i = 0; i < settings_.loop_threads; ++i) {
+    clocks_.push_back(std::make_unique<SystemClock>());
+    loops_.push_back(std::make_unique<WorldLoop>(loop_config(settings_, i), *clocks_.back()));
+    if (auto started = loops_.back()->start(); !started) return started;
+  }
+  if (settings_.fifo_priority > 0 && !loops_.front()->thread().report().fifo_granted) {
+    log::warning("SCHED_FIFO was refused: the loop runs as an ordinary thread and will be late under load; see mechane doctor");
+  }
+  lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), loops_);
+  return {};
+}
+
+int Server::Impl::run(StopSignals& signals) {
+  const TimePoint began = main_clock_.now();
+  log::info(fmt::format("ready: {} in DDS domain {}, waiting for kiosks", settings_.name, settings_.domain));
+  notify_systemd("READY=1");
+  for (std::uint64_t looks = 1; !signals.wait(kLookEveryMs); ++looks) {
+    const TimePoint now = main_clock_.now();
+    look(now);
+    if (looks % kLooksPerStatus == 0) say_status();
+    if (looks % kLooksPerWatchdog == 0) notify_systemd("WATCHDOG=1");
+    if (settings_.run_for_s > 0 && std::chrono::duration<double>(now - began).count() >= settings_.run_for_s) break;
+  }
+  log::info("stopping");
+  notify_systemd("STOPPING=1");
+  lobby_->close_all();
+  for (auto& loop : loops_) loop->stop();
+  if (settings_.report.empty()) return 0;
+  const auto written = write_report(settings_.report, loops_, transport_->haptic_write_time());
+  if (written) return 0;
+  log::error(written.error());
+  return 1;
+}
+
+void Server::Impl::look(TimePoint now) {
+  for (const transport::News& news : transport_->poll(now)) lobby_->take(news, now);
+  lobby_->tidy(now);
+}
+
+void Server::Impl::say_status() {
+  transport::ServerStatusData status;
+  status.worlds = static_cast<std::uint32_t>(lobby_->worlds());
+  status.worlds_limit = settings_.worlds;
+  status.users = lobby_->users();
+  const LoopSummary summary = summarise(loops_);
+  status.ticks = summary.ticks;
+  status.overruns = summary.overruns;
+  status.late_wakeups = summary.late_wakeups;
+  status.preemptions = summary.preemptions;
+  status.tick_us_median = summary.tick_us_median;
+  status.tick_us_p99 = summary.tick_us_p99;
+  status.tick_us_p999 = summary.tick_us_p999;
+  status.tick_us_max = summary.tick_us_max;
+  status.wake_us_p99 = summary.wake_us_p99;
+  status.wake_us_max = summary.wake_us_max;
+  status.realtime = summary.realtime;
+  status.records_ok = recorder_ == nullptr || recorder_->status().records_ok;
+  transport_->publish_server_status(status);
+}
+
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Server::~Server() = default;
+
+Expected<std::unique_ptr<Server>> Server::start(const Settings& settings) {
+  auto impl = std::make_unique<Impl>(settings);
+  if (auto started = impl->start(); !started) return tl::unexpected(started.error());
+  return std::unique_ptr<Server>(new Server(std::move(impl)));
+}
+
+int Server::run(StopSignals& signals) { return impl_->run(signals); }
+
+}  // namespace mechane::app
