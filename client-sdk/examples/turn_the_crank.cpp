@@ -1,7 +1,8 @@
-// Reaches for the body named CRANK, grasps it and goes round in a circle of 10 cm about z. Exit status 0 when it was held.
+// Grasps the handle of Archimedes' screw and goes round with it. Exit status 0 when it was held.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "client-sdk/examples/arguments.hpp"
 
@@ -19,17 +20,23 @@ int main(int argc, char** argv) {
   TimePoint next = clock.now();
   const TimePoint begin = next;
   bool held = false;
+  // The handle of the exhibit's moving body INNER, in the body's frame; it goes round the body's z axis.
+  const Vec3 p_BGrip(0.25, 0, 1.36);
+  std::optional<Pose> X_WB;
   while (next - begin < std::chrono::duration<double>(arguments.seconds)) {
     clock.sleep_until(next += kTickPeriod);
     client::Frame frame;
     const auto objects = (*client)->objects();
-    const auto crank = std::find_if(objects.begin(), objects.end(), [](const auto& o) { return o.name == "CRANK"; });
-    if (crank == objects.end() || !(*client)->newest_frame(frame)) continue;
+    const auto inner = std::find_if(objects.begin(), objects.end(), [](const auto& o) { return o.name == "INNER"; });
+    if (inner == objects.end() || !(*client)->newest_frame(frame)) continue;
+    for (const auto& body : frame.bodies) {
+      if (!X_WB && body.object == inner->index) X_WB = body.X_WB;
+    }
+    if (!X_WB) continue;
     const double t = std::chrono::duration<double>(next - begin).count();
-    const double angle =
-        2.0 * kPi * 0.5 * std::max(0.0, t - 1.0);  // half a turn a second, after one second of grasping
+    const double angle = -2.0 * kPi * 0.25 * std::max(0.0, t - 1.5);  // a quarter turn a second, after a second of grasping
     client::HandInput hand;
-    hand.X_WH.p = crank->X_WB.p + 0.1 * Vec3(std::cos(angle), std::sin(angle), 0);
+    hand.X_WH.p = *X_WB * (Eigen::AngleAxisd(angle, Vec3::UnitZ()) * p_BGrip);
     hand.grasp_intent = t > 0.5 ? 1.0 : 0.0;
     (*client)->send(hand);
     if (const auto force = (*client)->newest_force()) held = held || force->holding;

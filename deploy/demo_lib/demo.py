@@ -14,6 +14,7 @@ import time
 SCENARIO = "scenarios/archimedes-screw/archimedes-screw.x3d"
 KIOSKS = ["kiosk-1", "kiosk-2"]
 VISIT_LIMIT_S = 240
+START_LIMIT_S = 900
 
 
 class Programs:
@@ -103,10 +104,23 @@ def replay_journals(programs, records, out):
     return good, asked
 
 
-def start_all(programs, options, out):
+def start_server(programs, options, out):
+    """Starts the server and waits until it is ready: the first time it builds the collision parts, which takes minutes."""
+    server = programs.start("server", "server", "--scenario", SCENARIO, "--worlds", "4", "--records", str(out / "records"),
+                            "--report", str(out / "server.json"), "--domain", str(options.domain))
+    started = time.monotonic()
+    while " ready: " not in (out / "server.log").read_text(errors="replace"):
+        if server.poll() is not None or time.monotonic() - started > START_LIMIT_S:
+            sys.exit(f"demo: the server did not start: see {out / 'server.log'}\n" + (out / "server.log").read_text()[-2000:])
+        if sys.stdout.isatty():
+            print(f"\r  {time.monotonic() - started:5.1f} s  the server reads the exhibit (the first time it fits its parts)", end="")
+        time.sleep(0.2)
+    if sys.stdout.isatty():
+        print()
+
+
+def start_clients(programs, options, out):
     domain = ["--domain", str(options.domain)]
-    programs.start("server", "server", "--scenario", SCENARIO, "--worlds", "4", "--records", str(out / "records"),
-                   "--report", str(out / "server.json"), *domain)
     for i, kiosk in enumerate(KIOSKS):
         show = ["display", "--kiosk", kiosk, "--assets", "scenarios", *domain]
         if options.headless or not has_screen():
@@ -203,7 +217,8 @@ def main():
     problems = []
     try:
         print("demo: a server, two kiosks with a visitor and a display each, a second hand at the first kiosk")
-        visitors = start_all(programs, options, out)
+        start_server(programs, options, out)
+        visitors = start_clients(programs, options, out)
         if not watch_visitors(programs, visitors):
             problems.append(f"the visitors were not done after {VISIT_LIMIT_S} s")
         for name in [n for n in programs.running if n.startswith("display") or n == "haptic"]:

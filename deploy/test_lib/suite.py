@@ -105,11 +105,14 @@ def tail(log: Path, lines: int = 30) -> str:
     return "\n".join(log.read_text(errors="replace").splitlines()[-lines:])
 
 
-def phases(quick: bool) -> list[Phase]:
+def phases(quick: bool, everything: bool) -> list[Phase]:
     if quick:
         return [build("dev", "in_process_tests"), ctest("dev", only="in-process", leave_out="slow")]
+    plain = [build("release"), ctest("release")]
+    if not everything:
+        return plain
     return [
-        build("release"), ctest("release"),
+        *plain,
         build("asan-ubsan"), ctest("asan-ubsan", leave_out="architecture|plain"),
         build("tsan", "in_process_tests"), ctest("tsan", only="in-process", leave_out="architecture|plain"),
         build("fuzz", "fuzzers"), fuzz(),
@@ -145,7 +148,9 @@ def report(tally: Tally, log: Path, seconds: float) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="deploy/test")
     parser.add_argument("--quick", action="store_true", help="one build, the tests that need no network, style")
-    chosen = phases(parser.parse_args().quick)
+    parser.add_argument("--all", action="store_true", help="also the sanitizers, the fuzzers and clang-tidy")
+    options = parser.parse_args()
+    chosen = phases(options.quick, options.all)
 
     os.chdir(ROOT)
     shutil.rmtree(OUT, ignore_errors=True)

@@ -62,7 +62,7 @@ class Faults(EndToEnd):
                 [str(BIN / "mechane"), "server", "--scenario", str(SCENARIO), "--records", str(self.folder / "records")],
                 stdout=log, stderr=subprocess.STDOUT, env=command, preexec_fn=start_limited, stdin=subprocess.DEVNULL)
         try:
-            wait_until(lambda: "ready" in pid_log.read_text(), 60, "the server is ready")
+            wait_until(lambda: " ready: " in pid_log.read_text(), 600, "the server is ready")
             visitor = self.visitor("kiosk-1", "--activity", "use")
             self.assertEqual(visitor.wait(120), 0, visitor.text())
             self.assertIsNone(process.poll(), "the server must go on")

@@ -89,7 +89,7 @@ class EndToEnd(unittest.TestCase):
         record = ["--records", self.folder / "records"] if records else ["--records", ""]
         process = self.start("server", "server", "--scenario", scenario, *record, "--report",
                              self.folder / "server.json", *arguments)
-        wait_until(lambda: "ready" in process.text() or not process.running(), 60, "the server is ready")
+        wait_until(lambda: " ready: " in process.text() or not process.running(), 600, "the server is ready (the first time it fits the exhibit's parts)")
         self.assertTrue(process.running(), process.text())
         return process
 
