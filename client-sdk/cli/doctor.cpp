@@ -1,12 +1,12 @@
 #include "client-sdk/cli/doctor.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "server/realtime/machine_check.hpp"
 
@@ -44,9 +44,15 @@ void print_table(const std::vector<CheckResult>& results) {
     if (!r.remedy.empty()) fmt::print("{:9}remedy: {}\n", "", r.remedy);
   }
   switch (realtime::worst_of(results)) {
-    case CheckStatus::ok: fmt::print("\nThis machine can hold 1 kHz.\n"); break;
-    case CheckStatus::warning: fmt::print("\nThis machine can run the loop, with late ticks now and then.\n"); break;
-    case CheckStatus::bad: fmt::print("\nThis machine cannot hold 1 kHz as it is set up.\n"); break;
+    case CheckStatus::ok:
+      fmt::print("\nThis machine can hold 1 kHz.\n");
+      break;
+    case CheckStatus::warning:
+      fmt::print("\nThis machine can run the loop, with late ticks now and then.\n");
+      break;
+    case CheckStatus::bad:
+      fmt::print("\nThis machine cannot hold 1 kHz as it is set up.\n");
+      break;
   }
 }
 

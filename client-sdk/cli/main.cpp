@@ -1,11 +1,12 @@
 // `mechane`: one command for people. Short tasks run here; long-running programs take its place.
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <iostream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "client-sdk/cli/doctor.hpp"
 #include "client-sdk/cli/echo.hpp"
@@ -63,7 +64,9 @@ int add_and_parse(int argc, char** argv) {
     return app.exit(e);
   }
   if (*echo_command) return cli::run_echo(echo);
-  if (*check_command) return scenario::run_check(files, std::cout, check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);
+  if (*check_command)
+    return scenario::run_check(files, std::cout,
+                               check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);
   return cli::run_doctor(doctor_json, probe_s);
 }
 

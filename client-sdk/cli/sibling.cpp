@@ -1,11 +1,11 @@
 #include "client-sdk/cli/sibling.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <system_error>
+
+#include <unistd.h>
 
 namespace mechane::cli {
 
@@ -21,7 +21,8 @@ int become(const std::string& name, const std::vector<std::string>& arguments) {
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
-  for (std::string& word : words) argv.push_back(word.data());
+  for (std::string& word : words)
+    argv.push_back(word.data());
   argv.push_back(nullptr);
   execv(program.c_str(), argv.data());
   std::fprintf(stderr, "mechane: cannot run %s: %s; build or install all programs of Mechane into one folder\n",

@@ -1,10 +1,9 @@
 // A haptic device as the loop sees it: where the hand is, and what force it shall feel.
 #pragma once
 
-#include <mechane/client/types.hpp>
-
 #include "server/base/clock.hpp"
 #include "server/force/governor.hpp"
+#include <mechane/client/types.hpp>
 
 namespace mechane::haptic {
 

@@ -28,8 +28,15 @@ void HapticLoop::set_local_contacts() noexcept {
   const std::size_t count = std::min<std::size_t>(answer_.contact_count, contacts.size());
   for (std::size_t i = 0; i < count; ++i) {
     const client::LocalContact& from = answer_.contacts[i];
-    contacts[i] = {from.p_W, from.n_W, from.v_W, from.depth_m, from.curvature_per_m, from.stiffness_n_per_m,
-                   from.damping_ns_per_m, from.friction, from.valid_for};
+    contacts[i] = {from.p_W,
+                   from.n_W,
+                   from.v_W,
+                   from.depth_m,
+                   from.curvature_per_m,
+                   from.stiffness_n_per_m,
+                   from.damping_ns_per_m,
+                   from.friction,
+                   from.valid_for};
   }
   local_.set({contacts.data(), count}, sent_p_WH_[answer_.echo_sequence % sent_p_WH_.size()]);
 }
@@ -39,7 +46,8 @@ void HapticLoop::render(const HandInput& input, TimePoint now, Duration dt, bool
   force::GovernorInput wanted;
   wanted.wanted_W = answer_.force_W;
   wanted.finger_force_n = answer_.finger_force_n;
-  if (mode_ == RenderMode::local && !answer_.holding) wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
+  if (mode_ == RenderMode::local && !answer_.holding)
+    wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
   wanted.V_WH = input.V_WH;
   wanted.age = age;
   wanted.engaged = engaged;

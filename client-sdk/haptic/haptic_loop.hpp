@@ -4,28 +4,28 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mechane/client/client.hpp>
 
 #include "client-sdk/haptic/device.hpp"
 #include "server/force/freshness.hpp"
 #include "server/force/governor.hpp"
 #include "server/force/local_contact_model.hpp"
 #include "server/realtime/histogram.hpp"
+#include <mechane/client/client.hpp>
 
 namespace mechane::haptic {
 
 /// Which force the device renders.
 enum class RenderMode {
   server,  ///< the server's force: on a LAN, where an answer is a millisecond old
-  local,   ///< from the server's contacts, at the device's own rate: under delay. A held object still pulls by the server's force.
+  local,  ///< from the server's contacts, at the device's own rate: under delay. A held object still pulls by the server's force.
 };
 
 struct LoopStats {
   std::uint64_t ticks = 0;
   std::uint64_t sent = 0;
-  std::uint64_t answers = 0;             ///< forces received
+  std::uint64_t answers = 0;  ///< forces received
   double force_max_n = 0;
-  double force_sum_n = 0;                ///< over ticks with force
+  double force_sum_n = 0;  ///< over ticks with force
   std::uint64_t ticks_with_force = 0;
   std::uint64_t holding_ticks = 0;
 };
@@ -35,7 +35,8 @@ struct LoopStats {
 class HapticLoop {
  public:
   /// Errors: limits of the device that make no governor.
-  [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device, RenderMode mode);
+  [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device,
+                                                                    RenderMode mode);
 
   /// Reads the device, sends the hand, takes the newest force, governs it, writes it. The governor judges the age of the last answer
   /// by `now`: whatever fails, 50 ms after the last new answer the device renders nothing.

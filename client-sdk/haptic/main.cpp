@@ -1,11 +1,12 @@
 // mechane-haptic: runs a haptic device at a kiosk. `--device virtual` is a simulated hand that strokes a place of the world.
-#include <CLI/CLI.hpp>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <atomic>
 
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/virtual_device.hpp"
@@ -30,7 +31,8 @@ struct Arguments {
 };
 
 void add_options(CLI::App& app, Arguments& a) {
-  app.add_option("--device", a.device, "'virtual': a simulated hand that strokes a circle")->check(CLI::IsMember({"virtual"}));
+  app.add_option("--device", a.device, "'virtual': a simulated hand that strokes a circle")
+      ->check(CLI::IsMember({"virtual"}));
   app.add_option("--kiosk", a.client.kiosk, "name of the kiosk");
   app.add_option("--user", a.client.user, "which hand of the kiosk, 0..3");
   app.add_option("--join", a.client.join_kiosk, "share the world of this kiosk");
@@ -72,7 +74,8 @@ nlohmann::json to_json(const haptic::HapticLoop& loop, const realtime::PeriodicT
 /// The loop runs on its own thread; this one waits for the end.
 int run(const Arguments& a, client::Client& client) {
   haptic::VirtualDevice device;
-  auto loop = haptic::HapticLoop::create(client, device, a.local ? haptic::RenderMode::local : haptic::RenderMode::server);
+  auto loop =
+      haptic::HapticLoop::create(client, device, a.local ? haptic::RenderMode::local : haptic::RenderMode::server);
   if (!loop) {
     log::error(loop.error());
     return 2;
@@ -106,7 +109,8 @@ int run(const Arguments& a, client::Client& client) {
   }
   // The force ramps down before the loop ends, so that nobody's hand feels the program stop.
   leave = true;
-  for (int i = 0; i < 100 && !released; ++i) waiting.sleep_until(waiting.now() + std::chrono::milliseconds(10));
+  for (int i = 0; i < 100 && !released; ++i)
+    waiting.sleep_until(waiting.now() + std::chrono::milliseconds(10));
   thread.stop();
   const std::string json = to_json(**loop, thread).dump(2) + "\n";
   if (a.report_file.empty()) {

@@ -17,7 +17,7 @@ struct HandIntent {
 struct ArmConfig {
   double mass_kg = 0.3;
   double stiffness_n_per_m = 600;
-  double damping_ratio = 1;   ///< of critical
+  double damping_ratio = 1;  ///< of critical
 };
 
 /// A hand on a spring: pulled towards the intended pose, pushed by the rendered force. It turns as intended, without lag.

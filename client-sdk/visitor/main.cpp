@@ -1,8 +1,9 @@
 // mechane-visitor: an automated visitor that plays a scenario's visit over the network like a person.
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+
+#include <CLI/CLI.hpp>
 
 #include "client-sdk/visitor/visit_session.hpp"
 #include "server/log/log.hpp"
@@ -27,7 +28,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--user", a.options.client.user, "which hand of the kiosk, 0..3");
   app.add_option("--join", a.options.client.join_kiosk, "share the world of this kiosk");
   app.add_option("--scenario", a.options.scenario, "X3D file to read the visit from")->required();
-  app.add_option("--activity", a.options.activities, "play these activities, in this order; without: all that have a visit");
+  app.add_option("--activity", a.options.activities,
+                 "play these activities, in this order; without: all that have a visit");
   app.add_option("--domain", a.options.client.domain, "DDS domain");
   app.add_option("--offset", a.offset, "metres by which the hand misses: x y z")->expected(3);
   app.add_option("--patience", a.patience_s, "seconds that an activity may take after the last move");

@@ -13,12 +13,18 @@ constexpr double kTurnRampRadPerS2 = 6.0;
 
 std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
   switch (move.kind) {
-    case VisitMove::Kind::reach: return "reach " + description.bodies[move.body.index()].name;
-    case VisitMove::Kind::grasp: return "grasp " + description.bodies[move.body.index()].name;
-    case VisitMove::Kind::move_to: return "carry " + description.bodies[move.body.index()].name;
-    case VisitMove::Kind::turn: return "turn " + description.joints[move.joint.index()].name;
-    case VisitMove::Kind::release: return "release";
-    case VisitMove::Kind::wait: break;
+    case VisitMove::Kind::reach:
+      return "reach " + description.bodies[move.body.index()].name;
+    case VisitMove::Kind::grasp:
+      return "grasp " + description.bodies[move.body.index()].name;
+    case VisitMove::Kind::move_to:
+      return "carry " + description.bodies[move.body.index()].name;
+    case VisitMove::Kind::turn:
+      return "turn " + description.joints[move.joint.index()].name;
+    case VisitMove::Kind::release:
+      return "release";
+    case VisitMove::Kind::wait:
+      break;
   }
   return "wait";
 }
@@ -70,7 +76,9 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
 bool VisitPlayer::continue_move(bool holding) {
   const VisitMove& move = visit_.moves[index_];
   switch (move.kind) {
-    case VisitMove::Kind::reach: move_hand_towards_goal(move.duration_s); return time_s_ >= move.duration_s;
+    case VisitMove::Kind::reach:
+      move_hand_towards_goal(move.duration_s);
+      return time_s_ >= move.duration_s;
     case VisitMove::Kind::move_to:
       move_hand_towards_goal(move.duration_s);
       ok_ = ok_ && (holding || time_s_ > 0.8 * move.duration_s);  // placed early: let go by the snap, not by the hand
@@ -78,9 +86,12 @@ bool VisitPlayer::continue_move(bool holding) {
     case VisitMove::Kind::grasp:
       ok_ = holding;
       return time_s_ >= (holding ? move.duration_s : std::max(move.duration_s, config_.grasp_patience_s));
-    case VisitMove::Kind::turn: ok_ = ok_ && holding; return turn(move);
+    case VisitMove::Kind::turn:
+      ok_ = ok_ && holding;
+      return turn(move);
     case VisitMove::Kind::release:
-    case VisitMove::Kind::wait: break;
+    case VisitMove::Kind::wait:
+      break;
   }
   return time_s_ >= move.duration_s;
 }
@@ -98,7 +109,8 @@ bool VisitPlayer::turn(const VisitMove& move) {
   const double whole_rad = 2 * kPi * std::abs(move.turns);
   const double rate = 2 * kPi / 60 * std::abs(move.rate_rpm);
   const double left = whole_rad - turned_rad_;
-  const double speed = std::min({rate, kTurnRampRadPerS2 * time_s_, std::sqrt(2 * kTurnRampRadPerS2 * std::max(left, 0.0))});
+  const double speed =
+      std::min({rate, kTurnRampRadPerS2 * time_s_, std::sqrt(2 * kTurnRampRadPerS2 * std::max(left, 0.0))});
   turned_rad_ += std::max(speed, 0.01) * last_dt_s_;
   const double angle = std::copysign(std::min(turned_rad_, whole_rad), move.turns);
   const Vec3 arm_J = X_WJ.inverse() * X_WH_start_.p;

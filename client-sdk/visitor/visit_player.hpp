@@ -13,23 +13,24 @@ namespace mechane::visitor {
 
 /// What came of one move.
 struct MoveResult {
-  std::string name;       ///< "reach INNER"
+  std::string name;  ///< "reach INNER"
   double seconds = 0;
-  bool ok = true;         ///< a grasp that caught nothing, a carry with an empty hand: false
+  bool ok = true;  ///< a grasp that caught nothing, a carry with an empty hand: false
 };
 
 struct PlayerConfig {
   Pose X_WH_rest{Vec3(0, 1.2, 1.5), Quat::Identity()};  ///< where the hand waits
-  Vec3 offset_W = Vec3::Zero();   ///< added to every place that the hand reaches for: a visitor who misses
+  Vec3 offset_W = Vec3::Zero();  ///< added to every place that the hand reaches for: a visitor who misses
   client::HandKind kind = client::HandKind::one_point;
-  double grasp_patience_s = 2;    ///< how long a grasp is tried before the visit goes on without it
+  double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit goes on without it
 };
 
 /// One visit, from rest to rest. Deterministic in what it is told. One thread; advance() allocates only when a move ends.
 class VisitPlayer {
  public:
   /// Both outlive the player.
-  VisitPlayer(const state::WorldDescription& description, const state::VisitDescription& visit, const PlayerConfig& config);
+  VisitPlayer(const state::WorldDescription& description, const state::VisitDescription& visit,
+              const PlayerConfig& config);
 
   /// Goes on by dt_s. `X_WB` are the bodies' poses in the order of the description, as last seen; `holding` is the server's word.
   void advance(double dt_s, std::span<const Pose> X_WB, bool holding);
@@ -54,7 +55,7 @@ class VisitPlayer {
   std::size_t index_ = 0;
   bool begun_ = false;
   bool ok_ = true;
-  double time_s_ = 0;       // in this move
+  double time_s_ = 0;  // in this move
   double last_dt_s_ = 0;
   Pose X_WH_start_;
   Pose X_WH_goal_;

@@ -6,24 +6,34 @@
 namespace mechane::visitor {
 namespace {
 
-double us(Duration d) { return std::chrono::duration<double, std::micro>(d).count(); }
+double us(Duration d) {
+  return std::chrono::duration<double, std::micro>(d).count();
+}
 
 nlohmann::json activity_json(const ActivityReport& activity, const std::string& kiosk) {
   nlohmann::json steps = nlohmann::json::array();
-  for (const StepTime& step : activity.steps) steps.push_back({{"name", step.name}, {"seconds", step.seconds}, {"done", step.done}});
+  for (const StepTime& step : activity.steps)
+    steps.push_back({{"name", step.name}, {"seconds", step.seconds}, {"done", step.done}});
   nlohmann::json moves = nlohmann::json::array();
-  for (const MoveResult& move : activity.moves) moves.push_back({{"name", move.name}, {"seconds", move.seconds}, {"ok", move.ok}});
-  return {{"kiosk", kiosk},       {"name", activity.name}, {"done", activity.done}, {"seconds", activity.seconds},
-          {"steps", std::move(steps)}, {"moves", std::move(moves)}};
+  for (const MoveResult& move : activity.moves)
+    moves.push_back({{"name", move.name}, {"seconds", move.seconds}, {"ok", move.ok}});
+  return {{"kiosk", kiosk},
+          {"name", activity.name},
+          {"done", activity.done},
+          {"seconds", activity.seconds},
+          {"steps", std::move(steps)},
+          {"moves", std::move(moves)}};
 }
 
 }  // namespace
 
 std::string to_json(const VisitReport& report) {
   nlohmann::json activities = nlohmann::json::array();
-  for (const ActivityReport& activity : report.activities) activities.push_back(activity_json(activity, report.kiosk));
+  for (const ActivityReport& activity : report.activities)
+    activities.push_back(activity_json(activity, report.kiosk));
   nlohmann::json quantities = nlohmann::json::object();
-  for (const auto& [name, value] : report.quantities) quantities[name] = value;
+  for (const auto& [name, value] : report.quantities)
+    quantities[name] = value;
   const haptic::LoopStats& loop = report.loop;
   const double mean_n = loop.ticks_with_force > 0 ? loop.force_sum_n / static_cast<double>(loop.ticks_with_force) : 0;
   const nlohmann::json json = {

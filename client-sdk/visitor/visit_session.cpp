@@ -1,9 +1,9 @@
 #include "client-sdk/visitor/visit_session.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
+
+#include <fmt/format.h>
 
 #include "client-sdk/haptic/virtual_device.hpp"
 #include "client-sdk/visitor/null_loader.hpp"
@@ -20,9 +20,11 @@ constexpr Duration kTick = std::chrono::milliseconds(1);
 /// Plays activities one after another over one client and one device.
 class Session {
  public:
-  Session(const VisitOptions& options, const WorldDescription& world, client::Client& client, const volatile std::sig_atomic_t& stop)
+  Session(const VisitOptions& options, const WorldDescription& world, client::Client& client,
+          const volatile std::sig_atomic_t& stop)
       : options_(options), world_(world), client_(client), stop_(stop), X_WB_(world.bodies.size()) {
-    for (std::size_t i = 0; i < X_WB_.size(); ++i) X_WB_[i] = world.bodies[i].X_WB;
+    for (std::size_t i = 0; i < X_WB_.size(); ++i)
+      X_WB_[i] = world.bodies[i].X_WB;
   }
 
   Expected<void> start() {
@@ -56,7 +58,9 @@ class Session {
   }
   void look();
   void note_step(ActivityReport& report);
-  [[nodiscard]] double seconds_since(TimePoint start) { return std::chrono::duration<double>(clock_.now() - start).count(); }
+  [[nodiscard]] double seconds_since(TimePoint start) {
+    return std::chrono::duration<double>(clock_.now() - start).count();
+  }
 
   const VisitOptions& options_;
   const WorldDescription& world_;
@@ -108,7 +112,8 @@ ActivityReport Session::play(const VisitDescription& visit) {
   VisitPlayer player(world_, visit, options_.player);
   device_.intend(player.intent());
   // The hand waits until the world is at the activity's beginning, as a person would look before reaching out.
-  while (stop_ == 0 && seconds_since(began) < 5 && !(status_ && status_->activity == report.name && !status_->done)) tick();
+  while (stop_ == 0 && seconds_since(began) < 5 && !(status_ && status_->activity == report.name && !status_->done))
+    tick();
   TimePoint finished{};
   while (stop_ == 0 && !report.done) {
     player.advance(kTickSeconds, X_WB_, loop_->holding());
@@ -142,21 +147,25 @@ void Session::fill(VisitReport& report) const {
   }
 }
 
-Expected<std::vector<const VisitDescription*>> choose_visits(const VisitOptions& options, const WorldDescription& world) {
+Expected<std::vector<const VisitDescription*>> choose_visits(const VisitOptions& options,
+                                                             const WorldDescription& world) {
   std::vector<const VisitDescription*> chosen;
   if (options.activities.empty()) {
-    for (const VisitDescription& visit : world.visits) chosen.push_back(&visit);
+    for (const VisitDescription& visit : world.visits)
+      chosen.push_back(&visit);
   }
   for (const std::string& name : options.activities) {
     const ActivityId id = world.find_activity(name);
-    const auto visit = std::find_if(world.visits.begin(), world.visits.end(), [&](const auto& v) { return v.activity == id; });
+    const auto visit =
+        std::find_if(world.visits.begin(), world.visits.end(), [&](const auto& v) { return v.activity == id; });
     if (!id || visit == world.visits.end()) {
       return fail(fmt::format("no visit for the activity '{}'", name), options.scenario.string(),
                   "name an activity that has one, or write a visit into the scenario");
     }
     chosen.push_back(&*visit);
   }
-  if (chosen.empty()) return fail("the scenario has no visit to play", options.scenario.string(), "write one (see its reference)");
+  if (chosen.empty())
+    return fail("the scenario has no visit to play", options.scenario.string(), "write one (see its reference)");
   return chosen;
 }
 
@@ -165,7 +174,8 @@ Expected<void> join(client::Client& client, const VisitOptions& options) {
   if (client.state() == LinkState::refused) {
     return fail(client.refusal(), options.client.kiosk, "stop the other program, or use another kiosk or user");
   }
-  return fail("no server answered", options.client.kiosk, "start one with 'mechane server', in the same DDS domain and network");
+  return fail("no server answered", options.client.kiosk,
+              "start one with 'mechane server', in the same DDS domain and network");
 }
 
 }  // namespace
@@ -190,7 +200,8 @@ Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std:
   report.kiosk = options.client.kiosk;
   do {
     report.activities.clear();
-    for (const VisitDescription* visit : *visits) report.activities.push_back(session.play(*visit));
+    for (const VisitDescription* visit : *visits)
+      report.activities.push_back(session.play(*visit));
   } while (options.endless && stop == 0);
   session.release();
   session.fill(report);

@@ -4,25 +4,25 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
-#include <mechane/client/client.hpp>
 #include <string>
 #include <vector>
 
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/visitor/visit_player.hpp"
 #include "server/state/description.hpp"
+#include <mechane/client/client.hpp>
 
 namespace mechane::visitor {
 
 struct VisitOptions {
   client::ClientConfig client;
-  std::filesystem::path scenario;          ///< the file that the visit is read from
-  std::vector<std::string> activities;     ///< in this order; empty: all that have a visit
+  std::filesystem::path scenario;       ///< the file that the visit is read from
+  std::vector<std::string> activities;  ///< in this order; empty: all that have a visit
   PlayerConfig player;
   haptic::RenderMode render = haptic::RenderMode::server;
   Duration join_within = std::chrono::seconds(20);
   Duration done_within = std::chrono::seconds(60);  ///< how long after its last move an activity may take to be done
-  bool endless = false;                    ///< begins again when it is through: load and attract mode
+  bool endless = false;                             ///< begins again when it is through: load and attract mode
 };
 
 struct StepTime {

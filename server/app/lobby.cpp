@@ -1,11 +1,11 @@
 #include "server/app/lobby.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "server/app/version.hpp"
 #include "server/log/log.hpp"
@@ -27,8 +27,8 @@ std::string step_name(const state::WorldDescription& description, const state::W
 }
 
 std::string who(const Session& session) {
-  return fmt::format("{} of {} (user {}, {} on {})", session.role == transport::Role::hand ? "hand" : "watcher", session.kiosk,
-                     session.user, session.program, session.host);
+  return fmt::format("{} of {} (user {}, {} on {})", session.role == transport::Role::hand ? "hand" : "watcher",
+                     session.kiosk, session.user, session.program, session.host);
 }
 
 }  // namespace
@@ -48,11 +48,14 @@ Lobby::Lobby(const Settings& settings, const ScenarioStore& scenarios, transport
   // A new world must not write over the snapshot of a kiosk that has not come back yet.
   for (const auto& file : from_before_) {
     std::uint32_t number = 0;
-    if (std::sscanf(file.info.world_id.c_str(), "world-%u", &number) == 1) next_number_ = std::max(next_number_, number + 1);
+    if (std::sscanf(file.info.world_id.c_str(), "world-%u", &number) == 1)
+      next_number_ = std::max(next_number_, number + 1);
   }
 }
 
-Lobby::~Lobby() { close_all(); }
+Lobby::~Lobby() {
+  close_all();
+}
 
 std::uint32_t Lobby::users() const {
   std::uint32_t count = 0;
@@ -65,12 +68,24 @@ std::uint32_t Lobby::users() const {
 
 void Lobby::take(const transport::News& news, TimePoint now) {
   switch (news.kind) {
-    case NewsKind::kiosk_appeared: kiosk_appeared(news.session, now); break;
-    case NewsKind::session_appeared: log::info(who(news.session) + " appeared"); break;
-    case NewsKind::hand_granted: hand_granted(news.session); break;
-    case NewsKind::hand_freed: hand_freed(news.session); break;
-    case NewsKind::session_left: log::info(who(news.session) + " left"); break;
-    case NewsKind::kiosk_left: kiosk_left(news.session.kiosk, now); break;
+    case NewsKind::kiosk_appeared:
+      kiosk_appeared(news.session, now);
+      break;
+    case NewsKind::session_appeared:
+      log::info(who(news.session) + " appeared");
+      break;
+    case NewsKind::hand_granted:
+      hand_granted(news.session);
+      break;
+    case NewsKind::hand_freed:
+      hand_freed(news.session);
+      break;
+    case NewsKind::session_left:
+      log::info(who(news.session) + " left");
+      break;
+    case NewsKind::kiosk_left:
+      kiosk_left(news.session.kiosk, now);
+      break;
   }
 }
 
@@ -126,7 +141,8 @@ Expected<Lobby::Entry*> Lobby::open(const Session& session) {
   entry->running.world = std::move(*world);
   entry->running.port = *port;
   start_records(*entry, std::move(header));
-  const auto least = std::min_element(loops_.begin(), loops_.end(), [](const auto& a, const auto& b) { return a->size() < b->size(); });
+  const auto least = std::min_element(loops_.begin(), loops_.end(),
+                                      [](const auto& a, const auto& b) { return a->size() < b->size(); });
   entry->loop = least->get();
   if (!entry->loop->add(entry->running)) {
     transport_.close_world(**port);
@@ -140,7 +156,8 @@ Expected<Lobby::Entry*> Lobby::open(const Session& session) {
 }
 
 /// Where the kiosk was before a restart, or the scenario's beginning.
-Expected<std::unique_ptr<world::World>> Lobby::make_world(const Session& session, Entry& entry, record::JournalHeader& header) {
+Expected<std::unique_ptr<world::World>> Lobby::make_world(const Session& session, Entry& entry,
+                                                          record::JournalHeader& header) {
   if (auto snapshot = take_snapshot_of(session.kiosk, *entry.description)) {
     auto resumed = world::World::resume(entry.description, scenarios_.world_config(), snapshot->state);
     if (resumed) {
@@ -156,7 +173,8 @@ Expected<std::unique_ptr<world::World>> Lobby::make_world(const Session& session
   return world::World::create(entry.description, scenarios_.world_config());
 }
 
-std::optional<record::SnapshotFile> Lobby::take_snapshot_of(const std::string& kiosk, const state::WorldDescription& description) {
+std::optional<record::SnapshotFile> Lobby::take_snapshot_of(const std::string& kiosk,
+                                                            const state::WorldDescription& description) {
   std::optional<record::SnapshotFile> found;
   for (auto it = from_before_.begin(); it != from_before_.end();) {
     if (it->info.kiosk != kiosk) {
@@ -230,7 +248,8 @@ void Lobby::tidy(TimePoint now) {
 }
 
 void Lobby::close_all() {
-  for (auto& [name, entry] : worlds_) close(*entry, record::WorldRecorder::Snapshot::keep);
+  for (auto& [name, entry] : worlds_)
+    close(*entry, record::WorldRecorder::Snapshot::keep);
   worlds_.clear();
 }
 
@@ -256,7 +275,8 @@ void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot) {
     entry.running.recorder->close(state::state_hash(state), snapshot);
   }
   transport_.close_world(*entry.running.port);
-  log::info(fmt::format("world {} closed after {} ticks, at step {}", entry.name, state.tick, step_name(*entry.description, state)));
+  log::info(fmt::format("world {} closed after {} ticks, at step {}", entry.name, state.tick,
+                        step_name(*entry.description, state)));
 }
 
 }  // namespace mechane::app

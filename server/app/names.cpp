@@ -16,23 +16,38 @@ std::string describe_event(const state::WorldDescription& world, const state::Ev
   using state::EventKind;
   const std::string body = name_in(world.bodies, event.object);
   switch (event.kind) {
-    case EventKind::user_joined: return fmt::format("user {} joined", event.subject);
-    case EventKind::user_left: return fmt::format("user {} left", event.subject);
-    case EventKind::input_stale: return fmt::format("user {} is silent: the hand is frozen", event.subject);
-    case EventKind::input_back: return fmt::format("user {} is back", event.subject);
-    case EventKind::touched: return fmt::format("user {} touched {}", event.subject, body);
-    case EventKind::grasped: return fmt::format("user {} grasped {}", event.subject, body);
-    case EventKind::released: return fmt::format("user {} released {}", event.subject, body);
-    case EventKind::placed: return fmt::format("{} placed by {}", body, name_in(world.agents, event.subject));
-    case EventKind::turned: return fmt::format("{}: {:.0f} turns", name_in(world.agents, event.subject), event.value);
-    case EventKind::step_started: return fmt::format("step {} started", name_in(world.steps, event.subject));
-    case EventKind::activity_started: return fmt::format("activity {} started", name_in(world.activities, event.subject));
+    case EventKind::user_joined:
+      return fmt::format("user {} joined", event.subject);
+    case EventKind::user_left:
+      return fmt::format("user {} left", event.subject);
+    case EventKind::input_stale:
+      return fmt::format("user {} is silent: the hand is frozen", event.subject);
+    case EventKind::input_back:
+      return fmt::format("user {} is back", event.subject);
+    case EventKind::touched:
+      return fmt::format("user {} touched {}", event.subject, body);
+    case EventKind::grasped:
+      return fmt::format("user {} grasped {}", event.subject, body);
+    case EventKind::released:
+      return fmt::format("user {} released {}", event.subject, body);
+    case EventKind::placed:
+      return fmt::format("{} placed by {}", body, name_in(world.agents, event.subject));
+    case EventKind::turned:
+      return fmt::format("{}: {:.0f} turns", name_in(world.agents, event.subject), event.value);
+    case EventKind::step_started:
+      return fmt::format("step {} started", name_in(world.steps, event.subject));
+    case EventKind::activity_started:
+      return fmt::format("activity {} started", name_in(world.activities, event.subject));
     case EventKind::activity_done:
       return fmt::format("activity {} done in {:.1f} s", name_in(world.activities, event.subject), event.value);
-    case EventKind::spilled: return fmt::format("{} spilled {:.1f} l", name_in(world.machines, event.subject), 1000 * event.value);
-    case EventKind::command_done: return fmt::format("command {:.0f} done", event.value);
-    case EventKind::command_refused: return fmt::format("command {:.0f} refused", event.value);
-    case EventKind::none: break;
+    case EventKind::spilled:
+      return fmt::format("{} spilled {:.1f} l", name_in(world.machines, event.subject), 1000 * event.value);
+    case EventKind::command_done:
+      return fmt::format("command {:.0f} done", event.value);
+    case EventKind::command_refused:
+      return fmt::format("command {:.0f} refused", event.value);
+    case EventKind::none:
+      break;
   }
   return "nothing";
 }

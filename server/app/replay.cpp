@@ -1,8 +1,8 @@
 #include "server/app/replay.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdio>
+
+#include <fmt/format.h>
 
 #include "server/app/names.hpp"
 #include "server/world/step.hpp"
@@ -41,7 +41,8 @@ void compare(const record::JournalTick& tick, const world::World& world, ReplayR
 
 }  // namespace
 
-Expected<ReplayResult> replay(record::JournalReader& journal, std::shared_ptr<const state::WorldDescription> description,
+Expected<ReplayResult> replay(record::JournalReader& journal,
+                              std::shared_ptr<const state::WorldDescription> description,
                               const world::WorldConfig& config, const ReplayOptions& options) {
   auto world = world_of(journal.header(), std::move(description), config);
   if (!world) return tl::unexpected(world.error());
@@ -63,7 +64,8 @@ Expected<ReplayResult> replay(record::JournalReader& journal, std::shared_ptr<co
   result.final_hash = state::state_hash((*world)->state);
   if (result.end.hash) {
     ++result.hashes_compared;
-    if (*result.end.hash != result.final_hash && !result.first_difference) result.first_difference = (*world)->state.tick;
+    if (*result.end.hash != result.final_hash && !result.first_difference)
+      result.first_difference = (*world)->state.tick;
   }
   return result;
 }

@@ -13,8 +13,8 @@
 namespace mechane::app {
 
 struct ReplayOptions {
-  bool real_time = false;   ///< at the pace of the visit instead of as fast as it can
-  bool show_events = false; ///< prints each event, with its tick, on stdout
+  bool real_time = false;    ///< at the pace of the visit instead of as fast as it can
+  bool show_events = false;  ///< prints each event, with its tick, on stdout
 };
 
 struct ReplayResult {
@@ -25,7 +25,9 @@ struct ReplayResult {
   record::JournalEnd end;
   double seconds = 0;
   /// The journal is whole, at least one hash was compared, and all agree.
-  [[nodiscard]] bool same() const { return !first_difference && hashes_compared > 0 && end.kind == record::JournalEnd::Kind::closed; }
+  [[nodiscard]] bool same() const {
+    return !first_difference && hashes_compared > 0 && end.kind == record::JournalEnd::Kind::closed;
+  }
 };
 
 /// Errors: the journal is of another form of the scenario (the hashes name both), or its snapshot cannot be read.

@@ -1,8 +1,8 @@
 // mechane-replay: runs a journal again, as fast as it can or in real time, and tells whether it ends as the live world did.
-#include <fmt/format.h>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
+#include <fmt/format.h>
 
 #include "server/app/replay.hpp"
 #include "server/app/scenario_store.hpp"
@@ -21,7 +21,8 @@ struct Arguments {
 
 void print_result(const record::JournalHeader& header, const app::ReplayResult& r) {
   fmt::print("world {}, kiosk {}, scenario {}\n", header.world_id, header.kiosk, header.scenario_id);
-  fmt::print("ticks            {} ({:.1f} s of visit in {:.1f} s)\n", r.ticks, static_cast<double>(r.ticks) * kTickSeconds, r.seconds);
+  fmt::print("ticks            {} ({:.1f} s of visit in {:.1f} s)\n", r.ticks,
+             static_cast<double>(r.ticks) * kTickSeconds, r.seconds);
   fmt::print("hashes compared  {}\n", r.hashes_compared);
   fmt::print("final hash       {:016x}\n", r.final_hash);
   if (r.end.kind != record::JournalEnd::Kind::closed) fmt::print("the journal ends early: {}\n", r.end.message);
@@ -62,7 +63,9 @@ int run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   Arguments a;
-  CLI::App app{"Runs a journal again and compares its state hashes. Exit status: 0 the same, 1 different or cut off, 2 an error."};
+  CLI::App app{
+      "Runs a journal again and compares its state hashes. Exit status: 0 the same, 1 different or cut off, 2 an "
+      "error."};
   app.set_version_flag("--version", std::string("mechane ") + app::kVersion);
   app.add_option("journal", a.journal, "journal file of a server's records")->required();
   app.add_option("--scenario", a.settings.scenarios, "X3D file that the journal's world ran")->required();

@@ -1,18 +1,24 @@
 #include "server/app/report.hpp"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include <nlohmann/json.hpp>
 
 #include "server/app/version.hpp"
 
 namespace mechane::app {
 namespace {
 
-double us(Duration d) { return std::chrono::duration<double, std::micro>(d).count(); }
+double us(Duration d) {
+  return std::chrono::duration<double, std::micro>(d).count();
+}
 
 nlohmann::json quantiles(const realtime::LatencyHistogram& h) {
-  return {{"median", us(h.quantile(0.5))}, {"p99", us(h.quantile(0.99))}, {"p999", us(h.quantile(0.999))}, {"max", us(h.max())}};
+  return {{"median", us(h.quantile(0.5))},
+          {"p99", us(h.quantile(0.99))},
+          {"p999", us(h.quantile(0.999))},
+          {"max", us(h.max())}};
 }
 
 }  // namespace
@@ -50,7 +56,8 @@ Expected<void> write_report(const std::filesystem::path& file, const std::vector
   nlohmann::json phases = nlohmann::json::object();
   for (std::size_t p = 0; p < world::kPhases; ++p) {
     realtime::LatencyHistogram merged;
-    for (const auto& loop : loops) merged.merge(loop->phases()[p]);
+    for (const auto& loop : loops)
+      merged.merge(loop->phases()[p]);
     phases[std::string(world::kPhaseNames[p])] = quantiles(merged);
   }
   const nlohmann::json json = {
@@ -61,8 +68,10 @@ Expected<void> write_report(const std::filesystem::path& file, const std::vector
       {"preemptions", s.preemptions},
       {"skipped", s.skipped},
       {"realtime", s.realtime},
-      {"tick_us", {{"median", s.tick_us_median}, {"p99", s.tick_us_p99}, {"p999", s.tick_us_p999}, {"max", s.tick_us_max}}},
-      {"wake_us", {{"median", s.wake_us_median}, {"p99", s.wake_us_p99}, {"p999", s.wake_us_p999}, {"max", s.wake_us_max}}},
+      {"tick_us",
+       {{"median", s.tick_us_median}, {"p99", s.tick_us_p99}, {"p999", s.tick_us_p999}, {"max", s.tick_us_max}}},
+      {"wake_us",
+       {{"median", s.wake_us_median}, {"p99", s.wake_us_p99}, {"p999", s.wake_us_p999}, {"max", s.wake_us_max}}},
       {"phase_us", std::move(phases)},
       {"dds_write_us", quantiles(write_time)}};
   std::ofstream out(file);

@@ -21,7 +21,8 @@ struct LoopSummary {
 [[nodiscard]] LoopSummary summarise(const std::vector<std::unique_ptr<WorldLoop>>& loops);
 
 /// Writes the summary, the phases and the time of a dds_write as JSON. Errors: the file cannot be written.
-[[nodiscard]] Expected<void> write_report(const std::filesystem::path& file, const std::vector<std::unique_ptr<WorldLoop>>& loops,
+[[nodiscard]] Expected<void> write_report(const std::filesystem::path& file,
+                                          const std::vector<std::unique_ptr<WorldLoop>>& loops,
                                           const realtime::LatencyHistogram& write_time);
 
 }  // namespace mechane::app

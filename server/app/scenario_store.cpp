@@ -1,9 +1,9 @@
 #include "server/app/scenario_store.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "server/content/object_store.hpp"
 #include "server/log/log.hpp"
@@ -38,8 +38,8 @@ void scale_touch(state::WorldDescription& description, double scale) {
   description.content_hash += fmt::format("-touch{}", scale);
 }
 
-Expected<std::shared_ptr<const state::WorldDescription>> load_one(const std::filesystem::path& file, StoreLoader& loader,
-                                                                  double stiffness_scale) {
+Expected<std::shared_ptr<const state::WorldDescription>> load_one(const std::filesystem::path& file,
+                                                                  StoreLoader& loader, double stiffness_scale) {
   log::info(fmt::format("reading {}", file.string()));
   scenario::Problems problems(file.string());
   auto description = scenario::read_scenario(file, loader, problems);
@@ -61,7 +61,8 @@ Expected<ScenarioStore> ScenarioStore::load(const Settings& settings) {
     auto description = load_one(file, loader, settings.stiffness_scale);
     if (!description) return tl::unexpected(description.error());
     if (result.find((*description)->id) != nullptr) {
-      return fail(fmt::format("two scenarios have the id '{}'", (*description)->id), file.string(), "give one of them another id");
+      return fail(fmt::format("two scenarios have the id '{}'", (*description)->id), file.string(),
+                  "give one of them another id");
     }
     result.scenarios_.push_back(std::move(*description));
   }

@@ -1,9 +1,9 @@
 #include "server/app/server.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "server/app/lobby.hpp"
 #include "server/app/report.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 // The main thread looks at the kiosks so often; a visitor never notices, and the loops do not wait for it.
 constexpr int kLookEveryMs = 20;
-constexpr int kLooksPerStatus = 5;    // ten a second
+constexpr int kLooksPerStatus = 5;     // ten a second
 constexpr int kLooksPerWatchdog = 25;  // twice a second
 
 LoopConfig loop_config(const Settings& settings, std::size_t index) {
@@ -87,7 +87,8 @@ Expected<void> Server::Impl::start() {
     if (auto started = loops_.back()->start(); !started) return started;
   }
   if (settings_.fifo_priority > 0 && !loops_.front()->thread().report().fifo_granted) {
-    log::warning("SCHED_FIFO was refused: the loop runs as an ordinary thread and will be late under load; see mechane doctor");
+    log::warning(
+        "SCHED_FIFO was refused: the loop runs as an ordinary thread and will be late under load; see mechane doctor");
   }
   lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), loops_);
   return {};
@@ -107,7 +108,8 @@ int Server::Impl::run(StopSignals& signals) {
   log::info("stopping");
   notify_systemd("STOPPING=1");
   lobby_->close_all();
-  for (auto& loop : loops_) loop->stop();
+  for (auto& loop : loops_)
+    loop->stop();
   if (settings_.report.empty()) return 0;
   const auto written = write_report(settings_.report, loops_, transport_->haptic_write_time());
   if (written) return 0;
@@ -116,7 +118,8 @@ int Server::Impl::run(StopSignals& signals) {
 }
 
 void Server::Impl::look(TimePoint now) {
-  for (const transport::News& news : transport_->poll(now)) lobby_->take(news, now);
+  for (const transport::News& news : transport_->poll(now))
+    lobby_->take(news, now);
   lobby_->tidy(now);
 }
 
@@ -150,6 +153,8 @@ Expected<std::unique_ptr<Server>> Server::start(const Settings& settings) {
   return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 
-int Server::run(StopSignals& signals) { return impl_->run(signals); }
+int Server::run(StopSignals& signals) {
+  return impl_->run(signals);
+}
 
 }  // namespace mechane::app

@@ -1,9 +1,9 @@
 #include "server/app/settings.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "server/app/version.hpp"
@@ -127,16 +127,19 @@ Expected<void> validate(const Settings& s) {
     if (value >= low && value <= high) return {};
     return fail(fmt::format("{} is {}", name, value), "settings", fmt::format("give a value from {} to {}", low, high));
   };
-  for (auto& checked : {range("worlds", s.worlds, 1, 64), range("loop_threads", s.loop_threads, 1, 32),
-                        range("domain", s.domain, 0, 230), range("fifo_priority", s.fifo_priority, 0, 98),
-                        range("world_idle_s", s.world_idle_s, 1, 86400), range("resume_within_s", s.resume_within_s, 0, 1e7),
-                        range("force.stiffness_scale", s.stiffness_scale, 0, 10)}) {
+  for (auto& checked :
+       {range("worlds", s.worlds, 1, 64), range("loop_threads", s.loop_threads, 1, 32),
+        range("domain", s.domain, 0, 230), range("fifo_priority", s.fifo_priority, 0, 98),
+        range("world_idle_s", s.world_idle_s, 1, 86400), range("resume_within_s", s.resume_within_s, 0, 1e7),
+        range("force.stiffness_scale", s.stiffness_scale, 0, 10)}) {
     if (!checked) return checked;
   }
   if (s.scenarios.empty()) {
-    return fail("no scenario is given", "settings", "name at least one: --scenario scenarios/archimedes-screw/archimedes-screw.x3d");
+    return fail("no scenario is given", "settings",
+                "name at least one: --scenario scenarios/archimedes-screw/archimedes-screw.x3d");
   }
-  if (s.name.empty() || s.name.size() > 31) return fail("the server's name must have 1 to 31 characters", "settings", "--name server-1");
+  if (s.name.empty() || s.name.size() > 31)
+    return fail("the server's name must have 1 to 31 characters", "settings", "--name server-1");
   return {};
 }
 
@@ -156,7 +159,8 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
   int cpu = -1;
   bool paper = false;
   app.add_option("--settings", settings_file, "TOML file; flags win over it");
-  app.add_option("--scenario", scenarios, "X3D file of an exhibit; may be given several times, the first is the default");
+  app.add_option("--scenario", scenarios,
+                 "X3D file of an exhibit; may be given several times, the first is the default");
   app.add_option("--name", s.name, "name on the wire and in logs");
   app.add_option("--worlds", s.worlds, "how many worlds may run at once");
   app.add_option("--loop-threads", s.loop_threads, "threads that the worlds are spread over");
@@ -167,7 +171,8 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
   app.add_option("--fifo-priority", s.fifo_priority, "of the loop; 0: an ordinary thread");
   app.add_option("--first-cpu", cpu, "pin loop thread i to processor first + i");
   app.add_option("--world-idle", s.world_idle_s, "seconds after which a world without clients is closed");
-  app.add_option("--resume-within", s.resume_within_s, "seconds for which a restarted server puts a kiosk back at its step");
+  app.add_option("--resume-within", s.resume_within_s,
+                 "seconds for which a restarted server puts a kiosk back at its step");
   app.add_option("--run-for", s.run_for_s, "stop after so many seconds; 0: run until told to stop");
   app.add_option("--report", s.report, "write counters and tick times to this JSON file at the stop");
   app.add_option("--max-force", s.force.governor.max_force_n, "newtons that the server asks of a device at most");
@@ -191,7 +196,8 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
 
 std::string to_string(const Settings& s) {
   std::string scenarios;
-  for (const auto& path : s.scenarios) scenarios += (scenarios.empty() ? "" : ", ") + path.string();
+  for (const auto& path : s.scenarios)
+    scenarios += (scenarios.empty() ? "" : ", ") + path.string();
   return fmt::format(
       "name = {}\nscenarios = {}\nworlds = {}\nloop_threads = {}\ndomain = {}\nrecords = {}\nrecords_limit_mb = {}\n"
       "cache = {}\nfifo_priority = {}\nfirst_cpu = {}\nworld_idle_s = {}\nresume_within_s = {}\nforce.mode = {}\n"

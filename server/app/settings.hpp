@@ -14,24 +14,24 @@
 namespace mechane::app {
 
 struct Settings {
-  std::string name = "server-1";                    ///< on the wire and in logs
-  std::vector<std::filesystem::path> scenarios;     ///< X3D files; the first is what a kiosk gets that asks for none
-  std::uint32_t worlds = 4;                         ///< at most so many at once, 1 .. 64
-  std::uint32_t loop_threads = 1;                   ///< 1 .. 32
-  std::uint32_t domain = 0;                         ///< DDS domain, 0 .. 230
-  std::filesystem::path records = "out/records";    ///< journals and snapshots; empty: none are kept
-  std::uint64_t records_limit_mb = 20'000;          ///< the oldest journals go when there are more
-  std::filesystem::path cache;                      ///< built parts; empty: the user's cache folder
-  int fifo_priority = 80;                           ///< of the loop, 0 .. 98; 0: an ordinary thread
-  std::optional<int> first_cpu;                     ///< pins loop thread i to processor first_cpu + i
-  double world_idle_s = 30;                         ///< a world without clients is closed after this long
-  double resume_within_s = 600;                     ///< a restarted server puts a kiosk back where it was, up to this old
-  double run_for_s = 0;                             ///< stops by itself after this long; 0: runs until it is told to stop
-  std::filesystem::path report;                     ///< JSON of counters and tick times, written at the stop; empty: none
+  std::string name = "server-1";                  ///< on the wire and in logs
+  std::vector<std::filesystem::path> scenarios;   ///< X3D files; the first is what a kiosk gets that asks for none
+  std::uint32_t worlds = 4;                       ///< at most so many at once, 1 .. 64
+  std::uint32_t loop_threads = 1;                 ///< 1 .. 32
+  std::uint32_t domain = 0;                       ///< DDS domain, 0 .. 230
+  std::filesystem::path records = "out/records";  ///< journals and snapshots; empty: none are kept
+  std::uint64_t records_limit_mb = 20'000;        ///< the oldest journals go when there are more
+  std::filesystem::path cache;                    ///< built parts; empty: the user's cache folder
+  int fifo_priority = 80;                         ///< of the loop, 0 .. 98; 0: an ordinary thread
+  std::optional<int> first_cpu;                   ///< pins loop thread i to processor first_cpu + i
+  double world_idle_s = 30;                       ///< a world without clients is closed after this long
+  double resume_within_s = 600;                   ///< a restarted server puts a kiosk back where it was, up to this old
+  double run_for_s = 0;                           ///< stops by itself after this long; 0: runs until it is told to stop
+  std::filesystem::path report;                   ///< JSON of counters and tick times, written at the stop; empty: none
   bool verbose = false;
   haptics::HandSize hand;
   haptics::ForceConfig force;
-  double stiffness_scale = 1;                       ///< on every material and grasp, 0 .. 10; 0: nothing can be felt or moved
+  double stiffness_scale = 1;  ///< on every material and grasp, 0 .. 10; 0: nothing can be felt or moved
 };
 
 /// Reads flags and, with --settings FILE, a TOML file under them (a flag wins). `help` is filled instead when --help or --version

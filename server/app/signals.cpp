@@ -1,12 +1,12 @@
 #include "server/app/signals.hpp"
 
+#include <csignal>
+
 #include <poll.h>
 #include <pthread.h>
 #include <sys/signalfd.h>
 #include <systemd/sd-daemon.h>
 #include <unistd.h>
-
-#include <csignal>
 
 #include "server/base/assert.hpp"
 
@@ -48,6 +48,8 @@ bool StopSignals::wait(int milliseconds) {
   return stopping_;
 }
 
-void notify_systemd(const char* state) { sd_notify(0, state); }
+void notify_systemd(const char* state) {
+  sd_notify(0, state);
+}
 
 }  // namespace mechane::app

@@ -45,7 +45,9 @@ WorldLoop::WorldLoop(const LoopConfig& config, Clock& clock)
   worlds_.reserve(config.max_worlds);
 }
 
-WorldLoop::~WorldLoop() { stop(); }
+WorldLoop::~WorldLoop() {
+  stop();
+}
 
 Expected<void> WorldLoop::start() {
   return thread_.start([this](const realtime::TickTiming& timing) { tick(timing); });
@@ -60,14 +62,16 @@ bool WorldLoop::add(RunningWorld& world) {
 void WorldLoop::tick(const realtime::TickTiming& timing) noexcept {
   const Duration before = clock_.thread_cpu_time();
   take_new_worlds();
-  for (RunningWorld* running : worlds_) step(*running, timing.woke);
+  for (RunningWorld* running : worlds_)
+    step(*running, timing.woke);
   if (!worlds_.empty()) busy_time_.record(clock_.thread_cpu_time() - before);
   give_back_leaving();
 }
 
 void WorldLoop::take_new_worlds() noexcept {
   RunningWorld* world = nullptr;
-  while (worlds_.size() < max_worlds_ && arriving_.pop(world)) worlds_.push_back(world);
+  while (worlds_.size() < max_worlds_ && arriving_.pop(world))
+    worlds_.push_back(world);
 }
 
 void WorldLoop::give_back_leaving() noexcept {
@@ -84,7 +88,8 @@ void WorldLoop::step(RunningWorld& running, TimePoint now) noexcept {
   running.port->gather(inputs, now);
   TickOutput output(running, inputs);
   world::step(*running.world, inputs, output, timer_);
-  for (std::size_t i = 0; i < world::kPhases; ++i) phases_[i].record(timer_.took()[i]);
+  for (std::size_t i = 0; i < world::kPhases; ++i)
+    phases_[i].record(timer_.took()[i]);
 }
 
 }  // namespace mechane::app

@@ -19,10 +19,10 @@ namespace mechane::app {
 /// A world on a loop: what it is stepped with. Made by the main thread, then the loop's until the loop gives it back.
 struct RunningWorld {
   std::unique_ptr<world::World> world;
-  transport::WorldPort* port = nullptr;            ///< lives in the transport
-  std::optional<record::WorldRecorder> recorder;   ///< none: nothing is kept
-  std::atomic<bool> leave{false};                  ///< the main thread asks the loop to give the world back
-  std::atomic<bool> left{false};                   ///< the loop has; the main thread may take it apart
+  transport::WorldPort* port = nullptr;           ///< lives in the transport
+  std::optional<record::WorldRecorder> recorder;  ///< none: nothing is kept
+  std::atomic<bool> leave{false};                 ///< the main thread asks the loop to give the world back
+  std::atomic<bool> left{false};                  ///< the loop has; the main thread may take it apart
 };
 
 struct LoopConfig {

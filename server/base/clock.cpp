@@ -15,7 +15,9 @@ std::int64_t read_ns(clockid_t id) noexcept {
 
 }  // namespace
 
-TimePoint SystemClock::now() noexcept { return TimePoint(Duration(read_ns(CLOCK_MONOTONIC))); }
+TimePoint SystemClock::now() noexcept {
+  return TimePoint(Duration(read_ns(CLOCK_MONOTONIC)));
+}
 
 void SystemClock::sleep_until(TimePoint wake) noexcept {
   const std::int64_t ns = wake.time_since_epoch().count();
@@ -25,6 +27,8 @@ void SystemClock::sleep_until(TimePoint wake) noexcept {
   }
 }
 
-Duration SystemClock::thread_cpu_time() noexcept { return Duration(read_ns(CLOCK_THREAD_CPUTIME_ID)); }
+Duration SystemClock::thread_cpu_time() noexcept {
+  return Duration(read_ns(CLOCK_THREAD_CPUTIME_ID));
+}
 
 }  // namespace mechane

@@ -32,6 +32,8 @@ class SystemClock final : public Clock {
   [[nodiscard]] Duration thread_cpu_time() noexcept override;
 };
 
-[[nodiscard]] inline std::uint64_t to_ns(TimePoint t) { return static_cast<std::uint64_t>(t.time_since_epoch().count()); }
+[[nodiscard]] inline std::uint64_t to_ns(TimePoint t) {
+  return static_cast<std::uint64_t>(t.time_since_epoch().count());
+}
 
 }  // namespace mechane

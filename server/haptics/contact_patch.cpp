@@ -3,7 +3,8 @@
 namespace mechane::haptics {
 namespace {
 
-ContactPatch* find_or_add(std::array<ContactPatch, kMaxPatches>& patches, std::size_t& count, const state::Contact& contact) {
+ContactPatch* find_or_add(std::array<ContactPatch, kMaxPatches>& patches, std::size_t& count,
+                          const state::Contact& contact) {
   for (std::size_t i = 0; i < count; ++i) {
     if (patches[i].body == contact.body && patches[i].segment == contact.segment) return &patches[i];
   }
@@ -17,7 +18,8 @@ ContactPatch* find_or_add(std::array<ContactPatch, kMaxPatches>& patches, std::s
 
 }  // namespace
 
-std::size_t gather_patches(std::span<const state::Contact> contacts, std::array<ContactPatch, kMaxPatches>& patches) noexcept {
+std::size_t gather_patches(std::span<const state::Contact> contacts,
+                           std::array<ContactPatch, kMaxPatches>& patches) noexcept {
   std::size_t count = 0;
   std::array<double, kMaxPatches> depth_sum{};
   for (const state::Contact& contact : contacts) {

@@ -14,10 +14,10 @@ struct ContactPatch {
   BodyId body;
   std::uint8_t segment = 0;
   std::uint32_t points = 0;
-  Vec3 p_WC = Vec3::Zero();   ///< depth-weighted middle of the points
-  Vec3 push_m = Vec3::Zero(); ///< sum S_i^2 n_i / sum S_i: the way out; times stiffness it is the force on the hand
-  Vec3 n_BH_W = Vec3::Zero(); ///< unit, along push_m
-  double depth_m = 0;         ///< |push_m|
+  Vec3 p_WC = Vec3::Zero();    ///< depth-weighted middle of the points
+  Vec3 push_m = Vec3::Zero();  ///< sum S_i^2 n_i / sum S_i: the way out; times stiffness it is the force on the hand
+  Vec3 n_BH_W = Vec3::Zero();  ///< unit, along push_m
+  double depth_m = 0;          ///< |push_m|
 };
 
 /// No hand touches more bodies with more segments than this at once.

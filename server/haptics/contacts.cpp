@@ -44,7 +44,8 @@ void touch_body(const collision::Object& object, const Pose& X_WB, BodyId body, 
 
 }  // namespace
 
-void find_contacts(const state::WorldDescription& description, const HandModel& hand, state::WorldState& state) noexcept {
+void find_contacts(const state::WorldDescription& description, const HandModel& hand,
+                   state::WorldState& state) noexcept {
   for (state::UserState& user : state.users) {
     user.contact_count = 0;
     if (!user.present) continue;

@@ -11,7 +11,8 @@ using state::JointKind;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// The enabled joint that ties this body, or null. A body with several is rare and only feels heavier.
-const JointDescription* joint_of(const state::WorldDescription& description, const state::WorldState& state, BodyId body) {
+const JointDescription* joint_of(const state::WorldDescription& description, const state::WorldState& state,
+                                 BodyId body) {
   for (std::size_t j = 0; j < description.joints.size(); ++j) {
     if (description.joints[j].body2 == body && state.joints[j].enabled) return &description.joints[j];
   }

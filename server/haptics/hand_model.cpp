@@ -94,7 +94,9 @@ Expected<HandModel> HandModel::create(const HandSize& size) {
   return model;
 }
 
-std::size_t HandModel::segment_count(HandKind kind) noexcept { return kind == HandKind::glove ? state::kHandSegments : 1; }
+std::size_t HandModel::segment_count(HandKind kind) noexcept {
+  return kind == HandKind::glove ? state::kHandSegments : 1;
+}
 
 std::size_t HandModel::nearest_size(double scale) noexcept {
   std::size_t best = 0;

@@ -18,7 +18,7 @@ namespace mechane::haptics {
 
 /// One finger: where it starts on the palm, its three phalanges from the palm outwards.
 struct FingerSize {
-  Vec3 p_HF = Vec3::Zero();               ///< the first joint, in H, metres
+  Vec3 p_HF = Vec3::Zero();  ///< the first joint, in H, metres
   std::array<double, 3> length_m{};
   std::array<double, 3> radius_m{};
 };
@@ -33,8 +33,8 @@ struct HandSize {
       {{0.099, 0.000, 0.011}, {0.046, 0.029, 0.021}, {0.0090, 0.0080, 0.0072}},
       {{0.091, 0.000, 0.031}, {0.037, 0.021, 0.019}, {0.0085, 0.0075, 0.0065}},
   }};
-  double tip_radius_m = 0.008;            ///< of a one-point device
-  double sample_spacing_m = 0.004;        ///< of the points on its surface: under a third of a fingertip's breadth
+  double tip_radius_m = 0.008;      ///< of a one-point device
+  double sample_spacing_m = 0.004;  ///< of the points on its surface: under a third of a fingertip's breadth
 };
 
 /// Collision objects of a hand in five sizes, and its kinematics. Immutable once made; shared by all users of a world.
@@ -44,7 +44,8 @@ class HandModel {
   [[nodiscard]] static Expected<HandModel> create(const HandSize& size);
 
   /// Poses of the segments in W. One-point: only segment 0, a sphere at the tip. In the tick; any thread.
-  void place(const state::HandSample& sample, const Pose& X_WH, std::array<Pose, state::kHandSegments>& X_WS) const noexcept;
+  void place(const state::HandSample& sample, const Pose& X_WH,
+             std::array<Pose, state::kHandSegments>& X_WS) const noexcept;
 
   /// Segments that a hand of this kind has: 16 or 1.
   [[nodiscard]] static std::size_t segment_count(state::HandKind kind) noexcept;

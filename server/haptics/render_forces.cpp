@@ -34,8 +34,8 @@ Vec3 friction_force(const Vec3& v_tangent, double normal_force_n, const HapticMa
 }
 
 /// Spring, damping on the way in, friction. Continuous in depth and speed but for the fall from static to dynamic friction.
-PatchForce touch_force(const ContactPatch& patch, const HapticMaterial& material, const ForceConfig& config, double m_eff_kg,
-                       const Vec3& v_rel_W) {
+PatchForce touch_force(const ContactPatch& patch, const HapticMaterial& material, const ForceConfig& config,
+                       double m_eff_kg, const Vec3& v_rel_W) {
   PatchForce out;
   const double k_bound = kStiffnessBound * m_eff_kg / (kTickSeconds * kTickSeconds);
   const double b_bound = kDampingBound * m_eff_kg / kTickSeconds;
@@ -139,7 +139,8 @@ Expected<ForceRenderer> ForceRenderer::create(const ForceConfig& config) {
 }
 
 void ForceRenderer::run(const state::WorldDescription& description, state::WorldState& state) noexcept {
-  for (std::size_t i = 0; i < state.users.size(); ++i) render_user(description, state, i);
+  for (std::size_t i = 0; i < state.users.size(); ++i)
+    render_user(description, state, i);
 }
 
 void ForceRenderer::render_user(const state::WorldDescription& description, state::WorldState& state,

@@ -16,27 +16,36 @@ class StateWalk {
 
   void run() {
     archive_.bytes(state_.tick);
-    for (auto& body : state_.bodies) walk_body(body);
-    for (auto& joint : state_.joints) walk_joint(joint);
-    for (auto& value : state_.quantities) archive_.bytes(value);
-    for (auto& enabled : state_.agent_enabled) archive_.bytes(enabled);
-    for (auto& value : state_.memory) archive_.bytes(value);
-    for (auto& user : state_.users) walk_user(user);
+    for (auto& body : state_.bodies)
+      walk_body(body);
+    for (auto& joint : state_.joints)
+      walk_joint(joint);
+    for (auto& value : state_.quantities)
+      archive_.bytes(value);
+    for (auto& enabled : state_.agent_enabled)
+      archive_.bytes(enabled);
+    for (auto& value : state_.memory)
+      archive_.bytes(value);
+    for (auto& user : state_.users)
+      walk_user(user);
     walk_progress(state_.progress);
   }
 
  private:
   template <class V>
   void vector(V& v) {
-    for (int i = 0; i < 3; ++i) archive_.bytes(v.coeffRef(i));
+    for (int i = 0; i < 3; ++i)
+      archive_.bytes(v.coeffRef(i));
   }
   void vector(const Vec3& v) {
-    for (int i = 0; i < 3; ++i) archive_.bytes(v[i]);
+    for (int i = 0; i < 3; ++i)
+      archive_.bytes(v[i]);
   }
   template <class P>
   void pose(P& X) {
     vector(X.p);
-    for (int i = 0; i < 4; ++i) archive_.bytes(X.R.coeffs()[i]);
+    for (int i = 0; i < 4; ++i)
+      archive_.bytes(X.R.coeffs()[i]);
   }
   template <class T>
   void twist(T& V) {
@@ -72,7 +81,8 @@ class StateWalk {
     archive_.bytes(user.sample.kind);
     archive_.bytes(user.sample.grasp_intent);
     archive_.bytes(user.sample.hand_scale);
-    for (auto& angle : user.sample.joints) archive_.bytes(angle);
+    for (auto& angle : user.sample.joints)
+      archive_.bytes(angle);
     pose(user.X_WH);
     twist(user.V_WH);
     archive_.bytes(user.grasp.active);

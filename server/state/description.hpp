@@ -33,16 +33,16 @@ struct MeshReference {
 };
 
 struct BodyDescription {
-  std::string name;            ///< DEF of the RigidBody
-  bool fixed = false;          ///< never moves; mass is not used
+  std::string name;    ///< DEF of the RigidBody
+  bool fixed = false;  ///< never moves; mass is not used
   bool use_gravity = true;
-  double mass_kg = 1;          ///< the real one; the simulation uses mass * effort_scale
+  double mass_kg = 1;                     ///< the real one; the simulation uses mass * effort_scale
   Mat3 inertia_kg_m2 = Mat3::Identity();  ///< about the centre of mass, in the body's frame, unscaled
-  Vec3 p_BCm = Vec3::Zero();   ///< centre of mass in the body's frame
-  double effort_scale = 1;     ///< what a visitor's hand has to lift of it (reference: caption says so)
-  double linear_damping = 0.02;   ///< share of velocity lost in a second, as Bullet's
+  Vec3 p_BCm = Vec3::Zero();              ///< centre of mass in the body's frame
+  double effort_scale = 1;                ///< what a visitor's hand has to lift of it (reference: caption says so)
+  double linear_damping = 0.02;           ///< share of velocity lost in a second, as Bullet's
   double angular_damping = 0.02;
-  Pose X_WB;                   ///< at the start
+  Pose X_WB;  ///< at the start
   HapticMaterial haptic;
   std::shared_ptr<const collision::Object> object;  ///< null: cannot be touched
   MeshReference mesh;
@@ -56,11 +56,11 @@ enum class JointKind { hinge, slider, ball };
 struct JointDescription {
   std::string name;
   JointKind kind = JointKind::hinge;
-  BodyId body1;            ///< the frame side
-  BodyId body2;            ///< the moving side; position and torque are of body2 against body1
-  Pose X_B1J;              ///< joint frame in body1: z is the axis of a hinge, x that of a slider
-  Pose X_B2J;              ///< joint frame in body2, coinciding with the former at position 0
-  double min_position = 0; ///< rad or m; min > max: no limits
+  BodyId body1;             ///< the frame side
+  BodyId body2;             ///< the moving side; position and torque are of body2 against body1
+  Pose X_B1J;               ///< joint frame in body1: z is the axis of a hinge, x that of a slider
+  Pose X_B2J;               ///< joint frame in body2, coinciding with the former at position 0
+  double min_position = 0;  ///< rad or m; min > max: no limits
   double max_position = -1;
   bool enabled_at_start = true;
 };
@@ -77,9 +77,10 @@ struct ComponentDescription {
 };
 
 struct QuantityDescription {
-  std::string name;    ///< what rules and displays call it
-  std::string source;  ///< "HINGE.angle", "HINGE.rate", "SNAP.placed", "PUMP.basin_l", "GRASP.active", "CRANK.position.y"
-  std::string unit;    ///< SI or a unit that a visitor reads: "l", "rpm"
+  std::string name;  ///< what rules and displays call it
+  std::string
+      source;        ///< "HINGE.angle", "HINGE.rate", "SNAP.placed", "PUMP.basin_l", "GRASP.active", "CRANK.position.y"
+  std::string unit;  ///< SI or a unit that a visitor reads: "l", "rpm"
 };
 
 enum class Comparison { less, equal, greater };
@@ -123,13 +124,13 @@ struct ActivityDescription {
 struct VisitMove {
   enum class Kind { reach, grasp, move_to, turn, release, wait };
   Kind kind = Kind::wait;
-  BodyId body;                    ///< reach, grasp, move_to
-  Vec3 p_BG = Vec3::Zero();       ///< reach: the grip's centre in the body's frame
-  Pose X_WB;                      ///< move_to: where the body goes
-  JointId joint;                  ///< turn
-  double turns = 0;               ///< turn: how far, in turns of the joint
-  double rate_rpm = 0;            ///< turn: how fast
-  double duration_s = 1;          ///< reach, grasp, move_to, release, wait
+  BodyId body;               ///< reach, grasp, move_to
+  Vec3 p_BG = Vec3::Zero();  ///< reach: the grip's centre in the body's frame
+  Pose X_WB;                 ///< move_to: where the body goes
+  JointId joint;             ///< turn
+  double turns = 0;          ///< turn: how far, in turns of the joint
+  double rate_rpm = 0;       ///< turn: how fast
+  double duration_s = 1;     ///< reach, grasp, move_to, release, wait
 };
 
 struct VisitDescription {
@@ -145,13 +146,13 @@ struct Viewpoint {
 };
 
 struct WorldDescription {
-  std::string id;             ///< "archimedes-screw"
-  std::string content_hash;   ///< hex, of the scenario file and every mesh and setting that the physics depends on
-  std::string folder;         ///< where the scenario file lies; mesh URIs are relative to it
+  std::string id;            ///< "archimedes-screw"
+  std::string content_hash;  ///< hex, of the scenario file and every mesh and setting that the physics depends on
+  std::string folder;        ///< where the scenario file lies; mesh URIs are relative to it
   std::vector<std::string> languages;
   Texts title;
   Vec3 gravity_W{0, -9.81, 0};
-  double effort_scale = 1;    ///< of the machine's loads at the hand
+  double effort_scale = 1;  ///< of the machine's loads at the hand
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<ComponentDescription> agents;

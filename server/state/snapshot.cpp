@@ -1,10 +1,10 @@
 #include "server/state/snapshot.hpp"
 
-#include <fmt/format.h>
-#include <xxhash.h>
-
 #include <cmath>
 #include <cstring>
+
+#include <fmt/format.h>
+#include <xxhash.h>
 
 #include "server/state/archive.hpp"
 
@@ -115,8 +115,8 @@ Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state
   std::memcpy(&header, bytes.data(), sizeof header);
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) return fail("not a snapshot", "snapshot", start_anew);
   if (header.version != kVersion) {
-    return fail(fmt::format("the snapshot is of version {}, this program reads {}", header.version, kVersion), "snapshot",
-                start_anew);
+    return fail(fmt::format("the snapshot is of version {}, this program reads {}", header.version, kVersion),
+                "snapshot", start_anew);
   }
   if (!same_tables(header, header_of(state))) {
     return fail("the snapshot is of another scenario, or of an earlier form of this one", "snapshot", start_anew);

@@ -1,8 +1,8 @@
 // The state is one inline struct of the hash library on the stack: hashing allocates nothing, so the loop may do it.
 #define XXH_STATIC_LINKING_ONLY
-#include <xxhash.h>
-
 #include <cstring>
+
+#include <xxhash.h>
 
 #include "server/base/assert.hpp"
 #include "server/state/archive.hpp"

@@ -18,63 +18,65 @@ namespace mechane::state {
 
 struct BodyState {
   Pose X_WB;
-  Twist V_WB;              ///< of the body frame's origin
-  bool movable = true;     ///< false: held still by the step (dynamics gives it infinite mass)
+  Twist V_WB;           ///< of the body frame's origin
+  bool movable = true;  ///< false: held still by the step (dynamics gives it infinite mass)
   bool visible = true;
   bool graspable = false;
-  Wrench load_W;           ///< on the body's origin, this tick: contact forces of hands, loads of machines. Cleared by `step_dynamics`.
+  Wrench
+      load_W;  ///< on the body's origin, this tick: contact forces of hands, loads of machines. Cleared by `step_dynamics`.
 };
 
 struct JointState {
   bool enabled = false;
-  double position = 0;        ///< rad or m; a hinge counts whole turns on
+  double position = 0;  ///< rad or m; a hinge counts whole turns on
   double velocity = 0;
-  double min_position = 0;    ///< min > max: none
+  double min_position = 0;  ///< min > max: none
   double max_position = -1;
-  double friction = 0;        ///< Coulomb friction, N m or N, as felt (already scaled)
-  double viscous = 0;         ///< N m s/rad or N s/m, as felt
-  double load = 0;            ///< torque or force along the axis this tick, from machines (signed). Cleared by `step_dynamics`.
-  double resistance = 0;      ///< torque or force this tick, from machines, that only opposes motion (>= 0). Cleared by `step_dynamics`.
+  double friction = 0;  ///< Coulomb friction, N m or N, as felt (already scaled)
+  double viscous = 0;   ///< N m s/rad or N s/m, as felt
+  double load = 0;  ///< torque or force along the axis this tick, from machines (signed). Cleared by `step_dynamics`.
+  double resistance =
+      0;  ///< torque or force this tick, from machines, that only opposes motion (>= 0). Cleared by `step_dynamics`.
 };
 
 /// One point where a hand and a body overlap.
 struct Contact {
   BodyId body;
-  std::uint8_t segment = 0;   ///< 0 palm .. 15; 0 for a one-point device
-  Vec3 p_WC = Vec3::Zero();   ///< the point, on the surface of the body
-  Vec3 n_BH_W = Vec3::Zero(); ///< unit normal, from the body into the hand: the way out for the hand
-  double depth_m = 0;         ///< > 0: how far they overlap along the normal
+  std::uint8_t segment = 0;    ///< 0 palm .. 15; 0 for a one-point device
+  Vec3 p_WC = Vec3::Zero();    ///< the point, on the surface of the body
+  Vec3 n_BH_W = Vec3::Zero();  ///< unit normal, from the body into the hand: the way out for the hand
+  double depth_m = 0;          ///< > 0: how far they overlap along the normal
 };
 
 /// A hand holds a body by a force-limited spring that dynamics solves as a constraint.
 struct Grasp {
   bool active = false;
   BodyId body;
-  Pose X_HB;                    ///< the body in the hand's frame at the moment of grasping
-  Vec3 p_BG = Vec3::Zero();     ///< the grip's centre, in the body's frame
-  double force_limit_n = 0;     ///< what the hand's spring can pull with, as felt
+  Pose X_HB;                 ///< the body in the hand's frame at the moment of grasping
+  Vec3 p_BG = Vec3::Zero();  ///< the grip's centre, in the body's frame
+  double force_limit_n = 0;  ///< what the hand's spring can pull with, as felt
   double torque_limit_nm = 0;
-  Wrench reaction_W;            ///< out of dynamics: what the body does to the hand, at the grip
+  Wrench reaction_W;  ///< out of dynamics: what the body does to the hand, at the grip
 };
 
 /// Why a force differs from the one that the contacts ask for. Bits; also on the wire.
 enum class ForceReason : std::uint32_t {
   none = 0,
-  clamped = 1,        ///< over the device's limit
-  slew_limited = 2,   ///< changed faster than the device may be asked to
-  damped = 4,         ///< the energy observer saw the system put out energy
-  stale = 8,          ///< samples are old; the force decays
-  ramping = 16,       ///< start or end of a visit
-  not_finite = 32,    ///< a number was not finite; the force is zero
+  clamped = 1,       ///< over the device's limit
+  slew_limited = 2,  ///< changed faster than the device may be asked to
+  damped = 4,        ///< the energy observer saw the system put out energy
+  stale = 8,         ///< samples are old; the force decays
+  ramping = 16,      ///< start or end of a visit
+  not_finite = 32,   ///< a number was not finite; the force is zero
 };
 
 /// A contact that the client renders at its own rate (local contact model).
 struct LocalContact {
-  Vec3 p_W = Vec3::Zero();      ///< a point of the tangent plane
-  Vec3 n_W = Vec3::Zero();      ///< unit, into the hand
-  Vec3 v_W = Vec3::Zero();      ///< velocity of the surface there
-  double depth_m = 0;           ///< at the input that this output answers
-  double curvature_per_m = 0;   ///< of the surface, 0: a plane
+  Vec3 p_W = Vec3::Zero();     ///< a point of the tangent plane
+  Vec3 n_W = Vec3::Zero();     ///< unit, into the hand
+  Vec3 v_W = Vec3::Zero();     ///< velocity of the surface there
+  double depth_m = 0;          ///< at the input that this output answers
+  double curvature_per_m = 0;  ///< of the surface, 0: a plane
   double stiffness_n_per_m = 0;
   double damping_ns_per_m = 0;
   double friction = 0;
@@ -84,22 +86,22 @@ struct LocalContact {
 struct HapticOutput {
   std::uint64_t echo_sequence = 0;  ///< the input sample that this answers
   std::uint64_t echo_sent_ns = 0;
-  Wrench force_W;                   ///< at the wrist (glove) or tip (one-point)
+  Wrench force_W;                                 ///< at the wrist (glove) or tip (one-point)
   std::array<double, kFingers> finger_force_n{};  ///< CyberGrasp: >= 0, along the finger's own perpendicular
   std::array<LocalContact, kMaxLocalContacts> contacts{};
   std::uint32_t contact_count = 0;
-  std::uint32_t reasons = 0;        ///< ForceReason bits
-  bool holding = false;             ///< a grasp is on
+  std::uint32_t reasons = 0;  ///< ForceReason bits
+  bool holding = false;       ///< a grasp is on
 };
 
 struct UserState {
   bool present = false;
-  bool stale = false;                ///< no new sample for 10 ms
-  bool jumped = false;               ///< this tick's sample is farther from the last than a hand can move: let go, start anew
-  double freshness = 0;              ///< 1 while samples are new, falling to 0 from 10 ms to 50 ms of age
-  Duration age{0};                   ///< of the last new sample
-  HandSample sample;                 ///< the last one (frozen while stale)
-  Pose X_WH;                         ///< the hand as the tick uses it
+  bool stale = false;    ///< no new sample for 10 ms
+  bool jumped = false;   ///< this tick's sample is farther from the last than a hand can move: let go, start anew
+  double freshness = 0;  ///< 1 while samples are new, falling to 0 from 10 ms to 50 ms of age
+  Duration age{0};       ///< of the last new sample
+  HandSample sample;     ///< the last one (frozen while stale)
+  Pose X_WH;             ///< the hand as the tick uses it
   Twist V_WH;
   std::array<Pose, kHandSegments> X_WS{};  ///< segments; one-point: only the first
   std::array<Contact, kMaxContacts> contacts{};
@@ -114,10 +116,10 @@ struct UserState {
 struct Progress {
   ActivityId activity;
   StepId step;
-  bool done = false;               ///< the activity's last trigger has fired
-  std::uint64_t step_tick = 0;     ///< when the step began
+  bool done = false;            ///< the activity's last trigger has fired
+  std::uint64_t step_tick = 0;  ///< when the step began
   std::uint64_t activity_tick = 0;
-  std::uint32_t steps_done = 0;    ///< in this activity
+  std::uint32_t steps_done = 0;  ///< in this activity
   bool hint_shown = false;
 };
 
@@ -129,7 +131,7 @@ struct WorldState {
   std::vector<JointState> joints;
   std::vector<double> quantities;           ///< by QuantityId; written by `update_quantities` in agents
   std::vector<std::uint8_t> agent_enabled;  ///< by AgentId
-  std::vector<double> memory;               ///< what agents and machines remember: slots given out when the world is built
+  std::vector<double> memory;  ///< what agents and machines remember: slots given out when the world is built
   std::array<UserState, kMaxUsers> users{};
   Progress progress;
   std::array<Event, kMaxEventsPerTick> events{};  ///< of this tick
@@ -152,8 +154,8 @@ void add_force(BodyState& body, const Vec3& f_B_W, const Vec3& p_WQ) noexcept;
 /// Names and values that a component of the world offers to quantities: "HINGE.angle" is value 0 of agent HINGE, for example.
 /// A component keeps its values in WorldState::memory, so that snapshots and hashes hold them without knowing what they mean.
 struct MemorySlot {
-  std::string name;      ///< "PUMP.basin_l"
-  std::size_t index = 0; ///< into WorldState::memory
+  std::string name;       ///< "PUMP.basin_l"
+  std::size_t index = 0;  ///< into WorldState::memory
 };
 
 /// Gives out slots of WorldState::memory while a world is built.

@@ -9,11 +9,21 @@
 
 namespace mechane::world {
 
-enum class Phase { take_inputs, move_hands, find_contacts, run_agents, render_forces, run_machines, step_dynamics, publish };
+enum class Phase {
+  take_inputs,
+  move_hands,
+  find_contacts,
+  run_agents,
+  render_forces,
+  run_machines,
+  step_dynamics,
+  publish
+};
 
 inline constexpr std::size_t kPhases = 8;
-inline constexpr std::array<std::string_view, kPhases> kPhaseNames{
-    "take_inputs", "move_hands", "find_contacts", "run_agents", "render_forces", "run_machines", "step_dynamics", "publish"};
+inline constexpr std::array<std::string_view, kPhases> kPhaseNames{"take_inputs",   "move_hands",    "find_contacts",
+                                                                   "run_agents",    "render_forces", "run_machines",
+                                                                   "step_dynamics", "publish"};
 
 /// Notes when each phase of the last tick ended. Called by the tick; reads a clock, nothing else.
 class PhaseTimer {

@@ -8,8 +8,8 @@
 namespace mechane::world {
 
 World::World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<agents::AgentSet> its_agents,
-             std::unique_ptr<machines::MachineSet> its_machines,
-             std::shared_ptr<const haptics::HandModel> its_hand, haptics::ForceRenderer its_forces)
+             std::unique_ptr<machines::MachineSet> its_machines, std::shared_ptr<const haptics::HandModel> its_hand,
+             haptics::ForceRenderer its_forces)
     : description(std::move(of)),
       state(*description),
       agents(std::move(its_agents)),
@@ -57,7 +57,8 @@ Expected<std::unique_ptr<World>> World::resume(std::shared_ptr<const state::Worl
     return fail("the snapshot is at a step that the scenario does not have", "snapshot",
                 "delete it; the world starts from the beginning");
   }
-  for (state::UserState& user : state.users) user = state::UserState{};
+  for (state::UserState& user : state.users)
+    user = state::UserState{};
   auto dynamics = dynamics::DynamicsWorld::create(*description, state);
   if (!dynamics) return tl::unexpected(dynamics.error());
   (*world)->dynamics = std::move(*dynamics);

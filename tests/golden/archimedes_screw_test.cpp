@@ -1,16 +1,16 @@
 // The shipped exhibit, ten thousand ticks with a hand that grasps and turns: the same bits every time, on every machine of one kind.
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "server/app/scenario_store.hpp"
 #include "server/state/world_state.hpp"
 #include "server/world/step.hpp"
 #include "tests/support/allocation_guard.hpp"
-#include "tests/support/scripted_hand.hpp"
+#include "tests/support/visit_hand.hpp"
 
 namespace mechane {
 namespace {
@@ -38,19 +38,9 @@ struct Play {
 };
 
 Play make_play() {
-  const auto description = store().first();
-  const ActivityId use = description->find_activity("use");
-  const JointId joint = JointId(0);
-  const auto& hinge = description->joints[joint.index()];
-  const auto visit = std::find_if(description->visits.begin(), description->visits.end(), [&](const auto& v) { return v.activity == use; });
-  if (visit == description->visits.end() || visit->moves.empty()) throw std::runtime_error("the scenario has no visit for 'use'");
-  const auto& reach = visit->moves.front();
-  const Pose& X_WFrame = description->bodies[hinge.body1.index()].X_WB;
-  const Pose X_WAxis = X_WFrame * hinge.X_B1J;
-  // In 'use' the moving body stands in its joint.
-  const Pose X_WBody = X_WAxis * hinge.X_B2J.inverse();
-  return {world::World::create(description, store().world_config()).value(),
-          test::ScriptedHand(X_WBody * reach.p_BG, X_WAxis, 2 * kPi * 0.5)};
+  const auto hand = test::visit_hand(*store().first(), "use", 2 * kPi * 0.5);
+  if (!hand) throw std::runtime_error("the scenario has no visit that reaches and turns in 'use'");
+  return {world::World::create(store().first(), store().world_config()).value(), *hand};
 }
 
 std::uint64_t run(Play& play, std::uint64_t* allocations = nullptr) {
@@ -73,7 +63,9 @@ std::uint64_t run(Play& play, std::uint64_t* allocations = nullptr) {
 }
 
 /// The mathematics library chooses its code by the processor; only those with FMA give the golden bits.
-bool has_fma() { return __builtin_cpu_supports("fma") != 0 && __builtin_cpu_supports("avx2") != 0; }
+bool has_fma() {
+  return __builtin_cpu_supports("fma") != 0 && __builtin_cpu_supports("avx2") != 0;
+}
 
 TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
   Play first = make_play();
@@ -89,7 +81,8 @@ TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
   std::ifstream file(path);
   std::string golden;
   file >> golden;
-  EXPECT_EQ(text.str(), golden) << "if the physics was meant to change, run this test once with MECHANE_ACCEPT_GOLDEN=1";
+  EXPECT_EQ(text.str(), golden)
+      << "if the physics was meant to change, run this test once with MECHANE_ACCEPT_GOLDEN=1";
 }
 
 TEST(ArchimedesScrew, TenThousandTicksAllocateNothing) {

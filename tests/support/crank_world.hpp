@@ -25,8 +25,10 @@ inline std::shared_ptr<const collision::Object> make_grip() {
     part.X_OQ.p += shift;
     part.bound_O.center += shift;
   }
-  for (auto& sample : object.samples_O) sample += shift.cast<float>();
-  for (auto& cluster : object.clusters) cluster.bound_O.center += shift;
+  for (auto& sample : object.samples_O)
+    sample += shift.cast<float>();
+  for (auto& cluster : object.clusters)
+    cluster.bound_O.center += shift;
   object.bound_O.center += shift;
   return std::make_shared<const collision::Object>(std::move(object));
 }
@@ -54,11 +56,14 @@ inline std::shared_ptr<state::WorldDescription> make_crank_description(double st
   hinge.body1 = BodyId(0);
   hinge.body2 = BodyId(1);
   world->joints = {hinge};
-  world->agents = {
-      {"HINGE", "geometry.hinge",
-       {{"joint", std::vector<std::string>{"AXLE"}}, {"frictionTorque", std::vector<double>{0.02}}}, 0},
-      {"GRASP", "simulation.grasp",
-       {{"bodies", std::vector<std::string>{"CRANK"}}, {"forceLimit", std::vector<double>{6}}}, 0}};
+  world->agents = {{"HINGE",
+                    "geometry.hinge",
+                    {{"joint", std::vector<std::string>{"AXLE"}}, {"frictionTorque", std::vector<double>{0.02}}},
+                    0},
+                   {"GRASP",
+                    "simulation.grasp",
+                    {{"bodies", std::vector<std::string>{"CRANK"}}, {"forceLimit", std::vector<double>{6}}},
+                    0}};
   world->quantities = {{"turns", "AXLE.turns", ""}, {"held", "GRASP.active", ""}};
   state::StepDescription step;
   step.name = "turn";

@@ -31,7 +31,8 @@ class ScriptedHand {
   [[nodiscard]] Vec3 position(double t_s) const {
     const double turning_s = std::max(0.0, t_s - 0.6);
     const double ramp_s = 0.5;
-    const double angle = turning_s < ramp_s ? rate_ * turning_s * turning_s / (2 * ramp_s) : rate_ * (turning_s - ramp_s / 2);
+    const double angle =
+        turning_s < ramp_s ? rate_ * turning_s * turning_s / (2 * ramp_s) : rate_ * (turning_s - ramp_s / 2);
     const Vec3 arm = X_WAxis_.inverse() * p_WGrip_;
     return X_WAxis_ * Vec3(Eigen::AngleAxisd(angle, Vec3::UnitZ()) * arm) + offset_W_;
   }

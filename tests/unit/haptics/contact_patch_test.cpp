@@ -1,9 +1,9 @@
 #include "server/haptics/contact_patch.hpp"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <vector>
 
 namespace mechane::haptics {
 namespace {
@@ -21,7 +21,8 @@ Vec3 total_push(const std::vector<state::Contact>& contacts) {
   std::array<ContactPatch, kMaxPatches> patches;
   const std::size_t count = gather_patches(contacts, patches);
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < count; ++i) sum += patches[i].push_m;
+  for (std::size_t i = 0; i < count; ++i)
+    sum += patches[i].push_m;
   return sum;
 }
 
@@ -52,7 +53,8 @@ TEST(ContactPatch, EqualPointsPushAsOne) {
 
 TEST(ContactPatch, MoreTouchesThanThereIsRoomForAreLeftOut) {
   std::vector<state::Contact> many;
-  for (std::size_t body = 0; body < 100; ++body) many.push_back(contact(0.001, Vec3::UnitY(), 0, body));
+  for (std::size_t body = 0; body < 100; ++body)
+    many.push_back(contact(0.001, Vec3::UnitY(), 0, body));
   std::array<ContactPatch, kMaxPatches> patches;
   EXPECT_EQ(gather_patches(many, patches), kMaxPatches);
 }

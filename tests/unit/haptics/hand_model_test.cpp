@@ -18,7 +18,8 @@ HandSample glove(double flexion) {
   HandSample sample;
   sample.kind = HandKind::glove;
   for (std::size_t f = 0; f < state::kFingers; ++f) {
-    for (std::size_t k = 1; k < 4; ++k) sample.joints[4 * f + k] = flexion;
+    for (std::size_t k = 1; k < 4; ++k)
+      sample.joints[4 * f + k] = flexion;
   }
   return sample;
 }
@@ -41,7 +42,8 @@ TEST(HandModel, AFlatHandPointsItsFingersForward) {
 TEST(HandModel, BendingBringsTheFingertipsTowardsThePalm) {
   const auto flat = placed(glove(0));
   const auto bent = placed(glove(1.0));
-  for (std::size_t f = 0; f < 5; ++f) EXPECT_LT(bent[3 + 3 * f].p.y(), flat[3 + 3 * f].p.y() - 0.01) << "finger " << f;
+  for (std::size_t f = 0; f < 5; ++f)
+    EXPECT_LT(bent[3 + 3 * f].p.y(), flat[3 + 3 * f].p.y() - 0.01) << "finger " << f;
 }
 
 TEST(HandModel, AFistBringsThumbAndIndexTogether) {
@@ -52,7 +54,8 @@ TEST(HandModel, AFistBringsThumbAndIndexTogether) {
 
 RC_GTEST_PROP(HandModel, PhalangesMeetAtTheirJointsInEveryPose, ()) {
   HandSample sample = glove(0);
-  for (double& angle : sample.joints) angle = 0.01 * *rc::gen::inRange(-30, 150);
+  for (double& angle : sample.joints)
+    angle = 0.01 * *rc::gen::inRange(-30, 150);
   const auto X_WS = placed(sample);
   const HandSize size;
   for (std::size_t f = 0; f < 5; ++f) {
@@ -70,7 +73,8 @@ RC_GTEST_PROP(HandModel, MovingTheWristMovesEverySegmentRigidly, ()) {
   X_WH.R = quat_from_rotation_vector(Vec3(0.1 * *rc::gen::inRange(-9, 9), 0.2, -0.3));
   const auto at_origin = placed(glove(0.4));
   const auto moved = placed(glove(0.4), X_WH);
-  for (std::size_t s = 0; s < moved.size(); ++s) RC_ASSERT((moved[s].p - X_WH * at_origin[s].p).norm() < 1e-9);
+  for (std::size_t s = 0; s < moved.size(); ++s)
+    RC_ASSERT((moved[s].p - X_WH * at_origin[s].p).norm() < 1e-9);
 }
 
 TEST(HandModel, ReachCoversEverySegment) {
@@ -87,7 +91,8 @@ TEST(HandModel, ReachCoversEverySegment) {
 
 TEST(HandModel, ASampleOfAGrownHandHasEnoughPointsForAFingertip) {
   std::size_t points = 0;
-  for (std::size_t s = 0; s < state::kHandSegments; ++s) points += hand().segment(glove(0), s).samples_O.size();
+  for (std::size_t s = 0; s < state::kHandSegments; ++s)
+    points += hand().segment(glove(0), s).samples_O.size();
   EXPECT_GT(points, 1000u);
 }
 

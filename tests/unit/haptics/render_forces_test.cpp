@@ -34,13 +34,16 @@ Contact touch(double depth_m, std::uint8_t segment = 0) {
 /// A user who has been there long enough for the ramp to be over.
 class Bench {
  public:
-  Bench(const WorldDescription& world, ForceConfig config) : world_(world), state_(world), renderer_(ForceRenderer::create(config).value()) {
+  Bench(const WorldDescription& world, ForceConfig config)
+      : world_(world), state_(world), renderer_(ForceRenderer::create(config).value()) {
     state_.users[0].present = true;
     state_.users[0].freshness = 1;
-    for (int i = 0; i < 2000; ++i) run();
+    for (int i = 0; i < 2000; ++i)
+      run();
   }
   void run() {
-    for (auto& body : state_.bodies) body.load_W = Wrench{};
+    for (auto& body : state_.bodies)
+      body.load_W = Wrench{};
     renderer_.run(world_, state_);
   }
   state::UserState& user() { return state_.users[0]; }
@@ -48,7 +51,8 @@ class Bench {
 
   /// The force when it has settled.
   Vec3 settle() {
-    for (int i = 0; i < 200; ++i) run();
+    for (int i = 0; i < 200; ++i)
+      run();
     return user().output.force_W.f;
   }
 
@@ -130,7 +134,8 @@ TEST(RenderForces, AGlovesFingerFeelsOnlyWhatPushesItOpen) {
   const WorldDescription world = one_body(true);
   Bench bench(world, plain());
   bench.user().sample.kind = state::HandKind::glove;
-  for (auto& X_WS : bench.user().X_WS) X_WS = Pose{};
+  for (auto& X_WS : bench.user().X_WS)
+    X_WS = Pose{};
   bench.user().contacts[0] = touch(0.002, 6);
   bench.user().contact_count = 1;
   (void)bench.settle();

@@ -1,8 +1,8 @@
 #include "server/world/step.hpp"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "server/state/snapshot.hpp"
 #include "server/state/world_state.hpp"
@@ -25,7 +25,8 @@ class Watch final : public Publisher {
  public:
   void publish(const WorldState& state) noexcept override {
     ++ticks;
-    for (const state::Event& event : state.event_span()) counts[static_cast<std::size_t>(event.kind)] += 1;
+    for (const state::Event& event : state.event_span())
+      counts[static_cast<std::size_t>(event.kind)] += 1;
     const Vec3& f = state.users[0].output.force_W.f;
     force_max_n = std::max(force_max_n, f.norm());
   }
@@ -92,7 +93,8 @@ TEST(Step, SameInputsGiveTheSameBits) {
   for (std::uint64_t t = 0; t < 10'000; t += 1000) {
     first.play(hand, t, 1000);
     second.play(hand, t, 1000);
-    ASSERT_EQ(state::state_hash(first.world->state), state::state_hash(second.world->state)) << "after tick " << t + 1000;
+    ASSERT_EQ(state::state_hash(first.world->state), state::state_hash(second.world->state))
+        << "after tick " << t + 1000;
   }
   Stage other;
   other.play({kGrip, kAxis, 5.000001}, 0, 10'000);
@@ -104,9 +106,11 @@ TEST(Step, TicksAllocateNothing) {
   Stage stage;
   const test::ScriptedHand hand(kGrip, kAxis, 5);
   std::vector<TickInputs> inputs(10'000);
-  for (std::uint64_t t = 0; t < inputs.size(); ++t) inputs[t].users[0] = hand.sample(t);
+  for (std::uint64_t t = 0; t < inputs.size(); ++t)
+    inputs[t].users[0] = hand.sample(t);
   const test::AllocationGuard guard;
-  for (const TickInputs& input : inputs) stage.step(input);
+  for (const TickInputs& input : inputs)
+    stage.step(input);
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_EQ(guard.frees(), 0u);
 }

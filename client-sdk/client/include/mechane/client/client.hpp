@@ -3,11 +3,11 @@
 
 #include <functional>
 #include <memory>
-#include <mechane/client/types.hpp>
 #include <optional>
 #include <string>
 
 #include "server/base/error.hpp"
+#include <mechane/client/types.hpp>
 
 namespace mechane::client {
 
@@ -15,8 +15,8 @@ namespace mechane::client {
 enum class Role { hand, watcher };
 
 struct ClientConfig {
-  std::string kiosk = "kiosk-1";   ///< 1 to 31 characters: letters, digits, - and _
-  std::uint32_t user = 0;          ///< which hand of the kiosk, 0..3
+  std::string kiosk = "kiosk-1";  ///< 1 to 31 characters: letters, digits, - and _
+  std::uint32_t user = 0;         ///< which hand of the kiosk, 0..3
   Role role = Role::watcher;
   std::string program = "client";  ///< for logs and status: "mechane-display"
   std::string scenario{};          ///< wish: id of the scenario; empty: the server's first
@@ -25,10 +25,10 @@ struct ClientConfig {
 };
 
 enum class LinkState {
-  searching,    ///< no server has answered yet
-  joined,       ///< in a world
-  refused,      ///< another session owns this hand: see refusal()
-  lost,         ///< the server fell silent; joined again by itself when it is back
+  searching,  ///< no server has answered yet
+  joined,     ///< in a world
+  refused,    ///< another session owns this hand: see refusal()
+  lost,       ///< the server fell silent; joined again by itself when it is back
 };
 
 /// Owns the DDS endpoints and one thread that keeps the link. All functions may be called from any one thread of the caller's at a
@@ -66,7 +66,7 @@ class Client {
   /// by at most 50 ms. A display calls it with delay of about two frames. False when no frame has come yet.
   [[nodiscard]] virtual bool interpolated_frame(TimePoint at, Duration delay, Frame& out) = 0;
 
-  [[nodiscard]] virtual std::vector<SceneObject> objects() const = 0;      ///< the manifest as known so far
+  [[nodiscard]] virtual std::vector<SceneObject> objects() const = 0;  ///< the manifest as known so far
   [[nodiscard]] virtual std::optional<WorldStatus> world_status() const = 0;
   [[nodiscard]] virtual std::optional<ServerStatus> server_status() const = 0;
   /// Events since the last call, oldest first (the last 256 are kept).

@@ -22,44 +22,44 @@ enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
 /// One sample of a device, at the moment of sending.
 struct HandInput {
   HandKind kind = HandKind::one_point;
-  Pose X_WH;                                  ///< wrist (glove) or tip (one-point)
-  Twist V_WH;                                 ///< its velocity, m/s and rad/s
-  std::array<double, kHandJoints> joints{};   ///< per finger (thumb first): abduction, then three flexions, rad
-  double hand_scale = 1;                      ///< the visitor's hand against the model's, 0.5 .. 1.5
+  Pose X_WH;                                 ///< wrist (glove) or tip (one-point)
+  Twist V_WH;                                ///< its velocity, m/s and rad/s
+  std::array<double, kHandJoints> joints{};  ///< per finger (thumb first): abduction, then three flexions, rad
+  double hand_scale = 1;                     ///< the visitor's hand against the model's, 0.5 .. 1.5
   std::uint32_t buttons = 0;
-  double grasp_intent = 0;                    ///< 0 open .. 1 closed
+  double grasp_intent = 0;  ///< 0 open .. 1 closed
 };
 
 /// A contact that the client can render at its device's own rate.
 struct LocalContact {
   Vec3 p_W = Vec3::Zero();
-  Vec3 n_W = Vec3::Zero();                    ///< unit, into the hand
-  Vec3 v_W = Vec3::Zero();                    ///< velocity of the surface
+  Vec3 n_W = Vec3::Zero();  ///< unit, into the hand
+  Vec3 v_W = Vec3::Zero();  ///< velocity of the surface
   double depth_m = 0;
   double curvature_per_m = 0;
   double stiffness_n_per_m = 0;
   double damping_ns_per_m = 0;
   double friction = 0;
-  Duration valid_for{0};                      ///< from receipt
+  Duration valid_for{0};  ///< from receipt
 };
 
 /// What the server wants a device to render. The device's own ForceGovernor has the last word.
 struct ForceSample {
   std::uint64_t sequence = 0;
-  std::uint64_t echo_sequence = 0;            ///< the input that this answers
-  TimePoint echo_sent;                        ///< when that input was sent, on this client's clock
-  TimePoint received;                         ///< on this client's clock
-  Duration waited{0};                         ///< how long that input waited at the server for this tick to take it
-  Wrench force_W;                             ///< on the hand, N and N m
+  std::uint64_t echo_sequence = 0;  ///< the input that this answers
+  TimePoint echo_sent;              ///< when that input was sent, on this client's clock
+  TimePoint received;               ///< on this client's clock
+  Duration waited{0};               ///< how long that input waited at the server for this tick to take it
+  Wrench force_W;                   ///< on the hand, N and N m
   std::array<double, kFingers> finger_force_n{};
   std::array<LocalContact, kMaxLocalContacts> contacts{};
   std::uint32_t contact_count = 0;
-  std::uint32_t reasons = 0;                  ///< force::ForceReason bits of the server's governor
+  std::uint32_t reasons = 0;  ///< force::ForceReason bits of the server's governor
   bool holding = false;
 };
 
 struct BodyPose {
-  std::uint32_t object = 0;                   ///< index into Scene::objects
+  std::uint32_t object = 0;  ///< index into Scene::objects
   Pose X_WB;
 };
 
@@ -68,8 +68,8 @@ struct HandPose {
   std::uint32_t user = 0;
   HandKind kind = HandKind::one_point;
   bool stale = false;
-  std::array<Pose, kHandSegments> X_WS{};     ///< one-point: only the first
-  Vec3 force_W = Vec3::Zero();                ///< what this hand feels, N
+  std::array<Pose, kHandSegments> X_WS{};  ///< one-point: only the first
+  Vec3 force_W = Vec3::Zero();             ///< what this hand feels, N
   bool holding = false;
 };
 
@@ -79,8 +79,8 @@ struct Frame {
   std::uint64_t tick = 0;
   TimePoint received;
   std::vector<BodyPose> bodies;
-  std::vector<std::uint8_t> visible;          ///< by object index
-  std::vector<double> quantities;             ///< in the order of WorldStatus::quantities
+  std::vector<std::uint8_t> visible;  ///< by object index
+  std::vector<double> quantities;     ///< in the order of WorldStatus::quantities
   std::vector<HandPose> hands;
 };
 
@@ -88,11 +88,11 @@ struct Frame {
 struct SceneObject {
   std::uint32_t index = 0;
   std::string name;
-  std::string mesh_uri;                       ///< relative to the scenario's folder
-  std::string mesh_hash;                      ///< hex XXH3-128
+  std::string mesh_uri;   ///< relative to the scenario's folder
+  std::string mesh_hash;  ///< hex XXH3-128
   std::string mesh_node;
   std::string parent;
-  Pose X_WB;                                  ///< at the start; bodies that never move stay here
+  Pose X_WB;  ///< at the start; bodies that never move stay here
   bool movable = false;
 };
 
@@ -104,9 +104,9 @@ struct QuantityInfo {
 /// Where the visit is. Texts by language.
 struct WorldStatus {
   std::string world;
-  std::string scenario;                       ///< id
+  std::string scenario;  ///< id
   std::string scenario_hash;
-  std::string scenario_folder;                ///< as the server sees it; for clients on the same machine
+  std::string scenario_folder;  ///< as the server sees it; for clients on the same machine
   std::string activity;
   std::string step;
   std::uint32_t steps_done = 0;
@@ -115,7 +115,7 @@ struct WorldStatus {
   bool hint = false;
   std::vector<std::string> enabled_agents;
   std::vector<QuantityInfo> quantities;
-  std::map<std::string, std::string> title;   ///< by language
+  std::map<std::string, std::string> title;  ///< by language
   std::map<std::string, std::string> caption;
   std::map<std::string, std::string> hint_text;
   std::vector<std::string> activities;
@@ -123,7 +123,7 @@ struct WorldStatus {
 
 struct WorldEvent {
   std::uint64_t tick = 0;
-  std::string kind;                           ///< "grasped", "placed", "step_started" ...
+  std::string kind;  ///< "grasped", "placed", "step_started" ...
   std::string subject;
   std::string object;
   double value = 0;
@@ -137,12 +137,12 @@ struct ServerStatus {
   std::uint32_t worlds_limit = 0;
   std::uint32_t users = 0;
   std::uint64_t ticks = 0;
-  std::uint64_t overruns = 0;                 ///< own CPU time over 1 ms
+  std::uint64_t overruns = 0;  ///< own CPU time over 1 ms
   std::uint64_t late_wakeups = 0;
   std::uint64_t preemptions = 0;
   double tick_us_median = 0, tick_us_p99 = 0, tick_us_p999 = 0, tick_us_max = 0;
   double wake_us_p99 = 0, wake_us_max = 0;
-  bool realtime = false;                      ///< SCHED_FIFO was granted
+  bool realtime = false;  ///< SCHED_FIFO was granted
   bool records_ok = true;
 };
 
