@@ -114,6 +114,9 @@ ActivityReport Session::play(const VisitDescription& visit) {
   // The hand waits until the world is at the activity's beginning, as a person would look before reaching out.
   while (stop_ == 0 && seconds_since(began) < 5 && !(status_ && status_->activity == report.name && !status_->done))
     tick();
+  // A person's reaction time; frames of the new beginning arrive meanwhile.
+  for (int i = 0; i < 200 && stop_ == 0; ++i)
+    tick();
   TimePoint finished{};
   while (stop_ == 0 && !report.done) {
     player.advance(kTickSeconds, X_WB_, loop_->holding());
@@ -143,7 +146,7 @@ void Session::fill(VisitReport& report) const {
   report.world = status->world;
   for (std::size_t i = 0; i < status->quantities.size() && i < frame_.quantities.size(); ++i) {
     report.quantities.emplace_back(status->quantities[i].name, frame_.quantities[i]);
-    if (status->quantities[i].name == "lifted_l") report.water_l = frame_.quantities[i];
+    if (status->quantities[i].name == "lifted") report.water_l = frame_.quantities[i];
   }
 }
 
