@@ -10,6 +10,9 @@ using state::VisitMove;
 
 // How fast a hand speeds up on a crank, turns a second squared.
 constexpr double kTurnRampRadPerS2 = 6.0;
+// A fingertip feels less than this; it is over the noise of a resting hand.
+constexpr double kTouchN = 0.1;
+constexpr double kFollowMPerS = 0.15;
 
 std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
   switch (move.kind) {
@@ -44,12 +47,12 @@ VisitPlayer::VisitPlayer(const state::WorldDescription& description, const state
   results_.reserve(visit.moves.size());
 }
 
-void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding) {
+void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n) {
   if (finished()) return;
   if (!begun_) begin_move(X_WB);
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
-  if (continue_move(holding)) end_move(ok_);
+  if (continue_move(X_WB, holding, felt_n)) end_move(ok_);
 }
 
 void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
@@ -61,6 +64,7 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   if (move.kind == VisitMove::Kind::reach) {
+    p_BG_ = move.p_BG;
     X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W;
   } else if (move.kind == VisitMove::Kind::move_to) {
     // The hand goes with the body as it holds it now.
@@ -73,18 +77,32 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   }
 }
 
-bool VisitPlayer::continue_move(bool holding) {
+bool VisitPlayer::touched_what_it_reaches_for(double felt_n) const {
+  const bool grasps_next = index_ + 1 < visit_.moves.size() && visit_.moves[index_ + 1].kind == VisitMove::Kind::grasp;
+  return grasps_next && felt_n > kTouchN;
+}
+
+/// An unheld thing gives way when it is touched: the hand goes after its grip, slowly.
+void VisitPlayer::follow_grip(std::span<const Pose> X_WB) {
+  const Vec3 p_WG = X_WB[visit_.moves[index_].body.index()] * p_BG_ + config_.offset_W;
+  const Vec3 way = p_WG - intent_.X_WH.p;
+  const double step_m = kFollowMPerS * last_dt_s_;
+  intent_.X_WH.p += way.norm() > step_m ? Vec3(way.normalized() * step_m) : way;
+}
+
+bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double felt_n) {
   const VisitMove& move = visit_.moves[index_];
   switch (move.kind) {
     case VisitMove::Kind::reach:
       move_hand_towards_goal(move.duration_s);
-      return time_s_ >= move.duration_s;
+      return time_s_ >= move.duration_s || touched_what_it_reaches_for(felt_n);
     case VisitMove::Kind::move_to:
       move_hand_towards_goal(move.duration_s);
       ok_ = ok_ && (holding || time_s_ > 0.8 * move.duration_s);  // placed early: let go by the snap, not by the hand
       return time_s_ >= move.duration_s;
     case VisitMove::Kind::grasp:
       ok_ = holding;
+      if (!holding) follow_grip(X_WB);
       return time_s_ >= (holding ? move.duration_s : std::max(move.duration_s, config_.grasp_patience_s));
     case VisitMove::Kind::turn:
       ok_ = ok_ && holding;

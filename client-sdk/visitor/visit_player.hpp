@@ -32,8 +32,10 @@ class VisitPlayer {
   VisitPlayer(const state::WorldDescription& description, const state::VisitDescription& visit,
               const PlayerConfig& config);
 
-  /// Goes on by dt_s. `X_WB` are the bodies' poses in the order of the description, as last seen; `holding` is the server's word.
-  void advance(double dt_s, std::span<const Pose> X_WB, bool holding);
+  /// Goes on by dt_s. `X_WB` are the bodies' poses in the order of the description, as last seen; `holding` is the server's word;
+  /// `felt_n` the force on the hand. As a person would, the hand closes as soon as it feels what it reaches for, and follows it with
+  /// the eyes while it has not caught it.
+  void advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n);
 
   [[nodiscard]] const haptic::HandIntent& intent() const { return intent_; }
   [[nodiscard]] bool finished() const { return index_ >= visit_.moves.size(); }
@@ -42,7 +44,9 @@ class VisitPlayer {
  private:
   void begin_move(std::span<const Pose> X_WB);
   /// True when the move is over.
-  bool continue_move(bool holding);
+  bool continue_move(std::span<const Pose> X_WB, bool holding, double felt_n);
+  [[nodiscard]] bool touched_what_it_reaches_for(double felt_n) const;
+  void follow_grip(std::span<const Pose> X_WB);
   void move_hand_towards_goal(double duration_s);
   bool turn(const state::VisitMove& move);
   void end_move(bool ok);
@@ -60,6 +64,7 @@ class VisitPlayer {
   Pose X_WH_start_;
   Pose X_WH_goal_;
   double turned_rad_ = 0;
+  Vec3 p_BG_ = Vec3::Zero();  // the grip that the last reach was for
 };
 
 /// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).

@@ -119,7 +119,7 @@ ActivityReport Session::play(const VisitDescription& visit) {
     tick();
   TimePoint finished{};
   while (stop_ == 0 && !report.done) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding());
+    player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
     device_.intend(player.intent());
     tick();
     note_step(report);
@@ -129,7 +129,7 @@ ActivityReport Session::play(const VisitDescription& visit) {
   }
   // The script goes on to its end, so that the hand lets go and comes to rest.
   while (stop_ == 0 && report.done && !player.finished()) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding());
+    player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
     device_.intend(player.intent());
     tick();
   }

@@ -44,7 +44,7 @@ struct VisitReport {
   std::string world;
   std::vector<ActivityReport> activities;
   std::vector<std::pair<std::string, double>> quantities;  ///< at the end, by name
-  double water_l = 0;                                      ///< what pumps lifted, the quantity `lifted`, where the world has one
+  double water_l = 0;  ///< what pumps lifted, the quantity `lifted`, where the world has one
   haptic::LoopStats loop;
   realtime::LatencyHistogram round_trip;
   [[nodiscard]] bool complete() const;

@@ -105,7 +105,11 @@ Expected<std::unique_ptr<Run>> make_run(const Config& config) {
 Expected<void> pace(Run& run, int priority, Report& report) {
   std::promise<void> done;
   SystemClock clock;
-  realtime::PeriodicThread loop({.name = "bench_tick", .fifo_priority = priority, .lock_memory = true}, clock);
+  realtime::PeriodicConfig config;
+  config.name = "bench_tick";
+  config.fifo_priority = priority;
+  config.lock_memory = true;
+  realtime::PeriodicThread loop(config, clock);
   bool ended = false;
   auto started = loop.start([&](const realtime::TickTiming& timing) {
     if (ended || !run.tick(timing.index)) return;
