@@ -122,7 +122,7 @@ def start_server(programs, options, out):
 def start_clients(programs, options, out):
     domain = ["--domain", str(options.domain)]
     for i, kiosk in enumerate(KIOSKS):
-        show = ["display", "--kiosk", kiosk, "--assets", "scenarios", *domain]
+        show = ["display", "--kiosk", kiosk, *domain]
         if options.headless or not has_screen():
             show += ["--offscreen", "--size", "1280x720", "--stereo", "mono" if i == 0 else "sbs", "--out",
                      str(out / "pictures" / kiosk), "--every-step", "--fps", "4"]
@@ -187,6 +187,17 @@ def print_summary(metrics, activities, out):
     print(f"  pictures                 {metrics['pictures']:8d}      in {out / 'pictures'}")
 
 
+def missing_assets(out):
+    """What displays could not find, from the last line of their logs."""
+    missing = set()
+    for log in out.glob("display-*.log"):
+        for line in reversed(log.read_text(errors="replace").splitlines()):
+            if line.startswith("{"):
+                missing.update(json.loads(line).get("missing_assets", []))
+                break
+    return sorted(missing)
+
+
 def commit():
     result = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
     return result.stdout.strip() or "unknown"
@@ -236,6 +247,8 @@ def main():
         problems.append("a journal did not replay to its live hash: see out/demo/replay-*.log")
     if metrics["pictures"] == 0 and (options.headless or not has_screen()):
         problems.append("no picture was made: see out/demo/display-*.log")
+    for asset in missing_assets(out):
+        problems.append(f"a display showed a plain box instead of {asset}")
     metrics["failed"] = len(problems)
     report = {"name": "demo", "commit": commit(), "cpu": cpu_model(), "cores": os.cpu_count(), "simd": "scalar",
               "seconds": round(time.monotonic() - started, 1), "metrics": metrics, "activities": activities,
