@@ -42,7 +42,8 @@ class Visit(EndToEnd):
         self.assertAlmostEqual(report["quantities"].get("turns", 0), 0, delta=0.01)
 
     def test_five_centimetres_beside_the_handle_nothing_turns(self):
-        report = self.use_only(visitor_arguments=("--offset", "0", "0", "0.05"))
+        # Half the handle's length and 5 cm more along the axis: in the circle's plane the hand would meet the handle after a turn.
+        report = self.use_only(visitor_arguments=("--offset", "0.0918", "0.0692", "0"))
         self.assert_nothing_turned(report)
         self.assertEqual(report["holding_ticks"], 0)
 

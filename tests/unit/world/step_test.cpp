@@ -19,6 +19,8 @@ using state::WorldState;
 
 const Pose kAxis;
 const Vec3 kGrip(test::kCrankRadiusM, 0, 0);
+// Past the end of the handle along the axis: a hand beside it in the plane of the circle would meet it after a turn.
+const Vec3 kBeside(0, 0, 0.065 + 0.05);
 
 /// Counts what it was told, and keeps the events.
 class Watch final : public Publisher {
@@ -73,7 +75,7 @@ TEST(Step, AHandThatHoldsTheHandleTurnsTheCrankAndFeelsIt) {
 
 TEST(Step, TheSameVisitFiveCentimetresBesideTurnsNothing) {
   Stage stage;
-  stage.play({kGrip, kAxis, 2 * kPi, Vec3(0, 0.05, 0)}, 0, 4000);
+  stage.play({kGrip, kAxis, 2 * kPi, kBeside}, 0, 4000);
   EXPECT_EQ(stage.watch.count(EventKind::grasped), 0);
   EXPECT_EQ(stage.turns(), 0);
   EXPECT_EQ(stage.watch.force_max_n, 0);
