@@ -1,8 +1,10 @@
 """Whole visits over the network: what must turn the crank, what must not, and that a journal replays to the live hash."""
 
+import json
+import subprocess
 import unittest
 
-from harness import EndToEnd
+from harness import BIN, PATIENCE, EndToEnd
 
 
 class Visit(EndToEnd):
@@ -49,6 +51,20 @@ class Visit(EndToEnd):
 
     def test_without_stiffness_nothing_turns(self):
         self.assert_nothing_turned(self.use_only(server_arguments=("--stiffness-scale", "0")))
+
+    def test_the_examples_of_the_client_library_run(self):
+        self.server("--worlds", "3")
+        for example, expected in (("watch_quantities", "basin"), ("push_a_body", "forces"), ("turn_the_crank", "was held")):
+            result = subprocess.run([str(BIN / example), "--kiosk", example.replace("_", "-"), "--seconds", "4"],
+                                    capture_output=True, text=True, timeout=60 * PATIENCE, env=self.environment)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            self.assertIn(expected, result.stdout)
+
+    def test_echo_prints_a_topic_as_json(self):
+        self.server()
+        result = self.run_command("echo", "ServerStatus", "--count", "1", "--seconds", "10", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(json.loads(result.stdout.splitlines()[0])["server"], "server-1")
 
     def test_a_whole_hand_completes_the_use(self):
         report = self.use_only(visitor_arguments=("--glove",))
