@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "client-sdk/haptic/virtual_device.hpp"
-#include "client-sdk/visitor/null_loader.hpp"
+#include "server/scenario/file_finder.hpp"
 
 namespace mechane::visitor {
 namespace {
@@ -188,9 +188,9 @@ bool VisitReport::complete() const {
 }
 
 Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std::sig_atomic_t& stop) {
-  NullLoader loader;
+  scenario::FileFinder finder;
   scenario::Problems problems(options.scenario.string());
-  const auto world = scenario::read_scenario(options.scenario, loader, problems);
+  const auto world = scenario::read_scenario(options.scenario, finder, problems);
   if (!world) return tl::unexpected(world.error());
   const auto visits = choose_visits(options, *world);
   if (!visits) return tl::unexpected(visits.error());

@@ -5,20 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "server/content/content_hash.hpp"
-#include "server/scenario/compiler.hpp"
+#include "server/scenario/file_finder.hpp"
 
 namespace mechane::scenario {
 namespace {
-
-/// Looks whether mesh files are there; opens none.
-class FileFinder final : public ObjectLoader {
- public:
-  Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path&, const std::string&) override {
-    return nullptr;
-  }
-  Expected<std::string> content_hash(const std::filesystem::path& file) override { return hash_file(file); }
-};
 
 std::string count(std::size_t number, std::string_view word) {
   return fmt::format("{} {}{}", number, word, number == 1 ? "" : "s");

@@ -1,19 +1,20 @@
-// A visitor needs a scenario's moves, not its collision parts.
+// For who needs a scenario without its collision parts: a checker, a visitor.
 #pragma once
 
 #include "server/scenario/compiler.hpp"
 
-namespace mechane::visitor {
+namespace mechane::scenario {
 
-class NullLoader final : public scenario::ObjectLoader {
+/// Looks whether mesh files are there and names their content; builds nothing.
+class FileFinder final : public ObjectLoader {
  public:
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path&,
                                                                         const std::string&) override {
     return nullptr;
   }
   [[nodiscard]] Expected<std::string> content_hash(const std::filesystem::path& file) override {
-    return scenario::hash_file(file);
+    return hash_file(file);
   }
 };
 
-}  // namespace mechane::visitor
+}  // namespace mechane::scenario
