@@ -12,7 +12,7 @@ void VirtualDevice::intend(const HandIntent& intent) noexcept {
 }
 
 client::HandInput VirtualDevice::read(Duration dt) noexcept {
-  const double dt_s = std::chrono::duration<double>(dt).count();
+  const double dt_s = to_seconds(dt);
   if (dt_s > 0) {
     const double k = arm_.stiffness_n_per_m;
     const double b = 2 * arm_.damping_ratio * std::sqrt(k * arm_.mass_kg);

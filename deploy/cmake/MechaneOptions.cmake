@@ -34,6 +34,11 @@ if(MECHANE_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+if(CMAKE_UNITY_BUILD)
+  # Several sources in one: a class in a .cpp file looks as if a header had it.
+  add_compile_options(-Wno-subobject-linkage -Wno-unknown-warning-option)
+endif()
+
 set(MECHANE_WARNINGS
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -Wcast-align -Wformat=2 -Wimplicit-fallthrough -Werror)

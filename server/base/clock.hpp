@@ -32,6 +32,16 @@ class SystemClock final : public Clock {
   [[nodiscard]] Duration thread_cpu_time() noexcept override;
 };
 
+[[nodiscard]] inline double to_seconds(Duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+/// The date, in ns since 1970: for names and records, never for a difference.
+[[nodiscard]] inline std::uint64_t wall_now_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
 [[nodiscard]] inline std::uint64_t to_ns(TimePoint t) {
   return static_cast<std::uint64_t>(t.time_since_epoch().count());
 }

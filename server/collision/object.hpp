@@ -15,6 +15,8 @@
 
 namespace mechane::collision {
 
+inline constexpr std::size_t kMaxParts = 1024;  ///< of one object
+
 /// A part close to convex: its superquadric bounds it (F <= 1 on every vertex), its map holds the surface.
 struct Part {
   std::string name;

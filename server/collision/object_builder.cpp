@@ -14,7 +14,6 @@
 namespace mechane::collision {
 namespace {
 
-constexpr std::size_t kMaxParts = 1024;
 constexpr double kWeld = 1e-6;             // of the part's diagonal
 constexpr std::size_t kErrorProbes = 400;  // per part
 constexpr double kProbeDepth_m = 0.004;    // a finger that presses hard sinks in this far

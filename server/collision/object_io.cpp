@@ -16,7 +16,6 @@ static_assert(std::endian::native == std::endian::little, "a .part file is littl
 constexpr std::string_view kMagic = "MCHNPART";
 constexpr std::size_t kChecksumBytes = 8;
 constexpr std::size_t kMaxFileBytes = 512U << 20;
-constexpr std::uint32_t kMaxParts = 1024;
 constexpr std::uint32_t kMaxNameBytes = 1024;
 constexpr double kMaxLength_m = 10'000;
 

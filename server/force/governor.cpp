@@ -13,10 +13,6 @@ GovernedForce nothing(std::uint32_t reasons) {
   return zero;
 }
 
-double seconds(Duration d) {
-  return std::chrono::duration<double>(std::max(d, Duration{0})).count();
-}
-
 bool all_finite(const GovernorInput& in) {
   const bool vectors =
       in.wanted_W.f.allFinite() && in.wanted_W.t.allFinite() && in.V_WH.v.allFinite() && in.V_WH.w.allFinite();
@@ -94,7 +90,7 @@ void ForceGovernor::reset() noexcept {
 }
 
 GovernedForce ForceGovernor::apply(const GovernorInput& input, Duration dt) noexcept {
-  const double dt_s = seconds(dt);
+  const double dt_s = to_seconds(std::max(dt, Duration{0}));
   std::uint32_t reasons = kNone;
   const double gain_before = gain_;
   gain_ = next_gain(input, dt_s, reasons);

@@ -8,10 +8,6 @@ namespace {
 
 constexpr double kFlat_per_m = 1e-3;  // a radius of a kilometre is a plane to a hand
 
-double seconds(Duration d) {
-  return std::chrono::duration<double>(d).count();
-}
-
 bool usable(const LocalContact& c) {
   const bool vectors = c.p_W.allFinite() && c.n_W.allFinite() && c.v_W.allFinite();
   const bool scalars = std::isfinite(c.depth_m) && std::isfinite(c.curvature_per_m) &&
@@ -41,7 +37,7 @@ Overlap overlap_of(const LocalContact& c, const Vec3& p_WS, const Vec3& p_WH) {
 // 1 while the contact is valid, then linearly to exactly 0.
 double share_left(Duration age, Duration validity) {
   if (age <= validity) return 1.0;
-  return std::max(0.0, 1.0 - seconds(age - validity) / seconds(LocalContactModel::kFadeTime));
+  return std::max(0.0, 1.0 - to_seconds(age - validity) / to_seconds(LocalContactModel::kFadeTime));
 }
 
 // Normal force, damping of what pushes in, and friction within its cone; continuous where depth goes through 0.
@@ -77,7 +73,7 @@ Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age)
     const double share = share_left(age, c.validity);
     if (share <= 0) continue;
     // The surface moves on while we believe the contact; afterwards it rests, and its speed fades with the contact.
-    const Vec3 p_WS = c.p_W + seconds(std::clamp(age, Duration{0}, std::max(c.validity, Duration{0}))) * c.v_W;
+    const Vec3 p_WS = c.p_W + to_seconds(std::clamp(age, Duration{0}, std::max(c.validity, Duration{0}))) * c.v_W;
     const Overlap overlap = overlap_of(c, p_WS, p_WH);
     if (overlap.depth_m <= 0) continue;
     force += share * force_of(c, overlap, v_WH - share * c.v_W);

@@ -10,11 +10,6 @@
 namespace mechane::record {
 namespace {
 
-std::uint64_t wall_now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
-
 }  // namespace
 
 Lane::Lane(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,

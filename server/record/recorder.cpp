@@ -26,11 +26,6 @@ TimePoint now() {
   return TimePoint(std::chrono::steady_clock::now());
 }
 
-std::uint64_t wall_now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
-
 // "kiosk-3-20261121-174501-250.journal"; a number behind it where that name is taken.
 template <class Taken>
 std::filesystem::path journal_path_of(const std::filesystem::path& folder, const JournalHeader& header,

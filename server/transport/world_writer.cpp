@@ -85,6 +85,7 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
   view.take_each([this](const proto::Command& wire, const proto::SampleInfo& info) {
     if (!info.valid) return;
     if (wire.protocol != proto::kProtocol) return rejects_.add(Reject::wrong_protocol);
+    if (!is_new(wire.session, wire.id)) return;
     state::Command command;
     command.id = wire.id;
     if (wire.kind < 1 || wire.kind > 3) return refuse(wire.id);
@@ -96,6 +97,17 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
     }
     if (!port_.offer_command(command)) refuse(wire.id);
   });
+}
+
+bool WorldWriter::is_new(std::uint64_t session, std::uint64_t id) {
+  const auto known = std::find_if(heard_.begin(), heard_.end(), [&](const Heard& h) { return h.session == session; });
+  if (known != heard_.end()) {
+    if (id <= known->id) return false;
+    known->id = id;
+    return true;
+  }
+  heard_[next_heard_++ % heard_.size()] = {session, id};
+  return true;
 }
 
 void WorldWriter::refuse(std::uint64_t id) {

@@ -32,6 +32,8 @@ class WorldWriter {
  private:
   WorldWriter(WorldPort& port, RejectCounters& rejects);
   void take_commands(proto::ReaderView<proto::Command> view);
+  /// Whether a command was not heard before: a link that was cut and found again brings those of the last seconds twice.
+  [[nodiscard]] bool is_new(std::uint64_t session, std::uint64_t id);
   void refuse(std::uint64_t id);
   void write_frame(const SceneSnapshot& snapshot);
   void write_status(const SceneSnapshot& snapshot);
@@ -42,6 +44,13 @@ class WorldWriter {
   WorldPort& port_;
   RejectCounters& rejects_;
   realtime::Ring<std::uint64_t> refused_{64};  // command listener to publisher
+
+  struct Heard {
+    std::uint64_t session = 0;  // a client's own are odd
+    std::uint64_t id = 0;       // of its newest command; a client counts upwards
+  };
+  std::array<Heard, 64> heard_{};  // the listener's
+  std::size_t next_heard_ = 0;
   std::uint64_t failed_ = 0;
   std::uint64_t frame_sequence_ = 0;
   std::uint64_t status_sequence_ = 0;

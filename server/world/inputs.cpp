@@ -37,7 +37,7 @@ void leave(state::WorldState& state, UserState& user, std::uint32_t index) {
 
 void take_sample(state::WorldState& state, UserState& user, const UserInput& input, std::uint32_t index) {
   // What the hand can have moved since the last new sample, which is as old as `age` was in the last tick, and one tick more.
-  const double elapsed_s = std::chrono::duration<double>(user.age + kTickPeriod).count();
+  const double elapsed_s = to_seconds(user.age + kTickPeriod);
   const double moved_m = (input.sample.X_WH.p - user.X_WH.p).norm();
   user.jumped = moved_m > kHandSpeedLimit * elapsed_s + kJumpSlackM;
   if (user.jumped) let_go(state, user, index);

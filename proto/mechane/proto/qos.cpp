@@ -70,8 +70,10 @@ Qos world_status_qos() {
 }
 
 Qos event_qos() {
+  // Kept for who is matched late: a client sees the server's writer before the server sees the client's reader, and between the
+  // two a volatile event would be lost. The lifespan bounds what a newcomer hears of the past.
   Qos q;
-  q.reliable().keep_last(kEventDepth).lifespan(kEventLifespan);
+  q.reliable().transient_local().keep_last(kEventDepth).lifespan(kEventLifespan);
   return q;
 }
 
