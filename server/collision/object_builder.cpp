@@ -1,9 +1,11 @@
 #include "server/collision/object_builder.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 
+#include "server/base/parallel.hpp"
 #include "server/collision/part_map.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision/solid.hpp"
@@ -152,7 +154,7 @@ void measure_depth_error(const Object& object, std::size_t index, const geometry
 }  // namespace
 
 Expected<Object> build_object(std::span<const geometry::NamedMesh> parts, const BuildConfig& config,
-                              BuildReport* report) {
+                              BuildReport* report, const PartDone& on_part) {
   const auto start = std::chrono::steady_clock::now();
   if (auto ok = check_config(config); !ok) return tl::unexpected(ok.error());
   const auto welded = weld_parts(parts);
@@ -160,21 +162,28 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> parts, const 
   const Solid solid(*welded, config.seam_gap_m);
 
   BuildReport built;
+  built.parts.resize(parts.size());
+  std::vector<Expected<Part>> made(parts.size());
+  std::vector<std::vector<Vec3>> samples(parts.size());
+  std::atomic<std::size_t> done{0};
+  for_each_index(parts.size(), [&](std::size_t i) {
+    made[i] = make_part(parts[i], (*welded)[i], i, solid, config, built.parts[i]);
+    if (made[i]) samples[i] = exposed_samples((*welded)[i], i, solid, config, built.parts[i]);
+    if (on_part) on_part(++done);
+  });
   Object object;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    PartReport& of_part = built.parts.emplace_back();
-    auto part = make_part(parts[i], (*welded)[i], i, solid, config, of_part);
-    if (!part) return tl::unexpected(part.error());
-    object.parts.push_back(std::move(*part));
-    append_samples(object, static_cast<std::uint16_t>(i), exposed_samples((*welded)[i], i, solid, config, of_part));
+    if (!made[i]) return tl::unexpected(made[i].error());
+    object.parts.push_back(std::move(*made[i]));
+    append_samples(object, static_cast<std::uint16_t>(i), std::move(samples[i]));
   }
   close_clusters(object);
 
   if (report != nullptr) {
     const geometry::MeshQuery skin(air_side(*welded, solid));
-    for (std::size_t i = 0; i < parts.size(); ++i) {
+    for_each_index(parts.size(), [&](std::size_t i) {
       measure_depth_error(object, i, (*welded)[i], solid, skin, config.seed, built.parts[i]);
-    }
+    });
     built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     *report = std::move(built);
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,11 +39,14 @@ struct BuildReport {
   double seconds = 0;
 };
 
+/// Hears how many parts are ready, from the threads that build; calls may overlap.
+using PartDone = std::function<void(std::size_t done)>;
+
 /// Fits, maps and samples each part; each mesh is one part, close to convex, in the object's frame O. Parts that touch or overlap
 /// make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
-/// `report` may be null.
+/// `report` may be null. Uses all cores.
 [[nodiscard]] Expected<Object> build_object(std::span<const geometry::NamedMesh> parts, const BuildConfig& config,
-                                            BuildReport* report = nullptr);
+                                            BuildReport* report = nullptr, const PartDone& on_part = {});
 
 /// One part that is the superquadric itself, its frame Q being the object's frame. `shape` must be valid, the spacing positive.
 [[nodiscard]] Object make_superquadric_object(const geometry::Superquadric& shape, double sample_spacing_m);

@@ -1,5 +1,6 @@
 #include "server/content/object_store.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t kSecondsBetweenLines = 5;
 constexpr std::uintmax_t kLongestPartFile = 1ULL << 30U;
 
 /// What the file of the object is called: whatever can change the object is in the name.
@@ -123,13 +125,21 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
   const auto parts = collision_parts(**scene, node);
   if (!parts) return at(parts.error());
   if (progress_) progress_(node, parts->size());
-  log::info(fmt::format("{}, node {}: building {} parts for touch; the next start finds them ready", file.string(),
-                        node.empty() ? "(all)" : node, parts->size()));
+  const std::string name = node.empty() ? "(all)" : node;
+  log::info(fmt::format("{}, node {}: building {} parts for touch; the next start finds them ready", file.string(), name,
+                        parts->size()));
   collision::BuildReport report;
-  Expected<collision::Object> object = collision::build_object(*parts, config, &report);
+  std::atomic<std::int64_t> next_line_s{kSecondsBetweenLines};
+  const auto began = std::chrono::steady_clock::now();
+  const auto say = [&](std::size_t done) {
+    const auto s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began).count();
+    std::int64_t due = next_line_s.load();
+    if (s < due || !next_line_s.compare_exchange_strong(due, s + kSecondsBetweenLines)) return;
+    log::info(fmt::format("{}, node {}: {} of {} parts built", file.string(), name, done, parts->size()));
+  };
+  Expected<collision::Object> object = collision::build_object(*parts, config, &report, say);
   if (!object) return at(object.error());
-  log::info(
-      fmt::format("{}, node {}: built in {:.1f} s", file.string(), node.empty() ? "(all)" : node, report.seconds));
+  log::info(fmt::format("{}, node {}: built in {:.1f} s", file.string(), name, report.seconds));
   return object;
 }
 
