@@ -53,4 +53,16 @@ RenderbufferName make_renderbuffer() {
   return RenderbufferName(name);
 }
 
+void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes) {
+  std::size_t offset = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const auto attribute = static_cast<GLuint>(i);
+    glEnableVertexAttribArray(attribute);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): where a buffer is bound, OpenGL takes an offset for a pointer
+    const auto* where = reinterpret_cast<const void*>(offset);
+    glVertexAttribPointer(attribute, sizes[i], GL_FLOAT, GL_FALSE, static_cast<GLsizei>(vertex_bytes), where);
+    offset += static_cast<std::size_t>(sizes[i]) * sizeof(float);
+  }
+}
+
 }  // namespace mechane::display

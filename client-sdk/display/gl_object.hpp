@@ -2,7 +2,9 @@
 // thread that owns the context.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 namespace mechane::display {
@@ -55,5 +57,8 @@ using ProgramName = GlName<delete_program>;
 [[nodiscard]] VertexArrayName make_vertex_array();
 [[nodiscard]] FramebufferName make_framebuffer();
 [[nodiscard]] RenderbufferName make_renderbuffer();
+
+/// Says how the vertices of the bound buffer lie: attribute i has sizes[i] floats, one attribute behind the other.
+void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes);
 
 }  // namespace mechane::display

@@ -26,13 +26,7 @@ TextureName upload_image(const ImageData& image) {
 
 void describe_vertices() {
   constexpr std::array<int, 4> kSizes{3, 3, 4, 2};
-  std::size_t offset = 0;
-  for (GLuint i = 0; i < kSizes.size(); ++i) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, kSizes[i], GL_FLOAT, GL_FALSE, kVertexFloats * sizeof(float),
-                          reinterpret_cast<const void*>(offset));
-    offset += static_cast<std::size_t>(kSizes[i]) * sizeof(float);
-  }
+  describe_floats(kSizes, kVertexFloats * sizeof(float));
 }
 
 std::vector<float> interleave(const MeshData& mesh) {

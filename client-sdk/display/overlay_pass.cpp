@@ -49,12 +49,7 @@ OverlayPass::OverlayPass(Program program, std::unique_ptr<Typesetter> typesetter
   glBindVertexArray(array_.get());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
   constexpr std::array<int, 4> kSizes{2, 2, 4, 4};
-  std::size_t offset = 0;
-  for (GLuint i = 0; i < kSizes.size(); ++i) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, kSizes[i], GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offset));
-    offset += static_cast<std::size_t>(kSizes[i]) * sizeof(float);
-  }
+  describe_floats(kSizes, sizeof(Vertex));
 }
 
 Expected<OverlayPass> OverlayPass::create(const std::string& font_folder) {

@@ -166,7 +166,8 @@ class FreeTypeTypesetter final : public Typesetter {
   void copy(const FT_Bitmap& bitmap, const AtlasPlace& place) {
     for (std::uint32_t row = 0; row < bitmap.rows; ++row) {
       const std::uint8_t* from = bitmap.buffer + static_cast<std::ptrdiff_t>(row) * bitmap.pitch;
-      std::copy_n(from, bitmap.width, atlas_.begin() + (place.y + row) * kAtlasSide + place.x);
+      std::copy_n(from, bitmap.width,
+                  atlas_.begin() + static_cast<std::ptrdiff_t>(place.y + row) * kAtlasSide + place.x);
     }
     ++revision_;
   }

@@ -29,11 +29,6 @@ if(MECHANE_SANITIZE)
   endif()
 endif()
 
-if(MECHANE_FUZZ)
-  # Every room tells libFuzzer which of its branches an input took.
-  add_compile_options(-fsanitize=fuzzer-no-link)
-endif()
-
 if(CMAKE_UNITY_BUILD)
   # Several sources in one: a class in a .cpp file looks as if a header had it.
   add_compile_options(-Wno-subobject-linkage -Wno-unknown-warning-option)

@@ -23,7 +23,7 @@ class PoseSlots {
     for (int i = 0; i < 3; ++i)
       state.memory[at_[static_cast<std::size_t>(i)]] = X.p[i];
     for (int i = 0; i < 4; ++i)
-      state.memory[at_[static_cast<std::size_t>(i + 3)]] = X.R.coeffs()[i];
+      state.memory[at_[3 + static_cast<std::size_t>(i)]] = X.R.coeffs()[i];
   }
 
  private:

@@ -16,15 +16,15 @@ class NoPublisher final : public world::Publisher {
 };
 
 Expected<std::unique_ptr<world::World>> world_of(const record::JournalHeader& header,
-                                                 std::shared_ptr<const state::WorldDescription> description,
+                                                 const std::shared_ptr<const state::WorldDescription>& description,
                                                  const world::WorldConfig& config) {
   if (header.scenario_hash != description->content_hash) {
     return fail(fmt::format("the journal is of scenario {} in the form {}, this one is {}", header.scenario_id,
                             header.scenario_hash, description->content_hash),
                 header.world_id, "replay it with the scenario and settings of the day it was recorded");
   }
-  if (header.snapshot.empty()) return world::World::create(std::move(description), config);
-  return world::World::resume(std::move(description), config, header.snapshot);
+  if (header.snapshot.empty()) return world::World::create(description, config);
+  return world::World::resume(description, config, header.snapshot);
 }
 
 void print_events(const world::World& world, const record::JournalTick& tick) {

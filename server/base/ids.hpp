@@ -18,7 +18,8 @@ class Id {
   [[nodiscard]] static constexpr Id none() { return {}; }
   [[nodiscard]] constexpr std::size_t index() const { return value_; }
   [[nodiscard]] constexpr explicit operator bool() const { return value_ != kNone; }
-  friend constexpr auto operator<=>(Id, Id) = default;
+  friend constexpr auto operator<=>(Id, Id) =
+      default;  // NOLINT(modernize-use-nullptr): it reads <=> as a comparison with 0
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

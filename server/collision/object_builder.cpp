@@ -94,6 +94,7 @@ std::vector<Vec3> exposed_samples(const geometry::Mesh& mesh, std::size_t index,
   }
   if (samples.size() > config.max_samples_per_part) samples.resize(config.max_samples_per_part);
   std::vector<Vec3> points;
+  points.reserve(samples.size());
   for (const auto& sample : samples)
     points.push_back(sample.p);
   report.samples = points.size();

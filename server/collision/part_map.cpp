@@ -61,6 +61,7 @@ Vec3 choose_center(const Solid& solid, std::size_t part, const geometry::Mesh& m
   std::vector<Vec3> centers = candidate_centers(solid, part, mesh, seed);
   if (solid.part(part).winding(own) > 0) centers.insert(centers.begin(), own);
   std::vector<double> clearance;
+  clearance.reserve(centers.size());
   for (const Vec3& c : centers)
     clearance.push_back(solid.part(part).closest(c).distance_m);
   const double widest = clearance.empty() ? 1 : *std::max_element(clearance.begin(), clearance.end());
@@ -91,7 +92,7 @@ RadialMap cast_map(const Solid& solid, std::size_t part, const geometry::Mesh& m
   const Vec3f half_Q = (1.0001 * half.array() + 0.5 * solid.seam_gap_m()).matrix().cast<float>();
 
   std::vector<float> sigma;
-  sigma.reserve(static_cast<std::size_t>(6 * resolution * resolution));
+  sigma.reserve(6 * static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution));
   for (int face = 0; face < 6; ++face) {
     for (int texel = 0; texel < resolution * resolution; ++texel) {
       const Vec3 direction_Q =

@@ -28,7 +28,8 @@ int longest_axis(const Vec3f& x) noexcept {
 bool RadialMap::is_valid(int resolution, const Vec3f& center_Q, const Vec3f& half_Q, float sigma_step,
                          std::size_t texels) {
   if (resolution != 16 && resolution != 32 && resolution != 64) return false;
-  if (texels != static_cast<std::size_t>(6 * resolution * resolution)) return false;
+  const auto edge = static_cast<std::size_t>(resolution);
+  if (texels != 6 * edge * edge) return false;
   if (!center_Q.allFinite() || !half_Q.allFinite() || half_Q.minCoeff() < 1e-6F || half_Q.maxCoeff() > 1e4F)
     return false;
   return std::isfinite(sigma_step) && sigma_step > 0 && sigma_step <= 1.0F;

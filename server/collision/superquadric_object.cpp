@@ -40,7 +40,7 @@ RadialMap map_of(const geometry::Superquadric& shape, const Vec3& half) {
   // A hair wider, so that points on the very surface are inside the box and not lost to rounding.
   const Vec3f half_Q = (1.0001 * half).cast<float>();
   std::vector<float> sigma;
-  sigma.reserve(6 * kResolution * kResolution);
+  sigma.reserve(std::size_t{6} * kResolution * kResolution);
   for (int face = 0; face < 6; ++face) {
     for (int texel = 0; texel < kResolution * kResolution; ++texel) {
       const Vec3 direction =

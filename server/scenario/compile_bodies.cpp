@@ -91,7 +91,7 @@ void read_mass(Attributes& attributes, state::BodyDescription& body) {
   if (body.mass_kg <= 0 || body.mass_kg > 1e6)
     attributes.error(fmt::format("the mass is {} kg", body.mass_kg), "write a mass above 0");
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(body.inertia_kg_m2, Eigen::EigenvaluesOnly);
-  const Vec3 principal = solver.eigenvalues();  // from small to large
+  const Vec3& principal = solver.eigenvalues();  // from small to large
   if (principal[0] <= 0) {
     attributes.error("the inertia is not positive definite", "write the inertia of a solid body, in kg m^2");
   } else if (principal[2] > 1.001 * (principal[0] + principal[1])) {

@@ -15,7 +15,7 @@ constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostBytes = 8u << 20;
 constexpr std::size_t kDeepest = 64;
 
-std::string attribute_or(const Node& node, std::string_view name, std::string otherwise) {
+std::string attribute_or(const Node& node, std::string_view name, const std::string& otherwise) {
   const std::string* value = node.attribute(name);
   return value != nullptr ? *value : otherwise;
 }

@@ -17,7 +17,7 @@ World::World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<
       hand(std::move(its_hand)),
       forces(std::move(its_forces)) {}
 
-Expected<std::unique_ptr<World>> World::create(std::shared_ptr<const state::WorldDescription> description,
+Expected<std::unique_ptr<World>> World::create(const std::shared_ptr<const state::WorldDescription>& description,
                                                const WorldConfig& config) {
   state::MemoryLayout layout;
   auto machines = machines::MachineSet::create(*description, layout);
@@ -47,7 +47,7 @@ bool progress_in_range(const state::WorldDescription& description, const state::
 
 }  // namespace
 
-Expected<std::unique_ptr<World>> World::resume(std::shared_ptr<const state::WorldDescription> description,
+Expected<std::unique_ptr<World>> World::resume(const std::shared_ptr<const state::WorldDescription>& description,
                                                const WorldConfig& config, std::span<const std::byte> snapshot) {
   auto world = create(description, config);
   if (!world) return world;

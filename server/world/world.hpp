@@ -26,11 +26,11 @@ class World {
  public:
   /// A world at the beginning of its scenario. Errors: what the agents, machines or joints of the description cannot be.
   [[nodiscard]] static Expected<std::unique_ptr<World>> create(
-      std::shared_ptr<const state::WorldDescription> description, const WorldConfig& config);
+      const std::shared_ptr<const state::WorldDescription>& description, const WorldConfig& config);
   /// A world where a snapshot of the same scenario left it. Hands come back by themselves; nobody holds anything, so that no
   /// force is there before a hand is.
   [[nodiscard]] static Expected<std::unique_ptr<World>> resume(
-      std::shared_ptr<const state::WorldDescription> description, const WorldConfig& config,
+      const std::shared_ptr<const state::WorldDescription>& description, const WorldConfig& config,
       std::span<const std::byte> snapshot);
 
   // The parts, in the order that a tick uses them. step() is the only caller.

@@ -13,13 +13,15 @@ namespace fs = std::filesystem;
 
 // A folder that stands for "/", with the files of proc and sys that a test writes.
 class MachineCheck : public testing::Test {
+ public:
+  ~MachineCheck() override { fs::remove_all(root_); }
+
  protected:
   MachineCheck()
       : root_(fs::path(testing::TempDir()) / ("machine-" + std::to_string(getpid()) + "-" +
                                               testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::create_directories(root_);
   }
-  ~MachineCheck() override { fs::remove_all(root_); }
 
   void write(const std::string& path, const std::string& text) {
     fs::create_directories((root_ / path).parent_path());

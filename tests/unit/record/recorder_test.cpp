@@ -23,6 +23,9 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 class RecorderTest : public testing::Test {
+ public:
+  ~RecorderTest() override { fs::remove_all(folder_); }
+
  protected:
   RecorderTest()
       : folder_(fs::path(testing::TempDir()) / ("recorder-" + std::to_string(getpid()) + "-" +
@@ -32,7 +35,6 @@ class RecorderTest : public testing::Test {
     config_.drain_period = 2ms;
     config_.retry_after = 0ms;
   }
-  ~RecorderTest() override { fs::remove_all(folder_); }
 
   [[nodiscard]] std::unique_ptr<Recorder> make() const {
     auto made = Recorder::create(config_);
