@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -135,17 +136,15 @@ void test_samples(const Relative& relative, const Object& source, ContactBuffer&
 
 void ContactBuffer::add(const PointContact& contact) noexcept {
   if (storage_.empty()) return;
-  if (count_ == storage_.size()) {
-    if (!(contact.depth_m > storage_[shallowest_].depth_m)) return;
-    storage_[shallowest_] = contact;
-  } else {
+  // A heap with the shallowest on top, once it is full: the one to beat.
+  const auto deeper = [](const PointContact& l, const PointContact& r) { return l.depth_m > r.depth_m; };
+  if (count_ < storage_.size()) {
     storage_[count_++] = contact;
-    if (count_ < storage_.size()) return;
-  }
-  // Full: from now on the shallowest is the one to beat.
-  shallowest_ = 0;
-  for (std::size_t i = 1; i < count_; ++i) {
-    if (storage_[i].depth_m < storage_[shallowest_].depth_m) shallowest_ = i;
+    if (count_ == storage_.size()) std::make_heap(storage_.begin(), storage_.end(), deeper);
+  } else if (contact.depth_m > storage_.front().depth_m) {
+    std::pop_heap(storage_.begin(), storage_.end(), deeper);
+    storage_.back() = contact;
+    std::push_heap(storage_.begin(), storage_.end(), deeper);
   }
 }
 

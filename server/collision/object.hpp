@@ -62,7 +62,6 @@ class ContactBuffer {
  private:
   std::span<PointContact> storage_;
   std::size_t count_ = 0;
-  std::size_t shallowest_ = 0;  // of a full buffer
 };
 
 /// All overlaps of A and B: A's samples in B's parts and B's samples in A's parts, after culling by spheres (objects, parts,

@@ -89,7 +89,7 @@ Expected<HandModel> HandModel::create(const HandSize& size) {
     tip.e1 = 1;
     tip.e2 = 1;
     // The tip is small and alone: it can afford a finer skin than a hand.
-    sized.tip = collision::make_superquadric_object(tip, 0.5 * size.sample_spacing_m);
+    sized.tip = collision::make_superquadric_object(tip, 0.75 * size.sample_spacing_m);
   }
   return model;
 }
