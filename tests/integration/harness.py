@@ -78,18 +78,19 @@ class EndToEnd(unittest.TestCase):
                 print(f"---- {process.name} ----\n{process.text()[-4000:]}")
         self._folder.cleanup()
 
-    def start(self, name, *arguments, environment=None):
+    def start(self, name, *arguments, environment=None, prefix=()):
         self._count += 1
-        process = Process(f"{name}-{self._count}", [str(BIN / "mechane"), *map(str, arguments)], self.folder,
+        process = Process(f"{name}-{self._count}", [*prefix, str(BIN / "mechane"), *map(str, arguments)], self.folder,
                           environment or self.environment)
         self.processes.append(process)
         return process
 
-    def server(self, *arguments, scenario=SCENARIO, records=True):
+    def server(self, *arguments, scenario=SCENARIO, records=True, prefix=()):
         record = ["--records", self.folder / "records"] if records else ["--records", ""]
         process = self.start("server", "server", "--scenario", scenario, *record, "--report",
-                             self.folder / "server.json", *arguments)
-        wait_until(lambda: " ready: " in process.text() or not process.running(), 600, "the server is ready (the first time it fits the exhibit's parts)")
+                             self.folder / "server.json", *arguments, prefix=prefix)
+        wait_until(lambda: " ready: " in process.text() or not process.running(), 600,
+                   "the server is ready (the first time it fits the exhibit's parts)")
         self.assertTrue(process.running(), process.text())
         return process
 
