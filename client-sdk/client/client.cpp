@@ -125,7 +125,7 @@ Expected<void> ClientImpl::open() {
   if (!writer) return tl::unexpected<Error>(writer.error());
   kiosk_status_ = std::move(*writer);
   if (config_.role == Role::hand) {
-    auto hand = HandLink::create(participant_, config_.kiosk, config_.user, session_);
+    auto hand = HandLink::create(participant_, config_.kiosk, config_.user, session_, config_.fifo_priority);
     if (!hand) return tl::unexpected<Error>(hand.error());
     hand_ = std::move(*hand);
   }

@@ -4,12 +4,13 @@
 #include <chrono>
 
 #include "client-sdk/client/parse.hpp"
+#include "server/realtime/priority.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::client {
 
-HandLink::HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session)
-    : kiosk_(std::move(kiosk)), user_(user), session_(session) {
+HandLink::HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session, int fifo_priority)
+    : kiosk_(std::move(kiosk)), user_(user), session_(session), fifo_priority_(fifo_priority) {
   proto::set_text(sending_.kiosk, kiosk_);
   sending_.user = user;
   sending_.protocol = proto::kProtocol;
@@ -17,8 +18,8 @@ HandLink::HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session)
 }
 
 Expected<std::unique_ptr<HandLink>> HandLink::create(const proto::Participant& participant, const std::string& kiosk,
-                                                     std::uint32_t user, std::uint64_t session) {
-  std::unique_ptr<HandLink> made(new HandLink(kiosk, user, session));
+                                                     std::uint32_t user, std::uint64_t session, int fifo_priority) {
+  std::unique_ptr<HandLink> made(new HandLink(kiosk, user, session, fifo_priority));
   const std::string partition = proto::kiosk_partition(kiosk);
   auto writer = proto::Writer<proto::HapticInput>::create(participant, partition);
   if (!writer) return tl::unexpected<Error>(writer.error());
@@ -49,6 +50,7 @@ bool HandLink::send(const HandInput& input) noexcept {
 }
 
 void HandLink::take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept {
+  realtime::take_fifo_once(fifo_priority_);
   proto::HapticOutput wire;
   proto::SampleInfo info;
   while (view.take_into(wire, info)) {

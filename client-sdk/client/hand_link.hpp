@@ -18,7 +18,7 @@ class HandLink {
  public:
   [[nodiscard]] static Expected<std::unique_ptr<HandLink>> create(const proto::Participant& participant,
                                                                   const std::string& kiosk, std::uint32_t user,
-                                                                  std::uint64_t session);
+                                                                  std::uint64_t session, int fifo_priority);
   HandLink(const HandLink&) = delete;
   HandLink& operator=(const HandLink&) = delete;
 
@@ -33,12 +33,13 @@ class HandLink {
   [[nodiscard]] std::optional<ForceSample> wait_force(Duration timeout);
 
  private:
-  HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session);
+  HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session, int fifo_priority);
   void take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept;
 
   std::string kiosk_;
   std::uint32_t user_;
   std::uint64_t session_;
+  int fifo_priority_;
   std::atomic<std::uint32_t> epoch_{0};
   std::atomic<std::uint64_t> sent_{0};
   proto::HapticInput sending_{};  // the sender's

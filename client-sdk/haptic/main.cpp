@@ -25,7 +25,6 @@ struct Arguments {
   std::vector<double> center{0.0, 0.72, 0.19};
   double radius_m = 0.05;
   double seconds = 0;
-  int fifo_priority = 70;
   bool local = false;
   std::string report_file;
 };
@@ -40,7 +39,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--center", a.center, "middle of the virtual hand's circle in the world, metres: x y z")->expected(3);
   app.add_option("--radius", a.radius_m, "radius of the circle, metres");
   app.add_option("--seconds", a.seconds, "stop after so long; 0: until told to stop");
-  app.add_option("--fifo-priority", a.fifo_priority, "of the loop; 0: an ordinary thread");
+  a.client.fifo_priority = 70;
+  app.add_option("--fifo-priority", a.client.fifo_priority, "of the loop and of what it hears; 0: ordinary threads");
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_flag("--local", a.local, "render forces from the local contact model");
 }
@@ -83,7 +83,7 @@ int run(const Arguments& a, client::Client& client) {
   SystemClock clock;
   realtime::PeriodicConfig config;
   config.name = "haptic-loop";
-  config.fifo_priority = a.fifo_priority;
+  config.fifo_priority = a.client.fifo_priority;
   realtime::PeriodicThread thread(config, clock);
   const Vec3 center(a.center[0], a.center[1], a.center[2]);
   std::atomic<bool> leave{false};

@@ -126,8 +126,8 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
   if (!parts) return at(parts.error());
   if (progress_) progress_(node, parts->size());
   const std::string name = node.empty() ? "(all)" : node;
-  log::info(fmt::format("{}, node {}: building {} parts for touch; the next start finds them ready", file.string(), name,
-                        parts->size()));
+  log::info(fmt::format("{}, node {}: building {} parts for touch; the next start finds them ready", file.string(),
+                        name, parts->size()));
   collision::BuildReport report;
   std::atomic<std::int64_t> next_line_s{kSecondsBetweenLines};
   const auto began = std::chrono::steady_clock::now();

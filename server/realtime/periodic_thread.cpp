@@ -11,6 +11,8 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 
+#include "server/realtime/priority.hpp"
+
 namespace mechane::realtime {
 namespace {
 
@@ -19,12 +21,6 @@ constexpr Duration kLongestSleep = std::chrono::milliseconds(20);
 // Counters have one writer, the loop: a load and a store do, and no bus is locked.
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t n = 1) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);
-}
-
-bool set_fifo(int priority) noexcept {
-  sched_param parameters{};
-  parameters.sched_priority = priority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
 }
 
 bool pin_to(int cpu) noexcept {
@@ -109,7 +105,7 @@ void PeriodicThread::set_up_thread() noexcept {
   prctl(PR_SET_TIMERSLACK, 1UL);
   if (config_.cpu) cpu_granted_.store(pin_to(*config_.cpu), std::memory_order_relaxed);
   if (config_.lock_memory) memory_locked_.store(lock_memory(), std::memory_order_relaxed);
-  if (config_.fifo_priority > 0) fifo_granted_.store(set_fifo(config_.fifo_priority), std::memory_order_relaxed);
+  if (config_.fifo_priority > 0) fifo_granted_.store(take_fifo(config_.fifo_priority), std::memory_order_relaxed);
   running_.store(true, std::memory_order_relaxed);
 }
 

@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include "server/realtime/priority.hpp"
 #include "server/transport/kiosk_link.hpp"
 
 namespace mechane::transport {
@@ -20,10 +21,7 @@ HapticPublisher::HapticPublisher(int fifo_priority, std::optional<int> cpu) {
       CPU_SET(static_cast<std::size_t>(*cpu), &set);
       pthread_setaffinity_np(pthread_self(), sizeof(set), &set);
     }
-    if (fifo_priority > 0) {
-      const sched_param param{fifo_priority};
-      fifo_granted_ = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
-    }
+    fifo_granted_ = fifo_priority > 0 && realtime::take_fifo(fifo_priority);
     ready.set_value();
     while (!stop_.load(std::memory_order_acquire)) {
       wakeup_.wait(std::chrono::milliseconds(100));

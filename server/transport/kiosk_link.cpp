@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "server/base/clock.hpp"
+#include "server/realtime/priority.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::transport {
@@ -47,8 +48,9 @@ void set_force(proto::HapticOutput& out, const state::HapticOutput& from) noexce
 }  // namespace
 
 Expected<std::shared_ptr<KioskLink>> KioskLink::create(const proto::Participant& participant, const std::string& kiosk,
-                                                       std::uint32_t epoch, RejectCounters& rejects) {
-  std::shared_ptr<KioskLink> link(new KioskLink(kiosk, epoch, rejects));
+                                                       std::uint32_t epoch, RejectCounters& rejects,
+                                                       int fifo_priority) {
+  std::shared_ptr<KioskLink> link(new KioskLink(kiosk, epoch, rejects, fifo_priority));
   const std::string partition = proto::kiosk_partition(kiosk);
   auto writer = proto::Writer<proto::HapticOutput>::create(participant, partition);
   if (!writer) return tl::unexpected<Error>(writer.error());
@@ -76,6 +78,8 @@ void KioskLink::shut() {
 }
 
 void KioskLink::take(proto::ReaderView<proto::HapticInput> view) noexcept {
+  // The network's receive thread: a hand must not wait there behind a display's drawing.
+  realtime::take_fifo_once(fifo_priority_);
   proto::HapticInput wire;
   proto::SampleInfo info;
   while (view.take_into(wire, info)) {

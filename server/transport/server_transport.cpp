@@ -47,6 +47,7 @@ class ServerTransport::Impl {
         incarnation(random_nonzero()),
         epoch(epoch_now()),
         participant_(std::move(participant)),
+        fifo_priority_(config.fifo_priority),
         haptic_(config.fifo_priority, config.cpu) {}
   ~Impl();
 
@@ -91,6 +92,7 @@ class ServerTransport::Impl {
   std::vector<std::shared_ptr<Lane>> closed_lanes_;  // until nobody holds them: a real-time thread must not be the last
   RejectReport reject_report_;
   TimePoint next_report_{};
+  const int fifo_priority_;
   HapticPublisher haptic_;
   std::unique_ptr<MuseumPublisher> museum_;
   proto::Reader<proto::KioskStatus> kiosk_status_;
@@ -147,7 +149,7 @@ void ServerTransport::Impl::take_kiosks(TimePoint now, std::vector<News>& news) 
 
 void ServerTransport::Impl::session_appeared(const Session& session, TimePoint now, std::vector<News>& news) {
   if (kiosks_.find(session.kiosk) == kiosks_.end()) {
-    auto link = KioskLink::create(participant_, session.kiosk, epoch, rejects);
+    auto link = KioskLink::create(participant_, session.kiosk, epoch, rejects, fifo_priority_);
     if (!link) {
       log::error(link.error());
       return;

@@ -19,8 +19,9 @@ struct TransportConfig {
   std::string server = "server-1";  ///< name on the wire: 1 to 31 characters of A-Z a-z 0-9 - _
   std::string version{};            ///< of the program
   std::uint32_t domain = 0;         ///< DDS domain, 0 .. 230; the network is set up by CYCLONEDDS_URI
-  int fifo_priority = 0;            ///< SCHED_FIFO of the thread that writes forces, 0 .. 98; 0: an ordinary thread
-  std::optional<int> cpu{};         ///< pins that thread
+  int fifo_priority =
+      0;  ///< SCHED_FIFO of the threads that receive hands and write forces, 0 .. 98; 0: ordinary threads
+  std::optional<int> cpu{};  ///< pins that thread
 };
 
 /// What a server says of itself. Fields as in ServerStatus of idl/mechane.idl; the transport adds name, version and its own counts.

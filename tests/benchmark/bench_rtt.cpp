@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "server/realtime/priority.hpp"
 #include "tests/benchmark/bench_stats.hpp"
-#include "tests/benchmark/priority.hpp"
 #include <mechane/client/client.hpp>
 #include <mechane/proto/topics.hpp>
 
@@ -74,7 +74,7 @@ void measure(client::Client& client, double seconds, Trips& trips) {
 
 int run(const Config& config) {
   Report report;
-  if (!take_priority(config.priority)) report.note("rtt: SCHED_FIFO was refused, ordinary priority");
+  if (!realtime::take_fifo(config.priority)) report.note("rtt: SCHED_FIFO was refused, ordinary priority");
   client::ClientConfig who;
   who.kiosk = "bench-rtt";
   who.role = client::Role::hand;

@@ -17,8 +17,8 @@
 
 #include "server/base/clock.hpp"
 #include "server/base/error.hpp"
+#include "server/realtime/priority.hpp"
 #include "tests/benchmark/bench_stats.hpp"
-#include "tests/benchmark/priority.hpp"
 
 namespace mechane::benchmark {
 namespace {
@@ -54,7 +54,7 @@ struct Socket {
 // The other process: answers each datagram with its first bytes, until its parent ends it.
 [[noreturn]] void answer(const Socket& socket, const Socket& asker, const Config& config) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  (void)take_priority(config.priority);
+  (void)realtime::take_fifo(config.priority);
   std::vector<char> bytes(kMaxBytes);
   const auto* to = reinterpret_cast<const sockaddr*>(&asker.address);
   for (;;) {
@@ -112,7 +112,7 @@ int run(const Config& config) {
   if (other == 0) answer(*answerer, *asker, config);
 
   Report report;
-  if (!take_priority(config.priority)) report.note("udp: SCHED_FIFO was refused, ordinary priority");
+  if (!realtime::take_fifo(config.priority)) report.note("udp: SCHED_FIFO was refused, ordinary priority");
   ask(*asker, *answerer, config, report);
   ::kill(other, SIGKILL);
   ::waitpid(other, nullptr, 0);

@@ -21,6 +21,7 @@ struct ClientConfig {
   std::string program = "client";  ///< for logs and status: "mechane-display"
   std::string scenario{};          ///< wish: id of the scenario; empty: the server's first
   std::string join_kiosk{};        ///< wish: share the world of this kiosk; empty: a world of one's own
+  int fifo_priority = 0;           ///< SCHED_FIFO of the thread that receives forces; 0, or refused: an ordinary thread
   std::uint32_t domain = 0;        ///< DDS domain; the network is set up by CYCLONEDDS_URI
 };
 
