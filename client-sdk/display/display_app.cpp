@@ -171,8 +171,10 @@ void DisplayLoop::wait_for_next(TimePoint began) {
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
   const TimePoint now = clock_.now();
   next_ = std::max(next_ + period, now);
-  // Drawing on the processor, a display leaves at least half of the time to the others on the machine.
-  if (options_.offscreen) next_ = std::max(next_, now + std::min<Duration>(now - began, std::chrono::seconds(1)));
+  // Drawing on the processor, a display leaves at least half of the time to the others on the machine. One picture a step leaves more
+  // than that, and must be back before a short step is over.
+  if (options_.offscreen && !options_.every_step)
+    next_ = std::max(next_, now + std::min<Duration>(now - began, std::chrono::seconds(1)));
   clock_.sleep_until(next_);
 }
 
