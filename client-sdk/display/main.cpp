@@ -22,7 +22,7 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   const std::map<std::string, display::Stereo> stereo{{"mono", display::Stereo::mono},
                                                       {"sbs", display::Stereo::side_by_side}};
   app.add_option("--stereo", o.stereo, "mono, or sbs: left and right eye side by side")
-      ->transform(CLI::CheckedTransformer(stereo));
+      ->transform(CLI::CheckedTransformer(stereo).description("{mono,sbs}"));
   app.add_option("--language", o.language, "language of the captions")
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();

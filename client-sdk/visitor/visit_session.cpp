@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "client-sdk/haptic/virtual_device.hpp"
+#include "server/log/log.hpp"
 #include "server/scenario/file_finder.hpp"
 
 namespace mechane::visitor {
@@ -16,6 +17,7 @@ using state::VisitDescription;
 using state::WorldDescription;
 
 constexpr Duration kTick = std::chrono::milliseconds(1);
+constexpr Duration kLookAgain = std::chrono::milliseconds(100);
 
 /// Plays activities one after another over one client and one device.
 class Session {
@@ -172,10 +174,22 @@ Expected<std::vector<const VisitDescription*>> choose_visits(const VisitOptions&
   return chosen;
 }
 
-Expected<void> join(client::Client& client, const VisitOptions& options) {
-  if (client.wait_for(LinkState::joined, options.join_within)) return {};
+/// Waits for a world, and says at once what it waits for.
+Expected<void> join(client::Client& client, const VisitOptions& options, const volatile std::sig_atomic_t& stop) {
+  SystemClock clock;
+  const TimePoint until = clock.now() + options.join_within;
+  LinkState said = LinkState::joined;
+  while (stop == 0 && clock.now() < until) {
+    if (client.wait_for(LinkState::joined, kLookAgain)) return {};
+    if (client.state() == said) continue;
+    said = client.state();
+    log::info(said == LinkState::refused ? client.refusal()
+                                         : fmt::format("{}: looking for a server", options.client.kiosk));
+  }
+  if (stop != 0) return fail("stopped before it was in a world", options.client.kiosk);
   if (client.state() == LinkState::refused) {
-    return fail(client.refusal(), options.client.kiosk, "stop the other program, or use another kiosk or user");
+    return fail("the hand was not free in time", options.client.kiosk,
+                "stop the other program, or use another kiosk or user");
   }
   return fail("no server answered", options.client.kiosk,
               "start one with 'mechane server', in the same DDS domain and network");
@@ -196,7 +210,7 @@ Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std:
   if (!visits) return tl::unexpected(visits.error());
   auto client = client::Client::connect(options.client);
   if (!client) return tl::unexpected(client.error());
-  if (auto joined = join(**client, options); !joined) return tl::unexpected(joined.error());
+  if (auto joined = join(**client, options, stop); !joined) return tl::unexpected(joined.error());
   Session session(options, *world, **client, stop);
   if (auto started = session.start(); !started) return tl::unexpected(started.error());
   VisitReport report;

@@ -144,7 +144,9 @@ def gather(out, visitors, replays):
     server = read_json(out / "server.json")
     reports = [read_json(out / f"{name}.json") for name in visitors]
     activities = [a for r in reports for a in r.get("activities", [])]
-    pictures = sorted(glob.glob(str(out / "pictures" / "**" / "*.png"), recursive=True))
+    pictures = glob.glob(str(out / "pictures" / "**" / "*.png"), recursive=True)
+    wanted = pictures_wanted(activities)
+    missed = [(kiosk, name) for kiosk, name in wanted if not glob.glob(str(out / "pictures" / kiosk / f"{name}-*.png"))]
     metrics = {
         "activities.done": sum(1 for a in activities if a.get("done")),
         "activities.asked": 2 * len(visitors),
@@ -155,6 +157,7 @@ def gather(out, visitors, replays):
         "preemptions": server.get("preemptions", -1),
         "water_l": round(sum(r.get("water_l", 0) for r in reports), 2),
         "pictures": len(pictures),
+        "pictures.wanted": len(wanted),
         "replays.same_hash": replays[0],
         "replays.asked": replays[1],
         "force_n.max": max([r.get("force_n", {}).get("max", 0) for r in reports], default=0),
@@ -165,10 +168,16 @@ def gather(out, visitors, replays):
         values = [r["rtt_us"][key] for r in reports if key in r.get("rtt_us", {})]
         if values:
             metrics[f"rtt_us.{key}"] = max(values)
-    return metrics, activities, pictures
+    return metrics, activities, sorted(missed)
 
 
-def print_summary(metrics, activities, out):
+def pictures_wanted(activities):
+    """A picture of every step that was reached, and of each activity's end, by kiosk."""
+    return {(a["kiosk"], f"{a['name']}-{step}") for a in activities
+            for step in [s["name"] for s in a.get("steps", [])] + (["done"] if a.get("done") else [])}
+
+
+def print_summary(metrics, activities, missed, out):
     print("\nArchimedes' screw, two kiosks")
     for activity in activities:
         mark = "done" if activity.get("done") else "NOT DONE"
@@ -184,7 +193,9 @@ def print_summary(metrics, activities, out):
     print("  motion to force          median {:.0f} us, p99 {:.0f}, p99.9 {:.0f}, max {:.0f}".format(
         *(get(f"rtt_us.{k}") for k in ("median", "p99", "p999", "max"))))
     print(f"  journals replayed        {metrics['replays.same_hash']} of {metrics['replays.asked']} to the live hash")
-    print(f"  pictures                 {metrics['pictures']:8d}      in {out / 'pictures'}")
+    print(f"  pictures                 {metrics['pictures']:8d}      of {metrics['pictures.wanted']}, in {out / 'pictures'}")
+    for kiosk, name in missed:
+        print(f"                           missed: {name} at {kiosk} (drawing took longer than the step)")
 
 
 def missing_assets(out):
@@ -240,7 +251,7 @@ def main():
         replays = replay_journals(programs, out / "records", out)
     finally:
         programs.stop_all()
-    metrics, activities, _ = gather(out, visitors, replays)
+    metrics, activities, missed = gather(out, visitors, replays)
     if metrics["activities.done"] != metrics["activities.asked"]:
         problems.append("not every activity was completed: see out/demo/visitor-*.log")
     if replays[0] != replays[1] or replays[1] == 0:
@@ -254,9 +265,11 @@ def main():
               "seconds": round(time.monotonic() - started, 1), "metrics": metrics, "activities": activities,
               "notes": problems}
     (out / "report.json").write_text(json.dumps(report, indent=2) + "\n")
-    print_summary(metrics, activities, out)
+    print_summary(metrics, activities, missed if options.headless or not has_screen() else [], out)
     for problem in problems:
         print(f"demo: {problem}", file=sys.stderr)
+    if not problems:
+        print("demo: passed")
     print(f"  report                   {out / 'report.json'}")
     return 1 if problems else 0
 

@@ -29,7 +29,9 @@ void print_result(const record::JournalHeader& header, const app::ReplayResult& 
   if (r.first_difference) {
     fmt::print("DIFFERENT from tick {} at the latest\n", *r.first_difference);
   } else {
-    fmt::print("{}\n", r.hashes_compared > 0 ? "the same, bit for bit" : "nothing to compare with");
+    fmt::print("{}\n", r.hashes_compared == 0                           ? "nothing to compare with"
+                       : r.end.kind == record::JournalEnd::Kind::closed ? "the same, bit for bit"
+                                                                        : "the same, bit for bit, as far as it goes");
   }
 }
 

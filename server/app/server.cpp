@@ -67,7 +67,10 @@ class Server::Impl {
 
 Expected<void> Server::Impl::start() {
   log::info(fmt::format("mechane server {}; settings:\n{}", kVersion, to_string(settings_)));
-  auto scenarios = ScenarioStore::load(settings_);
+  auto scenarios = [this] {
+    const StopAtOnce while_building;  // parts may take a minute, and nothing is served yet
+    return ScenarioStore::load(settings_);
+  }();
   if (!scenarios) return tl::unexpected(scenarios.error());
   scenarios_ = std::move(*scenarios);
   if (!settings_.records.empty()) {

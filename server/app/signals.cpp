@@ -39,6 +39,16 @@ StopSignals::~StopSignals() {
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
+StopAtOnce::StopAtOnce() {
+  const sigset_t set = stop_set();
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+StopAtOnce::~StopAtOnce() {
+  const sigset_t set = stop_set();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
 bool StopSignals::wait(int milliseconds) {
   if (stopping_) return true;
   pollfd waited{descriptor_, POLLIN, 0};

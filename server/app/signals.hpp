@@ -22,6 +22,16 @@ class StopSignals {
   bool stopping_ = false;
 };
 
+/// While it lives, SIGINT and SIGTERM end the process at once again: for slow work that may be thrown away. Main thread; threads that
+/// start meanwhile must end before it does.
+class StopAtOnce {
+ public:
+  StopAtOnce();
+  ~StopAtOnce();
+  StopAtOnce(const StopAtOnce&) = delete;
+  StopAtOnce& operator=(const StopAtOnce&) = delete;
+};
+
 /// Tells systemd, where it listens (NOTIFY_SOCKET); otherwise does nothing. `state` is e.g. "READY=1".
 void notify_systemd(const char* state);
 

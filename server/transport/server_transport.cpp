@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <random>
+#include <set>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -82,6 +83,7 @@ class ServerTransport::Impl {
   void settle_hands(TimePoint now, std::vector<News>& news);
   void drop_empty_kiosks(std::vector<News>& news);
   void report(TimePoint now);
+  void warn_of_others();
   [[nodiscard]] std::shared_ptr<Lane> open_lane(const std::string& kiosk, std::uint32_t user, std::uint64_t session);
   void close_lane(const std::shared_ptr<Lane>& lane);
 
@@ -95,6 +97,8 @@ class ServerTransport::Impl {
   const int fifo_priority_;
   HapticPublisher haptic_;
   std::unique_ptr<MuseumPublisher> museum_;
+  std::set<std::uint64_t> others_;  // incarnations of other servers that were warned of
+  proto::Reader<proto::ServerStatus> server_status_;
   proto::Reader<proto::KioskStatus> kiosk_status_;
 };
 
@@ -113,6 +117,9 @@ Expected<void> ServerTransport::Impl::open_endpoints() {
   auto reader = proto::Reader<proto::KioskStatus>::create(participant_, "");
   if (!reader) return tl::unexpected<Error>(reader.error());
   kiosk_status_ = std::move(*reader);
+  auto others = proto::Reader<proto::ServerStatus>::create(participant_, "");
+  if (!others) return tl::unexpected<Error>(others.error());
+  server_status_ = std::move(*others);
   museum_ = std::make_unique<MuseumPublisher>(std::move(*status_writer), std::move(*assignment_writer),
                                               wire_status(ServerStatusData{}), epoch);
   return {};
@@ -128,7 +135,19 @@ std::vector<News> ServerTransport::Impl::poll(TimePoint now) {
     port->collect();
   std::erase_if(closed_lanes_, [](const auto& lane) { return lane.use_count() == 1; });
   report(now);
+  warn_of_others();
   return news;
+}
+
+/// Two servers both answer every kiosk, and each drives the kiosk's hands in a world of its own: a forgotten demo beside the service.
+void ServerTransport::Impl::warn_of_others() {
+  server_status_.view().take_each([this](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
+    if (!info.valid || wire.incarnation == incarnation || !others_.insert(wire.incarnation).second) return;
+    log::warning(
+        fmt::format("another server, {} on {}, answers the kiosks of this DDS domain too: stop one of "
+                    "the two, or give it a --domain of its own",
+                    std::string(wire.server), proto::string_of(wire.host)));
+  });
 }
 
 void ServerTransport::Impl::take_kiosks(TimePoint now, std::vector<News>& news) {

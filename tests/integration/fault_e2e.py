@@ -65,6 +65,23 @@ class Faults(EndToEnd):
         print("no user namespaces here: a limit on the size of files stands for the full disk")
         return ["prlimit", "--fsize=65536", "env", "--ignore-signal=XFSZ"]
 
+    def test_two_servers_warn_of_each_other(self):
+        first = self.server()
+        second = self.server("--name", "forgotten")
+        wait_until(lambda: "another server, forgotten on" in first.text(), 10, "the first warns")
+        wait_until(lambda: "another server, server-1 on" in second.text(), 10, "the second warns")
+
+    def test_a_stop_while_parts_are_built_ends_the_server(self):
+        server = self.start("server", "server", "--scenario", SCENARIO, "--cache", self.folder / "empty", "--records", "")
+        wait_until(lambda: "building" in server.text(), 60, "parts are being built")
+        self.assertEqual(server.stop(), -signal.SIGTERM, server.text())
+        self.assertNotIn("ready:", server.text())
+
+    def test_a_visitor_without_a_server_says_what_it_waits_for_and_stops_when_told(self):
+        visitor = self.visitor("kiosk-1")
+        wait_until(lambda: "looking for a server" in visitor.text(), 10, "the visitor says what it waits for")
+        self.assertEqual(visitor.stop(5), 2, visitor.text())
+
     def test_a_clean_stop_and_systemd_are_told(self):
         path = str(self.folder / "notify")
         listener = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
