@@ -42,9 +42,9 @@ void compare(const record::JournalTick& tick, const world::World& world, ReplayR
 }  // namespace
 
 Expected<ReplayResult> replay(record::JournalReader& journal,
-                              std::shared_ptr<const state::WorldDescription> description,
+                              const std::shared_ptr<const state::WorldDescription>& description,
                               const world::WorldConfig& config, const ReplayOptions& options) {
-  auto world = world_of(journal.header(), std::move(description), config);
+  auto world = world_of(journal.header(), description, config);
   if (!world) return tl::unexpected(world.error());
   SystemClock clock;
   world::PhaseTimer timer(clock);

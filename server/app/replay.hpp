@@ -32,7 +32,7 @@ struct ReplayResult {
 
 /// Errors: the journal is of another form of the scenario (the hashes name both), or its snapshot cannot be read.
 [[nodiscard]] Expected<ReplayResult> replay(record::JournalReader& journal,
-                                            std::shared_ptr<const state::WorldDescription> description,
+                                            const std::shared_ptr<const state::WorldDescription>& description,
                                             const world::WorldConfig& config, const ReplayOptions& options);
 
 }  // namespace mechane::app
