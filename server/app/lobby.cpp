@@ -268,10 +268,7 @@ void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot) {
   const state::WorldState& state = entry.running.world->state;
   if (entry.running.recorder) {
     // The last state, not that of a second ago.
-    if (snapshot == record::WorldRecorder::Snapshot::keep) {
-      state::write_snapshot(state, entry.running.recorder->snapshot_buffer());
-      entry.running.recorder->commit_snapshot(state.tick);
-    }
+    if (snapshot == record::WorldRecorder::Snapshot::keep) entry.running.keep_snapshot();
     entry.running.recorder->close(state::state_hash(state), snapshot);
   }
   transport_.close_world(*entry.running.port);

@@ -10,11 +10,6 @@
 namespace mechane::app {
 namespace {
 
-class NoPublisher final : public world::Publisher {
- public:
-  void publish(const state::WorldState&) noexcept override {}
-};
-
 Expected<std::unique_ptr<world::World>> world_of(const record::JournalHeader& header,
                                                  const std::shared_ptr<const state::WorldDescription>& description,
                                                  const world::WorldConfig& config) {
@@ -48,7 +43,7 @@ Expected<ReplayResult> replay(record::JournalReader& journal,
   if (!world) return tl::unexpected(world.error());
   SystemClock clock;
   world::PhaseTimer timer(clock);
-  NoPublisher publisher;
+  world::NoPublisher publisher;
   ReplayResult result;
   record::JournalTick tick;
   const TimePoint began = clock.now();

@@ -28,10 +28,11 @@ void print_result(const record::JournalHeader& header, const app::ReplayResult& 
   if (r.end.kind != record::JournalEnd::Kind::closed) fmt::print("the journal ends early: {}\n", r.end.message);
   if (r.first_difference) {
     fmt::print("DIFFERENT from tick {} at the latest\n", *r.first_difference);
+  } else if (r.hashes_compared == 0) {
+    fmt::print("nothing to compare with\n");
   } else {
-    fmt::print("{}\n", r.hashes_compared == 0                           ? "nothing to compare with"
-                       : r.end.kind == record::JournalEnd::Kind::closed ? "the same, bit for bit"
-                                                                        : "the same, bit for bit, as far as it goes");
+    const bool whole = r.end.kind == record::JournalEnd::Kind::closed;
+    fmt::print("the same, bit for bit{}\n", whole ? "" : ", as far as it goes");
   }
 }
 

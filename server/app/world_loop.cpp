@@ -15,6 +15,8 @@ class TickOutput final : public world::Publisher {
  public:
   TickOutput(RunningWorld& running, const state::TickInputs& inputs) : running_(running), inputs_(inputs) {}
 
+  void publish_forces(const state::WorldState& state) noexcept override { running_.port->publish_forces(state); }
+
   void publish(const state::WorldState& state) noexcept override {
     running_.port->publish(state);
     if (!running_.recorder) return;
@@ -25,8 +27,7 @@ class TickOutput final : public world::Publisher {
     if (state.tick % record::kHashInterval == 0) record.hash = state::state_hash(state);
     running_.recorder->push(record);
     if (state.tick % kSnapshotInterval != 0) return;
-    state::write_snapshot(state, running_.recorder->snapshot_buffer());
-    running_.recorder->commit_snapshot(state.tick);
+    running_.keep_snapshot();
   }
 
  private:
@@ -35,6 +36,11 @@ class TickOutput final : public world::Publisher {
 };
 
 }  // namespace
+
+void RunningWorld::keep_snapshot() noexcept {
+  state::write_snapshot(world->state, recorder->snapshot_buffer());
+  recorder->commit_snapshot(world->state.tick);
+}
 
 WorldLoop::WorldLoop(const LoopConfig& config, Clock& clock)
     : max_worlds_(config.max_worlds),

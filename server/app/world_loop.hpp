@@ -21,8 +21,11 @@ struct RunningWorld {
   std::unique_ptr<world::World> world;
   transport::WorldPort* port = nullptr;           ///< lives in the transport
   std::optional<record::WorldRecorder> recorder;  ///< none: nothing is kept
-  std::atomic<bool> leave{false};                 ///< the main thread asks the loop to give the world back
-  std::atomic<bool> left{false};                  ///< the loop has; the main thread may take it apart
+  /// Hands the state to the recorder, which there must be. Whoever the world belongs to at the moment.
+  void keep_snapshot() noexcept;
+
+  std::atomic<bool> leave{false};  ///< the main thread asks the loop to give the world back
+  std::atomic<bool> left{false};   ///< the loop has; the main thread may take it apart
 };
 
 struct LoopConfig {

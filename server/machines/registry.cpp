@@ -11,25 +11,15 @@ std::array<const MachineKind*, 1> kinds() {
   return {&screw_pump_kind()};
 }
 
-std::vector<state::ComponentType> collect_types() {
-  std::vector<state::ComponentType> types;
-  for (const MachineKind* kind : kinds())
-    types.push_back(kind->type);
-  return types;
-}
-
 }  // namespace
 
 std::span<const state::ComponentType> registry() {
-  static const std::vector<state::ComponentType> kTypes = collect_types();
+  static const std::vector<state::ComponentType> kTypes = state::types_of(kinds());
   return kTypes;
 }
 
 const MachineKind* find_kind(std::string_view type) {
-  for (const MachineKind* kind : kinds()) {
-    if (kind->type.name == type) return kind;
-  }
-  return nullptr;
+  return state::find_kind_in(kinds(), type);
 }
 
 }  // namespace mechane::machines

@@ -23,13 +23,6 @@ void add(std::atomic<std::uint64_t>& counter, std::uint64_t n = 1) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);
 }
 
-bool pin_to(int cpu) noexcept {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(static_cast<std::size_t>(cpu), &set);
-  return pthread_setaffinity_np(pthread_self(), sizeof set, &set) == 0;
-}
-
 bool lock_memory() noexcept {
   // What is mapped now is locked in full; what is mapped later is locked page by page as it is touched, so that the stacks of
   // other threads do not cost 8 MiB each.

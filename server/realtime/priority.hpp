@@ -1,5 +1,7 @@
-// The priority of the calling thread.
+// The priority of the calling thread, and the processor that it runs on.
 #pragma once
+
+#include <cstddef>
 
 #include <pthread.h>
 #include <sched.h>
@@ -18,6 +20,14 @@ inline void take_fifo_once(int priority) noexcept {
   if (asked) return;
   asked = true;
   (void)take_fifo(priority);
+}
+
+/// Keeps the calling thread on one processor, 0 .. CPU_SETSIZE - 1. False where it was refused.
+inline bool pin_to(int cpu) noexcept {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<std::size_t>(cpu), &set);
+  return pthread_setaffinity_np(pthread_self(), sizeof set, &set) == 0;
 }
 
 }  // namespace mechane::realtime

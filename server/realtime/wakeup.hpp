@@ -20,6 +20,8 @@ class Wakeup {
   void signal() noexcept;
   /// One thread. True when signalled since the last wait() returned; false when `timeout` has passed.
   bool wait(Duration timeout) noexcept;
+  /// Whether wait() would return true at once: what a waiter that spins looks at. That thread.
+  [[nodiscard]] bool signalled() const noexcept { return word_.load(std::memory_order_relaxed) == kSignalled; }
 
  private:
   static constexpr std::uint32_t kIdle = 0;

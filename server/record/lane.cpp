@@ -8,8 +8,6 @@
 #include "server/record/snapshot_file.hpp"
 
 namespace mechane::record {
-namespace {}  // namespace
-
 Lane::Lane(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
            std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after)
     : ring_(ring_bytes),

@@ -51,6 +51,24 @@ struct ComponentType {
   std::span<const ValueType> values;
 };
 
+/// What a room's registry offers of its kinds, each a type and its maker: the types alone. For a static of the registry's.
+template <class Kinds>
+[[nodiscard]] std::vector<ComponentType> types_of(const Kinds& kinds) {
+  std::vector<ComponentType> types;
+  for (const auto* kind : kinds)
+    types.push_back(kind->type);
+  return types;
+}
+
+/// The kind of that name; null where no type has it.
+template <class Kinds>
+[[nodiscard]] auto find_kind_in(const Kinds& kinds, std::string_view type) -> typename Kinds::value_type {
+  for (const auto* kind : kinds) {
+    if (kind->type.name == type) return kind;
+  }
+  return nullptr;
+}
+
 /// The parameters of one component, already held against its type. Any thread; immutable.
 class Parameters {
  public:

@@ -10,23 +10,24 @@
 #include "server/transport/kiosk_link.hpp"
 
 namespace mechane::transport {
+namespace {
+
+// Longer than a tick should take; a longer one is waited for asleep.
+constexpr Duration kLongestSpin = std::chrono::microseconds(200);
+
+}  // namespace
 
 HapticPublisher::HapticPublisher(int fifo_priority, std::optional<int> cpu) {
   std::promise<void> ready;
   thread_ = std::thread([this, fifo_priority, cpu, &ready] {
     pthread_setname_np(pthread_self(), "haptic-out");
-    if (cpu) {
-      cpu_set_t set;
-      CPU_ZERO(&set);
-      CPU_SET(static_cast<std::size_t>(*cpu), &set);
-      pthread_setaffinity_np(pthread_self(), sizeof(set), &set);
-    }
+    if (cpu) (void)realtime::pin_to(*cpu);
     fifo_granted_ = fifo_priority > 0 && realtime::take_fifo(fifo_priority);
     ready.set_value();
     while (!stop_.load(std::memory_order_acquire)) {
-      wakeup_.wait(std::chrono::milliseconds(100));
+      const bool called = wakeup_.wait(std::chrono::milliseconds(100));
       follow_changes();
-      write_all();
+      if (!write_all() && called) await_forces();
     }
   });
   ready.get_future().wait();
@@ -60,14 +61,29 @@ void HapticPublisher::follow_changes() {
   changes_seen_ = changes_.load(std::memory_order_relaxed);
 }
 
-void HapticPublisher::write_all() noexcept {
+void HapticPublisher::expect_forces() noexcept {
+  loop_cpu_.store(sched_getcpu(), std::memory_order_relaxed);
+  wakeup_.signal();
+}
+
+void HapticPublisher::await_forces() noexcept {
+  const TimePoint until = std::chrono::steady_clock::now() + kLongestSpin;
+  while (!wakeup_.signalled() && std::chrono::steady_clock::now() < until) {
+    if (sched_getcpu() == loop_cpu_.load(std::memory_order_relaxed)) return;  // the tick needs this processor
+  }
+}
+
+bool HapticPublisher::write_all() noexcept {
+  bool any = false;
   for (const auto& lane : lanes_) {
     const OutgoingForce* force = lane->forces.take();
     if (force == nullptr) continue;
+    any = true;
     const TimePoint begin = std::chrono::steady_clock::now();
     if (!lane->link->write(*lane, *force)) failed_.fetch_add(1, std::memory_order_relaxed);
     write_time_.record(std::chrono::steady_clock::now() - begin);
   }
+  return any;
 }
 
 }  // namespace mechane::transport

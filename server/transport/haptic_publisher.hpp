@@ -14,7 +14,9 @@
 
 namespace mechane::transport {
 
-/// Owns one thread, SCHED_FIFO where that is granted. add() and remove() are the main thread's; loops signal wakeup().
+/// Owns one thread, SCHED_FIFO where that is granted. add() and remove() are the main thread's. A loop calls expect_forces() when a
+/// tick begins that answers a hand, and forces_are_ready() when it has filled the lanes: the thread wakes while the tick computes and
+/// spins for its end, which saves every force a wake-up (about 50 us on the machines seen here).
 class HapticPublisher {
  public:
   HapticPublisher(int fifo_priority, std::optional<int> cpu);
@@ -22,7 +24,8 @@ class HapticPublisher {
   HapticPublisher(const HapticPublisher&) = delete;
   HapticPublisher& operator=(const HapticPublisher&) = delete;
 
-  [[nodiscard]] realtime::Wakeup& wakeup() { return wakeup_; }
+  void expect_forces() noexcept;
+  void forces_are_ready() noexcept { wakeup_.signal(); }
   void add(const std::shared_ptr<Lane>& lane);
   void remove(const std::shared_ptr<Lane>& lane);
 
@@ -32,12 +35,14 @@ class HapticPublisher {
 
  private:
   void follow_changes();
-  void write_all() noexcept;
+  void await_forces() noexcept;
+  bool write_all() noexcept;
 
   realtime::Wakeup wakeup_;
   std::mutex mutex_;  // for wanted_; the thread takes it only when the list has changed
   std::vector<std::shared_ptr<Lane>> wanted_;
   std::atomic<std::uint64_t> changes_{0};
+  std::atomic<int> loop_cpu_{-1};  // where the last tick began
   std::atomic<bool> stop_{false};
   std::atomic<bool> fifo_granted_{false};
   std::atomic<std::uint64_t> failed_{0};

@@ -274,7 +274,7 @@ Expected<WorldPort*> ServerTransport::Impl::open_world(const std::string& world,
     return fail("a world of this name is open", world, "choose another name, or close it first");
   }
   auto port = std::make_unique<WorldPort>(
-      world, std::move(description), haptic_.wakeup(),
+      world, std::move(description), haptic_,
       [this](const std::string& kiosk, std::uint32_t user, std::uint64_t session) {
         return open_lane(kiosk, user, session);
       },

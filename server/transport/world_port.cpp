@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/base/assert.hpp"
+#include "server/transport/haptic_publisher.hpp"
 #include "server/transport/lane.hpp"
 #include <mechane/proto/names.hpp>
 
@@ -42,12 +43,12 @@ HandSnapshot snapshot_of(const state::UserState& user, const SlotName& name) noe
 }  // namespace
 
 WorldPort::WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description,
-                     realtime::Wakeup& forces_wakeup, OpenLane open_lane, CloseLane close_lane)
+                     HapticPublisher& haptic, OpenLane open_lane, CloseLane close_lane)
     : world_(std::move(world)),
       description_(std::move(description)),
       open_lane_(std::move(open_lane)),
       close_lane_(std::move(close_lane)),
-      forces_wakeup_(forces_wakeup),
+      haptic_(haptic),
       snapshots_([this] { return sized_for(*description_); }) {}
 
 WorldPort::~WorldPort() {
@@ -117,12 +118,13 @@ void WorldPort::take_bindings() noexcept {
 void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
   now_ = now;
   take_bindings();
+  bool any_fresh = false;
   for (std::size_t i = 0; i < users_.size(); ++i) {
     state::UserInput& user = users_[i];
     user.fresh = false;
     if (current_.lanes[i] != nullptr) {
       if (const ArrivedSample* sample = current_.lanes[i]->inputs.take()) {
-        user.fresh = true;
+        user.fresh = any_fresh = true;
         user.sample = sample->sample;
         arrived_[i] = sample->arrived;
       }
@@ -130,13 +132,14 @@ void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
     }
     inputs.users[i] = user;
   }
+  if (any_fresh) haptic_.expect_forces();
   inputs.command_count = 0;
   while (inputs.command_count < inputs.commands.size() && commands_.pop(inputs.commands[inputs.command_count])) {
     ++inputs.command_count;
   }
 }
 
-void WorldPort::publish(const state::WorldState& state) noexcept {
+void WorldPort::publish_forces(const state::WorldState& state) noexcept {
   bool any_force = false;
   for (std::size_t i = 0; i < current_.lanes.size(); ++i) {
     const state::UserState& user = state.users[i];
@@ -148,7 +151,10 @@ void WorldPort::publish(const state::WorldState& state) noexcept {
     current_.lanes[i]->forces.commit();
     any_force = true;
   }
-  if (any_force) forces_wakeup_.signal();
+  if (any_force) haptic_.forces_are_ready();
+}
+
+void WorldPort::publish(const state::WorldState& state) noexcept {
   for (const state::Event& event : state.event_span()) {
     if (!events_.push(event)) events_lost_.fetch_add(1, std::memory_order_relaxed);
   }

@@ -11,13 +11,13 @@
 
 #include "server/realtime/mailbox.hpp"
 #include "server/realtime/ring.hpp"
-#include "server/realtime/wakeup.hpp"
 #include "server/state/description.hpp"
 #include "server/state/input.hpp"
 #include "server/state/world_state.hpp"
 
 namespace mechane::transport {
 
+class HapticPublisher;
 struct Lane;
 
 /// Who sits in a slot of a world, as displays are told.
@@ -64,8 +64,8 @@ class WorldPort {
   /// Takes a lane away from listener and publisher.
   using CloseLane = std::function<void(const std::shared_ptr<Lane>&)>;
 
-  WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description,
-            realtime::Wakeup& forces_wakeup, OpenLane open_lane, CloseLane close_lane);
+  WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description, HapticPublisher& haptic,
+            OpenLane open_lane, CloseLane close_lane);
   /// The loop must not use the port any more.
   ~WorldPort();
   WorldPort(const WorldPort&) = delete;
@@ -87,9 +87,12 @@ class WorldPort {
 
   // Loop thread: wait-free, no allocation, no DDS.
   /// Fills all of `inputs`: for each slot the newest sample with its age on our clock, and the commands that came (at most
-  /// kMaxCommandsPerTick a tick; the rest wait for the next).
+  /// kMaxCommandsPerTick a tick; the rest wait for the next). A fresh sample wakes the force writer, so that it is there when
+  /// the forces are.
   void gather(state::TickInputs& inputs, TimePoint now) noexcept;
-  /// Forces to their devices at once; every 16th tick a snapshot for displays; all events. One futex wake at most.
+  /// Forces to their devices at once. One futex wake at most, with that of gather().
+  void publish_forces(const state::WorldState& state) noexcept;
+  /// Every 16th tick a snapshot for displays; all events.
   void publish(const state::WorldState& state) noexcept;
 
   // The other sides, each for one thread of the transport's.
@@ -124,7 +127,7 @@ class WorldPort {
   std::vector<Retired> retired_;
 
   // Between threads.
-  realtime::Wakeup& forces_wakeup_;
+  HapticPublisher& haptic_;
   realtime::Mailbox<Bindings> bindings_;
   std::atomic<std::uint64_t> generation_in_use_{0};
   realtime::Mailbox<SceneSnapshot> snapshots_;

@@ -24,6 +24,7 @@ void step(World& world, const state::TickInputs& inputs, Publisher& publisher, P
   timer.ended(Phase::run_agents);
 
   world.forces.run(description, state);
+  publisher.publish_forces(state);
   timer.ended(Phase::render_forces);
 
   world.machines->run(state, kTickSeconds);

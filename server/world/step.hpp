@@ -7,12 +7,21 @@
 
 namespace mechane::world {
 
-/// Where a tick's result goes: the network and the records. Called at the end of every tick, by the loop's thread; must be
-/// wait-free.
+/// Where a tick's result goes: the network and the records. Called in every tick, by the loop's thread; must be wait-free.
 class Publisher {
  public:
   virtual ~Publisher() = default;
+  /// As soon as every user's output is final: a device need not wait for the bodies to move.
+  virtual void publish_forces(const state::WorldState& state) noexcept = 0;
+  /// At the end of the tick.
   virtual void publish(const state::WorldState& state) noexcept = 0;
+};
+
+/// For worlds that nobody watches: a replay, a benchmark.
+class NoPublisher final : public Publisher {
+ public:
+  void publish_forces(const state::WorldState&) noexcept override {}
+  void publish(const state::WorldState&) noexcept override {}
 };
 
 /// Advances the world by one millisecond. Same state and inputs give the same bits. Allocates nothing, locks nothing, logs nothing,

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Holds the sizes and habits of CONTRIBUTING.md against the tree: lengths of functions and files, headers, paths, unfinished work."""
 
-import argparse
 import ast
 import re
 import sys
@@ -9,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from functions import functions
-from source_tree import CPP_SUFFIXES, HEADER_SUFFIXES, Fault, cpp_files, files, line_of, read, without_comments
+from source_tree import CPP_SUFFIXES, HEADER_SUFFIXES, Fault, cpp_files, files, line_of, read, run, without_comments
 
 CEILING = {"function-length": 70, "header-length": 350, "source-length": 600}
 CPP_TOPS = ("server", "proto", "client-sdk", "tests")
@@ -156,15 +155,5 @@ def check(root: Path) -> list[Fault]:
     return found + ceilings.faults + ceilings.unused()
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parents[2])
-    faults = check(parser.parse_args().root)
-    for fault in faults:
-        print(fault)
-    print(f"ceilings: {len(faults)} faults")
-    return 1 if faults else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("ceilings", __doc__, check))

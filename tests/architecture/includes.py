@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Holds the table of rooms against the #include lines: a new arrow between rooms fails. The table below is ARCHITECTURE.md's."""
 
-import argparse
 import re
 import sys
 from pathlib import Path
 
-from source_tree import HEADER_SUFFIXES, Fault, cpp_files, line_of, read, without_comments
+from source_tree import HEADER_SUFFIXES, Fault, cpp_files, line_of, read, run, without_comments
 
 # room -> the rooms that it may include. Arrows are transitive: a room may include what its rooms may include.
 ARROWS = {
@@ -144,15 +143,5 @@ def check(root: Path) -> list[Fault]:
     return faults
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parents[2])
-    faults = check(parser.parse_args().root)
-    for fault in faults:
-        print(fault)
-    print(f"includes: {len(faults)} faults")
-    return 1 if faults else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("includes", __doc__, check))

@@ -1,5 +1,6 @@
 """What the architecture checks share: the files of a tree, C++ text without comments and strings, and the way a fault is told."""
 
+import argparse
 import os
 import re
 import subprocess
@@ -64,6 +65,17 @@ def without_comments(text: str, strings: bool = False) -> str:
             return re.sub(r"[^\n]", " ", token)
         return token
     return _TOKENS.sub(blank, text)
+
+
+def run(name: str, summary: str, check) -> int:
+    """A check as a program: every fault on a line, then their number; exit status 1 where there is one."""
+    parser = argparse.ArgumentParser(description=summary)
+    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parents[2])
+    faults = check(parser.parse_args().root)
+    for fault in faults:
+        print(fault)
+    print(f"{name}: {len(faults)} faults")
+    return 1 if faults else 0
 
 
 def line_of(text: str, offset: int) -> int:

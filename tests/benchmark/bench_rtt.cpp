@@ -27,10 +27,12 @@ constexpr Duration kGiveUp = std::chrono::milliseconds(100);
 constexpr std::uint64_t kWarmUp = 500;
 
 struct Trips {
-  explicit Trips(std::size_t room) : whole(room), waited(room), path(room) {}
-  Samples whole;   // from the sending of the hand to the force in our hands
+  explicit Trips(std::size_t room) : whole(room), waited(room), path(room), woken(room) {}
+  Samples
+      whole;  // from the sending of the hand to the arrival of the force in this process, where a device's loop takes it
   Samples waited;  // the share of it that the input waited for its tick
   Samples path;    // the rest: what the network, the threads and the tick itself take
+  Samples woken;   // from that arrival until a thread that sleeps for it has it; no part of `whole`
   std::uint64_t lost = 0;
 };
 
@@ -60,15 +62,17 @@ void measure(client::Client& client, double seconds, Trips& trips) {
     const TimePoint sent = clock.now();
     const bool went = client.send(hand_at(number));
     const auto force = went ? answer_to(client, client.sent_sequence(), clock) : std::nullopt;
-    const Duration took = clock.now() - sent;
+    const TimePoint awake = clock.now();
     if (number < kWarmUp) continue;
     if (!force) {
       ++trips.lost;
       continue;
     }
+    const Duration took = force->received - sent;
     trips.whole.add(took);
     trips.waited.add(force->waited);
     trips.path.add(took - force->waited);
+    trips.woken.add(awake - force->received);
   }
 }
 
@@ -96,11 +100,15 @@ int run(const Config& config) {
   report.distribution("rtt_us", trips.path);
   report.distribution("rtt_whole_us", trips.whole);
   report.distribution("rtt_wait_us", trips.waited);
+  report.distribution("rtt_waiter_us", trips.woken);
   report.metric("rtt_lost", static_cast<double>(trips.lost));
   report.metric("bytes.input", static_cast<double>(sizeof(proto::HapticInput)));
   report.metric("bytes.output", static_cast<double>(sizeof(proto::HapticOutput)));
   report.note(
-      "rtt_us is rtt_whole_us without rtt_wait_us, sample by sample: the input's wait for its tick; the hand is free");
+      "rtt_us is rtt_whole_us without rtt_wait_us, sample by sample: the input's wait for its tick; the hand is free. "
+      "It ends "
+      "when the force is in the client, where a device's own loop takes it; rtt_waiter_us is what a sleeper waits on "
+      "top");
   std::cout << report.text() << "\n";
   return 0;
 }

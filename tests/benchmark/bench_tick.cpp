@@ -28,11 +28,6 @@ struct Config {
 constexpr double kTurnsPerSecond = 0.5;
 constexpr std::uint64_t kWarmUp = 1000;  // ticks: the hand has its grip by then
 
-class NoPublisher final : public world::Publisher {
- public:
-  void publish(const state::WorldState&) noexcept override {}
-};
-
 // One world, its hand and what its ticks took.
 class Run {
  public:
@@ -80,7 +75,7 @@ class Run {
   std::uint64_t ticks_;
   std::uint64_t held_ = 0;
   SystemClock clock_;
-  NoPublisher publisher_;
+  world::NoPublisher publisher_;
   world::PhaseTimer timer_{clock_};
   Samples whole_;
   std::vector<Samples> phases_;

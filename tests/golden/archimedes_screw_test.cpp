@@ -17,11 +17,6 @@ namespace {
 
 constexpr std::uint64_t kTicks = 10'000;
 
-class NoPublisher final : public world::Publisher {
- public:
-  void publish(const state::WorldState&) noexcept override {}
-};
-
 const app::ScenarioStore& store() {
   static const app::ScenarioStore kStore = [] {
     app::Settings settings;
@@ -46,7 +41,7 @@ Play make_play() {
 std::uint64_t run(Play& play, std::uint64_t* allocations = nullptr) {
   SystemClock clock;
   world::PhaseTimer timer(clock);
-  NoPublisher publisher;
+  world::NoPublisher publisher;
   state::TickInputs start;
   start.commands[0] = {1, state::CommandKind::start_activity,
                        static_cast<std::uint32_t>(store().first()->find_activity("use").index())};

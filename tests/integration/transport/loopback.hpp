@@ -184,6 +184,7 @@ class EchoServer {
     for (std::uint32_t i = 0; i < inputs.command_count; ++i) {
       state_.emit(state::EventKind::command_done, 0xffffffffu, 0xffffffffu, static_cast<double>(inputs.commands[i].id));
     }
+    port_->publish_forces(state_);
     port_->publish(state_);
   }
 

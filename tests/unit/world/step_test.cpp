@@ -25,8 +25,12 @@ const Vec3 kBeside(0, 0, 0.065 + 0.05);
 /// Counts what it was told, and keeps the events.
 class Watch final : public Publisher {
  public:
+  void publish_forces(const WorldState& state) noexcept override { early = state.users[0].output; }
   void publish(const WorldState& state) noexcept override {
     ++ticks;
+    const auto& now = state.users[0].output;
+    if (now.force_W.f != early.force_W.f || now.force_W.t != early.force_W.t || now.holding != early.holding)
+      ++late_changes;
     for (const state::Event& event : state.event_span())
       counts[static_cast<std::size_t>(event.kind)] += 1;
     const Vec3& f = state.users[0].output.force_W.f;
@@ -35,6 +39,8 @@ class Watch final : public Publisher {
   [[nodiscard]] int count(EventKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
 
   std::uint64_t ticks = 0;
+  std::uint64_t late_changes = 0;  // outputs that a device would not have got
+  decltype(state::UserState::output) early;
   std::array<int, 32> counts{};
   double force_max_n = 0;
 };
@@ -71,6 +77,14 @@ TEST(Step, AHandThatHoldsTheHandleTurnsTheCrankAndFeelsIt) {
   EXPECT_GT(stage.turns(), 2.5);
   EXPECT_GT(stage.watch.force_max_n, 0.05);
   EXPECT_EQ(stage.watch.count(EventKind::activity_done), 1);
+}
+
+TEST(Step, ForcesThatLeftEarlyAreThoseOfTheTicksEnd) {
+  Stage stage;
+  stage.play({kGrip, kAxis, 2 * kPi}, 0, 4000);
+  EXPECT_EQ(stage.watch.ticks, 4000U);
+  EXPECT_EQ(stage.watch.late_changes, 0U);
+  EXPECT_GT(stage.watch.early.echo_sequence, 0U);
 }
 
 TEST(Step, TheSameVisitFiveCentimetresBesideTurnsNothing) {
