@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "server/base/math.hpp"
-#include "server/collision/radial_map.hpp"
+#include "server/collision/kernels.hpp"
+#include "server/collision/part_map.hpp"
 #include "server/geometry/mesh.hpp"
 #include "server/geometry/superquadric.hpp"
 
@@ -22,24 +23,35 @@ struct Part {
   std::string name;
   Pose X_OQ;  ///< the superquadric's frame in the object's frame
   geometry::Superquadric superquadric;
-  RadialMap map;
+  PartMap map;
   geometry::Sphere bound_O;  ///< around the part's mesh
 };
 
 /// Up to 16 surface samples with a common bounding sphere, all of one part.
 struct Cluster {
   geometry::Sphere bound_O;
-  std::uint32_t first = 0;  ///< into Object::samples
+  PointBlock samples_O{};          ///< the lanes beyond `count` repeat the first
+  std::uint32_t first_sample = 0;  ///< among all of the object's
   std::uint16_t count = 0;
   std::uint16_t part = 0;
+
+  [[nodiscard]] Vec3f sample_O(std::size_t lane) const { return {samples_O.x[lane], samples_O.y[lane], samples_O.z[lane]}; }
 };
 
+/// The spheres of up to 16 clusters that follow one another in Object::clusters, all of one part.
+struct ClusterGroup {
+  SphereBlock bounds_O{};
+  std::uint32_t first_cluster = 0;
+  std::uint32_t count = 0;
+};
+
+/// See samples.hpp for how clusters and groups are made.
 struct Object {
   std::vector<Part> parts;
-  std::vector<Vec3f> samples_O;              ///< points of the surface
-  std::vector<Cluster> clusters;             ///< sorted by part
-  std::vector<std::uint32_t> first_cluster;  ///< of each part; one more entry closes the last
-  geometry::Sphere bound_O;                  ///< around all parts
+  std::vector<Cluster> clusters;           ///< sorted by part
+  std::vector<ClusterGroup> groups;        ///< sorted by part
+  std::vector<std::uint32_t> first_group;  ///< of each part; one more entry closes the last
+  geometry::Sphere bound_O;                ///< around all parts
 };
 
 /// One point of overlap between objects A and B. See Drake's PenetrationAsPointPair for the conventions.

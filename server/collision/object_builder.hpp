@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/base/error.hpp"
+#include "server/collision/choose_map.hpp"
 #include "server/collision/object.hpp"
 #include "server/geometry/fit.hpp"
 #include "server/geometry/mesh.hpp"
@@ -16,7 +17,14 @@
 namespace mechane::collision {
 
 struct BuildConfig {
-  int map_resolution = 32;                  ///< texels along an edge of the cube map: 16, 32 or 64
+  /// The error budget: a map's depth error at its 99th percentile, as a share of the object's diagonal, and in metres; the lesser holds.
+  double max_error_share = 0.003;
+  double max_error_m = 0.001;   ///< what a finger still takes for the real surface
+  double miss_share = 0.002;    ///< of the diagonal: no point deeper than this may be missed
+  double probe_depth_m = 0.004; ///< how deep the error is measured: a finger that presses hard sinks in this far
+  bool radial_maps = true;      ///< what the builder may choose from
+  bool bricks = true;
+  int map_resolution = 0;                   ///< of radial maps: one of RadialMap::kResolutions; 0: chosen
   double sample_spacing_m = 0.005;          ///< between surface samples; under a third of a fingertip
   std::size_t max_samples_per_part = 4096;  ///< a part that would need more gets a wider spacing instead
   double seam_gap_m = 0.001;                ///< gaps between parts up to this width count as wood, not as a slot
@@ -29,20 +37,27 @@ struct PartReport {
   geometry::FitReport fit;
   bool closed = true;  ///< a part with open edges is mapped by its first surface from outside
   std::size_t samples = 0;
-  double spacing_m = 0;          ///< of the samples, after the cap
-  double depth_error_p50_m = 0;  ///< of the map against the exact distance to the object's mesh, at points just inside
-  double depth_error_p99_m = 0;
+  double spacing_m = 0;  ///< of the samples, after the cap
+  std::string map;       ///< see PartMap::name
+  std::size_t bytes = 0;
+  MapError error;    ///< of this part's map by itself, against the exact distance to the object's mesh
+  bool met = false;  ///< the budget
 };
 
 struct BuildReport {
   std::vector<PartReport> parts;
+  double diagonal_m = 0;
+  ErrorBudget budget;
+  MapError error;         ///< of the whole object, as a query answers
+  std::size_t bytes = 0;  ///< of all maps
   double seconds = 0;
 };
 
 /// Hears how many parts are ready, from the threads that build; calls may overlap.
 using PartDone = std::function<void(std::size_t done)>;
 
-/// Fits, maps and samples each part; each mesh is one part, close to convex, in the object's frame O. Parts that touch or overlap
+/// Fits, maps and samples each part; each mesh is one part, close to convex, in the object's frame O. A part gets the smallest map that
+/// meets the error budget, and the report says where none does. Parts that touch or overlap
 /// make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
 /// `report` may be null. Uses all cores.
 [[nodiscard]] Expected<Object> build_object(std::span<const geometry::NamedMesh> parts, const BuildConfig& config,

@@ -8,6 +8,8 @@
 
 #include <xxhash.h>
 
+#include "server/collision/samples.hpp"
+
 namespace mechane::collision {
 namespace {
 
@@ -18,6 +20,10 @@ constexpr std::size_t kChecksumBytes = 8;
 constexpr std::size_t kMaxFileBytes = 512U << 20;
 constexpr std::uint32_t kMaxNameBytes = 1024;
 constexpr double kMaxLength_m = 10'000;
+// How a part's map begins.
+constexpr std::uint8_t kNothing = 0;
+constexpr std::uint8_t kRadial = 1;
+constexpr std::uint8_t kBrick = 2;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
@@ -30,6 +36,11 @@ class Writer {
   void put(T value) {
     const auto* raw = reinterpret_cast<const std::byte*>(&value);
     bytes_.insert(bytes_.end(), raw, raw + sizeof value);
+  }
+  template <class T>
+  void put_all(std::span<const T> values) {
+    for (const T value : values)
+      put(value);
   }
   template <class Vector>
   void put_vector(const Vector& v) {
@@ -99,6 +110,15 @@ class Reader {
     require(count <= (bytes_.size() - at_) / least_bytes);
     return ok_ ? count : 0;
   }
+  /// `count` values, if there are as many; nothing otherwise.
+  template <class T>
+  std::vector<T> get_all(std::size_t count) {
+    require(count <= (bytes_.size() - at_) / sizeof(T));
+    std::vector<T> values(ok_ ? count : 0);
+    for (T& value : values)
+      value = get<T>();
+    return values;
+  }
   void require(bool condition) { ok_ = ok_ && condition; }
   [[nodiscard]] bool ok() const { return ok_; }
   [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
@@ -113,6 +133,24 @@ class Reader {
   bool ok_ = true;
 };
 
+void put_map(Writer& w, const PartMap& map) {
+  w.put(map.radial() != nullptr ? kRadial : map.brick() != nullptr ? kBrick : kNothing);
+  if (const RadialMap* radial = map.radial()) {
+    w.put(static_cast<std::uint32_t>(radial->resolution()));
+    w.put_vector(radial->center_Q());
+    w.put_vector(radial->half_Q());
+    w.put(radial->sigma_step());
+    w.put_all(radial->texels());
+  } else if (const DistanceBrick* brick = map.brick()) {
+    for (const int n : brick->grid().nodes)
+      w.put(static_cast<std::uint16_t>(n));
+    w.put_vector(brick->grid().origin_Q);
+    w.put(brick->grid().cell_m);
+    w.put(brick->step_m());
+    w.put_all(brick->values());
+  }
+}
+
 void put_part(Writer& w, const Part& part) {
   w.put_text(part.name);
   w.put_vector(part.X_OQ.p);
@@ -123,28 +161,44 @@ void put_part(Writer& w, const Part& part) {
   for (const double v : {s.e1, s.e2, s.taper_x, s.taper_y, s.bend_per_m, s.bend_angle_rad})
     w.put(v);
   w.put_sphere(part.bound_O);
-  w.put(static_cast<std::uint32_t>(part.map.resolution()));
-  w.put_vector(part.map.center_Q());
-  w.put_vector(part.map.half_Q());
-  w.put(part.map.sigma_step());
-  for (const std::uint16_t texel : part.map.texels())
-    w.put(texel);
+  put_map(w, part.map);
 }
 
-RadialMap get_map(Reader& r) {
+PartMap get_radial(Reader& r) {
   const auto resolution = r.get<std::uint32_t>();
   const Vec3f center_Q = r.get_vec3f();
   const Vec3f half_Q = r.get_vec3f();
   const auto step = r.get<float>();
-  if (resolution == 0) return {};
-  r.require(resolution <= static_cast<std::uint32_t>(RadialMap::kMaxResolution));
+  r.require(resolution <= static_cast<std::uint32_t>(RadialMap::kResolutions.back()));
   const std::size_t count = r.ok() ? std::size_t{6} * resolution * resolution : 0;
   r.require(RadialMap::is_valid(static_cast<int>(resolution), center_Q, half_Q, step, count));
+  std::vector<std::uint16_t> texels = r.get_all<std::uint16_t>(count);
   if (!r.ok()) return {};
-  std::vector<std::uint16_t> texels(count);
-  for (std::uint16_t& texel : texels)
-    texel = r.get<std::uint16_t>();
-  return {static_cast<int>(resolution), center_Q, half_Q, step, std::move(texels)};
+  return RadialMap(static_cast<int>(resolution), center_Q, half_Q, step, std::move(texels));
+}
+
+PartMap get_brick(Reader& r) {
+  DistanceBrick::Grid grid;
+  std::size_t count = 1;
+  for (int& n : grid.nodes) {
+    n = r.get<std::uint16_t>();
+    r.require(n <= DistanceBrick::kMaxNodes);
+    count *= static_cast<std::size_t>(n);
+  }
+  grid.origin_Q = r.get_vec3f();
+  grid.cell_m = r.get<float>();
+  const auto step = r.get<float>();
+  r.require(DistanceBrick::is_valid(grid, step, count));
+  std::vector<std::int16_t> values = r.get_all<std::int16_t>(count);
+  if (!r.ok()) return {};
+  return DistanceBrick(grid, step, std::move(values));
+}
+
+PartMap get_map(Reader& r) {
+  const auto kind = r.get<std::uint8_t>();
+  r.require(kind <= kBrick);
+  if (!r.ok() || kind == kNothing) return {};
+  return kind == kRadial ? get_radial(r) : get_brick(r);
 }
 
 Part get_part(Reader& r) {
@@ -165,38 +219,30 @@ Part get_part(Reader& r) {
   return part;
 }
 
-void get_samples(Reader& r, Object& object) {
-  const std::uint32_t samples = r.get_count(3 * sizeof(float));
-  for (std::uint32_t i = 0; i < samples && r.ok(); ++i) {
-    object.samples_O.push_back(r.get_vec3f());
-    const Vec3f& p = object.samples_O.back();
+Cluster get_cluster(Reader& r) {
+  Cluster c;
+  c.bound_O = r.get_sphere();
+  c.count = r.get<std::uint16_t>();
+  c.part = r.get<std::uint16_t>();
+  r.require(c.count >= 1 && c.count <= kLanes);
+  Vec3f first = Vec3f::Zero();
+  for (std::size_t lane = 0; lane < kLanes && r.ok(); ++lane) {
+    const Vec3f p = lane < c.count ? r.get_vec3f() : first;
     r.require(p.allFinite() && p.cwiseAbs().maxCoeff() <= static_cast<float>(kMaxLength_m));
+    if (lane == 0) first = p;
+    c.samples_O.x[lane] = p.x();
+    c.samples_O.y[lane] = p.y();
+    c.samples_O.z[lane] = p.z();
   }
+  return c;
 }
 
 void get_clusters(Reader& r, Object& object) {
-  const std::uint32_t clusters = r.get_count(4 * sizeof(double) + 8);
+  const std::uint32_t clusters = r.get_count(4 * sizeof(double) + 2 * sizeof(std::uint16_t) + 3 * sizeof(float));
   for (std::uint32_t i = 0; i < clusters && r.ok(); ++i) {
-    Cluster c;
-    c.bound_O = r.get_sphere();
-    c.first = r.get<std::uint32_t>();
-    c.count = r.get<std::uint16_t>();
-    c.part = r.get<std::uint16_t>();
-    r.require(c.count >= 1 && c.count <= 16 && c.part < object.parts.size());
-    r.require(c.first <= object.samples_O.size() && c.count <= object.samples_O.size() - c.first);
+    const Cluster c = get_cluster(r);
+    r.require(c.part < object.parts.size() && (object.clusters.empty() || c.part >= object.clusters.back().part));
     object.clusters.push_back(c);
-  }
-  for (std::size_t i = 0; i <= object.parts.size() && r.ok(); ++i) {
-    const auto first = r.get<std::uint32_t>();
-    r.require(first <= object.clusters.size() && (i > 0 || first == 0));
-    r.require(object.first_cluster.empty() || first >= object.first_cluster.back());
-    object.first_cluster.push_back(first);
-  }
-  r.require(r.ok() && object.first_cluster.back() == object.clusters.size());
-  for (std::size_t part = 0; part < object.parts.size() && r.ok(); ++part) {
-    for (std::uint32_t c = object.first_cluster[part]; c < object.first_cluster[part + 1]; ++c) {
-      r.require(object.clusters[c].part == part);
-    }
   }
 }
 
@@ -209,19 +255,14 @@ std::vector<std::byte> write_object(const Object& object) {
   w.put(static_cast<std::uint32_t>(object.parts.size()));
   for (const Part& part : object.parts)
     put_part(w, part);
-  w.put(static_cast<std::uint32_t>(object.samples_O.size()));
-  for (const Vec3f& p : object.samples_O)
-    w.put_vector(p);
   w.put(static_cast<std::uint32_t>(object.clusters.size()));
   for (const Cluster& c : object.clusters) {
     w.put_sphere(c.bound_O);
-    w.put(c.first);
     w.put(c.count);
     w.put(c.part);
+    for (std::size_t lane = 0; lane < c.count; ++lane)
+      w.put_vector(c.sample_O(lane));
   }
-  for (const std::uint32_t first : object.first_cluster)
-    w.put(first);
-  w.put_sphere(object.bound_O);
   w.put(std::uint64_t{0});
   std::vector<std::byte> bytes = w.take();
   reseal(bytes);
@@ -259,10 +300,9 @@ Expected<Object> read_object(std::span<const std::byte> bytes) {
   r.require(parts >= 1 && parts <= kMaxParts);
   for (std::uint32_t i = 0; i < parts && r.ok(); ++i)
     object.parts.push_back(get_part(r));
-  if (r.ok()) get_samples(r, object);
   if (r.ok()) get_clusters(r, object);
-  if (r.ok()) object.bound_O = r.get_sphere();
   if (!r.ok() || !r.at_end()) return fail("the part file holds values that cannot be", where, remedy);
+  close_clusters(object);
   return object;
 }
 

@@ -1,24 +1,39 @@
-// The map of one part, cast against the whole solid.
+// The distance representation of one part: the builder takes the smallest that is exact enough.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <string>
+#include <variant>
 
+#include "server/collision/distance_brick.hpp"
 #include "server/collision/radial_map.hpp"
-#include "server/collision/solid.hpp"
-#include "server/geometry/superquadric.hpp"
 
 namespace mechane::collision {
 
-/// Casts the map of a part from a centre in its wood: the superquadric's own centre where that serves, else the place from which most
-/// of the part's surface is seen through wood (a stave's superquadric has its centre near the hollow).
-///
-/// Which surface a ray belongs to: the first one that leads from the centre out into air. A ray that comes from outside, as in the
-/// paper, would take whatever it meets first, so that the far wall or another part within the bound filled the air before this part.
-/// The paper's two special values become: 'no hit' (the centre itself is in air this way) a surface close to the centre, sigma 16;
-/// 'covered' (the bound lies in a neighbour's wood) the neighbour's surface, where the ray leaves it, so that seams make no walls.
-[[nodiscard]] RadialMap cast_map(const Solid& solid, std::size_t part, const geometry::Mesh& mesh,
-                                 const geometry::Superquadric& shape, const Pose& X_OQ, int resolution,
-                                 std::uint64_t seed);
+/// Nothing (which no point ever hits), a RadialMap or a DistanceBrick. Immutable; any thread.
+class PartMap {
+ public:
+  PartMap() = default;
+  // Not explicit: a part's map is one of these, there is nothing to convert.
+  PartMap(RadialMap map) : map_(std::move(map)) {}      // NOLINT(google-explicit-constructor)
+  PartMap(DistanceBrick map) : map_(std::move(map)) {}  // NOLINT(google-explicit-constructor)
+
+  /// Null where it is the other.
+  [[nodiscard]] const RadialMap* radial() const noexcept { return std::get_if<RadialMap>(&map_); }
+  [[nodiscard]] const DistanceBrick* brick() const noexcept { return std::get_if<DistanceBrick>(&map_); }
+  [[nodiscard]] bool empty() const noexcept { return map_.index() == 0; }
+
+  /// One point; see RadialMap::evaluate.
+  [[nodiscard]] MapHit evaluate(const Vec3f& p_QP) const noexcept;
+  /// What it covers, in Q. Of an empty map: nothing, at the origin.
+  [[nodiscard]] BoxView box() const noexcept;
+  /// "radial 32", "brick 12x9x30", "none".
+  [[nodiscard]] std::string name() const;
+  /// Of the stored values.
+  [[nodiscard]] std::size_t bytes() const noexcept;
+
+ private:
+  std::variant<std::monostate, RadialMap, DistanceBrick> map_;
+};
 
 }  // namespace mechane::collision

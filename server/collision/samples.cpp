@@ -3,19 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/base/assert.hpp"
+
 namespace mechane::collision {
 namespace {
 
 /// Sorts the points so that each run of 16 is compact: halve along the longest side, at a multiple of 16.
 void sort_into_runs(std::span<Vec3> points) {
-  if (points.size() <= kClusterSize) return;
+  if (points.size() <= kLanes) return;
   Eigen::AlignedBox3d box;
   for (const Vec3& p : points)
     box.extend(p);
   Eigen::Index axis = 0;
   box.sizes().maxCoeff(&axis);
-  const std::size_t runs = (points.size() + kClusterSize - 1) / kClusterSize;
-  const std::size_t half = runs / 2 * kClusterSize;
+  const std::size_t runs = (points.size() + kLanes - 1) / kLanes;
+  const std::size_t half = runs / 2 * kLanes;
   // A total order, so that equal coordinates cannot leave the result to the library.
   const auto less = [axis](const Vec3& l, const Vec3& r) {
     if (l[axis] != r[axis]) return l[axis] < r[axis];
@@ -24,6 +26,31 @@ void sort_into_runs(std::span<Vec3> points) {
   std::sort(points.begin(), points.end(), less);
   sort_into_runs(points.first(half));
   sort_into_runs(points.subspan(half));
+}
+
+void close_groups(Object& object) {
+  object.groups.clear();
+  object.first_group.clear();
+  std::size_t next = 0;
+  std::uint32_t samples = 0;
+  for (std::size_t part = 0; part < object.parts.size(); ++part) {
+    object.first_group.push_back(static_cast<std::uint32_t>(object.groups.size()));
+    for (; next < object.clusters.size() && object.clusters[next].part == part; ++next) {
+      const bool starts = object.groups.size() == object.first_group.back() || object.groups.back().count == kLanes;
+      if (starts) object.groups.push_back({{}, static_cast<std::uint32_t>(next), 0});
+      ClusterGroup& group = object.groups.back();
+      object.clusters[next].first_sample = samples;
+      samples += object.clusters[next].count;
+      const geometry::Sphere& bound = object.clusters[next].bound_O;
+      const std::size_t lane = group.count++;
+      group.bounds_O.x[lane] = static_cast<float>(bound.center.x());
+      group.bounds_O.y[lane] = static_cast<float>(bound.center.y());
+      group.bounds_O.z[lane] = static_cast<float>(bound.center.z());
+      group.bounds_O.radius[lane] = static_cast<float>(bound.radius * (1 + 1e-6));  // rounded up
+    }
+  }
+  object.first_group.push_back(static_cast<std::uint32_t>(object.groups.size()));
+  MECHANE_ASSERT(next == object.clusters.size());
 }
 
 }  // namespace
@@ -54,24 +81,26 @@ geometry::Sphere bounding_sphere(std::span<const Vec3> points) {
 }
 
 void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points_O) {
-  object.first_cluster.push_back(static_cast<std::uint32_t>(object.clusters.size()));
   sort_into_runs(points_O);
   const std::span<const Vec3> points(points_O);
-  for (std::size_t at = 0; at < points.size(); at += kClusterSize) {
-    const auto run = points.subspan(at, std::min(kClusterSize, points.size() - at));
+  for (std::size_t at = 0; at < points.size(); at += kLanes) {
+    const auto run = points.subspan(at, std::min(kLanes, points.size() - at));
     Cluster cluster;
     cluster.bound_O = bounding_sphere(run);
-    cluster.first = static_cast<std::uint32_t>(object.samples_O.size());
     cluster.count = static_cast<std::uint16_t>(run.size());
     cluster.part = part;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const Vec3f p = run[lane < run.size() ? lane : 0].cast<float>();
+      cluster.samples_O.x[lane] = p.x();
+      cluster.samples_O.y[lane] = p.y();
+      cluster.samples_O.z[lane] = p.z();
+    }
     object.clusters.push_back(cluster);
-    for (const Vec3& p : run)
-      object.samples_O.push_back(p.cast<float>());
   }
 }
 
 void close_clusters(Object& object) {
-  object.first_cluster.push_back(static_cast<std::uint32_t>(object.clusters.size()));
+  close_groups(object);
   Eigen::AlignedBox3d box;
   for (const Part& part : object.parts) {
     box.extend(Vec3(part.bound_O.center.array() - part.bound_O.radius));
@@ -84,6 +113,13 @@ void close_clusters(Object& object) {
     const double reach = (part.bound_O.center - object.bound_O.center).norm() + part.bound_O.radius;
     object.bound_O.radius = std::max(object.bound_O.radius, reach);
   }
+}
+
+std::size_t sample_count(const Object& object) {
+  std::size_t count = 0;
+  for (const Cluster& cluster : object.clusters)
+    count += cluster.count;
+  return count;
 }
 
 }  // namespace mechane::collision

@@ -9,15 +9,25 @@
 
 namespace mechane::collision {
 
-inline constexpr std::size_t kClusterSize = 16;
-
 /// A sphere around all points, close to the smallest (Ritter 1990, then grown over what rounding left out). Radius 0 for no points.
 [[nodiscard]] geometry::Sphere bounding_sphere(std::span<const Vec3> points);
 
-/// Appends the samples of one part, in clusters; `object.first_cluster` gets the part's first cluster. Close it with close_clusters.
+/// Appends the samples of one part, in clusters. The parts come in order.
 void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points_O);
 
-/// After the last part: the closing entry of first_cluster, and the object's own sphere.
+/// After the last sample, and after a change of any: the groups, and the object's own sphere.
 void close_clusters(Object& object);
+
+/// How many surface samples the object has.
+[[nodiscard]] std::size_t sample_count(const Object& object);
+
+/// Calls body(cluster, lane) for each sample, in their order.
+template <class Body>
+void for_each_sample(const Object& object, const Body& body) {
+  for (const Cluster& cluster : object.clusters) {
+    for (std::size_t lane = 0; lane < cluster.count; ++lane)
+      body(cluster, lane);
+  }
+}
 
 }  // namespace mechane::collision

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "server/collision/object_builder.hpp"
+#include "server/collision/samples.hpp"
 #include "server/state/description.hpp"
 #include "server/world/world.hpp"
 
@@ -25,11 +26,12 @@ inline std::shared_ptr<const collision::Object> make_grip() {
     part.X_OQ.p += shift;
     part.bound_O.center += shift;
   }
-  for (auto& sample : object.samples_O)
-    sample += shift.cast<float>();
-  for (auto& cluster : object.clusters)
+  for (auto& cluster : object.clusters) {
     cluster.bound_O.center += shift;
-  object.bound_O.center += shift;
+    for (std::size_t lane = 0; lane < collision::kLanes; ++lane)
+      cluster.samples_O.x[lane] += static_cast<float>(kCrankRadiusM);
+  }
+  collision::close_clusters(object);
   return std::make_shared<const collision::Object>(std::move(object));
 }
 

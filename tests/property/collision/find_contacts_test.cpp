@@ -3,6 +3,7 @@
 
 #include "server/collision/object.hpp"
 #include "server/collision/object_builder.hpp"
+#include "server/collision/samples.hpp"
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
@@ -58,10 +59,10 @@ Touch any_touch(const Convex& a, const Convex& b, double depth_m) {
   const auto overlap_of = [&](double distance) {
     const Pose X_BA = touch.X_WB.inverse() * Pose{touch.X_WB.p + distance * direction, R_WA};
     double deepest = 0;
-    for (const Vec3f& p_A : a.object.samples_O) {
-      const Vec3 p_B = X_BA * p_A.cast<double>();
+    for_each_sample(a.object, [&](const Cluster& cluster, std::size_t lane) {
+      const Vec3 p_B = X_BA * cluster.sample_O(lane).cast<double>();
       if (geometry::inside_outside(b.shape, p_B) < 1) deepest = std::max(deepest, b.exact.closest(p_B).distance_m);
-    }
+    });
     return deepest;
   };
   double inside = 0;

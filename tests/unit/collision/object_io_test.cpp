@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "server/collision/object_builder.hpp"
+#include "server/collision/samples.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace mechane::collision {
@@ -20,7 +21,7 @@ TEST(ObjectIo, ComesBackAsItWent) {
   EXPECT_EQ(write_object(*read), bytes);
   ASSERT_EQ(read->parts.size(), 3U);
   EXPECT_EQ(read->parts[2].name, "grip");
-  EXPECT_EQ(read->samples_O.size(), object->samples_O.size());
+  EXPECT_EQ(sample_count(*read), sample_count(*object));
   const Vec3f p(0.001F, 0.002F, 0.003F);
   EXPECT_EQ(read->parts[1].map.evaluate(p).depth_m, object->parts[1].map.evaluate(p).depth_m);
 }

@@ -37,7 +37,7 @@ TEST(RadialMap, FlatFacesAreExactAlsoInACubeThatIsScaledOtherwise) {
 TEST(RadialMap, SphereGivesRadialDepthAtAnyResolution) {
   geometry::Superquadric sphere;
   sphere.a = Vec3::Constant(0.05);
-  const RadialMap map = make_superquadric_object(sphere, 0.01).parts[0].map;
+  const RadialMap map = *make_superquadric_object(sphere, 0.01).parts[0].map.radial();
   double worst_depth = 0;
   double worst_angle = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -59,7 +59,7 @@ TEST(RadialMap, OutsideIsNoHitAndNorIsWhatIsNotANumber) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(map.evaluate({nan, 0, 0}).hit);
   EXPECT_FALSE(map.evaluate({0, std::numeric_limits<float>::infinity(), nan}).hit);
-  EXPECT_FALSE(RadialMap().evaluate({0, 0, 0}).hit);
+  EXPECT_FALSE(PartMap().evaluate({0, 0, 0}).hit);
 }
 
 TEST(RadialMap, TheVeryCentreIsAHitWithFiniteNumbers) {

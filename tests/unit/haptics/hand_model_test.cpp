@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "server/collision/samples.hpp"
+
 namespace mechane::haptics {
 namespace {
 
@@ -92,7 +94,7 @@ TEST(HandModel, ReachCoversEverySegment) {
 TEST(HandModel, ASampleOfAGrownHandHasEnoughPointsForAFingertip) {
   std::size_t points = 0;
   for (std::size_t s = 0; s < state::kHandSegments; ++s)
-    points += hand().segment(glove(0), s).samples_O.size();
+    points += collision::sample_count(hand().segment(glove(0), s));
   EXPECT_GT(points, 1000u);
 }
 

@@ -1,0 +1,104 @@
+#include "server/collision/cast_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mechane::collision {
+namespace {
+
+constexpr double kMaxRho = 16;        // beyond it the surface is as good as nowhere
+constexpr double kMinRho = 1.0 / 16;  // 'no hit'
+constexpr std::size_t kCenters = 64;
+constexpr std::size_t kWitnesses = 160;
+constexpr double kClearanceWeight =
+    0.1;  // a centre deep in the wood beats one that sees as much but lies close to a wall
+constexpr double kOwnCenterBonus = 0.05;
+
+/// About `count` of them, evenly.
+std::vector<SurfacePlace> some_of(std::span<const SurfacePlace> all, std::size_t count) {
+  std::vector<SurfacePlace> chosen;
+  const std::size_t step = std::max<std::size_t>(1, all.size() / count);
+  for (std::size_t i = step / 2; i < all.size(); i += step)
+    chosen.push_back(all[i]);
+  return chosen;
+}
+
+/// The share of the witnesses that the centre sees through wood alone.
+double seen_share(const Solid& solid, std::size_t node, const Vec3& center, std::span<const SurfacePlace> all) {
+  std::size_t seen = 0;
+  for (const SurfacePlace& w : all) {
+    if (solid.walk(node, center, w.p_O - center, 2) > 0.98 && w.n_O.dot(w.p_O - center) > 0) ++seen;
+  }
+  return all.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(all.size());
+}
+
+/// Middles of chords through the part, straight in from its surface.
+std::vector<Vec3> candidate_centers(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places) {
+  std::vector<Vec3> centers;
+  std::vector<geometry::RayHit> hits;
+  for (const SurfacePlace& place : some_of(places, kCenters)) {
+    const Vec3 start = place.p_O - 1e-7 * place.n_O;
+    solid.part(node).cast(start, -place.n_O, hits);
+    if (!hits.empty()) centers.push_back(start - 0.5 * hits.front().t * place.n_O);
+  }
+  return centers;
+}
+
+Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places, const Vec3& own) {
+  if (!solid.is_closed(node)) return own;
+  const std::vector<SurfacePlace> witnesses = some_of(places, kWitnesses);
+  std::vector<Vec3> centers = candidate_centers(solid, node, places);
+  if (solid.part(node).winding(own) > 0) centers.insert(centers.begin(), own);
+  std::vector<double> clearance;
+  clearance.reserve(centers.size());
+  for (const Vec3& c : centers)
+    clearance.push_back(solid.part(node).closest(c).distance_m);
+  const double widest = clearance.empty() ? 1 : *std::max_element(clearance.begin(), clearance.end());
+  Vec3 best = own;
+  double best_score = -1;
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    double score = seen_share(solid, node, centers[i], witnesses) + kClearanceWeight * clearance[i] / widest;
+    if (centers[i] == own) score += kOwnCenterBonus;
+    if (score > best_score) {
+      best_score = score;
+      best = centers[i];
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
+                      std::span<const Vec3> bound_points_O, const geometry::Superquadric& shape, const Pose& X_OQ) {
+  MapFrame frame;
+  frame.X_OQ = X_OQ;
+  const Pose X_QO = X_OQ.inverse();
+  frame.center_Q = X_QO * choose_center(solid, node, places, X_OQ.p);
+  // The semi-axes scale the cube, widened where the centre is not the superquadric's own. A bent shape reaches beyond its axes.
+  frame.half_Q = shape.a + frame.center_Q.cwiseAbs();
+  for (const Vec3& p_O : bound_points_O)
+    frame.half_Q = frame.half_Q.cwiseMax((X_QO * p_O - frame.center_Q).cwiseAbs());
+  // Half a crack more on each side, so that parts beside a crack meet in it.
+  frame.half_Q = (1.0001 * frame.half_Q.array() + 0.5 * solid.seam_gap_m()).matrix();
+  return frame;
+}
+
+RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, int resolution) {
+  const Vec3f half_Q = frame.half_Q.cast<float>();
+  const Vec3 center_O = frame.X_OQ * frame.center_Q;
+  std::vector<float> sigma;
+  sigma.reserve(6 * static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution));
+  for (int face = 0; face < 6; ++face) {
+    for (int texel = 0; texel < resolution * resolution; ++texel) {
+      const Vec3 direction_Q =
+          RadialMap::texel_direction(resolution, half_Q, face, texel % resolution, texel / resolution);
+      const double rho = solid.walk(node, center_O, frame.X_OQ.rotate(direction_Q), kMaxRho);
+      sigma.push_back(static_cast<float>(1 / std::max(rho, kMinRho)));
+    }
+  }
+  return RadialMap::from_sigma(resolution, frame.center_Q.cast<float>(), half_Q, sigma);
+}
+
+}  // namespace mechane::collision

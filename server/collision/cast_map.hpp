@@ -1,0 +1,41 @@
+// The radial map of one part, cast against the whole solid.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "server/collision/radial_map.hpp"
+#include "server/collision/solid.hpp"
+#include "server/geometry/superquadric.hpp"
+
+namespace mechane::collision {
+
+/// Where a part lies in its frame Q: what its map must cover.
+struct MapFrame {
+  Pose X_OQ;
+  Vec3 center_Q = Vec3::Zero();  ///< from where the radial map looks
+  Vec3 half_Q = Vec3::Zero();    ///< around the centre; holds every point of the part
+};
+
+/// A place of the surface with its outward normal.
+struct SurfacePlace {
+  Vec3 p_O = Vec3::Zero();
+  Vec3 n_O = Vec3::Zero();
+};
+
+/// Chooses the centre: the superquadric's own where that serves, else the place in the wood from which most of the part's exposed
+/// surface is seen through wood (a stave's superquadric has its centre near the hollow). `node` is the solid's part; `places` and
+/// `bound_points_O` are of its piece.
+[[nodiscard]] MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
+                                    std::span<const Vec3> bound_points_O, const geometry::Superquadric& shape,
+                                    const Pose& X_OQ);
+
+/// Casts the map. Which surface a ray belongs to: the first one that leads from the centre out into air. A ray that comes from
+/// outside, as in the paper, would take whatever it meets first, so that the far wall or another part within the bound filled the air
+/// before this part. The paper's two special values become: 'no hit' (the centre itself is in air this way) a surface close to the
+/// centre, sigma 16; 'covered' (the bound lies in a neighbour's wood) the neighbour's surface, where the ray leaves it, so that seams
+/// make no walls.
+[[nodiscard]] RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, int resolution);
+
+}  // namespace mechane::collision

@@ -1,0 +1,70 @@
+// Which representation a part gets: the smallest that meets the error budget, measured against the exact mesh.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "server/collision/cast_map.hpp"
+#include "server/collision/part_map.hpp"
+#include "server/collision/solid.hpp"
+#include "server/geometry/mesh_query.hpp"
+
+namespace mechane::collision {
+
+/// Absolute bounds, metres.
+struct ErrorBudget {
+  double depth_p99_m = 0;   ///< of the depth, at the 99th percentile
+  double missed_m = 0;      ///< no point deeper than this may be missed, none this far outside may be a contact
+  double probe_depth_m = 0; ///< how deep points are asked
+};
+
+/// What a map's answers are worth, over points just under the surface and just above it.
+struct MapError {
+  double p50_m = 0;
+  double p99_m = std::numeric_limits<double>::infinity();
+  double max_m = std::numeric_limits<double>::infinity();
+  std::size_t probes = 0;
+  std::size_t missed = 0;  ///< points deeper than missed_m that the map calls outside
+  std::size_t wrong = 0;   ///< points further outside than missed_m that it calls inside
+  [[nodiscard]] bool meets(const ErrorBudget& budget) const {
+    return p99_m <= budget.depth_p99_m && missed == 0 && wrong == 0;
+  }
+};
+
+struct MapCandidates {
+  bool radial = true;
+  bool brick = true;
+  int only_resolution = 0;  ///< of a radial map; 0: any
+};
+
+struct MapChoice {
+  PartMap map;
+  MapError error;
+  bool met = false;
+};
+
+/// A point whose exact depth is known; negative outside.
+struct Probe {
+  Vec3 p_O = Vec3::Zero();
+  double depth_m = 0;
+};
+
+/// Points up to `budget.probe_depth_m` under and above the places, with their exact depths. Places beside which the solid is not what
+/// their normal says (seams, thin walls) are left out.
+[[nodiscard]] std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin,
+                                             std::span<const SurfacePlace> places, const ErrorBudget& budget,
+                                             std::size_t count, std::uint64_t seed);
+
+using Ask = std::function<MapHit(const Vec3& p_O)>;
+[[nodiscard]] MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const Ask& ask);
+
+/// Tries candidates from the smallest on. Where none meets the budget: the one with the least error, `met` false.
+[[nodiscard]] MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
+                                   const MapFrame& frame, std::span<const Probe> probes, const ErrorBudget& budget,
+                                   const MapCandidates& candidates);
+
+}  // namespace mechane::collision

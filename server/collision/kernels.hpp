@@ -1,0 +1,94 @@
+// The inner loops of a contact query, 16 points at a time: one table of functions for each instruction set, chosen at run time. All
+// tables give the same bits: additions, products, quotients and roots in one order, nothing fused, nothing approximated.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace mechane::collision {
+
+inline constexpr std::size_t kLanes = 16;
+
+/// A bit for each of the 16 lanes.
+using LaneMask = std::uint32_t;
+
+// None of these has a default: a query holds 64 of them on its stack, and clearing them would cost more than the query.
+
+/// 16 points, metres; what their frame is the owner says.
+struct alignas(64) PointBlock {
+  std::array<float, kLanes> x, y, z;
+};
+
+struct alignas(64) SphereBlock {
+  std::array<float, kLanes> x, y, z, radius;
+};
+
+/// p_B = R_BA p_A + p_BA; the rotation row after row.
+struct BlockTransform {
+  std::array<float, 9> R_BA;
+  std::array<float, 3> p_BA;
+};
+
+/// A box along the axes of its frame.
+struct BoxView {
+  std::array<float, 3> center, half;
+};
+
+/// What a kernel reads of a RadialMap.
+struct RadialView {
+  const std::uint16_t* texels;
+  int resolution;
+  float sigma_step;
+  std::array<float, 3> center, half, inverse_half;
+};
+
+/// What a kernel reads of a DistanceBrick.
+struct BrickView {
+  const std::int16_t* values;
+  std::array<int, 3> nodes;
+  std::array<float, 3> origin;
+  float inverse_cell;
+  float step_m;
+};
+
+/// Points in a part's frame Q, and how central each lies in the part: what decides between parts that overlap.
+struct InsideBlock {
+  PointBlock p_Q;
+  alignas(64) std::array<float, kLanes> m;
+};
+
+/// Depth under the surface (0: the map knows no surface there) and outward unit normal, in Q.
+struct DepthBlock {
+  alignas(64) std::array<float, kLanes> depth_m;
+  PointBlock n_Q;
+};
+
+enum class InstructionSet { portable, avx2, avx512 };
+
+/// Any thread; nothing here allocates or throws.
+struct Kernels {
+  const char* name;
+  /// Which spheres reach the box, after the transform.
+  LaneMask (*spheres_near_box)(const SphereBlock& spheres, const BlockTransform& X, const BoxView& box) noexcept;
+  /// Which points lie inside the surface, after the transform; NaN is outside. `out` gets every lane.
+  LaneMask (*radial_inside)(const RadialView& map, const BlockTransform& X, const PointBlock& points,
+                            InsideBlock& out) noexcept;
+  LaneMask (*brick_inside)(const BrickView& map, const BlockTransform& X, const PointBlock& points,
+                           InsideBlock& out) noexcept;
+  /// Depth and normal of points that lie inside; lanes without their bit in `wanted` may be left as they are.
+  void (*radial_depth)(const RadialView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept;
+  void (*brick_depth)(const BrickView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept;
+};
+
+/// Whether this machine can run them.
+[[nodiscard]] bool is_supported(InstructionSet set) noexcept;
+
+/// Of a set that is supported (our bug otherwise).
+[[nodiscard]] const Kernels& kernels_of(InstructionSet set) noexcept;
+
+/// The widest that this machine supports. MECHANE_KERNELS=portable|avx2|avx512 in the environment asks for another one.
+[[nodiscard]] const Kernels& best_kernels() noexcept;
+
+}  // namespace mechane::collision

@@ -1,0 +1,37 @@
+// The kernels for AVX-512: sixteen lanes. Compiled with -mavx512f -mavx512dq, so nothing else belongs in this file.
+#include "server/collision/kernel_body.hpp"
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#include <immintrin.h>
+#endif
+
+namespace mechane::collision {
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+namespace {
+
+// The masked forms, with every lane wanted: g++ 12 takes the others' header for a use of something uninitialised.
+struct Avx512Lanes : PortableLanes<16> {
+  static constexpr __mmask16 kEvery = 0xffff;
+
+  static F root(F x) { return _mm512_mask_sqrt_ps(x, kEvery, x); }
+  static I gather(const void* table, I index) {
+    const auto lanes = reinterpret_cast<__m512i>(index);
+    return reinterpret_cast<I>(_mm512_mask_i32gather_epi32(lanes, kEvery, lanes, table, 2));
+  }
+  static LaneMask mask_of(I condition) { return _mm512_movepi32_mask(reinterpret_cast<__m512i>(condition)); }
+};
+
+}  // namespace
+
+const Kernels* avx512_kernels() noexcept {
+  static constexpr Kernels kTable = KernelBody<Avx512Lanes>::table("avx512");
+  return &kTable;
+}
+#else
+const Kernels* avx512_kernels() noexcept {
+  return nullptr;
+}
+#endif
+
+}  // namespace mechane::collision

@@ -1,0 +1,33 @@
+// What a part is made from: a node that the author named, or a piece of one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/collision/cast_map.hpp"
+#include "server/collision/object_builder.hpp"
+#include "server/collision/solid.hpp"
+#include "server/geometry/mesh.hpp"
+
+namespace mechane::collision {
+
+struct PartSource {
+  std::string name;
+  std::size_t node = 0;                ///< the solid's part that it belongs to
+  bool whole_node = true;              ///< else a piece, which the points describe
+  std::vector<SurfacePlace> places;    ///< of its surface where that borders on air, evenly
+  std::vector<Vec3> bound_points_O;    ///< its superquadric and its map hold them
+  std::vector<Vec3> samples_O;         ///< for contacts
+  double spacing_m = 0;                ///< of the samples
+};
+
+/// Triangles of all nodes that border on air somewhere: the solid's true surface, for the exact distance.
+[[nodiscard]] geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& solid);
+
+/// A node as one part.
+[[nodiscard]] PartSource source_of_node(const std::string& name, const geometry::Mesh& mesh, std::size_t node,
+                                        const Solid& solid, const BuildConfig& config);
+
+}  // namespace mechane::collision

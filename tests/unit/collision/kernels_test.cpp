@@ -1,0 +1,184 @@
+#include "server/collision/kernels.hpp"
+
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "server/collision/kernel_body.hpp"
+#include "server/geometry/random.hpp"
+
+namespace mechane::collision {
+namespace {
+
+// Every way to run the kernels that this machine has. Sixteen lanes without AVX-512 are what its kernels do, but for three
+// instructions, on any machine.
+std::vector<const Kernels*> all_kernels() {
+  static constexpr Kernels kSixteen = KernelBody<PortableLanes<16>>::table("sixteen");
+  std::vector<const Kernels*> found = {&kSixteen};
+  for (const auto set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (is_supported(set)) found.push_back(&kernels_of(set));
+  }
+  return found;
+}
+
+float between(geometry::Random& random, double least, double most) {
+  return static_cast<float>(least + (most - least) * random.unit());
+}
+
+BlockTransform any_transform(geometry::Random& random) {
+  BlockTransform X{};
+  for (float& r : X.R_BA)
+    r = between(random, -1, 1);
+  for (float& p : X.p_BA)
+    p = between(random, -0.1, 0.1);
+  return X;
+}
+
+/// Most near the map, some far away, one not a number.
+PointBlock any_points(geometry::Random& random) {
+  PointBlock block{};
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double reach = i % 5 == 4 ? 10 : 0.6;
+    block.x[i] = between(random, -reach, reach);
+    block.y[i] = between(random, -reach, reach);
+    block.z[i] = between(random, -reach, reach);
+  }
+  block.y[random.below(kLanes)] = std::numeric_limits<float>::quiet_NaN();
+  block.z[random.below(kLanes)] = std::numeric_limits<float>::infinity();
+  return block;
+}
+
+template <class Block>
+bool same_bits(const Block& a, const Block& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+bool same_lane(const InsideBlock& a, const InsideBlock& b, std::size_t lane) {
+  return a.m[lane] == b.m[lane] && a.p_Q.x[lane] == b.p_Q.x[lane] && a.p_Q.y[lane] == b.p_Q.y[lane] &&
+         a.p_Q.z[lane] == b.p_Q.z[lane];
+}
+
+bool same_lane(const DepthBlock& a, const DepthBlock& b, std::size_t lane) {
+  return a.depth_m[lane] == b.depth_m[lane] && a.n_Q.x[lane] == b.n_Q.x[lane] && a.n_Q.y[lane] == b.n_Q.y[lane] &&
+         a.n_Q.z[lane] == b.n_Q.z[lane];
+}
+
+struct Answer {
+  LaneMask inside = 0;
+  InsideBlock points{};
+  DepthBlock depth{};
+};
+
+void expect_same(const Answer& want, const Answer& got, const char* name) {
+  ASSERT_EQ(want.inside, got.inside) << name;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if ((want.inside >> lane & 1U) == 0) continue;
+    EXPECT_TRUE(same_lane(want.points, got.points, lane)) << name << ", lane " << lane;
+    EXPECT_TRUE(same_lane(want.depth, got.depth, lane)) << name << ", lane " << lane;
+  }
+}
+
+std::vector<std::uint16_t> any_texels(geometry::Random& random, int resolution) {
+  std::vector<std::uint16_t> texels(static_cast<std::size_t>(6 * resolution * resolution));
+  for (auto& texel : texels)
+    texel = static_cast<std::uint16_t>(20'000 + random.below(20'000));
+  return texels;
+}
+
+TEST(Kernels, EverySetGivesTheSameBitsForARadialMap) {
+  geometry::Random random(7);
+  std::size_t inside = 0;
+  for (int round = 0; round < 400; ++round) {
+    const int resolution = 16 << random.below(3);
+    const auto texels = any_texels(random, resolution);
+    RadialView map{texels.data(), resolution, 1.0F / 15'000, {}, {}, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      map.center[i] = between(random, -0.1, 0.1);
+      map.half[i] = between(random, 0.05, 1);
+      map.inverse_half[i] = 1 / map.half[i];
+    }
+    const BlockTransform X = any_transform(random);
+    const PointBlock points = any_points(random);
+    const auto ask = [&](const Kernels& kernels) {
+      Answer answer;
+      answer.inside = kernels.radial_inside(map, X, points, answer.points);
+      kernels.radial_depth(map, answer.points.p_Q, answer.inside, answer.depth);
+      return answer;
+    };
+    const auto sets = all_kernels();
+    const Answer want = ask(*sets.front());
+    inside += static_cast<std::size_t>(__builtin_popcount(want.inside));
+    for (const Kernels* kernels : sets)
+      expect_same(want, ask(*kernels), kernels->name);
+  }
+  EXPECT_GT(inside, 400U);  // else nothing was compared
+}
+
+TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
+  geometry::Random random(8);
+  std::size_t inside = 0;
+  for (int round = 0; round < 400; ++round) {
+    BrickView map{nullptr, {}, {}, between(random, 10, 30), 1e-5F};
+    std::size_t count = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      map.nodes[i] = static_cast<int>(2 + random.below(20));
+      map.origin[i] = between(random, -0.4, -0.1);
+      count *= static_cast<std::size_t>(map.nodes[i]);
+    }
+    std::vector<std::int16_t> values(count);
+    for (auto& value : values)
+      value = static_cast<std::int16_t>(static_cast<int>(random.below(60'000)) - 40'000 + 7'000);
+    map.values = values.data();
+    const BlockTransform X = any_transform(random);
+    const PointBlock points = any_points(random);
+    const auto ask = [&](const Kernels& kernels) {
+      Answer answer;
+      answer.inside = kernels.brick_inside(map, X, points, answer.points);
+      kernels.brick_depth(map, answer.points.p_Q, answer.inside, answer.depth);
+      return answer;
+    };
+    const auto sets = all_kernels();
+    const Answer want = ask(*sets.front());
+    inside += static_cast<std::size_t>(__builtin_popcount(want.inside));
+    for (const Kernels* kernels : sets)
+      expect_same(want, ask(*kernels), kernels->name);
+  }
+  EXPECT_GT(inside, 300U);
+}
+
+TEST(Kernels, EverySetFindsTheSameSpheresAndTheRightOnes) {
+  geometry::Random random(9);
+  for (int round = 0; round < 200; ++round) {
+    SphereBlock spheres{};
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      spheres.x[i] = between(random, -2, 2);
+      spheres.y[i] = between(random, -2, 2);
+      spheres.z[i] = between(random, -2, 2);
+      spheres.radius[i] = between(random, 0, 0.5);
+    }
+    const BlockTransform identity{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
+    const BoxView box{{0.1F, 0.2F, -0.3F}, {between(random, 0.1, 1), between(random, 0.1, 1), between(random, 0.1, 1)}};
+    LaneMask want = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const float dx = std::max(std::abs(spheres.x[i] - box.center[0]) - box.half[0], 0.0F);
+      const float dy = std::max(std::abs(spheres.y[i] - box.center[1]) - box.half[1], 0.0F);
+      const float dz = std::max(std::abs(spheres.z[i] - box.center[2]) - box.half[2], 0.0F);
+      if (dx * dx + dy * dy + dz * dz <= spheres.radius[i] * spheres.radius[i]) want |= LaneMask{1} << i;
+    }
+    for (const Kernels* kernels : all_kernels())
+      EXPECT_EQ(kernels->spheres_near_box(spheres, identity, box), want) << kernels->name;
+  }
+}
+
+TEST(Kernels, TheBestSetIsOneThatThisMachineHas) {
+  EXPECT_TRUE(is_supported(InstructionSet::portable));
+  bool known = false;
+  for (const Kernels* kernels : all_kernels())
+    known = known || kernels == &best_kernels();
+  EXPECT_TRUE(known) << best_kernels().name;
+}
+
+}  // namespace
+}  // namespace mechane::collision
