@@ -1,0 +1,14 @@
+// Joins pieces that cuts parted in vain: the wedges of a hub, between cuts that freed its teeth.
+#pragma once
+
+#include <vector>
+
+#include "server/geometry/piece_region.hpp"
+
+namespace mechane::geometry {
+
+/// Joins pairs, neighbours in the list first, whose union is again the solid within a convex cell, holds nothing of other pieces and
+/// is within the bound. The pieces must be the whole solid, and measured.
+void merge_pieces(const DecomposeModel& model, std::vector<PieceRegion>& pieces);
+
+}  // namespace mechane::geometry
