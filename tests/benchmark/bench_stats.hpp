@@ -67,6 +67,11 @@ class Report {
       if (beyond * static_cast<double>(samples.size()) >= 1) curve.push_back({beyond, samples.quantile_us(1 - beyond)});
   }
 
+  /// Any other line for a plot: pairs of (x, y).
+  void curve(const std::string& name, const std::vector<std::array<double, 2>>& points) {
+    json_["curves"][name] = points;
+  }
+
   [[nodiscard]] std::string text() const { return json_.dump(); }
 
  private:

@@ -1,0 +1,236 @@
+// Contact queries of the product and of its peers, on one scene, in one run: equal answers first, then time and memory.
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <set>
+
+#include <CLI/CLI.hpp>
+
+#include "tests/benchmark/bench_stats.hpp"
+#include "tests/benchmark/collision/method.hpp"
+#include "tests/benchmark/collision/oracle.hpp"
+#include "tests/benchmark/collision/timing.hpp"
+
+namespace mechane::benchmark {
+namespace {
+
+constexpr const char* kOurs = "sqmap";
+
+struct Config {
+  std::uint64_t seed = kDefaultSeed;
+  std::size_t steps = 2000;
+  std::size_t checked = 200;
+  double budget_pct = 0.3;
+  TimingConfig timing;
+  std::vector<std::string> methods = {kOurs,    "brick",  "brick_scalar", "openvdb",
+                                      "bt_sdf", "embree", "fcl_contacts", "fcl_yesno"};
+};
+
+using Agreements = std::array<Agreement, kSceneObjects>;
+
+/// Quantiles of plain numbers, for Report::distribution.
+class Quantiles {
+ public:
+  explicit Quantiles(std::vector<float> us) : us_(std::move(us)) { std::sort(us_.begin(), us_.end()); }
+  [[nodiscard]] double quantile_us(double share) const {
+    if (us_.empty()) return 0;
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(us_.size())));
+    return static_cast<double>(us_[std::clamp<std::size_t>(rank, 1, us_.size()) - 1]);
+  }
+  [[nodiscard]] std::size_t size() const { return us_.size(); }
+
+ private:
+  std::vector<float> us_;
+};
+
+MethodPtr make_method(const std::string& name, const Scene& scene, const Accuracy& accuracy) {
+  if (name == "sqmap") return make_sqmap(scene);
+  if (name == "brick") return make_brick(scene, accuracy, Simd::best);
+  if (name == "brick_scalar") return make_brick(scene, accuracy, Simd::scalar);
+  if (name == "openvdb") return make_openvdb(scene, accuracy);
+  if (name == "bt_sdf") return make_bt_sdf(scene, accuracy);
+  if (name == "embree") return make_embree(scene);
+  if (name == "fcl_contacts") return make_fcl_contacts(scene);
+  if (name == "fcl_yesno") return make_fcl_yesno(scene);
+  return nullptr;
+}
+
+/// The grids may err as much as our maps do, object by object: no more than the budget, and no less than a tenth of it.
+Accuracy accuracy_for(const Config& config, const Scene& scene, const Oracle& oracle, Method* ours) {
+  Accuracy accuracy;
+  accuracy.points = oracle.known_points();
+  const Agreements agreements = ours != nullptr ? compare(scene, oracle, *ours) : Agreements{};
+  for (std::size_t k = 0; k < kSceneObjects; ++k) {
+    const double pct = ours != nullptr
+                           ? std::clamp(agreements[k].error_p99_pct, 0.1 * config.budget_pct, config.budget_pct)
+                           : config.budget_pct;
+    accuracy.p99_m[k] = pct / 100 * scene.objects[k].diagonal_m;
+  }
+  return accuracy;
+}
+
+void report_scene(const Scene& scene, const Oracle& oracle, Report& report) {
+  std::size_t triangles = 0;
+  for (const SceneObject& object : scene.objects)
+    triangles += object.mesh_O.triangles.size();
+  report.metric("scene.triangles", static_cast<double>(triangles));
+  std::vector<float> depths_pct;
+  for (const Oracle::Step& step : oracle.steps())
+    for (const Oracle::Answer& answer : step.near)
+      if (answer.distance_m < 0)
+        depths_pct.push_back(static_cast<float>(-100 * answer.distance_m / scene.objects[answer.object].diagonal_m));
+  const Quantiles depths(depths_pct);
+  report.metric("scene.points_inside_per_step", static_cast<double>(depths.size()) / static_cast<double>(oracle.steps().size()));
+  report.metric("scene.depth_pct.median", depths.quantile_us(0.5));
+  report.metric("scene.depth_pct.p99", depths.quantile_us(0.99));
+  report.metric("scene.depth_pct.max", depths.quantile_us(1));
+}
+
+/// Ours goes by the bare names, too.
+void report_agreement(const Scene& scene, const std::string& method, const Agreements& agreements, Report& report) {
+  Agreement worst;
+  for (std::size_t k = 0; k < kSceneObjects; ++k) {
+    const Agreement& a = agreements[k];
+    const std::string place = "." + method + "." + scene.objects[k].name;
+    report.metric("depth_error_pct" + place + ".p50", a.error_p50_pct);
+    report.metric("depth_error_pct" + place + ".p99", a.error_p99_pct);
+    report.metric("depth_error_pct" + place + ".max", a.error_max_pct);
+    report.metric("normal_error_deg" + place + ".p50", a.normal_p50_deg);
+    report.metric("normal_error_deg" + place + ".p99", a.normal_p99_deg);
+    report.metric("missed" + place, static_cast<double>(a.missed));
+    report.metric("false" + place, static_cast<double>(a.false_hits));
+    worst.points += a.points;
+    worst.missed += a.missed;
+    worst.false_hits += a.false_hits;
+    worst.error_p50_pct = std::max(worst.error_p50_pct, a.error_p50_pct);
+    worst.error_p99_pct = std::max(worst.error_p99_pct, a.error_p99_pct);
+    worst.error_max_pct = std::max(worst.error_max_pct, a.error_max_pct);
+  }
+  for (const std::string& place : method == kOurs ? std::vector<std::string>{"", "." + method} : std::vector{"." + method}) {
+    report.metric("depth_error_pct" + place + ".p50", worst.error_p50_pct);
+    report.metric("depth_error_pct" + place + ".p99", worst.error_p99_pct);
+    report.metric("depth_error_pct" + place + ".max", worst.error_max_pct);
+    report.metric("missed" + place, static_cast<double>(worst.missed));
+    report.metric("false" + place, static_cast<double>(worst.false_hits));
+  }
+  report.metric("checked_contacts." + method, static_cast<double>(worst.points));
+}
+
+void report_times(const Scene& scene, const std::string& method, const StepTimes& times, Report& report) {
+  std::vector<float> all;
+  std::vector<std::vector<float>> of_object(kSceneObjects);
+  std::vector<std::array<double, 2>> by_step;
+  for (std::size_t step = 0; step < scene.steps.size(); ++step) {
+    std::vector<float> here;
+    for (const auto& round : times.rounds_us)
+      here.push_back(round[step]);
+    all.insert(all.end(), here.begin(), here.end());
+    auto& object = of_object[scene.grasped[step]];
+    object.insert(object.end(), here.begin(), here.end());
+    by_step.push_back({static_cast<double>(step), Quantiles(here).quantile_us(0.5)});
+  }
+  Quantiles whole(all);
+  report.distribution("step_us." + method, whole);
+  double sum = 0;
+  for (const float us : all)
+    sum += static_cast<double>(us);
+  report.metric("step_us." + method + ".mean", sum / static_cast<double>(std::max<std::size_t>(all.size(), 1)));
+  for (std::size_t k = 0; k < kSceneObjects; ++k) {
+    const Quantiles object(of_object[k]);
+    report.metric("step_us." + method + "." + scene.objects[k].name + ".median", object.quantile_us(0.5));
+    report.metric("step_us." + method + "." + scene.objects[k].name + ".p99", object.quantile_us(0.99));
+  }
+  const Quantiles cold(times.cold_us);
+  report.metric("cold_step_us." + method + ".median", cold.quantile_us(0.5));
+  report.metric("cold_step_us." + method + ".p99", cold.quantile_us(0.99));
+  report.curve("grasp." + method, by_step);
+}
+
+double median_us(const StepTimes& times) {
+  std::vector<float> all;
+  for (const auto& round : times.rounds_us)
+    all.insert(all.end(), round.begin(), round.end());
+  return Quantiles(all).quantile_us(0.5);
+}
+
+/// ratio.<peer> and, with a run of our AVX2 kernels, ratio_avx2.<peer>: how many times as long as ours the peer takes.
+void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
+  std::map<std::string, double> medians;
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    medians[methods[m]->name()] = median_us(times[m]);
+  for (const auto& [base, prefix] : {std::pair{kOurs, "ratio."}, std::pair{"sqmap_avx2", "ratio_avx2."}}) {
+    const auto ours = medians.find(base);
+    if (ours == medians.end() || ours->second <= 0) continue;
+    for (const auto& [name, median] : medians)
+      if (!name.starts_with(kOurs)) report.metric(prefix + name, median / ours->second);
+  }
+}
+
+void report_method(const Scene& scene, const Method& method, std::size_t asked, Report& report) {
+  report.metric("bytes." + method.name(), static_cast<double>(method.bytes()));
+  report.metric((method.name() == kOurs ? "build_s" : "build_s." + method.name()), method.build_s());
+  const std::vector<int> cells = method.cells();
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    report.metric("cells." + method.name() + "." + scene.objects[k].name, cells[k]);
+  if (!method.answers_points())
+    report.metric("mesh_contacts_per_step." + method.name(), static_cast<double>(method.mesh_contacts()) / static_cast<double>(asked));
+}
+
+int main_of(const Config& config) {
+  Report report;
+  std::cerr << "bench_collision: scene\n";
+  const Scene scene = make_scene(config.seed, config.steps);
+  const Oracle oracle(scene, config.checked);
+  report_scene(scene, oracle, report);
+  std::vector<MethodPtr> methods;
+  Accuracy accuracy;
+  const bool with_ours = std::find(config.methods.begin(), config.methods.end(), kOurs) != config.methods.end();
+  if (with_ours) methods.push_back(make_method(kOurs, scene, accuracy));
+  accuracy = accuracy_for(config, scene, oracle, with_ours ? methods.front().get() : nullptr);
+  for (const std::string& name : config.methods) {
+    if (name == kOurs) continue;
+    std::cerr << "bench_collision: building " << name << "\n";
+    methods.push_back(make_method(name, scene, accuracy));
+    if (methods.back() == nullptr) {
+      std::cerr << "bench_collision: no method '" << name << "'\n";
+      return 2;
+    }
+  }
+  for (const MethodPtr& method : methods) {
+    if (!method->answers_points()) continue;
+    std::cerr << "bench_collision: checking " << method->name() << "\n";
+    report_agreement(scene, method->name(), compare(scene, oracle, *method), report);
+  }
+  if (!pin_to_one_core()) report.note("the system refused to pin the program to one core");
+  std::cerr << "bench_collision: timing\n";
+  const std::vector<StepTimes> times = time_methods(scene, methods, config.timing);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    report_times(scene, methods[m]->name(), times[m], report);
+    std::size_t asked = times[m].cold_us.size();
+    for (const auto& round : times[m].rounds_us)
+      asked += round.size() + std::min<std::size_t>(kWarmUpSteps, round.size());
+    report_method(scene, *methods[m], asked, report);
+  }
+  report_ratios(methods, times, report);
+  std::cout << report.text() << "\n";
+  return 0;
+}
+
+}  // namespace
+}  // namespace mechane::benchmark
+
+int main(int argc, char** argv) {
+  mechane::benchmark::Config config;
+  CLI::App app{"Contact queries of a hand against five objects: ours and the peers', their answers, times and memory"};
+  app.add_option("--seed", config.seed, "other seeds draw other objects of the same kinds, and other grasps");
+  app.add_option("--steps", config.steps, "of approach and grasp, over all objects")->check(CLI::Range(50, 1'000'000));
+  app.add_option("--rounds", config.timing.rounds, "how often each method goes through all steps")->check(CLI::Range(1, 1000));
+  app.add_option("--cold-steps", config.timing.cold_steps, "steps that are timed with cold caches")->check(CLI::Range(0, 100'000));
+  app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")->check(CLI::Range(1, 100'000));
+  app.add_option("--budget", config.budget_pct, "p99 depth error that a grid may have at most, % of the object's diagonal")
+      ->check(CLI::Range(0.01, 10.0));
+  app.add_option("--methods", config.methods, "which, separated by commas")->delimiter(',');
+  CLI11_PARSE(app, argc, argv);
+  return mechane::benchmark::main_of(config);
+}

@@ -1,0 +1,85 @@
+// What every way of asking answers: the hand's points in, depth and normal out. The culling that all share is in culling.hpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/benchmark/collision/scene.hpp"
+
+namespace mechane::benchmark {
+
+/// The hand's points that lie inside an object, each once, in any order. Structure of arrays with room behind the last hit, so that a
+/// kernel may store whole vectors.
+struct alignas(64) Hits {
+  static constexpr std::size_t kRoom = kHandPoints + 16;
+
+  std::size_t count = 0;
+  alignas(64) std::array<std::uint32_t, kRoom> point;           ///< into HandStep::x
+  alignas(64) std::array<float, kRoom> depth_m, n_x, n_y, n_z;  ///< depth > 0; outward unit normal of the object's surface, in W
+  alignas(64) std::array<std::uint8_t, kRoom> object;           ///< into Scene::objects
+
+  void add(std::size_t point_index, std::size_t object_index, float depth, const Vec3f& n_W) noexcept {
+    if (count >= kHandPoints) return;
+    point[count] = static_cast<std::uint32_t>(point_index);
+    object[count] = static_cast<std::uint8_t>(object_index);
+    depth_m[count] = depth;
+    n_x[count] = n_W.x();
+    n_y[count] = n_W.y();
+    n_z[count] = n_W.z();
+    ++count;
+  }
+};
+
+/// One way of asking, ready to be asked: built from a scene, which must outlive it.
+class Method {
+ public:
+  Method() = default;
+  virtual ~Method() = default;
+  Method(const Method&) = delete;
+  Method& operator=(const Method&) = delete;
+
+  /// As in the metrics: sqmap, brick, openvdb...
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// Of everything that a query reads, all objects together.
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+  [[nodiscard]] virtual double build_s() const = 0;
+  /// All hand points against all objects. `out` comes empty. What gives no depth of points leaves it empty.
+  virtual void step(const HandStep& hand, Hits& out) = 0;
+
+  /// False for what collides meshes and returns their contacts.
+  [[nodiscard]] virtual bool answers_points() const { return true; }
+  /// Cells along the longest side of each object's grid; empty for what has none.
+  [[nodiscard]] virtual std::vector<int> cells() const { return {}; }
+  /// What the mesh methods found, all steps so far.
+  [[nodiscard]] virtual std::uint64_t mesh_contacts() const { return 0; }
+};
+
+/// A known answer, for the choice of a grid's resolution.
+struct KnownPoint {
+  Vec3f p_O = Vec3f::Zero();
+  double distance_m = 0;  ///< exact, negative inside
+};
+
+/// How fine the grids must be: for each object, points with their exact distance and the error that is allowed at their 99th percentile.
+struct Accuracy {
+  std::array<std::vector<KnownPoint>, kSceneObjects> points;
+  std::array<double, kSceneObjects> p99_m{};
+};
+
+using MethodPtr = std::unique_ptr<Method>;
+
+enum class Simd { best, scalar };
+
+MethodPtr make_sqmap(const Scene& scene);
+MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd);
+MethodPtr make_openvdb(const Scene& scene, const Accuracy& accuracy);
+MethodPtr make_bt_sdf(const Scene& scene, const Accuracy& accuracy);
+MethodPtr make_embree(const Scene& scene);
+MethodPtr make_fcl_contacts(const Scene& scene);
+MethodPtr make_fcl_yesno(const Scene& scene);
+
+}  // namespace mechane::benchmark
