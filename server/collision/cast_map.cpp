@@ -45,11 +45,14 @@ std::vector<Vec3> candidate_centers(const Solid& solid, std::size_t node, std::s
   return centers;
 }
 
-Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places, const Vec3& own) {
+Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
+                   std::span<const geometry::HalfSpace> cell, const Vec3& own) {
   if (!solid.is_closed(node)) return own;
   const std::vector<SurfacePlace> witnesses = some_of(places, kWitnesses);
   std::vector<Vec3> centers = candidate_centers(solid, node, places);
   if (solid.part(node).winding(own) > 0) centers.insert(centers.begin(), own);
+  // A centre in another piece would make a map of that piece.
+  std::erase_if(centers, [&](const Vec3& c) { return !geometry::cell_contains(cell, c); });
   std::vector<double> clearance;
   clearance.reserve(centers.size());
   for (const Vec3& c : centers)
@@ -71,11 +74,12 @@ Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const Surface
 }  // namespace
 
 MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
-                      std::span<const Vec3> bound_points_O, const geometry::Superquadric& shape, const Pose& X_OQ) {
+                      std::span<const geometry::HalfSpace> cell, std::span<const Vec3> bound_points_O,
+                      const geometry::Superquadric& shape, const Pose& X_OQ) {
   MapFrame frame;
   frame.X_OQ = X_OQ;
   const Pose X_QO = X_OQ.inverse();
-  frame.center_Q = X_QO * choose_center(solid, node, places, X_OQ.p);
+  frame.center_Q = X_QO * choose_center(solid, node, places, cell, X_OQ.p);
   // The semi-axes scale the cube, widened where the centre is not the superquadric's own. A bent shape reaches beyond its axes.
   frame.half_Q = shape.a + frame.center_Q.cwiseAbs();
   for (const Vec3& p_O : bound_points_O)

@@ -1,8 +1,7 @@
-// From two objects down to the samples that lie inside: spheres of objects and parts, spheres of clusters, then 16 samples at a time.
+// From points in clusters down to those that lie inside an object: spheres of groups, spheres of clusters, then 16 points at a time.
 // Inside this room only.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -11,185 +10,97 @@
 
 #include "server/collision/kernels.hpp"
 #include "server/collision/object.hpp"
+#include "server/collision/placed_part.hpp"
 
 namespace mechane::collision {
 
-// Parts near the other object that are tested together. More than these are taken in batches, and a sample that lies in parts of two
-// batches then counts twice.
+// Parts that are tested together. More than these are taken in batches, and a point that lies in parts of two batches then counts
+// twice.
 inline constexpr std::size_t kPartBatch = 64;
 
-/// A part of the target, with the way from the samples' frame S to the part's own.
-struct NearPart {
-  BlockTransform X_QS;
-  BoxView box_Q;
-  const Part* part;
-  std::uint16_t index;
-  bool is_radial;
-  RadialView radial;
-  BrickView brick;
-};
-
-/// A sample inside the target.
-struct InsideSample {
+/// A point inside the target.
+struct InsidePoint {
   std::uint32_t cluster = 0;
   std::uint32_t lane = 0;
-  const NearPart* part = nullptr;
+  const PlacedPart* part = nullptr;
   Vec3f p_Q, n_Q;
   float depth_m = 0;
 };
 
-[[nodiscard]] inline bool overlap(const geometry::Sphere& a, const Vec3& center_b, double radius_b) noexcept {
-  const double reach = a.radius + radius_b;
-  return (a.center - center_b).squaredNorm() <= reach * reach;
-}
-
-/// Whether a sphere reaches the box: the tight cull for parts that are long and thin.
-[[nodiscard]] inline bool reaches_box(const BoxView& box, const Vec3f& center_Q, float radius) noexcept {
-  float square = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float outside =
-        std::max(std::abs(center_Q[static_cast<Eigen::Index>(i)] - box.center[i]) - box.half[i], 0.0F);
-    square += outside * outside;
-  }
-  return square <= radius * radius;
-}
-
-/// Tests the samples of `source` against `target` and gives each one that is inside to `sink(const InsideSample&)`, once.
-template <class Sink>
+/// Tests points against up to kPartBatch parts, and gives each one that is inside to `sink(const InsidePoint&)`, once. `Points` has
+/// points(cluster) -> PointsView and count(cluster), the used lanes. Feed it groups of clusters, then finish().
+template <class Points, class Sink>
 class ClusterQuery {
  public:
-  ClusterQuery(const Object& source, const Pose& X_TS, const Object& target, const Kernels& kernels, Sink sink)
-      : source_(source), X_TS_(X_TS), target_(target), kernels_(kernels), sink_(sink) {}
+  ClusterQuery(const Points& points, std::span<const PlacedPart> parts, const Kernels& kernels, Sink sink)
+      : points_(points), parts_(parts), kernels_(kernels), sink_(sink) {
+    for (std::size_t c = 0; c < parts_.size(); ++c)
+      waiting_[c].count = 0;
+  }
 
-  void run() noexcept {
-    const Vec3 target_center_S = X_TS_.inverse() * target_.bound_O.center;
-    for (std::size_t next = 0; next < target_.parts.size();) {
-      count_ = collect(next);
-      if (count_ == 0) continue;
-      for (std::size_t s = 0; s < source_.parts.size(); ++s) {
-        const Part& part = source_.parts[s];
-        if (!overlap(part.bound_O, target_center_S, target_.bound_O.radius)) continue;
-        const Vec3f target_center_Q = (part.X_OQ.inverse() * target_center_S).template cast<float>();
-        if (part.map.empty() || reaches_box(part.map.box(), target_center_Q, static_cast<float>(target_.bound_O.radius)))
-          test_part(s);
-      }
+  /// `near`: the parts to be asked, a bit each. Clusters first_cluster and on, with their spheres.
+  void test_group(const SpheresView& spheres, std::size_t count, std::uint32_t first_cluster,
+                  std::uint64_t near) noexcept {
+    std::array<std::uint64_t, kLanes> near_of{};
+    LaneMask any = 0;
+    for (; near != 0; near &= near - 1) {
+      const int c = std::countr_zero(near);
+      LaneMask lanes = parts_[static_cast<std::size_t>(c)].near(kernels_, spheres, count);
+      any |= lanes;
+      for (; lanes != 0; lanes &= lanes - 1)
+        near_of[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << c;
     }
+    for (; any != 0; any &= any - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(any));
+      test_cluster(first_cluster + lane, near_of[lane]);
+    }
+  }
+
+  /// What still waits for others to fill a vector.
+  void finish() noexcept {
+    for (std::size_t c = 0; c < parts_.size(); ++c)
+      settle(c);
   }
 
  private:
-  using Bits = std::uint64_t;
-  static_assert(kPartBatch == 64);
+  /// Points inside a part whose depth is not asked yet: 16 at a time are no dearer than one.
+  struct Waiting {
+    PointBlock p_Q;
+    std::array<std::uint32_t, kLanes> cluster;
+    std::array<std::uint8_t, kLanes> lane;
+    std::array<std::uint64_t, kLanes> near;  // the other parts that could be asked
+    std::size_t count;
+  };
 
-  /// Fills `near_` with the parts of the target, from `next` on, that the source's sphere reaches.
-  std::size_t collect(std::size_t& next) noexcept {
-    std::size_t count = 0;
-    const Vec3 center_T = X_TS_ * source_.bound_O.center;
-    for (; next < target_.parts.size() && count < near_.size(); ++next) {
-      const Part& part = target_.parts[next];
-      if (part.map.empty() || !overlap(part.bound_O, center_T, source_.bound_O.radius)) continue;
-      const Pose X_QS = part.X_OQ.inverse() * X_TS_;
-      NearPart& near = near_[count];
-      near.box_Q = part.map.box();
-      const Vec3f center_Q = (X_QS * source_.bound_O.center).template cast<float>();
-      if (!reaches_box(near.box_Q, center_Q, static_cast<float>(source_.bound_O.radius))) continue;
-      describe(part, X_QS, near);
-      near.index = static_cast<std::uint16_t>(next);
-      ++count;
-    }
-    return count;
-  }
-
-  static void describe(const Part& part, const Pose& X_QS, NearPart& near) noexcept {
-    const Mat3 R = X_QS.R.toRotationMatrix();
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t column = 0; column < 3; ++column) {
-        near.X_QS.R_BA[3 * row + column] =
-            static_cast<float>(R(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)));
-      }
-      near.X_QS.p_BA[row] = static_cast<float>(X_QS.p[static_cast<Eigen::Index>(row)]);
-    }
-    near.part = &part;
-    const RadialMap* radial = part.map.radial();
-    near.is_radial = radial != nullptr;
-    if (near.is_radial) {
-      near.radial = radial->view();
-    } else {
-      near.brick = part.map.brick()->view();
-    }
-  }
-
-  void test_part(std::size_t s) noexcept {
-    for (std::uint32_t g = source_.first_group[s]; g < source_.first_group[s + 1]; ++g) {
-      const ClusterGroup& group = source_.groups[g];
-      std::array<Bits, kLanes> near_of{};
-      LaneMask any = 0;
-      for (std::size_t c = 0; c < count_; ++c) {
-        LaneMask lanes = kernels_.spheres_near_box(group.bounds_O, near_[c].X_QS, near_[c].box_Q);
-        lanes &= (LaneMask{1} << group.count) - 1;
-        any |= lanes;
-        for (; lanes != 0; lanes &= lanes - 1)
-          near_of[static_cast<std::size_t>(std::countr_zero(lanes))] |= Bits{1} << c;
-      }
-      for (; any != 0; any &= any - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(any));
-        test_cluster(group.first_cluster + lane, near_of[lane]);
-      }
-    }
-  }
-
-  /// A sample inside several parts counts once, in the part in which it lies most centrally: parts overlap at their seams, and a map
-  /// is at its best around its middle. Where that part knows no surface, the next one is asked.
-  void test_cluster(std::uint32_t index, Bits near) noexcept {
-    const Cluster& cluster = source_.clusters[index];
-    const LaneMask used = (LaneMask{1} << cluster.count) - 1;
-    LaneMask pending = 0;
-    Bits hit = 0;
-    for (; near != 0; near &= near - 1) {
+  /// A point inside several parts counts once, in the part in which it lies most centrally: parts overlap at their seams, and a map is
+  /// at its best around its middle.
+  void test_cluster(std::uint32_t cluster, std::uint64_t near) noexcept {
+    const LaneMask used = (LaneMask{1} << points_.count(cluster)) - 1;
+    const PointsView points = points_.points(cluster);
+    if (std::has_single_bit(near)) {
       const auto c = static_cast<std::size_t>(std::countr_zero(near));
-      const NearPart& part = near_[c];
-      inside_of_[c] =
-          used & (part.is_radial
-                      ? kernels_.radial_inside(part.radial, part.X_QS, cluster.samples_O, inside_[c])
-                      : kernels_.brick_inside(part.brick, part.X_QS, cluster.samples_O, inside_[c]));
-      if (inside_of_[c] != 0) hit |= Bits{1} << c;
+      InsideBlock inside;
+      for (LaneMask lanes = used & parts_[c].inside(kernels_, points, inside); lanes != 0; lanes &= lanes - 1)
+        wait(c, cluster, static_cast<std::size_t>(std::countr_zero(lanes)), inside, near);
+      return;
+    }
+    LaneMask pending = 0;
+    std::uint64_t hit = 0;
+    for (std::uint64_t rest = near; rest != 0; rest &= rest - 1) {
+      const auto c = static_cast<std::size_t>(std::countr_zero(rest));
+      inside_of_[c] = used & parts_[c].inside(kernels_, points, inside_[c]);
+      if (inside_of_[c] != 0) hit |= std::uint64_t{1} << c;
       pending |= inside_of_[c];
     }
-    while (pending != 0)
-      pending = settle(index, hit, pending);
+    for (; pending != 0; pending &= pending - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(pending));
+      const std::size_t c = most_central(hit, lane);
+      wait(c, cluster, lane, inside_[c], near);
+    }
   }
 
-  /// Lets each pending sample ask its most central part; returns those that have to ask another.
-  LaneMask settle(std::uint32_t index, Bits hit, LaneMask pending) noexcept {
-    std::array<LaneMask, kPartBatch> asks{};
-    if (std::has_single_bit(hit)) {
-      asks[static_cast<std::size_t>(std::countr_zero(hit))] = pending;
-    } else {
-      for (LaneMask lanes = pending; lanes != 0; lanes &= lanes - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-        asks[most_central(hit, lane)] |= LaneMask{1} << lane;
-      }
-    }
-    LaneMask again = 0;
-    for (Bits parts = hit; parts != 0; parts &= parts - 1) {
-      const auto c = static_cast<std::size_t>(std::countr_zero(parts));
-      if (asks[c] == 0) continue;
-      DepthBlock depth;
-      if (near_[c].is_radial) {
-        kernels_.radial_depth(near_[c].radial, inside_[c].p_Q, asks[c], depth);
-      } else {
-        kernels_.brick_depth(near_[c].brick, inside_[c].p_Q, asks[c], depth);
-      }
-      again |= give(index, c, asks[c], depth);
-    }
-    for (LaneMask lanes = again; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      if (most_central(hit, lane) == kPartBatch) again &= ~(LaneMask{1} << lane);
-    }
-    return again;
-  }
-
-  [[nodiscard]] std::size_t most_central(Bits hit, std::size_t lane) const noexcept {
-    std::size_t best = kPartBatch;
+  [[nodiscard]] std::size_t most_central(std::uint64_t hit, std::size_t lane) const noexcept {
+    std::size_t best = 0;
     float least = std::numeric_limits<float>::infinity();
     for (; hit != 0; hit &= hit - 1) {
       const auto c = static_cast<std::size_t>(std::countr_zero(hit));
@@ -200,37 +111,80 @@ class ClusterQuery {
     return best;
   }
 
-  /// Hands over the lanes that have a depth; the others leave this part, and are returned.
-  LaneMask give(std::uint32_t index, std::size_t c, LaneMask lanes, const DepthBlock& depth) noexcept {
-    LaneMask without = 0;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      if (!(depth.depth_m[lane] > 0)) {
-        without |= LaneMask{1} << lane;
-        continue;
-      }
-      const PointBlock& p = inside_[c].p_Q;
-      sink_(InsideSample{index,
-                         static_cast<std::uint32_t>(lane),
-                         &near_[c],
-                         {p.x[lane], p.y[lane], p.z[lane]},
-                         {depth.n_Q.x[lane], depth.n_Q.y[lane], depth.n_Q.z[lane]},
-                         depth.depth_m[lane]});
-    }
-    inside_of_[c] &= ~without;
-    return without;
+  void wait(std::size_t c, std::uint32_t cluster, std::size_t lane, const InsideBlock& inside,
+            std::uint64_t near) noexcept {
+    Waiting& waiting = waiting_[c];
+    const std::size_t at = waiting.count++;
+    waiting.p_Q.x[at] = inside.p_Q.x[lane];
+    waiting.p_Q.y[at] = inside.p_Q.y[lane];
+    waiting.p_Q.z[at] = inside.p_Q.z[lane];
+    waiting.cluster[at] = cluster;
+    waiting.lane[at] = static_cast<std::uint8_t>(lane);
+    waiting.near[at] = near;
+    if (waiting.count == kLanes) settle(c);
   }
 
-  const Object& source_;
-  const Pose& X_TS_;
-  const Object& target_;
+  void settle(std::size_t c) noexcept {
+    Waiting& waiting = waiting_[c];
+    const std::size_t count = waiting.count;
+    if (count == 0) return;
+    for (std::size_t lane = count; lane < kLanes; ++lane) {  // what a vector takes along must be a number
+      waiting.p_Q.x[lane] = waiting.p_Q.x[0];
+      waiting.p_Q.y[lane] = waiting.p_Q.y[0];
+      waiting.p_Q.z[lane] = waiting.p_Q.z[0];
+    }
+    DepthBlock depth;
+    parts_[c].depth(kernels_, waiting.p_Q, (LaneMask{1} << count) - 1, depth);
+    waiting.count = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (depth.depth_m[i] > 0) {
+        give(c, waiting.cluster[i], waiting.lane[i], waiting.p_Q, depth, i);
+      } else {
+        ask_others(c, waiting.cluster[i], waiting.lane[i], waiting.near[i]);
+      }
+    }
+  }
+
+  void give(std::size_t c, std::uint32_t cluster, std::uint32_t lane, const PointBlock& p_Q, const DepthBlock& depth,
+            std::size_t at) noexcept {
+    sink_(InsidePoint{cluster,
+                      lane,
+                      &parts_[c],
+                      {p_Q.x[at], p_Q.y[at], p_Q.z[at]},
+                      {depth.n_Q.x[at], depth.n_Q.y[at], depth.n_Q.z[at]},
+                      depth.depth_m[at]});
+  }
+
+  /// The most central part knows no surface there: the point lies deep in the wood of several. Rare; one point at a time.
+  void ask_others(std::size_t asked, std::uint32_t cluster, std::uint32_t lane, std::uint64_t near) noexcept {
+    const PointsView points = points_.points(cluster);
+    std::size_t best = asked;
+    float least = std::numeric_limits<float>::infinity();
+    InsideBlock best_inside;
+    DepthBlock best_depth;
+    for (near &= ~(std::uint64_t{1} << asked); near != 0; near &= near - 1) {
+      const auto c = static_cast<std::size_t>(std::countr_zero(near));
+      InsideBlock inside;
+      DepthBlock depth;
+      if ((parts_[c].inside(kernels_, points, inside) >> lane & 1U) == 0 || inside.m[lane] >= least) continue;
+      parts_[c].depth(kernels_, inside.p_Q, LaneMask{1} << lane, depth);
+      if (!(depth.depth_m[lane] > 0)) continue;
+      least = inside.m[lane];
+      best = c;
+      best_inside = inside;
+      best_depth = depth;
+    }
+    if (best != asked) give(best, cluster, lane, best_inside.p_Q, best_depth, lane);
+  }
+
+  const Points& points_;
+  std::span<const PlacedPart> parts_;
   const Kernels& kernels_;
   Sink sink_;
-  std::size_t count_ = 0;
-  // By near part. Only what the tests above have written is read.
-  std::array<NearPart, kPartBatch> near_;
+  // By part. Only what the tests above have written is read.
   std::array<LaneMask, kPartBatch> inside_of_;
   std::array<InsideBlock, kPartBatch> inside_;
+  std::array<Waiting, kPartBatch> waiting_;
 };
 
 }  // namespace mechane::collision

@@ -19,7 +19,7 @@ template <class View, class Inside, class Depth>
   points.z.fill(p_QP.z());
   InsideBlock in;
   MapHit hit;
-  if ((inside(view, kIdentity, points, in) & 1U) == 0) return hit;
+  if ((inside(view, kIdentity, points.view(), in) & 1U) == 0) return hit;
   DepthBlock out;
   depth(view, in.p_Q, 1, out);
   if (!(out.depth_m[0] > 0)) return hit;  // covered on all sides: deep in the wood of several parts

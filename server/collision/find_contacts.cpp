@@ -6,33 +6,103 @@
 namespace mechane::collision {
 namespace {
 
-/// Makes contacts of samples that lie inside the target (T).
-struct Reporter {
-  const Object& source;
-  const Pose& X_WT;
-  bool target_is_a;
-  ContactBuffer& out;
+bool overlap(const geometry::Sphere& a, const Vec3& center_b, double radius_b) noexcept {
+  const double reach = a.radius + radius_b;
+  return (a.center - center_b).squaredNorm() <= reach * reach;
+}
 
-  void operator()(const InsideSample& sample) const noexcept {
-    const Pose X_WQ = X_WT * sample.part->part->X_OQ;
-    const Vec3 n_W = X_WQ.rotate(sample.n_Q.cast<double>());  // out of the target
-    const std::uint16_t sample_part = source.clusters[sample.cluster].part;
+/// Whether a sphere reaches the box: the tight cull for parts that are long and thin.
+bool reaches_box(const BoxView& box, const Vec3f& center_Q, float radius) noexcept {
+  float square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float beyond = std::abs(center_Q[static_cast<Eigen::Index>(i)] - box.center[i]) - box.half[i];
+    square += beyond > 0 ? beyond * beyond : 0;
+  }
+  return square <= radius * radius;
+}
+
+/// The samples of one object, tested against the parts of the other, the target (T).
+class Direction {
+ public:
+  Direction(const Object& source, const Pose& X_TS, const Object& target, const Pose& X_WT, bool target_is_a,
+            ContactBuffer& out)
+      : source_(source), X_TS_(X_TS), target_(target), X_WT_(X_WT), target_is_a_(target_is_a), out_(out) {}
+
+  void run() noexcept {
+    const Vec3 target_center_S = X_TS_.inverse() * target_.bound_O.center;
+    const auto report = [this](const InsidePoint& inside) { add(inside); };
+    for (std::size_t next = 0; next < target_.parts.size();) {
+      const std::size_t count = collect(next);
+      if (count == 0) continue;
+      ClusterQuery query(*this, std::span<const PlacedPart>(near_).first(count), best_kernels(), report);
+      const std::uint64_t all = count == kPartBatch ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+      for (std::size_t s = 0; s < source_.parts.size(); ++s) {
+        if (!is_near(source_.parts[s], target_center_S)) continue;
+        for (std::uint32_t g = source_.first_group[s]; g < source_.first_group[s + 1]; ++g) {
+          const ClusterGroup& group = source_.groups[g];
+          query.test_group(group.bounds_O.view(), group.count, group.first_cluster, all);
+        }
+      }
+      query.finish();
+    }
+  }
+
+  // What ClusterQuery asks of its points.
+  [[nodiscard]] PointsView points(std::uint32_t cluster) const noexcept {
+    return source_.clusters[cluster].samples_O.view();
+  }
+  [[nodiscard]] std::size_t count(std::uint32_t cluster) const noexcept { return source_.clusters[cluster].count; }
+
+ private:
+  /// Fills `near_` with the parts of the target, from `next` on, that the source's sphere reaches.
+  std::size_t collect(std::size_t& next) noexcept {
+    std::size_t count = 0;
+    const Vec3 center_T = X_TS_ * source_.bound_O.center;
+    for (; next < target_.parts.size() && count < near_.size(); ++next) {
+      const Part& part = target_.parts[next];
+      if (part.map.empty() || !overlap(part.bound_O, center_T, source_.bound_O.radius)) continue;
+      const Pose X_QS = part.X_OQ.inverse() * X_TS_;
+      const Vec3f center_Q = (X_QS * source_.bound_O.center).cast<float>();
+      if (!reaches_box(part.map.box(), center_Q, static_cast<float>(source_.bound_O.radius))) continue;
+      near_[count++].place(part, static_cast<std::uint16_t>(next), X_QS);
+    }
+    return count;
+  }
+
+  [[nodiscard]] bool is_near(const Part& part, const Vec3& target_center_S) const noexcept {
+    if (!overlap(part.bound_O, target_center_S, target_.bound_O.radius)) return false;
+    const Vec3f center_Q = (part.X_OQ.inverse() * target_center_S).cast<float>();
+    return part.map.empty() || reaches_box(part.map.box(), center_Q, static_cast<float>(target_.bound_O.radius));
+  }
+
+  void add(const InsidePoint& inside) noexcept {
+    const Pose X_WQ = X_WT_ * inside.part->part->X_OQ;
+    const Vec3 n_W = X_WQ.rotate(inside.n_Q.cast<double>());  // out of the target
+    const std::uint16_t sample_part = source_.clusters[inside.cluster].part;
     PointContact contact;
-    contact.depth_m = sample.depth_m;
-    if (target_is_a) {
-      contact.p_WC = X_WQ * sample.p_Q.cast<double>();  // the sample itself lies on B's surface
+    contact.depth_m = static_cast<double>(inside.depth_m);
+    if (target_is_a_) {
+      contact.p_WC = X_WQ * inside.p_Q.cast<double>();  // the sample itself lies on B's surface
       contact.n_BA_W = -n_W;
-      contact.part_a = sample.part->index;
+      contact.part_a = inside.part->index;
       contact.part_b = sample_part;
     } else {
-      const Vec3f p_QS = sample.p_Q + sample.depth_m * sample.n_Q;
+      const Vec3f p_QS = inside.p_Q + inside.depth_m * inside.n_Q;
       contact.p_WC = X_WQ * p_QS.cast<double>();
       contact.n_BA_W = n_W;
       contact.part_a = sample_part;
-      contact.part_b = sample.part->index;
+      contact.part_b = inside.part->index;
     }
-    out.add(contact);
+    out_.add(contact);
   }
+
+  const Object& source_;
+  Pose X_TS_;
+  const Object& target_;
+  const Pose& X_WT_;
+  bool target_is_a_;
+  ContactBuffer& out_;
+  std::array<PlacedPart, kPartBatch> near_;
 };
 
 }  // namespace
@@ -54,9 +124,8 @@ void ContactBuffer::add(const PointContact& contact) noexcept {
 void find_contacts(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, ContactBuffer& out) noexcept {
   const Pose X_BA = X_WB.inverse() * X_WA;
   if (!overlap(b.bound_O, X_BA * a.bound_O.center, a.bound_O.radius)) return;
-  ClusterQuery(a, X_BA, b, best_kernels(), Reporter{a, X_WB, false, out}).run();
-  const Pose X_AB = X_BA.inverse();
-  ClusterQuery(b, X_AB, a, best_kernels(), Reporter{b, X_WA, true, out}).run();
+  Direction(a, X_BA, b, X_WB, false, out).run();
+  Direction(b, X_BA.inverse(), a, X_WA, true, out).run();
 }
 
 }  // namespace mechane::collision

@@ -98,18 +98,17 @@ struct KernelBody {
   static F clamp(F x, float least, float most) { return lesser(greater(x, all(least)), all(most)); }
   static F dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-  template <class Array>
-  static F load(const Array& from, int at) {
+  static F load(const float* from, int at) {
     F out;
-    __builtin_memcpy(&out, &from[static_cast<std::size_t>(at)], sizeof out);
+    __builtin_memcpy(&out, from + at, sizeof out);
     return out;
   }
   template <class Array>
   static void store(F value, Array& to, int at) {
     __builtin_memcpy(&to[static_cast<std::size_t>(at)], &value, sizeof value);
   }
-  static Point load_points(const PointBlock& block, int at) {
-    return {load(block.x, at), load(block.y, at), load(block.z, at)};
+  static Point load_points(const PointsView& points, int at) {
+    return {load(points.x, at), load(points.y, at), load(points.z, at)};
   }
   static void store_points(const Point& p, PointBlock& block, int at) {
     store(p.x, block.x, at);
@@ -123,18 +122,13 @@ struct KernelBody {
             r[6] * p.x + r[7] * p.y + r[8] * p.z + X.p_BA[2]};
   }
 
-  static LaneMask spheres_near_box(const SphereBlock& spheres, const BlockTransform& X, const BoxView& box) noexcept {
-    LaneMask near = 0;
-    for (int at = 0; at < static_cast<int>(kLanes); at += kWidth) {
-      const Point c = transform(X, {load(spheres.x, at), load(spheres.y, at), load(spheres.z, at)});
-      const F radius = load(spheres.radius, at);
-      const Point out{greater(magnitude(c.x - box.center[0]) - box.half[0], all(0)),
-                      greater(magnitude(c.y - box.center[1]) - box.half[1], all(0)),
-                      greater(magnitude(c.z - box.center[2]) - box.half[2], all(0))};
-      near |= Lanes::mask_of(dot(out, out) <= radius * radius) << at;
-    }
-    return near;
+  /// Squared distance to a box around the origin.
+  static F outside_box(const Point& p, const std::array<float, 3>& half) {
+    const Point out{greater(magnitude(p.x) - half[0], all(0)), greater(magnitude(p.y) - half[1], all(0)),
+                    greater(magnitude(p.z) - half[2], all(0))};
+    return dot(out, out);
   }
+  static LaneMask first(std::size_t count) { return count >= kLanes ? 0xffffU : (1U << count) - 1; }
 
   // ---- radial map ---------------------------------------------------------------------------------------------------------------
 
@@ -219,14 +213,13 @@ struct KernelBody {
             select(condition, a.depth, b.depth)};
   }
 
-  /// The plane where the line through x along an axis leaves through the face on x's side.
-  template <int Axis>
+  /// The plane where the line through x along an axis leaves through the face on one of its ends.
+  template <int Axis, int Sign>
   static Plane plane_along(const RadialView& map, const Point& x) {
-    const F a = Axis == 0 ? x.x : Axis == 1 ? x.y : x.z;
     const F u = Axis == 0 ? x.y : Axis == 1 ? x.z : x.x;
     const F v = Axis == 0 ? x.z : Axis == 1 ? x.x : x.y;
-    const F sign = sign_of(a);
-    const Texel t = texel(map, 2 * Axis + ((a < 0.0F) & 1), u, v);
+    const F sign = all(Sign);
+    const Texel t = texel(map, I{} + (2 * Axis + (Sign < 0 ? 1 : 0)), u, v);
     const F ga = sign * (t.sigma - u * t.sigma_u - v * t.sigma_v) * map.inverse_half[Axis];
     const F gu = t.sigma_u * map.inverse_half[(Axis + 1) % 3];
     const F gv = t.sigma_v * map.inverse_half[(Axis + 2) % 3];
@@ -247,18 +240,62 @@ struct KernelBody {
     return select((b.depth > 0.0F) & ((b.depth < a.depth) | ~(a.depth > 0.0F)), b, a);
   }
 
-  /// The surface's own normal where the guess lands, and the depth along it; the guess where the map says that it was better.
-  static Plane newton_step(const RadialView& map, const Point& x, const Plane& guess) {
-    const Point landed{x.x + guess.depth * guess.n.x * map.inverse_half[0],
-                       x.y + guess.depth * guess.n.y * map.inverse_half[1],
-                       x.z + guess.depth * guess.n.z * map.inverse_half[2]};
-    const Local at = local(map, landed);
-    const Plane there = tangent_plane(map, x, landed, at.g, at.gradient);
-    const I sound = (there.depth > 0.0F) & (dot(there.n, guess.n) > 0.5F) & (there.depth < 2.0F * guess.depth);
-    return select(sound, there, guess);
+  /// The nearest of seven tangent planes that is really there: where x's own ray and where the six ways along the axes meet the surface.
+  /// On a concave surface a plane reaches beyond what it touches, so each guess is looked at where it lands. What lands deep in the
+  /// wood is dropped and the next one is tried; what lands near the surface gives way to the surface's own plane there, which is one
+  /// Newton step.
+  static Plane nearest_surface(const RadialView& map, const Point& x, const Local& here) {
+    Plane guesses[7] = {tangent_plane(map, x, x, here.g, here.gradient),
+                        plane_along<0, 1>(map, x),
+                        plane_along<0, -1>(map, x),
+                        plane_along<1, 1>(map, x),
+                        plane_along<1, -1>(map, x),
+                        plane_along<2, 1>(map, x),
+                        plane_along<2, -1>(map, x)};
+    Plane best{};
+    I open = all(1) > 0.0F;
+    for (int round = 0; round < 4 && Lanes::mask_of(open) != 0; ++round) {
+      Plane guess = guesses[0];
+      for (int i = 1; i < 7; ++i)
+        guess = nearer(guess, guesses[i]);
+      const Point landed{x.x + guess.depth * guess.n.x * map.inverse_half[0],
+                         x.y + guess.depth * guess.n.y * map.inverse_half[1],
+                         x.z + guess.depth * guess.n.z * map.inverse_half[2]};
+      const Local at = local(map, landed);
+      const Plane there = tangent_plane(map, x, landed, at.g, at.gradient);
+      const F left = -at.g;
+      const F reach = 0.5F * guess.depth;
+      const I sound = (there.depth > 0.0F) & (dot(there.n, guess.n) > 0.5F) & (there.depth < 2.0F * guess.depth) &
+                      ((left < 0.0F) | (left * left <= reach * reach * dot(at.gradient, at.gradient)));
+      const I settled = open & sound;
+      best = select(settled, there, best);
+      open = open & ~sound & (guess.depth > 0.0F);
+      // Until something better comes; and never again this one.
+      best = select(open & ~(best.depth > 0.0F), guess, best);
+      for (Plane& other : guesses)
+        other.depth = select(open & (other.depth <= guess.depth), all(0), other.depth);
+    }
+    return best;
   }
 
-  static LaneMask radial_inside(const RadialView& map, const BlockTransform& X, const PointBlock& points,
+  static LaneMask radial_near(const RadialView& map, const BlockTransform& X, const SpheresView& spheres,
+                              std::size_t count) noexcept {
+    LaneMask near = 0;
+    for (int at = 0; at < static_cast<int>(count); at += kWidth) {
+      const Point p = transform(X, {load(spheres.x, at), load(spheres.y, at), load(spheres.z, at)});
+      const F radius = load(spheres.radius, at);
+      const Point from{p.x - map.center[0], p.y - map.center[1], p.z - map.center[2]};
+      const I at_box = outside_box(from, map.half) <= radius * radius;
+      if (Lanes::mask_of(at_box) == 0) continue;
+      // g grows in proportion to the distance from the centre, so it holds beyond the box, too.
+      const Local here = local(
+          map, {from.x * map.inverse_half[0], from.y * map.inverse_half[1], from.z * map.inverse_half[2]});
+      near |= Lanes::mask_of(at_box & (here.g <= map.steepest * radius)) << at;
+    }
+    return near & first(count);
+  }
+
+  static LaneMask radial_inside(const RadialView& map, const BlockTransform& X, const PointsView& points,
                                 InsideBlock& out) noexcept {
     LaneMask inside = 0;
     for (int at = 0; at < static_cast<int>(kLanes); at += kWidth) {
@@ -278,13 +315,9 @@ struct KernelBody {
   static void radial_depth(const RadialView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept {
     for (int at = 0; at < static_cast<int>(kLanes); at += kWidth) {
       if (((wanted >> at) & kAll) == 0) continue;
-      const Point x = scaled(map, load_points(p_Q, at));
+      const Point x = scaled(map, load_points(p_Q.view(), at));
       const Local here = local(map, x);
-      Plane best = tangent_plane(map, x, x, here.g, here.gradient);
-      best = nearer(best, plane_along<0>(map, x));
-      best = nearer(best, plane_along<1>(map, x));
-      best = nearer(best, plane_along<2>(map, x));
-      best = newton_step(map, x, best);
+      const Plane best = nearest_surface(map, x, here);
       store(best.depth, out.depth_m, at);
       store_points(best.n, out.n_Q, at);
     }
@@ -335,7 +368,26 @@ struct KernelBody {
     return (y0 + (y1 - y0) * c.fz) * map.step_m;
   }
 
-  static LaneMask brick_inside(const BrickView& map, const BlockTransform& X, const PointBlock& points,
+  static LaneMask brick_near(const BrickView& map, const BlockTransform& X, const SpheresView& spheres,
+                             std::size_t count) noexcept {
+    LaneMask near = 0;
+    const auto most = [&](int axis) { return static_cast<float>(map.nodes[static_cast<std::size_t>(axis)] - 1); };
+    for (int at = 0; at < static_cast<int>(count); at += kWidth) {
+      const Point u = brick_coordinates(
+          map, transform(X, {load(spheres.x, at), load(spheres.y, at), load(spheres.z, at)}));
+      const F radius = load(spheres.radius, at) * map.inverse_cell;
+      const Point inner{clamp(u.x, 0.0F, most(0)), clamp(u.y, 0.0F, most(1)), clamp(u.z, 0.0F, most(2))};
+      const Point way{u.x - inner.x, u.y - inner.y, u.z - inner.z};
+      const I at_box = dot(way, way) <= radius * radius;
+      if (Lanes::mask_of(at_box) == 0) continue;
+      // What the grid says is right to less than a cell's diagonal; seen from the box's nearest point the surface lies ahead.
+      const F far = distance(map, cell_of(map, inner)) * map.inverse_cell - 1.8F;
+      near |= Lanes::mask_of(at_box & (far <= radius)) << at;
+    }
+    return near & first(count);
+  }
+
+  static LaneMask brick_inside(const BrickView& map, const BlockTransform& X, const PointsView& points,
                                InsideBlock& out) noexcept {
     LaneMask inside = 0;
     for (int at = 0; at < static_cast<int>(kLanes); at += kWidth) {
@@ -354,7 +406,7 @@ struct KernelBody {
   static void brick_depth(const BrickView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept {
     for (int at = 0; at < static_cast<int>(kLanes); at += kWidth) {
       if (((wanted >> at) & kAll) == 0) continue;
-      const Cell c = cell_of(map, brick_coordinates(map, load_points(p_Q, at)));
+      const Cell c = cell_of(map, brick_coordinates(map, load_points(p_Q.view(), at)));
       const F y0 = c.x00 + (c.x10 - c.x00) * c.fy;
       const F y1 = c.x01 + (c.x11 - c.x01) * c.fy;
       const F ex0 = c.d00 + (c.d10 - c.d00) * c.fy;
@@ -373,7 +425,7 @@ struct KernelBody {
   }
 
   static constexpr Kernels table(const char* name) {
-    return {name, &spheres_near_box, &radial_inside, &brick_inside, &radial_depth, &brick_depth};
+    return {name, &radial_near, &brick_near, &radial_inside, &brick_inside, &radial_depth, &brick_depth};
   }
 };
 

@@ -32,16 +32,15 @@ bool processor_has(InstructionSet set) noexcept {
   return set == InstructionSet::portable;
 }
 
-const Kernels& choose() noexcept {
+InstructionSet choose() noexcept {
   const char* asked = std::getenv("MECHANE_KERNELS");
-  const Kernels* widest = nullptr;
-  for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2, InstructionSet::portable}) {
+  InstructionSet widest = InstructionSet::portable;
+  for (const InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
     if (!is_supported(set)) continue;
-    const Kernels* found = compiled(set);
-    if (asked != nullptr && std::string_view(asked) == found->name) return *found;
-    if (widest == nullptr) widest = found;
+    if (asked != nullptr && std::string_view(asked) == compiled(set)->name) return set;
+    widest = set;
   }
-  return *widest;
+  return widest;
 }
 
 }  // namespace
@@ -55,9 +54,13 @@ const Kernels& kernels_of(InstructionSet set) noexcept {
   return *compiled(set);
 }
 
-const Kernels& best_kernels() noexcept {
-  static const Kernels& kBest = choose();
+InstructionSet best_set() noexcept {
+  static const InstructionSet kBest = choose();
   return kBest;
+}
+
+const Kernels& best_kernels() noexcept {
+  return kernels_of(best_set());
 }
 
 }  // namespace mechane::collision

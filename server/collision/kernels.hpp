@@ -16,13 +16,29 @@ using LaneMask = std::uint32_t;
 
 // None of these has a default: a query holds 64 of them on its stack, and clearing them would cost more than the query.
 
-/// 16 points, metres; what their frame is the owner says.
+/// 16 points that somebody else keeps, metres; what their frame is the owner says.
+struct PointsView {
+  const float* x;
+  const float* y;
+  const float* z;
+};
+
 struct alignas(64) PointBlock {
   std::array<float, kLanes> x, y, z;
+  [[nodiscard]] PointsView view() const noexcept { return {x.data(), y.data(), z.data()}; }
+};
+
+/// 16 spheres; lanes that are not used may hold anything that can be read.
+struct SpheresView {
+  const float* x;
+  const float* y;
+  const float* z;
+  const float* radius;
 };
 
 struct alignas(64) SphereBlock {
   std::array<float, kLanes> x, y, z, radius;
+  [[nodiscard]] SpheresView view() const noexcept { return {x.data(), y.data(), z.data(), radius.data()}; }
 };
 
 /// p_B = R_BA p_A + p_BA; the rotation row after row.
@@ -41,6 +57,7 @@ struct RadialView {
   const std::uint16_t* texels;
   int resolution;
   float sigma_step;
+  float steepest;  ///< g changes by no more than this over a metre
   std::array<float, 3> center, half, inverse_half;
 };
 
@@ -70,12 +87,16 @@ enum class InstructionSet { portable, avx2, avx512 };
 /// Any thread; nothing here allocates or throws.
 struct Kernels {
   const char* name;
-  /// Which spheres reach the box, after the transform.
-  LaneMask (*spheres_near_box)(const SphereBlock& spheres, const BlockTransform& X, const BoxView& box) noexcept;
+  /// Which of the first `count` spheres may hold a point inside the surface, after the transform: those that reach the map's box and
+  /// whose centre is not too far outside for their radius.
+  LaneMask (*radial_near)(const RadialView& map, const BlockTransform& X, const SpheresView& spheres,
+                          std::size_t count) noexcept;
+  LaneMask (*brick_near)(const BrickView& map, const BlockTransform& X, const SpheresView& spheres,
+                         std::size_t count) noexcept;
   /// Which points lie inside the surface, after the transform; NaN is outside. `out` gets every lane.
-  LaneMask (*radial_inside)(const RadialView& map, const BlockTransform& X, const PointBlock& points,
+  LaneMask (*radial_inside)(const RadialView& map, const BlockTransform& X, const PointsView& points,
                             InsideBlock& out) noexcept;
-  LaneMask (*brick_inside)(const BrickView& map, const BlockTransform& X, const PointBlock& points,
+  LaneMask (*brick_inside)(const BrickView& map, const BlockTransform& X, const PointsView& points,
                            InsideBlock& out) noexcept;
   /// Depth and normal of points that lie inside; lanes without their bit in `wanted` may be left as they are.
   void (*radial_depth)(const RadialView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept;
@@ -89,6 +110,8 @@ struct Kernels {
 [[nodiscard]] const Kernels& kernels_of(InstructionSet set) noexcept;
 
 /// The widest that this machine supports. MECHANE_KERNELS=portable|avx2|avx512 in the environment asks for another one.
+[[nodiscard]] InstructionSet best_set() noexcept;
+
 [[nodiscard]] const Kernels& best_kernels() noexcept;
 
 }  // namespace mechane::collision

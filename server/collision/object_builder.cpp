@@ -104,6 +104,36 @@ struct Ground {
   ErrorBudget budget;
 };
 
+bool wants_pieces(const BuildConfig& config, std::size_t nodes) {
+  return config.parts == Parts::decomposed || (config.parts == Parts::automatic && nodes == 1);
+}
+
+/// The parts to be, in the order of the nodes.
+Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMesh> nodes, const Ground& ground) {
+  std::vector<geometry::Decomposition> cuts(nodes.size());
+  if (wants_pieces(ground.config, nodes.size())) {
+    geometry::DecomposeConfig config;
+    config.max_concavity = ground.config.max_concavity;
+    config.max_parts = ground.config.max_pieces;
+    config.seed = ground.config.seed;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!ground.solid.is_closed(i)) continue;  // no inside, no pieces
+      auto cut = geometry::decompose(ground.nodes[i], config);
+      if (!cut) return fail(cut.error().what, where_of(nodes[i].name), cut.error().remedy);
+      cuts[i] = std::move(*cut);
+    }
+  }
+  std::vector<std::vector<PartSource>> found(nodes.size());
+  for_each_index(nodes.size(), [&](std::size_t i) {
+    found[i] = sources_of_node(nodes[i].name, ground.nodes[i], i, cuts[i], ground.solid, ground.config);
+  });
+  std::vector<PartSource> sources;
+  for (auto& some : found)
+    std::move(some.begin(), some.end(), std::back_inserter(sources));
+  if (auto ok = check_count(sources.size()); !ok) return tl::unexpected(ok.error());
+  return sources;
+}
+
 Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground& ground) {
   geometry::FitConfig config;
   config.seed = ground.config.seed;
@@ -117,7 +147,7 @@ Expected<Part> make_part(const PartSource& source, const Ground& ground, PartRep
   const auto fit = fit_source(source, ground);
   if (!fit) return tl::unexpected(fit.error());
   const MapFrame frame =
-      choose_frame(ground.solid, source.node, source.places, source.bound_points_O, fit->shape, fit->X_OQ);
+      choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->shape, fit->X_OQ);
   const std::vector<Probe> probes =
       make_probes(ground.solid, ground.skin, source.places, ground.budget, kProbesPerPart, ground.config.seed + 2);
   const MapCandidates candidates{ground.config.radial_maps, ground.config.bricks, ground.config.map_resolution};
@@ -176,29 +206,29 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
   const double diagonal_m = diagonal_of(*welded);
   const Ground ground{*welded, solid, skin, config, budget_of(config, diagonal_m)};
 
-  std::vector<PartSource> sources(nodes.size());
-  std::vector<Expected<Part>> made(nodes.size());
+  auto sources = find_sources(nodes, ground);
+  if (!sources) return tl::unexpected(sources.error());
+  std::vector<Expected<Part>> made(sources->size());
   BuildReport built;
-  built.parts.resize(nodes.size());
+  built.parts.resize(sources->size());
   std::atomic<std::size_t> done{0};
-  for_each_index(nodes.size(), [&](std::size_t i) {
-    sources[i] = source_of_node(nodes[i].name, (*welded)[i], i, solid, config);
-    made[i] = make_part(sources[i], ground, built.parts[i]);
-    if (on_part) on_part(++done);
+  for_each_index(sources->size(), [&](std::size_t i) {
+    made[i] = make_part((*sources)[i], ground, built.parts[i]);
+    if (on_part) on_part(++done, sources->size());
   });
   Object object;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
+  for (std::size_t i = 0; i < made.size(); ++i) {
     if (!made[i]) return tl::unexpected(made[i].error());
     built.bytes += made[i]->map.bytes();
     object.parts.push_back(std::move(*made[i]));
-    append_samples(object, static_cast<std::uint16_t>(i), std::move(sources[i].samples_O));
+    append_samples(object, static_cast<std::uint16_t>(i), std::move((*sources)[i].samples_O));
   }
   close_clusters(object);
 
   if (report != nullptr) {
     built.diagonal_m = diagonal_m;
     built.budget = ground.budget;
-    built.error = error_of(object, sources, ground);
+    built.error = error_of(object, *sources, ground);
     built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     *report = std::move(built);
   }

@@ -16,7 +16,17 @@
 
 namespace mechane::collision {
 
+/// Where an object's parts come from.
+enum class Parts {
+  automatic,   ///< several meshes: each is a part; a single one is decomposed
+  as_given,    ///< each mesh is a part
+  decomposed,  ///< each mesh is cut into pieces close to convex
+};
+
 struct BuildConfig {
+  Parts parts = Parts::automatic;
+  double max_concavity = 0.02;     ///< of a piece, as a share of its mesh's diagonal; see geometry::decompose
+  std::size_t max_pieces = 48;     ///< of one mesh
   /// The error budget: a map's depth error at its 99th percentile, as a share of the object's diagonal, and in metres; the lesser holds.
   double max_error_share = 0.003;
   double max_error_m = 0.001;   ///< what a finger still takes for the real surface
@@ -53,10 +63,10 @@ struct BuildReport {
   double seconds = 0;
 };
 
-/// Hears how many parts are ready, from the threads that build; calls may overlap.
-using PartDone = std::function<void(std::size_t done)>;
+/// Hears how many parts of how many are ready, from the threads that build; calls may overlap.
+using PartDone = std::function<void(std::size_t done, std::size_t parts)>;
 
-/// Fits, maps and samples each part; each mesh is one part, close to convex, in the object's frame O. A part gets the smallest map that
+/// Decomposes, fits, maps and samples meshes in the object's frame O. A part gets the smallest map that
 /// meets the error budget, and the report says where none does. Parts that touch or overlap
 /// make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
 /// `report` may be null. Uses all cores.

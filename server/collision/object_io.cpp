@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
+#define XXH_INLINE_ALL  // no library to link for those who use this one
 #include <xxhash.h>
 
 #include "server/collision/samples.hpp"

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::collision {
 namespace {
 
-constexpr std::size_t kPlaces = 2400;
+constexpr std::size_t kPlaces = 2400;       // of a part's surface, for the choice of its map
+constexpr std::size_t kLeastPoints = 12;    // a superquadric takes as many
 
 bool exposed(const Solid& solid, std::size_t node, const geometry::SurfaceSample& sample) {
   return solid.is_exposed(node, sample.p, solid.part(node).triangle_normal(sample.triangle));
@@ -44,6 +46,34 @@ std::vector<Vec3> exposed_samples(const geometry::Mesh& mesh, std::size_t node, 
   return points;
 }
 
+/// The piece whose half-spaces hold the point, or are the least broken by it: a sample on a cut belongs to one of them.
+std::size_t piece_of(const geometry::Decomposition& cut, const Vec3& p) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
+    double worst = 0;
+    for (const geometry::HalfSpace& side : cut.pieces[i].cell)
+      worst = std::max(worst, side.n.dot(p) - side.d);
+    if (worst >= least) continue;
+    least = worst;
+    best = i;
+  }
+  return best;
+}
+
+void describe_piece(const geometry::Piece& piece, std::size_t node, const Solid& solid, PartSource& source) {
+  const geometry::MeshQuery& surface = solid.part(node);
+  source.cell = piece.cell;
+  const std::size_t step = std::max<std::size_t>(1, piece.surface_points.size() / kPlaces);
+  for (std::size_t i = 0; i < piece.surface_points.size(); i += step) {
+    const Vec3& p = piece.surface_points[i];
+    const Vec3 n = surface.triangle_normal(surface.closest(p).triangle);
+    if (solid.is_exposed(node, p, n)) source.places.push_back({p, n});
+  }
+  source.bound_points_O = piece.surface_points;
+  source.bound_points_O.insert(source.bound_points_O.end(), piece.cut_points.begin(), piece.cut_points.end());
+}
+
 }  // namespace
 
 geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& solid) {
@@ -65,15 +95,33 @@ geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& soli
   return skin;
 }
 
-PartSource source_of_node(const std::string& name, const geometry::Mesh& mesh, std::size_t node, const Solid& solid,
-                          const BuildConfig& config) {
-  PartSource source;
-  source.name = name;
-  source.node = node;
-  source.places = exposed_places(mesh, node, solid, config.seed);
-  source.bound_points_O = mesh.vertices;
-  source.samples_O = exposed_samples(mesh, node, solid, config, config.max_samples_per_part, source.spacing_m);
-  return source;
+std::vector<PartSource> sources_of_node(const std::string& name, const geometry::Mesh& mesh, std::size_t node,
+                                        const geometry::Decomposition& cut, const Solid& solid,
+                                        const BuildConfig& config) {
+  const std::size_t pieces = std::max<std::size_t>(1, cut.pieces.size());
+  std::vector<PartSource> sources(pieces);
+  double spacing = 0;
+  const auto samples = exposed_samples(mesh, node, solid, config, pieces * config.max_samples_per_part, spacing);
+  if (pieces == 1) {
+    sources[0].name = name;
+    sources[0].places = exposed_places(mesh, node, solid, config.seed);
+    sources[0].bound_points_O = mesh.vertices;
+    sources[0].samples_O = samples;
+  } else {
+    for (std::size_t i = 0; i < pieces; ++i) {
+      sources[i].name = name + "." + std::to_string(i + 1);
+      sources[i].whole_node = false;
+      describe_piece(cut.pieces[i], node, solid, sources[i]);
+    }
+    for (const Vec3& p : samples)
+      sources[piece_of(cut, p)].samples_O.push_back(p);
+  }
+  std::erase_if(sources, [](const PartSource& s) { return s.bound_points_O.size() < kLeastPoints; });
+  for (PartSource& source : sources) {
+    source.node = node;
+    source.spacing_m = spacing;
+  }
+  return sources;
 }
 
 }  // namespace mechane::collision

@@ -9,6 +9,7 @@
 #include "server/collision/cast_map.hpp"
 #include "server/collision/object_builder.hpp"
 #include "server/collision/solid.hpp"
+#include "server/geometry/decompose.hpp"
 #include "server/geometry/mesh.hpp"
 
 namespace mechane::collision {
@@ -16,7 +17,8 @@ namespace mechane::collision {
 struct PartSource {
   std::string name;
   std::size_t node = 0;                ///< the solid's part that it belongs to
-  bool whole_node = true;              ///< else a piece, which the points describe
+  bool whole_node = true;              ///< else a piece, which its bound points describe
+  std::vector<geometry::HalfSpace> cell;  ///< of a piece
   std::vector<SurfacePlace> places;    ///< of its surface where that borders on air, evenly
   std::vector<Vec3> bound_points_O;    ///< its superquadric and its map hold them
   std::vector<Vec3> samples_O;         ///< for contacts
@@ -26,8 +28,9 @@ struct PartSource {
 /// Triangles of all nodes that border on air somewhere: the solid's true surface, for the exact distance.
 [[nodiscard]] geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& solid);
 
-/// A node as one part.
-[[nodiscard]] PartSource source_of_node(const std::string& name, const geometry::Mesh& mesh, std::size_t node,
-                                        const Solid& solid, const BuildConfig& config);
+/// A node as one part, or as the pieces of `cut`. Pieces without a surface of their own (deep in the wood) are left out.
+[[nodiscard]] std::vector<PartSource> sources_of_node(const std::string& name, const geometry::Mesh& mesh,
+                                                      std::size_t node, const geometry::Decomposition& cut,
+                                                      const Solid& solid, const BuildConfig& config);
 
 }  // namespace mechane::collision

@@ -1,23 +1,53 @@
-// The samples of one object asked against the parts of another: the query under find_contacts, for those who want depths alone.
+// Points in, depths and normals out: the query under find_contacts, for those who want no more.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <vector>
 
 #include "server/collision/kernels.hpp"
 #include "server/collision/object.hpp"
+#include "server/collision/placed_part.hpp"
 
 namespace mechane::collision {
 
-/// What the target says of one sample.
-struct SampleHit {
-  float depth_m = 0;           ///< 0: outside
-  Vec3f n_T = Vec3f::Zero();   ///< outward unit normal of the target's surface, in its frame T
+/// Points of some frame S, in clusters of 16 with a sphere around each, the clusters in groups with a sphere around each. Views of the
+/// caller's arrays: points by cluster, cluster spheres by group, so that point = 16 cluster + lane and
+/// cluster = clusters_per_group * group + k. A kernel reads 16 spheres at a time: up to 15 beyond the last must be readable.
+struct PointSet {
+  PointsView points;
+  SpheresView clusters;
+  SpheresView groups;
+  std::size_t group_count = 0;
+  std::size_t clusters_per_group = 0;  ///< 1 to 16
+  Vec3f center = Vec3f::Zero();        ///< of a sphere around everything
+  float radius = 0;
 };
 
-/// Fills out[i] for the i-th sample of `source` (in the order of for_each_sample); `out` must hold them all. Allocates nothing. Any
-/// thread.
-void query_samples(const Object& source, const Pose& X_TS, const Object& target, std::span<SampleHit> out,
-                   const Kernels& kernels = best_kernels()) noexcept;
+/// Which points lie inside, each once and in no order; structure of arrays. The storage is kept from one query to the next.
+struct PointHits {
+  std::vector<std::uint32_t> point;
+  std::vector<float> depth_m;           ///< > 0
+  std::vector<float> n_x, n_y, n_z;     ///< outward unit normal of the target's surface, in S
+  std::size_t count = 0;
+
+  /// Room for every point of a set, so that a query allocates nothing.
+  explicit PointHits(std::size_t points);
+};
+
+/// An object at a place. Made again when it moves; a query then only reads. The object must outlive it.
+class PlacedObject {
+ public:
+  PlacedObject(const Object& object, const Pose& X_SO);
+
+  /// Adds what lies inside to `out`, up to its room. Allocates nothing. Any thread.
+  void query(const PointSet& points, PointHits& out, const Kernels& kernels = best_kernels()) const noexcept;
+
+ private:
+  std::vector<PlacedPart> parts_;
+  std::vector<Eigen::Matrix3f> R_SQ_;
+  Vec3f center_S_ = Vec3f::Zero();
+  float radius_ = 0;
+};
 
 }  // namespace mechane::collision

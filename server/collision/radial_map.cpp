@@ -36,6 +36,13 @@ RadialMap::RadialMap(int resolution, const Vec3f& center_Q, const Vec3f& half_Q,
       sigma_step_(sigma_step),
       texels_(std::move(texels)) {
   MECHANE_ASSERT(is_valid(resolution_, center_Q_, half_Q_, sigma_step_, texels_.size()));
+  for (int face = 0; face < 6; ++face) {
+    for (int cell = 0; cell < (resolution_ - 1) * (resolution_ - 1); ++cell) {
+      const float slope = steepest_in(face, cell % (resolution_ - 1), cell / (resolution_ - 1));
+      steepest_ = std::max(steepest_, slope);
+    }
+  }
+  steepest_ *= 1.0001F;  // rounding
 }
 
 RadialMap RadialMap::from_sigma(int resolution, const Vec3f& center_Q, const Vec3f& half_Q,
@@ -57,9 +64,33 @@ Vec3 RadialMap::texel_direction(int resolution, const Vec3f& half_Q, int face, i
   return scaled.cwiseProduct(half_Q.cast<double>());
 }
 
+/// A bound of |dg/dp| in one cell of a face: of each term by itself, which is no more than twice too much.
+float RadialMap::steepest_in(int face, int iu, int iv) const {
+  const float half_n = 0.5F * static_cast<float>(resolution_ - 1);
+  const std::uint16_t* t = texels_.data() + static_cast<std::size_t>((face * resolution_ + iv) * resolution_ + iu);
+  const float s00 = t[0];
+  const float s10 = t[1];
+  const float s01 = t[resolution_];
+  const float s11 = t[resolution_ + 1];
+  const float largest = sigma_step_ * std::max({s00, s10, s01, s11});
+  const float slope_u = sigma_step_ * half_n * std::max(std::abs(s10 - s00), std::abs(s11 - s01));
+  const float slope_v = sigma_step_ * half_n * std::max(std::abs(s01 - s00), std::abs(s11 - s10));
+  const auto reach = [&](int i) {
+    return std::max(std::abs(static_cast<float>(i) / half_n - 1), std::abs(static_cast<float>(i + 1) / half_n - 1));
+  };
+  const int axis = face / 2;
+  const Vec3f inverse = half_Q_.cwiseInverse();
+  Vec3f bound;
+  bound[axis] = largest + reach(iu) * slope_u + reach(iv) * slope_v;
+  bound[(axis + 1) % 3] = slope_u;
+  bound[(axis + 2) % 3] = slope_v;
+  return bound.cwiseProduct(inverse).norm();
+}
+
 RadialView RadialMap::view() const noexcept {
   const auto array = [](const Vec3f& v) { return std::array<float, 3>{v.x(), v.y(), v.z()}; };
-  return {texels_.data(), resolution_, sigma_step_, array(center_Q_), array(half_Q_), array(half_Q_.cwiseInverse())};
+  return {texels_.data(),   resolution_,     sigma_step_,
+          steepest_,        array(center_Q_), array(half_Q_), array(half_Q_.cwiseInverse())};
 }
 
 BoxView RadialMap::box() const noexcept {

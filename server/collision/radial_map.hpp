@@ -58,10 +58,13 @@ class RadialMap {
   [[nodiscard]] BoxView box() const noexcept;
 
  private:
+  [[nodiscard]] float steepest_in(int face, int iu, int iv) const;
+
   int resolution_ = 0;
   Vec3f center_Q_ = Vec3f::Zero();
   Vec3f half_Q_ = Vec3f::Ones();
   float sigma_step_ = 0;
+  float steepest_ = 0;
   std::vector<std::uint16_t> texels_;
 };
 

@@ -27,10 +27,11 @@ constexpr std::uintmax_t kLongestPartFile = 1ULL << 30U;
 /// What the file of the object is called: whatever can change the object is in the name.
 std::string cache_name(const std::string& file_hash, const std::string& node, const collision::BuildConfig& config) {
   const std::string key = fmt::format(
-      "part file {} build {} import {} mesh {} node {}:{} error {:a} {:a} miss {:a} probes {:a} maps {}{} resolution {} "
+      "part file {} build {} import {} mesh {} node {}:{} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} maps {}{} resolution {} "
       "spacing {:a} samples {} seam {:a} seed {}",
       collision::kPartFileVersion, kObjectBuildVersion, kSceneCodecVersion, file_hash, node.size(), node,
-      config.max_error_share, config.max_error_m, config.miss_share, config.probe_depth_m, config.radial_maps,
+      config.max_error_share, config.max_error_m, config.miss_share, config.probe_depth_m, static_cast<int>(config.parts),
+      config.max_concavity, config.max_pieces, config.radial_maps,
       config.bricks, config.map_resolution, config.sample_spacing_m, config.max_samples_per_part, config.seam_gap_m, config.seed);
   return content_hash(std::as_bytes(std::span(key))) + ".part";
 }
@@ -128,20 +129,26 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
   if (!parts) return at(parts.error());
   if (progress_) progress_(node, parts->size());
   const std::string name = node.empty() ? "(all)" : node;
-  log::info(fmt::format("{}, node {}: building {} parts for touch; the next start finds them ready", file.string(),
-                        name, parts->size()));
+  log::info(fmt::format("{}, node {}: building it for touch; the next start finds it ready", file.string(), name));
   collision::BuildReport report;
   std::atomic<std::int64_t> next_line_s{kSecondsBetweenLines};
   const auto began = std::chrono::steady_clock::now();
-  const auto say = [&](std::size_t done) {
+  const auto say = [&](std::size_t done, std::size_t all) {
     const auto s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began).count();
     std::int64_t due = next_line_s.load();
     if (s < due || !next_line_s.compare_exchange_strong(due, s + kSecondsBetweenLines)) return;
-    log::info(fmt::format("{}, node {}: {} of {} parts built", file.string(), name, done, parts->size()));
+    log::info(fmt::format("{}, node {}: {} of {} parts built", file.string(), name, done, all));
   };
   Expected<collision::Object> object = collision::build_object(*parts, config, &report, say);
   if (!object) return at(object.error());
-  log::info(fmt::format("{}, node {}: built in {:.1f} s", file.string(), name, report.seconds));
+  const auto over = std::count_if(report.parts.begin(), report.parts.end(), [](const auto& part) { return !part.met; });
+  log::info(fmt::format("{}, node {}: {} parts of {} KB in {:.1f} s; touch is true to {:.2f} mm at 99 % of the surface",
+                        file.string(), name, report.parts.size(), report.bytes / 1024, report.seconds,
+                        1000 * report.error.p99_m));
+  if (over > 0) {
+    log::info(fmt::format("{}, node {}: {} parts are less exact than asked; 'mechane fit' shows where", file.string(),
+                          name, over));
+  }
   return object;
 }
 

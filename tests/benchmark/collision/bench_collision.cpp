@@ -23,8 +23,8 @@ struct Config {
   std::size_t checked = 200;
   double budget_pct = 0.3;
   TimingConfig timing;
-  std::vector<std::string> methods = {kOurs,    "brick",  "brick_scalar", "openvdb",
-                                      "bt_sdf", "embree", "fcl_contacts", "fcl_yesno"};
+  std::vector<std::string> methods = {kOurs,    "sqmap_avx2", "sqmap_portable", "sqmap_nobrick", "brick",    "brick_scalar",
+                                      "openvdb", "bt_sdf",     "embree",         "fcl_contacts",  "fcl_yesno"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
@@ -45,7 +45,14 @@ class Quantiles {
 };
 
 MethodPtr make_method(const std::string& name, const Scene& scene, const Accuracy& accuracy) {
-  if (name == "sqmap") return make_sqmap(scene);
+  using collision::InstructionSet;
+  const auto ours = [&](InstructionSet set) {
+    return collision::is_supported(set) ? make_sqmap(scene, name, OurMaps::any, set) : nullptr;
+  };
+  if (name == kOurs) return ours(collision::best_set());
+  if (name == "sqmap_avx2") return ours(InstructionSet::avx2);
+  if (name == "sqmap_portable") return ours(InstructionSet::portable);
+  if (name == "sqmap_nobrick") return make_sqmap(scene, name, OurMaps::radial_only, collision::best_set());
   if (name == "brick") return make_brick(scene, accuracy, Simd::best);
   if (name == "brick_scalar") return make_brick(scene, accuracy, Simd::scalar);
   if (name == "openvdb") return make_openvdb(scene, accuracy);
@@ -170,6 +177,19 @@ void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<Step
 void report_method(const Scene& scene, const Method& method, std::size_t asked, Report& report) {
   report.metric("bytes." + method.name(), static_cast<double>(method.bytes()));
   report.metric((method.name() == kOurs ? "build_s" : "build_s." + method.name()), method.build_s());
+  std::size_t radial = 0;
+  std::map<std::string, std::string> kept;
+  const std::vector<MapShare> maps = method.maps();
+  for (const MapShare& share : maps) {
+    radial += share.radial ? 1 : 0;
+    kept[scene.objects[share.object].name] += (kept[scene.objects[share.object].name].empty() ? "" : ", ") + share.name;
+  }
+  if (!maps.empty() && method.name() == kOurs) {
+    report.metric("share.radial", static_cast<double>(radial) / static_cast<double>(maps.size()));
+    report.metric("share.brick", 1 - static_cast<double>(radial) / static_cast<double>(maps.size()));
+    for (const auto& [object, names] : kept)
+      report.note("sqmap keeps " + object + " in " + names);
+  }
   const std::vector<int> cells = method.cells();
   for (std::size_t k = 0; k < cells.size(); ++k)
     report.metric("cells." + method.name() + "." + scene.objects[k].name, cells[k]);

@@ -68,13 +68,14 @@ Segment make_segment(std::size_t index) {
     points.push_back(sample.p / geometry::radial_form(segment.shape, sample.p));
   collision::Object object;
   collision::append_samples(object, 0, std::move(points));
-  MECHANE_ASSERT(object.samples_O.size() == kSegmentPoints && object.clusters.size() == kSegmentClusters);
+  MECHANE_ASSERT(collision::sample_count(object) == kSegmentPoints && object.clusters.size() == kSegmentClusters);
   std::vector<Vec3> all;
-  for (const Vec3f& p : object.samples_O)
-    all.push_back(p.cast<double>());
-  segment.samples_S = std::move(object.samples_O);
+  collision::for_each_sample(object, [&](const collision::Cluster& cluster, std::size_t lane) {
+    segment.samples_S.push_back(cluster.sample_O(lane));
+    all.push_back(segment.samples_S.back().cast<double>());
+  });
   for (std::size_t i = 0; i < kSegmentClusters; ++i) {
-    MECHANE_ASSERT(object.clusters[i].first == i * kClusterPoints && object.clusters[i].count == kClusterPoints);
+    MECHANE_ASSERT(object.clusters[i].count == kClusterPoints);
     segment.clusters_S[i] = object.clusters[i].bound_O;
   }
   segment.bound_S = collision::bounding_sphere(all);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "server/collision/kernels.hpp"
 #include "tests/benchmark/collision/scene.hpp"
 
 namespace mechane::benchmark {
@@ -34,6 +35,14 @@ struct alignas(64) Hits {
   }
 };
 
+/// The representation of one of our parts.
+struct MapShare {
+  std::size_t object = 0;
+  std::string name;
+  bool radial = false;
+  std::size_t bytes = 0;
+};
+
 /// One way of asking, ready to be asked: built from a scene, which must outlive it.
 class Method {
  public:
@@ -54,6 +63,8 @@ class Method {
   [[nodiscard]] virtual bool answers_points() const { return true; }
   /// Cells along the longest side of each object's grid; empty for what has none.
   [[nodiscard]] virtual std::vector<int> cells() const { return {}; }
+  /// What our parts are kept in; empty for the others.
+  [[nodiscard]] virtual std::vector<MapShare> maps() const { return {}; }
   /// What the mesh methods found, all steps so far.
   [[nodiscard]] virtual std::uint64_t mesh_contacts() const { return 0; }
 };
@@ -74,7 +85,10 @@ using MethodPtr = std::unique_ptr<Method>;
 
 enum class Simd { best, scalar };
 
-MethodPtr make_sqmap(const Scene& scene);
+/// What our builder may choose from.
+enum class OurMaps { any, radial_only };
+
+MethodPtr make_sqmap(const Scene& scene, const std::string& name, OurMaps maps, collision::InstructionSet set);
 MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd);
 MethodPtr make_openvdb(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_bt_sdf(const Scene& scene, const Accuracy& accuracy);

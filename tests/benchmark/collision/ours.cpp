@@ -1,66 +1,88 @@
 // The product's own query, through the collision room.
+#include <array>
+
 #include "server/base/assert.hpp"
 #include "server/collision/object_builder.hpp"
-#include "tests/benchmark/collision/culling.hpp"
+#include "server/collision/point_query.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/resolution.hpp"
 
 namespace mechane::benchmark {
 namespace {
 
-/// Each object as one part, in the map that the collision room makes of it.
+collision::BuildConfig config_for(const SceneObject& object, OurMaps maps) {
+  collision::BuildConfig config;
+  config.parts = collision::Parts::decomposed;
+  config.max_error_m = 1;  // the share alone: these objects have no touchable size of their own
+  config.probe_depth_m = 0.015 * object.diagonal_m;
+  config.bricks = maps != OurMaps::radial_only;
+  return config;
+}
+
 class Ours final : public Method {
  public:
-  explicit Ours(const Scene& scene) : scene_(scene) {
+  Ours(const Scene& scene, std::string name, OurMaps maps, collision::InstructionSet set)
+      : name_(std::move(name)), kernels_(collision::kernels_of(set)), found_(kHandPoints) {
     const Stopwatch watch;
     for (const SceneObject& object : scene.objects) {
-      collision::BuildConfig config;
-      config.map_resolution = 32;
       const std::array<geometry::NamedMesh, 1> whole = {{{object.name, object.mesh_O}}};
-      auto built = collision::build_object(whole, config);
+      auto built = collision::build_object(whole, config_for(object, maps));
       MECHANE_ASSERT(built.has_value());
       objects_.push_back(std::move(*built));
     }
     build_s_ = watch.seconds();
+    for (std::size_t k = 0; k < objects_.size(); ++k)
+      placed_.emplace_back(objects_[k], scene.objects[k].X_WO);
   }
 
-  [[nodiscard]] std::string name() const override { return "sqmap"; }
+  [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::size_t bytes() const override {
     std::size_t sum = 0;
     for (const collision::Object& object : objects_)
       for (const collision::Part& part : object.parts)
-        sum += part.map.texels().size_bytes() + sizeof(part);
+        sum += part.map.bytes() + sizeof(part) + sizeof(collision::PlacedPart);
     return sum;
   }
   [[nodiscard]] double build_s() const override { return build_s_; }
+  [[nodiscard]] std::vector<MapShare> maps() const override {
+    std::vector<MapShare> shares;
+    for (std::size_t k = 0; k < objects_.size(); ++k) {
+      for (const collision::Part& part : objects_[k].parts)
+        shares.push_back({k, part.map.name(), part.map.radial() != nullptr, part.map.bytes()});
+    }
+    return shares;
+  }
 
   void step(const HandStep& hand, Hits& out) override {
-    for (std::size_t k = 0; k < objects_.size(); ++k) {
-      const SceneObject& object = scene_.objects[k];
-      const collision::Part& part = objects_[k].parts.front();
-      const Pose X_QO = part.X_OQ.inverse();
-      const Eigen::Matrix3f R_QO = X_QO.R.toRotationMatrix().cast<float>();
-      const Vec3f p_QO = X_QO.p.cast<float>();
-      const Eigen::Matrix3f R_WQ = (R_QO * object.R_OW).transpose();
-      visit_near_clusters(hand, object, [&](std::size_t cluster, const Vec3f&, float) {
-        for (std::size_t i = cluster * kClusterPoints; i < (cluster + 1) * kClusterPoints; ++i) {
-          const auto hit = part.map.evaluate(R_QO * point_O(hand, object, i) + p_QO);
-          if (hit.hit) out.add(i, k, hit.depth_m, R_WQ * hit.n_Q);
-        }
-      });
+    const collision::PointSet points{
+        {hand.x.data(), hand.y.data(), hand.z.data()},
+        {hand.cluster_x.data(), hand.cluster_y.data(), hand.cluster_z.data(), hand.cluster_r.data()},
+        {hand.segment_x.data(), hand.segment_y.data(), hand.segment_z.data(), hand.segment_r.data()},
+        kSegments,
+        kSegmentClusters,
+        hand.center,
+        hand.radius};
+    for (std::size_t k = 0; k < placed_.size(); ++k) {
+      found_.count = 0;
+      placed_[k].query(points, found_, kernels_);
+      for (std::size_t i = 0; i < found_.count; ++i)
+        out.add(found_.point[i], k, found_.depth_m[i], {found_.n_x[i], found_.n_y[i], found_.n_z[i]});
     }
   }
 
  private:
-  const Scene& scene_;
+  std::string name_;
+  const collision::Kernels& kernels_;
+  collision::PointHits found_;
   double build_s_ = 0;
   std::vector<collision::Object> objects_;
+  std::vector<collision::PlacedObject> placed_;
 };
 
 }  // namespace
 
-MethodPtr make_sqmap(const Scene& scene) {
-  return std::make_unique<Ours>(scene);
+MethodPtr make_sqmap(const Scene& scene, const std::string& name, OurMaps maps, collision::InstructionSet set) {
+  return std::make_unique<Ours>(scene, name, maps, set);
 }
 
 }  // namespace mechane::benchmark

@@ -53,7 +53,8 @@ using HandPose = std::array<Pose, kSegments>;  ///< X_WS of each segment
 /// The hand as every method gets it: points of W and the spheres around them, structure of arrays.
 struct alignas(64) HandStep {
   std::array<float, kHandPoints> x, y, z;
-  std::array<float, kClusters> cluster_x, cluster_y, cluster_z, cluster_r;
+  // A kernel may read 16 spheres where 8 are left.
+  std::array<float, kClusters + 16> cluster_x, cluster_y, cluster_z, cluster_r;
   std::array<float, kSegments> segment_x, segment_y, segment_z, segment_r;
   Vec3f center = Vec3f::Zero();  ///< of a sphere around all
   float radius = 0;

@@ -1,12 +1,13 @@
 #include "server/collision/kernels.hpp"
 
-#include <cstring>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "server/collision/kernel_body.hpp"
+#include "server/collision/object_builder.hpp"
+#include "server/collision/part_map.hpp"
 #include "server/geometry/random.hpp"
 
 namespace mechane::collision {
@@ -50,11 +51,6 @@ PointBlock any_points(geometry::Random& random) {
   return block;
 }
 
-template <class Block>
-bool same_bits(const Block& a, const Block& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
 bool same_lane(const InsideBlock& a, const InsideBlock& b, std::size_t lane) {
   return a.m[lane] == b.m[lane] && a.p_Q.x[lane] == b.p_Q.x[lane] && a.p_Q.y[lane] == b.p_Q.y[lane] &&
          a.p_Q.z[lane] == b.p_Q.z[lane];
@@ -93,7 +89,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForARadialMap) {
   for (int round = 0; round < 400; ++round) {
     const int resolution = 16 << random.below(3);
     const auto texels = any_texels(random, resolution);
-    RadialView map{texels.data(), resolution, 1.0F / 15'000, {}, {}, {}};
+    RadialView map{texels.data(), resolution, 1.0F / 15'000, 0, {}, {}, {}};
     for (std::size_t i = 0; i < 3; ++i) {
       map.center[i] = between(random, -0.1, 0.1);
       map.half[i] = between(random, 0.05, 1);
@@ -103,7 +99,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForARadialMap) {
     const PointBlock points = any_points(random);
     const auto ask = [&](const Kernels& kernels) {
       Answer answer;
-      answer.inside = kernels.radial_inside(map, X, points, answer.points);
+      answer.inside = kernels.radial_inside(map, X, points.view(), answer.points);
       kernels.radial_depth(map, answer.points.p_Q, answer.inside, answer.depth);
       return answer;
     };
@@ -135,7 +131,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
     const PointBlock points = any_points(random);
     const auto ask = [&](const Kernels& kernels) {
       Answer answer;
-      answer.inside = kernels.brick_inside(map, X, points, answer.points);
+      answer.inside = kernels.brick_inside(map, X, points.view(), answer.points);
       kernels.brick_depth(map, answer.points.p_Q, answer.inside, answer.depth);
       return answer;
     };
@@ -148,28 +144,79 @@ TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
   EXPECT_GT(inside, 300U);
 }
 
-TEST(Kernels, EverySetFindsTheSameSpheresAndTheRightOnes) {
-  geometry::Random random(9);
-  for (int round = 0; round < 200; ++round) {
-    SphereBlock spheres{};
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      spheres.x[i] = between(random, -2, 2);
-      spheres.y[i] = between(random, -2, 2);
-      spheres.z[i] = between(random, -2, 2);
-      spheres.radius[i] = between(random, 0, 0.5);
-    }
-    const BlockTransform identity{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
-    const BoxView box{{0.1F, 0.2F, -0.3F}, {between(random, 0.1, 1), between(random, 0.1, 1), between(random, 0.1, 1)}};
-    LaneMask want = 0;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const float dx = std::max(std::abs(spheres.x[i] - box.center[0]) - box.half[0], 0.0F);
-      const float dy = std::max(std::abs(spheres.y[i] - box.center[1]) - box.half[1], 0.0F);
-      const float dz = std::max(std::abs(spheres.z[i] - box.center[2]) - box.half[2], 0.0F);
-      if (dx * dx + dy * dy + dz * dz <= spheres.radius[i] * spheres.radius[i]) want |= LaneMask{1} << i;
-    }
-    for (const Kernels* kernels : all_kernels())
-      EXPECT_EQ(kernels->spheres_near_box(spheres, identity, box), want) << kernels->name;
+SphereBlock any_spheres(geometry::Random& random) {
+  SphereBlock spheres{};
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    spheres.x[i] = between(random, -0.3, 0.3);
+    spheres.y[i] = between(random, -0.3, 0.3);
+    spheres.z[i] = between(random, -0.3, 0.3);
+    spheres.radius[i] = between(random, 0, 0.05);
   }
+  return spheres;
+}
+
+/// Points of the sphere, 48 to each, that the map calls inside.
+template <class Map>
+bool holds_an_inside_point(const Map& map, const SphereBlock& spheres, std::size_t i, geometry::Random& random) {
+  for (int k = 0; k < 48; ++k) {
+    const Vec3f direction = Vec3f::NullaryExpr([&] { return between(random, -1, 1); }).normalized();
+    const Vec3f center(spheres.x[i], spheres.y[i], spheres.z[i]);
+    if (map.evaluate(center + spheres.radius[i] * between(random, 0, 1) * direction).hit) return true;
+  }
+  return false;
+}
+
+constexpr BlockTransform kIdentity{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
+
+TEST(Kernels, NoSphereThatHoldsAnInsidePointIsCulledAndManyOthersAre) {
+  geometry::Random random(9);
+  geometry::Superquadric shape;
+  shape.a = Vec3(0.1, 0.06, 0.15);
+  shape.e1 = 0.4;
+  shape.e2 = 1.3;
+  const PartMap map = make_superquadric_object(shape, 0.02).parts[0].map;
+  int culled = 0;
+  int kept = 0;
+  for (int round = 0; round < 300; ++round) {
+    const SphereBlock spheres = any_spheres(random);
+    const LaneMask want = kernels_of(InstructionSet::portable).radial_near(map.radial()->view(), kIdentity, spheres.view(), 16);
+    for (const Kernels* kernels : all_kernels())
+      ASSERT_EQ(kernels->radial_near(map.radial()->view(), kIdentity, spheres.view(), 16), want) << kernels->name;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const bool near = (want >> i & 1U) != 0;
+      const bool holds = holds_an_inside_point(map, spheres, i, random);
+      EXPECT_TRUE(near || !holds);
+      culled += near ? 0 : 1;
+      kept += near && holds ? 1 : 0;
+    }
+  }
+  EXPECT_GT(culled, 3000);
+  EXPECT_GT(kept, 300);
+}
+
+TEST(Kernels, ABrickCullsNoSphereThatHoldsAnInsidePoint) {
+  geometry::Random random(10);
+  // A ball of 8 cm.
+  DistanceBrick::Grid grid{{20, 20, 20}, Vec3f::Constant(-0.095F), 0.01F};
+  std::vector<float> distances;
+  for (int i = 0; i < 8000; ++i) {
+    const Vec3f p = grid.origin_Q + grid.cell_m * Eigen::Vector3i(i % 20, i / 20 % 20, i / 400).cast<float>();
+    distances.push_back(p.norm() - 0.08F);
+  }
+  const DistanceBrick ball = DistanceBrick::from_distances(grid, 0.05F, distances);
+  int culled = 0;
+  for (int round = 0; round < 300; ++round) {
+    const SphereBlock spheres = any_spheres(random);
+    const LaneMask want = kernels_of(InstructionSet::portable).brick_near(ball.view(), kIdentity, spheres.view(), 16);
+    for (const Kernels* kernels : all_kernels())
+      ASSERT_EQ(kernels->brick_near(ball.view(), kIdentity, spheres.view(), 16), want) << kernels->name;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const bool near = (want >> i & 1U) != 0;
+      EXPECT_TRUE(near || !holds_an_inside_point(ball, spheres, i, random));
+      culled += near ? 0 : 1;
+    }
+  }
+  EXPECT_GT(culled, 3000);
 }
 
 TEST(Kernels, TheBestSetIsOneThatThisMachineHas) {
