@@ -21,7 +21,7 @@ constexpr std::size_t kMostFanPieces = 64;
 
 CutTree::CutTree(const DecomposeModel& model) : model_(model) {
   branches_.push_back({whole_region(model), {}, false});
-  measure(model, branches_.front().region, Care::fine);
+  measure(model, branches_.front().region);
 }
 
 void CutTree::grow(std::span<const ConcavePlace> places, std::size_t most_leaves,
@@ -46,7 +46,7 @@ void CutTree::grow(std::span<const ConcavePlace> places, std::size_t most_leaves
     }
     auto [within, beyond] = divide(model_, branches_[*worst].region, *plane);
     const std::array<PieceRegion*, 2> sides = {&within, &beyond};
-    for_each_index(sides.size(), [&](std::size_t i) { measure(model_, *sides[i], Care::coarse); });
+    for_each_index(sides.size(), [&](std::size_t i) { measure(model_, *sides[i]); });
     for (PieceRegion* side : sides) {
       branches_[*worst].children.push_back(branches_.size());
       branches_.push_back({std::move(*side), {}, false});
@@ -88,7 +88,7 @@ bool CutTree::replace_one(std::size_t branch, const Cost& now) {
     std::vector<PieceRegion> pieces(plan->size(), PieceRegion{{}, PieceSurface(model_.mesh), {}, {}, {}});
     for_each_index(pieces.size(), [&](std::size_t i) {
       pieces[i] = confined(model_, branches_[branch].region, (*plan)[i]);
-      measure(model_, pieces[i], Care::coarse);
+      measure(model_, pieces[i]);
     });
     if (std::any_of(pieces.begin(), pieces.end(), [&](const PieceRegion& p) { return p.needs_cut(model_); })) continue;
     branches_[branch].children.clear();

@@ -83,7 +83,7 @@ std::optional<PieceRegion> joined(const DecomposeModel& model, const std::vector
     if (k != i && k != j && holds_some(model, cell, pieces[k])) return std::nullopt;
   }
   PieceRegion both{std::move(cell), PieceSurface::joined(a.surface, b.surface), joined_voxels(a.voxels, b.voxels), {}, {}};
-  measure(model, both, Care::coarse);
+  measure(model, both);
   if (both.needs_cut(model)) return std::nullopt;
   return both;
 }
