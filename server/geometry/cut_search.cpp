@@ -22,7 +22,7 @@ constexpr double kLeastShare = 0.004;  // of the points that a child must have
 constexpr double kExcessFrom = 0.5;   // of the bound: shallower chords count for nothing
 constexpr double kExcessTo = 5;       // of the bound: deeper ones count the same
 constexpr std::size_t kAreaProbes = 400;
-constexpr double kPriceOfArea = 0.25;
+constexpr double kPriceOfArea = 1.0;
 constexpr double kWorthOfDepth = 0.5;
 constexpr double kWorthOfDone = 0.3;
 
