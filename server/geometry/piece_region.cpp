@@ -208,11 +208,13 @@ std::vector<Vec3> surface_points(const DecomposeModel& model, const PieceRegion&
 
 std::vector<Vec3> cut_points(const DecomposeModel& model, std::span<const HalfSpace> cell, double spacing_m,
                              std::size_t most) {
+  const double unsure = 0.5 * model.grid.cell_m();
   std::vector<Vec3> points;
   for (const HalfSpace& plane : cell) {
     for (const Vec3& p : lattice_on(plane_section(plane, cell, model.box), plane.n, spacing_m, most)) {
       const double d = model.grid.at(p);
-      if (d > model.grid.cell_m() || (d > -model.grid.cell_m() && model.query.signed_distance(p) > 0)) continue;
+      // Beside edges the grid is off by a third of a cell.
+      if (d > unsure || (d > -unsure && model.query.winding(p) <= 0)) continue;
       points.push_back(p);
     }
   }
