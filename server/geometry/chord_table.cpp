@@ -8,7 +8,7 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr float kLeastStep = 0.8F;   // cells
+constexpr float kLeastStep = 0.8F;     // cells
 constexpr std::size_t kRowBatch = 16;  // a thread is not worth a row
 
 }  // namespace
@@ -62,9 +62,8 @@ std::vector<std::pair<std::size_t, std::size_t>> ChordTable::deep_pairs(std::siz
     const auto most = std::max_element(from, from + static_cast<std::ptrdiff_t>(i));
     if (*most > 0) pairs.emplace_back(i, static_cast<std::size_t>(most - from));
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) {
-    return row(a.first)[a.second] > row(b.first)[b.second];
-  });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [&](const auto& a, const auto& b) { return row(a.first)[a.second] > row(b.first)[b.second]; });
   if (pairs.size() > count) pairs.resize(count);
   return pairs;
 }

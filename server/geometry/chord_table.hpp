@@ -13,7 +13,7 @@
 namespace mechane::geometry {
 
 struct ChordDepth {
-  double depth_m = 0;       ///< the greatest distance from the solid along the chord; 0 when it stays inside
+  double depth_m = 0;     ///< the greatest distance from the solid along the chord; 0 when it stays inside
   Vec3 p = Vec3::Zero();  ///< where; the chord's start when it stays inside
 };
 

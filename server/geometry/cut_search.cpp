@@ -13,14 +13,14 @@ constexpr std::size_t kMostPlaces = 40;
 constexpr double kPlacesApart = 1.0 / 14;  // of the region's extent
 constexpr double kBesideCut = 0.5;         // cells: a place this close to a cut is used up
 constexpr std::size_t kMostPairs = 80;
-constexpr double kAlike = 0.7;            // cosine between the creases of a pair
+constexpr double kAlike = 0.7;  // cosine between the creases of a pair
 constexpr std::size_t kFinalists = 24;
 constexpr int kQuantiles = 8;
 constexpr std::size_t kRoughPoints = 160;
 constexpr std::size_t kLeastPoints = 4;
 constexpr double kLeastShare = 0.004;  // of the points that a child must have
-constexpr double kExcessFrom = 0.5;   // of the bound: shallower chords count for nothing
-constexpr double kExcessTo = 5;       // of the bound: deeper ones count the same
+constexpr double kExcessFrom = 0.5;    // of the bound: shallower chords count for nothing
+constexpr double kExcessTo = 5;        // of the bound: deeper ones count the same
 constexpr std::size_t kAreaProbes = 400;
 constexpr double kPriceOfArea = 1.0;
 constexpr double kWorthOfDepth = 0.5;
@@ -87,9 +87,8 @@ std::vector<ConcavePlace> places_in(const DecomposeModel& model, const PieceRegi
   std::vector<ConcavePlace> chosen;
   for (const ConcavePlace& place : places) {
     if (!cell_contains(region.cell, place.p, -kBesideCut * model.grid.cell_m())) continue;
-    const bool crowded = std::any_of(chosen.begin(), chosen.end(), [&](const ConcavePlace& other) {
-      return (other.p - place.p).norm() < apart;
-    });
+    const bool crowded = std::any_of(chosen.begin(), chosen.end(),
+                                     [&](const ConcavePlace& other) { return (other.p - place.p).norm() < apart; });
     if (crowded) continue;
     chosen.push_back(place);
     if (chosen.size() == kMostPlaces) break;

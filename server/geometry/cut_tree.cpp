@@ -148,9 +148,9 @@ void CutTree::collapse(std::size_t most_leaves) {
     for (std::size_t k = 0; k < reachable.size(); ++k) {
       const Branch& branch = branches_[reachable[k]];
       reachable.insert(reachable.end(), branch.children.begin(), branch.children.end());
-      const bool over_leaves = !branch.children.empty() &&
-                               std::all_of(branch.children.begin(), branch.children.end(),
-                                           [&](std::size_t child) { return branches_[child].children.empty(); });
+      const bool over_leaves =
+          !branch.children.empty() && std::all_of(branch.children.begin(), branch.children.end(),
+                                                  [&](std::size_t child) { return branches_[child].children.empty(); });
       if (over_leaves && (!least || branch.region.concavity_m < branches_[*least].region.concavity_m)) {
         least = reachable[k];
       }

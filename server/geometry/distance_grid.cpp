@@ -9,8 +9,9 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kBand = 1.8;  // cells; above the cell's diagonal, so that every corner of a cell with surface in it is exact
-constexpr int kMargin = 2;     // cells about the mesh
+constexpr double kBand =
+    1.8;  // cells; above the cell's diagonal, so that every corner of a cell with surface in it is exact
+constexpr int kMargin = 2;  // cells about the mesh
 // Shares of a cell by which the grid is shifted, so that its lines do not run along the faces of a mesh with round coordinates.
 const Vec3 kShift(0.3183, 0.2718, 0.4142);
 

@@ -52,7 +52,8 @@ int flood_lumps(const DecomposeModel& model, const PieceRegion& region, std::vec
     if (voxel.share > 0) lump_of[voxel.node] = kUnseen;
   }
   const auto sx = static_cast<std::ptrdiff_t>(model.grid.size()[0]);
-  const std::array<std::ptrdiff_t, 6> neighbours = {1, -1, sx, -sx, sx * model.grid.size()[1], -sx * model.grid.size()[1]};
+  const std::array<std::ptrdiff_t, 6> neighbours = {
+      1, -1, sx, -sx, sx * model.grid.size()[1], -sx * model.grid.size()[1]};
   const std::size_t least =
       std::max(kLeastLump, static_cast<std::size_t>(kCrumb * static_cast<double>(region.voxels.size())));
   int lumps = 0;

@@ -29,7 +29,7 @@ struct DecomposeModel {
   DistanceGrid grid;
   Eigen::AlignedBox3d box;
   double diagonal_m = 0;
-  double bound_m = 0;  ///< the concavity that a piece may have
+  double bound_m = 0;       ///< the concavity that a piece may have
   double volume_scale = 1;  ///< true volume of the solid over that of its voxels
   std::uint64_t seed = 1;
 };
