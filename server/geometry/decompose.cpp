@@ -97,10 +97,13 @@ std::vector<PieceRegion> search(const DecomposeModel& model, const DecomposeConf
   tree.replace_by_fans();
   heard(0.8);
   std::vector<PieceRegion> pieces = tree.leaves();
+  std::size_t leaves = pieces.size();
   merge_pieces(model, pieces);
-  if (pieces.size() > config.max_parts) {
-    tree.collapse(config.max_parts);
+  while (pieces.size() > config.max_parts) {  // one leaf has one piece, so this ends
+    leaves -= std::min(leaves - 1, pieces.size() - config.max_parts);
+    tree.collapse(leaves);
     pieces = tree.leaves();
+    leaves = pieces.size();
     merge_pieces(model, pieces);
   }
   heard(0.95);
