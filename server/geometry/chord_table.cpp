@@ -8,25 +8,31 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kLeastStep = 0.7;   // cells
+constexpr float kLeastStep = 0.8F;     // cells
 constexpr std::size_t kRowBatch = 16;  // a thread is not worth a row
 
 }  // namespace
 
 ChordDepth chord_depth(const DistanceGrid& grid, const Vec3& a, const Vec3& b) {
-  ChordDepth deepest{0, a};
-  const double length = (b - a).norm();
-  if (!(length > 0)) return deepest;
-  const Vec3 along = (b - a) / length;
-  const double least = kLeastStep * grid.cell_m();
-  double t = 0;
-  while (t < length) {
-    const double d = grid.at(a + t * along);
-    if (d > deepest.depth_m) deepest = {d, a + t * along};
-    // Distance grows by a metre each metre at most: before that far no place can be deeper.
-    t += std::max(least, deepest.depth_m - d);
+  const Vec3f from = grid.to_cells(a);
+  const Vec3f way = grid.to_cells(b) - from;
+  const float length = way.norm();
+  if (!(length > 0)) return {0, a};
+  const Vec3f along = way / length;
+  const auto cell_m = static_cast<float>(grid.cell_m());
+  float deepest = 0;  // cells, as all here
+  float at = 0;
+  for (float t = 0; t < length;) {
+    const float d = grid.at_cells(from + t * along) / cell_m;
+    if (d > deepest) {
+      deepest = d;
+      at = t;
+    }
+    // Distance grows by a cell each cell at most, and the end is on the surface again: what is left may not hold a deeper place.
+    if (0.5F * (d + length - t) < deepest) break;
+    t += std::max(kLeastStep, deepest - d);
   }
-  return deepest;
+  return {static_cast<double>(deepest * cell_m), a + static_cast<double>(at / length) * (b - a)};
 }
 
 ChordTable::ChordTable(const DistanceGrid& grid, std::span<const Vec3> points, double unit_m)
@@ -56,9 +62,8 @@ std::vector<std::pair<std::size_t, std::size_t>> ChordTable::deep_pairs(std::siz
     const auto most = std::max_element(from, from + static_cast<std::ptrdiff_t>(i));
     if (*most > 0) pairs.emplace_back(i, static_cast<std::size_t>(most - from));
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) {
-    return row(a.first)[a.second] > row(b.first)[b.second];
-  });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [&](const auto& a, const auto& b) { return row(a.first)[a.second] > row(b.first)[b.second]; });
   if (pairs.size() > count) pairs.resize(count);
   return pairs;
 }

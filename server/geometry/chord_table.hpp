@@ -13,11 +13,11 @@
 namespace mechane::geometry {
 
 struct ChordDepth {
-  double depth_m = 0;       ///< the greatest distance from the solid along the chord; 0 when it stays inside
+  double depth_m = 0;     ///< the greatest distance from the solid along the chord; 0 when it stays inside
   Vec3 p = Vec3::Zero();  ///< where; the chord's start when it stays inside
 };
 
-/// Walks from a to b in steps as long as the distance there allows.
+/// Walks from a to b, both on the surface or inside the solid, in steps as long as the distance there allows.
 [[nodiscard]] ChordDepth chord_depth(const DistanceGrid& grid, const Vec3& a, const Vec3& b);
 
 /// The depth of the chord between each two of some points. A piece is the solid within a convex cell, so a chord between two of its

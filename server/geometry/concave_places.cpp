@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastAngle_rad = 8 * kPi / 180;
 constexpr double kPlaceLength = 1.0 / 16;  // of the diagonal: a longer edge has several places
 constexpr std::size_t kSmoothSamples = 2000;
-constexpr double kLeastBend = 1.5;   // curvature times the diagonal
+constexpr double kLeastBend = 1.5;    // curvature times the diagonal
 constexpr double kHessianStep = 1.5;  // cells
 constexpr std::size_t kMostPlaces = 3000;
 
@@ -32,8 +32,9 @@ std::vector<MeshEdge> sorted_edges(const Mesh& mesh) {
       edges.push_back({std::uint64_t{low} << 32 | high, t});
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const MeshEdge& a, const MeshEdge& b) { return std::pair(a.key, a.triangle) < std::pair(b.key, b.triangle); });
+  std::sort(edges.begin(), edges.end(), [](const MeshEdge& a, const MeshEdge& b) {
+    return std::pair(a.key, a.triangle) < std::pair(b.key, b.triangle);
+  });
   return edges;
 }
 

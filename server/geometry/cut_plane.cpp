@@ -6,13 +6,6 @@
 namespace mechane::geometry {
 namespace {
 
-double polygon_area(const std::vector<Vec3>& polygon) {
-  Vec3 twice = Vec3::Zero();
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
-  return 0.5 * twice.norm();
-}
-
 /// The same plane, looked at from either side.
 bool same_plane(const HalfSpace& a, const HalfSpace& b, double size_m) {
   const double sign = a.n.dot(b.n) < 0 ? -1 : 1;
@@ -20,6 +13,13 @@ bool same_plane(const HalfSpace& a, const HalfSpace& b, double size_m) {
 }
 
 }  // namespace
+
+double polygon_area_m2(const std::vector<Vec3>& polygon) {
+  Vec3 twice = Vec3::Zero();
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+  return 0.5 * twice.norm();
+}
 
 bool cell_contains(std::span<const HalfSpace> cell, const Vec3& p, double slack_m) {
   return std::all_of(cell.begin(), cell.end(), [&](const HalfSpace& h) { return h.excess(p) <= slack_m; });
@@ -62,7 +62,7 @@ std::vector<Vec3> plane_section(const HalfSpace& plane, std::span<const HalfSpac
 
 std::vector<Vec3> lattice_on(const std::vector<Vec3>& polygon, const Vec3& n, double spacing_m, std::size_t most) {
   std::vector<Vec3> points;
-  const double area = polygon_area(polygon);
+  const double area = polygon_area_m2(polygon);
   if (polygon.size() < 3 || !(area > 0)) return points;
   const double spacing = std::max(spacing_m, std::sqrt(area / static_cast<double>(std::max<std::size_t>(most, 1))));
   const Vec3 u = n.unitOrthogonal();
@@ -97,7 +97,7 @@ std::vector<HalfSpace> without_redundant(std::span<const HalfSpace> cell, const 
   for (std::size_t i = 0; i < kept.size();) {
     std::vector<HalfSpace> others = kept;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    if (polygon_area(plane_section(kept[i], others, box)) > least_area) {
+    if (polygon_area_m2(plane_section(kept[i], others, box)) > least_area) {
       ++i;
       continue;
     }

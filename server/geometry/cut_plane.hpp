@@ -27,6 +27,9 @@ struct HalfSpace {
 /// Leaves of a convex polygon what lies in the half-space. `scratch` saves allocations.
 void clip_polygon(std::vector<Vec3>& polygon, const HalfSpace& half_space, std::vector<Vec3>& scratch);
 
+/// Of a flat polygon, about its normal either way.
+[[nodiscard]] double polygon_area_m2(const std::vector<Vec3>& polygon);
+
 /// The polygon in which the plane of `plane` meets the box and the cell; `plane` itself may be one of the cell's. Empty where they
 /// do not meet.
 [[nodiscard]] std::vector<Vec3> plane_section(const HalfSpace& plane, std::span<const HalfSpace> cell,

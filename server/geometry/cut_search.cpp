@@ -9,20 +9,20 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr std::size_t kMostPlaces = 40;
+constexpr std::size_t kPlacesTried = 40;
 constexpr double kPlacesApart = 1.0 / 14;  // of the region's extent
 constexpr double kBesideCut = 0.5;         // cells: a place this close to a cut is used up
 constexpr std::size_t kMostPairs = 80;
-constexpr double kAlike = 0.7;            // cosine between the creases of a pair
-constexpr std::size_t kFinalists = 24;
+constexpr double kAlike = 0.7;  // cosine between the creases of a pair
+constexpr std::size_t kCutFinalists = 24;
 constexpr int kQuantiles = 8;
-constexpr std::size_t kRoughPoints = 160;
+constexpr std::size_t kRatedPoints = 160;
 constexpr std::size_t kLeastPoints = 4;
 constexpr double kLeastShare = 0.004;  // of the points that a child must have
-constexpr double kExcessFrom = 0.5;   // of the bound: shallower chords count for nothing
-constexpr double kExcessTo = 5;       // of the bound: deeper ones count the same
+constexpr double kExcessFrom = 0.5;    // of the bound: shallower chords count for nothing
+constexpr double kExcessTo = 5;        // of the bound: deeper ones count the same
 constexpr std::size_t kAreaProbes = 400;
-constexpr double kPriceOfArea = 0.25;
+constexpr double kPriceOfArea = 1.0;
 constexpr double kWorthOfDepth = 0.5;
 constexpr double kWorthOfDone = 0.3;
 
@@ -87,12 +87,11 @@ std::vector<ConcavePlace> places_in(const DecomposeModel& model, const PieceRegi
   std::vector<ConcavePlace> chosen;
   for (const ConcavePlace& place : places) {
     if (!cell_contains(region.cell, place.p, -kBesideCut * model.grid.cell_m())) continue;
-    const bool crowded = std::any_of(chosen.begin(), chosen.end(), [&](const ConcavePlace& other) {
-      return (other.p - place.p).norm() < apart;
-    });
+    const bool crowded = std::any_of(chosen.begin(), chosen.end(),
+                                     [&](const ConcavePlace& other) { return (other.p - place.p).norm() < apart; });
     if (crowded) continue;
     chosen.push_back(place);
-    if (chosen.size() == kMostPlaces) break;
+    if (chosen.size() == kPlacesTried) break;
   }
   return chosen;
 }
@@ -157,11 +156,8 @@ double cut_area(const DecomposeModel& model, const PieceRegion& region, const Ha
   const std::vector<Vec3> polygon = plane_section(plane, region.cell, box);
   const std::vector<Vec3> probes = lattice_on(polygon, plane.n, 0, kAreaProbes);
   if (probes.empty()) return 0;
-  double area = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    area += 0.5 * plane.n.dot((polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]));
   const auto inside = std::count_if(probes.begin(), probes.end(), [&](const Vec3& p) { return model.grid.at(p) < 0; });
-  return std::abs(area) * static_cast<double>(inside) / static_cast<double>(probes.size());
+  return polygon_area_m2(polygon) * static_cast<double>(inside) / static_cast<double>(probes.size());
 }
 
 double score(const DecomposeModel& model, const PieceRegion& region, const ExcessTable& table, const HalfSpace& plane,
@@ -207,7 +203,7 @@ std::optional<HalfSpace> best_cut(const DecomposeModel& model, const PieceRegion
                                   std::span<const ConcavePlace> places) {
   if (region.points.size() < 2 * kLeastPoints) return std::nullopt;
   const std::vector<HalfSpace> planes = candidates(model, region, places);
-  const ExcessTable rough(model, region, 1 + region.points.size() / kRoughPoints);
+  const ExcessTable rough(model, region, 1 + region.points.size() / kRatedPoints);
   std::vector<std::uint16_t> side;
   struct Rated {
     double left = 1;
@@ -219,7 +215,7 @@ std::optional<HalfSpace> best_cut(const DecomposeModel& model, const PieceRegion
     if (parting.within > 0 && parting.beyond > 0) rated.push_back({parting.left, i});
   }
   std::stable_sort(rated.begin(), rated.end(), [](const Rated& a, const Rated& b) { return a.left < b.left; });
-  if (rated.size() > kFinalists) rated.resize(kFinalists);
+  if (rated.size() > kCutFinalists) rated.resize(kCutFinalists);
 
   const ExcessTable table(model, region, 1);
   double best = -1;

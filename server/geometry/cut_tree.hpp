@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "server/geometry/concave_places.hpp"
+#include "server/geometry/fan_plan.hpp"
 #include "server/geometry/piece_region.hpp"
 
 namespace mechane::geometry {
@@ -16,11 +18,11 @@ class CutTree {
   /// `model` must outlive the tree.
   explicit CutTree(const DecomposeModel& model);
 
-  /// Cuts until every leaf is within the bound, or none can be cut further, or there are `most_leaves`. `heard` gets the share of
-  /// leaves that are done.
+  /// Cuts until every leaf is within the bound, or none can be cut further, or there are `most_leaves`, or many more than the pieces
+  /// of a plan for the whole. `heard` gets the share of leaves that are done.
   void grow(std::span<const ConcavePlace> places, std::size_t most_leaves, const std::function<void(double)>& heard);
 
-  /// Replaces a branch by slices or sectors of its root where these are fewer pieces than its leaves.
+  /// Replaces branches by slices or sectors of their roots where that makes fewer pieces in all.
   void replace_by_fans();
 
   /// Takes back cuts, those that did least first, until there are at most `most_leaves`.
@@ -30,18 +32,28 @@ class CutTree {
   [[nodiscard]] std::vector<PieceRegion> leaves() const;
 
  private:
+  /// Slices or sectors of a branch: a plan, and its pieces once somebody wanted to know whether they are within the bound.
+  struct Fan {
+    std::optional<FanPlan> plan;
+    std::size_t bound = 0;  ///< which of the bounds it was made for
+    bool sought = false;
+    std::vector<PieceRegion> pieces;  ///< empty until they have been measured and found good
+  };
   struct Branch {
     PieceRegion region;
     std::vector<std::size_t> children;
-    bool stuck = false;  // no plane parts it
+    bool stuck = false;  ///< no plane parts it
+    Fan fan;
   };
   struct Cost {
     std::size_t unmet = 0;
     std::size_t leaves = 0;
+    bool by_fan = false;
   };
   [[nodiscard]] Cost cost_of(std::size_t branch) const;
-  Cost replace_below(std::size_t branch);
-  bool replace_one(std::size_t branch, const Cost& now);
+  void seek_fan(std::size_t branch);
+  bool prove_fan(std::size_t branch);
+  [[nodiscard]] std::optional<std::size_t> worst_leaf(const std::function<void(double)>& heard) const;
 
   const DecomposeModel& model_;
   std::vector<Branch> branches_;

@@ -16,8 +16,8 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kWeld = 1e-6;             // of the diagonal
-constexpr double kLeastVolume = 1e-9;      // of the diagonal's cube
+constexpr double kWeld = 1e-6;         // of the diagonal
+constexpr double kLeastVolume = 1e-9;  // of the diagonal's cube
 constexpr std::size_t kPiecePoints = 1200;
 const char* const kWhere = "decomposition";
 
@@ -61,7 +61,8 @@ Expected<Mesh> usable_mesh(const Mesh& mesh) {
 Expected<void> check_closed(const Mesh& mesh) {
   const double volume = enclosed_volume_m3(mesh);
   const double least = kLeastVolume * std::pow(mesh.bounds().diagonal().norm(), 3);
-  if (volume < -least) return fail("the mesh is inside out", kWhere, "turn its faces, so that their normals point outwards");
+  if (volume < -least)
+    return fail("the mesh is inside out", kWhere, "turn its faces, so that their normals point outwards");
   if (volume < least) return fail("the mesh encloses no volume", kWhere, "give the sheet a thickness");
   return {};
 }
@@ -91,14 +92,18 @@ std::vector<PieceRegion> search(const DecomposeModel& model, const DecomposeConf
   heard(0.1);
   // Joining may free half of the pieces again: a gear's hub comes out in wedges.
   const std::size_t most = config.max_parts == 1 ? 1 : config.max_parts + config.max_parts / 2;
-  tree.grow(find_concave_places(model.mesh, model.grid, model.seed), most, [&](double done) { heard(0.1 + 0.6 * done); });
+  tree.grow(find_concave_places(model.mesh, model.grid, model.seed), most,
+            [&](double done) { heard(0.1 + 0.6 * done); });
   tree.replace_by_fans();
   heard(0.8);
   std::vector<PieceRegion> pieces = tree.leaves();
+  std::size_t leaves = pieces.size();
   merge_pieces(model, pieces);
-  if (pieces.size() > config.max_parts) {
-    tree.collapse(config.max_parts);
+  while (pieces.size() > config.max_parts) {  // one leaf has one piece, so this ends
+    leaves -= std::min(leaves - 1, pieces.size() - config.max_parts);
+    tree.collapse(leaves);
     pieces = tree.leaves();
+    leaves = pieces.size();
     merge_pieces(model, pieces);
   }
   heard(0.95);

@@ -26,10 +26,11 @@ struct DecomposeConfig {
 /// The solid inside all half-spaces of `cell`; none where the piece is the whole solid. Frame and units are the mesh's.
 struct Piece {
   std::vector<HalfSpace> cell;
-  std::vector<Vec3> surface_points;  ///< on the object's surface, spread evenly by area; none where pieces of the mesh overlap
-  std::vector<Vec3> cut_points;      ///< on the cutting planes, inside the solid
-  double concavity_pct = 0;          ///< of the object's diagonal, over sampled chords; 100 for an open mesh
-  double volume_m3 = 0;              ///< from the grid's voxels; 0 for an open mesh
+  std::vector<Vec3>
+      surface_points;  ///< on the object's surface, spread evenly by area; none where pieces of the mesh overlap
+  std::vector<Vec3> cut_points;  ///< on the cutting planes, inside the solid
+  double concavity_pct = 0;      ///< of the object's diagonal, over sampled chords; 100 for an open mesh
+  double volume_m3 = 0;          ///< from the grid's voxels; 0 for an open mesh
 };
 
 struct Decomposition {
@@ -40,7 +41,8 @@ struct Decomposition {
 /// Same mesh, config and seed: the same pieces, to the bit, on any number of cores. Slow (about a second); any thread; uses all cores.
 /// `progress` hears a share from 0 to 1, on the calling thread, and may be empty.
 ///
-/// Closed pieces of mesh that overlap are one solid; separate bodies come out as separate pieces. A mesh with open edges has no
+/// Closed pieces of mesh that overlap are one solid. Bodies that lie in one cell but do not touch (found by flooding the grid; gaps
+/// below two of its cells are not seen) are parted by further cuts, though their concavity be small. A mesh with open edges has no
 /// inside: it comes back as one piece with met = false. Errors: what check_mesh refuses, a mesh without extent, one that is inside
 /// out or encloses no volume, settings out of range.
 [[nodiscard]] Expected<Decomposition> decompose(const Mesh& mesh, const DecomposeConfig& config,

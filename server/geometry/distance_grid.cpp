@@ -9,8 +9,9 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kBand = 1.8;  // cells; above the cell's diagonal, so that every corner of a cell with surface in it is exact
-constexpr int kMargin = 2;     // cells about the mesh
+constexpr double kBand =
+    1.8;  // cells; above the cell's diagonal, so that every corner of a cell with surface in it is exact
+constexpr int kMargin = 2;  // cells about the mesh
 // Shares of a cell by which the grid is shifted, so that its lines do not run along the faces of a mesh with round coordinates.
 const Vec3 kShift(0.3183, 0.2718, 0.4142);
 
@@ -144,25 +145,7 @@ void DistanceGrid::set_signs(const MeshQuery& query) {
 }
 
 double DistanceGrid::at(const Vec3& p) const {
-  std::array<int, 3> i{};
-  std::array<double, 3> f{};
-  for (int k = 0; k < 3; ++k) {
-    const auto a = static_cast<std::size_t>(k);
-    const double cells = std::clamp((p[k] - origin_[k]) / cell_m_, 0.0, size_[a] - 1.0);
-    i[a] = std::min(static_cast<int>(cells), size_[a] - 2);
-    f[a] = cells - i[a];
-  }
-  const std::size_t corner = index(i[0], i[1], i[2]);
-  const std::size_t dy = static_cast<std::size_t>(size_[0]);
-  const std::size_t dz = dy * static_cast<std::size_t>(size_[1]);
-  const float* d = distance_m_.data() + corner;
-  const double y0z0 = d[0] + f[0] * (d[1] - d[0]);
-  const double y1z0 = d[dy] + f[0] * (d[dy + 1] - d[dy]);
-  const double y0z1 = d[dz] + f[0] * (d[dz + 1] - d[dz]);
-  const double y1z1 = d[dy + dz] + f[0] * (d[dy + dz + 1] - d[dy + dz]);
-  const double z0 = y0z0 + f[1] * (y1z0 - y0z0);
-  const double z1 = y0z1 + f[1] * (y1z1 - y0z1);
-  return z0 + f[2] * (z1 - z0);
+  return at_cells(to_cells(p));
 }
 
 double DistanceGrid::inside_share(std::size_t node) const {

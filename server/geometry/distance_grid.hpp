@@ -1,6 +1,7 @@
 // Signed distance to a whole mesh on a regular grid: what the search for cuts asks instead of the mesh, millions of times.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,32 @@ class DistanceGrid {
 
   /// Distance in metres, negative inside, linear between nodes. Points outside the grid count as on its border.
   [[nodiscard]] double at(const Vec3& p) const;
+
+  /// The same for coordinates in cells from the first node. They must lie in the grid: nothing is checked.
+  [[nodiscard]] float at_cells(const Vec3f& c) const {
+    const auto x = static_cast<std::uint32_t>(c.x());
+    const auto y = static_cast<std::uint32_t>(c.y());
+    const auto z = static_cast<std::uint32_t>(c.z());
+    const float fx = c.x() - static_cast<float>(x);
+    const float fy = c.y() - static_cast<float>(y);
+    const float fz = c.z() - static_cast<float>(z);
+    const std::size_t dy = static_cast<std::size_t>(size_[0]);
+    const std::size_t dz = dy * static_cast<std::size_t>(size_[1]);
+    const float* d = distance_m_.data() + z * dz + y * dy + x;
+    const float y0z0 = d[0] + fx * (d[1] - d[0]);
+    const float y1z0 = d[dy] + fx * (d[dy + 1] - d[dy]);
+    const float y0z1 = d[dz] + fx * (d[dz + 1] - d[dz]);
+    const float y1z1 = d[dy + dz] + fx * (d[dy + dz + 1] - d[dy + dz]);
+    const float z0 = y0z0 + fy * (y1z0 - y0z0);
+    const float z1 = y0z1 + fy * (y1z1 - y0z1);
+    return z0 + fz * (z1 - z0);
+  }
+  [[nodiscard]] Vec3f to_cells(const Vec3& p) const {
+    Vec3f c = ((p - origin_) / cell_m_).cast<float>();
+    for (int i = 0; i < 3; ++i)
+      c[i] = std::clamp(c[i], 0.0F, static_cast<float>(size_[static_cast<std::size_t>(i)]) - 1.001F);
+    return c;
+  }
 
   [[nodiscard]] double cell_m() const { return cell_m_; }
   [[nodiscard]] std::size_t nodes() const { return distance_m_.size(); }

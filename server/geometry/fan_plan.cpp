@@ -146,7 +146,8 @@ std::vector<Vec3> likely_axes(const std::vector<Vec3>& points) {
     axes.push_back(eigen.eigenvectors().col(i));
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = Vec3::Unit(i);
-    const bool known = std::any_of(axes.begin(), axes.end(), [&](const Vec3& a) { return std::abs(a.dot(axis)) > 0.999; });
+    const bool known =
+        std::any_of(axes.begin(), axes.end(), [&](const Vec3& a) { return std::abs(a.dot(axis)) > 0.999; });
     if (!known) axes.push_back(axis);
   }
   return axes;

@@ -10,8 +10,8 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kExact = 1e-6;       // of the diagonal
-constexpr double kCoreVoxel = 0.75;   // of a voxel that a piece must hold to count as its own
+constexpr double kExact = 1e-6;         // of the diagonal
+constexpr double kCoreVoxel = 0.75;     // of a voxel that a piece must hold to count as its own
 constexpr double kStraySurface = 1e-4;  // of a piece's area
 
 /// Whether the piece reaches beyond the plane. Its extreme points are corners of its surface, or of its cuts inside the solid.
@@ -82,8 +82,9 @@ std::optional<PieceRegion> joined(const DecomposeModel& model, const std::vector
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     if (k != i && k != j && holds_some(model, cell, pieces[k])) return std::nullopt;
   }
-  PieceRegion both{std::move(cell), PieceSurface::joined(a.surface, b.surface), joined_voxels(a.voxels, b.voxels), {}, {}};
-  measure(model, both, Care::coarse);
+  PieceRegion both{
+      std::move(cell), PieceSurface::joined(a.surface, b.surface), joined_voxels(a.voxels, b.voxels), {}, {}};
+  measure(model, both);
   if (both.needs_cut(model)) return std::nullopt;
   return both;
 }

@@ -8,10 +8,11 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kUnits = 60000;  // of chord depth in a diagonal
-constexpr std::size_t kCoarsePoints = 280;
-constexpr std::size_t kFinePoints = 700;
+constexpr std::size_t kRoughPoints = 120;
+constexpr std::size_t kFinalPoints = 280;
+constexpr std::size_t kWholePoints = 700;
 constexpr double kCornerShare = 0.3;  // of the points are corners of triangles: tips that samples by area miss
-constexpr std::size_t kCutPoints = 60;
+constexpr double kCutShare = 0.2;     // as many points again are on the cuts
 constexpr std::size_t kExactChords = 32;
 constexpr double kCrumb = 0.02;  // of the voxels: a smaller body is no lump
 constexpr std::size_t kLeastLump = 8;
@@ -51,7 +52,8 @@ int flood_lumps(const DecomposeModel& model, const PieceRegion& region, std::vec
     if (voxel.share > 0) lump_of[voxel.node] = kUnseen;
   }
   const auto sx = static_cast<std::ptrdiff_t>(model.grid.size()[0]);
-  const std::array<std::ptrdiff_t, 6> neighbours = {1, -1, sx, -sx, sx * model.grid.size()[1], -sx * model.grid.size()[1]};
+  const std::array<std::ptrdiff_t, 6> neighbours = {
+      1, -1, sx, -sx, sx * model.grid.size()[1], -sx * model.grid.size()[1]};
   const std::size_t least =
       std::max(kLeastLump, static_cast<std::size_t>(kCrumb * static_cast<double>(region.voxels.size())));
   int lumps = 0;
@@ -110,6 +112,21 @@ void part_lumps(const DecomposeModel& model, PieceRegion& region) {
     }
   }
   if (!parted) region.lumps = 1;  // no surface of its own: nothing that a cut could part
+}
+
+void measure_with(const DecomposeModel& model, PieceRegion& region, std::size_t count) {
+  region.points = surface_points(model, region, count);
+  const auto share_of = [&](double share) { return static_cast<std::size_t>(share * static_cast<double>(count)); };
+  for (const OrientedPoint& corner : exposed_only(model, region.surface.corners(share_of(kCornerShare))))
+    region.points.push_back(corner.p);
+  const double spacing = std::sqrt(region.surface.area_m2() / static_cast<double>(count));
+  const std::vector<Vec3> cuts = cut_points(model, region.cell, spacing, 4 * count);
+  const std::size_t stride = 1 + cuts.size() / share_of(kCutShare);
+  for (std::size_t i = 0; i < cuts.size(); i += stride)
+    region.points.push_back(cuts[i]);
+  region.chords = ChordTable(model.grid, region.points, model.diagonal_m / kUnits);
+  region.concavity_m = exact_concavity(model, region);
+  part_lumps(model, region);
 }
 
 }  // namespace
@@ -177,21 +194,10 @@ PieceRegion confined(const DecomposeModel& model, const PieceRegion& region, std
   return left;
 }
 
-void measure(const DecomposeModel& model, PieceRegion& region, Care care) {
-  const std::size_t count = care == Care::fine ? kFinePoints : kCoarsePoints;
-  region.points = surface_points(model, region, count);
-  const auto corners =
-      exposed_only(model, region.surface.corners(static_cast<std::size_t>(kCornerShare * static_cast<double>(count))));
-  for (const OrientedPoint& corner : corners)
-    region.points.push_back(corner.p);
-  const double spacing = std::sqrt(region.surface.area_m2() / static_cast<double>(count));
-  std::vector<Vec3> cuts = cut_points(model, region.cell, spacing, 8 * kCutPoints);
-  const std::size_t stride = 1 + cuts.size() / kCutPoints;
-  for (std::size_t i = 0; i < cuts.size(); i += stride)
-    region.points.push_back(cuts[i]);
-  region.chords = ChordTable(model.grid, region.points, model.diagonal_m / kUnits);
-  region.concavity_m = exact_concavity(model, region);
-  part_lumps(model, region);
+void measure(const DecomposeModel& model, PieceRegion& region) {
+  if (region.cell.empty()) return measure_with(model, region, kWholePoints);
+  measure_with(model, region, kRoughPoints);
+  if (!region.needs_cut(model)) measure_with(model, region, kFinalPoints);
 }
 
 std::vector<Vec3> surface_points(const DecomposeModel& model, const PieceRegion& region, std::size_t count) {
@@ -203,11 +209,13 @@ std::vector<Vec3> surface_points(const DecomposeModel& model, const PieceRegion&
 
 std::vector<Vec3> cut_points(const DecomposeModel& model, std::span<const HalfSpace> cell, double spacing_m,
                              std::size_t most) {
+  const double unsure = 0.5 * model.grid.cell_m();
   std::vector<Vec3> points;
   for (const HalfSpace& plane : cell) {
     for (const Vec3& p : lattice_on(plane_section(plane, cell, model.box), plane.n, spacing_m, most)) {
       const double d = model.grid.at(p);
-      if (d > model.grid.cell_m() || (d > -model.grid.cell_m() && model.query.signed_distance(p) > 0)) continue;
+      // Beside edges the grid is off by a third of a cell.
+      if (d > unsure || (d > -unsure && model.query.winding(p) <= 0)) continue;
       points.push_back(p);
     }
   }

@@ -29,7 +29,7 @@ struct DecomposeModel {
   DistanceGrid grid;
   Eigen::AlignedBox3d box;
   double diagonal_m = 0;
-  double bound_m = 0;  ///< the concavity that a piece may have
+  double bound_m = 0;       ///< the concavity that a piece may have
   double volume_scale = 1;  ///< true volume of the solid over that of its voxels
   std::uint64_t seed = 1;
 };
@@ -53,9 +53,6 @@ struct PieceRegion {
   [[nodiscard]] double volume_m3(const DecomposeModel& model) const;
 };
 
-/// How many points a region's concavity is measured with.
-enum class Care { coarse, fine };
-
 [[nodiscard]] PieceRegion whole_region(const DecomposeModel& model);
 
 /// The region on the plane's own side, and that beyond. Only the surface and the voxels; `measure` does the rest.
@@ -66,8 +63,8 @@ enum class Care { coarse, fine };
 [[nodiscard]] PieceRegion confined(const DecomposeModel& model, const PieceRegion& region,
                                    std::span<const HalfSpace> more);
 
-/// Fills points, chords, concavity and lumps.
-void measure(const DecomposeModel& model, PieceRegion& region, Care care);
+/// Fills points, chords, concavity and lumps: with few points where these already show that it must be cut, else with more.
+void measure(const DecomposeModel& model, PieceRegion& region);
 
 /// Points on the surface, away from places where pieces of the mesh overlap.
 [[nodiscard]] std::vector<Vec3> surface_points(const DecomposeModel& model, const PieceRegion& region,
