@@ -75,6 +75,10 @@ void report_scene(const Scene& scene, const Oracle& oracle, Report& report) {
   for (const SceneObject& object : scene.objects)
     triangles += object.mesh_O.triangles.size();
   report.metric("scene.triangles", static_cast<double>(triangles));
+  for (std::size_t k = 0; k < kSceneObjects; ++k) {
+    const auto first = std::find(scene.grasped.begin(), scene.grasped.end(), k) - scene.grasped.begin();
+    report.metric("scene.first_step." + scene.objects[k].name, static_cast<double>(first));
+  }
   std::vector<float> depths_pct;
   for (const Oracle::Step& step : oracle.steps())
     for (const Oracle::Answer& answer : step.near)

@@ -64,7 +64,7 @@ const Vec3f& normal_of(const Triangle& t, Feature feature) {
 std::vector<Triangle> make_triangles(const geometry::Mesh& mesh) {
   std::vector<Vec3> corner(mesh.vertices.size(), Vec3::Zero());
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> edge;
-  const auto key = [](std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); };
+  const auto key = [](std::uint32_t a, std::uint32_t b) { return std::pair(std::min(a, b), std::max(a, b)); };
   const auto face = [&](const std::array<std::uint32_t, 3>& t) -> Vec3 {
     const Vec3& a = mesh.vertices[t[0]];
     return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).normalized();

@@ -54,7 +54,9 @@ class Fcl final : public Method {
   [[nodiscard]] std::size_t bytes() const override {
     std::size_t sum = 0;
     for (const auto& object : objects_)
-      sum += static_cast<std::size_t>(object->memUsage(0));
+      sum += static_cast<std::size_t>(object->getNumBVs()) * sizeof(fcl::BVNode<fcl::OBBRSSd>) +
+             static_cast<std::size_t>(object->num_tris) * (sizeof(fcl::Triangle) + sizeof(unsigned)) +
+             static_cast<std::size_t>(object->num_vertices) * sizeof(fcl::Vector3d);
     return sum;
   }
   [[nodiscard]] double build_s() const override { return build_s_; }
