@@ -11,6 +11,7 @@ OURS = "sqmap"
 NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 brick, scalar", "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
          "embree": "Embree, exact", "paper": "the paper's search", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no"}
 MESH_METHODS = ("fcl_contacts", "fcl_yesno", "fcl_gjk")  # contacts of meshes, not depths of points: listed apart
+IDLE_US = 2  # a step of FCL's below this met no sphere
 BIN_STEPS = 10  # of the grasp's curve: the mean of so many steps is one point
 
 
@@ -98,8 +99,9 @@ def _binned(curve: list[list[float]]) -> list[list[float]]:
     return [[part[0][0], sum(y for _, y in part) / len(part)] for part in bins]
 
 
-def _share_of(curve: list[list[float]], base: list[list[float]]) -> list[list[float]]:
-    return [[step, 100 * ours / theirs] for (step, ours), (_, theirs) in zip(_binned(curve), _binned(base)) if theirs > 0]
+def _share_of(curve: list[list[float]], base: list[list[float]]) -> list[list[float | None]]:
+    """Per cent of the other curve; a break where the other has nothing near the hand and both do nothing."""
+    return [[step, 100 * ours / theirs if theirs > IDLE_US else None] for (step, ours), (_, theirs) in zip(_binned(curve), _binned(base))]
 
 
 def _grasps(metrics: dict[str, float], steps: float) -> list[tuple[float, float, str]]:
@@ -124,9 +126,9 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
         shown = {NAMES[name]: _share_of(result.curves[f"grasp.{name}"], base)
                  for name in (OURS, "brick", "openvdb", "embree") if f"grasp.{name}" in result.curves}
         lines(made[-1], "A step of the grasp, as a share of FCL's trees of oriented boxes",
-              f"the paper's Figure 15a with our data: per cent of FCL's contact query, logarithmic. {machine}", shown, "step", "%",
+              f"the paper's Figure 15a with our data: per cent of FCL's contact query while the hand is near. {machine}", shown, "step", "%",
               _grasps(metrics, base[-1][0] + 1))
-    sizes = [("distance field", "bytes.distance_field"), ("int16 brick", "bytes.brick"), ("OpenVDB, adaptive", "bytes.openvdb"),
+    sizes = [("distance field", "bytes.distance_field"), ("int16 brick", "bytes.brick"), ("OpenVDB, narrow band", "bytes.openvdb_narrow"),
              ("Mechane", f"bytes.{OURS}")]
     rows = [(label, metrics[name] / 1000) for label, name in sizes if name in metrics]
     if len(rows) > 1:

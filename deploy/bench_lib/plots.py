@@ -5,6 +5,7 @@ from html import escape
 from pathlib import Path
 
 INK, QUIET, GRID, PAPER = "#1f1e1b", "#6b6a64", "#e4e2da", "#fcfcfb"
+MUTED = "#a9bccf"  # of what stands beside the row that counts
 COLOURS = ["#2a78d6", "#eb6834", "#1a9e77", "#7a5cc8"]
 FONT = "font-family='DejaVu Sans, Helvetica, Arial, sans-serif'"
 
@@ -101,7 +102,7 @@ def bars(path: Path, title: str, subtitle: str, rows: list[tuple[str, float]], u
     for index, (name, value) in enumerate(rows):
         share = math.log(max(value, low) / low) / math.log(high / low) if logarithmic else value / longest
         y, length = top + step * index, (width - left - right) * share
-        colour = COLOURS[1] if name == ours else COLOURS[0]
+        colour = COLOURS[0] if name == ours or not ours else MUTED
         parts += [_text(left - 10, y + 15, name, 12, INK, "end", "bold" if name == ours else "normal"),
                   f"<rect x='{left}' y='{y}' width='{max(length, 1):.1f}' height='20' rx='2' fill='{colour}'/>",
                   _text(left + length + 8, y + 15, f"{number(value)} {unit}", 12, QUIET)]
@@ -109,11 +110,23 @@ def bars(path: Path, title: str, subtitle: str, rows: list[tuple[str, float]], u
     _page(path, width, height, title, subtitle, parts)
 
 
-def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[float]]], x_name: str, y_name: str,
+def _pieces(curve: list[list[float | None]]) -> list[list[tuple[float, float]]]:
+    """The stretches of a curve between its breaks."""
+    pieces: list[list[tuple[float, float]]] = [[]]
+    for x, y in curve:
+        if y:
+            pieces[-1].append((x, y))
+        elif pieces[-1]:
+            pieces.append([])
+    return [piece for piece in pieces if piece]
+
+
+def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[float | None]]], x_name: str, y_name: str,
           bands: list[tuple[float, float, str]] = ()) -> None:
-    """One line each over a plain x axis, y logarithmic. `series`: name -> pairs (x, y); `bands`: stretches of x with a name."""
+    """One line each over a plain x axis, y logarithmic. `series`: name -> pairs (x, y), y None where the line breaks; `bands`:
+    stretches of x with a name."""
     width, height, left, right, top, bottom = 760, 420, 64, 150, 96, 56
-    every = [y for curve in series.values() for _, y in curve if y > 0]
+    every = [y for curve in series.values() for _, y in curve if y]
     low, high = min(every) / 1.15, max(every) * 1.15
     begin = min(x for curve in series.values() for x, _ in curve)
     end = max(x for curve in series.values() for x, _ in curve)
@@ -136,10 +149,12 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
                   _text(place_x(first), height - bottom + 18, f"{first:g}", 11, QUIET, "middle")]
     parts += [_text(left - 8, top - 10, y_name, 11, QUIET, "end"),
               _text((left + width - right) / 2, height - 14, x_name, 11, QUIET, "middle")]
-    label_y = _apart([place_y(max(curve[-1][1], low)) + 4 for curve in series.values()], 18)
+    middles = [sorted(y for _, y in curve if y) for curve in series.values()]
+    label_y = _apart([place_y(ys[len(ys) // 2]) + 4 for ys in middles], 18)
     for index, (name, curve) in enumerate(series.items()):
         colour = COLOURS[index % len(COLOURS)]
-        points = " ".join(f"{place_x(x):.1f},{place_y(y):.1f}" for x, y in curve if y > 0)
-        parts += [f"<polyline points='{points}' fill='none' stroke='{colour}' stroke-width='1.8' stroke-linejoin='round'/>",
-                  _text(width - right + 10, label_y[index], name, 12, colour, weight="bold")]
+        for piece in _pieces(curve):
+            points = " ".join(f"{place_x(x):.1f},{place_y(y):.1f}" for x, y in piece)
+            parts.append(f"<polyline points='{points}' fill='none' stroke='{colour}' stroke-width='1.8' stroke-linejoin='round'/>")
+        parts.append(_text(width - right + 10, label_y[index], name, 12, colour, weight="bold"))
     _page(path, width, height, title, subtitle, parts)

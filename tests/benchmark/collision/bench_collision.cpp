@@ -1,9 +1,9 @@
 // Contact queries of the product and of its peers, on one scene, in one run: equal answers first, then time and memory.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
-#include <set>
 
 #include <CLI/CLI.hpp>
 
@@ -85,7 +85,8 @@ void report_scene(const Scene& scene, const Oracle& oracle, Report& report) {
       if (answer.distance_m < 0)
         depths_pct.push_back(static_cast<float>(-100 * answer.distance_m / scene.objects[answer.object].diagonal_m));
   const Quantiles depths(depths_pct);
-  report.metric("scene.points_inside_per_step", static_cast<double>(depths.size()) / static_cast<double>(oracle.steps().size()));
+  report.metric("scene.points_inside_per_step",
+                static_cast<double>(depths.size()) / static_cast<double>(oracle.steps().size()));
   report.metric("scene.depth_pct.median", depths.quantile_us(0.5));
   report.metric("scene.depth_pct.p99", depths.quantile_us(0.99));
   report.metric("scene.depth_pct.max", depths.quantile_us(1));
@@ -111,7 +112,8 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
     worst.error_p99_pct = std::max(worst.error_p99_pct, a.error_p99_pct);
     worst.error_max_pct = std::max(worst.error_max_pct, a.error_max_pct);
   }
-  for (const std::string& place : method == kOurs ? std::vector<std::string>{"", "." + method} : std::vector{"." + method}) {
+  for (const std::string& place :
+       method == kOurs ? std::vector<std::string>{"", "." + method} : std::vector{"." + method}) {
     report.metric("depth_error_pct" + place + ".p50", worst.error_p50_pct);
     report.metric("depth_error_pct" + place + ".p99", worst.error_p99_pct);
     report.metric("depth_error_pct" + place + ".max", worst.error_max_pct);
@@ -177,8 +179,11 @@ void report_method(const Scene& scene, const Method& method, std::size_t asked, 
   const std::vector<int> cells = method.cells();
   for (std::size_t k = 0; k < cells.size(); ++k)
     report.metric("cells." + method.name() + "." + scene.objects[k].name, cells[k]);
+  for (const auto& [name, value] : method.extra_metrics())
+    report.metric(name, value);
   if (!method.answers_points())
-    report.metric("mesh_contacts_per_step." + method.name(), static_cast<double>(method.mesh_contacts()) / static_cast<double>(asked));
+    report.metric("mesh_contacts_per_step." + method.name(),
+                  static_cast<double>(method.mesh_contacts()) / static_cast<double>(asked));
 }
 
 int main_of(const Config& config) {
@@ -229,10 +234,14 @@ int main(int argc, char** argv) {
   CLI::App app{"Contact queries of a hand against five objects: ours and the peers', their answers, times and memory"};
   app.add_option("--seed", config.seed, "other seeds draw other objects of the same kinds, and other grasps");
   app.add_option("--steps", config.steps, "of approach and grasp, over all objects")->check(CLI::Range(50, 1'000'000));
-  app.add_option("--rounds", config.timing.rounds, "how often each method goes through all steps")->check(CLI::Range(1, 1000));
-  app.add_option("--cold-steps", config.timing.cold_steps, "steps that are timed with cold caches")->check(CLI::Range(0, 100'000));
-  app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")->check(CLI::Range(1, 100'000));
-  app.add_option("--budget", config.budget_pct, "p99 depth error that a grid may have at most, % of the object's diagonal")
+  app.add_option("--rounds", config.timing.rounds, "how often each method goes through all steps")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--cold-steps", config.timing.cold_steps, "steps that are timed with cold caches")
+      ->check(CLI::Range(0, 100'000));
+  app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")
+      ->check(CLI::Range(1, 100'000));
+  app.add_option("--budget", config.budget_pct,
+                 "p99 depth error that a grid may have at most, % of the object's diagonal")
       ->check(CLI::Range(0.01, 10.0));
   app.add_option("--methods", config.methods, "which, separated by commas")->delimiter(',');
   CLI11_PARSE(app, argc, argv);

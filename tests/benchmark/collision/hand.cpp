@@ -139,7 +139,8 @@ void Scene::fill(std::size_t step, HandStep& out) const {
       r[to] = static_cast<float>(bound.radius);
     };
     for (std::size_t c = 0; c < kSegmentClusters; ++c)
-      sphere(hand[s].clusters_S[c], s * kSegmentClusters + c, out.cluster_x, out.cluster_y, out.cluster_z, out.cluster_r);
+      sphere(hand[s].clusters_S[c], s * kSegmentClusters + c, out.cluster_x, out.cluster_y, out.cluster_z,
+             out.cluster_r);
     sphere(hand[s].bound_S, s, out.segment_x, out.segment_y, out.segment_z, out.segment_r);
     out.center += p / kSegments;
   }

@@ -1,10 +1,10 @@
 // Embree: the closest triangle to each point by a point query, exact. The side is told by the angle-weighted normal of the closest
 // feature (Baerentzen and Aanaes 2005).
-#include <embree3/rtcore.h>
-
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include <embree3/rtcore.h>
 
 #include "server/base/assert.hpp"
 #include "tests/benchmark/collision/culling.hpp"
@@ -116,7 +116,8 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
 
 class EmbreeObject {
  public:
-  EmbreeObject(RTCDevice device, const geometry::Mesh& mesh) : triangles_(make_triangles(mesh)), scene_(rtcNewScene(device)) {
+  EmbreeObject(RTCDevice device, const geometry::Mesh& mesh)
+      : triangles_(make_triangles(mesh)), scene_(rtcNewScene(device)) {
     RTCGeometry shape = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                  3 * sizeof(float), mesh.vertices.size()));

@@ -48,9 +48,7 @@ class Fcl final : public Method {
     request_ = asked == Asked::contacts ? fcl::CollisionRequestd(kAll, true) : fcl::CollisionRequestd(1, false);
   }
 
-  [[nodiscard]] std::string name() const override {
-    return asked_ == Asked::contacts ? "fcl_contacts" : "fcl_yesno";
-  }
+  [[nodiscard]] std::string name() const override { return asked_ == Asked::contacts ? "fcl_contacts" : "fcl_yesno"; }
   [[nodiscard]] std::size_t bytes() const override {
     std::size_t sum = 0;
     for (const auto& object : objects_)

@@ -1,17 +1,15 @@
 #include "tests/benchmark/collision/timing.hpp"
 
-#include <sched.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstring>
 
+#include <sched.h>
+#include <unistd.h>
+
 namespace mechane::benchmark {
 namespace {
-
-
 
 struct Asked {
   HandStep hand;
@@ -81,7 +79,8 @@ bool pin_to_one_core() {
   return false;
 }
 
-std::vector<StepTimes> time_methods(const Scene& scene, const std::vector<MethodPtr>& methods, const TimingConfig& config) {
+std::vector<StepTimes> time_methods(const Scene& scene, const std::vector<MethodPtr>& methods,
+                                    const TimingConfig& config) {
   std::vector<StepTimes> times(methods.size());
   const auto asked = std::make_unique<Asked>();
   for (std::size_t round = 0; round < config.rounds; ++round) {
