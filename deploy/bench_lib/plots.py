@@ -86,7 +86,7 @@ def tails(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
 def bars(path: Path, title: str, subtitle: str, rows: list[tuple[str, float]], unit: str, *, logarithmic: bool = False,
          ours: str = "") -> None:
     """One bar each with its value at its end, from zero, or from below the shortest on a logarithmic scale. The row `ours` stands out."""
-    left, right, top, step = 150, 110, 72, 30
+    left, right, top, step = max([150, *(8 * len(name) + 16 for name, _ in rows)]), 110, 72, 30
     width, height = 760, top + step * len(rows) + 24
     parts = []
     positive = [value for _, value in rows if value > 0]

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #include <CLI/CLI.hpp>
 
@@ -123,25 +125,40 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
   report.metric("checked_contacts." + method, static_cast<double>(worst.points));
 }
 
-void report_times(const Scene& scene, const std::string& method, const StepTimes& times, Report& report) {
+/// All passes over all steps that nobody disturbed.
+std::vector<float> undisturbed(const StepTimes& times) {
   std::vector<float> all;
-  std::vector<std::vector<float>> of_object(kSceneObjects);
-  std::vector<std::array<double, 2>> by_step;
-  for (std::size_t step = 0; step < scene.steps.size(); ++step) {
-    std::vector<float> here;
-    for (const auto& round : times.rounds_us)
-      here.push_back(round[step]);
-    all.insert(all.end(), here.begin(), here.end());
-    auto& object = of_object[scene.grasped[step]];
-    object.insert(object.end(), here.begin(), here.end());
-    by_step.push_back({static_cast<double>(step), Quantiles(here).quantile_us(0.5)});
+  for (const auto& round : times.rounds_us)
+    std::copy_if(round.begin(), round.end(), std::back_inserter(all), [](float us) { return us >= 0; });
+  return all;
+}
+
+/// The median over the rounds, step by step. A step that was disturbed in every round counts as it is.
+std::vector<std::array<double, 2>> by_step(const StepTimes& times, std::size_t steps) {
+  std::vector<std::array<double, 2>> curve;
+  for (std::size_t step = 0; step < steps; ++step) {
+    std::vector<float> good, any;
+    for (const auto& round : times.rounds_us) {
+      any.push_back(std::abs(round[step]));
+      if (round[step] >= 0) good.push_back(round[step]);
+    }
+    curve.push_back({static_cast<double>(step), Quantiles(good.empty() ? any : good).quantile_us(0.5)});
   }
+  return curve;
+}
+
+void report_times(const Scene& scene, const std::string& method, const StepTimes& times, Report& report) {
+  const std::vector<float> all = undisturbed(times);
   Quantiles whole(all);
   report.distribution("step_us." + method, whole);
-  double sum = 0;
-  for (const float us : all)
-    sum += static_cast<double>(us);
-  report.metric("step_us." + method + ".mean", sum / static_cast<double>(std::max<std::size_t>(all.size(), 1)));
+  const auto count = static_cast<double>(std::max<std::size_t>(all.size(), 1));
+  report.metric("step_us." + method + ".mean", std::accumulate(all.begin(), all.end(), 0.0) / count);
+  const auto passes = static_cast<double>(times.rounds_us.size() * scene.steps.size());
+  report.metric("preempted_pct." + method, 100 * (1 - static_cast<double>(all.size()) / passes));
+  std::vector<std::vector<float>> of_object(kSceneObjects);
+  for (const auto& round : times.rounds_us)
+    for (std::size_t step = 0; step < round.size(); ++step)
+      if (round[step] >= 0) of_object[scene.grasped[step]].push_back(round[step]);
   for (std::size_t k = 0; k < kSceneObjects; ++k) {
     const Quantiles object(of_object[k]);
     report.metric("step_us." + method + "." + scene.objects[k].name + ".median", object.quantile_us(0.5));
@@ -150,21 +167,14 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
   const Quantiles cold(times.cold_us);
   report.metric("cold_step_us." + method + ".median", cold.quantile_us(0.5));
   report.metric("cold_step_us." + method + ".p99", cold.quantile_us(0.99));
-  report.curve("grasp." + method, by_step);
-}
-
-double median_us(const StepTimes& times) {
-  std::vector<float> all;
-  for (const auto& round : times.rounds_us)
-    all.insert(all.end(), round.begin(), round.end());
-  return Quantiles(all).quantile_us(0.5);
+  report.curve("grasp." + method, by_step(times, scene.steps.size()));
 }
 
 /// ratio.<peer> and, with a run of our AVX2 kernels, ratio_avx2.<peer>: how many times as long as ours the peer takes.
 void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
   std::map<std::string, double> medians;
   for (std::size_t m = 0; m < methods.size(); ++m)
-    medians[methods[m]->name()] = median_us(times[m]);
+    medians[methods[m]->name()] = Quantiles(undisturbed(times[m])).quantile_us(0.5);
   for (const auto& [base, prefix] : {std::pair{kOurs, "ratio."}, std::pair{"sqmap_avx2", "ratio_avx2."}}) {
     const auto ours = medians.find(base);
     if (ours == medians.end() || ours->second <= 0) continue;
@@ -222,6 +232,7 @@ int main_of(const Config& config) {
     report_method(scene, *methods[m], asked, report);
   }
   report_ratios(methods, times, report);
+  report.note("steps in which the system took the core away are left out of step_us: preempted_pct says how many");
   std::cout << report.text() << "\n";
   return 0;
 }

@@ -3,17 +3,26 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstring>
+#include <utility>
 
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace mechane::benchmark {
 namespace {
 
+/// How often the system has taken the core from this thread. A system call: asked for between steps alone.
+long preemptions() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nivcsw;
+}
+
 struct Asked {
   HandStep hand;
   Hits hits;
+  long preempted = 0;  // so far
 };
 
 float time_step(const Scene& scene, std::size_t step, Method& method, Asked& asked) {
@@ -22,7 +31,9 @@ float time_step(const Scene& scene, std::size_t step, Method& method, Asked& ask
   const auto began = std::chrono::steady_clock::now();
   method.step(asked.hand, asked.hits);
   const auto ended = std::chrono::steady_clock::now();
-  return std::chrono::duration<float, std::micro>(ended - began).count();
+  const float us = std::chrono::duration<float, std::micro>(ended - began).count();
+  const long before = std::exchange(asked.preempted, preemptions());
+  return asked.preempted == before ? us : -us;
 }
 
 /// Larger than every cache; walking over it leaves nothing else in them.

@@ -11,8 +11,10 @@ namespace mechane::benchmark {
 inline constexpr std::size_t kWarmUpSteps = 50;  ///< before each pass, untimed
 
 struct StepTimes {
-  std::vector<std::vector<float>> rounds_us;  ///< [round][step], single passes
-  std::vector<float> cold_us;                 ///< of some steps, all caches walked over before each
+  /// [round][step], single passes; below 0 where the system took the core away meanwhile: that says nothing of the method, and is
+  /// counted apart.
+  std::vector<std::vector<float>> rounds_us;
+  std::vector<float> cold_us;  ///< of some steps, all caches walked over before each
 };
 
 struct TimingConfig {
