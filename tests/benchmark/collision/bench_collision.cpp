@@ -125,40 +125,36 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
   report.metric("checked_contacts." + method, static_cast<double>(worst.points));
 }
 
-/// All passes over all steps that nobody disturbed.
-std::vector<float> undisturbed(const StepTimes& times) {
+std::vector<float> all_passes(const StepTimes& times) {
   std::vector<float> all;
   for (const auto& round : times.rounds_us)
-    std::copy_if(round.begin(), round.end(), std::back_inserter(all), [](float us) { return us >= 0; });
+    all.insert(all.end(), round.begin(), round.end());
   return all;
 }
 
-/// The median over the rounds, step by step. A step that was disturbed in every round counts as it is.
+/// The median over the rounds, step by step.
 std::vector<std::array<double, 2>> by_step(const StepTimes& times, std::size_t steps) {
   std::vector<std::array<double, 2>> curve;
   for (std::size_t step = 0; step < steps; ++step) {
-    std::vector<float> good, any;
-    for (const auto& round : times.rounds_us) {
-      any.push_back(std::abs(round[step]));
-      if (round[step] >= 0) good.push_back(round[step]);
-    }
-    curve.push_back({static_cast<double>(step), Quantiles(good.empty() ? any : good).quantile_us(0.5)});
+    std::vector<float> here;
+    for (const auto& round : times.rounds_us)
+      here.push_back(round[step]);
+    curve.push_back({static_cast<double>(step), Quantiles(here).quantile_us(0.5)});
   }
   return curve;
 }
 
 void report_times(const Scene& scene, const std::string& method, const StepTimes& times, Report& report) {
-  const std::vector<float> all = undisturbed(times);
+  const std::vector<float> all = all_passes(times);
   Quantiles whole(all);
   report.distribution("step_us." + method, whole);
   const auto count = static_cast<double>(std::max<std::size_t>(all.size(), 1));
   report.metric("step_us." + method + ".mean", std::accumulate(all.begin(), all.end(), 0.0) / count);
-  const auto passes = static_cast<double>(times.rounds_us.size() * scene.steps.size());
-  report.metric("preempted_pct." + method, 100 * (1 - static_cast<double>(all.size()) / passes));
+  report.metric("preempted_pct." + method, 100 * static_cast<double>(times.preempted) / count);
   std::vector<std::vector<float>> of_object(kSceneObjects);
   for (const auto& round : times.rounds_us)
     for (std::size_t step = 0; step < round.size(); ++step)
-      if (round[step] >= 0) of_object[scene.grasped[step]].push_back(round[step]);
+      of_object[scene.grasped[step]].push_back(round[step]);
   for (std::size_t k = 0; k < kSceneObjects; ++k) {
     const Quantiles object(of_object[k]);
     report.metric("step_us." + method + "." + scene.objects[k].name + ".median", object.quantile_us(0.5));
@@ -174,7 +170,7 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
 void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
   std::map<std::string, double> medians;
   for (std::size_t m = 0; m < methods.size(); ++m)
-    medians[methods[m]->name()] = Quantiles(undisturbed(times[m])).quantile_us(0.5);
+    medians[methods[m]->name()] = Quantiles(all_passes(times[m])).quantile_us(0.5);
   for (const auto& [base, prefix] : {std::pair{kOurs, "ratio."}, std::pair{"sqmap_avx2", "ratio_avx2."}}) {
     const auto ours = medians.find(base);
     if (ours == medians.end() || ours->second <= 0) continue;
@@ -183,7 +179,7 @@ void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<Step
   }
 }
 
-void report_method(const Scene& scene, const Method& method, std::size_t asked, Report& report) {
+void report_method(const Scene& scene, const Method& method, Report& report) {
   report.metric("bytes." + method.name(), static_cast<double>(method.bytes()));
   report.metric((method.name() == kOurs ? "build_s" : "build_s." + method.name()), method.build_s());
   const std::vector<int> cells = method.cells();
@@ -192,8 +188,7 @@ void report_method(const Scene& scene, const Method& method, std::size_t asked, 
   for (const auto& [name, value] : method.extra_metrics())
     report.metric(name, value);
   if (!method.answers_points())
-    report.metric("mesh_contacts_per_step." + method.name(),
-                  static_cast<double>(method.mesh_contacts()) / static_cast<double>(asked));
+    report.metric("mesh_contacts_per_step." + method.name(), method.mesh_contacts_per_step());
 }
 
 int main_of(const Config& config) {
@@ -226,13 +221,10 @@ int main_of(const Config& config) {
   const std::vector<StepTimes> times = time_methods(scene, methods, config.timing);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     report_times(scene, methods[m]->name(), times[m], report);
-    std::size_t asked = times[m].cold_us.size();
-    for (const auto& round : times[m].rounds_us)
-      asked += round.size() + std::min<std::size_t>(kWarmUpSteps, round.size());
-    report_method(scene, *methods[m], asked, report);
+    report_method(scene, *methods[m], report);
   }
   report_ratios(methods, times, report);
-  report.note("steps in which the system took the core away are left out of step_us: preempted_pct says how many");
+  report.note("steps from which the system took the core were timed again, at once: preempted_pct says how many");
   std::cout << report.text() << "\n";
   return 0;
 }

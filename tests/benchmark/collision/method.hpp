@@ -58,8 +58,8 @@ class Method {
   [[nodiscard]] virtual std::vector<int> cells() const { return {}; }
   /// Whatever else is worth a metric of its own, by its whole name.
   [[nodiscard]] virtual std::vector<std::pair<std::string, double>> extra_metrics() const { return {}; }
-  /// What the mesh methods found, all steps so far.
-  [[nodiscard]] virtual std::uint64_t mesh_contacts() const { return 0; }
+  /// What the mesh methods found, the mean of all steps so far.
+  [[nodiscard]] virtual double mesh_contacts_per_step() const { return 0; }
 };
 
 /// A known answer, for the choice of a grid's resolution.

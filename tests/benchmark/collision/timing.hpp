@@ -11,9 +11,10 @@ namespace mechane::benchmark {
 inline constexpr std::size_t kWarmUpSteps = 50;  ///< before each pass, untimed
 
 struct StepTimes {
-  /// [round][step], single passes; below 0 where the system took the core away meanwhile: that says nothing of the method, and is
-  /// counted apart.
-  std::vector<std::vector<float>> rounds_us;
+  std::vector<std::vector<float>> rounds_us;  ///< [round][step], single passes
+  /// Steps from which the system took the core: that says nothing of the method, so they were timed again, at once. Leaving them out
+  /// would leave out the long ones.
+  std::size_t preempted = 0;
   std::vector<float> cold_us;  ///< of some steps, all caches walked over before each
 };
 
