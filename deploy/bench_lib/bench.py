@@ -9,13 +9,14 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import collision
 import machine
 import path
 from peers import Measured
 from plots import number
 
 ROOT = Path(__file__).resolve().parents[2]
-BENCHMARKS = {"path": path}
+BENCHMARKS = {"path": path, "collision": collision}
 
 
 @dataclass
@@ -24,6 +25,7 @@ class Context:
     bin: Path
     out: Path
     seconds: float
+    seed: int | None
 
 
 def build(out: Path) -> None:
@@ -59,7 +61,7 @@ def run_one(name: str, context: Context) -> bool:
     result.notes += [f"not measured: {reason}" for reason in missing]
     file = write(name, result, time.monotonic() - began, context.out)
     made = BENCHMARKS[name].plot(result, context.out, f"{machine.cpu()}, {machine.cores()} cores")
-    print(table(name, result.metrics))
+    print(getattr(BENCHMARKS[name], "table", table)(name, result.metrics))
     for note in result.notes:
         print(f"  note: {note}")
     print(f"  written: {', '.join(str(written.relative_to(ROOT)) for written in [file, *made])}\n", flush=True)
@@ -72,6 +74,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="deploy/bench")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(BENCHMARKS)}; none: all")
     parser.add_argument("--seconds", type=float, default=15, help="how long each part is measured")
+    parser.add_argument("--seed", type=int, help="collision: other objects of the same kinds, and other grasps")
     parser.add_argument("--no-build", action="store_true", help="measure what build/release holds")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.names if name not in BENCHMARKS]
@@ -81,7 +84,7 @@ def main() -> int:
     out.mkdir(parents=True, exist_ok=True)
     if not arguments.no_build:
         build(out)
-    context = Context(ROOT, ROOT / "build/release/bin", out, arguments.seconds)
+    context = Context(ROOT, ROOT / "build/release/bin", out, arguments.seconds, arguments.seed)
     good = [run_one(name, context) for name in arguments.names or BENCHMARKS]
     return 0 if all(good) else 1
 

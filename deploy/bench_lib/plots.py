@@ -5,6 +5,7 @@ from html import escape
 from pathlib import Path
 
 INK, QUIET, GRID, PAPER = "#1f1e1b", "#6b6a64", "#e4e2da", "#fcfcfb"
+MUTED = "#a9bccf"  # of what stands beside the row that counts
 COLOURS = ["#2a78d6", "#eb6834", "#1a9e77", "#7a5cc8"]
 FONT = "font-family='DejaVu Sans, Helvetica, Arial, sans-serif'"
 
@@ -82,16 +83,78 @@ def tails(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
     _page(path, width, height, title, subtitle, parts)
 
 
-def bars(path: Path, title: str, subtitle: str, rows: list[tuple[str, float]], unit: str) -> None:
-    """One bar each, from zero, with its value at its end."""
-    left, right, top, step = 150, 110, 72, 30
+def bars(path: Path, title: str, subtitle: str, rows: list[tuple[str, float]], unit: str, *, logarithmic: bool = False,
+         ours: str = "") -> None:
+    """One bar each with its value at its end, from zero, or from below the shortest on a logarithmic scale. The row `ours` stands out."""
+    left, right, top, step = max([150, *(8 * len(name) + 16 for name, _ in rows)]), 110, 72, 30
     width, height = 760, top + step * len(rows) + 24
-    longest = max((value for _, value in rows), default=0) or 1
     parts = []
+    positive = [value for _, value in rows if value > 0]
+    logarithmic = logarithmic and bool(positive)
+    if logarithmic:
+        low, high = 10 ** math.floor(math.log10(min(positive) / 1.5)), max(positive)
+        for mark in _marks(low, high):
+            x = left + (width - left - right) * math.log(mark / low) / math.log(high / low)
+            parts.append(_line(x, top - 6, x, height - 20))
+            if math.log10(mark) % 1 == 0 or high / low < 100:
+                parts.append(_text(x, height - 6, f"{mark:g}", 11, QUIET, "middle"))
+    longest = max((value for _, value in rows), default=0) or 1
     for index, (name, value) in enumerate(rows):
-        y, length = top + step * index, (width - left - right) * value / longest
-        parts += [_text(left - 10, y + 15, name, 12, INK, "end"),
-                  f"<rect x='{left}' y='{y}' width='{max(length, 1):.1f}' height='20' rx='2' fill='{COLOURS[0]}'/>",
+        share = math.log(max(value, low) / low) / math.log(high / low) if logarithmic else value / longest
+        y, length = top + step * index, (width - left - right) * share
+        colour = COLOURS[0] if name == ours or not ours else MUTED
+        parts += [_text(left - 10, y + 15, name, 12, INK, "end", "bold" if name == ours else "normal"),
+                  f"<rect x='{left}' y='{y}' width='{max(length, 1):.1f}' height='20' rx='2' fill='{colour}'/>",
                   _text(left + length + 8, y + 15, f"{number(value)} {unit}", 12, QUIET)]
     parts.append(_line(left, top - 6, left, height - 20, QUIET))
+    _page(path, width, height, title, subtitle, parts)
+
+
+def _pieces(curve: list[list[float | None]]) -> list[list[tuple[float, float]]]:
+    """The stretches of a curve between its breaks."""
+    pieces: list[list[tuple[float, float]]] = [[]]
+    for x, y in curve:
+        if y:
+            pieces[-1].append((x, y))
+        elif pieces[-1]:
+            pieces.append([])
+    return [piece for piece in pieces if piece]
+
+
+def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[float | None]]], x_name: str, y_name: str,
+          bands: list[tuple[float, float, str]] = ()) -> None:
+    """One line each over a plain x axis, y logarithmic. `series`: name -> pairs (x, y), y None where the line breaks; `bands`:
+    stretches of x with a name."""
+    width, height, left, right, top, bottom = 760, 420, 64, 150, 96, 56
+    every = [y for curve in series.values() for _, y in curve if y]
+    low, high = min(every) / 1.15, max(every) * 1.15
+    begin = min(x for curve in series.values() for x, _ in curve)
+    end = max(x for curve in series.values() for x, _ in curve)
+
+    def place_x(x: float) -> float:
+        return left + (width - left - right) * (x - begin) / ((end - begin) or 1)
+
+    def place_y(y: float) -> float:
+        return top + (height - top - bottom) * (1 - math.log(y / low) / math.log(high / low))
+
+    parts = []
+    wide = high / low > 300
+    for mark in _marks(low, high):
+        if not wide or math.log10(mark) % 1 == 0:
+            parts += [_line(left, place_y(mark), width - right, place_y(mark)),
+                      _text(left - 8, place_y(mark) + 4, f"{mark:g}", 11, QUIET, "end")]
+    for first, last, name in bands:
+        parts += [_line(place_x(first), top - 16, place_x(first), height - bottom),
+                  _text(place_x((first + last) / 2), top - 8, name, 11, QUIET, "middle"),
+                  _text(place_x(first), height - bottom + 18, f"{first:g}", 11, QUIET, "middle")]
+    parts += [_text(left - 8, top - 10, y_name, 11, QUIET, "end"),
+              _text((left + width - right) / 2, height - 14, x_name, 11, QUIET, "middle")]
+    middles = [sorted(y for _, y in curve if y) for curve in series.values()]
+    label_y = _apart([place_y(ys[len(ys) // 2]) + 4 for ys in middles], 18)
+    for index, (name, curve) in enumerate(series.items()):
+        colour = COLOURS[index % len(COLOURS)]
+        for piece in _pieces(curve):
+            points = " ".join(f"{place_x(x):.1f},{place_y(y):.1f}" for x, y in piece)
+            parts.append(f"<polyline points='{points}' fill='none' stroke='{colour}' stroke-width='1.8' stroke-linejoin='round'/>")
+        parts.append(_text(width - right + 10, label_y[index], name, 12, colour, weight="bold"))
     _page(path, width, height, title, subtitle, parts)

@@ -1,9 +1,11 @@
 // Contact queries of the product and of its peers, on one scene, in one run: equal answers first, then time and memory.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
-#include <set>
+#include <numeric>
 
 #include <CLI/CLI.hpp>
 
@@ -82,13 +84,18 @@ void report_scene(const Scene& scene, const Oracle& oracle, Report& report) {
   for (const SceneObject& object : scene.objects)
     triangles += object.mesh_O.triangles.size();
   report.metric("scene.triangles", static_cast<double>(triangles));
+  for (std::size_t k = 0; k < kSceneObjects; ++k) {
+    const auto first = std::find(scene.grasped.begin(), scene.grasped.end(), k) - scene.grasped.begin();
+    report.metric("scene.first_step." + scene.objects[k].name, static_cast<double>(first));
+  }
   std::vector<float> depths_pct;
   for (const Oracle::Step& step : oracle.steps())
     for (const Oracle::Answer& answer : step.near)
       if (answer.distance_m < 0)
         depths_pct.push_back(static_cast<float>(-100 * answer.distance_m / scene.objects[answer.object].diagonal_m));
   const Quantiles depths(depths_pct);
-  report.metric("scene.points_inside_per_step", static_cast<double>(depths.size()) / static_cast<double>(oracle.steps().size()));
+  report.metric("scene.points_inside_per_step",
+                static_cast<double>(depths.size()) / static_cast<double>(oracle.steps().size()));
   report.metric("scene.depth_pct.median", depths.quantile_us(0.5));
   report.metric("scene.depth_pct.p99", depths.quantile_us(0.99));
   report.metric("scene.depth_pct.max", depths.quantile_us(1));
@@ -114,7 +121,8 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
     worst.error_p99_pct = std::max(worst.error_p99_pct, a.error_p99_pct);
     worst.error_max_pct = std::max(worst.error_max_pct, a.error_max_pct);
   }
-  for (const std::string& place : method == kOurs ? std::vector<std::string>{"", "." + method} : std::vector{"." + method}) {
+  for (const std::string& place :
+       method == kOurs ? std::vector<std::string>{"", "." + method} : std::vector{"." + method}) {
     report.metric("depth_error_pct" + place + ".p50", worst.error_p50_pct);
     report.metric("depth_error_pct" + place + ".p99", worst.error_p99_pct);
     report.metric("depth_error_pct" + place + ".max", worst.error_max_pct);
@@ -124,25 +132,36 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
   report.metric("checked_contacts." + method, static_cast<double>(worst.points));
 }
 
-void report_times(const Scene& scene, const std::string& method, const StepTimes& times, Report& report) {
+std::vector<float> all_passes(const StepTimes& times) {
   std::vector<float> all;
-  std::vector<std::vector<float>> of_object(kSceneObjects);
-  std::vector<std::array<double, 2>> by_step;
-  for (std::size_t step = 0; step < scene.steps.size(); ++step) {
+  for (const auto& round : times.rounds_us)
+    all.insert(all.end(), round.begin(), round.end());
+  return all;
+}
+
+/// The median over the rounds, step by step.
+std::vector<std::array<double, 2>> by_step(const StepTimes& times, std::size_t steps) {
+  std::vector<std::array<double, 2>> curve;
+  for (std::size_t step = 0; step < steps; ++step) {
     std::vector<float> here;
     for (const auto& round : times.rounds_us)
       here.push_back(round[step]);
-    all.insert(all.end(), here.begin(), here.end());
-    auto& object = of_object[scene.grasped[step]];
-    object.insert(object.end(), here.begin(), here.end());
-    by_step.push_back({static_cast<double>(step), Quantiles(here).quantile_us(0.5)});
+    curve.push_back({static_cast<double>(step), Quantiles(here).quantile_us(0.5)});
   }
+  return curve;
+}
+
+void report_times(const Scene& scene, const std::string& method, const StepTimes& times, Report& report) {
+  const std::vector<float> all = all_passes(times);
   Quantiles whole(all);
   report.distribution("step_us." + method, whole);
-  double sum = 0;
-  for (const float us : all)
-    sum += static_cast<double>(us);
-  report.metric("step_us." + method + ".mean", sum / static_cast<double>(std::max<std::size_t>(all.size(), 1)));
+  const auto count = static_cast<double>(std::max<std::size_t>(all.size(), 1));
+  report.metric("step_us." + method + ".mean", std::accumulate(all.begin(), all.end(), 0.0) / count);
+  report.metric("preempted_pct." + method, 100 * static_cast<double>(times.preempted) / count);
+  std::vector<std::vector<float>> of_object(kSceneObjects);
+  for (const auto& round : times.rounds_us)
+    for (std::size_t step = 0; step < round.size(); ++step)
+      of_object[scene.grasped[step]].push_back(round[step]);
   for (std::size_t k = 0; k < kSceneObjects; ++k) {
     const Quantiles object(of_object[k]);
     report.metric("step_us." + method + "." + scene.objects[k].name + ".median", object.quantile_us(0.5));
@@ -151,21 +170,14 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
   const Quantiles cold(times.cold_us);
   report.metric("cold_step_us." + method + ".median", cold.quantile_us(0.5));
   report.metric("cold_step_us." + method + ".p99", cold.quantile_us(0.99));
-  report.curve("grasp." + method, by_step);
-}
-
-double median_us(const StepTimes& times) {
-  std::vector<float> all;
-  for (const auto& round : times.rounds_us)
-    all.insert(all.end(), round.begin(), round.end());
-  return Quantiles(all).quantile_us(0.5);
+  report.curve("grasp." + method, by_step(times, scene.steps.size()));
 }
 
 /// ratio.<peer> and, with a run of our AVX2 kernels, ratio_avx2.<peer>: how many times as long as ours the peer takes.
 void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
   std::map<std::string, double> medians;
   for (std::size_t m = 0; m < methods.size(); ++m)
-    medians[methods[m]->name()] = median_us(times[m]);
+    medians[methods[m]->name()] = Quantiles(all_passes(times[m])).quantile_us(0.5);
   for (const auto& [base, prefix] : {std::pair{kOurs, "ratio."}, std::pair{"sqmap_avx2", "ratio_avx2."}}) {
     const auto ours = medians.find(base);
     if (ours == medians.end() || ours->second <= 0) continue;
@@ -174,7 +186,7 @@ void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<Step
   }
 }
 
-void report_method(const Scene& scene, const Method& method, std::size_t asked, Report& report) {
+void report_method(const Scene& scene, const Method& method, Report& report) {
   report.metric("bytes." + method.name(), static_cast<double>(method.bytes()));
   report.metric((method.name() == kOurs ? "build_s" : "build_s." + method.name()), method.build_s());
   std::size_t radial = 0;
@@ -193,8 +205,10 @@ void report_method(const Scene& scene, const Method& method, std::size_t asked, 
   const std::vector<int> cells = method.cells();
   for (std::size_t k = 0; k < cells.size(); ++k)
     report.metric("cells." + method.name() + "." + scene.objects[k].name, cells[k]);
+  for (const auto& [name, value] : method.extra_metrics())
+    report.metric(name, value);
   if (!method.answers_points())
-    report.metric("mesh_contacts_per_step." + method.name(), static_cast<double>(method.mesh_contacts()) / static_cast<double>(asked));
+    report.metric("mesh_contacts_per_step." + method.name(), method.mesh_contacts_per_step());
 }
 
 int main_of(const Config& config) {
@@ -227,12 +241,10 @@ int main_of(const Config& config) {
   const std::vector<StepTimes> times = time_methods(scene, methods, config.timing);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     report_times(scene, methods[m]->name(), times[m], report);
-    std::size_t asked = times[m].cold_us.size();
-    for (const auto& round : times[m].rounds_us)
-      asked += round.size() + std::min<std::size_t>(kWarmUpSteps, round.size());
-    report_method(scene, *methods[m], asked, report);
+    report_method(scene, *methods[m], report);
   }
   report_ratios(methods, times, report);
+  report.note("steps from which the system took the core were timed again, at once: preempted_pct says how many");
   std::cout << report.text() << "\n";
   return 0;
 }
@@ -245,10 +257,14 @@ int main(int argc, char** argv) {
   CLI::App app{"Contact queries of a hand against five objects: ours and the peers', their answers, times and memory"};
   app.add_option("--seed", config.seed, "other seeds draw other objects of the same kinds, and other grasps");
   app.add_option("--steps", config.steps, "of approach and grasp, over all objects")->check(CLI::Range(50, 1'000'000));
-  app.add_option("--rounds", config.timing.rounds, "how often each method goes through all steps")->check(CLI::Range(1, 1000));
-  app.add_option("--cold-steps", config.timing.cold_steps, "steps that are timed with cold caches")->check(CLI::Range(0, 100'000));
-  app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")->check(CLI::Range(1, 100'000));
-  app.add_option("--budget", config.budget_pct, "p99 depth error that a grid may have at most, % of the object's diagonal")
+  app.add_option("--rounds", config.timing.rounds, "how often each method goes through all steps")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--cold-steps", config.timing.cold_steps, "steps that are timed with cold caches")
+      ->check(CLI::Range(0, 100'000));
+  app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")
+      ->check(CLI::Range(1, 100'000));
+  app.add_option("--budget", config.budget_pct,
+                 "p99 depth error that a grid may have at most, % of the object's diagonal")
       ->check(CLI::Range(0.01, 10.0));
   app.add_option("--methods", config.methods, "which, separated by commas")->delimiter(',');
   CLI11_PARSE(app, argc, argv);

@@ -11,7 +11,8 @@ namespace {
 
 class Brick final : public Method {
  public:
-  Brick(const Scene& scene, const Accuracy& accuracy, Simd simd) : vector_(simd == Simd::best && brick_has_avx2()) {
+  Brick(const Scene& scene, const Accuracy& accuracy, Simd simd)
+      : simd_(simd), vector_(simd == Simd::best && brick_has_avx2()) {
     for (std::size_t k = 0; k < kSceneObjects; ++k) {
       const SceneObject& object = scene.objects[k];
       const geometry::MeshQuery query(object.mesh_O);
@@ -28,7 +29,7 @@ class Brick final : public Method {
     build_s_ = watch.seconds();
   }
 
-  [[nodiscard]] std::string name() const override { return vector_ ? "brick" : "brick_scalar"; }
+  [[nodiscard]] std::string name() const override { return simd_ == Simd::best ? "brick" : "brick_scalar"; }
   [[nodiscard]] std::size_t bytes() const override {
     std::size_t sum = 0;
     for (const BrickGrid& grid : grids_)
@@ -49,7 +50,8 @@ class Brick final : public Method {
   }
 
  private:
-  bool vector_;
+  Simd simd_;
+  bool vector_;  // with AVX2
   double build_s_ = 0;
   std::vector<int> cells_;
   std::vector<BrickGrid> grids_;
@@ -80,9 +82,8 @@ BrickGrid make_brick_grid(const SceneObject& object, const geometry::MeshQuery& 
     grid.origin_O[i] = static_cast<float>(axes[a].front());
   }
   const std::vector<double> distances = exact_distances(query, axes);
-  const double largest =
-      std::abs(*std::max_element(distances.begin(), distances.end(),
-                                 [](double l, double r) { return std::abs(l) < std::abs(r); }));
+  const double largest = std::abs(*std::max_element(distances.begin(), distances.end(),
+                                                    [](double l, double r) { return std::abs(l) < std::abs(r); }));
   const double step = largest / 32767;
   for (const double d : distances)
     grid.values.push_back(static_cast<std::int16_t>(std::lround(d / step)));

@@ -144,9 +144,7 @@ MECHANE_AVX2_INLINE void store(const BrickGrid& grid, const Corners& k, unsigned
     return _mm256_mul_ps(sum, scale);
   };
   const __m256i lanes = front_lanes(inside);
-  const auto put = [&](float* to, __m256 v) MECHANE_AVX2 {
-    _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(v, lanes));
-  };
+  const auto put = [&](float* to, __m256 v) MECHANE_AVX2 { _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(v, lanes)); };
   const std::size_t at = out.count;
   put(&out.depth_m[at], _mm256_mul_ps(k.value, _mm256_set1_ps(-grid.step_m)));
   put(&out.n_x[at], row(0));
@@ -162,9 +160,9 @@ MECHANE_AVX2_INLINE void query_eight(const BrickGrid& grid, const Constants& c, 
   const Vec8 p =
       to_grid(c, _mm256_load_ps(&hand.x[first]), _mm256_load_ps(&hand.y[first]), _mm256_load_ps(&hand.z[first]));
   const Vec8 q = clamp_to_box(c, p);
-  const __m256 in_box = _mm256_and_ps(
-      _mm256_and_ps(_mm256_cmp_ps(p.x, q.x, _CMP_EQ_OQ), _mm256_cmp_ps(p.y, q.y, _CMP_EQ_OQ)),
-      _mm256_cmp_ps(p.z, q.z, _CMP_EQ_OQ));
+  const __m256 in_box =
+      _mm256_and_ps(_mm256_and_ps(_mm256_cmp_ps(p.x, q.x, _CMP_EQ_OQ), _mm256_cmp_ps(p.y, q.y, _CMP_EQ_OQ)),
+                    _mm256_cmp_ps(p.z, q.z, _CMP_EQ_OQ));
   if (_mm256_testz_ps(in_box, in_box) != 0) return;
   const Corners k = look_up(c, q);
   const auto inside = static_cast<unsigned>(
@@ -178,7 +176,8 @@ bool brick_has_avx2() noexcept {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
 }
 
-MECHANE_AVX2 void query_brick_avx2(const BrickGrid& grid, std::size_t object, const HandStep& hand, Hits& out) noexcept {
+MECHANE_AVX2 void query_brick_avx2(const BrickGrid& grid, std::size_t object, const HandStep& hand,
+                                   Hits& out) noexcept {
   if (!brick_reaches(grid, grid.A_GW * hand.center + grid.b_GW, hand.radius)) return;
   const Constants c = constants_of(grid);
   const __m256 per_cell = _mm256_set1_ps(1 / grid.cell_m);
@@ -186,8 +185,9 @@ MECHANE_AVX2 void query_brick_avx2(const BrickGrid& grid, std::size_t object, co
   const std::size_t before = out.count;
   unsigned segments = 0;
   for (std::size_t s = 0; s < kSegments; s += 8)
-    segments |= reached(c, per_cell, units, &hand.segment_x[s], &hand.segment_y[s], &hand.segment_z[s], &hand.segment_r[s])
-                << s;
+    segments |=
+        reached(c, per_cell, units, &hand.segment_x[s], &hand.segment_y[s], &hand.segment_z[s], &hand.segment_r[s])
+        << s;
   for (; segments != 0; segments &= segments - 1) {
     static_assert(kSegmentClusters == 8 && kClusterPoints == 16);
     const std::size_t first = kSegmentClusters * static_cast<std::size_t>(__builtin_ctz(segments));

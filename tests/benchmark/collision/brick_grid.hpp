@@ -21,7 +21,9 @@ struct BrickGrid {
   Vec3f b_GW = Vec3f::Zero();
   Eigen::Matrix3f R_WO;
 
-  [[nodiscard]] std::size_t bytes() const { return values.size() * sizeof(std::int16_t) + sizeof(*this) - sizeof(values); }
+  [[nodiscard]] std::size_t bytes() const {
+    return values.size() * sizeof(std::int16_t) + sizeof(*this) - sizeof(values);
+  }
 };
 
 [[nodiscard]] BrickGrid make_brick_grid(const SceneObject& object, const geometry::MeshQuery& query, int cells);

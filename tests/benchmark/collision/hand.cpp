@@ -13,8 +13,8 @@ namespace {
 constexpr double kHandUnit_m = 0.14;
 constexpr int kFineCells = 24;
 constexpr std::uint64_t kSampleSeed = 7;
-constexpr std::array<double, 3> kHalfLengths = {0.15, 0.12, 0.10};  // of a finger's segments
-constexpr std::array<double, 3> kHalfWidths = {0.075, 0.068, 0.06};
+constexpr std::array<double, kJoints> kHalfLengths = {0.15, 0.12, 0.10};  // of a finger's segments
+constexpr std::array<double, kJoints> kHalfWidths = {0.075, 0.068, 0.06};
 constexpr double kThumb = 0.85;  // its length against a finger's
 
 geometry::Superquadric shape_of(std::size_t segment) {
@@ -24,8 +24,8 @@ geometry::Superquadric shape_of(std::size_t segment) {
     shape.e1 = shape.e2 = 0.5;
     return shape;
   }
-  const std::size_t joint = (segment - 1) % 3;
-  const double length = kHalfLengths[joint] * (segment <= 3 ? kThumb : 1);
+  const std::size_t joint = (segment - 1) % kJoints;
+  const double length = kHalfLengths[joint] * (segment <= kJoints ? kThumb : 1);
   shape.a = kHandUnit_m * Vec3(length, kHalfWidths[joint], 0.9 * kHalfWidths[joint]);
   shape.e1 = 0.7;
   shape.e2 = 0.8;
@@ -99,8 +99,7 @@ HandModel make_hand() {
   return hand;
 }
 
-HandPose hand_pose(const Pose& X_WPalm, const std::array<double, kFingers>& bent_rad) {
-  constexpr std::array<double, 3> kShare = {0.9, 1, 0.8};  // of the three joints in a finger's bend
+HandPose hand_pose(const Pose& X_WPalm, const Bends& bent_rad) {
   HandPose X_WS;
   X_WS[0] = X_WPalm;
   for (std::size_t finger = 0; finger < kFingers; ++finger) {
@@ -111,10 +110,10 @@ HandPose hand_pose(const Pose& X_WPalm, const std::array<double, kFingers>& bent
     } else {
       joint = joint * moved(0.31, -0.26 + 0.173 * static_cast<double>(finger - 1), 0);
     }
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < kJoints; ++i) {
       const double half = kHalfLengths[i] * (thumb ? kThumb : 1);
-      joint = joint * turned(Vec3::UnitY(), kShare[i] * bent_rad[finger]);
-      X_WS[1 + 3 * finger + i] = joint * moved(half, 0, 0);
+      joint = joint * turned(Vec3::UnitY(), bent_rad[finger][i]);
+      X_WS[1 + kJoints * finger + i] = joint * moved(half, 0, 0);
       joint = joint * moved(2 * half, 0, 0);
     }
   }
@@ -141,7 +140,8 @@ void Scene::fill(std::size_t step, HandStep& out) const {
       r[to] = static_cast<float>(bound.radius);
     };
     for (std::size_t c = 0; c < kSegmentClusters; ++c)
-      sphere(hand[s].clusters_S[c], s * kSegmentClusters + c, out.cluster_x, out.cluster_y, out.cluster_z, out.cluster_r);
+      sphere(hand[s].clusters_S[c], s * kSegmentClusters + c, out.cluster_x, out.cluster_y, out.cluster_z,
+             out.cluster_r);
     sphere(hand[s].bound_S, s, out.segment_x, out.segment_y, out.segment_z, out.segment_r);
     out.center += p / kSegments;
   }

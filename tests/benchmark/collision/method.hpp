@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/collision/kernels.hpp"
@@ -19,9 +20,10 @@ struct alignas(64) Hits {
   static constexpr std::size_t kRoom = kHandPoints + 16;
 
   std::size_t count = 0;
-  alignas(64) std::array<std::uint32_t, kRoom> point;           ///< into HandStep::x
-  alignas(64) std::array<float, kRoom> depth_m, n_x, n_y, n_z;  ///< depth > 0; outward unit normal of the object's surface, in W
-  alignas(64) std::array<std::uint8_t, kRoom> object;           ///< into Scene::objects
+  alignas(64) std::array<std::uint32_t, kRoom> point;  ///< into HandStep::x
+  alignas(64) std::array<float, kRoom> depth_m, n_x, n_y,
+      n_z;                                             ///< depth > 0; outward unit normal of the object's surface, in W
+  alignas(64) std::array<std::uint8_t, kRoom> object;  ///< into Scene::objects
 
   void add(std::size_t point_index, std::size_t object_index, float depth, const Vec3f& n_W) noexcept {
     if (count >= kHandPoints) return;
@@ -65,8 +67,10 @@ class Method {
   [[nodiscard]] virtual std::vector<int> cells() const { return {}; }
   /// What our parts are kept in; empty for the others.
   [[nodiscard]] virtual std::vector<MapShare> maps() const { return {}; }
-  /// What the mesh methods found, all steps so far.
-  [[nodiscard]] virtual std::uint64_t mesh_contacts() const { return 0; }
+  /// Whatever else is worth a metric of its own, by its whole name.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> extra_metrics() const { return {}; }
+  /// What the mesh methods found, the mean of all steps so far.
+  [[nodiscard]] virtual double mesh_contacts_per_step() const { return 0; }
 };
 
 /// A known answer, for the choice of a grid's resolution.

@@ -163,8 +163,8 @@ Mesh screw(Draw& draw) {
 double box_edge(double s, double half, double radius) {
   constexpr double kFlat = 2.0 / 3;
   const double a = std::abs(s);
-  const double place = a < kFlat ? a / kFlat * (half - radius)
-                                 : half - radius + radius * std::tan((a - kFlat) / (1 - kFlat) * kPi / 4);
+  const double place =
+      a < kFlat ? a / kFlat * (half - radius) : half - radius + radius * std::tan((a - kFlat) / (1 - kFlat) * kPi / 4);
   return std::copysign(place, s);
 }
 
@@ -184,8 +184,8 @@ Mesh rounded_box(Draw& draw) {
           p[axis] = side * half[axis];
           p[u] = box_edge(2.0 * i / cells - 1, half[u], radius);
           p[v] = box_edge(2.0 * j / cells - 1, half[v], radius);
-          const Vec3 inner = p.cwiseMax(-half.array().matrix() + Vec3::Constant(radius))
-                                 .cwiseMin(half - Vec3::Constant(radius));
+          const Vec3 inner =
+              p.cwiseMax(-half.array().matrix() + Vec3::Constant(radius)).cwiseMin(half - Vec3::Constant(radius));
           mesh.vertices.push_back(inner + radius * (p - inner).normalized());
         }
       }

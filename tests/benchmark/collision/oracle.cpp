@@ -11,8 +11,8 @@
 namespace mechane::benchmark {
 namespace {
 
-constexpr double kNear = 0.005;     // of the diagonal: exact answers are kept this far outside
-constexpr double kCounts = 0.002;   // of the diagonal: a contact this deep must not be missed, nor be made up
+constexpr double kNear = 0.005;    // of the diagonal: exact answers are kept this far outside
+constexpr double kCounts = 0.002;  // of the diagonal: a contact this deep must not be missed, nor be made up
 
 void ask(const SceneObject& object, std::size_t index, const geometry::MeshQuery& query, const HandStep& hand,
          std::vector<Oracle::Answer>& out) {

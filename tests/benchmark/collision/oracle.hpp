@@ -41,12 +41,12 @@ class Oracle {
 
 /// A method's answers against the exact ones, for one object.
 struct Agreement {
-  std::size_t points = 0;                                     ///< inside, by either
+  std::size_t points = 0;                                          ///< inside, by either
   double error_p50_pct = 0, error_p99_pct = 0, error_max_pct = 0;  ///< of the depth, in % of the diagonal
-  double normal_p50_deg = 0, normal_p99_deg = 0;              ///< where both are deeper than 0.2 %
-  std::size_t missed = 0;                                     ///< exact deeper than 0.2 %, no hit
-  std::size_t false_hits = 0;                                 ///< hit deeper than 0.2 %, exact outside
-  double deepest_pct = 0;                                     ///< exact
+  double normal_p50_deg = 0, normal_p99_deg = 0;                   ///< where both are deeper than 0.2 %
+  std::size_t missed = 0;                                          ///< exact deeper than 0.2 %, no hit
+  std::size_t false_hits = 0;                                      ///< hit deeper than 0.2 %, exact outside
+  double deepest_pct = 0;                                          ///< exact
 };
 
 [[nodiscard]] std::array<Agreement, kSceneObjects> compare(const Scene& scene, const Oracle& oracle, Method& method);

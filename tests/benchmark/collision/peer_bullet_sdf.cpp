@@ -1,10 +1,10 @@
 // Bullet's btSdfCollisionShape: a grid of cubic cells of 32 nodes each. Bullet brings no tool to make one; its loader reads the bytes
 // of Discregrid's files, which are written here from exact distances.
-#include <BulletCollision/CollisionShapes/btSdfCollisionShape.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+
+#include <BulletCollision/CollisionShapes/btSdfCollisionShape.h>
 
 #include "server/base/assert.hpp"
 #include "tests/benchmark/collision/culling.hpp"

@@ -1,10 +1,10 @@
 // Embree: the closest triangle to each point by a point query, exact. The side is told by the angle-weighted normal of the closest
 // feature (Baerentzen and Aanaes 2005).
-#include <embree3/rtcore.h>
-
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include <embree3/rtcore.h>
 
 #include "server/base/assert.hpp"
 #include "tests/benchmark/collision/culling.hpp"
@@ -64,7 +64,7 @@ const Vec3f& normal_of(const Triangle& t, Feature feature) {
 std::vector<Triangle> make_triangles(const geometry::Mesh& mesh) {
   std::vector<Vec3> corner(mesh.vertices.size(), Vec3::Zero());
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> edge;
-  const auto key = [](std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); };
+  const auto key = [](std::uint32_t a, std::uint32_t b) { return std::pair(std::min(a, b), std::max(a, b)); };
   const auto face = [&](const std::array<std::uint32_t, 3>& t) -> Vec3 {
     const Vec3& a = mesh.vertices[t[0]];
     return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).normalized();
@@ -116,7 +116,8 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
 
 class EmbreeObject {
  public:
-  EmbreeObject(RTCDevice device, const geometry::Mesh& mesh) : triangles_(make_triangles(mesh)), scene_(rtcNewScene(device)) {
+  EmbreeObject(RTCDevice device, const geometry::Mesh& mesh)
+      : triangles_(make_triangles(mesh)), scene_(rtcNewScene(device)) {
     RTCGeometry shape = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                  3 * sizeof(float), mesh.vertices.size()));

@@ -1,5 +1,7 @@
 // FCL: trees of oriented boxes (OBBRSS) over the hand's segments and the objects. It collides meshes and returns contacts of
 // triangles, not depths of points: listed apart.
+#include <algorithm>
+
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/collision_object.h>
@@ -48,20 +50,21 @@ class Fcl final : public Method {
     request_ = asked == Asked::contacts ? fcl::CollisionRequestd(kAll, true) : fcl::CollisionRequestd(1, false);
   }
 
-  [[nodiscard]] std::string name() const override {
-    return asked_ == Asked::contacts ? "fcl_contacts" : "fcl_yesno";
-  }
+  [[nodiscard]] std::string name() const override { return asked_ == Asked::contacts ? "fcl_contacts" : "fcl_yesno"; }
   [[nodiscard]] std::size_t bytes() const override {
     std::size_t sum = 0;
     for (const auto& object : objects_)
-      sum += static_cast<std::size_t>(object->memUsage(0));
+      sum += static_cast<std::size_t>(object->getNumBVs()) * sizeof(fcl::BVNode<fcl::OBBRSSd>) +
+             static_cast<std::size_t>(object->num_tris) * (sizeof(fcl::Triangle) + sizeof(unsigned)) +
+             static_cast<std::size_t>(object->num_vertices) * sizeof(fcl::Vector3d);
     return sum;
   }
   [[nodiscard]] double build_s() const override { return build_s_; }
   [[nodiscard]] bool answers_points() const override { return false; }
-  [[nodiscard]] std::uint64_t mesh_contacts() const override { return contacts_; }
+  [[nodiscard]] double mesh_contacts_per_step() const override { return contacts_ / std::max(steps_, 1.0); }
 
   void step(const HandStep& hand, Hits&) override {
+    ++steps_;
     for (std::size_t k = 0; k < objects_.size(); ++k) {
       const SceneObject& object = scene_.objects[k];
       if (!reaches(object, object.R_OW * hand.center + object.p_OW, hand.radius)) continue;
@@ -70,7 +73,7 @@ class Fcl final : public Method {
         if (!reaches(object, object.R_OW * p_W + object.p_OW, hand.segment_r[s])) continue;
         result_.clear();
         fcl::collide(segments_[s].get(), transform(hand.X_WS[s]), objects_[k].get(), X_WO_[k], request_, result_);
-        contacts_ += result_.numContacts();
+        contacts_ += static_cast<double>(result_.numContacts());
       }
     }
   }
@@ -79,7 +82,8 @@ class Fcl final : public Method {
   const Scene& scene_;
   Asked asked_;
   double build_s_ = 0;
-  std::uint64_t contacts_ = 0;
+  double steps_ = 0;
+  double contacts_ = 0;
   fcl::CollisionRequestd request_;
   fcl::CollisionResultd result_;
   std::vector<std::shared_ptr<Model>> objects_, segments_;

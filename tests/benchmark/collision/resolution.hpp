@@ -14,7 +14,8 @@
 namespace mechane::benchmark {
 
 inline constexpr int kFewestCells = 8;
-inline constexpr int kMostCells = 192;  ///< a grid that is not good enough by then stays as it is: its error is reported
+inline constexpr int kMostCells =
+    192;  ///< a grid that is not good enough by then stays as it is: its error is reported
 
 /// Distance at a point of the object's frame, negative inside.
 using DistanceAt = std::function<double(const Vec3f& p_O)>;
@@ -24,7 +25,8 @@ using DistanceAt = std::function<double(const Vec3f& p_O)>;
   std::vector<double> errors;
   for (const KnownPoint& known : points) {
     const double said = distance_at(known.p_O);
-    if (known.distance_m < 0 || said < 0) errors.push_back(std::abs(std::min(said, 0.0) - std::min(known.distance_m, 0.0)));
+    if (known.distance_m < 0 || said < 0)
+      errors.push_back(std::abs(std::min(said, 0.0) - std::min(known.distance_m, 0.0)));
   }
   if (errors.empty()) return 0;
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(errors.size()))) - 1;

@@ -21,6 +21,7 @@ inline constexpr std::size_t kSceneObjects = 5;
 
 inline constexpr std::size_t kSegments = 16;  ///< the palm, then three for each finger, the thumb first
 inline constexpr std::size_t kFingers = 5;
+inline constexpr std::size_t kJoints = 3;
 inline constexpr std::size_t kSegmentPoints = 128;
 inline constexpr std::size_t kHandPoints = kSegments * kSegmentPoints;
 inline constexpr std::size_t kClusterPoints = 16;
@@ -77,11 +78,14 @@ struct Scene {
 
 [[nodiscard]] HandModel make_hand();
 
-/// X_WS of all segments: the palm's pose, and how far each finger is bent, radians at its middle joint.
-[[nodiscard]] HandPose hand_pose(const Pose& X_WPalm, const std::array<double, kFingers>& bent_rad);
+/// How far each finger is bent at each of its joints, radians, from the knuckle on.
+using Bends = std::array<std::array<double, kJoints>, kFingers>;
 
-/// Objects, hand and `steps` steps: for each object the palm comes, the fingers close, press and play, open, and the palm leaves. How
-/// far they go is measured against the meshes, so that they press some tenths of a per cent of the diagonal into the object.
+/// X_WS of all segments.
+[[nodiscard]] HandPose hand_pose(const Pose& X_WPalm, const Bends& bent_rad);
+
+/// Objects, hand and `steps` steps: for each object the palm comes, the fingers close around it, press and play, open, and the palm
+/// leaves. How far they go is measured against the meshes, so that they press some tenths of a per cent of the diagonal into the object.
 [[nodiscard]] Scene make_scene(std::uint64_t seed, std::size_t steps);
 
 }  // namespace mechane::benchmark

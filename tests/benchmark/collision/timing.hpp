@@ -12,7 +12,10 @@ inline constexpr std::size_t kWarmUpSteps = 50;  ///< before each pass, untimed
 
 struct StepTimes {
   std::vector<std::vector<float>> rounds_us;  ///< [round][step], single passes
-  std::vector<float> cold_us;                 ///< of some steps, all caches walked over before each
+  /// Steps from which the system took the core: that says nothing of the method, so they were timed again, at once. Leaving them out
+  /// would leave out the long ones.
+  std::size_t preempted = 0;
+  std::vector<float> cold_us;  ///< of some steps, all caches walked over before each
 };
 
 struct TimingConfig {

@@ -9,10 +9,10 @@
 namespace mechane::benchmark {
 namespace {
 
-constexpr double kOpen_rad = 0.12;
-constexpr double kMostBent_rad = 1.75;
-constexpr double kTouch_pct = 0.05;  // of the object's diagonal: where a finger or the palm begins to feel the object
-constexpr double kPress_pct = 1.0;   // how deep it presses at most
+constexpr double kOpen_rad = 0.1;
+constexpr double kMostBent_rad = 1.7;  // of one joint
+constexpr double kTouch_pct = 0.05;    // of the object's diagonal: where a finger or the palm begins to feel the object
+constexpr double kPress_pct = 1.1;     // how deep it presses, about
 
 /// A range from first touch to firm press, of the palm's distance or of a finger's bend.
 struct Range {
@@ -45,10 +45,14 @@ class Grasp {
     const double closed = ramp(kCome, kClose) - ramp(kOpen, kLeave);
     const double away = (1 - near) * 0.8 * object_.diagonal_m;
     const double firm = 0.5 + 0.5 * std::sin(phase_ + 14 * share);
-    std::array<double, kFingers> bent{};
+    Bends bent{};
     for (std::size_t f = 0; f < kFingers; ++f) {
       const double firmness = 0.5 + 0.5 * std::sin(phase_ + 40 * share + 1.3 * static_cast<double>(f));
-      bent[f] = std::lerp(kOpen_rad, fingers_[f].at(firmness), closed);
+      // One joint after the other, in the order in which their ranges were measured. The last one plays, which moves no other.
+      for (std::size_t j = 0; j < kJoints; ++j) {
+        const double turn = std::clamp(kJoints * closed - static_cast<double>(j), 0.0, 1.0);
+        bent[f][j] = std::lerp(kOpen_rad, fingers_[f][j].at(j + 1 < kJoints ? 0.5 : firmness), turn);
+      }
     }
     return hand_pose(palm(palm_.at(near * firm) + away), bent);
   }
@@ -97,20 +101,25 @@ class Grasp {
   void calibrate() {
     const double touch = kTouch_pct / 100 * object_.diagonal_m;
     const double press = kPress_pct / 100 * object_.diagonal_m;
-    std::array<double, kFingers> open;
-    open.fill(kOpen_rad);
-    const auto palm_depth = [&](double distance) { return depth(hand_pose(palm(distance), open), 0, kSegments); };
+    Bends bent;
+    for (auto& finger : bent)
+      finger.fill(kOpen_rad);
+    const auto palm_depth = [&](double distance) { return depth(hand_pose(palm(distance), bent), 0, kSegments); };
     const double far = 1.2 * object_.diagonal_m;
     palm_.touch = reach(far, 0, touch, palm_depth);
-    palm_.press = reach(palm_.touch, 0, 0.5 * press, palm_depth);
+    palm_.press = reach(palm_.touch, 0, 0.4 * press, palm_depth);
+    // From the knuckle on, each joint closes until its segment, or one behind it, presses.
     for (std::size_t f = 0; f < kFingers; ++f) {
-      const auto finger_depth = [&](double bent) {
-        auto all = open;
-        all[f] = bent;
-        return depth(hand_pose(palm(palm_.at(0.5)), all), 1 + 3 * f, 3);
-      };
-      fingers_[f].touch = reach(kOpen_rad, kMostBent_rad, touch, finger_depth);
-      fingers_[f].press = reach(fingers_[f].touch, kMostBent_rad, press, finger_depth);
+      for (std::size_t j = 0; j < kJoints; ++j) {
+        const auto joint_depth = [&](double angle) {
+          bent[f][j] = angle;
+          return depth(hand_pose(palm(palm_.at(0.5)), bent), 1 + kJoints * f + j, kJoints - j);
+        };
+        const double firm = (j + 1 < kJoints ? 0.7 : 1) * press;
+        fingers_[f][j].touch = reach(kOpen_rad, kMostBent_rad, touch, joint_depth);
+        fingers_[f][j].press = reach(fingers_[f][j].touch, kMostBent_rad, firm, joint_depth);
+        bent[f][j] = fingers_[f][j].at(0.5);
+      }
     }
   }
 
@@ -121,7 +130,7 @@ class Grasp {
   Quat R_WPalm_;
   double phase_ = 0;
   Range palm_;
-  std::array<Range, kFingers> fingers_;
+  std::array<std::array<Range, kJoints>, kFingers> fingers_;
 };
 
 }  // namespace

@@ -1,0 +1,139 @@
+"""Contact queries: the product's maps against the libraries that a user would take instead, on one scene and in one run."""
+
+from pathlib import Path
+
+from peers import Measured, Missing, own
+from plots import bars, lines, number
+
+PROGRAM_LIMIT_S = 600  # before the program counts as hung; it takes a minute or three
+OURS = "sqmap"
+# How each method goes by in tables and plots; what is not here goes by its own name.
+NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 brick, scalar", "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
+         "embree": "Embree, exact", "paper": "the paper's search", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no"}
+MESH_METHODS = ("fcl_contacts", "fcl_yesno", "fcl_gjk")  # contacts of meshes, not depths of points: listed apart
+IDLE_US = 2  # a step of FCL's below this met no sphere
+BIN_STEPS = 10  # of the grasp's curve: the mean of so many steps is one point
+
+
+def _methods(metrics: dict[str, float]) -> list[str]:
+    """Everything that was timed, ours first, mesh methods last."""
+    found = [name.split(".")[1] for name in metrics if name.startswith("step_us.") and name.endswith(".count")]
+    return sorted(found, key=lambda name: (name in MESH_METHODS, not name.startswith(OURS), metrics[f"step_us.{name}.median"]))
+
+
+def _objects(metrics: dict[str, float]) -> list[str]:
+    start, end = f"step_us.{OURS}.", ".median"
+    return [name[len(start):-len(end)] for name in metrics if name.startswith(start) and name.endswith(end) and name != start[:-1] + end]
+
+
+def measure(context) -> tuple[Measured, list[str]]:
+    """Queries, and the fit where its program was built."""
+    result, missing = Measured(), []
+    seed = [] if context.seed is None else ["--seed", str(context.seed)]
+    for program, arguments in (("bench_collision", seed), ("bench_fit", seed)):
+        if program == "bench_fit" and not (context.bin / program).exists():
+            continue
+        print(f"  {program} ...", flush=True)
+        try:
+            part = own(context.bin, program, arguments, PROGRAM_LIMIT_S)
+        except Missing as reason:
+            missing.append(f"{program}: {reason}")
+            continue
+        result = Measured({**result.metrics, **part.metrics}, {**result.curves, **part.curves},
+                          list(dict.fromkeys(result.notes + part.notes)))
+    _add_memory(result)
+    return result, missing
+
+
+def _add_memory(result: Measured) -> None:
+    """A plain distance field has a float where the brick has 16 bits."""
+    if "bytes.brick" in result.metrics:
+        result.metrics["bytes.distance_field"] = 2 * result.metrics["bytes.brick"]
+        result.notes.append("bytes.distance_field: the brick's grid with a 32-bit float at each node")
+
+
+def _row(cells: list[str], widths: list[int]) -> str:
+    return "  " + "  ".join(cell.ljust(width) if index == 0 else cell.rjust(width)
+                            for index, (cell, width) in enumerate(zip(cells, widths))).rstrip()
+
+
+def _grid(rows: list[list[str]]) -> list[str]:
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return [_row(row, widths) for row in rows]
+
+
+def table(name: str, metrics: dict[str, float]) -> str:
+    """One row for each method, then our figures object by object, then what neither table holds."""
+    def show(metric: str) -> str:
+        return number(metrics[metric]) if metric in metrics else "-"
+
+    methods, objects = _methods(metrics), _objects(metrics)
+    lines_out = [f"\n{name}"]
+    if methods:
+        head = ["", "step us", "p99", "p99.9", "cold us", "x ours", "KB", "error p99 %", "missed", "false", "build s"]
+        rows = [head]
+        for method in methods:
+            size = f"bytes.{method}"
+            rows.append([NAMES.get(method, method), *(show(f"step_us.{method}.{q}") for q in ("median", "p99", "p999")),
+                         show(f"cold_step_us.{method}.median"), show(f"ratio.{method}"),
+                         number(metrics[size] / 1000) if size in metrics else "-", show(f"depth_error_pct.{method}.p99"),
+                         show(f"missed.{method}"), show(f"false.{method}"), show("build_s" if method == OURS else f"build_s.{method}")])
+        lines_out += _grid(rows)
+    if objects:
+        rows = [["", "step us", "p99", "brick us", "FCL us", "error p99 %", "error max %", "normal p99 deg", "missed", "false"]]
+        for thing in objects:
+            rows.append([thing, show(f"step_us.{OURS}.{thing}.median"), show(f"step_us.{OURS}.{thing}.p99"),
+                         show(f"step_us.brick.{thing}.median"), show(f"step_us.fcl_contacts.{thing}.median"),
+                         show(f"depth_error_pct.{OURS}.{thing}.p99"), show(f"depth_error_pct.{OURS}.{thing}.max"),
+                         show(f"normal_error_deg.{OURS}.{thing}.p99"), show(f"missed.{OURS}.{thing}"), show(f"false.{OURS}.{thing}")])
+        lines_out += ["", *_grid(rows)]
+    rest = {metric: value for metric, value in metrics.items() if metric.split(".")[0] in ("scene", "fit", "share", "ratio_avx2") and not metric.startswith("scene.first_step")}
+    if rest:
+        width = max(len(metric) for metric in rest)
+        lines_out += ["", *(f"  {metric:<{width}}  {number(value):>12}" for metric, value in sorted(rest.items()))]
+    return "\n".join(lines_out)
+
+
+def _binned(curve: list[list[float]]) -> list[list[float]]:
+    bins = [curve[i:i + BIN_STEPS] for i in range(0, len(curve), BIN_STEPS)]
+    return [[part[0][0], sum(y for _, y in part) / len(part)] for part in bins]
+
+
+def _share_of(curve: list[list[float]], base: list[list[float]]) -> list[list[float | None]]:
+    """Per cent of the other curve; a break where the other has nothing near the hand and both do nothing."""
+    return [[step, 100 * ours / theirs if theirs > IDLE_US else None] for (step, ours), (_, theirs) in zip(_binned(curve), _binned(base))]
+
+
+def _grasps(metrics: dict[str, float], steps: float) -> list[tuple[float, float, str]]:
+    """When which object is grasped: they come one after another."""
+    start = "scene.first_step."
+    firsts = sorted((value, name[len(start):]) for name, value in metrics.items() if name.startswith(start))
+    ends = [first for first, _ in firsts[1:]] + [steps]
+    return [(first, end, name) for (first, name), end in zip(firsts, ends)]
+
+
+def plot(result: Measured, out: Path, machine: str) -> list[Path]:
+    made, metrics = [], result.metrics
+    methods = _methods(metrics)
+    if methods:
+        made.append(out / "collision-step.svg")
+        rows = sorted(((NAMES.get(name, name), metrics[f"step_us.{name}.median"]) for name in methods), key=lambda row: row[1])
+        bars(made[-1], "Contact query of a hand, one step", f"2048 points against five objects; median, logarithmic. {machine}",
+             rows, "µs", logarithmic=True, ours=NAMES[OURS])
+    base = result.curves.get("grasp.fcl_contacts")
+    if base:
+        made.append(out / "collision-grasp.svg")
+        shown = {NAMES[name]: _share_of(result.curves[f"grasp.{name}"], base)
+                 for name in (OURS, "brick", "openvdb", "embree") if f"grasp.{name}" in result.curves}
+        lines(made[-1], "A step of the grasp, as a share of FCL's trees of oriented boxes",
+              f"the paper's Figure 15a with our data: per cent of FCL's contact query while the hand is near. {machine}", shown, "step", "%",
+              _grasps(metrics, base[-1][0] + 1))
+    sizes = [("distance field", "bytes.distance_field"), ("int16 brick", "bytes.brick"), ("OpenVDB, narrow band", "bytes.openvdb_narrow"),
+             ("Mechane", f"bytes.{OURS}")]
+    rows = [(label, metrics[name] / 1000) for label, name in sizes if name in metrics]
+    if len(rows) > 1:
+        made.append(out / "collision-memory.svg")
+        triangles = metrics.get("scene.triangles", 0)
+        bars(made[-1], "Memory of the scene", f"the paper's Figure 15b with our data: {triangles:.0f} triangles, equal depth error",
+             rows, "KB", ours="Mechane")
+    return made
