@@ -1,0 +1,143 @@
+#include "client-sdk/fit/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "server/geometry/mesh_check.hpp"
+
+namespace mechane::fit {
+namespace {
+
+// A fingertip tells steps of about a millimetre apart on a shape that it holds; on the parts of a machine that is the target.
+constexpr double kFeltAsRight_mm = 1.0;
+constexpr double kLargeObject_mm = 20'000;
+constexpr double kSmallObject_mm = 10;
+
+double signed_volume_m3(const geometry::Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
+  return sum;
+}
+
+PartSummary part_summary(const collision::Part& part, const collision::PartReport& report, std::size_t triangles) {
+  PartSummary s;
+  s.name = part.name;
+  s.triangles = triangles;
+  s.axes_mm = 1000 * part.superquadric.a;
+  s.e1 = part.superquadric.e1;
+  s.e2 = part.superquadric.e2;
+  s.taper_x = part.superquadric.taper_x;
+  s.taper_y = part.superquadric.taper_y;
+  s.bend_deg = part.superquadric.bend_per_m * 2 * part.superquadric.a.z() * 180 / kPi;
+  s.fit_mean_pct = report.fit.mean_pct;
+  s.fit_rms_pct = report.fit.rms_pct;
+  s.fit_max_pct = report.fit.max_pct;
+  s.map_kind = fmt::format("radial {}", part.map.resolution());
+  s.map_bytes = part.map.texels().size_bytes();
+  s.depth_error_p50_mm = 1000 * report.depth_error_p50_m;
+  s.depth_error_p99_mm = 1000 * report.depth_error_p99_m;
+  s.samples = report.samples;
+  s.spacing_mm = 1000 * report.spacing_m;
+  return s;
+}
+
+void note_meshes(const FittedObject& fitted, Summary& summary) {
+  for (const geometry::NamedMesh& part : fitted.meshes) {
+    const std::size_t open = geometry::open_edges(part.mesh);
+    if (open > 0) {
+      summary.notes.push_back(
+          fmt::format("part '{}' is open ({} edges without a neighbour): felt from outside, with nothing "
+                      "behind its surface; close the mesh to make it solid",
+                      part.name, open));
+    } else if (signed_volume_m3(part.mesh) < 0) {
+      summary.notes.push_back(
+          fmt::format("part '{}' is turned inside out; turn its faces round in the model", part.name));
+    }
+  }
+}
+
+void note_size(Summary& summary) {
+  if (summary.diagonal_mm > kLargeObject_mm || summary.diagonal_mm < kSmallObject_mm) {
+    summary.notes.push_back(
+        fmt::format("the object measures {} mm from corner to corner; if that is not meant, export the model in metres",
+                    mm_text(summary.diagonal_mm)));
+  }
+}
+
+void note_parts(const FittedObject& fitted, Summary& summary) {
+  for (const PartSummary& part : summary.parts) {
+    if (part.samples == 0) {
+      summary.notes.push_back(
+          fmt::format("part '{}' lies wholly inside others, so nothing of it is felt; leave it out", part.name));
+    } else if (part.spacing_mm > 1.5 * 1000 * fitted.config.sample_spacing_m) {
+      summary.notes.push_back(
+          fmt::format("part '{}' is large: its {} samples lie {} mm apart, so a fingertip may slip between them when "
+                      "this object is "
+                      "moved against a hand; cut the part, or raise --max-samples",
+                      part.name, part.samples, mm_text(part.spacing_mm)));
+    }
+  }
+}
+
+}  // namespace
+
+Summary summarise(const FittedObject& fitted, const Surface& surface) {
+  Summary s;
+  const std::vector<std::size_t> triangles = surface.triangles_of_parts();
+  for (std::size_t i = 0; i < fitted.object.parts.size(); ++i) {
+    s.parts.push_back(part_summary(fitted.object.parts[i], fitted.report.parts[i], triangles[i]));
+    s.samples += s.parts.back().samples;
+    s.map_bytes += s.parts.back().map_bytes;
+    if (s.parts.back().depth_error_p99_mm > s.parts[s.worst_part].depth_error_p99_mm) s.worst_part = i;
+  }
+  s.triangles = surface.mesh().triangles.size();
+  s.file_bytes = fitted.part_file_bytes;
+  s.build_s = fitted.report.seconds;
+  s.diagonal_mm = 1000 * surface.diagonal_m();
+  note_size(s);
+  note_meshes(fitted, s);
+  note_parts(fitted, s);
+  return s;
+}
+
+std::string verdict(const Summary& summary) {
+  const PartSummary& worst = summary.parts[summary.worst_part];
+  const std::string within = mm_text(worst.depth_error_p99_mm);
+  const std::string where = summary.parts.size() == 1 ? "" : fmt::format(", worst on '{}'", worst.name);
+  if (worst.depth_error_p99_mm <= kFeltAsRight_mm) {
+    return fmt::format("A finger feels this surface within {} mm at 99 of 100 places{}. It will feel right.", within,
+                       where);
+  }
+  return fmt::format(
+      "A finger feels this surface within {} mm at 99 of 100 places{}. Over {} mm an edge feels rounded or a flat "
+      "feels "
+      "wavy: cut the part where it is hollow or branches, or raise --resolution.",
+      within, where, mm_text(kFeltAsRight_mm));
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const collision::BuildConfig& config) {
+  return {{"map resolution (--resolution)", fmt::format("{} texels an edge", config.map_resolution)},
+          {"sample spacing (--spacing)", fmt::format("{} mm", mm_text(1000 * config.sample_spacing_m))},
+          {"samples a part at most (--max-samples)", fmt::format("{}", config.max_samples_per_part)},
+          {"seam gap (--seam-gap)", fmt::format("{} mm", mm_text(1000 * config.seam_gap_m))},
+          {"seed (--seed)", fmt::format("{}", config.seed)}};
+}
+
+std::string bytes_text(std::size_t bytes) {
+  const auto size = static_cast<double>(bytes);
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  if (bytes < 1'000'000) return fmt::format("{:.1f} KB", size / 1e3);
+  return fmt::format("{:.1f} MB", size / 1e6);
+}
+
+std::string mm_text(double mm) {
+  if (mm == 0) return "0";
+  if (std::abs(mm) < 0.001) return "<0.001";
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(mm))));
+  return fmt::format("{:.{}f}", mm, std::clamp(1 - before, 0, 3));
+}
+
+}  // namespace mechane::fit
