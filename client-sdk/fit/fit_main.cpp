@@ -62,7 +62,7 @@ std::string twin_of(const std::string& mesh, const fit::FitOptions& options, std
 
 void say(const fit::FitResult& result, const std::string& mesh) {
   fmt::print("\n{}\n{}", fit::printable(mesh), fit::summary_table(result.summary));
-  fmt::print("{}\n{}\n", fit::verdict(result.summary), result.part_file.string());
+  fmt::print("{}{}\n", fit::wrapped_text(fit::verdict(result.summary), "", ""), result.part_file.string());
   if (!result.report_file.empty()) fmt::print("{}\n", result.report_file.string());
   std::fflush(stdout);
 }

@@ -11,7 +11,7 @@
 namespace mechane::fit {
 namespace {
 
-constexpr int kSteps = 96;
+constexpr int kSteps = 64;
 constexpr int kHalvings = 8;
 constexpr double kCoveredShare = 0.01;  // of the diagonal: deeper at the very start is no rounding
 constexpr std::uint32_t kCovered = 0xB4B0A8;

@@ -19,7 +19,7 @@ struct MapPicture {
 };
 
 /// Rays go inwards along the superquadric's normal, and ask the part's map as a contact query would: whatever its representation. They
-/// go in steps of 1/96 of the part's diagonal: what is thinner may be passed over. `texels` along an edge of the box.
+/// go in steps of 1/64 of the part's diagonal: what is thinner may be passed over. `texels` along an edge of the box.
 [[nodiscard]] MapPicture draw_map(const collision::Object& object, std::size_t part, int texels);
 
 }  // namespace mechane::fit

@@ -8,7 +8,9 @@
 namespace mechane::fit {
 namespace {
 
-constexpr int kShellCells = 20;
+constexpr int kShellCells = 20;  // along an edge of the cube
+constexpr int kFewCells = 10;    // of many parts, each small
+constexpr std::size_t kManyParts = 60;
 constexpr int kLinesPerFace = 4;  // of the cube, each way
 constexpr int kPointsPerLine = 48;
 constexpr double kLineRadius = 1.3;  // pixels of the buffer
@@ -76,8 +78,9 @@ Vec3 surface_at(const geometry::Superquadric& shape, const Vec3& d) {
 
 Shells make_shells(const collision::Object& object) {
   Shells shells;
+  const int cells = object.parts.size() > kManyParts ? kFewCells : kShellCells;
   for (std::uint32_t i = 0; i < object.parts.size(); ++i) {
-    const geometry::Mesh mesh = geometry::tessellate(object.parts[i].superquadric, kShellCells);
+    const geometry::Mesh mesh = geometry::tessellate(object.parts[i].superquadric, cells);
     const auto base = static_cast<std::uint32_t>(shells.mesh.vertices.size());
     for (const Vec3& v : mesh.vertices)
       shells.mesh.vertices.push_back(object.parts[i].X_OQ * v);

@@ -10,9 +10,9 @@
 namespace mechane::fit {
 namespace {
 
-// Paul Tol's 'muted' scheme (SRON/EPS/TN/09-002), safe for all common kinds of colour vision, its darkest two last.
+// Paul Tol's 'muted' scheme (SRON/EPS/TN/09-002), safe for all common kinds of colour vision, its darkest last, the indigo lightened.
 constexpr std::array<std::uint32_t, 9> kPartColours{0xCC6677, 0x88CCEE, 0xDDCC77, 0x44AA99, 0xAA4499,
-                                                    0x999933, 0x117733, 0x882255, 0x332288};
+                                                    0x999933, 0x117733, 0x882255, 0x4B5AA5};
 constexpr std::array<std::uint32_t, 6> kErrorScale{0xF4EFDC, 0xF3CF7E, 0xEB9A4A, 0xCB5B45, 0x8A2C55, 0x3B1441};
 constexpr std::array<std::uint32_t, 6> kDepthScale{0xF3EEDB, 0xC6D8A8, 0x86BDA0, 0x4A97A3, 0x32668F, 0x232F62};
 

@@ -49,15 +49,21 @@ std::size_t witness_of(const DepthBuffer& buffer, int x, int y) {
   return at(0, 0);
 }
 
-}  // namespace
-
-Pictures::Pictures(const Surface& surface, const collision::Object& object, int row_width, int max_height)
-    : surface_(surface), object_(object), part_colours_(part_colours(object)) {
+/// The three views of all vertices of `mesh`, side by side, at the scale that the row's room allows.
+std::array<View, kSides> views_of(const geometry::Mesh& mesh, int row_width, int max_height) {
+  std::array<View, kSides> views;
   std::array<Vec3, kSides> size_m;
   double widths_m = 0;
   double height_m = 0;
   for (std::size_t i = 0; i < kSides; ++i) {
-    sides_[i].view = view_from(surface.mesh(), kSides_rad[i][0], kSides_rad[i][1], size_m[i]);
+    views[i] = view_from(mesh, kSides_rad[i][0], kSides_rad[i][1], size_m[i]);
+    // From above, a long object lies across the picture, whichever way it lies in the model.
+    Vec3 turned_m;
+    const View turned = view_from(mesh, kSides_rad[i][0] + kPi / 2, kSides_rad[i][1], turned_m);
+    if (i == kSides - 1 && turned_m.y() < size_m[i].y()) {
+      views[i] = turned;
+      size_m[i] = turned_m;
+    }
     widths_m += size_m[i].x();
     height_m = std::max(height_m, size_m[i].y());
   }
@@ -65,14 +71,31 @@ Pictures::Pictures(const Surface& surface, const collision::Object& object, int 
   const double px_per_m = std::min((row_width - kSides * margins) / std::max(widths_m, 1e-9),
                                    (max_height - margins) / std::max(height_m, 1e-9));
   for (std::size_t i = 0; i < kSides; ++i) {
-    View& view = sides_[i].view;
-    view.px_per_m = px_per_m;
-    view.width = std::max(kLeastSide, static_cast<int>(std::ceil(px_per_m * size_m[i].x() + margins)));
-    view.height = std::max(kLeastSide, static_cast<int>(std::ceil(px_per_m * height_m + margins)));
-    view = view.finer(kFine);
-    sides_[i].buffer = rasterise(surface.mesh(), view);
-    sides_[i].light = light_of(sides_[i].buffer, surface.mesh(), view);
+    views[i].px_per_m = px_per_m;
+    views[i].width = std::max(kLeastSide, static_cast<int>(std::ceil(px_per_m * size_m[i].x() + margins)));
+    views[i].height = std::max(kLeastSide, static_cast<int>(std::ceil(px_per_m * height_m + margins)));
   }
+  return views;
+}
+
+}  // namespace
+
+Pictures::Pictures(const Surface& surface, const collision::Object& object, int row_width, int max_height)
+    : surface_(surface),
+      object_(object),
+      row_width_(row_width),
+      max_height_(max_height),
+      part_colours_(part_colours(object)) {
+  const auto views = views_of(surface.mesh(), row_width, max_height);
+  for (std::size_t i = 0; i < kSides; ++i)
+    sides_[i] = side_of(views[i]);
+}
+
+Pictures::Side Pictures::side_of(const View& view) const {
+  Side side{view.finer(kFine), {}, {}};
+  side.buffer = rasterise(surface_.mesh(), side.view);
+  side.light = light_of(side.buffer, surface_.mesh(), side.view);
+  return side;
 }
 
 Image Pictures::average(const Side& side, const std::function<Paint(std::size_t)>& paint) {
@@ -162,14 +185,17 @@ ErrorRow Pictures::errors() const {
 }
 
 Row Pictures::superquadrics() const {
+  const Shells shells = make_shells(object_);
+  geometry::Mesh all = shells.mesh;  // the glass reaches beyond the object
+  all.vertices.insert(all.vertices.end(), surface_.mesh().vertices.begin(), surface_.mesh().vertices.end());
+  const auto views = views_of(all, row_width_, max_height_);
   Row row;
   for (std::size_t i = 0; i < kSides; ++i)
-    row[i] = draw_superquadrics(sides_[i]);
+    row[i] = draw_superquadrics(shells, side_of(views[i]));
   return row;
 }
 
-Image Pictures::draw_superquadrics(const Side& side) const {
-  const Shells shells = make_shells(object_);
+Image Pictures::draw_superquadrics(const Shells& shells, const Side& side) const {
   const DepthBuffer glass = rasterise(shells.mesh, side.view);
   const std::vector<float> glass_light = light_of(glass, shells.mesh, side.view);
   const std::vector<std::uint32_t> lines = draw_net(object_, side.view, glass, side.buffer);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client-sdk/fit/image.hpp"
+#include "client-sdk/fit/net.hpp"
 #include "client-sdk/fit/palette.hpp"
 #include "client-sdk/fit/raster.hpp"
 #include "client-sdk/fit/surface.hpp"
@@ -13,7 +14,7 @@
 namespace mechane::fit {
 
 inline constexpr std::size_t kSides = 3;
-inline constexpr std::array<const char*, kSides> kSideNames{"from the front", "from behind", "from above"};
+inline constexpr std::array<const char*, kSides> kSideNames{"seen from +z", "seen from −z", "seen from +y"};
 using Row = std::array<Image, kSides>;
 
 struct ErrorRow {
@@ -23,7 +24,7 @@ struct ErrorRow {
   double not_felt_share = 0;  ///< of the places drawn: inside the object, and felt by no map
 };
 
-/// Transparent around the object, so that a page may be light or dark. All at one scale. The surface must outlive it.
+/// Transparent around the object, so that a page may be light or dark. All sides are at one scale. The surface and the object must outlive it.
 class Pictures {
  public:
   /// Three pictures side by side fill `row_width` pixels, unless they would be higher than `max_height`.
@@ -51,10 +52,13 @@ class Pictures {
   };
   [[nodiscard]] static Image average(const Side& side, const std::function<Paint(std::size_t)>& paint);
   [[nodiscard]] std::vector<float> probe_pixels(const Side& side) const;
-  [[nodiscard]] Image draw_superquadrics(const Side& side) const;
+  [[nodiscard]] Side side_of(const View& view) const;
+  [[nodiscard]] Image draw_superquadrics(const Shells& shells, const Side& side) const;
 
   const Surface& surface_;
   const collision::Object& object_;
+  int row_width_;
+  int max_height_;
   std::vector<Colour> part_colours_;
   std::array<Side, kSides> sides_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -13,12 +14,13 @@ namespace mechane::fit {
 namespace {
 
 constexpr int kRowWidth = 1560;  // pixels of a row of three pictures; shown at two thirds of that
-constexpr int kRowHeight = 660;
+constexpr int kRowHeight = 540;
 constexpr double kShown = 0.667;
 constexpr std::size_t kPictureBytes = 2'000'000;  // of all three rows: a third more as text, and maps and words beside
 constexpr int kMapTexels = 32;
-constexpr std::size_t kLegendParts = 40;
-constexpr std::size_t kMostMaps = 120;
+constexpr std::size_t kLegendParts = 30;
+constexpr std::size_t kMostMaps = 40;
+constexpr std::size_t kFewMaps = 4;
 
 std::size_t picture_bytes(const Report& report) {
   std::size_t bytes = 0;
@@ -74,23 +76,24 @@ std::string parts_section(const Report& report) {
       "own, "
       "the same on the whole page.</p>\n";
   out += row_of(report.parts, "the object in the colours of its parts") + "<ul class=\"legend\">";
-  const std::size_t shown = std::min(report.summary.parts.size(), kLegendParts);
-  for (std::size_t i = 0; i < shown; ++i)
+  if (report.summary.parts.size() > kLegendParts) {
+    return out + fmt::format("<li>{} parts: the table below has their names and colours</li></ul>\n",
+                             report.summary.parts.size());
+  }
+  for (std::size_t i = 0; i < report.summary.parts.size(); ++i)
     out += fmt::format("<li>{}{}</li>", dot(report.part_colours[i]), escaped(report.summary.parts[i].name));
-  if (shown < report.summary.parts.size())
-    out += fmt::format("<li>and {} more</li>", report.summary.parts.size() - shown);
   return out + "</ul>\n";
 }
 
 std::string error_section(const Report& report) {
   const ErrorRow& e = report.errors;
   std::string out = fmt::format(
-      "<h2>How true it feels</h2>\n<p class=\"lead\">At each visible place a probe goes {} mm under the surface, in "
-      "thin walls to "
-      "their middle at most, and asks the finished maps how deep it is, as a finger does a thousand times a second. "
-      "The colour is "
-      "how far that answer is from the exact distance to the mesh. Half of the places here are within {} mm.</p>\n",
-      mm_text(report.probe_depth_mm), mm_text(e.median_mm));
+      "<h2>How true it feels</h2>\n<p class=\"lead\">At each visible place the finished maps are asked where a finger "
+      "that comes "
+      "straight at the surface meets it. The colour is how far before or behind the true surface that is. Half of the "
+      "places here "
+      "are within {} mm. The search goes {} mm each way, in thin walls and narrow gaps to their middle.</p>\n",
+      mm_text(e.median_mm), mm_text(report.reach_mm));
   out += row_of(e.images, "the object in the colours of its error");
   out += "<div class=\"bar\">" + bar(Scale::error, "0", mm_text(e.scale_mm) + " mm and more");
   if (e.not_felt_share > 0) {
@@ -113,10 +116,11 @@ std::string superquadric_section(const Report& report) {
 
 std::string map_card(const Report& report, std::size_t i) {
   const MapPicture& map = report.maps[i];
-  const std::string name = escaped(report.summary.parts[i].name);
-  std::string out = fmt::format("<figure><b title=\"{}\">{}{}</b>{}<div class=\"bar\">{}</div>", name,
-                                dot(report.part_colours[i]), name, picture(map.image, "distance map of " + name, false),
-                                bar(Scale::depth, "0", mm_text(map.deepest_mm) + " mm"));
+  const std::size_t part = report.mapped[i];
+  const std::string name = escaped(report.summary.parts[part].name);
+  std::string out = fmt::format(
+      "<figure><b title=\"{}\">{}{}</b>{}<div class=\"bar\">{}</div>", name, dot(report.part_colours[part]), name,
+      picture(map.image, "distance map of " + name, false), bar(Scale::depth, "0", mm_text(map.deepest_mm) + " mm"));
   if (map.no_hit_share >= 0.001 || map.covered_share >= 0.001) {
     out += "<figcaption>";
     if (map.no_hit_share >= 0.001) out += fmt::format("no hit {:.1f} % ", 100 * map.no_hit_share);
@@ -134,15 +138,27 @@ std::string map_section(const Report& report) {
       "lies, straight in. "
       "Dotted: no hit, the ray meets nothing of this part. Grey: covered, the ray starts inside the object already. "
       "Each map has a "
-      "scale of its own.</p>\n<div class=\"maps\">\n";
+      "scale of its own.";
+  if (report.maps.size() < report.summary.parts.size()) {
+    out += fmt::format(" Of {} parts, here are the {} with the greatest depth error.", report.summary.parts.size(),
+                       report.maps.size());
+  }
+  out += fmt::format("</p>\n<div class=\"maps{}\">\n", report.maps.size() <= kFewMaps ? " few" : "");
   for (std::size_t i = 0; i < report.maps.size(); ++i)
     out += map_card(report, i);
-  out += "</div>\n";
-  if (report.maps.size() < report.summary.parts.size()) {
-    out += fmt::format("<p class=\"lead\">The first {} of {} maps.</p>\n", report.maps.size(),
-                       report.summary.parts.size());
-  }
-  return out;
+  return out + "</div>\n";
+}
+
+/// The parts whose maps are drawn: all, or the worst.
+std::vector<std::size_t> parts_to_map(const Summary& summary) {
+  std::vector<std::size_t> all(summary.parts.size());
+  std::iota(all.begin(), all.end(), 0);
+  if (all.size() <= kMostMaps) return all;
+  std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
+    return summary.parts[a].depth_error_p99_mm > summary.parts[b].depth_error_p99_mm;
+  });
+  all.resize(kMostMaps);
+  return all;
 }
 
 std::string deformation(const PartSummary& p) {
@@ -154,17 +170,15 @@ std::string deformation(const PartSummary& p) {
 
 std::string table_section(const Report& report) {
   std::string out =
-      "<h2>Part by part</h2>\n<div "
-      "class=\"scroll\"><table><thead><tr><th>part</th><th>triangles</th><th>semi-axes<br>mm</th>"
-      "<th>exponents<br>e1, e2</th><th>taper;<br>bend</th><th>fit mean, RMS, max<br>% of "
-      "part</th><th>map</th><th>bytes</th>"
-      "<th>depth error<br>p50 mm</th><th>depth error<br>p99 mm</th><th>samples</th></tr></thead><tbody>\n";
+      "<h2>Part by part</h2>\n<div class=\"scroll\"><table><thead><tr><th>part</th><th>triangles</th>"
+      "<th>semi-axes<br>mm</th><th>exponents<br>e1, e2</th><th>taper;<br>bend</th><th>fit mean, RMS,<br>max %</th>"
+      "<th>map</th><th>depth error<br>p50, p99 mm</th><th>samples</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < report.summary.parts.size(); ++i) {
     const PartSummary& p = report.summary.parts[i];
     const bool worst = i == report.summary.worst_part && report.summary.parts.size() > 1;
     out += fmt::format(
         "<tr{}><td title=\"{}\">{}{}</td><td>{}</td><td>{} × {} × {}</td><td>{:.2f}, {:.2f}</td><td>{}</td>"
-        "<td>{:.2f}, {:.2f}, {:.1f}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        "<td>{:.2f}, {:.2f}, {:.1f}</td><td>{}, {}</td><td>{}, {}</td><td>{}</td></tr>\n",
         worst ? " class=\"worst\"" : "", escaped(p.name), dot(report.part_colours[i]), escaped(p.name), p.triangles,
         mm_text(p.axes_mm.x()), mm_text(p.axes_mm.y()), mm_text(p.axes_mm.z()), p.e1, p.e2, deformation(p),
         p.fit_mean_pct, p.fit_rms_pct, p.fit_max_pct, escaped(p.map_kind), bytes_text(p.map_bytes),
@@ -214,7 +228,7 @@ Report make_report(const FittedObject& fitted, const Surface& surface, const Sum
   report.part_file = fitted.part_file.filename().string();
   report.settings = settings_of(fitted.config);
   report.summary = summary;
-  report.probe_depth_mm = 1000 * surface.probe_depth_m();
+  report.reach_mm = 1000 * surface.reach_m();
   report.part_colours = part_colours(fitted.object);
   // A picture with much detail is large: then it gets fewer pixels.
   for (double scale = 1; scale > 0.4; scale *= 0.75) {
@@ -225,8 +239,10 @@ Report make_report(const FittedObject& fitted, const Surface& surface, const Sum
     report.superquadrics = pictures.superquadrics();
     if (picture_bytes(report) <= kPictureBytes) break;
   }
-  report.maps.resize(std::min(fitted.object.parts.size(), kMostMaps));
-  for_each_index(report.maps.size(), [&](std::size_t i) { report.maps[i] = draw_map(fitted.object, i, kMapTexels); });
+  report.mapped = parts_to_map(summary);
+  report.maps.resize(report.mapped.size());
+  for_each_index(report.maps.size(),
+                 [&](std::size_t i) { report.maps[i] = draw_map(fitted.object, report.mapped[i], kMapTexels); });
   return report;
 }
 

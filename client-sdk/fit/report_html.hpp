@@ -19,12 +19,13 @@ struct Report {
   std::string part_file;  ///< name without folder
   std::vector<std::pair<std::string, std::string>> settings;
   Summary summary;
-  double probe_depth_mm = 0;
+  double reach_mm = 0;  ///< see Surface::reach_m
   std::vector<Colour> part_colours;
   Row parts;
   ErrorRow errors;
   Row superquadrics;
-  std::vector<MapPicture> maps;
+  std::vector<std::size_t> mapped;  ///< parts whose maps are shown
+  std::vector<MapPicture> maps;     ///< theirs
 };
 
 /// Draws and probes: seconds. Uses all cores.

@@ -32,16 +32,17 @@ box-shadow:0 0 0 1px rgba(128,128,128,.35)}
 .bar{display:flex;align-items:center;gap:10px;font-size:14px;margin-top:12px;font-variant-numeric:tabular-nums;flex-wrap:wrap}
 .bar i{display:block;height:12px;width:300px;max-width:40vw;box-shadow:0 0 0 1px rgba(128,128,128,.35)}
 .maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(205px,1fr));gap:14px}
+.maps.few{grid-template-columns:repeat(auto-fill,minmax(340px,1fr))}
 .maps figure{background:var(--card);border:1px solid var(--line);padding:12px}
 .maps img{width:100%;height:auto;display:block;image-rendering:pixelated}
 .maps b{display:block;font-weight:600;font-size:14px;overflow:hidden;text-overflow:ellipsis;white-space:nowrap;margin-bottom:8px}
 .maps .bar{gap:6px;font-size:12px;color:var(--soft);margin-top:8px;flex-wrap:nowrap}
 .maps .bar i{height:8px;width:auto;flex:1}
 .scroll{overflow-x:auto}
-table{border-collapse:collapse;width:100%;font-size:14px;font-variant-numeric:tabular-nums}
-th{font-weight:500;color:var(--soft);text-align:right;vertical-align:bottom;padding:6px 8px;border-bottom:1px solid var(--ink);
+table{border-collapse:collapse;width:100%;font-size:13.5px;font-variant-numeric:tabular-nums}
+th{font-weight:500;color:var(--soft);text-align:right;vertical-align:bottom;padding:6px 6px;border-bottom:1px solid var(--ink);
 white-space:nowrap;line-height:1.3}
-td{text-align:right;padding:5px 8px;border-bottom:1px solid var(--line);white-space:nowrap}
+td{text-align:right;padding:5px 6px;border-bottom:1px solid var(--line);white-space:nowrap}
 th:first-child,td:first-child{text-align:left;padding-left:0}
 td:first-child{max-width:260px;overflow:hidden;text-overflow:ellipsis}
 .plain th,.plain td{text-align:left;padding-left:0;white-space:normal;border-bottom:1px solid var(--line)}

@@ -44,18 +44,30 @@ PartSummary part_summary(const collision::Part& part, const collision::PartRepor
   return s;
 }
 
+/// "part 'a'", or "parts 'a', 'b' and 15 more".
+std::string listed(const std::vector<std::string>& names) {
+  if (names.size() == 1) return fmt::format("part '{}'", names.front());
+  if (names.size() == 2) return fmt::format("parts '{}' and '{}'", names[0], names[1]);
+  return fmt::format("parts '{}', '{}' and {} more", names[0], names[1], names.size() - 2);
+}
+
 void note_meshes(const FittedObject& fitted, Summary& summary) {
+  std::vector<std::string> open;
+  std::vector<std::string> inverted;
   for (const geometry::NamedMesh& part : fitted.meshes) {
-    const std::size_t open = geometry::open_edges(part.mesh);
-    if (open > 0) {
-      summary.notes.push_back(
-          fmt::format("part '{}' is open ({} edges without a neighbour): felt from outside, with nothing "
-                      "behind its surface; close the mesh to make it solid",
-                      part.name, open));
+    if (geometry::open_edges(part.mesh) > 0) {
+      open.push_back(part.name);
     } else if (signed_volume_m3(part.mesh) < 0) {
-      summary.notes.push_back(
-          fmt::format("part '{}' is turned inside out; turn its faces round in the model", part.name));
+      inverted.push_back(part.name);
     }
+  }
+  if (!open.empty()) {
+    summary.notes.push_back(
+        listed(open) +
+        ": edges without a neighbour, so the mesh is open and felt from outside only; close it to make it solid");
+  }
+  if (!inverted.empty()) {
+    summary.notes.push_back(listed(inverted) + ": turned inside out; turn the faces round in the model");
   }
 }
 
@@ -68,17 +80,25 @@ void note_size(Summary& summary) {
 }
 
 void note_parts(const FittedObject& fitted, Summary& summary) {
+  std::vector<std::string> hidden;
+  std::vector<std::string> sparse;
+  double widest_mm = 0;
   for (const PartSummary& part : summary.parts) {
     if (part.samples == 0) {
-      summary.notes.push_back(
-          fmt::format("part '{}' lies wholly inside others, so nothing of it is felt; leave it out", part.name));
+      hidden.push_back(part.name);
     } else if (part.spacing_mm > 1.5 * 1000 * fitted.config.sample_spacing_m) {
-      summary.notes.push_back(
-          fmt::format("part '{}' is large: its {} samples lie {} mm apart, so a fingertip may slip between them when "
-                      "this object is "
-                      "moved against a hand; cut the part, or raise --max-samples",
-                      part.name, part.samples, mm_text(part.spacing_mm)));
+      sparse.push_back(part.name);
+      widest_mm = std::max(widest_mm, part.spacing_mm);
     }
+  }
+  if (!hidden.empty()) {
+    summary.notes.push_back(listed(hidden) + ": wholly inside others, so nothing of it is felt; leave it out");
+  }
+  if (!sparse.empty()) {
+    summary.notes.push_back(
+        fmt::format("{}: large, so the samples lie up to {} mm apart, and a fingertip may slip between them; cut it, "
+                    "or raise --max-samples",
+                    listed(sparse), mm_text(widest_mm)));
   }
 }
 
@@ -106,16 +126,15 @@ Summary summarise(const FittedObject& fitted, const Surface& surface) {
 std::string verdict(const Summary& summary) {
   const PartSummary& worst = summary.parts[summary.worst_part];
   const std::string within = mm_text(worst.depth_error_p99_mm);
-  const std::string where = summary.parts.size() == 1 ? "" : fmt::format(", worst on '{}'", worst.name);
-  if (worst.depth_error_p99_mm <= kFeltAsRight_mm) {
-    return fmt::format("A finger feels this surface within {} mm at 99 of 100 places{}. It will feel right.", within,
-                       where);
-  }
-  return fmt::format(
-      "A finger feels this surface within {} mm at 99 of 100 places{}. Over {} mm an edge feels rounded or a flat "
-      "feels "
-      "wavy: cut the part where it is hollow or branches, or raise --resolution.",
-      within, where, mm_text(kFeltAsRight_mm));
+  const std::string where = summary.parts.size() == 1 ? "" : fmt::format(" of its worst part, '{}'", worst.name);
+  const std::string felt =
+      fmt::format("A finger feels this surface within {} mm at 99 of 100 places{}.", within, where);
+  if (worst.depth_error_p99_mm <= kFeltAsRight_mm) return felt + " It will feel right.";
+  return felt +
+         fmt::format(
+             " Beyond {:.0f} mm an edge feels rounded and a flat wavy: cut the part where it is hollow or branches, or "
+             "raise --resolution.",
+             kFeltAsRight_mm);
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const collision::BuildConfig& config) {
@@ -135,7 +154,7 @@ std::string bytes_text(std::size_t bytes) {
 
 std::string mm_text(double mm) {
   if (mm == 0) return "0";
-  if (std::abs(mm) < 0.001) return "<0.001";
+  if (std::abs(mm) < 0.001) return "0.000";
   const int before = static_cast<int>(std::floor(std::log10(std::abs(mm))));
   return fmt::format("{:.{}f}", mm, std::clamp(1 - before, 0, 3));
 }

@@ -9,9 +9,12 @@
 namespace mechane::fit {
 namespace {
 
-constexpr double kProbeDepth_m = 0.002;
-constexpr double kProbeDepthShare = 0.005;  // of the diagonal
-constexpr double kCornerShare = 0.8;        // a triangle is asked at its middle, and this far out to its corners
+constexpr double kReachShare = 0.02;   // of the diagonal
+constexpr double kUnderShare = 0.005;  // how deep under a triangle its part is asked for
+constexpr double kStartShare = 1e-6;   // a ray that starts on a face must not meet it
+constexpr int kSteps = 6;
+constexpr int kHalvings = 6;
+constexpr double kCornerShare = 0.8;  // a triangle is asked at its middle, and this far out to its corners
 
 Vec3 middle_of(const geometry::Mesh& mesh, std::uint32_t triangle) {
   const auto& v = mesh.triangles[triangle];
@@ -62,7 +65,6 @@ Surface::Surface(const FittedObject& fitted)
     mesh_of_triangle_.resize(mesh_.triangles.size(), m);
   }
   diagonal_m_ = mesh_.bounds().diagonal().norm();
-  probe_depth_m_ = std::min(kProbeDepth_m, kProbeDepthShare * diagonal_m_);
   find_skin(fitted);
   assign_parts(fitted);
 }
@@ -97,7 +99,7 @@ void Surface::assign_parts(const FittedObject& fitted) {
   for_each_index(mesh_.triangles.size(), [&](std::size_t i) {
     const auto t = static_cast<std::uint32_t>(i);
     const Vec3 p = middle_of(mesh_, t);
-    const Felt felt = probe_.at(p - probe_depth_m_ * normal_of(mesh_, t));
+    const Felt felt = probe_.at(p - kUnderShare * diagonal_m_ * normal_of(mesh_, t));
     part_of_triangle_[i] = felt.hit ? static_cast<std::uint32_t>(felt.part) : nearest_part(fitted.object, p);
   });
 }
@@ -109,18 +111,39 @@ std::vector<std::size_t> Surface::triangles_of_parts() const {
   return counts;
 }
 
+double Surface::reach_m() const {
+  return kReachShare * diagonal_m_;
+}
+
+/// Half the way to the next face, at most the reach.
+double Surface::free_way_m(const Vec3& p_O, const Vec3& direction) const {
+  std::vector<geometry::RayHit> hits;
+  const double start_m = kStartShare * diagonal_m_;
+  skin_.cast(p_O + start_m * direction, direction, hits);
+  return hits.empty() ? reach_m() : std::min(reach_m(), 0.5 * (start_m + hits.front().t));
+}
+
 std::optional<SurfaceError> Surface::error_at(const Vec3& p_O, std::uint32_t triangle) const {
   if (!exposed_[triangle]) return std::nullopt;
-  const Vec3 inward = -normal_of(mesh_, triangle);
-  std::vector<geometry::RayHit> hits;
-  const double start_m = 1e-3 * probe_depth_m_;
-  skin_.cast(p_O + start_m * inward, inward, hits);
-  const double wall_m = hits.empty() ? 2 * probe_depth_m_ : start_m + hits.front().t;
-  const Vec3 p_probe = p_O + std::min(probe_depth_m_, 0.5 * wall_m) * inward;
-  const double exact_m = skin_.closest(p_probe).distance_m;
-  const Felt felt = probe_.at(p_probe);
-  if (!felt.hit) return SurfaceError{false, exact_m};
-  return SurfaceError{true, std::abs(felt.depth_m - exact_m)};
+  const Vec3 n = normal_of(mesh_, triangle);
+  // Felt at the very surface: it is met before, so the way leads out to where it ends. Else in, to where it begins.
+  const bool met_before = probe_.at(p_O - kStartShare * diagonal_m_ * n).hit;
+  const Vec3 way = met_before ? n : Vec3(-n);
+  const double reach = free_way_m(p_O, way);
+  double near = 0;
+  double far = 0;
+  bool turned = false;
+  for (int i = 1; i <= kSteps && !turned; ++i) {
+    near = far;
+    far = reach * i * i / (kSteps * kSteps);  // small errors are the common ones
+    turned = probe_.at(p_O + far * way).hit != met_before;
+  }
+  if (!turned) return SurfaceError{met_before, reach};
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (near + far);
+    (probe_.at(p_O + middle * way).hit == met_before ? near : far) = middle;
+  }
+  return SurfaceError{true, 0.5 * (near + far)};
 }
 
 }  // namespace mechane::fit

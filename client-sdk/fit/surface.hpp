@@ -11,10 +11,10 @@
 
 namespace mechane::fit {
 
-/// What a probe says just under a point of the surface.
+/// Where a finger meets the surface, coming straight at a point of it.
 struct SurfaceError {
-  bool felt = false;   ///< false: the point inside the object is not felt at all
-  double error_m = 0;  ///< |depth by the maps - exact depth|; where nothing is felt, the whole exact depth
+  bool felt = false;   ///< false: nothing is felt down to `reach_m`, or to the middle of a thin wall
+  double error_m = 0;  ///< how far before or behind the true surface it is met, along the normal
 };
 
 /// Built once; any thread may ask.
@@ -26,17 +26,19 @@ class Surface {
   [[nodiscard]] const std::vector<std::uint32_t>& part_of_triangle() const { return part_of_triangle_; }
   [[nodiscard]] std::vector<std::size_t> triangles_of_parts() const;
 
-  /// How deep under the surface `error_at` asks: the lesser of 2 mm and 0.5 % of the diagonal.
-  [[nodiscard]] double probe_depth_m() const { return probe_depth_m_; }
   [[nodiscard]] double diagonal_m() const { return diagonal_m_; }
 
-  /// `p_O` lies on `triangle`. The probe goes in along the triangle's normal, in thin walls to their middle at most. Nothing for
-  /// triangles that border on another part, not on air.
+  /// How far `error_at` looks for the felt surface: 2 % of the diagonal, each way.
+  [[nodiscard]] double reach_m() const;
+
+  /// `p_O` lies on `triangle`. The maps are asked along the triangle's normal, in thin walls and narrow gaps to their middle. An error
+  /// ends at the reach. Nothing for triangles that border on another part, not on air.
   [[nodiscard]] std::optional<SurfaceError> error_at(const Vec3& p_O, std::uint32_t triangle) const;
 
  private:
   void find_skin(const FittedObject& fitted);
   void assign_parts(const FittedObject& fitted);
+  [[nodiscard]] double free_way_m(const Vec3& p_O, const Vec3& direction) const;
 
   Probe probe_;
   geometry::Mesh mesh_;
@@ -45,7 +47,6 @@ class Surface {
   std::vector<std::uint32_t> part_of_triangle_;
   geometry::MeshQuery skin_;
   double diagonal_m_ = 0;
-  double probe_depth_m_ = 0;
   std::size_t parts_ = 0;
 };
 

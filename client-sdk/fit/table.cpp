@@ -63,7 +63,7 @@ std::string kilobytes(std::size_t bytes) {
 
 /// The columns after the name, each set to the right; the widths hold the gaps and add up to kTableColumns.
 using Cells = std::array<std::string, 10>;
-constexpr std::array<std::size_t, 10> kWidths{6, 14, 8, 11, 13, 10, 6, 6, 6, 6};
+constexpr std::array<std::size_t, 10> kWidths{6, 15, 8, 11, 13, 10, 5, 6, 6, 6};
 
 std::string row(std::string_view name, const Cells& cells) {
   std::string line = fitted_text(name, kNameColumns);
@@ -84,26 +84,6 @@ std::string part_row(const PartSummary& part) {
               count_text(part.samples)});
 }
 
-/// Breaks a note at spaces; all lines after the first are indented.
-std::string wrapped(std::string_view note) {
-  std::string out = "! ";
-  std::size_t column = 2;
-  for (std::size_t at = 0; at < note.size();) {
-    const std::size_t end = std::min(note.find(' ', at), note.size());
-    const std::vector<std::string> word = characters(note.substr(at, end - at));
-    if (column + word.size() > kTableColumns && column > 2) {
-      out += "\n  ";
-      column = 2;
-    }
-    out += printable(note.substr(at, end - at));
-    column += word.size() + 1;
-    out += ' ';
-    at = end + 1;
-  }
-  out.back() = '\n';
-  return out;
-}
-
 }  // namespace
 
 std::string summary_table(const Summary& summary) {
@@ -111,8 +91,8 @@ std::string summary_table(const Summary& summary) {
   for (std::size_t i = 0; i < kTableColumns; ++i)
     rule += "─";
   rule += "\n";
-  std::string out = row("", {"", "semi-axes", "expo-", "taper", "fit error", "", "map", "depth", "error", "sam-"});
-  out += row("part", {"tris", "mm", "nents", "bend", "mean rms max%", "map", "KB", "p50mm", "p99mm", "ples"});
+  std::string out = row("", {"", "semi-axes", "expo-", "taper", "fit error, %", "", "map", "depth", "error", "sam-"});
+  out += row("part", {"tris", "mm", "nents", "bend", "mean rms max", "map", "KB", "p50mm", "p99mm", "ples"});
   out += rule;
   for (const PartSummary& part : summary.parts)
     out += part_row(part);
@@ -126,7 +106,28 @@ std::string summary_table(const Summary& summary) {
   out += fmt::format("worst depth error: {} mm at p99 in {} ({:.2f} % of the object's diagonal)\n",
                      mm_text(worst.depth_error_p99_mm), name, diagonal_pct);
   for (const std::string& note : summary.notes)
-    out += wrapped(note);
+    out += wrapped_text(note, "! ", "  ");
+  return out;
+}
+
+std::string wrapped_text(std::string_view text, std::string_view first, std::string_view rest) {
+  std::string out(first);
+  std::size_t column = first.size();
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = printable(text.substr(at, end - at));
+    const std::size_t length = characters(word).size();
+    if (column + length > kTableColumns && column > rest.size()) {
+      out.back() = '\n';
+      out += rest;
+      column = rest.size();
+    }
+    out += word + ' ';
+    column += length + 1;
+    at = end + 1;
+  }
+  if (out.empty()) return "\n";
+  out.back() = '\n';
   return out;
 }
 
