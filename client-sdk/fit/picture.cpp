@@ -155,12 +155,10 @@ ErrorRow Pictures::errors() const {
   ErrorRow row;
   std::array<std::vector<float>, kSides> errors_mm;
   std::vector<float> felt;
-  std::size_t not_felt = 0;
   for (std::size_t i = 0; i < kSides; ++i) {
     errors_mm[i] = probe_pixels(sides_[i]);
     for (const float error : errors_mm[i]) {
       if (std::isfinite(error)) felt.push_back(error);
-      not_felt += std::isinf(error) ? 1 : 0;
     }
   }
   std::sort(felt.begin(), felt.end());
@@ -168,9 +166,6 @@ ErrorRow Pictures::errors() const {
     return felt.empty() ? 0.0 : felt[static_cast<std::size_t>(share * static_cast<double>(felt.size() - 1))];
   };
   row.scale_mm = round_up(std::max(quantile(kScaleQuantile), kLeastScale_mm));
-  row.median_mm = quantile(0.5);
-  row.not_felt_share =
-      static_cast<double>(not_felt) / static_cast<double>(std::max<std::size_t>(1, felt.size() + not_felt));
   for (std::size_t i = 0; i < kSides; ++i) {
     const Side& side = sides_[i];
     const std::size_t fine_width = side.buffer.width;

@@ -19,9 +19,7 @@ using Row = std::array<Image, kSides>;
 
 struct ErrorRow {
   Row images;
-  double scale_mm = 0;        ///< the error at the dark end of the scale
-  double median_mm = 0;       ///< over the places drawn
-  double not_felt_share = 0;  ///< of the places drawn: inside the object, and felt by no map
+  double scale_mm = 0;  ///< the error at the dark end of the scale
 };
 
 /// Transparent around the object, so that a page may be light or dark. All sides are at one scale. The surface and the object must outlive it.
@@ -32,8 +30,8 @@ class Pictures {
 
   [[nodiscard]] Row parts() const;
 
-  /// Each pixel's place of the surface is probed (see Surface::error_at). The scale ends at the error that 99.5 % of the places keep
-  /// within, rounded up, and at 0.01 mm at least. Surface inside the object, between parts, is drawn plain.
+  /// Each pixel's place of the surface is asked (see Surface::error_at). The scale ends at the error that 99.5 % of the places keep
+  /// within, rounded up, and at 0.01 mm at least. What is not felt has a colour of its own; surface between parts is plain.
   [[nodiscard]] ErrorRow errors() const;
 
   /// The superquadrics as glass, with a net of lines where nothing stands before them.

@@ -56,11 +56,10 @@ std::string bar(Scale scale, const std::string& from, const std::string& to) {
 }
 
 std::string key_figures(const Summary& s) {
-  const PartSummary& worst = s.parts[s.worst_part];
   const std::pair<const char*, std::string> figures[] = {
       {"parts", fmt::format("{}", s.parts.size())},
-      {"felt within, 99 of 100 places", mm_text(worst.depth_error_p99_mm) + " mm"},
-      {"of the object's diagonal", fmt::format("{:.2f} %", 100 * worst.depth_error_p99_mm / s.diagonal_mm)},
+      {"felt within, 99 of 100 places", mm_text(s.felt_p99_mm) + " mm"},
+      {"not felt at all", fmt::format("{:.2f} %", 100 * s.not_felt_share)},
       {"maps in memory", bytes_text(s.map_bytes)},
       {"triangles of the mesh", fmt::format("{}", s.triangles)},
       {"time to build", fmt::format("{:.1f} s", s.build_s)}};
@@ -86,23 +85,31 @@ std::string parts_section(const Report& report) {
 }
 
 std::string error_section(const Report& report) {
-  const ErrorRow& e = report.errors;
   std::string out = fmt::format(
       "<h2>How true it feels</h2>\n<p class=\"lead\">At each visible place the finished maps are asked where a finger "
-      "that comes "
-      "straight at the surface meets it. The colour is how far before or behind the true surface that is. Half of the "
-      "places here "
-      "are within {} mm. The search goes {} mm each way, in thin walls and narrow gaps to their middle.</p>\n",
-      mm_text(e.median_mm), mm_text(report.reach_mm));
-  out += row_of(e.images, "the object in the colours of its error");
-  out += "<div class=\"bar\">" + bar(Scale::error, "0", mm_text(e.scale_mm) + " mm and more");
-  if (e.not_felt_share > 0) {
-    out += fmt::format("<span>{}not felt at all: {:.2f} % of the places</span>", dot(not_felt_colour()),
-                       std::max(0.01, 100 * e.not_felt_share));
-  } else {
-    out += "<span>every place is felt</span>";
+      "that "
+      "comes straight at the surface meets it. The colour is how far before or behind the true surface that is. Half "
+      "of the "
+      "surface is felt within {} mm. The search goes {} mm each way, in thin walls and narrow gaps to their "
+      "middle.</p>\n",
+      mm_text(report.summary.felt_p50_mm), mm_text(report.reach_mm));
+  out += row_of(report.errors.images, "the object in the colours of its error");
+  out += "<div class=\"bar\">" + bar(Scale::error, "0", mm_text(report.errors.scale_mm) + " mm and more");
+  return out + fmt::format("<span>{}not felt at all: {:.2f} % of the surface</span></div>\n", dot(not_felt_colour()),
+                           100 * report.summary.not_felt_share);
+}
+
+/// The command's flags stand as code, which does not break at their hyphens.
+std::string with_flags(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t flag = std::min(text.find("--", at), text.size());
+    const std::size_t end = std::min(text.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", flag), text.size());
+    out += text.substr(at, flag - at);
+    if (flag < end) out += "<code>" + text.substr(flag, end - flag) + "</code>";
+    at = end;
   }
-  return out + "</div>\n";
+  return out;
 }
 
 std::string superquadric_section(const Report& report) {
@@ -258,12 +265,12 @@ std::string html_page(const Report& report) {
       title, kReportStyle);
   page +=
       fmt::format("<div class=\"kicker\">Mechane · collision object</div><h1>{}</h1>\n<p class=\"verdict\">{}</p>\n",
-                  title, escaped(verdict(report.summary)));
+                  title, with_flags(escaped(verdict(report.summary))));
   page += key_figures(report.summary);
   if (!report.summary.notes.empty()) {
     page += "<ul class=\"notes\">";
     for (const std::string& note : report.summary.notes)
-      page += fmt::format("<li>{}</li>", escaped(note));
+      page += fmt::format("<li>{}</li>", with_flags(escaped(note)));
     page += "</ul>\n";
   }
   page += parts_section(report) + error_section(report) + superquadric_section(report) + map_section(report);

@@ -21,6 +21,7 @@ border:1px solid var(--line)}
 dl.key div{background:var(--card);padding:14px 16px}
 dl.key dt{font-size:13px;color:var(--soft)}
 dl.key dd{margin:0;font-size:24px;font-variant-numeric:tabular-nums;white-space:nowrap}
+code{white-space:nowrap;font-size:.92em}
 figure{margin:0}
 .row{display:flex;justify-content:space-around;align-items:flex-end;gap:12px;background:var(--plate);padding:22px 14px 10px}
 .row figure{flex:0 1 auto;min-width:0;text-align:center}

@@ -5,13 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "server/base/parallel.hpp"
 #include "server/geometry/mesh_check.hpp"
+#include "server/geometry/surface_samples.hpp"
 
 namespace mechane::fit {
 namespace {
 
 // A fingertip tells steps of about a millimetre apart on a shape that it holds; on the parts of a machine that is the target.
 constexpr double kFeltAsRight_mm = 1.0;
+constexpr std::size_t kPlaces = 6000;
+constexpr double kMissedShare = 0.002;  // of the surface: more of it gone, and a finger finds the hole
 constexpr double kLargeObject_mm = 20'000;
 constexpr double kSmallObject_mm = 10;
 
@@ -102,6 +106,25 @@ void note_parts(const FittedObject& fitted, Summary& summary) {
   }
 }
 
+/// The surface as a whole, in places spread evenly over it.
+void measure_surface(const Surface& surface, std::uint64_t seed, Summary& summary) {
+  const auto places = geometry::sample_by_area(surface.mesh(), kPlaces, seed + 3);
+  std::vector<std::optional<SurfaceError>> asked(places.size());
+  for_each_index(places.size(), [&](std::size_t i) { asked[i] = surface.error_at(places[i].p, places[i].triangle); });
+  std::vector<double> errors_mm;
+  std::size_t not_felt = 0;
+  for (const auto& error : asked) {
+    if (!error) continue;
+    errors_mm.push_back(1000 * (error->felt ? error->error_m : surface.reach_m()));
+    not_felt += error->felt ? 0 : 1;
+  }
+  if (errors_mm.empty()) return;
+  std::sort(errors_mm.begin(), errors_mm.end());
+  summary.felt_p50_mm = errors_mm[errors_mm.size() / 2];
+  summary.felt_p99_mm = errors_mm[errors_mm.size() * 99 / 100];
+  summary.not_felt_share = static_cast<double>(not_felt) / static_cast<double>(errors_mm.size());
+}
+
 }  // namespace
 
 Summary summarise(const FittedObject& fitted, const Surface& surface) {
@@ -117,6 +140,7 @@ Summary summarise(const FittedObject& fitted, const Surface& surface) {
   s.file_bytes = fitted.part_file_bytes;
   s.build_s = fitted.report.seconds;
   s.diagonal_mm = 1000 * surface.diagonal_m();
+  measure_surface(surface, fitted.config.seed, s);
   note_size(s);
   note_meshes(fitted, s);
   note_parts(fitted, s);
@@ -124,17 +148,15 @@ Summary summarise(const FittedObject& fitted, const Surface& surface) {
 }
 
 std::string verdict(const Summary& summary) {
-  const PartSummary& worst = summary.parts[summary.worst_part];
-  const std::string within = mm_text(worst.depth_error_p99_mm);
-  const std::string where = summary.parts.size() == 1 ? "" : fmt::format(" of its worst part, '{}'", worst.name);
+  const char* remedy = "cut the parts where they are hollow, forked or hooked, or raise --resolution.";
+  if (summary.not_felt_share > kMissedShare) {
+    return fmt::format("{:.1f} % of this surface is not felt at all: a finger goes through it. To mend it, {}",
+                       100 * summary.not_felt_share, remedy);
+  }
   const std::string felt =
-      fmt::format("A finger feels this surface within {} mm at 99 of 100 places{}.", within, where);
-  if (worst.depth_error_p99_mm <= kFeltAsRight_mm) return felt + " It will feel right.";
-  return felt +
-         fmt::format(
-             " Beyond {:.0f} mm an edge feels rounded and a flat wavy: cut the part where it is hollow or branches, or "
-             "raise --resolution.",
-             kFeltAsRight_mm);
+      fmt::format("A finger feels this surface within {} mm at 99 of 100 places.", mm_text(summary.felt_p99_mm));
+  if (summary.felt_p99_mm <= kFeltAsRight_mm) return felt + " It will feel right.";
+  return felt + fmt::format(" Beyond {:.0f} mm edges feel rounded and flats wavy: {}", kFeltAsRight_mm, remedy);
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const collision::BuildConfig& config) {

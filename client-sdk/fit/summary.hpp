@@ -39,7 +39,10 @@ struct Summary {
   std::size_t file_bytes = 0;
   double build_s = 0;
   double diagonal_mm = 0;
-  std::size_t worst_part = 0;      ///< into parts: the greatest depth_error_p99_mm
+  std::size_t worst_part = 0;  ///< into parts: the greatest depth_error_p99_mm
+  double felt_p50_mm = 0;  ///< of the whole surface, spread by area: how far from it a finger meets it (SurfaceError)
+  double felt_p99_mm = 0;  ///< places that are not felt count with the whole reach
+  double not_felt_share = 0;       ///< of those places
   std::vector<std::string> notes;  ///< what an author should know: what, where, remedy
 };
 
