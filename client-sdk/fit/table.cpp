@@ -103,8 +103,9 @@ std::string summary_table(const Summary& summary) {
                      bytes_text(summary.map_bytes), bytes_text(summary.file_bytes), summary.build_s);
   const double diagonal_pct = 100 * worst.depth_error_p99_mm / summary.diagonal_mm;
   const std::string name = fitted_text(worst.name, std::min<std::size_t>(characters(worst.name).size(), 40));
-  out += fmt::format("worst depth error: {} mm at p99 in {} ({:.2f} % of the object's diagonal)\n",
-                     mm_text(worst.depth_error_p99_mm), name, diagonal_pct);
+  out += wrapped_text(fmt::format("worst depth error: {} mm at p99 in {} ({:.2f} % of the object's diagonal)",
+                                  mm_text(worst.depth_error_p99_mm), name, diagonal_pct),
+                      "", "  ");
   out += fmt::format("the surface is felt within {} mm at p50, {} mm at p99; {:.2f} % of it is not felt\n",
                      mm_text(summary.felt_p50_mm), mm_text(summary.felt_p99_mm), 100 * summary.not_felt_share);
   for (const std::string& note : summary.notes)
