@@ -66,7 +66,6 @@ class Fit(EndToEnd):
     def test_a_bad_mesh_is_told_and_does_not_stop_the_others(self):
         bad = {
             "empty.obj": "",
-            "nan.obj": CRANK.replace("v 0.02 ", "v nan ", 1),
             "two.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n",
             "cut.glb": b"glTF" + struct.pack("<II", 2, 4000),
             "vast.obj": obj_of_boxes([("box", (0, 0, 0), (4e4, 4e4, 4e4))]),
@@ -85,9 +84,12 @@ class Fit(EndToEnd):
 
     def test_an_open_mesh_is_built_with_a_word_about_it(self):
         text = "\n".join(CRANK.splitlines()[:-1]) + "\n"  # the last triangle is gone
-        result = self.run_command("fit", self.mesh("open.obj", text), "--report", "none", limit_s=120)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stdout, r"part 'part_grip': edges without a\s+neighbour")
+        # The import leaves out triangles that are not finite: what is left is open.
+        nan = CRANK.replace("v 0.02 ", "v nan ", 1)
+        for name, content, part in (("open.obj", text, "part_grip"), ("nan.obj", nan, "part_shaft")):
+            result = self.run_command("fit", self.mesh(name, content), "--report", "none", limit_s=120)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, rf"part '{part}': edges without a\s+neighbour")
 
     def test_two_meshes_of_one_name_do_not_overwrite_each_other(self):
         first = self.mesh("a/crank.obj", CRANK)
