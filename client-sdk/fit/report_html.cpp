@@ -88,7 +88,7 @@ std::string error_section(const Report& report) {
   std::string out = fmt::format(
       "<h2>How true it feels</h2>\n<p class=\"lead\">At each visible place the finished maps are asked where a finger "
       "that "
-      "comes straight at the surface meets it. The colour is how far before or behind the true surface that is. Half "
+      "comes straight at the surface meets it. The colour is the distance from there to the true surface. Half "
       "of the "
       "surface is felt within {} mm. The search goes {} mm each way, in thin walls and narrow gaps to their "
       "middle.</p>\n",

@@ -52,10 +52,18 @@ std::uint32_t nearest_part(const collision::Object& object, const Vec3& p_O) {
   return best;
 }
 
+collision::Solid solid_of(const FittedObject& fitted) {
+  std::vector<geometry::Mesh> meshes;
+  meshes.reserve(fitted.meshes.size());
+  for (const auto& part : fitted.meshes)
+    meshes.push_back(part.mesh);
+  return {meshes, fitted.config.seam_gap_m};
+}
+
 }  // namespace
 
 Surface::Surface(const FittedObject& fitted)
-    : probe_(fitted.object), skin_(geometry::Mesh{}), parts_(fitted.object.parts.size()) {
+    : probe_(fitted.object), solid_(solid_of(fitted)), skin_(geometry::Mesh{}), parts_(fitted.object.parts.size()) {
   for (std::uint32_t m = 0; m < fitted.meshes.size(); ++m) {
     const geometry::Mesh& mesh = fitted.meshes[m].mesh;
     const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
@@ -65,20 +73,15 @@ Surface::Surface(const FittedObject& fitted)
     mesh_of_triangle_.resize(mesh_.triangles.size(), m);
   }
   diagonal_m_ = mesh_.bounds().diagonal().norm();
-  find_skin(fitted);
+  find_skin();
   assign_parts(fitted);
 }
 
-void Surface::find_skin(const FittedObject& fitted) {
-  std::vector<geometry::Mesh> parts;
-  parts.reserve(fitted.meshes.size());
-  for (const auto& part : fitted.meshes)
-    parts.push_back(part.mesh);
-  const collision::Solid solid(parts, fitted.config.seam_gap_m);
+void Surface::find_skin() {
   // Bytes, as threads may not share the words of a vector<bool>.
   std::vector<std::uint8_t> exposed(mesh_.triangles.size());
   for_each_index(mesh_.triangles.size(), [&](std::size_t t) {
-    exposed[t] = borders_on_air(mesh_, static_cast<std::uint32_t>(t), solid, mesh_of_triangle_[t]) ? 1 : 0;
+    exposed[t] = borders_on_air(mesh_, static_cast<std::uint32_t>(t), solid_, mesh_of_triangle_[t]) ? 1 : 0;
   });
   geometry::Mesh skin;
   skin.vertices = mesh_.vertices;
@@ -126,6 +129,7 @@ double Surface::free_way_m(const Vec3& p_O, const Vec3& direction) const {
 std::optional<SurfaceError> Surface::error_at(const Vec3& p_O, std::uint32_t triangle) const {
   if (!exposed_[triangle]) return std::nullopt;
   const Vec3 n = normal_of(mesh_, triangle);
+  if (!solid_.is_exposed(mesh_of_triangle_[triangle], p_O, n)) return std::nullopt;
   // Felt at the very surface: it is met before, so the way leads out to where it ends. Else in, to where it begins.
   const bool met_before = probe_.at(p_O - kStartShare * diagonal_m_ * n).hit;
   const Vec3 way = met_before ? n : Vec3(-n);
@@ -138,12 +142,14 @@ std::optional<SurfaceError> Surface::error_at(const Vec3& p_O, std::uint32_t tri
     far = reach * i * i / (kSteps * kSteps);  // small errors are the common ones
     turned = probe_.at(p_O + far * way).hit != met_before;
   }
-  if (!turned) return SurfaceError{met_before, reach};
+  // Near a corner the way may run along a neighbouring face: what counts is how far the place is from any of the surface.
+  const auto from_surface = [&](double t) { return skin_.closest(p_O + t * way, 2 * reach_m()).distance_m; };
+  if (!turned) return SurfaceError{met_before, from_surface(reach)};
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (near + far);
     (probe_.at(p_O + middle * way).hit == met_before ? near : far) = middle;
   }
-  return SurfaceError{true, 0.5 * (near + far)};
+  return SurfaceError{true, from_surface(0.5 * (near + far))};
 }
 
 }  // namespace mechane::fit

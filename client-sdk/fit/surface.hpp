@@ -7,6 +7,7 @@
 
 #include "client-sdk/fit/fitted_object.hpp"
 #include "client-sdk/fit/probe.hpp"
+#include "server/collision/solid.hpp"
 #include "server/geometry/mesh_query.hpp"
 
 namespace mechane::fit {
@@ -14,7 +15,7 @@ namespace mechane::fit {
 /// Where a finger meets the surface, coming straight at a point of it.
 struct SurfaceError {
   bool felt = false;   ///< false: nothing is felt down to `reach_m`, or to the middle of a thin wall
-  double error_m = 0;  ///< how far before or behind the true surface it is met, along the normal
+  double error_m = 0;  ///< distance from the place where it is met to the true surface, before or behind it
 };
 
 /// Built once; any thread may ask.
@@ -32,11 +33,11 @@ class Surface {
   [[nodiscard]] double reach_m() const;
 
   /// `p_O` lies on `triangle`. The maps are asked along the triangle's normal, in thin walls and narrow gaps to their middle. An error
-  /// ends at the reach. Nothing for triangles that border on another part, not on air.
+  /// ends at the reach. Nothing for places that border on another part, not on air.
   [[nodiscard]] std::optional<SurfaceError> error_at(const Vec3& p_O, std::uint32_t triangle) const;
 
  private:
-  void find_skin(const FittedObject& fitted);
+  void find_skin();
   void assign_parts(const FittedObject& fitted);
   [[nodiscard]] double free_way_m(const Vec3& p_O, const Vec3& direction) const;
 
@@ -45,7 +46,8 @@ class Surface {
   std::vector<bool> exposed_;
   std::vector<std::uint32_t> mesh_of_triangle_;
   std::vector<std::uint32_t> part_of_triangle_;
-  geometry::MeshQuery skin_;
+  collision::Solid solid_;    // of the meshes, as the builder sees them
+  geometry::MeshQuery skin_;  // triangles that border on air somewhere
   double diagonal_m_ = 0;
   std::size_t parts_ = 0;
 };
