@@ -11,8 +11,8 @@
 namespace mechane::fit {
 namespace {
 
-constexpr int kSteps = 64;
-constexpr int kHalvings = 8;
+constexpr int kCastSteps = 64;
+constexpr int kCastHalvings = 8;
 constexpr double kCoveredShare = 0.01;  // of the diagonal: deeper at the very start is no rounding
 constexpr std::uint32_t kCovered = 0xB4B0A8;
 constexpr std::uint32_t kNoHit = 0xE4E1DA;
@@ -50,14 +50,14 @@ Cast cast_inwards(const Probe& probe, const collision::Part& part, const Vec3& d
   const Vec3 inward_O = part.X_OQ.rotate(-(slope.allFinite() && slope.norm() > 0 ? slope : p_Q).normalized());
   const Vec3 p_O = part.X_OQ * p_Q;
   const double reach = 2 * part.bound_O.radius;
-  const double step = reach / kSteps;
+  const double step = reach / kCastSteps;
   const Felt first = probe.at(p_O + 1e-4 * reach * inward_O);
   if (first.hit) return {first.depth_m > kCoveredShare * reach ? RayEnd::covered : RayEnd::depth, 0};
-  for (int i = 1; i <= kSteps; ++i) {
+  for (int i = 1; i <= kCastSteps; ++i) {
     if (!probe.at(p_O + i * step * inward_O).hit) continue;
     double air = (i - 1) * step;
     double wood = i * step;
-    for (int k = 0; k < kHalvings; ++k) {
+    for (int k = 0; k < kCastHalvings; ++k) {
       const double middle = 0.5 * (air + wood);
       (probe.at(p_O + middle * inward_O).hit ? wood : air) = middle;
     }

@@ -130,8 +130,8 @@ std::string map_card(const Report& report, std::size_t i) {
       picture(map.image, "distance map of " + name, false), bar(Scale::depth, "0", mm_text(map.deepest_mm) + " mm"));
   if (map.no_hit_share >= 0.001 || map.covered_share >= 0.001) {
     out += "<figcaption>";
-    if (map.no_hit_share >= 0.001) out += fmt::format("no hit {:.1f} % ", 100 * map.no_hit_share);
-    if (map.covered_share >= 0.001) out += fmt::format("covered {:.1f} %", 100 * map.covered_share);
+    if (map.no_hit_share >= 0.001) out += fmt::format("no hit {:.1f}&nbsp;% ", 100 * map.no_hit_share);
+    if (map.covered_share >= 0.001) out += fmt::format("covered {:.1f}&nbsp;%", 100 * map.covered_share);
     out += "</figcaption>";
   }
   return out + "</figure>\n";
