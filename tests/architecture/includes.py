@@ -31,6 +31,7 @@ ARROWS = {
     "client-sdk/haptic": ["client-sdk/client"],
     "client-sdk/display": ["client-sdk/client", "server/content"],
     "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
+    "client-sdk/fit": ["server/content"],
     "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/record"],
     "client-sdk/examples": ["client-sdk/client"],
 }

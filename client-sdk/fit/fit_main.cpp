@@ -1,0 +1,110 @@
+// mechane-fit: makes meshes ready for touch, offline, and reports how true they feel.
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "client-sdk/fit/fit_mesh.hpp"
+#include "client-sdk/fit/interruption.hpp"
+#include "client-sdk/fit/progress.hpp"
+#include "client-sdk/fit/table.hpp"
+
+namespace {
+
+using namespace mechane;
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> meshes;
+  fit::FitOptions options;
+  std::string folder;
+  std::string report = "html";
+  bool from_nodes = false;  // the default, which may be said
+};
+
+void add_options(CLI::App& app, Arguments& a) {
+  collision::BuildConfig& config = a.options.config;
+  app.add_option("MESH", a.meshes, "mesh files: .glb, .gltf, .obj, .stl, .ply; in metres")->required();
+  app.add_option("-o,--output", a.folder, "folder for the results, made when missing; without: beside each mesh");
+  app.add_option("--node", a.options.node, "only what is under this node of the file");
+  auto* from_nodes = app.add_flag("--part-from-nodes", a.from_nodes,
+                                  "each node named part_... is a part, or each node with a mesh (default)");
+  app.add_flag("--whole", a.options.whole, "all meshes together are one piece")->excludes(from_nodes);
+  app.add_option("--resolution", config.map_resolution, "texels along an edge of a part's map")
+      ->check(CLI::IsMember({16, 32, 64}))
+      ->capture_default_str();
+  app.add_option("--spacing", config.sample_spacing_m, "metres between the samples that touch other bodies")
+      ->check(CLI::Range(1e-4, 1.0))
+      ->capture_default_str();
+  app.add_option("--max-samples", config.max_samples_per_part,
+                 "samples of a part at most; a larger part gets a wider spacing")
+      ->check(CLI::Range(16, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--seam-gap", config.seam_gap_m, "metres; gaps between parts up to this width are closed")
+      ->check(CLI::Range(0.0, 0.1))
+      ->capture_default_str();
+  app.add_option("--seed", config.seed, "same mesh, settings and seed: same object, to the bit")->capture_default_str();
+  app.add_option("--report", a.report, "a page with pictures beside the object, or none")
+      ->check(CLI::IsMember({"html", "none"}))
+      ->capture_default_str();
+}
+
+/// Two meshes of one name and one folder would overwrite each other's results.
+std::string twin_of(const std::string& mesh, const fit::FitOptions& options, std::map<fs::path, std::string>& taken) {
+  std::error_code code;
+  const fs::path file = fs::absolute(fit::part_file_of(mesh, options), code).lexically_normal();
+  return taken.try_emplace(file, mesh).first->second;
+}
+
+void say(const fit::FitResult& result, const std::string& mesh) {
+  fmt::print("\n{}\n{}", fit::printable(mesh), fit::summary_table(result.summary));
+  fmt::print("{}{}\n", fit::wrapped_text(fit::verdict(result.summary), "", ""), result.part_file.string());
+  if (!result.report_file.empty()) fmt::print("{}\n", result.report_file.string());
+  std::fflush(stdout);
+}
+
+int run(const Arguments& a) {
+  fit::Interruption interruption;
+  fit::Progress progress(stderr);
+  std::map<fs::path, std::string> taken;
+  bool all_good = true;
+  for (const std::string& mesh : a.meshes) {
+    const std::string twin = twin_of(mesh, a.options, taken);
+    Expected<fit::FitResult> result =
+        fail("its results would overwrite those of " + twin, mesh, "give one of them another name");
+    if (twin == mesh) result = fit::fit_mesh(mesh, a.options, progress, interruption);
+    progress.end();
+    if (result) {
+      say(*result, mesh);
+    } else {
+      fmt::print(stderr, "mechane fit: {}\n", fit::printable(result.error().to_string()));
+      all_good = false;
+    }
+  }
+  return all_good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments a;
+  CLI::App app{
+      "Makes meshes ready for touch: superquadric parts with distance maps in MESH.part, how true they feel in "
+      "MESH.html.",
+      "mechane fit"};
+  app.get_formatter()->column_width(34);
+  add_options(app, a);
+  CLI11_PARSE(app, argc, argv);
+  a.options.folder = a.folder;
+  a.options.report = a.report == "html";
+  try {
+    return run(a);
+  } catch (const std::exception& e) {  // no memory, no thread
+    fmt::print(stderr, "mechane fit: {}; close other programs, or simplify the meshes\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,112 @@
+#include "client-sdk/fit/fit_mesh.hpp"
+
+#include <algorithm>
+
+#include "client-sdk/fit/output_file.hpp"
+#include "client-sdk/fit/report_html.hpp"
+#include "server/collision/object_io.hpp"
+#include "server/content/content_hash.hpp"
+#include "server/content/mesh_import.hpp"
+
+namespace mechane::fit {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> in_file(const fs::path& file, Error error) {
+  error.where = error.where.empty() ? file.string() : file.string() + ", " + error.where;
+  return tl::unexpected<Error>(std::move(error));
+}
+
+/// All meshes as one, its corners welded where parts met.
+std::vector<geometry::NamedMesh> one_piece(const std::vector<geometry::NamedMesh>& parts, const std::string& name) {
+  geometry::NamedMesh whole{name, {}};
+  for (const geometry::NamedMesh& part : parts) {
+    const auto base = static_cast<std::uint32_t>(whole.mesh.vertices.size());
+    whole.mesh.vertices.insert(whole.mesh.vertices.end(), part.mesh.vertices.begin(), part.mesh.vertices.end());
+    for (const auto& t : part.mesh.triangles)
+      whole.mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+  }
+  return {std::move(whole)};
+}
+
+Expected<void> import_parts(const FitOptions& options, FittedObject& fitted) {
+  auto hash = content::content_hash(fitted.mesh_file);
+  if (!hash) return tl::unexpected(hash.error());
+  fitted.mesh_hash = std::move(*hash);
+  const auto scene = content::import_mesh(fitted.mesh_file);
+  if (!scene) return tl::unexpected(scene.error());
+  auto parts = content::collision_parts(*scene, options.node);
+  if (!parts) return in_file(fitted.mesh_file, parts.error());
+  fitted.meshes = options.whole ? one_piece(*parts, fitted.mesh_file.stem().string()) : std::move(*parts);
+  return {};
+}
+
+Expected<void> build(FittedObject& fitted, Progress& progress) {
+  auto object = collision::build_object(fitted.meshes, fitted.config, &fitted.report,
+                                        [&](std::size_t done) { progress.advance(done); });
+  if (!object) return in_file(fitted.mesh_file, object.error());
+  fitted.object = std::move(*object);
+  return {};
+}
+
+/// Success is claimed for what a server will read, not for what was in memory.
+Expected<void> write_and_read_back(FittedObject& fitted, Interruption& interruption) {
+  const std::vector<std::byte> bytes = collision::write_object(fitted.object);
+  if (auto written = write_whole(fitted.part_file, bytes, interruption); !written) return written;
+  const auto back = read_whole(fitted.part_file);
+  if (!back) return tl::unexpected(back.error());
+  auto object = collision::read_object(*back);
+  if (!object) return in_file(fitted.part_file, object.error());
+  if (*back != bytes) {
+    return fail("the file does not hold what was written", fitted.part_file.string(), "check the disk, then run again");
+  }
+  fitted.part_file_bytes = bytes.size();
+  fitted.object = std::move(*object);
+  return {};
+}
+
+fs::path report_file_of(const fs::path& part_file) {
+  fs::path report = part_file;
+  return report.replace_extension(".html");
+}
+
+}  // namespace
+
+fs::path part_file_of(const fs::path& mesh_file, const FitOptions& options) {
+  std::string name = mesh_file.stem().string();
+  if (!options.node.empty()) name += "-" + options.node;
+  std::replace(name.begin(), name.end(), '/', '_');  // a node may be called anything
+  return (options.folder.empty() ? mesh_file.parent_path() : options.folder) / (name + ".part");
+}
+
+Expected<FitResult> fit_mesh(const fs::path& mesh_file, const FitOptions& options, Progress& progress,
+                             Interruption& interruption) {
+  FittedObject fitted;
+  fitted.mesh_file = mesh_file;
+  fitted.node = options.node;
+  fitted.config = options.config;
+  fitted.part_file = part_file_of(mesh_file, options);
+  const std::string name = mesh_file.filename().string();
+  progress.begin({name, "reading"});
+  if (auto ok = import_parts(options, fitted); !ok) return tl::unexpected(ok.error());
+  const fs::path folder = fitted.part_file.parent_path();
+  if (auto ok = prepare_folder(folder.empty() ? "." : folder); !ok) return tl::unexpected(ok.error());
+  progress.begin({name, "parts built", 0, fitted.meshes.size()});
+  if (auto ok = build(fitted, progress); !ok) return tl::unexpected(ok.error());
+  progress.begin({name, "writing"});
+  if (auto ok = write_and_read_back(fitted, interruption); !ok) return tl::unexpected(ok.error());
+
+  progress.begin({name, "drawing the report"});
+  const Surface surface(fitted);
+  FitResult result{summarise(fitted, surface), fitted.part_file, {}};
+  if (!options.report) return result;
+  result.report_file = report_file_of(fitted.part_file);
+  const std::string page = html_page(make_report(fitted, surface, result.summary));
+  if (auto ok = write_whole(result.report_file, std::as_bytes(std::span(page)), interruption); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  return result;
+}
+
+}  // namespace mechane::fit

@@ -1,0 +1,37 @@
+// One mesh file into one .part file and its report.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "client-sdk/fit/fitted_object.hpp"
+#include "client-sdk/fit/interruption.hpp"
+#include "client-sdk/fit/progress.hpp"
+#include "client-sdk/fit/summary.hpp"
+#include "server/base/error.hpp"
+
+namespace mechane::fit {
+
+struct FitOptions {
+  collision::BuildConfig config;
+  std::filesystem::path folder;  ///< for the results; empty: beside the mesh
+  std::string node;              ///< only what is under this node of the file; empty: all
+  bool whole = false;            ///< all meshes are one piece, whatever the file's nodes say
+  bool report = true;            ///< also the page
+};
+
+struct FitResult {
+  Summary summary;
+  std::filesystem::path part_file;
+  std::filesystem::path report_file;  ///< empty: none was wanted
+};
+
+/// Where the object of a mesh is written: "screw.glb" to "screw.part", node HANDLE of it to "screw-HANDLE.part".
+[[nodiscard]] std::filesystem::path part_file_of(const std::filesystem::path& mesh_file, const FitOptions& options);
+
+/// Imports, builds, writes, reads back, compares, reports. Blocks for seconds to minutes; uses all cores. Errors name the file, the
+/// part and the remedy; then neither file has been touched, unless the report alone could not be written.
+[[nodiscard]] Expected<FitResult> fit_mesh(const std::filesystem::path& mesh_file, const FitOptions& options,
+                                           Progress& progress, Interruption& interruption);
+
+}  // namespace mechane::fit

@@ -1,0 +1,25 @@
+// What `mechane fit` made of one mesh file: all that its table and its report tell.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "server/collision/object_builder.hpp"
+#include "server/geometry/mesh.hpp"
+
+namespace mechane::fit {
+
+struct FittedObject {
+  std::filesystem::path mesh_file;
+  std::string node;  ///< of the file; empty: all of it
+  std::string mesh_hash;
+  std::filesystem::path part_file;
+  std::size_t part_file_bytes = 0;
+  std::vector<geometry::NamedMesh> meshes;  ///< as the builder got them, welded, in the object's frame O
+  collision::BuildConfig config;
+  collision::Object object;
+  collision::BuildReport report;
+};
+
+}  // namespace mechane::fit

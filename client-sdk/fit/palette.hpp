@@ -1,0 +1,37 @@
+// Colours that people with any kind of colour vision tell apart.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "server/base/math.hpp"
+#include "server/collision/object.hpp"
+
+namespace mechane::fit {
+
+/// Linear light, 0 to 1; pictures are shaded and averaged in it.
+using Colour = Eigen::Array3f;
+
+[[nodiscard]] Colour from_srgb(std::uint32_t rgb);  ///< 0xRRGGBB
+[[nodiscard]] std::uint32_t to_srgb(const Colour& colour);
+[[nodiscard]] std::string css(const Colour& colour);  ///< "#rrggbb"
+
+/// A colour for each part, so that parts that touch get different ones as long as there are enough.
+[[nodiscard]] std::vector<Colour> part_colours(const collision::Object& object);
+
+/// A scale from pale to dark: lightness falls all the way, so that it also reads in grey.
+enum class Scale : std::uint8_t {
+  error,  ///< pale straw, orange, dark plum
+  depth,  ///< pale sand, green, dark blue
+};
+[[nodiscard]] Colour colour_at(Scale scale, double share);  ///< share of the scale's length, 0 to 1; clamped
+
+/// "linear-gradient(...)" of the scale from left to right.
+[[nodiscard]] std::string css_gradient(Scale scale);
+
+[[nodiscard]] Colour not_felt_colour();  ///< on no scale: where a map feels nothing
+[[nodiscard]] Colour plain_colour();     ///< the object without any meaning
+
+}  // namespace mechane::fit

@@ -1,0 +1,40 @@
+// The report of a fitted object as one HTML page: no network, no scripts, pictures inside.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client-sdk/fit/fitted_object.hpp"
+#include "client-sdk/fit/map_image.hpp"
+#include "client-sdk/fit/picture.hpp"
+#include "client-sdk/fit/summary.hpp"
+
+namespace mechane::fit {
+
+/// All that the page shows; it says nothing that is not here.
+struct Report {
+  std::string title;
+  std::string mesh_hash;
+  std::string part_file;  ///< name without folder
+  std::vector<std::pair<std::string, std::string>> settings;
+  Summary summary;
+  double reach_mm = 0;  ///< see Surface::reach_m
+  std::vector<Colour> part_colours;
+  Row parts;
+  ErrorRow errors;
+  Row superquadrics;
+  std::vector<std::size_t> mapped;  ///< parts whose maps are shown
+  std::vector<MapPicture> maps;     ///< theirs
+};
+
+/// Draws and probes: seconds. Uses all cores.
+[[nodiscard]] Report make_report(const FittedObject& fitted, const Surface& surface, const Summary& summary);
+
+/// The page, self-contained: some 3 MB at most for up to a hundred parts.
+[[nodiscard]] std::string html_page(const Report& report);
+
+/// Text of a file as text of a page: no markup, no control characters.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+}  // namespace mechane::fit

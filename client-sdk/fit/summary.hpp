@@ -1,0 +1,63 @@
+// The numbers of a fitted object, as the table and the report show them. summary.cpp alone reads the builder's fields.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client-sdk/fit/fitted_object.hpp"
+#include "client-sdk/fit/surface.hpp"
+
+namespace mechane::fit {
+
+struct PartSummary {
+  std::string name;
+  std::size_t triangles = 0;
+  Vec3 axes_mm = Vec3::Zero();  ///< semi-axes of the superquadric
+  double e1 = 1;
+  double e2 = 1;
+  double taper_x = 0;
+  double taper_y = 0;
+  double bend_deg = 0;  ///< from one end of the part to the other
+  double fit_mean_pct = 0;
+  double fit_rms_pct = 0;
+  double fit_max_pct = 0;
+  std::string map_kind;
+  std::size_t map_bytes = 0;
+  double depth_error_p50_mm = 0;
+  double depth_error_p99_mm = 0;
+  std::size_t samples = 0;
+  double spacing_mm = 0;
+};
+
+struct Summary {
+  std::vector<PartSummary> parts;
+  std::size_t triangles = 0;
+  std::size_t samples = 0;
+  std::size_t map_bytes = 0;
+  std::size_t file_bytes = 0;
+  double build_s = 0;
+  double diagonal_mm = 0;
+  std::size_t worst_part = 0;  ///< into parts: the greatest depth_error_p99_mm
+  double felt_p50_mm = 0;  ///< of the whole surface, spread by area: how far from it a finger meets it (SurfaceError)
+  double felt_p99_mm = 0;  ///< places that are not felt count with the whole reach
+  double not_felt_share = 0;       ///< of those places
+  std::vector<std::string> notes;  ///< what an author should know: what, where, remedy
+};
+
+[[nodiscard]] Summary summarise(const FittedObject& fitted, const Surface& surface);
+
+/// What the numbers mean for an author: one sentence, then another with what to do when the worst part is felt to be off.
+[[nodiscard]] std::string verdict(const Summary& summary);
+
+/// The settings of the build as (what, value with unit).
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> settings_of(const collision::BuildConfig& config);
+
+/// "512 B", "12.1 KB", "3.4 MB": thousands, as disks count.
+[[nodiscard]] std::string bytes_text(std::size_t bytes);
+
+/// Millimetres with two digits that mean something: "0.034", "1.2", "120".
+[[nodiscard]] std::string mm_text(double mm);
+
+}  // namespace mechane::fit

@@ -1,0 +1,149 @@
+"""`mechane fit`: a mesh into a .part file and a page of pictures; bad meshes, full disks, Ctrl-C."""
+
+import os
+import pty
+import signal
+import struct
+import subprocess
+import unittest
+
+import fault_e2e
+from harness import BIN, EndToEnd, wait_until
+
+QUADS = ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+
+
+def obj_of_boxes(boxes):
+    """Boxes as OBJ text: (name, centre, half sizes) each; every box is a node of the file."""
+    vertices, faces = [], []
+    for name, centre, half in boxes:
+        first = len(vertices) + 1
+        for z in (-1, 1):
+            for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                vertices.append([c + s * h for c, s, h in zip(centre, (x, y, z), half)])
+        faces.append(f"o {name}")
+        for a, b, c, d in QUADS:
+            faces += [f"f {first + a} {first + b} {first + c}", f"f {first + a} {first + c} {first + d}"]
+    return "\n".join(["v {} {} {}".format(*v) for v in vertices] + faces) + "\n"
+
+
+CRANK = obj_of_boxes([("part_shaft", (0, 0, 0), (0.02, 0.02, 0.1)), ("part_arm", (0.11, 0, 0.1), (0.13, 0.015, 0.012)),
+                      ("part_grip", (0.21, 0, 0.16), (0.017, 0.017, 0.06))])
+# Many parts: long enough to be interrupted, and too much for a small disk.
+FENCE = obj_of_boxes([(f"part_{i}", (0.3 * i, 0, 0), (0.1, 0.12, 0.14)) for i in range(60)])
+
+
+class Fit(EndToEnd):
+    def mesh(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(text) if isinstance(text, bytes) else path.write_text(text)
+        return path
+
+    def files(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+    def test_a_mesh_becomes_an_object_and_a_page(self):
+        mesh = self.mesh("crank.obj", CRANK)
+        result = self.run_command("fit", mesh, limit_s=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.files(), ["crank.html", "crank.obj", "crank.part"])
+        self.assertIn(str(self.folder / "crank.part"), result.stdout.splitlines())
+        for part in ("part_shaft", "part_arm", "part_grip"):
+            self.assertIn(part, result.stdout)
+        self.assertEqual([line for line in result.stdout.splitlines() if " " in line and len(line) > 100], [])
+        page = (self.folder / "crank.html").read_text()
+        self.assertEqual(page.count("<img"), 9 + 3)
+        self.assertNotRegex(page, r"https?:|<script|<link")
+        again = self.run_command("fit", mesh, "-o", self.folder / "new/folder", "--report", "none", limit_s=120)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual([p.name for p in (self.folder / "new/folder").iterdir()], ["crank.part"])
+        self.assertEqual((self.folder / "new/folder/crank.part").read_bytes(), (self.folder / "crank.part").read_bytes())
+        other = self.run_command("fit", mesh, "-o", self.folder / "new", "--report", "none", "--resolution", "16", limit_s=120)
+        self.assertEqual(other.returncode, 0, other.stderr)
+        self.assertLess((self.folder / "new/crank.part").stat().st_size, (self.folder / "crank.part").stat().st_size)
+
+    def test_a_bad_mesh_is_told_and_does_not_stop_the_others(self):
+        bad = {
+            "empty.obj": "",
+            "two.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n",
+            "cut.glb": b"glTF" + struct.pack("<II", 2, 4000),
+            "vast.obj": obj_of_boxes([("box", (0, 0, 0), (4e4, 4e4, 4e4))]),
+            "not.txt": "hello",
+        }
+        paths = [self.mesh(name, text) for name, text in bad.items()] + [self.folder / "nowhere.stl"]
+        good = self.mesh("good.obj", obj_of_boxes([("part_block", (0, 0, 0), (0.05, 0.04, 0.03))]))
+        result = self.run_command("fit", *paths, good, "--report", "none", limit_s=120)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        told = [line for line in result.stderr.splitlines() if line.startswith("mechane fit: ")]
+        self.assertEqual(len(told), len(paths), result.stderr)
+        for path, line in zip(paths, told):
+            self.assertIn(path.name, line)
+            self.assertIn("; ", line, "what to do stands behind what is wrong")
+        self.assertEqual([p.name for p in self.folder.glob("*.part")], ["good.part"])
+
+    def test_an_open_mesh_is_built_with_a_word_about_it(self):
+        text = "\n".join(CRANK.splitlines()[:-1]) + "\n"  # the last triangle is gone
+        # The import leaves out triangles that are not finite: what is left is open.
+        nan = CRANK.replace("v 0.02 ", "v nan ", 1)
+        for name, content, part in (("open.obj", text, "part_grip"), ("nan.obj", nan, "part_shaft")):
+            result = self.run_command("fit", self.mesh(name, content), "--report", "none", limit_s=120)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, rf"part '{part}': edges without a\s+neighbour")
+
+    def test_two_meshes_of_one_name_do_not_overwrite_each_other(self):
+        first = self.mesh("a/crank.obj", CRANK)
+        second = self.mesh("b/crank.obj", CRANK)
+        result = self.run_command("fit", first, second, "-o", self.folder / "out", "--report", "none", limit_s=120)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"{second}: its results would overwrite those of {first}", result.stderr)
+        self.assertTrue((self.folder / "out/crank.part").exists())
+
+    def test_a_folder_that_is_a_file_is_told_before_the_work(self):
+        mesh = self.mesh("fence.obj", FENCE)
+        result = self.run_command("fit", mesh, "-o", mesh)
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, r"fence\.obj.*; name ")
+        self.assertNotIn("parts built", result.stderr)
+
+    def test_a_full_disk_is_told_and_leaves_nothing(self):
+        mesh = self.mesh("fence.obj", FENCE)
+        out = self.folder / "small"
+        # A second command looks into the disk, which is gone with its namespace.
+        command = [*fault_e2e.Faults.full_disk(out), "sh", "-c", '"$0" fit "$1" -o "$2" --report none; echo "status $?"; ls -A "$2"',
+                   str(BIN / "mechane"), str(mesh), str(out)]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=300, env=self.environment)
+        self.assertRegex(result.stderr, r"fence\.part: cannot be written: .*; make room on the disk")
+        self.assertEqual(result.stdout.split("status ")[1].split(), ["1"], "no file is left")
+
+    def test_ctrl_c_ends_it_at_once_and_leaves_nothing(self):
+        mesh = self.mesh("fence.obj", FENCE)
+        (self.folder / "fence.part").write_text("the old one")
+        fit = self.start("fit", "fit", mesh)
+        wait_until(lambda: "parts built" in fit.text(), 60, "parts are being built")
+        fit.process.send_signal(signal.SIGINT)
+        self.assertEqual(fit.wait(5), 130, fit.text())
+        self.assertEqual((self.folder / "fence.part").read_text(), "the old one")
+        self.assertEqual([name for name in self.files() if not name.endswith(".log")], ["fence.obj", "fence.part"])
+
+    def test_a_terminal_gets_a_bar(self):
+        mesh = self.mesh("crank.obj", CRANK)
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([str(BIN / "mechane"), "fit", str(mesh), "--report", "none"], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=theirs, env=self.environment)
+        os.close(theirs)
+        seen = b""
+        try:
+            while piece := os.read(ours, 4096):
+                seen += piece
+        except OSError:  # the other end is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(60), 0)
+        text = seen.decode(errors="replace")
+        self.assertRegex(text, r"crank\.obj +[█░]+ \d/3 parts built, \d+ s")
+        self.assertTrue(text.endswith("\r\x1b[K"), "the line is free again")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

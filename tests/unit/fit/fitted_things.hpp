@@ -1,0 +1,29 @@
+// Objects as `mechane fit` makes them, of the shapes in tests/support.
+#pragma once
+
+#include <cstdlib>
+#include <utility>
+
+#include "client-sdk/fit/fitted_object.hpp"
+#include "tests/support/shapes.hpp"
+
+namespace mechane::fit {
+
+inline FittedObject fitted(std::vector<geometry::NamedMesh> meshes) {
+  FittedObject out;
+  out.mesh_file = "thing.glb";
+  out.part_file = "thing.part";
+  out.mesh_hash = "00";
+  out.meshes = std::move(meshes);
+  out.config.map_resolution = 16;
+  auto object = collision::build_object(out.meshes, out.config, &out.report);
+  if (!object) std::abort();
+  out.object = std::move(*object);
+  return out;
+}
+
+inline FittedObject fitted_box() {
+  return fitted({{"block", test::box({0.05, 0.04, 0.03})}});
+}
+
+}  // namespace mechane::fit
