@@ -12,9 +12,10 @@ namespace {
 
 // Cells of a brick along its longest edge.
 constexpr std::array<int, 8> kBrickCells = {8, 12, 16, 24, 32, 48, 64, 96};
-constexpr std::size_t kMaxBrickBytes = 256U << 10;
+constexpr std::size_t kMaxBrickBytes = 128U << 10;
 // More missed points than this mean that no centre sees the part whole: a finer radial map would not either.
 constexpr double kBlindShare = 0.02;
+constexpr double kStrayShare = 0.005;
 // A brick's values beyond this many cells from the surface are cut off there: nobody asks so deep, and the step gets finer.
 constexpr double kBandCells = 4;
 
@@ -151,6 +152,7 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
   Trend radial;
   Trend brick;
   for (const Candidate& candidate : list_candidates(frame, solid.is_closed(node), candidates)) {
+    if (candidate.bytes <= candidates.more_than) continue;
     MapChoice tried;
     const bool is_radial = candidate.resolution > 0;
     Trend& trend = is_radial ? radial : brick;
@@ -163,7 +165,7 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
     }
     tried.error =
         measure(probes, budget, [&](const Vec3& p_O) { return tried.map.evaluate((X_QO * p_O).cast<float>()); });
-    tried.met = tried.error.meets(budget);
+    tried.met = tried.error.meets(budget, kStrayShare);
     trend = {fineness, tried.error};
     if (best.map.empty() || tried.met || better(tried.error, best.error)) best = std::move(tried);
     if (best.met) break;

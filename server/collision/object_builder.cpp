@@ -19,6 +19,9 @@ namespace {
 constexpr double kWeld = 1e-6;               // of the part's diagonal
 constexpr std::size_t kProbesPerPart = 600;  // for the choice of its map
 constexpr std::size_t kReportProbes = 400;   // per part, for the object's error
+constexpr int kRefinements = 3;              // rounds
+constexpr double kFaultShare = 0.01;         // of a part's probes: the budget is one of a 99th percentile
+constexpr std::size_t kGraveFault = 1000;    // a miss is one too many
 
 std::string where_of(const std::string& part) {
   return "part '" + part + "'";
@@ -143,42 +146,100 @@ Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground&
   return fit;
 }
 
-Expected<Part> make_part(const PartSource& source, const Ground& ground, PartReport& report) {
+/// A part, and what a finer map of it would be made from.
+struct Made {
+  Part part;
+  MapFrame frame;
+  std::vector<Probe> probes;
+};
+
+MapChoice map_for(const Made& made, std::size_t node, const Ground& ground, std::size_t more_than) {
+  const BuildConfig& config = ground.config;
+  const MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
+  return choose_map(ground.solid, ground.skin, node, made.frame, made.probes, ground.budget, candidates);
+}
+
+void set_map(MapChoice&& choice, Part& part, PartReport& report) {
+  report.map = choice.map.name();
+  report.bytes = choice.map.bytes();
+  report.error = choice.error;
+  report.met = choice.met;
+  part.map = std::move(choice.map);
+}
+
+Expected<Made> make_part(const PartSource& source, const Ground& ground, PartReport& report) {
   const auto fit = fit_source(source, ground);
   if (!fit) return tl::unexpected(fit.error());
-  const MapFrame frame =
-      choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->shape, fit->X_OQ);
-  const std::vector<Probe> probes =
+  Made made;
+  made.frame = choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->shape,
+                            fit->X_OQ);
+  made.probes =
       make_probes(ground.solid, ground.skin, source.places, ground.budget, kProbesPerPart, ground.config.seed + 2);
-  const MapCandidates candidates{ground.config.radial_maps, ground.config.bricks, ground.config.map_resolution};
-  MapChoice choice = choose_map(ground.solid, ground.skin, source.node, frame, probes, ground.budget, candidates);
   report.name = source.name;
   report.fit = fit->report;
   report.closed = ground.solid.is_closed(source.node);
   report.samples = source.samples_O.size();
   report.spacing_m = source.spacing_m;
-  report.map = choice.map.name();
-  report.bytes = choice.map.bytes();
-  report.error = choice.error;
-  report.met = choice.met;
-  Part part;
-  part.name = source.name;
-  part.X_OQ = fit->X_OQ;
-  part.superquadric = fit->shape;
-  part.map = std::move(choice.map);
-  part.bound_O = bounding_sphere(source.bound_points_O);
-  return part;
+  made.part.name = source.name;
+  made.part.X_OQ = fit->X_OQ;
+  made.part.superquadric = fit->shape;
+  made.part.bound_O = bounding_sphere(source.bound_points_O);
+  set_map(map_for(made, source.node, ground, 0), made.part, report);
+  return made;
 }
 
-/// What find_contacts would say of a point: the hit in which it lies most centrally.
-MapHit ask(const Object& object, const Vec3& p_O) {
-  MapHit best;
-  for (const Part& part : object.parts) {
-    if ((p_O - part.bound_O.center).norm() > part.bound_O.radius) continue;
-    const MapHit hit = part.map.evaluate((part.X_OQ.inverse() * p_O).cast<float>());
-    if (hit.hit && (!best.hit || hit.m < best.m)) best = hit;
+/// What find_contacts would say of a point: the hit in which it lies most centrally; and whose it is.
+struct Answer {
+  MapHit hit;
+  std::size_t part = 0;
+};
+
+Answer ask(std::span<const Part> parts, const Vec3& p_O) {
+  Answer best;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if ((p_O - parts[i].bound_O.center).norm() > parts[i].bound_O.radius) continue;
+    const MapHit hit = parts[i].map.evaluate((parts[i].X_OQ.inverse() * p_O).cast<float>());
+    if (hit.hit && (!best.hit.hit || hit.m < best.hit.m)) best = {hit, i};
   }
   return best;
+}
+
+/// Parts of whose answers, or missing answers, too many break the budget once all parts are asked together.
+std::vector<std::size_t> culprits(std::span<const Part> parts, std::span<const Made> made, const ErrorBudget& budget) {
+  std::vector<std::size_t> faults(parts.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    for (const Probe& probe : made[i].probes) {
+      const Answer answer = ask(parts, probe.p_O);
+      const double depth = answer.hit.hit ? static_cast<double>(answer.hit.depth_m) : 0.0;
+      const bool missed = !answer.hit.hit && probe.depth_m > budget.missed_m;
+      const bool wrong = answer.hit.hit && probe.depth_m < -budget.missed_m;
+      if (missed || wrong) faults[answer.hit.hit ? answer.part : i] += kGraveFault;
+      if (answer.hit.hit && std::abs(depth - probe.depth_m) > budget.depth_p99_m) ++faults[answer.part];
+    }
+  }
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    if (static_cast<double>(faults[i]) > kFaultShare * static_cast<double>(made[i].probes.size())) found.push_back(i);
+  }
+  return found;
+}
+
+/// Gives parts finer maps until the object as a whole meets the budget, or nothing finer is left.
+void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<const PartSource> sources,
+            const Ground& ground, std::vector<PartReport>& reports) {
+  for (int round = 0; round < kRefinements; ++round) {
+    const std::vector<std::size_t> guilty = culprits(parts, made, ground.budget);
+    if (guilty.empty()) return;
+    std::vector<MapChoice> finer(guilty.size());
+    for_each_index(guilty.size(), [&](std::size_t k) {
+      const std::size_t i = guilty[k];
+      finer[k] = map_for(made[i], sources[i].node, ground, parts[i].map.bytes());
+    });
+    for (std::size_t k = 0; k < guilty.size(); ++k) {
+      const std::size_t i = guilty[k];
+      if (!finer[k].map.empty()) set_map(std::move(finer[k]), parts[i], reports[i]);
+    }
+  }
 }
 
 MapError error_of(const Object& object, std::span<const PartSource> sources, const Ground& ground) {
@@ -190,7 +251,7 @@ MapError error_of(const Object& object, std::span<const PartSource> sources, con
   std::vector<Probe> all;
   for (const auto& some : probes)
     all.insert(all.end(), some.begin(), some.end());
-  return measure(all, ground.budget, [&](const Vec3& p_O) { return ask(object, p_O); });
+  return measure(all, ground.budget, [&](const Vec3& p_O) { return ask(object.parts, p_O).hit; });
 }
 
 }  // namespace
@@ -208,19 +269,24 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
 
   auto sources = find_sources(nodes, ground);
   if (!sources) return tl::unexpected(sources.error());
-  std::vector<Expected<Part>> made(sources->size());
+  std::vector<Expected<Made>> tried(sources->size());
   BuildReport built;
   built.parts.resize(sources->size());
   std::atomic<std::size_t> done{0};
   for_each_index(sources->size(), [&](std::size_t i) {
-    made[i] = make_part((*sources)[i], ground, built.parts[i]);
+    tried[i] = make_part((*sources)[i], ground, built.parts[i]);
     if (on_part) on_part(++done, sources->size());
   });
   Object object;
+  std::vector<Made> made;
+  for (auto& one : tried) {
+    if (!one) return tl::unexpected(one.error());
+    object.parts.push_back(std::move(one->part));
+    made.push_back(std::move(*one));
+  }
+  refine(object.parts, made, *sources, ground, built.parts);
   for (std::size_t i = 0; i < made.size(); ++i) {
-    if (!made[i]) return tl::unexpected(made[i].error());
-    built.bytes += made[i]->map.bytes();
-    object.parts.push_back(std::move(*made[i]));
+    built.bytes += object.parts[i].map.bytes();
     append_samples(object, static_cast<std::uint16_t>(i), std::move((*sources)[i].samples_O));
   }
   close_clusters(object);
