@@ -1,68 +1,48 @@
 #include "server/geometry/fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "server/geometry/fit_solver.hpp"
+#include "server/geometry/fit_starts.hpp"
 #include "server/geometry/mesh_check.hpp"
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::geometry {
 namespace {
 
-constexpr std::size_t kScreenPoints = 120;
-constexpr int kScreenIterations = 10;
-constexpr int kFullIterations = 60;
-constexpr std::size_t kFinalists = 3;
+constexpr std::size_t kScreenPoints = 100;
+constexpr std::size_t kMiddlePoints = 400;
+constexpr std::size_t kRunnersUp = 4;  // that go on from the short runs
+constexpr std::size_t kFinalists = 2;
+constexpr double kTrimmed = 0.2;      // of the points, when robust, for the moments that give the starts
+constexpr double kFarthest = 0.1;     // of the diagonal: a point farther off says no more than that it is far
+constexpr double kLeastScale = 3e-4;  // of the loss, of the diagonal
 constexpr double kGoodEnough = 0.002;  // mean error, of the diagonal: then taper and bend are not tried
-constexpr double kSlightBend = 0.2;    // per diagonal
-constexpr double kStrongBend = 1.0;
-// Exponents to start from: round, cylinder, box, and a section with corners under a round profile.
-constexpr std::array<std::array<double, 2>, 4> kExponentStarts = {{{1, 1}, {0.3, 1}, {0.3, 0.3}, {1, 0.3}}};
-
-/// A frame to start from, and the points' half extents in it.
-struct StartFrame {
-  Mat3 R_OQ;
-  Vec3 p_OQ;
-  Vec3 half;
-};
 
 struct Attempt {
-  FitState state;
+  FitStart start;
   double score = 0;  // mean distance of the points to the surface
-  std::string name;
 };
 
-StartFrame start_frame(std::span<const Vec3> points, const Mat3& axes, int z_axis) {
-  StartFrame frame;
-  // The chosen axis becomes z, in cyclic order, so that the frame stays right-handed.
-  for (int i = 0; i < 3; ++i)
-    frame.R_OQ.col(i) = axes.col((z_axis + 1 + i) % 3);
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : points)
-    box.extend(Vec3(frame.R_OQ.transpose() * p));
-  frame.p_OQ = frame.R_OQ * box.center();
-  frame.half = 0.5 * box.sizes();
-  return frame;
+/// The spread of distances if most are Gaussian, from their median.
+double spread_of(std::vector<double> distances) {
+  for (double& d : distances)
+    d = std::abs(d);
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return std::max(kLeastScale, 1.4826 * *middle);
 }
 
-/// The principal axes of the points; right-handed.
-Mat3 principal_axes(std::span<const Vec3> points) {
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : points)
-    mean += p;
-  mean /= static_cast<double>(points.size());
-  Mat3 covariance = Mat3::Zero();
-  for (const Vec3& p : points)
-    covariance += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance);
-  Mat3 axes = solver.eigenvectors();
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return axes;
+double score_of(const FitState& state, std::span<const Vec3> points) {
+  if (!is_valid(state.shape())) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (const double d : distances(state, points))
+    sum += std::min(kFarthest, std::abs(d));
+  return sum / static_cast<double>(points.size());
 }
 
 Expected<void> check_points(std::span<const Vec3> points) {
@@ -76,8 +56,8 @@ Expected<void> check_points(std::span<const Vec3> points) {
     return fail("a superquadric has 11 parameters and there are only " + std::to_string(points.size()) + " points",
                 where, "give the whole surface of the part");
   }
-  const StartFrame frame = start_frame(points, principal_axes(points), 2);
-  if (frame.half.minCoeff() < 1e-4 * frame.half.maxCoeff()) {
+  const Moments moments = moments_of(points, 0);
+  if (!(moments.variance.x() > 1e-8 * moments.variance.z())) {
     return fail("the points lie on a plane, a line or one spot", where, "give the part a thickness");
   }
   return {};
@@ -91,82 +71,42 @@ std::vector<Vec3> every_nth(std::span<const Vec3> points, std::size_t wanted) {
   return chosen;
 }
 
-std::string start_name(const char* frame, int z_axis, const std::array<double, 2>& e) {
-  const auto one_digit = [](double v) { return std::to_string(v).substr(0, 3); };
-  return std::string(frame) + " frame, axis " + std::to_string(z_axis) + " as z, e1 " + one_digit(e[0]) + ", e2 " +
-         one_digit(e[1]);
+/// Improves in rounds; each takes the spread of the distances anew.
+int improve_in_rounds(Attempt& attempt, std::span<const Vec3> points, Loss loss, int rounds, int iterations) {
+  int took = 0;
+  for (int round = 0; round < rounds; ++round) {
+    ImproveConfig config{iterations, attempt.start.deformed, loss, 1};
+    if (loss != Loss::square) config.scale = spread_of(distances(attempt.start.state, points));
+    took += improve(attempt.start.state, points, config);
+  }
+  attempt.score = score_of(attempt.start.state, points);
+  return took;
 }
 
-void keep_best(std::vector<Attempt>& attempts) {
+void keep_best(std::vector<Attempt>& attempts, std::size_t count) {
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const Attempt& l, const Attempt& r) { return l.score < r.score; });
-  if (attempts.size() > kFinalists) attempts.erase(attempts.begin() + kFinalists, attempts.end());
+  if (attempts.size() > count) attempts.resize(count);
 }
 
-/// Short runs from every start on few points; the best few go on.
-std::vector<Attempt> screen(std::span<const Vec3> points, int& iterations) {
+/// Short runs from every start on few points; the best few go on with more.
+Attempt best_of(std::span<const Vec3> points, bool deformed, const FitConfig& config, int& iterations) {
   const std::vector<Vec3> few = every_nth(points, kScreenPoints);
-  const std::array<std::pair<const char*, Mat3>, 2> frames = {
-      {{"inertia", principal_axes(points)}, {"given", Mat3::Identity()}}};
+  const std::vector<Vec3> middle = every_nth(points, kMiddlePoints);
   std::vector<Attempt> attempts;
-  for (const auto& [name, axes] : frames) {
-    for (int z_axis = 0; z_axis < 3; ++z_axis) {
-      for (const auto& e : kExponentStarts) {
-        const StartFrame start = start_frame(points, axes, z_axis);
-        Attempt attempt;
-        attempt.state = FitState::start({start.p_OQ, Quat(start.R_OQ)}, start.half, e[0], e[1]);
-        iterations += improve(attempt.state, few, kScreenIterations, false);
-        attempt.score = fit_errors(attempt.state, few).mean;
-        attempt.name = start_name(name, z_axis, e);
-        attempts.push_back(std::move(attempt));
-      }
-    }
+  for (FitStart& start : fit_starts(points, deformed, config.robust ? kTrimmed : 0)) {
+    Attempt attempt{std::move(start)};
+    iterations += improve_in_rounds(attempt, few, Loss::huber, 2, 5);
+    attempts.push_back(std::move(attempt));
   }
-  keep_best(attempts);
-  return attempts;
-}
-
-Attempt best_rigid(std::span<const Vec3> points, int& iterations) {
-  std::vector<Attempt> finalists = screen(points, iterations);
-  for (Attempt& attempt : finalists) {
-    iterations += improve(attempt.state, points, kFullIterations, false);
-    attempt.score = fit_errors(attempt.state, points).mean;
-  }
-  return *std::min_element(finalists.begin(), finalists.end(),
-                           [](const Attempt& l, const Attempt& r) { return l.score < r.score; });
-}
-
-/// Taper and bend run along z, and the rigid fit's z need not be that axis: short runs from each axis and direction of bending, and from
-/// the rigid fit itself; the best few go on. At exactly k = 0 a bend's direction has no derivative, so each starts with one.
-std::optional<Attempt> best_deformed(const Attempt& rigid, std::span<const Vec3> points, int& iterations) {
-  const std::vector<Vec3> few = every_nth(points, kScreenPoints);
-  const Mat3 axes = principal_axes(points);
-  std::vector<Attempt> attempts;
-  const auto try_from = [&](const Attempt& attempt, double bend) {
-    for (int direction = 0; direction < 4; ++direction) {
-      Attempt bent = attempt;
-      bent.state.begin_deformation(bend, 0.5 * kPi * direction);
-      iterations += improve(bent.state, few, kScreenIterations, true);
-      bent.score = fit_errors(bent.state, few).mean;
-      if (std::isfinite(bent.score)) attempts.push_back(std::move(bent));
-    }
-  };
-  try_from(rigid, kSlightBend);
-  for (int z_axis = 0; z_axis < 3; ++z_axis) {
-    const StartFrame start = start_frame(points, axes, z_axis);
-    Attempt attempt;
-    attempt.state = FitState::start({start.p_OQ, Quat(start.R_OQ)}, start.half, 0.4, 0.5);
-    attempt.name = start_name("inertia", z_axis, {0.4, 0.5});
-    try_from(attempt, kStrongBend);
-  }
-  keep_best(attempts);
-  std::optional<Attempt> best;
-  for (Attempt& attempt : attempts) {
-    iterations += improve(attempt.state, points, kFullIterations, true);
-    attempt.score = fit_errors(attempt.state, points).mean;
-    if (std::isfinite(attempt.score) && (!best || attempt.score < best->score)) best = std::move(attempt);
-  }
-  return best;
+  keep_best(attempts, kRunnersUp);
+  for (Attempt& attempt : attempts)
+    iterations += improve_in_rounds(attempt, middle, Loss::huber, 2, 6);
+  keep_best(attempts, kFinalists);
+  for (Attempt& attempt : attempts)
+    iterations += improve_in_rounds(attempt, points, config.robust ? Loss::tukey : Loss::square, 2, 6);
+  keep_best(attempts, 1);
+  return attempts.front();
 }
 
 /// Scales the semi-axes until F <= 1 at every point. Without deformation one step is exact; with it the taper and the bend see the
@@ -192,17 +132,18 @@ bool bound(FitResult& fit, std::span<const Vec3> points_O) {
 FitResult make_result(const Attempt& attempt, std::span<const Vec3> points, const Vec3& shift, double scale,
                       int iterations) {
   FitResult result;
-  result.shape = attempt.state.shape();
+  const FitState& state = attempt.start.state;
+  result.shape = state.shape();
   result.shape.a *= scale;
   result.shape.bend_per_m /= scale;
-  result.X_OQ = attempt.state.pose();
+  result.X_OQ = state.X_OQ;
   result.X_OQ.p = scale * result.X_OQ.p + shift;
-  const FitErrors errors = fit_errors(attempt.state, points);  // the points' diagonal is 1
+  const FitErrors errors = fit_errors(distances(state, points));  // the points' diagonal is 1
   result.report.mean_pct = 100 * errors.mean;
   result.report.rms_pct = 100 * errors.rms;
   result.report.max_pct = 100 * errors.max;
   result.report.iterations = iterations;
-  result.report.start = attempt.name;
+  result.report.start = attempt.start.name;
   result.report.deformed = is_deformed(result.shape);
   return result;
 }
@@ -221,18 +162,18 @@ Expected<FitResult> fit(std::span<const Vec3> points_O, std::span<const Vec3> al
     points.push_back((p - center) / diagonal);
 
   int iterations = 0;
-  const Attempt rigid = best_rigid(points, iterations);
+  const Attempt rigid = best_of(points, false, config, iterations);
   std::optional<Attempt> deformed;
-  if (config.deformations && rigid.score > kGoodEnough) deformed = best_deformed(rigid, points, iterations);
+  if (config.deformations && rigid.score > kGoodEnough) deformed = best_of(points, true, config, iterations);
 
   std::vector<Vec3> all(points_O.begin(), points_O.end());
   all.insert(all.end(), also_bound_O.begin(), also_bound_O.end());
   if (deformed && deformed->score < (1 - config.deformation_gain) * rigid.score && deformed->score > 0) {
     FitResult result = make_result(*deformed, points, center, diagonal, iterations);
-    if (bound(result, all)) return result;
+    if (!config.bound || bound(result, all)) return result;
   }
   FitResult result = make_result(rigid, points, center, diagonal, iterations);
-  if (!bound(result, all)) {
+  if (config.bound && !bound(result, all)) {
     return fail("no superquadric of sensible size bounds the part", "points of the part",
                 "split the part where it is concave, or check it for stray vertices");
   }

@@ -1,29 +1,23 @@
-// The fit's inner part: parameters in a form that cannot leave their ranges, and Levenberg-Marquardt on them.
+// The fit's inner part: Levenberg-Marquardt on the first-order distance of points to the surface, with a loss that outliers cannot pull.
 #pragma once
 
-#include <array>
 #include <span>
+#include <vector>
 
 #include "server/base/math.hpp"
-#include "server/geometry/superquadric.hpp"
+#include "server/geometry/fit_state.hpp"
 
 namespace mechane::geometry {
 
-/// Parameters of one superquadric in some frame, for points whose diagonal is about 1:
-/// log of the axes (3), exponents (2) through a sigmoid, rotation vector from `base` (3), centre (3), taper (2) through tanh, curvature
-/// and its angle (2).
-struct FitState {
-  static constexpr int kRigid = 11;
-  static constexpr int kAll = 15;
-  Quat base = Quat::Identity();
-  std::array<double, kAll> x{};
+/// What a distance d costs. `square`: d^2. `huber`: d^2 up to the scale, beyond it a straight line. `tukey`: bounded at 3 scales or so;
+/// what lies farther has no say.
+enum class Loss { square, huber, tukey };
 
-  [[nodiscard]] static FitState start(const Pose& X_OQ, const Vec3& half, double e1, double e2);
-  /// Starts taper at none and the bend at `bend_per_m` (not 0, where its angle has no derivative) towards `angle_rad`.
-  void begin_deformation(double bend_per_m, double angle_rad);
-
-  [[nodiscard]] Superquadric shape() const;
-  [[nodiscard]] Pose pose() const;
+struct ImproveConfig {
+  int max_iterations = 10;
+  bool deformed = true;  ///< all 15 parameters, else the first 11
+  Loss loss = Loss::square;
+  double scale = 1;  ///< of the loss, as a distance
 };
 
 struct FitErrors {
@@ -32,11 +26,13 @@ struct FitErrors {
   double max = 0;
 };
 
-/// Levenberg-Marquardt on equation 3; returns the iterations it took. `deformed`: all 15 parameters, else the first 11.
-int improve(FitState& state, std::span<const Vec3> points, int max_iterations, bool deformed);
+/// Lowers the loss of the first-order distances; returns the iterations it took. What it cannot improve it leaves as it is.
+int improve(FitState& state, std::span<const Vec3> points, const ImproveConfig& config);
 
-/// Distances of the points to the surface: the lesser of the way along the ray from the centre and the first-order distance
-/// |f - 1| / |grad f| with f = F^(e1/2). Infinite where the parameters make no valid shape.
-[[nodiscard]] FitErrors fit_errors(const FitState& state, std::span<const Vec3> points);
+/// Signed distances of points to the surface, positive outside: whichever is less, the way along the ray from the centre or the
+/// first-order distance (f - 1) / |grad f|.
+[[nodiscard]] std::vector<double> distances(const FitState& state, std::span<const Vec3> points);
+
+[[nodiscard]] FitErrors fit_errors(std::span<const double> distances);
 
 }  // namespace mechane::geometry
