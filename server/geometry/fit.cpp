@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <vector>
 
+#include "server/geometry/fit_search.hpp"
 #include "server/geometry/fit_solver.hpp"
 #include "server/geometry/fit_starts.hpp"
 #include "server/geometry/mesh_check.hpp"
@@ -13,37 +12,6 @@
 
 namespace mechane::geometry {
 namespace {
-
-constexpr std::size_t kScreenPoints = 100;
-constexpr std::size_t kMiddlePoints = 400;
-constexpr std::size_t kRunnersUp = 4;  // that go on from the short runs
-constexpr std::size_t kFinalists = 2;
-constexpr double kTrimmed = 0.2;      // of the points, when robust, for the moments that give the starts
-constexpr double kFarthest = 0.1;     // of the diagonal: a point farther off says no more than that it is far
-constexpr double kLeastScale = 3e-4;  // of the loss, of the diagonal
-constexpr double kGoodEnough = 0.002;  // mean error, of the diagonal: then taper and bend are not tried
-
-struct Attempt {
-  FitStart start;
-  double score = 0;  // mean distance of the points to the surface
-};
-
-/// The spread of distances if most are Gaussian, from their median.
-double spread_of(std::vector<double> distances) {
-  for (double& d : distances)
-    d = std::abs(d);
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::max(kLeastScale, 1.4826 * *middle);
-}
-
-double score_of(const FitState& state, std::span<const Vec3> points) {
-  if (!is_valid(state.shape())) return std::numeric_limits<double>::infinity();
-  double sum = 0;
-  for (const double d : distances(state, points))
-    sum += std::min(kFarthest, std::abs(d));
-  return sum / static_cast<double>(points.size());
-}
 
 Expected<void> check_points(std::span<const Vec3> points) {
   const char* where = "points of the part";
@@ -61,52 +29,6 @@ Expected<void> check_points(std::span<const Vec3> points) {
     return fail("the points lie on a plane, a line or one spot", where, "give the part a thickness");
   }
   return {};
-}
-
-std::vector<Vec3> every_nth(std::span<const Vec3> points, std::size_t wanted) {
-  std::vector<Vec3> chosen;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / wanted);
-  for (std::size_t i = 0; i < points.size(); i += step)
-    chosen.push_back(points[i]);
-  return chosen;
-}
-
-/// Improves in rounds; each takes the spread of the distances anew.
-int improve_in_rounds(Attempt& attempt, std::span<const Vec3> points, Loss loss, int rounds, int iterations) {
-  int took = 0;
-  for (int round = 0; round < rounds; ++round) {
-    ImproveConfig config{iterations, attempt.start.deformed, loss, 1};
-    if (loss != Loss::square) config.scale = spread_of(distances(attempt.start.state, points));
-    took += improve(attempt.start.state, points, config);
-  }
-  attempt.score = score_of(attempt.start.state, points);
-  return took;
-}
-
-void keep_best(std::vector<Attempt>& attempts, std::size_t count) {
-  std::stable_sort(attempts.begin(), attempts.end(),
-                   [](const Attempt& l, const Attempt& r) { return l.score < r.score; });
-  if (attempts.size() > count) attempts.resize(count);
-}
-
-/// Short runs from every start on few points; the best few go on with more.
-Attempt best_of(std::span<const Vec3> points, bool deformed, const FitConfig& config, int& iterations) {
-  const std::vector<Vec3> few = every_nth(points, kScreenPoints);
-  const std::vector<Vec3> middle = every_nth(points, kMiddlePoints);
-  std::vector<Attempt> attempts;
-  for (FitStart& start : fit_starts(points, deformed, config.robust ? kTrimmed : 0)) {
-    Attempt attempt{std::move(start)};
-    iterations += improve_in_rounds(attempt, few, Loss::huber, 2, 5);
-    attempts.push_back(std::move(attempt));
-  }
-  keep_best(attempts, kRunnersUp);
-  for (Attempt& attempt : attempts)
-    iterations += improve_in_rounds(attempt, middle, Loss::huber, 2, 6);
-  keep_best(attempts, kFinalists);
-  for (Attempt& attempt : attempts)
-    iterations += improve_in_rounds(attempt, points, config.robust ? Loss::tukey : Loss::square, 2, 6);
-  keep_best(attempts, 1);
-  return attempts.front();
 }
 
 /// Scales the semi-axes until F <= 1 at every point. Without deformation one step is exact; with it the taper and the bend see the
@@ -129,21 +51,20 @@ bool bound(FitResult& fit, std::span<const Vec3> points_O) {
   return true;
 }
 
-FitResult make_result(const Attempt& attempt, std::span<const Vec3> points, const Vec3& shift, double scale,
+FitResult make_result(const FoundFit& found, std::span<const Vec3> points, const Vec3& shift, double scale,
                       int iterations) {
   FitResult result;
-  const FitState& state = attempt.start.state;
-  result.shape = state.shape();
+  result.shape = found.state.shape();
   result.shape.a *= scale;
   result.shape.bend_per_m /= scale;
-  result.X_OQ = state.X_OQ;
+  result.X_OQ = found.state.X_OQ;
   result.X_OQ.p = scale * result.X_OQ.p + shift;
-  const FitErrors errors = fit_errors(distances(state, points));  // the points' diagonal is 1
+  const FitErrors errors = fit_errors(distances(found.state, points));  // the points' diagonal is 1
   result.report.mean_pct = 100 * errors.mean;
   result.report.rms_pct = 100 * errors.rms;
   result.report.max_pct = 100 * errors.max;
   result.report.iterations = iterations;
-  result.report.start = attempt.start.name;
+  result.report.start = found.start;
   result.report.deformed = is_deformed(result.shape);
   return result;
 }
@@ -161,23 +82,15 @@ Expected<FitResult> fit(std::span<const Vec3> points_O, std::span<const Vec3> al
   for (const Vec3& p : points_O)
     points.push_back((p - center) / diagonal);
 
-  int iterations = 0;
-  const Attempt rigid = best_of(points, false, config, iterations);
-  std::optional<Attempt> deformed;
-  if (config.deformations && rigid.score > kGoodEnough) deformed = best_of(points, true, config, iterations);
-
+  const SearchResult found = search_fit(points, config);
   std::vector<Vec3> all(points_O.begin(), points_O.end());
   all.insert(all.end(), also_bound_O.begin(), also_bound_O.end());
-  if (deformed && deformed->score < (1 - config.deformation_gain) * rigid.score && deformed->score > 0) {
-    FitResult result = make_result(*deformed, points, center, diagonal, iterations);
+  for (const FoundFit& choice : {found.best, found.rigid}) {
+    FitResult result = make_result(choice, points, center, diagonal, found.iterations);
     if (!config.bound || bound(result, all)) return result;
   }
-  FitResult result = make_result(rigid, points, center, diagonal, iterations);
-  if (config.bound && !bound(result, all)) {
-    return fail("no superquadric of sensible size bounds the part", "points of the part",
-                "split the part where it is concave, or check it for stray vertices");
-  }
-  return result;
+  return fail("no superquadric of sensible size bounds the part", "points of the part",
+              "split the part where it is concave, or check it for stray vertices");
 }
 
 }  // namespace

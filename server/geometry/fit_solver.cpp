@@ -12,11 +12,11 @@ constexpr double kLeastSlope = 1e-3;
 constexpr double kLeastAxis = 2e-3;  // of the diagonal
 constexpr double kMostAxis = 3;
 constexpr double kMostTaper = 0.95;
+constexpr double kNegligible = 3e-5;  // of the diagonal, root mean square
 constexpr double kHuber = 1.345;  // of the scale: 95 % of the least squares' precision when the noise is Gaussian
 constexpr double kTukey = 4.685;
 
 using Step = FitState::Step;
-using Matrix = Eigen::Matrix<double, FitState::kAll, FitState::kAll>;
 
 struct LossValue {
   double cost;
@@ -41,39 +41,6 @@ LossValue loss_of(double d, const ImproveConfig& config) {
     }
   }
   return {square, 1};
-}
-
-/// The loss at one state, and its quadratic model.
-struct Model {
-  double cost = std::numeric_limits<double>::infinity();
-  Matrix H = Matrix::Zero();
-  Step g = Step::Zero();
-};
-
-Model model_at(const FitState& state, std::span<const Vec3> points, const ImproveConfig& config) {
-  Model model;
-  if (!is_valid(state.shape())) return model;
-  model.cost = 0;
-  Eigen::Matrix<double, FitState::kAll + 1, FitState::kAll + 1> sums;
-  sums.setZero();
-  Eigen::Matrix<double, FitState::kAll + 1, 1> row;
-  const FitForm form(state);
-  for (const Vec3& p : points) {
-    const FitForm::Value v = form.at(p);
-    const double inverse = 1 / std::max(kLeastSlope, v.slope_Q.norm());
-    const double d = (v.f - 1) * inverse;
-    const LossValue loss = loss_of(d, config);
-    model.cost += loss.cost;
-    if (loss.weight <= 0) continue;
-    const double root = std::sqrt(loss.weight);
-    row.head<FitState::kAll>() = (inverse * root) * v.by_step;
-    row[FitState::kAll] = d * root;
-    sums.noalias() += row * row.transpose();
-  }
-  if (!std::isfinite(model.cost) || !sums.allFinite()) return {};
-  model.H = sums.topLeftCorner<FitState::kAll, FitState::kAll>();
-  model.g = sums.topRightCorner<FitState::kAll, 1>();
-  return model;
 }
 
 /// How far each part of a step may go.
@@ -102,9 +69,42 @@ Bounds bounds_at(const FitState& s, bool deformed) {
   return b;
 }
 
+const LossModel kImpossible{std::numeric_limits<double>::infinity(), LossModel::Matrix::Zero(), Step::Zero()};
+
+}  // namespace
+
+LossModel loss_model(const FitState& state, std::span<const Vec3> points, const ImproveConfig& config,
+                     std::span<const double> weights) {
+  LossModel model;
+  if (!is_valid(state.shape())) return kImpossible;
+  model.cost = 0;
+  Eigen::Matrix<double, FitState::kAll + 1, FitState::kAll + 1> sums;
+  sums.setZero();
+  Eigen::Matrix<double, FitState::kAll + 1, 1> row;
+  const FitForm form(state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const FitForm::Value v = form.at(points[i]);
+    const double inverse = 1 / std::max(kLeastSlope, v.slope_Q.norm());
+    const double d = (v.f - 1) * inverse;
+    LossValue loss = loss_of(d, config);
+    if (!weights.empty()) loss = {loss.cost * weights[i], loss.weight * weights[i]};
+    model.cost += loss.cost;
+    if (loss.weight <= 0) continue;
+    const double root = std::sqrt(loss.weight);
+    row.head<FitState::kAll>() = (inverse * root) * v.by_step;
+    row[FitState::kAll] = d * root;
+    sums.noalias() += row * row.transpose();
+  }
+  if (!std::isfinite(model.cost) || !sums.allFinite()) return kImpossible;
+  model.H = sums.topLeftCorner<FitState::kAll, FitState::kAll>();
+  model.g = sums.topRightCorner<FitState::kAll, 1>();
+  return model;
+}
+
 /// The damped step; parts that would leave their bounds stay on them, and the others are solved for again.
-Step damped_step(const Model& model, const Bounds& bounds, double damping) {
-  Matrix H = model.H;
+FitState::Step damped_step(const FitState& state, const LossModel& model, bool deformed, double damping) {
+  const Bounds bounds = bounds_at(state, deformed);
+  LossModel::Matrix H = model.H;
   Step right = -model.g;
   for (int i = 0; i < FitState::kAll; ++i)
     H(i, i) += damping * model.H(i, i) + 1e-9;
@@ -135,21 +135,19 @@ Step damped_step(const Model& model, const Bounds& bounds, double damping) {
   return step;
 }
 
-}  // namespace
-
 int improve(FitState& state, std::span<const Vec3> points, const ImproveConfig& config) {
-  Model model = model_at(state, points, config);
+  LossModel model = loss_model(state, points, config);
   if (!std::isfinite(model.cost)) return 0;
-  const double negligible = 1e-12 * static_cast<double>(points.size());
+  const double negligible = kNegligible * kNegligible * static_cast<double>(points.size());
   double damping = 1e-2;
   double growth = 2;
   int iterations = 0;
   while (iterations < config.max_iterations && model.cost > negligible) {
     ++iterations;
-    const Step step = damped_step(model, bounds_at(state, config.deformed), damping);
+    const Step step = damped_step(state, model, config.deformed, damping);
     if (!step.allFinite() || step.norm() < 1e-7) break;
     const FitState next = state.moved(step);
-    Model there = model_at(next, points, config);
+    LossModel there = loss_model(next, points, config);
     const double gain = model.cost - there.cost;
     if (gain > 0) {
       const bool small = gain < 1e-5 * model.cost;

@@ -26,6 +26,21 @@ struct FitErrors {
   double max = 0;
 };
 
+/// The loss at one state, and its quadratic model there.
+struct LossModel {
+  using Matrix = Eigen::Matrix<double, FitState::kAll, FitState::kAll>;
+  double cost = 0;  ///< infinite where the state makes no valid shape
+  Matrix H = Matrix::Zero();
+  FitState::Step g = FitState::Step::Zero();
+};
+
+/// Each point counts as often as `weights` says; once where there are none.
+[[nodiscard]] LossModel loss_model(const FitState& state, std::span<const Vec3> points, const ImproveConfig& config,
+                                   std::span<const double> weights = {});
+
+/// The step to the model's minimum, shortened by `damping` (Marquardt) and within what keeps the state's ranges.
+[[nodiscard]] FitState::Step damped_step(const FitState& state, const LossModel& model, bool deformed, double damping);
+
 /// Lowers the loss of the first-order distances; returns the iterations it took. What it cannot improve it leaves as it is.
 int improve(FitState& state, std::span<const Vec3> points, const ImproveConfig& config);
 

@@ -123,7 +123,7 @@ std::vector<FitStart> fit_starts(std::span<const Vec3> points, bool deformed, do
     state.X_OQ = {inertia.mean, Quat(R)};
     if (deformed) read_deformation(state, kept);
     for (const auto& e : kExponentStarts) {
-      FitStart start{state, deformed, start_name("inertia", z_axis, e)};
+      FitStart start{state, deformed, z_axis, start_name("inertia", z_axis, e)};
       start.state.e = e;
       starts.push_back(std::move(start));
     }

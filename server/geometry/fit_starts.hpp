@@ -13,6 +13,7 @@ namespace mechane::geometry {
 struct FitStart {
   FitState state;
   bool deformed = false;
+  int z_axis = 0;  ///< which of the principal axes became z
   std::string name;
 };
 

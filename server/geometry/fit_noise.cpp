@@ -1,0 +1,115 @@
+#include "server/geometry/fit_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/geometry/random.hpp"
+
+namespace mechane::geometry {
+namespace {
+
+constexpr double kLeastScale = 3e-4;  // of the diagonal
+constexpr double kGaussian = 1.4826;  // standard deviation over median of the unsigned
+constexpr int kCells = 12;            // along an edge of the cube that carries the simulated points
+constexpr int kRounds = 8;
+constexpr double kSettled = 2e-4;  // of the diagonal: how far the surface moves in the last round
+constexpr double kMostNoise = 0.1;
+
+/// Points of the state's own surface, with the area that each stands for; the cube's cells are the same in each round.
+struct Surface {
+  std::vector<Vec3> points_O;
+  std::vector<double> areas;
+  double area = 0;
+};
+
+Surface surface_of(const FitState& state) {
+  const Superquadric shape = state.shape();
+  Superquadric plain = shape;
+  plain.taper_x = plain.taper_y = plain.bend_per_m = 0;
+  const auto at = [&](int axis, double side, double u, double v) {
+    Vec3 direction;
+    direction[axis] = side;
+    direction[(axis + 1) % 3] = u;
+    direction[(axis + 2) % 3] = v;
+    direction = direction.cwiseProduct(shape.a);
+    return deform(shape, direction / radial_form(plain, direction));
+  };
+  const auto line = [](double cell) { return 2 * cell / kCells - 1; };
+  Surface surface;
+  std::vector<Vec3> corners((kCells + 1) * (kCells + 1));
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const double side = face % 2 == 0 ? 1 : -1;
+    for (int i = 0; i <= kCells; ++i)
+      for (int k = 0; k <= kCells; ++k)
+        corners[i * (kCells + 1) + k] = at(axis, side, line(i), line(k));
+    for (int i = 0; i < kCells; ++i) {
+      for (int k = 0; k < kCells; ++k) {
+        const Vec3* corner = &corners[i * (kCells + 1) + k];
+        const Vec3 first = corner[kCells + 2] - corner[0];
+        const Vec3 second = corner[kCells + 1] - corner[1];
+        surface.areas.push_back(0.5 * first.cross(second).norm());
+        surface.area += surface.areas.back();
+        surface.points_O.push_back(state.X_OQ * at(axis, side, line(i + 0.5), line(k + 0.5)));
+      }
+    }
+  }
+  return surface;
+}
+
+/// Pairs of opposite Gaussian vectors: their mean is none, and only what is not linear in the noise is left.
+std::vector<Vec3> opposite_noise(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Vec3> noise(count);
+  for (std::size_t i = 0; i + 1 < count; i += 2) {
+    for (double& n : noise[i])
+      n = std::sqrt(-2 * std::log(1 - random.unit())) * std::cos(2 * kPi * random.unit());
+    noise[i + 1] = -noise[i];
+  }
+  return noise;
+}
+
+}  // namespace
+
+double spread_of(std::span<const double> distances) {
+  if (distances.empty()) return kLeastScale;
+  std::vector<double> off(distances.begin(), distances.end());
+  for (double& d : off)
+    d = std::abs(d);
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  return std::max(kLeastScale, kGaussian * *middle);
+}
+
+int remove_noise_bias(FitState& state, std::span<const Vec3> points, const ImproveConfig& config, std::uint64_t seed) {
+  const std::size_t count = 2 * 6 * kCells * kCells;
+  const std::vector<Vec3> unit_noise = opposite_noise(count, seed);
+  std::vector<Vec3> simulated(count);
+  std::vector<double> weights(count);
+  const double spread = spread_of(distances(state, points));
+  double sigma = spread;
+  int rounds = 0;
+  while (rounds < kRounds) {
+    ++rounds;
+    const Surface surface = surface_of(state);
+    for (std::size_t i = 0; i < count; ++i) {
+      simulated[i] = surface.points_O[i / 2] + sigma * unit_noise[i];
+      weights[i] = 0.5 * static_cast<double>(points.size()) * surface.areas[i / 2] / surface.area;
+    }
+    LossModel model = loss_model(state, points, config);
+    const LossModel own = loss_model(state, simulated, config, weights);
+    if (!std::isfinite(model.cost) || !std::isfinite(own.cost)) break;
+    const double moves = sigma;
+    sigma = std::min(kMostNoise, sigma * std::sqrt(model.cost / own.cost));
+    model.g -= own.g;
+    const FitState::Step step = damped_step(state, model, config.deformed, 1e-3);
+    const FitState next = state.moved(step);
+    if (!step.allFinite() || !is_valid(next.shape())) break;
+    state = next;
+    const double moved = std::sqrt(std::max(0.0, step.dot(model.H * step)) / static_cast<double>(points.size()));
+    if (moved < kSettled && std::abs(moves - sigma) < kSettled) break;
+  }
+  return rounds;
+}
+
+}  // namespace mechane::geometry

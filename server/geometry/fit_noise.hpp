@@ -1,0 +1,21 @@
+// What noise does to a fit: points scattered about a thin or sharp surface make it look thicker and rounder than it is.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "server/base/math.hpp"
+#include "server/geometry/fit_solver.hpp"
+#include "server/geometry/fit_state.hpp"
+
+namespace mechane::geometry {
+
+/// The standard deviation of distances if most are Gaussian, from their median; not below what a loss can use as its scale.
+[[nodiscard]] double spread_of(std::span<const double> distances);
+
+/// Moves a state that is the best fit to noisy points to the one whose own points, spread by area and made as noisy, would have this best
+/// fit. Returns the iterations.
+int remove_noise_bias(FitState& state, std::span<const Vec3> points, const ImproveConfig& config, std::uint64_t seed);
+
+}  // namespace mechane::geometry
