@@ -9,9 +9,10 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kLeastScale = 3e-4;  // of the diagonal
-constexpr double kGaussian = 1.4826;  // standard deviation over median of the unsigned
-constexpr int kCells = 12;            // along an edge of the cube that carries the simulated points
-constexpr int kRounds = 8;
+constexpr double kWithin = 0.7;        // of the points, at least, are no outliers
+constexpr double kGaussian = 0.9648;  // standard deviation over this quantile of the unsigned distances
+constexpr int kCells = 9;             // along an edge of the cube that carries the simulated points
+constexpr int kRounds = 6;
 constexpr double kSettled = 2e-4;  // of the diagonal: how far the surface moves in the last round
 constexpr double kMostNoise = 0.1;
 
@@ -76,7 +77,7 @@ double spread_of(std::span<const double> distances) {
   std::vector<double> off(distances.begin(), distances.end());
   for (double& d : off)
     d = std::abs(d);
-  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(kWithin * static_cast<double>(off.size()));
   std::nth_element(off.begin(), middle, off.end());
   return std::max(kLeastScale, kGaussian * *middle);
 }

@@ -11,7 +11,7 @@
 
 namespace mechane::geometry {
 
-/// The standard deviation of distances if most are Gaussian, from their median; not below what a loss can use as its scale.
+/// The standard deviation of distances if most are Gaussian, from the quantile that outliers do not reach; not below what a loss can use as its scale.
 [[nodiscard]] double spread_of(std::span<const double> distances);
 
 /// Moves a state that is the best fit to noisy points to the one whose own points, spread by area and made as noisy, would have this best

@@ -19,19 +19,16 @@ constexpr double kFarthest = 0.1;      // of the diagonal: a point farther off s
 constexpr double kGoodEnough = 0.002;  // of the diagonal: then taper and bend are not tried
 constexpr double kFound = 5e-4;        // of the diagonal: then no further start is tried
 constexpr double kNoisy = 0.003;        // of the diagonal: spread that makes a fit too thick and too round
-constexpr double kClose = 1.3;         // how much worse the rigid fit may be in the middle of the search, and still go on
+constexpr double kMostSpreadGrowth = 1.15;  // when it is set right: beyond that it went astray
 
-/// How one kind of start is sifted: short runs on few points, then the best of them on more.
-struct Plan {
-  std::size_t few, middle;          // points
-  int few_rounds, few_iterations;   // a round takes the spread of the distances anew
-  int middle_rounds, middle_iterations;
-  std::size_t runners_up, finalists;
-};
-constexpr Plan kRigidPlan = {64, 256, 2, 3, 2, 4, 3, 1};
-constexpr Plan kDeformedPlan = {100, 300, 2, 5, 2, 6, 4, 2};
-constexpr int kFinalRounds = 2;
-constexpr int kFinalIterations = 4;
+/// Short runs from every start on few points, then longer ones of the best on more. A round takes the spread of the distances anew.
+constexpr std::size_t kFewPoints = 80;
+constexpr std::size_t kMiddlePoints = 256;
+constexpr int kFewIterations = 4;
+constexpr int kMiddleIterations = 6;
+constexpr int kFinalIterations = 6;
+constexpr std::size_t kRunnersUp = 4;
+constexpr std::size_t kFinalists = 2;
 
 struct Attempt {
   FitStart start;
@@ -53,27 +50,27 @@ class Search {
   Search(std::span<const Vec3> points, const FitConfig& config) : points_(points), config_(config) {}
 
   SearchResult run() {
-    SearchResult result;
-    std::vector<Attempt> finalists = sift(false, kRigidPlan);
-    Attempt rigid = finalists.front();
-    const bool tries_deformed = config_.deformations && rigid.spread > kGoodEnough;
-    finalists.clear();
-    if (tries_deformed) finalists = sift(true, kDeformedPlan);
-    // The rigid fit that the best deformed one leads to: its z may be an axis that the moments do not show.
+    // A clean part is often a plain box or cylinder: then that is all. Noise leaves no fit good enough, so it would be time lost.
+    std::vector<Attempt> finalists;
+    if (!config_.robust || !config_.deformations) finalists = sift(false);
+    if (config_.deformations && (finalists.empty() || finalists.front().spread > kGoodEnough)) {
+      for (Attempt& deformed : sift(true)) {
+        finalists.push_back(straightened(deformed));
+        finalists.push_back(std::move(deformed));
+      }
+    }
     for (Attempt& attempt : finalists)
-      finish(attempt);
-    finish(rigid);
-    finalists.push_back(rigid);
+      measure(attempt, points_);
     rank(finalists);
-    const auto found_rigid =
-        std::find_if(finalists.begin(), finalists.end(), [](const Attempt& a) { return !a.start.deformed; });
-    result.rigid = found(*found_rigid);
-    const Attempt& best = finalists.front();
-    const bool gains = best.score < (1 - config_.deformation_gain) * found_rigid->score;
+    Attempt rigid = *std::find_if(finalists.begin(), finalists.end(), [](const Attempt& a) { return !a.start.deformed; });
+    Attempt best = finalists.front();
+    const bool gains = best.score < (1 - config_.deformation_gain) * rigid.score;
+    SearchResult result;
+    // Where the deformed one cannot be bounded, the rigid one is asked for.
+    if (!gains || config_.bound) finish(rigid);
+    result.rigid = found(rigid);
+    if (gains) finish(best);
     result.best = gains ? found(best) : result.rigid;
-    const double spread = (gains ? best : *found_rigid).spread;
-    if (config_.robust && spread > kNoisy)
-      iterations_ += remove_noise_bias(result.best.state, points_, {0, result.best.deformed, Loss::tukey, spread}, config_.seed);
     result.iterations = iterations_;
     return result;
   }
@@ -83,13 +80,10 @@ class Search {
     return {attempt.start.state, attempt.start.deformed, attempt.score, attempt.start.name};
   }
 
-  void improve_in_rounds(Attempt& attempt, std::span<const Vec3> points, Loss loss, int rounds, int iterations) {
-    for (int round = 0; round < rounds; ++round) {
-      ImproveConfig config{iterations, attempt.start.deformed, loss, 1};
-      if (loss != Loss::square) config.scale = spread_of(distances(attempt.start.state, points));
-      iterations_ += improve(attempt.start.state, points, config);
-    }
-    measure(attempt, points);
+  void improve_from(Attempt& attempt, std::span<const Vec3> points, Loss loss, int iterations) {
+    ImproveConfig config{iterations, attempt.start.deformed, loss, 1};
+    if (loss != Loss::square) config.scale = spread_of(distances(attempt.start.state, points));
+    iterations_ += improve(attempt.start.state, points, config);
   }
 
   static void measure(Attempt& attempt, std::span<const Vec3> points) {
@@ -125,32 +119,53 @@ class Search {
     attempts.resize(std::min(attempts.size(), count));
   }
 
-  std::vector<Attempt> sift(bool deformed, const Plan& plan) {
-    const std::vector<Vec3> few = every_nth(points_, plan.few);
-    const std::vector<Vec3> middle = every_nth(points_, plan.middle);
+  std::vector<Attempt> sift(bool deformed) {
+    const std::vector<Vec3> few = every_nth(points_, kFewPoints);
+    const std::vector<Vec3> middle = every_nth(points_, kMiddlePoints);
     std::vector<Attempt> attempts;
     for (FitStart& start : fit_starts(middle, deformed, config_.robust ? kTrimmed : 0)) {
       attempts.push_back({std::move(start), {}});
-      improve_in_rounds(attempts.back(), few, Loss::huber, plan.few_rounds, plan.few_iterations);
+      improve_from(attempts.back(), few, Loss::huber, kFewIterations);
+      improve_from(attempts.back(), few, Loss::huber, kFewIterations);
+      measure(attempts.back(), few);
       if (attempts.back().spread < kFound) break;
     }
-    keep_runners_up(attempts, plan.runners_up);
+    keep_runners_up(attempts, kRunnersUp);
     for (std::size_t i = 0; i < attempts.size(); ++i) {
-      improve_in_rounds(attempts[i], middle, Loss::huber, 1, plan.middle_iterations);
-      if (attempts[i].spread >= kFound)
-        improve_in_rounds(attempts[i], middle, config_.robust ? Loss::tukey : Loss::huber, plan.middle_rounds - 1, plan.middle_iterations);
-      if (attempts[i].spread < kFound) {
-        attempts = {attempts[i]};
-        break;
-      }
+      refine(attempts[i], middle);
+      if (attempts[i].spread >= kFound) continue;
+      attempts = {attempts[i]};
+      break;
     }
     rank(attempts);
-    attempts.resize(std::min(attempts.size(), plan.finalists));
+    attempts.resize(std::min(attempts.size(), kFinalists));
     return attempts;
   }
 
+  void refine(Attempt& attempt, std::span<const Vec3> points) {
+    improve_from(attempt, points, Loss::huber, kMiddleIterations);
+    improve_from(attempt, points, config_.robust ? Loss::tukey : Loss::square, kMiddleIterations);
+    measure(attempt, points);
+  }
+
+  /// The same without taper and bend.
+  Attempt straightened(const Attempt& deformed) {
+    Attempt attempt = deformed;
+    attempt.start.deformed = false;
+    attempt.start.state.taper = attempt.start.state.bend = {0, 0};
+    refine(attempt, every_nth(points_, kMiddlePoints));
+    return attempt;
+  }
+
   void finish(Attempt& attempt) {
-    improve_in_rounds(attempt, points_, config_.robust ? Loss::tukey : Loss::square, kFinalRounds, kFinalIterations);
+    const Loss loss = config_.robust ? Loss::tukey : Loss::square;
+    if (attempt.spread > kFound) improve_from(attempt, points_, loss, kFinalIterations);
+    measure(attempt, points_);
+    if (!config_.robust || attempt.spread < kNoisy) return;
+    Attempt freed = attempt;
+    iterations_ += remove_noise_bias(freed.start.state, points_, {0, freed.start.deformed, loss, freed.spread}, config_.seed);
+    measure(freed, points_);
+    if (freed.spread < kMostSpreadGrowth * attempt.spread) attempt = std::move(freed);
   }
 
   std::span<const Vec3> points_;
