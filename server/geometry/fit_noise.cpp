@@ -12,51 +12,13 @@ constexpr double kLeastScale = 3e-4;  // of the diagonal
 constexpr double kWithin = 0.7;        // of the points, at least, are no outliers
 constexpr double kGaussian = 0.9648;  // standard deviation over this quantile of the unsigned distances
 constexpr int kCells = 9;             // along an edge of the cube that carries the simulated points
+constexpr int kStrayCells = 6;
+constexpr double kFarOff = 0.3;         // of the diagonal: farther is not worse
+constexpr std::size_t kNeighbour = 6;  // the one whose distance says how dense the points are
+constexpr double kLonely = 1.8;        // times as far to that neighbour as for most
 constexpr int kRounds = 6;
 constexpr double kSettled = 2e-4;  // of the diagonal: how far the surface moves in the last round
 constexpr double kMostNoise = 0.1;
-
-/// Points of the state's own surface, with the area that each stands for; the cube's cells are the same in each round.
-struct Surface {
-  std::vector<Vec3> points_O;
-  std::vector<double> areas;
-  double area = 0;
-};
-
-Surface surface_of(const FitState& state) {
-  const Superquadric shape = state.shape();
-  Superquadric plain = shape;
-  plain.taper_x = plain.taper_y = plain.bend_per_m = 0;
-  const auto at = [&](int axis, double side, double u, double v) {
-    Vec3 direction;
-    direction[axis] = side;
-    direction[(axis + 1) % 3] = u;
-    direction[(axis + 2) % 3] = v;
-    direction = direction.cwiseProduct(shape.a);
-    return deform(shape, direction / radial_form(plain, direction));
-  };
-  const auto line = [](double cell) { return 2 * cell / kCells - 1; };
-  Surface surface;
-  std::vector<Vec3> corners((kCells + 1) * (kCells + 1));
-  for (int face = 0; face < 6; ++face) {
-    const int axis = face / 2;
-    const double side = face % 2 == 0 ? 1 : -1;
-    for (int i = 0; i <= kCells; ++i)
-      for (int k = 0; k <= kCells; ++k)
-        corners[i * (kCells + 1) + k] = at(axis, side, line(i), line(k));
-    for (int i = 0; i < kCells; ++i) {
-      for (int k = 0; k < kCells; ++k) {
-        const Vec3* corner = &corners[i * (kCells + 1) + k];
-        const Vec3 first = corner[kCells + 2] - corner[0];
-        const Vec3 second = corner[kCells + 1] - corner[1];
-        surface.areas.push_back(0.5 * first.cross(second).norm());
-        surface.area += surface.areas.back();
-        surface.points_O.push_back(state.X_OQ * at(axis, side, line(i + 0.5), line(k + 0.5)));
-      }
-    }
-  }
-  return surface;
-}
 
 /// Pairs of opposite Gaussian vectors: their mean is none, and only what is not linear in the noise is left.
 std::vector<Vec3> opposite_noise(std::size_t count, std::uint64_t seed) {
@@ -82,6 +44,74 @@ double spread_of(std::span<const double> distances) {
   return std::max(kLeastScale, kGaussian * *middle);
 }
 
+OwnSurface own_surface(const FitState& state, int cells) {
+  const Superquadric shape = state.shape();
+  Superquadric plain = shape;
+  plain.taper_x = plain.taper_y = plain.bend_per_m = 0;
+  const auto at = [&](int axis, double side, double u, double v) {
+    Vec3 direction;
+    direction[axis] = side;
+    direction[(axis + 1) % 3] = u;
+    direction[(axis + 2) % 3] = v;
+    direction = direction.cwiseProduct(shape.a);
+    return deform(shape, direction / radial_form(plain, direction));
+  };
+  const auto line = [cells](double cell) { return 2 * cell / cells - 1; };
+  OwnSurface surface;
+  std::vector<Vec3> corners(static_cast<std::size_t>((cells + 1) * (cells + 1)));
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const double side = face % 2 == 0 ? 1 : -1;
+    for (int i = 0; i <= cells; ++i)
+      for (int k = 0; k <= cells; ++k)
+        corners[i * (cells + 1) + k] = at(axis, side, line(i), line(k));
+    for (int i = 0; i < cells; ++i) {
+      for (int k = 0; k < cells; ++k) {
+        const Vec3* corner = &corners[i * (cells + 1) + k];
+        const Vec3 first = corner[cells + 2] - corner[0];
+        const Vec3 second = corner[cells + 1] - corner[1];
+        surface.areas.push_back(0.5 * first.cross(second).norm());
+        surface.area += surface.areas.back();
+        surface.points_O.push_back(state.X_OQ * at(axis, side, line(i + 0.5), line(k + 0.5)));
+      }
+    }
+  }
+  return surface;
+}
+
+double stray_of(const FitState& state, std::span<const Vec3> points, double reach) {
+  const OwnSurface surface = own_surface(state, kStrayCells);
+  double sum = 0;
+  for (std::size_t i = 0; i < surface.points_O.size(); ++i) {
+    double least = kFarOff * kFarOff;
+    for (const Vec3& p : points)
+      least = std::min(least, (p - surface.points_O[i]).squaredNorm());
+    sum += surface.areas[i] * std::max(0.0, std::sqrt(least) - reach);
+  }
+  return surface.area > 0 ? sum / surface.area : kFarOff;
+}
+
+std::vector<Vec3> among_others(std::span<const Vec3> points, std::size_t wanted) {
+  const std::size_t step = std::max<std::size_t>(1, points.size() / wanted);
+  const std::size_t neighbour = std::min(kNeighbour, points.size() - 1);
+  std::vector<double> to_neighbour;
+  std::vector<double> squares(points.size());
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    for (std::size_t k = 0; k < points.size(); ++k)
+      squares[k] = (points[k] - points[i]).squaredNorm();
+    const auto nth = squares.begin() + static_cast<std::ptrdiff_t>(neighbour);
+    std::nth_element(squares.begin(), nth, squares.end());
+    to_neighbour.push_back(*nth);
+  }
+  std::vector<double> sorted = to_neighbour;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::vector<Vec3> chosen;
+  for (std::size_t n = 0; n < to_neighbour.size(); ++n)
+    if (to_neighbour[n] <= kLonely * kLonely * *middle) chosen.push_back(points[n * step]);
+  return chosen;
+}
+
 int remove_noise_bias(FitState& state, std::span<const Vec3> points, const ImproveConfig& config, std::uint64_t seed) {
   const std::size_t count = 2 * 6 * kCells * kCells;
   const std::vector<Vec3> unit_noise = opposite_noise(count, seed);
@@ -92,7 +122,7 @@ int remove_noise_bias(FitState& state, std::span<const Vec3> points, const Impro
   int rounds = 0;
   while (rounds < kRounds) {
     ++rounds;
-    const Surface surface = surface_of(state);
+    const OwnSurface surface = own_surface(state, kCells);
     for (std::size_t i = 0; i < count; ++i) {
       simulated[i] = surface.points_O[i / 2] + sigma * unit_noise[i];
       weights[i] = 0.5 * static_cast<double>(points.size()) * surface.areas[i / 2] / surface.area;

@@ -14,11 +14,12 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kTrimmed = 0.2;       // of the points, when robust, for the moments that give the starts
+constexpr double kTrimmed = 0.05;      // of the points, when robust, for the moments that give the starts
 constexpr double kFarthest = 0.1;      // of the diagonal: a point farther off says no more than that it is far
 constexpr double kGoodEnough = 0.002;  // of the diagonal: then taper and bend are not tried
 constexpr double kFound = 5e-4;        // of the diagonal: then no further start is tried
 constexpr double kNoisy = 0.003;        // of the diagonal: spread that makes a fit too thick and too round
+constexpr double kStrayReach = 0.06;   // of the diagonal: gaps between few points are that wide
 constexpr double kMostSpreadGrowth = 1.15;  // when it is set right: beyond that it went astray
 
 /// Short runs from every start on few points, then longer ones of the best on more. A round takes the spread of the distances anew.
@@ -34,20 +35,23 @@ struct Attempt {
   FitStart start;
   std::vector<double> off;  // unsigned distances
   double spread = 0;
+  double stray = 0;
   double score = std::numeric_limits<double>::infinity();
 };
 
 std::vector<Vec3> every_nth(std::span<const Vec3> points, std::size_t wanted) {
   std::vector<Vec3> chosen;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / wanted);
-  for (std::size_t i = 0; i < points.size(); i += step)
-    chosen.push_back(points[i]);
+  for (std::size_t i = 0; i < wanted && i < points.size(); ++i)
+    chosen.push_back(points[i * points.size() / std::min(wanted, points.size())]);
   return chosen;
 }
 
 class Search {
  public:
-  Search(std::span<const Vec3> points, const FitConfig& config) : points_(points), config_(config) {}
+  Search(std::span<const Vec3> points, const FitConfig& config) : points_(points), config_(config) {
+    middle_ = config.robust ? among_others(points, kMiddlePoints) : every_nth(points, kMiddlePoints);
+    few_ = every_nth(middle_, kFewPoints);
+  }
 
   SearchResult run() {
     // A clean part is often a plain box or cylinder: then that is all. Noise leaves no fit good enough, so it would be time lost.
@@ -59,8 +63,10 @@ class Search {
         finalists.push_back(std::move(deformed));
       }
     }
-    for (Attempt& attempt : finalists)
+    for (Attempt& attempt : finalists) {
       measure(attempt, points_);
+      if (finalists.size() > 1) attempt.stray = stray_of(attempt.start.state, middle_, kStrayReach);
+    }
     rank(finalists);
     Attempt rigid = *std::find_if(finalists.begin(), finalists.end(), [](const Attempt& a) { return !a.start.deformed; });
     Attempt best = finalists.front();
@@ -101,7 +107,7 @@ class Search {
       least = std::min(least, attempt.spread);
     const double cap = config_.robust ? std::clamp(6 * least, 0.02, kFarthest) : kFarthest;
     for (Attempt& attempt : attempts) {
-      attempt.score = 0;
+      attempt.score = attempt.stray;
       for (const double d : attempt.off)
         attempt.score += std::min(cap, d) / static_cast<double>(attempt.off.size());
       if (!is_valid(attempt.start.state.shape())) attempt.score = std::numeric_limits<double>::infinity();
@@ -120,19 +126,17 @@ class Search {
   }
 
   std::vector<Attempt> sift(bool deformed) {
-    const std::vector<Vec3> few = every_nth(points_, kFewPoints);
-    const std::vector<Vec3> middle = every_nth(points_, kMiddlePoints);
     std::vector<Attempt> attempts;
-    for (FitStart& start : fit_starts(middle, deformed, config_.robust ? kTrimmed : 0)) {
+    for (FitStart& start : fit_starts(middle_, deformed, config_.robust ? kTrimmed : 0)) {
       attempts.push_back({std::move(start), {}});
-      improve_from(attempts.back(), few, Loss::huber, kFewIterations);
-      improve_from(attempts.back(), few, Loss::huber, kFewIterations);
-      measure(attempts.back(), few);
+      improve_from(attempts.back(), few_, Loss::huber, kFewIterations);
+      improve_from(attempts.back(), few_, Loss::huber, kFewIterations);
+      measure(attempts.back(), few_);
       if (attempts.back().spread < kFound) break;
     }
     keep_runners_up(attempts, kRunnersUp);
     for (std::size_t i = 0; i < attempts.size(); ++i) {
-      refine(attempts[i], middle);
+      refine(attempts[i], middle_);
       if (attempts[i].spread >= kFound) continue;
       attempts = {attempts[i]};
       break;
@@ -153,7 +157,7 @@ class Search {
     Attempt attempt = deformed;
     attempt.start.deformed = false;
     attempt.start.state.taper = attempt.start.state.bend = {0, 0};
-    refine(attempt, every_nth(points_, kMiddlePoints));
+    refine(attempt, middle_);
     return attempt;
   }
 
@@ -170,6 +174,7 @@ class Search {
 
   std::span<const Vec3> points_;
   const FitConfig& config_;
+  std::vector<Vec3> middle_, few_;
   int iterations_ = 0;
 };
 

@@ -23,8 +23,8 @@ using geometry::Random;
 using geometry::Superquadric;
 
 constexpr std::size_t kPoints = 2000;
-constexpr std::size_t kJudges = 3000;  // points that measure the distance between two surfaces, each way
-constexpr int kCells = 40;             // of a tessellation's edge: its chords are 0.03 % of the diagonal off, most of them less
+constexpr std::size_t kJudges = 2000;  // points that measure the distance between two surfaces, each way
+constexpr int kCells = 32;             // of a tessellation's edge: its chords are 0.05 % of the diagonal off, most of them less
 constexpr double kRecoveredPct = 1;
 
 struct Set {
