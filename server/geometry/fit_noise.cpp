@@ -1,7 +1,10 @@
 #include "server/geometry/fit_noise.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "server/geometry/random.hpp"
 
@@ -14,7 +17,7 @@ constexpr double kGaussian = 0.9648;  // standard deviation over this quantile o
 constexpr int kCells = 9;             // along an edge of the cube that carries the simulated points
 constexpr int kStrayCells = 6;
 constexpr double kFarOff = 0.3;         // of the diagonal: farther is not worse
-constexpr std::size_t kNeighbour = 6;  // the one whose distance says how dense the points are
+constexpr std::size_t kNeighbours = 7;  // how far the last of them is says how dense the points are
 constexpr double kLonely = 1.8;        // times as far to that neighbour as for most
 constexpr int kRounds = 6;
 constexpr double kSettled = 2e-4;  // of the diagonal: how far the surface moves in the last round
@@ -93,15 +96,17 @@ double stray_of(const FitState& state, std::span<const Vec3> points, double reac
 
 std::vector<Vec3> among_others(std::span<const Vec3> points, std::size_t wanted) {
   const std::size_t step = std::max<std::size_t>(1, points.size() / wanted);
-  const std::size_t neighbour = std::min(kNeighbour, points.size() - 1);
   std::vector<double> to_neighbour;
-  std::vector<double> squares(points.size());
   for (std::size_t i = 0; i < points.size(); i += step) {
-    for (std::size_t k = 0; k < points.size(); ++k)
-      squares[k] = (points[k] - points[i]).squaredNorm();
-    const auto nth = squares.begin() + static_cast<std::ptrdiff_t>(neighbour);
-    std::nth_element(squares.begin(), nth, squares.end());
-    to_neighbour.push_back(*nth);
+    std::array<double, kNeighbours> least;  // squares, ascending; the point itself is the first
+    least.fill(std::numeric_limits<double>::max());
+    for (const Vec3& p : points) {
+      double square = (p - points[i]).squaredNorm();
+      if (square >= least.back()) continue;
+      for (double& kept : least)
+        if (square < kept) std::swap(square, kept);
+    }
+    to_neighbour.push_back(least.back());
   }
   std::vector<double> sorted = to_neighbour;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@ constexpr std::size_t kMiddlePoints = 256;
 constexpr int kFewIterations = 4;
 constexpr int kMiddleIterations = 6;
 constexpr int kFinalIterations = 6;
+constexpr int kNoisyIterations = 3;  // before the noise is seen to
 constexpr std::size_t kRunnersUp = 4;
 constexpr std::size_t kFinalists = 2;
 
@@ -58,10 +60,9 @@ class Search {
     std::vector<Attempt> finalists;
     if (!config_.robust || !config_.deformations) finalists = sift(false);
     if (config_.deformations && (finalists.empty() || finalists.front().spread > kGoodEnough)) {
-      for (Attempt& deformed : sift(true)) {
-        finalists.push_back(straightened(deformed));
-        finalists.push_back(std::move(deformed));
-      }
+      std::vector<Attempt> deformed = sift(true);
+      finalists.push_back(straightened(deformed.front()));
+      std::move(deformed.begin(), deformed.end(), std::back_inserter(finalists));
     }
     for (Attempt& attempt : finalists) {
       measure(attempt, points_);
@@ -135,21 +136,23 @@ class Search {
       if (attempts.back().spread < kFound) break;
     }
     keep_runners_up(attempts, kRunnersUp);
-    for (std::size_t i = 0; i < attempts.size(); ++i) {
-      refine(attempts[i], middle_);
-      if (attempts[i].spread >= kFound) continue;
-      attempts = {attempts[i]};
-      break;
+    for (Attempt& attempt : attempts) {
+      if (attempt.spread >= kFound) improve_from(attempt, middle_, Loss::huber, kMiddleIterations);
+      measure(attempt, middle_);
     }
     rank(attempts);
     attempts.resize(std::min(attempts.size(), kFinalists));
+    if (attempts.front().spread < kFound) attempts.resize(1);
+    for (Attempt& attempt : attempts)
+      refine(attempt);
+    rank(attempts);
     return attempts;
   }
 
-  void refine(Attempt& attempt, std::span<const Vec3> points) {
-    improve_from(attempt, points, Loss::huber, kMiddleIterations);
-    improve_from(attempt, points, config_.robust ? Loss::tukey : Loss::square, kMiddleIterations);
-    measure(attempt, points);
+  void refine(Attempt& attempt) {
+    if (attempt.spread < kFound) return;
+    improve_from(attempt, middle_, config_.robust ? Loss::tukey : Loss::square, kMiddleIterations);
+    measure(attempt, middle_);
   }
 
   /// The same without taper and bend.
@@ -157,15 +160,18 @@ class Search {
     Attempt attempt = deformed;
     attempt.start.deformed = false;
     attempt.start.state.taper = attempt.start.state.bend = {0, 0};
-    refine(attempt, middle_);
+    improve_from(attempt, middle_, Loss::huber, kMiddleIterations);
+    measure(attempt, middle_);
+    refine(attempt);
     return attempt;
   }
 
   void finish(Attempt& attempt) {
     const Loss loss = config_.robust ? Loss::tukey : Loss::square;
-    if (attempt.spread > kFound) improve_from(attempt, points_, loss, kFinalIterations);
+    const bool noisy = config_.robust && attempt.spread > kNoisy;
+    if (attempt.spread > kFound) improve_from(attempt, points_, loss, noisy ? kNoisyIterations : kFinalIterations);
     measure(attempt, points_);
-    if (!config_.robust || attempt.spread < kNoisy) return;
+    if (!noisy) return;
     Attempt freed = attempt;
     iterations_ += remove_noise_bias(freed.start.state, points_, {0, freed.start.deformed, loss, freed.spread}, config_.seed);
     measure(freed, points_);

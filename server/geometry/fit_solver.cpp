@@ -12,6 +12,7 @@ constexpr double kLeastSlope = 1e-3;
 constexpr double kLeastAxis = 2e-3;  // of the diagonal
 constexpr double kMostAxis = 3;
 constexpr double kMostTaper = 0.95;
+constexpr double kSmallGain = 2e-4;   // of the cost: a last step
 constexpr double kNegligible = 3e-5;  // of the diagonal, root mean square
 constexpr double kHuber = 1.345;  // of the scale: 95 % of the least squares' precision when the noise is Gaussian
 constexpr double kTukey = 4.685;
@@ -42,6 +43,43 @@ LossValue loss_of(double d, const ImproveConfig& config) {
   }
   return {square, 1};
 }
+
+/// Sums of row^T row, the lower half, four rows at a time: so the sums need not go to memory and back for each.
+class Sums {
+ public:
+  /// Where the next row's numbers go: the derivatives, then the distance.
+  double* next_row() {
+    if (filled_ == kAtOnce) flush();
+    return rows_[filled_++].data();
+  }
+
+  void finish(LossModel& model) {
+    for (std::size_t k = filled_; k < kAtOnce; ++k)
+      rows_[k].fill(0);
+    flush();
+    for (std::size_t i = 0; i + 1 < kWidth; ++i) {
+      model.g[i] = sums_[kWidth - 1][i];
+      for (std::size_t k = 0; k <= i; ++k)
+        model.H(i, k) = model.H(k, i) = sums_[i][k];
+    }
+  }
+
+ private:
+  static constexpr std::size_t kWidth = FitState::kAll + 1;
+  static constexpr std::size_t kAtOnce = 4;
+
+  void flush() {
+    const auto& [a, b, c, d] = rows_;
+    for (std::size_t i = 0; i < kWidth; ++i)
+      for (std::size_t k = 0; k < (i | 1) + 1; ++k)
+        sums_[i][k] += (a[i] * a[k] + b[i] * b[k]) + (c[i] * c[k] + d[i] * d[k]);
+    filled_ = 0;
+  }
+
+  std::array<std::array<double, kWidth>, kAtOnce> rows_{};
+  std::array<std::array<double, kWidth>, kWidth> sums_{};
+  std::size_t filled_ = 0;
+};
 
 /// How far each part of a step may go.
 struct Bounds {
@@ -78,9 +116,7 @@ LossModel loss_model(const FitState& state, std::span<const Vec3> points, const 
   LossModel model;
   if (!is_valid(state.shape())) return kImpossible;
   model.cost = 0;
-  Eigen::Matrix<double, FitState::kAll + 1, FitState::kAll + 1> sums;
-  sums.setZero();
-  Eigen::Matrix<double, FitState::kAll + 1, 1> row;
+  Sums sums;
   const FitForm form(state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const FitForm::Value v = form.at(points[i]);
@@ -91,13 +127,13 @@ LossModel loss_model(const FitState& state, std::span<const Vec3> points, const 
     model.cost += loss.cost;
     if (loss.weight <= 0) continue;
     const double root = std::sqrt(loss.weight);
-    row.head<FitState::kAll>() = (inverse * root) * v.by_step;
+    double* row = sums.next_row();
+    for (int k = 0; k < FitState::kAll; ++k)
+      row[k] = inverse * root * v.by_step[k];
     row[FitState::kAll] = d * root;
-    sums.noalias() += row * row.transpose();
   }
-  if (!std::isfinite(model.cost) || !sums.allFinite()) return kImpossible;
-  model.H = sums.topLeftCorner<FitState::kAll, FitState::kAll>();
-  model.g = sums.topRightCorner<FitState::kAll, 1>();
+  sums.finish(model);
+  if (!std::isfinite(model.cost) || !model.H.allFinite() || !model.g.allFinite()) return kImpossible;
   return model;
 }
 
@@ -150,7 +186,7 @@ int improve(FitState& state, std::span<const Vec3> points, const ImproveConfig& 
     LossModel there = loss_model(next, points, config);
     const double gain = model.cost - there.cost;
     if (gain > 0) {
-      const bool small = gain < 1e-5 * model.cost;
+      const bool small = gain < kSmallGain * model.cost;
       const double expected = -step.dot(2 * model.g + model.H * step);
       const double share = expected > 0 ? gain / expected : 0;
       damping = std::max(1e-7, damping * std::max(0.15, 1 - std::pow(2 * share - 1, 3)));

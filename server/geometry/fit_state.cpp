@@ -74,31 +74,31 @@ FitForm::Bend FitForm::unbend(const Vec3& p) const {
 
 /// F and its slopes, through logarithms: A = (x/a1)^(2/e2), B = (y/a2)^(2/e2), P = (A + B)^(e2/e1), Q = (z/a3)^(2/e1), F = P + Q.
 FitForm::Plain FitForm::plain(const Vec3& u) const {
+  // Eigen's exp and log, two at a time; unlike the C library's they do not depend on the processor.
   Vec3 ratio = u.cwiseProduct(inverse_a_);
-  Vec3 log_square;
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(ratio[i]) < kLeastCoordinate) ratio[i] = std::copysign(kLeastCoordinate, ratio[i]);
-    log_square[i] = std::log(ratio[i] * ratio[i]);
-  }
-  const double A = std::exp(log_square.x() / e2_);
-  const double B = std::exp(log_square.y() / e2_);
+  for (double& r : ratio)
+    if (std::abs(r) < kLeastCoordinate) r = std::copysign(kLeastCoordinate, r);
+  const Eigen::Array4d log_square = 2 * Eigen::Array4d(std::abs(ratio.x()), std::abs(ratio.y()), std::abs(ratio.z()), 1).log();
+  const Eigen::Array2d AB = (log_square.head<2>() / e2_).exp();
+  const double A = AB[0];
+  const double B = AB[1];
   const double section = std::max(kLeastForm, A + B);
   const double log_section = std::log(section);
   const double log_P = log_section * e2_ / e1_;
-  const double log_Q = log_square.z() / e1_;
-  const double P = std::exp(log_P);
-  const double F = std::max(kLeastForm, P + std::exp(log_Q));
+  const double log_Q = log_square[2] / e1_;
+  const Eigen::Array2d PQ = Eigen::Array2d(log_P, log_Q).exp();
+  const double F = std::max(kLeastForm, PQ.sum());
   const double log_F = std::log(F);
   Plain v;
   v.f = std::exp(0.5 * e1_ * log_F);
-  const double across = v.f * std::min(1.0, P / F);
+  const double across = v.f * std::min(1.0, PQ[0] / F);
   const double along = v.f - across;
   const double wA = A / section;
   const double wB = B / section;
   v.shares = {across * wA, across * wB, along};
   v.slope = v.shares.cwiseQuotient(ratio).cwiseProduct(inverse_a_);
   v.by_e1 = 0.5 * (v.f * log_F - across * log_P - along * log_Q);
-  v.by_e2 = 0.5 * across * (log_section - (wA * log_square.x() + wB * log_square.y()) / e2_);
+  v.by_e2 = 0.5 * across * (log_section - (wA * log_square[0] + wB * log_square[1]) / e2_);
   return v;
 }
 
