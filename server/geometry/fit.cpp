@@ -4,14 +4,18 @@
 #include <cmath>
 #include <vector>
 
+#include "server/geometry/fit_noise.hpp"
 #include "server/geometry/fit_search.hpp"
 #include "server/geometry/fit_solver.hpp"
 #include "server/geometry/fit_starts.hpp"
 #include "server/geometry/mesh_check.hpp"
+#include "server/geometry/mesh_query.hpp"
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::geometry {
 namespace {
+
+constexpr int kHausdorffCells = 16;  // of an edge of the cube around the fit: 1536 places
 
 Expected<void> check_points(std::span<const Vec3> points) {
   const char* where = "points of the part";
@@ -51,52 +55,70 @@ bool bound(FitResult& fit, std::span<const Vec3> points_O) {
   return true;
 }
 
-FitResult make_result(const FoundFit& found, std::span<const Vec3> points, const Vec3& shift, double scale,
-                      int iterations) {
+/// What is fitted, moved and scaled: its middle in the origin, its diagonal 1. The solver's tolerances and the parameters are then of one
+/// size for a peg and for a crane.
+struct Task {
+  std::vector<Vec3> points;
+  Vec3 center;
+  double diagonal;
+  const Mesh* mesh;  // that the points come from; null for bare points
+};
+
+/// How far the fitted surface strays from the mesh or, without one, from the points; of the diagonal.
+double farthest_of_surface(const FitState& state, const Task& task) {
+  if (task.mesh == nullptr) return stray_of(state, task.points, 0).max;
+  const MeshQuery query(*task.mesh);
+  double farthest_m = 0;
+  for (const Vec3& p : own_surface(state, kHausdorffCells).points_O)
+    farthest_m = std::max(farthest_m, query.closest(task.center + task.diagonal * p).distance_m);
+  return farthest_m / task.diagonal;
+}
+
+FitResult make_result(const FoundFit& found, const Task& task, int iterations) {
   FitResult result;
   result.shape = found.state.shape();
-  result.shape.a *= scale;
-  result.shape.bend_per_m /= scale;
+  result.shape.a *= task.diagonal;
+  result.shape.bend_per_m /= task.diagonal;
   result.X_OQ = found.state.X_OQ;
-  result.X_OQ.p = scale * result.X_OQ.p + shift;
-  const FitErrors errors = fit_errors(distances(found.state, points));  // the points' diagonal is 1
+  result.X_OQ.p = task.diagonal * result.X_OQ.p + task.center;
+  const FitErrors errors = fit_errors(distances(found.state, task.points));
   result.report.mean_pct = 100 * errors.mean;
   result.report.rms_pct = 100 * errors.rms;
   result.report.max_pct = 100 * errors.max;
+  result.report.hausdorff_pct = 100 * std::max(errors.max, farthest_of_surface(found.state, task));
   result.report.iterations = iterations;
   result.report.start = found.start;
   result.report.deformed = is_deformed(result.shape);
   return result;
 }
 
-/// Fits `points`, bounds `points` and `also_bound`.
-Expected<FitResult> fit(std::span<const Vec3> points_O, std::span<const Vec3> also_bound_O, const FitConfig& config) {
+/// Fits `points`; bounds them and the mesh's vertices.
+Expected<FitResult> fit(std::span<const Vec3> points_O, const Mesh* mesh, const FitConfig& config) {
   if (auto ok = check_points(points_O); !ok) return tl::unexpected(ok.error());
   Eigen::AlignedBox3d box;
   for (const Vec3& p : points_O)
     box.extend(p);
-  const double diagonal = box.diagonal().norm();
-  const Vec3 center = box.center();
-  // Unit diagonal: the solver's tolerances and the parameters are then of one size for a peg and for a crane.
-  std::vector<Vec3> points;
+  Task task{{}, box.center(), box.diagonal().norm(), mesh};
+  task.points.reserve(points_O.size());
   for (const Vec3& p : points_O)
-    points.push_back((p - center) / diagonal);
+    task.points.push_back((p - task.center) / task.diagonal);
 
-  const SearchResult found = search_fit(points, config);
+  const SearchResult found = search_fit(task.points, config);
   std::vector<Vec3> all(points_O.begin(), points_O.end());
-  all.insert(all.end(), also_bound_O.begin(), also_bound_O.end());
+  if (mesh != nullptr) all.insert(all.end(), mesh->vertices.begin(), mesh->vertices.end());
   for (const FoundFit& choice : {found.best, found.rigid}) {
-    FitResult result = make_result(choice, points, center, diagonal, found.iterations);
+    if (!is_valid(choice.state.shape())) continue;
+    FitResult result = make_result(choice, task, found.iterations);
     if (!config.bound || bound(result, all)) return result;
   }
-  return fail("no superquadric of sensible size bounds the part", "points of the part",
-              "split the part where it is concave, or check it for stray vertices");
+  return fail("no superquadric of sensible size " + std::string(config.bound ? "bounds" : "fits") + " the part",
+              "points of the part", "split the part where it is concave, or check it for stray vertices");
 }
 
 }  // namespace
 
 Expected<FitResult> fit_superquadric(std::span<const Vec3> points_O, const FitConfig& config) {
-  return fit(points_O, {}, config);
+  return fit(points_O, nullptr, config);
 }
 
 Expected<FitResult> fit_superquadric(const Mesh& mesh, const FitConfig& config) {
@@ -104,7 +126,7 @@ Expected<FitResult> fit_superquadric(const Mesh& mesh, const FitConfig& config) 
   std::vector<Vec3> points;
   for (const SurfaceSample& sample : sample_by_area(mesh, config.samples, config.seed))
     points.push_back(sample.p);
-  return fit(points, mesh.vertices, config);
+  return fit(points, &mesh, config);
 }
 
 }  // namespace mechane::geometry

@@ -16,11 +16,11 @@ constexpr double kWithin = 0.7;        // of the points, at least, are no outlie
 constexpr double kGaussian = 0.9648;  // standard deviation over this quantile of the unsigned distances
 constexpr int kCells = 9;             // along an edge of the cube that carries the simulated points
 constexpr int kStrayCells = 6;
-constexpr double kFarOff = 0.3;         // of the diagonal: farther is not worse
+constexpr double kFarOff = 10;         // of the diagonal: farther is not worse
 constexpr std::size_t kNeighbours = 7;  // how far the last of them is says how dense the points are
 constexpr double kLonely = 1.8;        // times as far to that neighbour as for most
 constexpr int kRounds = 6;
-constexpr double kSettled = 2e-4;  // of the diagonal: how far the surface moves in the last round
+constexpr double kSettled = 4e-4;  // of the diagonal: how far the surface moves in the last round
 constexpr double kMostNoise = 0.1;
 
 /// Pairs of opposite Gaussian vectors: their mean is none, and only what is not linear in the noise is left.
@@ -82,16 +82,18 @@ OwnSurface own_surface(const FitState& state, int cells) {
   return surface;
 }
 
-double stray_of(const FitState& state, std::span<const Vec3> points, double reach) {
+Stray stray_of(const FitState& state, std::span<const Vec3> points, double reach) {
   const OwnSurface surface = own_surface(state, kStrayCells);
-  double sum = 0;
+  Stray stray;
   for (std::size_t i = 0; i < surface.points_O.size(); ++i) {
     double least = kFarOff * kFarOff;
     for (const Vec3& p : points)
       least = std::min(least, (p - surface.points_O[i]).squaredNorm());
-    sum += surface.areas[i] * std::max(0.0, std::sqrt(least) - reach);
+    const double far = std::sqrt(least);
+    stray.max = std::max(stray.max, far);
+    stray.mean_beyond += surface.areas[i] / surface.area * std::max(0.0, far - reach);
   }
-  return surface.area > 0 ? sum / surface.area : kFarOff;
+  return stray;
 }
 
 std::vector<Vec3> among_others(std::span<const Vec3> points, std::size_t wanted) {
@@ -111,9 +113,10 @@ std::vector<Vec3> among_others(std::span<const Vec3> points, std::size_t wanted)
   std::vector<double> sorted = to_neighbour;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
+  const double lonely = *middle > 0 ? kLonely * kLonely * *middle : std::numeric_limits<double>::max();
   std::vector<Vec3> chosen;
   for (std::size_t n = 0; n < to_neighbour.size(); ++n)
-    if (to_neighbour[n] <= kLonely * kLonely * *middle) chosen.push_back(points[n * step]);
+    if (to_neighbour[n] <= lonely) chosen.push_back(points[n * step]);
   return chosen;
 }
 
@@ -122,8 +125,7 @@ int remove_noise_bias(FitState& state, std::span<const Vec3> points, const Impro
   const std::vector<Vec3> unit_noise = opposite_noise(count, seed);
   std::vector<Vec3> simulated(count);
   std::vector<double> weights(count);
-  const double spread = spread_of(distances(state, points));
-  double sigma = spread;
+  double sigma = config.scale;
   int rounds = 0;
   while (rounds < kRounds) {
     ++rounds;

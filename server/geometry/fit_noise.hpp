@@ -25,8 +25,12 @@ struct OwnSurface {
 };
 [[nodiscard]] OwnSurface own_surface(const FitState& state, int cells);
 
-/// By how much a state's surface strays from the points, in the mean over its area: what lies within `reach` of a point does not count.
-[[nodiscard]] double stray_of(const FitState& state, std::span<const Vec3> points, double reach);
+/// How far a state's surface lies from the nearest points.
+struct Stray {
+  double mean_beyond = 0;  ///< over its area; only what lies beyond `reach`
+  double max = 0;
+};
+[[nodiscard]] Stray stray_of(const FitState& state, std::span<const Vec3> points, double reach);
 
 /// Moves a state that is the best fit to noisy points to the one whose own points, spread by area and made as noisy, would have this best
 /// fit. Returns the iterations.

@@ -26,6 +26,7 @@ constexpr double kMostSpreadGrowth = 1.15;  // when it is set right: beyond that
 /// Short runs from every start on few points, then longer ones of the best on more. A round takes the spread of the distances anew.
 constexpr std::size_t kFewPoints = 80;
 constexpr std::size_t kMiddlePoints = 256;
+constexpr std::size_t kManyPoints = 800;  // to choose the winner by
 constexpr int kFewIterations = 4;
 constexpr int kMiddleIterations = 6;
 constexpr int kFinalIterations = 6;
@@ -52,6 +53,7 @@ class Search {
  public:
   Search(std::span<const Vec3> points, const FitConfig& config) : points_(points), config_(config) {
     middle_ = config.robust ? among_others(points, kMiddlePoints) : every_nth(points, kMiddlePoints);
+    many_ = every_nth(points, kManyPoints);
     few_ = every_nth(middle_, kFewPoints);
   }
 
@@ -65,8 +67,8 @@ class Search {
       std::move(deformed.begin(), deformed.end(), std::back_inserter(finalists));
     }
     for (Attempt& attempt : finalists) {
-      measure(attempt, points_);
-      if (finalists.size() > 1) attempt.stray = stray_of(attempt.start.state, middle_, kStrayReach);
+      measure(attempt, many_);
+      if (finalists.size() > 1) attempt.stray = stray_of(attempt.start.state, middle_, kStrayReach).mean_beyond;
     }
     rank(finalists);
     Attempt rigid = *std::find_if(finalists.begin(), finalists.end(), [](const Attempt& a) { return !a.start.deformed; });
@@ -87,10 +89,11 @@ class Search {
     return {attempt.start.state, attempt.start.deformed, attempt.score, attempt.start.name};
   }
 
-  void improve_from(Attempt& attempt, std::span<const Vec3> points, Loss loss, int iterations) {
-    ImproveConfig config{iterations, attempt.start.deformed, loss, 1};
-    if (loss != Loss::square) config.scale = spread_of(distances(attempt.start.state, points));
-    iterations_ += improve(attempt.start.state, points, config);
+  /// Goes on from where the attempt was measured last.
+  void improve_on(Attempt& attempt, std::span<const Vec3> points, Loss loss, int iterations) {
+    if (attempt.spread >= kFound)
+      iterations_ += improve(attempt.start.state, points, {iterations, attempt.start.deformed, loss, attempt.spread});
+    measure(attempt, points);
   }
 
   static void measure(Attempt& attempt, std::span<const Vec3> points) {
@@ -118,41 +121,33 @@ class Search {
   }
 
   /// The best of each z axis, for the first runs are too short to tell, and then the best of the others.
-  void keep_runners_up(std::vector<Attempt>& attempts, std::size_t count) const {
+  void keep_runners_up(std::vector<Attempt>& attempts) const {
     rank(attempts);
     std::array<bool, 3> has{};
     std::stable_partition(attempts.begin(), attempts.end(),
                           [&](const Attempt& a) { return !std::exchange(has[a.start.z_axis], true); });
-    attempts.resize(std::min(attempts.size(), count));
+    attempts.resize(std::min(attempts.size(), kRunnersUp));
   }
 
   std::vector<Attempt> sift(bool deformed) {
+    const double trimmed = config_.robust ? kTrimmed : 0;
     std::vector<Attempt> attempts;
-    for (FitStart& start : fit_starts(middle_, deformed, config_.robust ? kTrimmed : 0)) {
-      attempts.push_back({std::move(start), {}});
-      improve_from(attempts.back(), few_, Loss::huber, kFewIterations);
-      improve_from(attempts.back(), few_, Loss::huber, kFewIterations);
-      measure(attempts.back(), few_);
-      if (attempts.back().spread < kFound) break;
+    for (FitStart& start : fit_starts(middle_, deformed, trimmed, !config_.robust)) {
+      Attempt& attempt = attempts.emplace_back(Attempt{std::move(start), {}});
+      measure(attempt, few_);
+      improve_on(attempt, few_, Loss::huber, kFewIterations);
+      improve_on(attempt, few_, Loss::huber, kFewIterations);
+      if (attempt.spread < kFound) break;
     }
-    keep_runners_up(attempts, kRunnersUp);
-    for (Attempt& attempt : attempts) {
-      if (attempt.spread >= kFound) improve_from(attempt, middle_, Loss::huber, kMiddleIterations);
-      measure(attempt, middle_);
-    }
-    rank(attempts);
-    attempts.resize(std::min(attempts.size(), kFinalists));
-    if (attempts.front().spread < kFound) attempts.resize(1);
+    keep_runners_up(attempts);
     for (Attempt& attempt : attempts)
-      refine(attempt);
+      improve_on(attempt, middle_, Loss::huber, kMiddleIterations);
+    rank(attempts);
+    attempts.resize(std::min(attempts.size(), attempts.front().spread < kFound ? 1 : kFinalists));
+    for (Attempt& attempt : attempts)
+      improve_on(attempt, middle_, last_loss(), kMiddleIterations);
     rank(attempts);
     return attempts;
-  }
-
-  void refine(Attempt& attempt) {
-    if (attempt.spread < kFound) return;
-    improve_from(attempt, middle_, config_.robust ? Loss::tukey : Loss::square, kMiddleIterations);
-    measure(attempt, middle_);
   }
 
   /// The same without taper and bend.
@@ -160,27 +155,28 @@ class Search {
     Attempt attempt = deformed;
     attempt.start.deformed = false;
     attempt.start.state.taper = attempt.start.state.bend = {0, 0};
-    improve_from(attempt, middle_, Loss::huber, kMiddleIterations);
     measure(attempt, middle_);
-    refine(attempt);
+    improve_on(attempt, middle_, Loss::huber, kMiddleIterations);
+    improve_on(attempt, middle_, last_loss(), kMiddleIterations);
     return attempt;
   }
 
   void finish(Attempt& attempt) {
-    const Loss loss = config_.robust ? Loss::tukey : Loss::square;
     const bool noisy = config_.robust && attempt.spread > kNoisy;
-    if (attempt.spread > kFound) improve_from(attempt, points_, loss, noisy ? kNoisyIterations : kFinalIterations);
-    measure(attempt, points_);
+    improve_on(attempt, points_, last_loss(), noisy ? kNoisyIterations : kFinalIterations);
     if (!noisy) return;
     Attempt freed = attempt;
-    iterations_ += remove_noise_bias(freed.start.state, points_, {0, freed.start.deformed, loss, freed.spread}, config_.seed);
+    const ImproveConfig config{0, freed.start.deformed, last_loss(), freed.spread};
+    iterations_ += remove_noise_bias(freed.start.state, points_, config, config_.seed);
     measure(freed, points_);
     if (freed.spread < kMostSpreadGrowth * attempt.spread) attempt = std::move(freed);
   }
 
+  [[nodiscard]] Loss last_loss() const { return config_.robust ? Loss::tukey : Loss::square; }
+
   std::span<const Vec3> points_;
   const FitConfig& config_;
-  std::vector<Vec3> middle_, few_;
+  std::vector<Vec3> many_, middle_, few_;
   int iterations_ = 0;
 };
 

@@ -8,6 +8,7 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kHalfPerSpread = 1.5;  // an ellipsoid's shell has 1.73, a box's 1.34
+constexpr double kLeastVariance = 1e-6;
 constexpr double kMostBendOfLength = 1.2;
 constexpr double kMostTaperAtStart = 0.7;
 constexpr double kMostFold = 0.8;  // of the bend at which the section reaches its axis
@@ -108,26 +109,31 @@ Moments moments_of(std::span<const Vec3> points, double trimmed) {
   return m;
 }
 
-std::vector<FitStart> fit_starts(std::span<const Vec3> points, bool deformed, double trimmed) {
+std::vector<FitStart> fit_starts(std::span<const Vec3> points, bool deformed, double trimmed, bool given) {
   const Moments inertia = moments_of(points, trimmed);
+  const std::vector<Vec3> kept = nearest(points, inertia, 1 - trimmed);
   std::vector<FitStart> starts;
-  const std::vector<Vec3> kept = trimmed > 0 ? nearest(points, inertia, 1 - trimmed) : std::vector<Vec3>(points.begin(), points.end());
-  for (int z_axis = 0; z_axis < 3; ++z_axis) {
-    FitState state;
-    Mat3 R;
-    // The chosen axis becomes z, in cyclic order, so that the frame stays right-handed.
-    for (int i = 0; i < 3; ++i) {
-      R.col(i) = inertia.axes.col((z_axis + 1 + i) % 3);
-      state.a[i] = kHalfPerSpread * std::sqrt(std::max(1e-6, inertia.variance[(z_axis + 1 + i) % 3]));
+  const auto add = [&](const char* name, const Mat3& axes, const Vec3& variance) {
+    for (int z_axis = 0; z_axis < 3; ++z_axis) {
+      FitState state;
+      Mat3 R;
+      // The chosen axis becomes z, in cyclic order, so that the frame stays right-handed.
+      for (int i = 0; i < 3; ++i) {
+        const int axis = (z_axis + 1 + i) % 3;
+        R.col(i) = axes.col(axis);
+        state.a[i] = kHalfPerSpread * std::sqrt(std::max(kLeastVariance, variance[axis]));
+      }
+      state.X_OQ = {inertia.mean, Quat(R)};
+      if (deformed) read_deformation(state, kept);
+      for (const auto& e : kExponentStarts) {
+        starts.push_back({state, deformed, z_axis, start_name(name, z_axis, e)});
+        starts.back().state.e = e;
+      }
     }
-    state.X_OQ = {inertia.mean, Quat(R)};
-    if (deformed) read_deformation(state, kept);
-    for (const auto& e : kExponentStarts) {
-      FitStart start{state, deformed, z_axis, start_name("inertia", z_axis, e)};
-      start.state.e = e;
-      starts.push_back(std::move(start));
-    }
-  }
+  };
+  add("inertia", inertia.axes, inertia.variance);
+  const Mat3 covariance = inertia.axes * inertia.variance.asDiagonal() * inertia.axes.transpose();
+  if (given) add("given", Mat3::Identity(), covariance.diagonal());
   return starts;
 }
 

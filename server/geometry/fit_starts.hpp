@@ -13,7 +13,7 @@ namespace mechane::geometry {
 struct FitStart {
   FitState state;
   bool deformed = false;
-  int z_axis = 0;  ///< which of the principal axes became z
+  int z_axis = 0;  ///< which of the frame's axes became z
   std::string name;
 };
 
@@ -26,6 +26,7 @@ struct Moments {
 [[nodiscard]] Moments moments_of(std::span<const Vec3> points, double trimmed);
 
 /// Starts for each axis as z and for several exponents, without taper and bend, or (`deformed`) with those that the moments show.
-[[nodiscard]] std::vector<FitStart> fit_starts(std::span<const Vec3> points, bool deformed, double trimmed);
+/// `given`: along the axes of the points' frame too, for a modelled part often lies along them, and a cube's moments show none.
+[[nodiscard]] std::vector<FitStart> fit_starts(std::span<const Vec3> points, bool deformed, double trimmed, bool given);
 
 }  // namespace mechane::geometry
