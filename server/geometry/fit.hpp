@@ -28,7 +28,8 @@ struct FitReport {
   double mean_pct = 0;
   double rms_pct = 0;
   double max_pct = 0;
-  double hausdorff_pct = 0;  ///< the larger of max_pct and of how far the fitted surface strays from the samples; sampled
+  double hausdorff_pct =
+      0;  ///< the larger of max_pct and of how far the fitted surface strays from the samples; sampled
   double bound_scale =
       1;               ///< by how much the axes grew or shrank afterwards, so that F <= 1 at every vertex and sample
   int iterations = 0;  ///< of Levenberg-Marquardt, over all starts

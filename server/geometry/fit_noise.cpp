@@ -12,14 +12,14 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kLeastScale = 3e-4;  // of the diagonal
-constexpr double kWithin = 0.7;        // of the points, at least, are no outliers
+constexpr double kWithin = 0.7;       // of the points, at least, are no outliers
 constexpr double kGaussian = 0.9648;  // standard deviation over this quantile of the unsigned distances
 constexpr int kCells = 9;             // along an edge of the cube that carries the simulated points
 constexpr int kStrayCells = 6;
-constexpr double kFarOff = 10;         // of the diagonal: farther is not worse
+constexpr double kFarOff = 10;          // of the diagonal: farther is not worse
 constexpr std::size_t kNeighbours = 7;  // how far the last of them is says how dense the points are
-constexpr double kLonely = 1.8;        // times as far to that neighbour as for most
-constexpr int kRounds = 6;
+constexpr double kLonely = 1.8;         // times as far to that neighbour as for most
+constexpr int kRounds = 15;
 constexpr double kSettled = 4e-4;  // of the diagonal: how far the surface moves in the last round
 constexpr double kMostNoise = 0.1;
 

@@ -15,12 +15,12 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kTrimmed = 0.05;      // of the points, when robust, for the moments that give the starts
-constexpr double kFarthest = 0.1;      // of the diagonal: a point farther off says no more than that it is far
-constexpr double kGoodEnough = 0.002;  // of the diagonal: then taper and bend are not tried
-constexpr double kFound = 5e-4;        // of the diagonal: then no further start is tried
-constexpr double kNoisy = 0.003;        // of the diagonal: spread that makes a fit too thick and too round
-constexpr double kStrayReach = 0.06;   // of the diagonal: gaps between few points are that wide
+constexpr double kTrimmed = 0.05;           // of the points, when robust, for the moments that give the starts
+constexpr double kFarthest = 0.1;           // of the diagonal: a point farther off says no more than that it is far
+constexpr double kGoodEnough = 0.002;       // of the diagonal: then taper and bend are not tried
+constexpr double kFound = 5e-4;             // of the diagonal: then no further start is tried
+constexpr double kNoisy = 0.003;            // of the diagonal: spread that makes a fit too thick and too round
+constexpr double kStrayReach = 0.06;        // of the diagonal: gaps between few points are that wide
 constexpr double kMostSpreadGrowth = 1.15;  // when it is set right: beyond that it went astray
 
 /// Short runs from every start on few points, then longer ones of the best on more. A round takes the spread of the distances anew.
@@ -66,12 +66,12 @@ class Search {
       finalists.push_back(straightened(deformed.front()));
       std::move(deformed.begin(), deformed.end(), std::back_inserter(finalists));
     }
-    for (Attempt& attempt : finalists) {
+    for (Attempt& attempt : finalists)
       measure(attempt, many_);
-      if (finalists.size() > 1) attempt.stray = stray_of(attempt.start.state, middle_, kStrayReach).mean_beyond;
-    }
+    see_stray(finalists);
     rank(finalists);
-    Attempt rigid = *std::find_if(finalists.begin(), finalists.end(), [](const Attempt& a) { return !a.start.deformed; });
+    Attempt rigid =
+        *std::find_if(finalists.begin(), finalists.end(), [](const Attempt& a) { return !a.start.deformed; });
     Attempt best = finalists.front();
     const bool gains = best.score < (1 - config_.deformation_gain) * rigid.score;
     SearchResult result;
@@ -129,6 +129,12 @@ class Search {
     attempts.resize(std::min(attempts.size(), kRunnersUp));
   }
 
+  void see_stray(std::vector<Attempt>& attempts) const {
+    if (attempts.size() < 2) return;
+    for (Attempt& attempt : attempts)
+      attempt.stray = stray_of(attempt.start.state, middle_, kStrayReach).mean_beyond;
+  }
+
   std::vector<Attempt> sift(bool deformed) {
     const double trimmed = config_.robust ? kTrimmed : 0;
     std::vector<Attempt> attempts;
@@ -142,6 +148,7 @@ class Search {
     keep_runners_up(attempts);
     for (Attempt& attempt : attempts)
       improve_on(attempt, middle_, Loss::huber, kMiddleIterations);
+    see_stray(attempts);
     rank(attempts);
     attempts.resize(std::min(attempts.size(), attempts.front().spread < kFound ? 1 : kFinalists));
     for (Attempt& attempt : attempts)

@@ -18,8 +18,8 @@ struct FoundFit {
 };
 
 struct SearchResult {
-  FoundFit rigid;     ///< the best without taper and bend
-  FoundFit best;      ///< that, or one with taper and bend which is better by FitConfig::deformation_gain
+  FoundFit rigid;      ///< the best without taper and bend
+  FoundFit best;       ///< that, or one with taper and bend which is better by FitConfig::deformation_gain
   int iterations = 0;  ///< of Levenberg-Marquardt, over all starts
 };
 

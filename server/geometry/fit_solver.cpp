@@ -14,7 +14,7 @@ constexpr double kMostAxis = 3;
 constexpr double kMostTaper = 0.95;
 constexpr double kSmallGain = 2e-4;   // of the cost: a last step
 constexpr double kNegligible = 3e-5;  // of the diagonal, root mean square
-constexpr double kHuber = 1.345;  // of the scale: 95 % of the least squares' precision when the noise is Gaussian
+constexpr double kHuber = 1.345;      // of the scale: 95 % of the least squares' precision when the noise is Gaussian
 constexpr double kTukey = 4.685;
 
 using Step = FitState::Step;

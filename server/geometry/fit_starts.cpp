@@ -86,7 +86,8 @@ void read_deformation(FitState& state, std::span<const Vec3> points_O) {
   }
   // The middle of a bent rod lies off its centre.
   state.X_OQ.p -= state.X_OQ.R * Vec3(state.bend[0], state.bend[1], 0) * (0.5 * z2_mean);
-  const double wide = std::hypot(state.a.x() * (1 + std::abs(state.taper[0])), state.a.y() * (1 + std::abs(state.taper[1])));
+  const double wide =
+      std::hypot(state.a.x() * (1 + std::abs(state.taper[0])), state.a.y() * (1 + std::abs(state.taper[1])));
   const double fold = std::hypot(state.bend[0], state.bend[1]) * wide;
   if (fold > kMostFold)
     for (double& b : state.bend)

@@ -78,7 +78,8 @@ FitForm::Plain FitForm::plain(const Vec3& u) const {
   Vec3 ratio = u.cwiseProduct(inverse_a_);
   for (double& r : ratio)
     if (std::abs(r) < kLeastCoordinate) r = std::copysign(kLeastCoordinate, r);
-  const Eigen::Array4d log_square = 2 * Eigen::Array4d(std::abs(ratio.x()), std::abs(ratio.y()), std::abs(ratio.z()), 1).log();
+  const Eigen::Array4d log_square =
+      2 * Eigen::Array4d(std::abs(ratio.x()), std::abs(ratio.y()), std::abs(ratio.z()), 1).log();
   const Eigen::Array2d AB = (log_square.head<2>() / e2_).exp();
   const double A = AB[0];
   const double B = AB[1];

@@ -1,7 +1,7 @@
 // Whether the fit finds a superquadric again: random shapes, 2000 points each, without noise, with noise, with outliers; and how long
 // one whole fit takes.
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -10,21 +10,15 @@
 
 #include "server/base/parallel.hpp"
 #include "server/geometry/fit.hpp"
-#include "server/geometry/mesh_query.hpp"
-#include "server/geometry/random.hpp"
-#include "server/geometry/superquadric_mesh.hpp"
-#include "server/geometry/surface_samples.hpp"
 #include "tests/benchmark/bench_stats.hpp"
+#include "tests/support/superquadric_draw.hpp"
 
 namespace mechane::benchmark {
 namespace {
 
-using geometry::Random;
-using geometry::Superquadric;
-
 constexpr std::size_t kPoints = 2000;
 constexpr std::size_t kJudges = 2000;  // points that measure the distance between two surfaces, each way
-constexpr int kCells = 32;             // of a tessellation's edge: its chords are 0.05 % of the diagonal off, most of them less
+constexpr int kCells = 32;  // of a tessellation's edge: its chords are 0.05 % of the diagonal off, most of them less
 constexpr double kRecoveredPct = 1;
 
 struct Set {
@@ -41,102 +35,22 @@ struct Config {
   bool failures = false;
 };
 
-struct Shape {
-  Superquadric s;
-  Pose X_OQ;
-};
-
 struct Judged {
-  bool fitted = false;
   double off_pct = 100;  // the larger of the two mean distances
   Duration took{};
   geometry::FitResult fit;
 };
 
-double between(Random& random, double low, double high) {
-  return low + (high - low) * random.unit();
-}
-
-double gaussian(Random& random) {
-  return std::sqrt(-2 * std::log(1 - random.unit())) * std::cos(2 * kPi * random.unit());
-}
-
-/// One draw of the distribution that describe_draw() states.
-Shape draw(std::uint64_t seed) {
-  Random random(seed);
-  Shape shape;
-  do {
-    Superquadric& s = shape.s = {};
-    for (double& a : s.a)
-      a = between(random, 1, 8);
-    s.a *= between(random, 0.01, 0.1);
-    s.e1 = between(random, geometry::kMinExponent, geometry::kMaxExponent);
-    s.e2 = between(random, geometry::kMinExponent, geometry::kMaxExponent);
-    if (random.unit() < 0.5) {
-      s.taper_x = between(random, -0.6, 0.6);
-      s.taper_y = between(random, -0.6, 0.6);
-    }
-    if (random.unit() < 0.5) {
-      s.bend_per_m = between(random, 0, 0.5 * kPi) / (2 * s.a.z());
-      s.bend_angle_rad = between(random, -kPi, kPi);
-    }
-  } while (!geometry::is_valid(shape.s));
-  const Vec3 axis(gaussian(random), gaussian(random), gaussian(random));
-  const double w = gaussian(random);
-  shape.X_OQ.R = Quat(w, axis.x(), axis.y(), axis.z()).normalized();
-  shape.X_OQ.p = {between(random, -2, 2), between(random, -2, 2), between(random, -2, 2)};
-  return shape;
-}
-
-geometry::Mesh placed(const Shape& shape) {
-  geometry::Mesh mesh = geometry::tessellate(shape.s, kCells);
-  for (Vec3& v : mesh.vertices)
-    v = shape.X_OQ * v;
-  return mesh;
-}
-
-/// Points of the mesh, brought onto the true surface along the rays from its centre.
-std::vector<Vec3> on_surface(const Shape& shape, const geometry::Mesh& mesh, std::size_t count, std::uint64_t seed) {
-  Superquadric plain = shape.s;
-  plain.taper_x = plain.taper_y = plain.bend_per_m = 0;
-  const Pose X_QO = shape.X_OQ.inverse();
-  std::vector<Vec3> points;
-  for (const geometry::SurfaceSample& sample : geometry::sample_by_area(mesh, count, seed)) {
-    const Vec3 p = geometry::undeform(shape.s, X_QO * sample.p);
-    points.push_back(shape.X_OQ * geometry::deform(shape.s, p / geometry::radial_form(plain, p)));
-  }
-  return points;
-}
-
-void disturb(std::vector<Vec3>& points, const Set& set, double diagonal, std::uint64_t seed) {
-  Random random(seed);
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : points)
-    box.extend(p);
-  for (Vec3& p : points) {
-    if (random.unit() < set.outliers) {
-      const Vec3 half = box.sizes();  // twice the box
-      p = box.center() + Vec3(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)).cwiseProduct(half);
-    } else if (set.noise_pct > 0) {
-      p += 0.01 * set.noise_pct * diagonal * Vec3(gaussian(random), gaussian(random), gaussian(random));
-    }
-  }
-}
-
-double mean_distance(const std::vector<Vec3>& points, const geometry::MeshQuery& surface) {
-  double sum = 0;
-  for (const Vec3& p : points)
-    sum += surface.closest(p).distance_m;
-  return sum / static_cast<double>(points.size());
+std::uint64_t seed_of(const Config& config, std::size_t index) {
+  return config.seed * 1'000'003 + index;
 }
 
 Judged judge(std::size_t index, const Set& set, const Config& config) {
-  const std::uint64_t seed = config.seed * 1'000'003 + index;
-  const Shape truth = draw(seed);
-  const geometry::Mesh mesh = placed(truth);
-  const double diagonal = mesh.bounds().diagonal().norm();
-  std::vector<Vec3> points = on_surface(truth, mesh, kPoints, seed);
-  disturb(points, set, diagonal, seed ^ 0x5555);
+  const std::uint64_t seed = seed_of(config, index);
+  const test::PlacedSuperquadric truth = test::draw_superquadric(seed);
+  const geometry::Mesh mesh = test::placed_mesh(truth, kCells);
+  std::vector<Vec3> points = test::points_on(truth, mesh, kPoints, seed);
+  test::disturb(points, 0.01 * set.noise_pct * mesh.bounds().diagonal().norm(), set.outliers, seed ^ 0x5555);
 
   geometry::FitConfig fit_config;
   fit_config.robust = true;
@@ -148,17 +62,12 @@ Judged judge(std::size_t index, const Set& set, const Config& config) {
   const auto fit = geometry::fit_superquadric(points, fit_config);
   judged.took = clock.thread_cpu_time() - began;
   if (!fit) return judged;
-  judged.fitted = true;
   judged.fit = *fit;
-  const Shape found{fit->shape, fit->X_OQ};
-  const geometry::Mesh fitted = placed(found);
-  const double there = mean_distance(on_surface(truth, mesh, kJudges, seed + 1), geometry::MeshQuery(fitted));
-  const double back = mean_distance(on_surface(found, fitted, kJudges, seed + 1), geometry::MeshQuery(mesh));
-  judged.off_pct = 100 * std::max(there, back) / diagonal;
+  judged.off_pct = test::surface_difference_pct(truth, {fit->shape, fit->X_OQ}, kCells, kJudges);
   return judged;
 }
 
-std::string text_of(const Superquadric& s) {
+std::string text_of(const geometry::Superquadric& s) {
   std::string text;
   const double longest = s.a.maxCoeff();
   for (const double v : {s.a.x() / longest, s.a.y() / longest, s.a.z() / longest, s.e1, s.e2, s.taper_x, s.taper_y,
@@ -182,7 +91,7 @@ void run_set(const Set& set, const Config& config, Report& report, Samples& time
     own.add(one.took);
     if (!config.failures || one.off_pct < kRecoveredPct) continue;
     std::cerr << set.name << " " << i << " off " << one.off_pct << " % sampled error " << one.fit.report.mean_pct
-              << "\n  true  " << text_of(draw(config.seed * 1'000'003 + i).s) << "\n  found "
+              << "\n  true  " << text_of(test::draw_superquadric(seed_of(config, i)).shape) << "\n  found "
               << text_of(one.fit.shape) << " " << one.fit.report.start << "\n";
   }
   const auto count = static_cast<double>(config.count);
@@ -195,13 +104,19 @@ void run_set(const Set& set, const Config& config, Report& report, Samples& time
 
 void describe_draw(Report& report, const Config& config) {
   report.note("fit: " + std::to_string(config.count) +
-              " superquadrics, the same for each set; semi-axes uniform in 1 to 8, exponents uniform in 0.1 to 1.9; half of them with "
-              "taper, both ways uniform in -0.6 to 0.6; half of them with a bend, from one end to the other uniform in 0 to 90 degrees, in "
+              " superquadrics, the same for each set; semi-axes uniform in 1 to 8, exponents uniform in 0.1 to 1.9; "
+              "half of them with "
+              "taper, both ways uniform in -0.6 to 0.6; half of them with a bend, from one end to the other uniform in "
+              "0 to 90 degrees, in "
               "any direction; both drawn independently, folded shapes drawn again; any pose");
-  report.note("fit: 2000 points spread by area; Gaussian noise of 0, 1, 3 % of the diagonal in x, y, z; outliers are a fifth of the points, "
-              "put anywhere in a box of twice the part's sides");
-  report.note("fit: recovered when the mean distance from the true to the fitted surface, and back, is below 1 % of the diagonal; the "
-              "same settings for all sets; times are the thread's CPU time");
+  report.note(
+      "fit: 2000 points spread by area; Gaussian noise of 0, 1, 3 % of the diagonal in x, y, z; outliers are a fifth "
+      "of the points, "
+      "put anywhere in a box of twice the part's sides");
+  report.note(
+      "fit: recovered when the mean distance from the true to the fitted surface, and back, is below 1 % of the "
+      "diagonal; the "
+      "same settings for all sets; times are the thread's CPU time");
 }
 
 int main_of(const Config& config) {
