@@ -54,12 +54,24 @@ TEST(FitRecovery, FindsShapesUnderNoise) {
 }
 
 TEST(FitRecovery, NoiseDoesNotThickenAPlate) {
+  // Least squares of distances finds the thin axis a third to half too long, and round edges; the exact number is the noise's.
   test::PlacedSuperquadric plate;
   plate.shape.a = {0.05, 0.3, 0.4};
   plate.shape.e1 = plate.shape.e2 = 0.3;
-  const auto fit = fit_superquadric(scan(plate, 3, 0, 7), for_scans());
-  ASSERT_TRUE(fit.has_value());
-  EXPECT_NEAR(fit->shape.a.minCoeff(), 0.05, 0.004);  // a plain least squares finds 0.06
+  FitConfig plain = for_scans();
+  plain.robust = false;
+  double off_pct = 0;
+  double plain_off_pct = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const std::vector<Vec3> points = scan(plate, 3, 0, seed);
+    const auto fit = fit_superquadric(points, for_scans());
+    const auto plain_fit = fit_superquadric(points, plain);
+    ASSERT_TRUE(fit && plain_fit);
+    off_pct += test::surface_difference_pct(plate, {fit->shape, fit->X_OQ}, kCells, 800) / 5;
+    plain_off_pct += test::surface_difference_pct(plate, {plain_fit->shape, plain_fit->X_OQ}, kCells, 800) / 5;
+  }
+  EXPECT_LT(off_pct, 0.6 * plain_off_pct);
+  EXPECT_LT(off_pct, 1);
 }
 
 TEST(FitRecovery, SameSeedSameBits) {
