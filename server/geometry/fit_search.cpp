@@ -29,7 +29,7 @@ constexpr std::size_t kMiddlePoints = 256;
 constexpr std::size_t kManyPoints = 800;  // to choose the winner by
 constexpr int kFewIterations = 4;
 constexpr int kMiddleIterations = 6;
-constexpr int kFinalIterations = 6;
+constexpr int kFinalIterations = 12;
 constexpr int kNoisyIterations = 3;  // before the noise is seen to
 constexpr std::size_t kRunnersUp = 4;
 constexpr std::size_t kFinalists = 2;
@@ -179,7 +179,7 @@ class Search {
     if (freed.spread < kMostSpreadGrowth * attempt.spread) attempt = std::move(freed);
   }
 
-  [[nodiscard]] Loss last_loss() const { return config_.robust ? Loss::tukey : Loss::square; }
+  [[nodiscard]] Loss last_loss() const { return config_.robust ? Loss::tukey : Loss::equation3; }
 
   std::span<const Vec3> points_;
   const FitConfig& config_;

@@ -28,6 +28,7 @@ LossValue loss_of(double d, const ImproveConfig& config) {
   const double square = d * d;
   switch (config.loss) {
     case Loss::square:
+    case Loss::equation3:
       break;
     case Loss::huber: {
       const double c = kHuber * config.scale;
@@ -117,11 +118,15 @@ LossModel loss_model(const FitState& state, std::span<const Vec3> points, const 
   if (!is_valid(state.shape())) return kImpossible;
   model.cost = 0;
   Sums sums;
+  const bool paper = config.loss == Loss::equation3;
+  const double volume = std::sqrt(state.a.prod());
   const FitForm form(state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const FitForm::Value v = form.at(points[i]);
-    const double inverse = 1 / std::max(kLeastSlope, v.slope_Q.norm());
-    const double d = (v.f - 1) * inverse;
+    // Equation 3 is volume (f^2 - 1); its own axes are in the volume.
+    const double inverse = paper ? 2 * volume * v.f : 1 / std::max(kLeastSlope, v.slope_Q.norm());
+    const double d = paper ? volume * (v.f * v.f - 1) : (v.f - 1) * inverse;
+    const double by_volume = paper ? 0.5 * d : 0;
     LossValue loss = loss_of(d, config);
     if (!weights.empty()) loss = {loss.cost * weights[i], loss.weight * weights[i]};
     model.cost += loss.cost;
@@ -129,7 +134,7 @@ LossModel loss_model(const FitState& state, std::span<const Vec3> points, const 
     const double root = std::sqrt(loss.weight);
     double* row = sums.next_row();
     for (int k = 0; k < FitState::kAll; ++k)
-      row[k] = inverse * root * v.by_step[k];
+      row[k] = root * (inverse * v.by_step[k] + (k < FitState::kAxes + 3 ? by_volume : 0));
     row[FitState::kAll] = d * root;
   }
   sums.finish(model);

@@ -11,7 +11,8 @@ namespace mechane::geometry {
 
 /// What a distance d costs. `square`: d^2. `huber`: d^2 up to the scale, beyond it a straight line. `tukey`: bounded at 3 scales or so;
 /// what lies farther has no say.
-enum class Loss { square, huber, tukey };
+/// `equation3`: the paper's own, [sqrt(a1 a2 a3) (F^e1 - 1)]^2, which holds a thin part's broad faces faster than its ends.
+enum class Loss { square, huber, tukey, equation3 };
 
 struct ImproveConfig {
   int max_iterations = 10;
@@ -41,7 +42,7 @@ struct LossModel {
 /// The step to the model's minimum, shortened by `damping` (Marquardt) and within what keeps the state's ranges.
 [[nodiscard]] FitState::Step damped_step(const FitState& state, const LossModel& model, bool deformed, double damping);
 
-/// Lowers the loss of the first-order distances; returns the iterations it took. What it cannot improve it leaves as it is.
+/// Lowers the loss; returns the iterations it took. What it cannot improve it leaves as it is.
 int improve(FitState& state, std::span<const Vec3> points, const ImproveConfig& config);
 
 /// Signed distances of points to the surface, positive outside: whichever is less, the way along the ray from the centre or the
