@@ -19,7 +19,7 @@ constexpr int kStrayCells = 6;
 constexpr double kFarOff = 10;          // of the diagonal: farther is not worse
 constexpr std::size_t kNeighbours = 7;  // how far the last of them is says how dense the points are
 constexpr double kLonely = 1.8;         // times as far to that neighbour as for most
-constexpr int kRounds = 15;
+constexpr int kRounds = 6;
 constexpr double kSettled = 4e-4;  // of the diagonal: how far the surface moves in the last round
 constexpr double kMostNoise = 0.1;
 

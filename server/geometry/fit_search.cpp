@@ -21,6 +21,7 @@ constexpr double kGoodEnough = 0.002;       // of the diagonal: then taper and b
 constexpr double kFound = 5e-4;             // of the diagonal: then no further start is tried
 constexpr double kNoisy = 0.003;            // of the diagonal: spread that makes a fit too thick and too round
 constexpr double kStrayReach = 0.06;        // of the diagonal: gaps between few points are that wide
+constexpr double kMostBoundedFold = 0.5;    // of the bend at which the section reaches its axis
 constexpr double kMostSpreadGrowth = 1.15;  // when it is set right: beyond that it went astray
 
 /// Short runs from every start on few points, then longer ones of the best on more. A round takes the spread of the distances anew.
@@ -73,18 +74,26 @@ class Search {
     Attempt rigid =
         *std::find_if(finalists.begin(), finalists.end(), [](const Attempt& a) { return !a.start.deformed; });
     Attempt best = finalists.front();
-    const bool gains = best.score < (1 - config_.deformation_gain) * rigid.score;
+    bool gains = best.score < (1 - config_.deformation_gain) * rigid.score;
     SearchResult result;
     // Where the deformed one cannot be bounded, the rigid one is asked for.
     if (!gains || config_.bound) finish(rigid);
     result.rigid = found(rigid);
     if (gains) finish(best);
+    if (config_.bound && nearly_folds(best)) gains = false;
     result.best = gains ? found(best) : result.rigid;
     result.iterations = iterations_;
     return result;
   }
 
  private:
+  /// A bend whose axis is near: growing axes and rays along the normals, which bounded parts need, go wrong there.
+  static bool nearly_folds(const Attempt& attempt) {
+    const FitState& s = attempt.start.state;
+    const double widest = std::hypot(s.a.x() * (1 + std::abs(s.taper[0])), s.a.y() * (1 + std::abs(s.taper[1])));
+    return std::hypot(s.bend[0], s.bend[1]) * widest > kMostBoundedFold;
+  }
+
   static FoundFit found(const Attempt& attempt) {
     return {attempt.start.state, attempt.start.deformed, attempt.score, attempt.start.name};
   }
