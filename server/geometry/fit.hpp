@@ -17,6 +17,8 @@ struct FitConfig {
   std::size_t samples = 400;      ///< surface samples that the fit sees
   bool deformations = true;       ///< try taper and bend where a mean error over 0.2 % is left
   double deformation_gain = 0.2;  ///< they stay only when they lower the mean error by this share
+  bool robust = false;  ///< points that lie far from what the others show get no say: for scans with noise and outliers
+  bool bound = true;    ///< let the axes grow or shrink until F <= 1 at every point; with outliers that means nothing
   std::uint64_t seed = 1;
 };
 
@@ -26,6 +28,8 @@ struct FitReport {
   double mean_pct = 0;
   double rms_pct = 0;
   double max_pct = 0;
+  double hausdorff_pct =
+      0;  ///< the larger of max_pct and of how far the fitted surface strays from the samples; sampled
   double bound_scale =
       1;               ///< by how much the axes grew or shrank afterwards, so that F <= 1 at every vertex and sample
   int iterations = 0;  ///< of Levenberg-Marquardt, over all starts

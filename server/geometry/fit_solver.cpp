@@ -1,165 +1,236 @@
 #include "server/geometry/fit_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-
-#include <ceres/jet.h>
-#include <ceres/tiny_solver.h>
-#include <ceres/tiny_solver_autodiff_function.h>
-
-#include "server/geometry/superquadric_math.hpp"
 
 namespace mechane::geometry {
 namespace {
 
-constexpr double kMaxTaper = 0.95;
+constexpr double kLeastSlope = 1e-3;
+constexpr double kLeastAxis = 2e-3;  // of the diagonal
+constexpr double kMostAxis = 3;
+constexpr double kMostTaper = 0.95;
+constexpr double kSmallGain = 2e-4;   // of the cost: a last step
+constexpr double kNegligible = 3e-5;  // of the diagonal, root mean square
+constexpr double kHuber = 1.345;      // of the scale: 95 % of the least squares' precision when the noise is Gaussian
+constexpr double kTukey = 4.685;
 
-double logit(double share) {
-  return std::log(share / (1 - share));
-}
+using Step = FitState::Step;
 
-template <class T>
-T exponent(const T& x) {
-  using std::exp;
-  return T(kMinExponent) + T(kMaxExponent - kMinExponent) / (T(1) + exp(-x));
-}
-
-template <class T>
-BasicSuperquadric<T> shape_of(const T* x, bool deformed) {
-  using std::exp;
-  using std::tanh;
-  BasicSuperquadric<T> s;
-  s.a = {exp(x[0]), exp(x[1]), exp(x[2])};
-  s.e1 = exponent(x[3]);
-  s.e2 = exponent(x[4]);
-  if (!deformed) return s;
-  s.taper_x = T(kMaxTaper) * tanh(x[11]);
-  s.taper_y = T(kMaxTaper) * tanh(x[12]);
-  s.bend_per_m = x[13];
-  s.bend_angle_rad = x[14];
-  return s;
-}
-
-/// R(v)^T p, Rodrigues' formula with the smooth quotients.
-template <class T>
-math::Vec3T<T> unrotate(const T* v, const math::Vec3T<T>& p) {
-  using std::sqrt;
-  const math::Vec3T<T> w{-v[0], -v[1], -v[2]};
-  const T angle = sqrt(w.squaredNorm() + T(1e-24));
-  const math::Vec3T<T> once = w.cross(p);
-  return p + math::sinc(angle) * once + math::one_minus_cos_over_square(angle) * w.cross(once);
-}
-
-/// Equation 3: sqrt(a1 a2 a3) (F^e1 - 1) for every point.
-template <int Parameters>
-struct Residuals {
-  using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Parameters };
-  std::span<const Vec3> points;
-  Quat base;
-
-  [[nodiscard]] int NumResiduals() const { return static_cast<int>(points.size()); }
-
-  template <class T>
-  bool operator()(const T* x, T* residuals) const {
-    using std::sqrt;
-    constexpr bool kDeformed = Parameters == FitState::kAll;
-    const BasicSuperquadric<T> s = shape_of(x, kDeformed);
-    const T volume = sqrt(s.a.x() * s.a.y() * s.a.z());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec3 turned = base.conjugate() * points[i];
-      const math::Vec3T<T> shifted{T(turned.x()) - x[8], T(turned.y()) - x[9], T(turned.z()) - x[10]};
-      math::Vec3T<T> p = unrotate<T>(x + 5, shifted);
-      if constexpr (kDeformed) p = math::undeform<T>(s, p);
-      const T f = math::inside_outside_undeformed<T>(s, p);
-      using std::pow;
-      residuals[i] = f < 1e-300 ? -volume : volume * (pow(f, s.e1) - T(1));
-    }
-    return true;
-  }
+struct LossValue {
+  double cost;
+  double weight;  // d cost / d (d^2)
 };
 
-template <int Parameters>
-int solve(FitState& state, std::span<const Vec3> points, int max_iterations) {
-  using Functor = Residuals<Parameters>;
-  using Function = ceres::TinySolverAutoDiffFunction<Functor, Eigen::Dynamic, Parameters>;
-  const Functor functor{points, state.base};
-  const Function function(functor);
-  ceres::TinySolver<Function> solver;
-  solver.options.max_num_iterations = max_iterations;
-  solver.options.initial_trust_region_radius = 10;
-  solver.options.function_tolerance = 1e-12;
-  solver.options.cost_threshold = 1e-16;
-  typename ceres::TinySolver<Function>::Parameters x;
-  std::copy_n(state.x.begin(), Parameters, x.data());
-  const auto summary = solver.Solve(function, &x);
-  if (x.allFinite()) std::copy_n(x.data(), Parameters, state.x.begin());
-  return std::max(0, summary.iterations);
+LossValue loss_of(double d, const ImproveConfig& config) {
+  const double square = d * d;
+  switch (config.loss) {
+    case Loss::square:
+    case Loss::equation3:
+      break;
+    case Loss::huber: {
+      const double c = kHuber * config.scale;
+      if (square > c * c) return {2 * c * std::abs(d) - c * c, c / std::abs(d)};
+      break;
+    }
+    case Loss::tukey: {
+      const double c2 = kTukey * kTukey * config.scale * config.scale;
+      if (square >= c2) return {c2 / 3, 0};
+      const double rest = 1 - square / c2;
+      return {c2 / 3 * (1 - rest * rest * rest), rest * rest};
+    }
+  }
+  return {square, 1};
 }
+
+/// Sums of row^T row, the lower half, four rows at a time: so the sums need not go to memory and back for each.
+class Sums {
+ public:
+  /// Where the next row's numbers go: the derivatives, then the distance.
+  double* next_row() {
+    if (filled_ == kAtOnce) flush();
+    return rows_[filled_++].data();
+  }
+
+  void finish(LossModel& model) {
+    for (std::size_t k = filled_; k < kAtOnce; ++k)
+      rows_[k].fill(0);
+    flush();
+    for (std::size_t i = 0; i + 1 < kWidth; ++i) {
+      model.g[i] = sums_[kWidth - 1][i];
+      for (std::size_t k = 0; k <= i; ++k)
+        model.H(i, k) = model.H(k, i) = sums_[i][k];
+    }
+  }
+
+ private:
+  static constexpr std::size_t kWidth = FitState::kAll + 1;
+  static constexpr std::size_t kAtOnce = 4;
+
+  void flush() {
+    const auto& [a, b, c, d] = rows_;
+    for (std::size_t i = 0; i < kWidth; ++i)
+      for (std::size_t k = 0; k < (i | 1) + 1; ++k)
+        sums_[i][k] += (a[i] * a[k] + b[i] * b[k]) + (c[i] * c[k] + d[i] * d[k]);
+    filled_ = 0;
+  }
+
+  std::array<std::array<double, kWidth>, kAtOnce> rows_{};
+  std::array<std::array<double, kWidth>, kWidth> sums_{};
+  std::size_t filled_ = 0;
+};
+
+/// How far each part of a step may go.
+struct Bounds {
+  Step low, high;
+};
+
+Bounds bounds_at(const FitState& s, bool deformed) {
+  Bounds b;
+  for (int i = 0; i < 3; ++i) {
+    b.low[FitState::kAxes + i] = std::max(-1.0, std::log(kLeastAxis / s.a[i]));
+    b.high[FitState::kAxes + i] = std::min(1.0, std::log(kMostAxis / s.a[i]));
+    b.low[FitState::kTurn + i] = -0.7;
+    b.high[FitState::kTurn + i] = 0.7;
+    b.low[FitState::kShift + i] = -0.3;
+    b.high[FitState::kShift + i] = 0.3;
+  }
+  for (int i = 0; i < 2; ++i) {
+    b.low[FitState::kExponents + i] = std::max(-0.6, kMinExponent - s.e[i]);
+    b.high[FitState::kExponents + i] = std::min(0.6, kMaxExponent - s.e[i]);
+    b.low[FitState::kTaper + i] = deformed ? std::max(-0.5, -kMostTaper - s.taper[i]) : 0;
+    b.high[FitState::kTaper + i] = deformed ? std::min(0.5, kMostTaper - s.taper[i]) : 0;
+    b.low[FitState::kBend + i] = deformed ? -2 : 0;
+    b.high[FitState::kBend + i] = deformed ? 2 : 0;
+  }
+  return b;
+}
+
+const LossModel kImpossible{std::numeric_limits<double>::infinity(), LossModel::Matrix::Zero(), Step::Zero()};
 
 }  // namespace
 
-FitState FitState::start(const Pose& X_OQ, const Vec3& half, double e1, double e2) {
-  FitState state;
-  state.base = X_OQ.R;
-  for (int i = 0; i < 3; ++i)
-    state.x[i] = std::log(half[i]);
-  state.x[3] = logit((e1 - kMinExponent) / (kMaxExponent - kMinExponent));
-  state.x[4] = logit((e2 - kMinExponent) / (kMaxExponent - kMinExponent));
-  const Vec3 center = X_OQ.R.conjugate() * X_OQ.p;
-  for (int i = 0; i < 3; ++i)
-    state.x[8 + i] = center[i];
-  return state;
-}
-
-void FitState::begin_deformation(double bend_per_m, double angle_rad) {
-  x[11] = x[12] = 0;
-  x[13] = bend_per_m;
-  x[14] = angle_rad;
-}
-
-Superquadric FitState::shape() const {
-  Superquadric s = shape_of(x.data(), x[13] != 0);
-  if (s.bend_per_m < 0) {  // a bend the other way
-    s.bend_per_m = -s.bend_per_m;
-    s.bend_angle_rad += kPi;
+LossModel loss_model(const FitState& state, std::span<const Vec3> points, const ImproveConfig& config,
+                     std::span<const double> weights) {
+  LossModel model;
+  if (!is_valid(state.shape())) return kImpossible;
+  model.cost = 0;
+  Sums sums;
+  const bool paper = config.loss == Loss::equation3;
+  const double volume = std::sqrt(state.a.prod());
+  const FitForm form(state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const FitForm::Value v = form.at(points[i]);
+    // Equation 3 is volume (f^2 - 1); its own axes are in the volume.
+    const double inverse = paper ? 2 * volume * v.f : 1 / std::max(kLeastSlope, v.slope_Q.norm());
+    const double d = paper ? volume * (v.f * v.f - 1) : (v.f - 1) * inverse;
+    const double by_volume = paper ? 0.5 * d : 0;
+    LossValue loss = loss_of(d, config);
+    if (!weights.empty()) loss = {loss.cost * weights[i], loss.weight * weights[i]};
+    model.cost += loss.cost;
+    if (loss.weight <= 0) continue;
+    const double root = std::sqrt(loss.weight);
+    double* row = sums.next_row();
+    for (int k = 0; k < FitState::kAll; ++k)
+      row[k] = root * (inverse * v.by_step[k] + (k < FitState::kAxes + 3 ? by_volume : 0));
+    row[FitState::kAll] = d * root;
   }
-  s.bend_angle_rad = std::remainder(s.bend_angle_rad, 2 * kPi);
-  return s;
+  sums.finish(model);
+  if (!std::isfinite(model.cost) || !model.H.allFinite() || !model.g.allFinite()) return kImpossible;
+  return model;
 }
 
-Pose FitState::pose() const {
-  const Quat R = (base * quat_from_rotation_vector({x[5], x[6], x[7]})).normalized();
-  return {base * Vec3(x[8], x[9], x[10]), R};
+/// The damped step; parts that would leave their bounds stay on them, and the others are solved for again.
+FitState::Step damped_step(const FitState& state, const LossModel& model, bool deformed, double damping) {
+  const Bounds bounds = bounds_at(state, deformed);
+  LossModel::Matrix H = model.H;
+  Step right = -model.g;
+  for (int i = 0; i < FitState::kAll; ++i)
+    H(i, i) += damping * model.H(i, i) + 1e-9;
+  Step step = Step::Zero();
+  std::array<bool, FitState::kAll> held{};
+  const auto hold = [&](int i, double at) {
+    right -= at * H.col(i);
+    H.row(i).setZero();
+    H.col(i).setZero();
+    H(i, i) = 1;
+    right[i] = at;
+    held[i] = true;
+  };
+  for (int i = 0; i < FitState::kAll; ++i)
+    if (bounds.low[i] >= bounds.high[i]) hold(i, 0);
+  for (int round = 0; round < 3; ++round) {
+    const Step trial = H.ldlt().solve(right);
+    bool inside = true;
+    for (int i = 0; i < FitState::kAll; ++i) {
+      if (held[i] || (trial[i] >= bounds.low[i] && trial[i] <= bounds.high[i])) continue;
+      hold(i, std::clamp(trial[i], bounds.low[i], bounds.high[i]));
+      inside = false;
+    }
+    for (int i = 0; i < FitState::kAll; ++i)
+      step[i] = std::clamp(trial[i], bounds.low[i], bounds.high[i]);
+    if (inside) break;
+  }
+  return step;
 }
 
-int improve(FitState& state, std::span<const Vec3> points, int max_iterations, bool deformed) {
-  return deformed ? solve<FitState::kAll>(state, points, max_iterations)
-                  : solve<FitState::kRigid>(state, points, max_iterations);
+int improve(FitState& state, std::span<const Vec3> points, const ImproveConfig& config) {
+  LossModel model = loss_model(state, points, config);
+  if (!std::isfinite(model.cost)) return 0;
+  const double negligible = kNegligible * kNegligible * static_cast<double>(points.size());
+  double damping = 1e-2;
+  double growth = 2;
+  int iterations = 0;
+  while (iterations < config.max_iterations && model.cost > negligible) {
+    ++iterations;
+    const Step step = damped_step(state, model, config.deformed, damping);
+    if (!step.allFinite() || step.norm() < 1e-7) break;
+    const FitState next = state.moved(step);
+    LossModel there = loss_model(next, points, config);
+    const double gain = model.cost - there.cost;
+    if (gain > 0) {
+      const bool small = gain < kSmallGain * model.cost;
+      const double expected = -step.dot(2 * model.g + model.H * step);
+      const double share = expected > 0 ? gain / expected : 0;
+      damping = std::max(1e-7, damping * std::max(0.15, 1 - std::pow(2 * share - 1, 3)));
+      growth = 2;
+      state = next;
+      model = there;
+      if (small) break;
+    } else {
+      damping *= growth;
+      growth *= 2;
+      if (damping > 1e6) break;
+    }
+  }
+  return iterations;
 }
 
-FitErrors fit_errors(const FitState& state, std::span<const Vec3> points) {
+std::vector<double> distances(const FitState& state, std::span<const Vec3> points) {
+  std::vector<double> result;
+  result.reserve(points.size());
+  const FitForm form(state);
+  for (const Vec3& p : points) {
+    const FitForm::Value v = form.at(p);
+    const double along_ray = (1 - 1 / std::max(1e-9, v.f)) * form.in_own_frame(p).norm();
+    const double first_order = (v.f - 1) / std::max(kLeastSlope, v.slope_Q.norm());
+    result.push_back(std::abs(along_ray) < std::abs(first_order) ? along_ray : first_order);
+  }
+  return result;
+}
+
+FitErrors fit_errors(std::span<const double> distances) {
   FitErrors errors;
-  const double infinity = std::numeric_limits<double>::infinity();
-  const Superquadric s = state.shape();
-  if (!is_valid(s) || points.empty()) return {infinity, infinity, infinity};
-  const Pose X_QO = state.pose().inverse();
-  for (const Vec3& p_O : points) {
-    const Vec3 p = X_QO * p_O;
-    const double F = inside_outside(s, p);
-    const double f = std::pow(F, 0.5 * s.e1);
-    double distance = std::abs(1 - 1 / f) * p.norm();
-    // grad f = (e1/2) F^(e1/2 - 1) grad F
-    const double slope = 0.5 * s.e1 * f / F * gradient(s, p).norm();
-    if (slope > 0) distance = std::min(distance, std::abs(f - 1) / slope);
-    if (!std::isfinite(distance)) distance = p.norm() + s.a.maxCoeff();
-    errors.mean += distance;
-    errors.rms += distance * distance;
-    errors.max = std::max(errors.max, distance);
+  for (const double d : distances) {
+    errors.mean += std::abs(d);
+    errors.rms += d * d;
+    errors.max = std::max(errors.max, std::abs(d));
   }
-  errors.mean /= static_cast<double>(points.size());
-  errors.rms = std::sqrt(errors.rms / static_cast<double>(points.size()));
+  const auto count = static_cast<double>(std::max<std::size_t>(1, distances.size()));
+  errors.mean /= count;
+  errors.rms = std::sqrt(errors.rms / count);
   return errors;
 }
 

@@ -1,29 +1,24 @@
-// The fit's inner part: parameters in a form that cannot leave their ranges, and Levenberg-Marquardt on them.
+// The fit's inner part: Levenberg-Marquardt on the first-order distance of points to the surface, with a loss that outliers cannot pull.
 #pragma once
 
-#include <array>
 #include <span>
+#include <vector>
 
 #include "server/base/math.hpp"
-#include "server/geometry/superquadric.hpp"
+#include "server/geometry/fit_state.hpp"
 
 namespace mechane::geometry {
 
-/// Parameters of one superquadric in some frame, for points whose diagonal is about 1:
-/// log of the axes (3), exponents (2) through a sigmoid, rotation vector from `base` (3), centre (3), taper (2) through tanh, curvature
-/// and its angle (2).
-struct FitState {
-  static constexpr int kRigid = 11;
-  static constexpr int kAll = 15;
-  Quat base = Quat::Identity();
-  std::array<double, kAll> x{};
+/// What a distance d costs. `square`: d^2. `huber`: d^2 up to the scale, beyond it a straight line. `tukey`: bounded at 3 scales or so;
+/// what lies farther has no say.
+/// `equation3`: the paper's own, [sqrt(a1 a2 a3) (F^e1 - 1)]^2, which holds a thin part's broad faces faster than its ends.
+enum class Loss { square, huber, tukey, equation3 };
 
-  [[nodiscard]] static FitState start(const Pose& X_OQ, const Vec3& half, double e1, double e2);
-  /// Starts taper at none and the bend at `bend_per_m` (not 0, where its angle has no derivative) towards `angle_rad`.
-  void begin_deformation(double bend_per_m, double angle_rad);
-
-  [[nodiscard]] Superquadric shape() const;
-  [[nodiscard]] Pose pose() const;
+struct ImproveConfig {
+  int max_iterations = 10;
+  bool deformed = true;  ///< all 15 parameters, else the first 11
+  Loss loss = Loss::square;
+  double scale = 1;  ///< of the loss, as a distance
 };
 
 struct FitErrors {
@@ -32,11 +27,28 @@ struct FitErrors {
   double max = 0;
 };
 
-/// Levenberg-Marquardt on equation 3; returns the iterations it took. `deformed`: all 15 parameters, else the first 11.
-int improve(FitState& state, std::span<const Vec3> points, int max_iterations, bool deformed);
+/// The loss at one state, and its quadratic model there.
+struct LossModel {
+  using Matrix = Eigen::Matrix<double, FitState::kAll, FitState::kAll>;
+  double cost = 0;  ///< infinite where the state makes no valid shape
+  Matrix H = Matrix::Zero();
+  FitState::Step g = FitState::Step::Zero();
+};
 
-/// Distances of the points to the surface: the lesser of the way along the ray from the centre and the first-order distance
-/// |f - 1| / |grad f| with f = F^(e1/2). Infinite where the parameters make no valid shape.
-[[nodiscard]] FitErrors fit_errors(const FitState& state, std::span<const Vec3> points);
+/// Each point counts as often as `weights` says; once where there are none.
+[[nodiscard]] LossModel loss_model(const FitState& state, std::span<const Vec3> points, const ImproveConfig& config,
+                                   std::span<const double> weights = {});
+
+/// The step to the model's minimum, shortened by `damping` (Marquardt) and within what keeps the state's ranges.
+[[nodiscard]] FitState::Step damped_step(const FitState& state, const LossModel& model, bool deformed, double damping);
+
+/// Lowers the loss; returns the iterations it took. What it cannot improve it leaves as it is.
+int improve(FitState& state, std::span<const Vec3> points, const ImproveConfig& config);
+
+/// Signed distances of points to the surface, positive outside: whichever is less, the way along the ray from the centre or the
+/// first-order distance (f - 1) / |grad f|.
+[[nodiscard]] std::vector<double> distances(const FitState& state, std::span<const Vec3> points);
+
+[[nodiscard]] FitErrors fit_errors(std::span<const double> distances);
 
 }  // namespace mechane::geometry
