@@ -23,7 +23,8 @@ struct Arguments {
   fit::FitOptions options;
   std::string folder;
   std::string report = "html";
-  bool from_nodes = false;  // the default, which may be said
+  bool from_nodes = false;
+  bool cut_all = false;
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -31,11 +32,28 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("MESH", a.meshes, "mesh files: .glb, .gltf, .obj, .stl, .ply; in metres")->required();
   app.add_option("-o,--output", a.folder, "folder for the results, made when missing; without: beside each mesh");
   app.add_option("--node", a.options.node, "only what is under this node of the file");
-  auto* from_nodes = app.add_flag("--part-from-nodes", a.from_nodes,
-                                  "each node named part_... is a part, or each node with a mesh (default)");
-  app.add_flag("--whole", a.options.whole, "all meshes together are one piece")->excludes(from_nodes);
-  app.add_option("--resolution", config.map_resolution, "texels along an edge of a part's map")
-      ->check(CLI::IsMember({16, 32, 64}))
+  auto* from_nodes =
+      app.add_flag("--part-from-nodes", a.from_nodes,
+                   "each node named part_... is a part, or each node with a mesh; without: so where there are "
+                   "several, and a single mesh is cut into parts");
+  auto* cut_all =
+      app.add_flag("--cut", a.cut_all, "every mesh is cut into parts close to convex")->excludes(from_nodes);
+  app.add_flag("--whole", a.options.whole, "all meshes together are one part")->excludes(from_nodes)->excludes(cut_all);
+  app.add_option("--concavity", config.max_concavity, "how hollow a part may be, as a share of its mesh's diagonal")
+      ->check(CLI::Range(0.001, 1.0))
+      ->capture_default_str();
+  app.add_option("--max-parts", config.max_pieces, "parts that a mesh is cut into at most")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--error", config.max_error_m, "metres that a part's map may be wrong by, at 99 of 100 places")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str();
+  app.add_option("--error-share", config.max_error_share, "the same as a share of the diagonal; the lesser holds")
+      ->check(CLI::Range(1e-6, 0.1))
+      ->capture_default_str();
+  app.add_option("--resolution", config.map_resolution,
+                 "texels along an edge of a part's radial map; 0: the smallest map that is exact enough")
+      ->check(CLI::IsMember({0, 8, 12, 16, 24, 32, 48, 64}))
       ->capture_default_str();
   app.add_option("--spacing", config.sample_spacing_m, "metres between the samples that touch other bodies")
       ->check(CLI::Range(1e-4, 1.0))

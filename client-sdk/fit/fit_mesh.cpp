@@ -44,7 +44,7 @@ Expected<void> import_parts(const FitOptions& options, FittedObject& fitted) {
 
 Expected<void> build(FittedObject& fitted, Progress& progress) {
   auto object = collision::build_object(fitted.meshes, fitted.config, &fitted.report,
-                                        [&](std::size_t done) { progress.advance(done); });
+                                        [&](std::size_t done, std::size_t parts) { progress.advance(done, parts); });
   if (!object) return in_file(fitted.mesh_file, object.error());
   fitted.object = std::move(*object);
   return {};
@@ -92,7 +92,7 @@ Expected<FitResult> fit_mesh(const fs::path& mesh_file, const FitOptions& option
   if (auto ok = import_parts(options, fitted); !ok) return tl::unexpected(ok.error());
   const fs::path folder = fitted.part_file.parent_path();
   if (auto ok = prepare_folder(folder.empty() ? "." : folder); !ok) return tl::unexpected(ok.error());
-  progress.begin({name, "parts built", 0, fitted.meshes.size()});
+  progress.begin({name, "parts built"});
   if (auto ok = build(fitted, progress); !ok) return tl::unexpected(ok.error());
   progress.begin({name, "writing"});
   if (auto ok = write_and_read_back(fitted, interruption); !ok) return tl::unexpected(ok.error());

@@ -21,14 +21,14 @@ collision::Object single_point() {
 Probe::Probe(const collision::Object& object) : point_(single_point()) {
   object_.parts = object.parts;
   object_.bound_O = object.bound_O;
-  object_.first_cluster.assign(object.parts.size() + 1, 0);
+  object_.first_group.assign(object.parts.size() + 1, 0);
 }
 
 Probe::Probe(const collision::Object& object, std::size_t part) : point_(single_point()) {
   MECHANE_ASSERT(part < object.parts.size());
   object_.parts.push_back(object.parts[part]);
   object_.bound_O = object_.parts.front().bound_O;
-  object_.first_cluster.assign(2, 0);
+  object_.first_group.assign(2, 0);
 }
 
 Felt Probe::at(const Vec3& p_OP) const {

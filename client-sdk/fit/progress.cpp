@@ -69,9 +69,10 @@ void Progress::begin(Stage stage) {
   if (terminal_ || stage_.total > 0) draw();  // a log has the long stage from its start
 }
 
-void Progress::advance(std::size_t done) {
+void Progress::advance(std::size_t done, std::size_t total) {
   const std::lock_guard lock(mutex_);
   stage_.done = std::max(stage_.done, done);
+  stage_.total = total;
 }
 
 void Progress::end() {

@@ -33,8 +33,9 @@ class Progress {
   ~Progress();
 
   void begin(Stage stage);
-  void advance(std::size_t done);  ///< a count that goes back, as threads may report in another order, is not shown
-  void end();                      ///< takes the bar away: the line is free for other text
+  void advance(std::size_t done,
+               std::size_t total);  ///< a count that goes back, as threads may report in another order, is not shown
+  void end();                       ///< takes the bar away: the line is free for other text
 
  private:
   void run();

@@ -210,7 +210,7 @@ std::string reading_section() {
          "<p><b>Samples</b> are the points of this object that touch others. A fingertip must not fit between them.</p>"
          "<p><b>When a part is off:</b> cut it where it is hollow, forked or hooked, naming the pieces part_… in the "
          "model; "
-         "or raise --resolution. Holes and threads always want several parts.</p></div>\n";
+         "or lower --error and --concavity. Holes and threads always want several parts.</p></div>\n";
 }
 
 std::string settings_section(const Report& report) {

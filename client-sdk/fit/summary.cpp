@@ -39,10 +39,10 @@ PartSummary part_summary(const collision::Part& part, const collision::PartRepor
   s.fit_mean_pct = report.fit.mean_pct;
   s.fit_rms_pct = report.fit.rms_pct;
   s.fit_max_pct = report.fit.max_pct;
-  s.map_kind = fmt::format("radial {}", part.map.resolution());
-  s.map_bytes = part.map.texels().size_bytes();
-  s.depth_error_p50_mm = 1000 * report.depth_error_p50_m;
-  s.depth_error_p99_mm = 1000 * report.depth_error_p99_m;
+  s.map_kind = report.map;
+  s.map_bytes = report.bytes;
+  s.depth_error_p50_mm = 1000 * report.error.p50_m;
+  s.depth_error_p99_mm = 1000 * report.error.p99_m;
   s.samples = report.samples;
   s.spacing_mm = 1000 * report.spacing_m;
   return s;
@@ -148,7 +148,7 @@ Summary summarise(const FittedObject& fitted, const Surface& surface) {
 }
 
 std::string verdict(const Summary& summary) {
-  const char* remedy = "cut the parts where they are hollow, forked or hooked, or raise --resolution.";
+  const char* remedy = "cut the parts where they are hollow, forked or hooked, or lower --error and --concavity.";
   if (summary.not_felt_share > kMissedShare) {
     return fmt::format("{:.1f} % of this surface is not felt at all: a finger goes through it. To mend it, {}",
                        100 * summary.not_felt_share, remedy);
@@ -160,7 +160,13 @@ std::string verdict(const Summary& summary) {
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const collision::BuildConfig& config) {
-  return {{"map resolution (--resolution)", fmt::format("{} texels an edge", config.map_resolution)},
+  const std::string resolution =
+      config.map_resolution == 0 ? "the smallest that does" : fmt::format("{} texels an edge", config.map_resolution);
+  return {{"error allowed (--error)", fmt::format("{} mm", mm_text(1000 * config.max_error_m))},
+          {"error allowed (--error-share)", fmt::format("{:g} % of the diagonal", 100 * config.max_error_share)},
+          {"hollowness of a part (--concavity)", fmt::format("{:g} % of the diagonal", 100 * config.max_concavity)},
+          {"parts of a mesh at most (--max-parts)", fmt::format("{}", config.max_pieces)},
+          {"map resolution (--resolution)", resolution},
           {"sample spacing (--spacing)", fmt::format("{} mm", mm_text(1000 * config.sample_spacing_m))},
           {"samples a part at most (--max-samples)", fmt::format("{}", config.max_samples_per_part)},
           {"seam gap (--seam-gap)", fmt::format("{} mm", mm_text(1000 * config.seam_gap_m))},

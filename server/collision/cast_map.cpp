@@ -14,6 +14,7 @@ constexpr std::size_t kWitnesses = 160;
 constexpr double kClearanceWeight =
     0.1;  // a centre deep in the wood beats one that sees as much but lies close to a wall
 constexpr double kOwnCenterBonus = 0.05;
+constexpr double kPieceMargin = 1.03;
 
 /// About `count` of them, evenly.
 std::vector<SurfacePlace> some_of(std::span<const SurfacePlace> all, std::size_t count) {
@@ -75,17 +76,17 @@ Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const Surface
 
 MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
                       std::span<const geometry::HalfSpace> cell, std::span<const Vec3> bound_points_O,
-                      const geometry::Superquadric& shape, const Pose& X_OQ) {
+                      const Pose& X_OQ) {
   MapFrame frame;
   frame.X_OQ = X_OQ;
   const Pose X_QO = X_OQ.inverse();
   frame.center_Q = X_QO * choose_center(solid, node, places, cell, X_OQ.p);
-  // The semi-axes scale the cube, widened where the centre is not the superquadric's own. A bent shape reaches beyond its axes.
-  frame.half_Q = shape.a + frame.center_Q.cwiseAbs();
+  // The cube spans what the part does in the superquadric's frame, and no more: the wood beyond is other parts' to answer for.
   for (const Vec3& p_O : bound_points_O)
     frame.half_Q = frame.half_Q.cwiseMax((X_QO * p_O - frame.center_Q).cwiseAbs());
-  // Half a crack more on each side, so that parts beside a crack meet in it.
-  frame.half_Q = (1.0001 * frame.half_Q.array() + 0.5 * solid.seam_gap_m()).matrix();
+  // Half a crack more on each side, so that parts beside a crack meet in it; and pieces are known by samples, which miss their corners.
+  const double wider = cell.empty() ? 1.0001 : kPieceMargin;
+  frame.half_Q = (wider * frame.half_Q.array() + 0.5 * solid.seam_gap_m() + 1e-6).matrix();
   return frame;
 }
 

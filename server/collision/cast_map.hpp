@@ -8,7 +8,6 @@
 #include "server/collision/radial_map.hpp"
 #include "server/collision/solid.hpp"
 #include "server/geometry/cut_plane.hpp"
-#include "server/geometry/superquadric.hpp"
 
 namespace mechane::collision {
 
@@ -30,7 +29,7 @@ struct SurfacePlace {
 /// (none for the whole node) and `bound_points_O` are of its piece.
 [[nodiscard]] MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
                                     std::span<const geometry::HalfSpace> cell, std::span<const Vec3> bound_points_O,
-                                    const geometry::Superquadric& shape, const Pose& X_OQ);
+                                    const Pose& X_OQ);
 
 /// Casts the map. Which surface a ray belongs to: the first one that leads from the centre out into air. A ray that comes from
 /// outside, as in the paper, would take whatever it meets first, so that the far wall or another part within the bound filled the air

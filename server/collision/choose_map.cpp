@@ -98,12 +98,6 @@ DistanceBrick make_brick(const Solid& solid, const geometry::MeshQuery& skin, co
   return DistanceBrick::from_distances(grid, static_cast<float>(band), distances);
 }
 
-bool better(const MapError& a, const MapError& b) {
-  const std::size_t false_a = a.missed + a.wrong;
-  const std::size_t false_b = b.missed + b.wrong;
-  return false_a != false_b ? false_a < false_b : a.p99_m < b.p99_m;
-}
-
 }  // namespace
 
 std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin,
@@ -167,7 +161,7 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
         measure(probes, budget, [&](const Vec3& p_O) { return tried.map.evaluate((X_QO * p_O).cast<float>()); });
     tried.met = tried.error.meets(budget, kStrayShare);
     trend = {fineness, tried.error};
-    if (best.map.empty() || tried.met || better(tried.error, best.error)) best = std::move(tried);
+    if (best.map.empty() || tried.met || tried.error.badness_m() < best.error.badness_m()) best = std::move(tried);
     if (best.met) break;
   }
   return best;

@@ -17,9 +17,9 @@ namespace mechane::collision {
 
 /// Absolute bounds, metres.
 struct ErrorBudget {
-  double depth_p99_m = 0;   ///< of the depth, at the 99th percentile
-  double missed_m = 0;      ///< no point deeper than this may be missed, none this far outside may be a contact
-  double probe_depth_m = 0; ///< how deep points are asked
+  double depth_p99_m = 0;    ///< of the depth, at the 99th percentile
+  double missed_m = 0;       ///< no point deeper than this may be missed, none this far outside may be a contact
+  double probe_depth_m = 0;  ///< how deep points are asked
 };
 
 /// What a map's answers are worth, over points just under the surface and just above it.
@@ -30,6 +30,10 @@ struct MapError {
   std::size_t probes = 0;
   std::size_t missed = 0;  ///< points deeper than missed_m that the map calls outside
   std::size_t wrong = 0;   ///< points further outside than missed_m that it calls inside
+  /// Where no map meets the budget: the lesser is the better. A point in fifty that is missed is as bad as twice the error.
+  [[nodiscard]] double badness_m() const {
+    return p99_m * (1 + 50 * static_cast<double>(missed + wrong) / static_cast<double>(probes + 1));
+  }
   /// `stray`: the share of the probes that may be missed or wrong.
   [[nodiscard]] bool meets(const ErrorBudget& budget, double stray = 0) const {
     return p99_m <= budget.depth_p99_m && static_cast<double>(missed + wrong) <= stray * static_cast<double>(probes);
@@ -39,8 +43,8 @@ struct MapError {
 struct MapCandidates {
   bool radial = true;
   bool brick = true;
-  int only_resolution = 0;      ///< of a radial map; 0: any
-  std::size_t more_than = 0;    ///< bytes: only larger maps
+  int only_resolution = 0;    ///< of a radial map; 0: any
+  std::size_t more_than = 0;  ///< bytes: only larger maps
 };
 
 struct MapChoice {

@@ -18,11 +18,11 @@ namespace mechane::collision {
 /// trilinear between them.
 class DistanceBrick {
  public:
-  static constexpr int kMaxNodes = 256;                    ///< along an edge
-  static constexpr std::size_t kMaxValues = 4U << 20;      ///< of one brick
+  static constexpr int kMaxNodes = 256;                ///< along an edge
+  static constexpr std::size_t kMaxValues = 4U << 20;  ///< of one brick
 
   struct Grid {
-    std::array<int, 3> nodes{};     ///< at least 2 along each edge
+    std::array<int, 3> nodes{};      ///< at least 2 along each edge
     Vec3f origin_Q = Vec3f::Zero();  ///< the first node
     float cell_m = 0;
   };

@@ -67,6 +67,7 @@ struct KernelBody {
   static constexpr int kWidth = Lanes::kWidth;
   static constexpr LaneMask kAll = kWidth == 32 ? ~0U : (1U << kWidth) - 1;
   static constexpr float kTiny = 1e-20F;
+  static constexpr int kLandings = 5;
 
   struct Point {
     F x, y, z;
@@ -241,22 +242,23 @@ struct KernelBody {
   }
 
   /// The nearest of seven tangent planes that is really there: where x's own ray and where the six ways along the axes meet the surface.
-  /// On a concave surface a plane reaches beyond what it touches, so each guess is looked at where it lands. What lands deep in the
-  /// wood is dropped and the next one is tried; what lands near the surface gives way to the surface's own plane there, which is one
-  /// Newton step.
+  /// On a concave surface a plane reaches beyond what it touches, so each guess is looked at where it lands. What lands near the
+  /// surface gives way to the surface's own plane there, which is one Newton step, and is the answer. What lands in the wood under a
+  /// like surface gives way to that one's plane, which is tried in its turn; any other is dropped, and the next nearest is tried.
   static Plane nearest_surface(const RadialView& map, const Point& x, const Local& here) {
-    Plane guesses[7] = {tangent_plane(map, x, x, here.g, here.gradient),
+    Plane guesses[8] = {tangent_plane(map, x, x, here.g, here.gradient),
                         plane_along<0, 1>(map, x),
                         plane_along<0, -1>(map, x),
                         plane_along<1, 1>(map, x),
                         plane_along<1, -1>(map, x),
                         plane_along<2, 1>(map, x),
-                        plane_along<2, -1>(map, x)};
+                        plane_along<2, -1>(map, x),
+                        Plane{}};
     Plane best{};
     I open = all(1) > 0.0F;
-    for (int round = 0; round < 4 && Lanes::mask_of(open) != 0; ++round) {
+    for (int round = 0; round < kLandings && Lanes::mask_of(open) != 0; ++round) {
       Plane guess = guesses[0];
-      for (int i = 1; i < 7; ++i)
+      for (int i = 1; i < 8; ++i)
         guess = nearer(guess, guesses[i]);
       const Point landed{x.x + guess.depth * guess.n.x * map.inverse_half[0],
                          x.y + guess.depth * guess.n.y * map.inverse_half[1],
@@ -265,15 +267,16 @@ struct KernelBody {
       const Plane there = tangent_plane(map, x, landed, at.g, at.gradient);
       const F left = -at.g;
       const F reach = 0.5F * guess.depth;
-      const I sound = (there.depth > 0.0F) & (dot(there.n, guess.n) > 0.5F) & (there.depth < 2.0F * guess.depth) &
-                      ((left < 0.0F) | (left * left <= reach * reach * dot(at.gradient, at.gradient)));
-      const I settled = open & sound;
-      best = select(settled, there, best);
-      open = open & ~sound & (guess.depth > 0.0F);
-      // Until something better comes; and never again this one.
-      best = select(open & ~(best.depth > 0.0F), guess, best);
+      const I alike = (there.depth > 0.0F) & (dot(there.n, guess.n) > 0.5F);
+      const I arrived = (there.depth < 2.0F * guess.depth) &
+                        ((left < 0.0F) | (left * left <= reach * reach * dot(at.gradient, at.gradient)));
+      best = select(open & alike & arrived, there, best);
+      open = open & ~(alike & arrived) & (guess.depth > 0.0F);
+      best = select(open & ~(best.depth > 0.0F), guess, best);  // until something better comes
       for (Plane& other : guesses)
         other.depth = select(open & (other.depth <= guess.depth), all(0), other.depth);
+      const I goes_on = open & alike & (there.depth > guess.depth);
+      guesses[7] = select(goes_on, nearer(there, guesses[7]), guesses[7]);
     }
     return best;
   }
@@ -288,8 +291,8 @@ struct KernelBody {
       const I at_box = outside_box(from, map.half) <= radius * radius;
       if (Lanes::mask_of(at_box) == 0) continue;
       // g grows in proportion to the distance from the centre, so it holds beyond the box, too.
-      const Local here = local(
-          map, {from.x * map.inverse_half[0], from.y * map.inverse_half[1], from.z * map.inverse_half[2]});
+      const Local here =
+          local(map, {from.x * map.inverse_half[0], from.y * map.inverse_half[1], from.z * map.inverse_half[2]});
       near |= Lanes::mask_of(at_box & (here.g <= map.steepest * radius)) << at;
     }
     return near & first(count);
@@ -328,8 +331,8 @@ struct KernelBody {
   /// The cell of a point and its eight values, as the value on the low corner and differences.
   struct Cell {
     F fx, fy, fz;
-    F x00, x10, x01, x11;      // along x
-    F d00, d10, d01, d11;      // their slopes
+    F x00, x10, x01, x11;  // along x
+    F d00, d10, d01, d11;  // their slopes
   };
   static Cell cell_of(const BrickView& map, const Point& u) {
     const auto low = [](F t, int nodes) { return to_int(clamp(t, 0.0F, static_cast<float>(nodes - 2))); };
@@ -373,8 +376,8 @@ struct KernelBody {
     LaneMask near = 0;
     const auto most = [&](int axis) { return static_cast<float>(map.nodes[static_cast<std::size_t>(axis)] - 1); };
     for (int at = 0; at < static_cast<int>(count); at += kWidth) {
-      const Point u = brick_coordinates(
-          map, transform(X, {load(spheres.x, at), load(spheres.y, at), load(spheres.z, at)}));
+      const Point u =
+          brick_coordinates(map, transform(X, {load(spheres.x, at), load(spheres.y, at), load(spheres.z, at)}));
       const F radius = load(spheres.radius, at) * map.inverse_cell;
       const Point inner{clamp(u.x, 0.0F, most(0)), clamp(u.y, 0.0F, most(1)), clamp(u.z, 0.0F, most(2))};
       const Point way{u.x - inner.x, u.y - inner.y, u.z - inner.z};

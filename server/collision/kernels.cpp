@@ -15,9 +15,12 @@ namespace {
 
 const Kernels* compiled(InstructionSet set) noexcept {
   switch (set) {
-    case InstructionSet::avx2: return avx2_kernels();
-    case InstructionSet::avx512: return avx512_kernels();
-    case InstructionSet::portable: break;
+    case InstructionSet::avx2:
+      return avx2_kernels();
+    case InstructionSet::avx512:
+      return avx512_kernels();
+    case InstructionSet::portable:
+      break;
   }
   return &portable_kernels();
 }

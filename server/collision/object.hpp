@@ -35,7 +35,9 @@ struct Cluster {
   std::uint16_t count = 0;
   std::uint16_t part = 0;
 
-  [[nodiscard]] Vec3f sample_O(std::size_t lane) const { return {samples_O.x[lane], samples_O.y[lane], samples_O.z[lane]}; }
+  [[nodiscard]] Vec3f sample_O(std::size_t lane) const {
+    return {samples_O.x[lane], samples_O.y[lane], samples_O.z[lane]};
+  }
 };
 
 /// The spheres of up to 16 clusters that follow one another in Object::clusters, all of one part.

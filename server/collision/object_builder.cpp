@@ -171,8 +171,7 @@ Expected<Made> make_part(const PartSource& source, const Ground& ground, PartRep
   const auto fit = fit_source(source, ground);
   if (!fit) return tl::unexpected(fit.error());
   Made made;
-  made.frame = choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->shape,
-                            fit->X_OQ);
+  made.frame = choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
   made.probes =
       make_probes(ground.solid, ground.skin, source.places, ground.budget, kProbesPerPart, ground.config.seed + 2);
   report.name = source.name;
@@ -237,7 +236,9 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
     });
     for (std::size_t k = 0; k < guilty.size(); ++k) {
       const std::size_t i = guilty[k];
-      if (!finer[k].map.empty()) set_map(std::move(finer[k]), parts[i], reports[i]);
+      if (finer[k].map.empty()) continue;
+      if (finer[k].met || finer[k].error.badness_m() < reports[i].error.badness_m())
+        set_map(std::move(finer[k]), parts[i], reports[i]);
     }
   }
 }
@@ -245,8 +246,8 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
 MapError error_of(const Object& object, std::span<const PartSource> sources, const Ground& ground) {
   std::vector<std::vector<Probe>> probes(sources.size());
   for_each_index(sources.size(), [&](std::size_t i) {
-    probes[i] = make_probes(ground.solid, ground.skin, sources[i].places, ground.budget, kReportProbes,
-                            ground.config.seed + 3);
+    probes[i] =
+        make_probes(ground.solid, ground.skin, sources[i].places, ground.budget, kReportProbes, ground.config.seed + 3);
   });
   std::vector<Probe> all;
   for (const auto& some : probes)

@@ -25,14 +25,14 @@ enum class Parts {
 
 struct BuildConfig {
   Parts parts = Parts::automatic;
-  double max_concavity = 0.02;     ///< of a piece, as a share of its mesh's diagonal; see geometry::decompose
-  std::size_t max_pieces = 48;     ///< of one mesh
+  double max_concavity = 0.02;  ///< of a piece, as a share of its mesh's diagonal; see geometry::decompose
+  std::size_t max_pieces = 48;  ///< of one mesh
   /// The error budget: a map's depth error at its 99th percentile, as a share of the object's diagonal, and in metres; the lesser holds.
   double max_error_share = 0.003;
-  double max_error_m = 0.001;   ///< what a finger still takes for the real surface
-  double miss_share = 0.002;    ///< of the diagonal: no point deeper than this may be missed
-  double probe_depth_m = 0.004; ///< how deep the error is measured: a finger that presses hard sinks in this far
-  bool radial_maps = true;      ///< what the builder may choose from
+  double max_error_m = 0.001;    ///< what a finger still takes for the real surface
+  double miss_share = 0.002;     ///< of the diagonal: no point deeper than this may be missed
+  double probe_depth_m = 0.004;  ///< how deep the error is measured: a finger that presses hard sinks in this far
+  bool radial_maps = true;       ///< what the builder may choose from
   bool bricks = true;
   int map_resolution = 0;                   ///< of radial maps: one of RadialMap::kResolutions; 0: chosen
   double sample_spacing_m = 0.005;          ///< between surface samples; under a third of a fingertip

@@ -9,8 +9,8 @@
 namespace mechane::collision {
 namespace {
 
-constexpr std::size_t kPlaces = 2400;       // of a part's surface, for the choice of its map
-constexpr std::size_t kLeastPoints = 12;    // a superquadric takes as many
+constexpr std::size_t kPlaces = 2400;     // of a part's surface, for the choice of its map
+constexpr std::size_t kLeastPoints = 12;  // a superquadric takes as many
 
 bool exposed(const Solid& solid, std::size_t node, const geometry::SurfaceSample& sample) {
   return solid.is_exposed(node, sample.p, solid.part(node).triangle_normal(sample.triangle));
@@ -116,7 +116,7 @@ std::vector<PartSource> sources_of_node(const std::string& name, const geometry:
     for (const Vec3& p : samples)
       sources[piece_of(cut, p)].samples_O.push_back(p);
   }
-  std::erase_if(sources, [](const PartSource& s) { return s.bound_points_O.size() < kLeastPoints; });
+  std::erase_if(sources, [](const PartSource& s) { return !s.whole_node && s.bound_points_O.size() < kLeastPoints; });
   for (PartSource& source : sources) {
     source.node = node;
     source.spacing_m = spacing;

@@ -57,14 +57,15 @@ void PlacedObject::query(const PointSet& points, PointHits& out, const Kernels& 
       const std::size_t groups = std::min(kLanes, points.group_count - block);
       std::array<std::uint64_t, kLanes> near_of{};
       for (std::size_t c = 0; c < batch.size(); ++c) {
-        for (LaneMask lanes = batch[c].near(kernels, from(points.groups, block), groups); lanes != 0; lanes &= lanes - 1)
+        for (LaneMask lanes = batch[c].near(kernels, from(points.groups, block), groups); lanes != 0;
+             lanes &= lanes - 1)
           near_of[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << c;
       }
       for (std::size_t g = 0; g < groups; ++g) {
         if (near_of[g] == 0) continue;
         const std::size_t cluster = points.clusters_per_group * (block + g);
-        query.test_group(from(points.clusters, cluster), points.clusters_per_group,
-                         static_cast<std::uint32_t>(cluster), near_of[g]);
+        query.test_group(from(points.clusters, cluster), points.clusters_per_group, static_cast<std::uint32_t>(cluster),
+                         near_of[g]);
       }
     }
     query.finish();

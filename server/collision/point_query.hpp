@@ -27,8 +27,8 @@ struct PointSet {
 /// Which points lie inside, each once and in no order; structure of arrays. The storage is kept from one query to the next.
 struct PointHits {
   std::vector<std::uint32_t> point;
-  std::vector<float> depth_m;           ///< > 0
-  std::vector<float> n_x, n_y, n_z;     ///< outward unit normal of the target's surface, in S
+  std::vector<float> depth_m;        ///< > 0
+  std::vector<float> n_x, n_y, n_z;  ///< outward unit normal of the target's surface, in S
   std::size_t count = 0;
 
   /// Room for every point of a set, so that a query allocates nothing.

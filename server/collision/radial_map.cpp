@@ -42,7 +42,7 @@ RadialMap::RadialMap(int resolution, const Vec3f& center_Q, const Vec3f& half_Q,
       steepest_ = std::max(steepest_, slope);
     }
   }
-  steepest_ *= 1.0001F;  // rounding
+  steepest_ *= 1.001F;  // rounding
 }
 
 RadialMap RadialMap::from_sigma(int resolution, const Vec3f& center_Q, const Vec3f& half_Q,
@@ -64,33 +64,39 @@ Vec3 RadialMap::texel_direction(int resolution, const Vec3f& half_Q, int face, i
   return scaled.cwiseProduct(half_Q.cast<double>());
 }
 
-/// A bound of |dg/dp| in one cell of a face: of each term by itself, which is no more than twice too much.
+/// The largest |dg/dp| in one cell of a face. Each part of the gradient is bilinear in the cell, so its length is convex along both
+/// edges and largest in a corner.
 float RadialMap::steepest_in(int face, int iu, int iv) const {
   const float half_n = 0.5F * static_cast<float>(resolution_ - 1);
   const std::uint16_t* t = texels_.data() + static_cast<std::size_t>((face * resolution_ + iv) * resolution_ + iu);
-  const float s00 = t[0];
-  const float s10 = t[1];
-  const float s01 = t[resolution_];
-  const float s11 = t[resolution_ + 1];
-  const float largest = sigma_step_ * std::max({s00, s10, s01, s11});
-  const float slope_u = sigma_step_ * half_n * std::max(std::abs(s10 - s00), std::abs(s11 - s01));
-  const float slope_v = sigma_step_ * half_n * std::max(std::abs(s01 - s00), std::abs(s11 - s10));
-  const auto reach = [&](int i) {
-    return std::max(std::abs(static_cast<float>(i) / half_n - 1), std::abs(static_cast<float>(i + 1) / half_n - 1));
-  };
   const int axis = face / 2;
   const Vec3f inverse = half_Q_.cwiseInverse();
-  Vec3f bound;
-  bound[axis] = largest + reach(iu) * slope_u + reach(iv) * slope_v;
-  bound[(axis + 1) % 3] = slope_u;
-  bound[(axis + 2) % 3] = slope_v;
-  return bound.cwiseProduct(inverse).norm();
+  float steepest = 0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const int cu = corner % 2;
+    const int cv = corner / 2;
+    const float sigma = sigma_step_ * static_cast<float>(t[cv * resolution_ + cu]);
+    const float slope_u = sigma_step_ * half_n * static_cast<float>(t[cv * resolution_ + 1] - t[cv * resolution_]);
+    const float slope_v = sigma_step_ * half_n * static_cast<float>(t[resolution_ + cu] - t[cu]);
+    Vec3f gradient;
+    gradient[axis] = sigma - (static_cast<float>(iu + cu) / half_n - 1) * slope_u -
+                     (static_cast<float>(iv + cv) / half_n - 1) * slope_v;
+    gradient[(axis + 1) % 3] = slope_u;
+    gradient[(axis + 2) % 3] = slope_v;
+    steepest = std::max(steepest, gradient.cwiseProduct(inverse).norm());
+  }
+  return steepest;
 }
 
 RadialView RadialMap::view() const noexcept {
   const auto array = [](const Vec3f& v) { return std::array<float, 3>{v.x(), v.y(), v.z()}; };
-  return {texels_.data(),   resolution_,     sigma_step_,
-          steepest_,        array(center_Q_), array(half_Q_), array(half_Q_.cwiseInverse())};
+  return {texels_.data(),
+          resolution_,
+          sigma_step_,
+          steepest_,
+          array(center_Q_),
+          array(half_Q_),
+          array(half_Q_.cwiseInverse())};
 }
 
 BoxView RadialMap::box() const noexcept {

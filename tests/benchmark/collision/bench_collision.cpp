@@ -25,8 +25,9 @@ struct Config {
   std::size_t checked = 200;
   double budget_pct = 0.3;
   TimingConfig timing;
-  std::vector<std::string> methods = {kOurs,    "sqmap_avx2", "sqmap_portable", "sqmap_nobrick", "brick",    "brick_scalar",
-                                      "openvdb", "bt_sdf",     "embree",         "fcl_contacts",  "fcl_yesno"};
+  std::vector<std::string> methods = {kOurs,    "sqmap_avx2",   "sqmap_portable", "sqmap_nobrick",
+                                      "brick",  "brick_scalar", "openvdb",        "bt_sdf",
+                                      "embree", "fcl_contacts", "fcl_yesno"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
