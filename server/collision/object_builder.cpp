@@ -19,7 +19,7 @@ namespace {
 constexpr double kWeld = 1e-6;               // of the part's diagonal
 constexpr std::size_t kProbesPerPart = 600;  // for the choice of its map
 constexpr std::size_t kReportProbes = 400;   // per part, for the object's error
-constexpr int kRefinements = 3;              // rounds
+constexpr int kRefinements = 1;              // rounds
 constexpr double kFaultShare = 0.01;         // of a part's probes: the budget is one of a 99th percentile
 constexpr std::size_t kGraveFault = 1000;    // a miss is one too many
 

