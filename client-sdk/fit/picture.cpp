@@ -105,7 +105,7 @@ Image Pictures::average(const Side& side, const std::function<Paint(std::size_t)
     for (std::size_t x = 0; x < static_cast<std::size_t>(image.width); ++x) {
       Colour sum = Colour::Zero();
       float alpha = 0;
-      for (std::size_t i = 0; i < kFine * kFine; ++i) {
+      for (std::size_t i = 0; i < std::size_t{kFine} * kFine; ++i) {
         const Paint p = paint((y * kFine + i / kFine) * side.buffer.width + x * kFine + i % kFine);
         sum += p.alpha * p.colour;
         alpha += p.alpha;
@@ -141,8 +141,9 @@ std::vector<float> Pictures::probe_pixels(const Side& side) const {
     for (int x = 0; x < width; ++x) {
       const std::size_t at = witness_of(side.buffer, x, static_cast<int>(y));
       if (!side.buffer.covered(at)) continue;
-      const Vec3 p_screen(static_cast<double>(at % side.buffer.width) + 0.5,
-                          static_cast<double>(at / side.buffer.width) + 0.5, side.buffer.z[at]);
+      const std::size_t row = at / side.buffer.width;
+      const std::size_t column = at % side.buffer.width;
+      const Vec3 p_screen(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, side.buffer.z[at]);
       const auto error = surface_.error_at(side.view.to_object(p_screen), side.buffer.triangle[at]);
       if (!error) continue;
       errors_mm[y * width + x] = error->felt ? static_cast<float>(1000 * error->error_m) : kNotFelt;

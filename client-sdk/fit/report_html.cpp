@@ -238,7 +238,7 @@ Report make_report(const FittedObject& fitted, const Surface& surface, const Sum
   report.reach_mm = 1000 * surface.reach_m();
   report.part_colours = part_colours(fitted.object);
   // A picture with much detail is large: then it gets fewer pixels.
-  for (double scale = 1; scale > 0.4; scale *= 0.75) {
+  for (const double scale : {1.0, 0.75, 0.5625, 0.42}) {
     const Pictures pictures(surface, fitted.object, static_cast<int>(scale * kRowWidth),
                             static_cast<int>(scale * kRowHeight));
     report.parts = pictures.parts();

@@ -37,7 +37,7 @@ std::vector<std::string> characters(std::string_view text) {
 std::string shape_text(const PartSummary& part) {
   const auto tenths = [](double value) {
     std::string text = fmt::format("{:.1f}", value);
-    if (const auto zero = text.find("0."); zero != std::string::npos && zero <= 1) text.erase(zero, 1);
+    if (const auto zero = text.find("0."); zero <= 1) text.erase(zero, 1);
     return text;
   };
   std::string text;

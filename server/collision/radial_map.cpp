@@ -68,16 +68,19 @@ Vec3 RadialMap::texel_direction(int resolution, const Vec3f& half_Q, int face, i
 /// edges and largest in a corner.
 float RadialMap::steepest_in(int face, int iu, int iv) const {
   const float half_n = 0.5F * static_cast<float>(resolution_ - 1);
-  const std::uint16_t* t = texels_.data() + static_cast<std::size_t>((face * resolution_ + iv) * resolution_ + iu);
+  const auto texel = [&](int u, int v) {
+    const int index = (face * resolution_ + iv + v) * resolution_ + iu + u;
+    return static_cast<float>(texels_[static_cast<std::size_t>(index)]);
+  };
   const int axis = face / 2;
   const Vec3f inverse = half_Q_.cwiseInverse();
   float steepest = 0;
   for (int corner = 0; corner < 4; ++corner) {
     const int cu = corner % 2;
     const int cv = corner / 2;
-    const float sigma = sigma_step_ * static_cast<float>(t[cv * resolution_ + cu]);
-    const float slope_u = sigma_step_ * half_n * static_cast<float>(t[cv * resolution_ + 1] - t[cv * resolution_]);
-    const float slope_v = sigma_step_ * half_n * static_cast<float>(t[resolution_ + cu] - t[cu]);
+    const float sigma = sigma_step_ * texel(cu, cv);
+    const float slope_u = sigma_step_ * half_n * (texel(1, cv) - texel(0, cv));
+    const float slope_v = sigma_step_ * half_n * (texel(cu, 1) - texel(cu, 0));
     Vec3f gradient;
     gradient[axis] = sigma - (static_cast<float>(iu + cu) / half_n - 1) * slope_u -
                      (static_cast<float>(iv + cv) / half_n - 1) * slope_v;

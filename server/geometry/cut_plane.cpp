@@ -76,8 +76,11 @@ std::vector<Vec3> lattice_on(const std::vector<Vec3>& polygon, const Vec3& n, do
   for (std::size_t i = 2; i < polygon.size(); ++i)
     turn += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
   const double way = turn.dot(n) < 0 ? -1 : 1;
-  for (double y = bounds.min().y() + spacing / 2; y < bounds.max().y(); y += spacing) {
-    for (double x = bounds.min().x() + spacing / 2; x < bounds.max().x(); x += spacing) {
+  const auto steps = [&](double length) { return static_cast<int>(std::ceil(length / spacing - 0.5)); };
+  for (int row = 0; row < steps(bounds.sizes().y()); ++row) {
+    for (int column = 0; column < steps(bounds.sizes().x()); ++column) {
+      const double x = bounds.min().x() + (column + 0.5) * spacing;
+      const double y = bounds.min().y() + (row + 0.5) * spacing;
       const Vec3 p = x * u + y * v + height * n;
       bool in = true;
       for (std::size_t i = 0; i < polygon.size() && in; ++i) {

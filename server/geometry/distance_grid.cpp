@@ -13,14 +13,14 @@ constexpr double kBand =
     1.8;  // cells; above the cell's diagonal, so that every corner of a cell with surface in it is exact
 constexpr int kMargin = 2;  // cells about the mesh
 // Shares of a cell by which the grid is shifted, so that its lines do not run along the faces of a mesh with round coordinates.
-const Vec3 kShift(0.3183, 0.2718, 0.4142);
+const Vec3 kOffGrid(0.3183, 0.2718, 0.4142);
 
 }  // namespace
 
 DistanceGrid::DistanceGrid(const Mesh& mesh, const MeshQuery& query, int cells) {
   const Eigen::AlignedBox3d box = mesh.bounds();
   cell_m_ = box.sizes().maxCoeff() / cells;
-  origin_ = box.min() - cell_m_ * (Vec3::Constant(kMargin) + kShift);
+  origin_ = box.min() - cell_m_ * (Vec3::Constant(kMargin) + kOffGrid);
   for (int i = 0; i < 3; ++i)
     size_[static_cast<std::size_t>(i)] = static_cast<int>(std::ceil(box.sizes()[i] / cell_m_)) + 2 * kMargin + 2;
   const std::size_t count = index(0, 0, size_[2]);
@@ -34,8 +34,8 @@ DistanceGrid::DistanceGrid(const Mesh& mesh, const MeshQuery& query, int cells) 
 Vec3 DistanceGrid::position(std::size_t node) const {
   const auto sx = static_cast<std::size_t>(size_[0]);
   const auto sy = static_cast<std::size_t>(size_[1]);
-  const Vec3 at(static_cast<double>(node % sx), static_cast<double>(node / sx % sy),
-                static_cast<double>(node / (sx * sy)));
+  const std::size_t layer = node / (sx * sy);
+  const Vec3 at(static_cast<double>(node % sx), static_cast<double>(node / sx % sy), static_cast<double>(layer));
   return origin_ + cell_m_ * at;
 }
 
@@ -136,9 +136,9 @@ void DistanceGrid::set_signs(const MeshQuery& query) {
     });
   }
   for (std::size_t node = 0; node < distance_m_.size(); ++node) {
-    const int x = winding[0][node];
-    const int y = winding[1][node];
-    const int middle = std::clamp<int>(winding[2][node], std::min(x, y), std::max(x, y));
+    const std::int8_t x = winding[0][node];
+    const std::int8_t y = winding[1][node];
+    const std::int8_t middle = std::clamp(winding[2][node], std::min(x, y), std::max(x, y));
     if (middle > 0) distance_m_[node] = -distance_m_[node];
     overlaps_ = overlaps_ || middle > 1;
   }

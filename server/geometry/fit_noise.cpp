@@ -121,7 +121,7 @@ std::vector<Vec3> among_others(std::span<const Vec3> points, std::size_t wanted)
 }
 
 int remove_noise_bias(FitState& state, std::span<const Vec3> points, const ImproveConfig& config, std::uint64_t seed) {
-  const std::size_t count = 2 * 6 * kCells * kCells;
+  const std::size_t count = std::size_t{2} * 6 * kCells * kCells;
   const std::vector<Vec3> unit_noise = opposite_noise(count, seed);
   std::vector<Vec3> simulated(count);
   std::vector<double> weights(count);

@@ -85,7 +85,7 @@ std::uint8_t lump_near(const DecomposeModel& model, const std::vector<std::uint8
   std::uint8_t best = kNoLump;
   double least = 1e300;
   for (int n = 0; n < 27; ++n) {
-    const Vec3 step(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    const Vec3 step = Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).cast<double>();
     const std::size_t node = model.grid.nearest(p + model.grid.cell_m() * step);
     const double away = (model.grid.position(node) - p).squaredNorm();
     if (lump_of[node] == kNoLump || away >= least) continue;
