@@ -120,7 +120,7 @@ class Fit(EndToEnd):
         mesh = self.mesh("fence.obj", FENCE)
         (self.folder / "fence.part").write_text("the old one")
         # An error that no map meets: every one is tried, which takes long enough to be told.
-        fit = self.start("fit", "fit", mesh, "--error", "0.000001")
+        fit = self.start("fit", "fit", mesh, "--error", "0.000001", "--spacing", "0.0004", "--max-samples", "1000000")
         wait_until(lambda: "parts built" in fit.text(), 60, "parts are being built")
         fit.process.send_signal(signal.SIGINT)
         self.assertEqual(fit.wait(5), 130, fit.text())
