@@ -21,12 +21,8 @@ tl::unexpected<Error> in_file(const fs::path& file, Error error) {
 /// All meshes as one, its corners welded where parts met.
 std::vector<geometry::NamedMesh> one_piece(const std::vector<geometry::NamedMesh>& parts, const std::string& name) {
   geometry::NamedMesh whole{name, {}};
-  for (const geometry::NamedMesh& part : parts) {
-    const auto base = static_cast<std::uint32_t>(whole.mesh.vertices.size());
-    whole.mesh.vertices.insert(whole.mesh.vertices.end(), part.mesh.vertices.begin(), part.mesh.vertices.end());
-    for (const auto& t : part.mesh.triangles)
-      whole.mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-  }
+  for (const geometry::NamedMesh& part : parts)
+    whole.mesh.append(part.mesh);
   return {std::move(whole)};
 }
 

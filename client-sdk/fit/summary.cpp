@@ -19,13 +19,6 @@ constexpr double kMissedShare = 0.002;  // of the surface: more of it gone, and 
 constexpr double kLargeObject_mm = 20'000;
 constexpr double kSmallObject_mm = 10;
 
-double signed_volume_m3(const geometry::Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
-  return sum;
-}
-
 PartSummary part_summary(const collision::Part& part, const collision::PartReport& report, std::size_t triangles) {
   PartSummary s;
   s.name = part.name;
@@ -61,7 +54,7 @@ void note_meshes(const FittedObject& fitted, Summary& summary) {
   for (const geometry::NamedMesh& part : fitted.meshes) {
     if (geometry::open_edges(part.mesh) > 0) {
       open.push_back(part.name);
-    } else if (signed_volume_m3(part.mesh) < 0) {
+    } else if (geometry::enclosed_volume_m3(part.mesh) < 0) {
       inverted.push_back(part.name);
     }
   }

@@ -140,8 +140,8 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
 Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground& ground) {
   geometry::FitConfig config;
   config.seed = ground.config.seed;
-  auto fit = source.whole_node ? geometry::fit_superquadric(ground.nodes[source.node], config)
-                               : geometry::fit_superquadric(source.bound_points_O, config);
+  auto fit = source.is_whole_node() ? geometry::fit_superquadric(ground.nodes[source.node], config)
+                                    : geometry::fit_superquadric(source.bound_points_O, config);
   if (!fit) return fail(fit.error().what, where_of(source.name), fit.error().remedy);
   return fit;
 }

@@ -110,13 +110,13 @@ std::vector<PartSource> sources_of_node(const std::string& name, const geometry:
   } else {
     for (std::size_t i = 0; i < pieces; ++i) {
       sources[i].name = name + "." + std::to_string(i + 1);
-      sources[i].whole_node = false;
       describe_piece(cut.pieces[i], node, solid, sources[i]);
     }
     for (const Vec3& p : samples)
       sources[piece_of(cut, p)].samples_O.push_back(p);
   }
-  std::erase_if(sources, [](const PartSource& s) { return !s.whole_node && s.bound_points_O.size() < kLeastPoints; });
+  std::erase_if(sources,
+                [](const PartSource& s) { return !s.is_whole_node() && s.bound_points_O.size() < kLeastPoints; });
   for (PartSource& source : sources) {
     source.node = node;
     source.spacing_m = spacing;

@@ -17,12 +17,14 @@ namespace mechane::collision {
 struct PartSource {
   std::string name;
   std::size_t node = 0;                   ///< the solid's part that it belongs to
-  bool whole_node = true;                 ///< else a piece, which its bound points describe
   std::vector<geometry::HalfSpace> cell;  ///< of a piece
   std::vector<SurfacePlace> places;       ///< of its surface where that borders on air, evenly
   std::vector<Vec3> bound_points_O;       ///< its superquadric and its map hold them
   std::vector<Vec3> samples_O;            ///< for contacts
   double spacing_m = 0;                   ///< of the samples
+
+  /// Else a piece, which its bound points describe.
+  [[nodiscard]] bool is_whole_node() const { return cell.empty(); }
 };
 
 /// Triangles of all nodes that border on air somewhere: the solid's true surface, for the exact distance.

@@ -10,11 +10,7 @@ namespace {
 geometry::Mesh merge_closed(std::span<const geometry::Mesh> parts) {
   geometry::Mesh whole;
   for (const geometry::Mesh& part : parts) {
-    if (geometry::open_edges(part) != 0) continue;
-    const auto base = static_cast<std::uint32_t>(whole.vertices.size());
-    whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
-    for (const auto& t : part.triangles)
-      whole.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+    if (geometry::open_edges(part) == 0) whole.append(part);
   }
   return whole;
 }

@@ -27,6 +27,13 @@ struct Mesh {
       box.extend(v);
     return box;
   }
+  /// Adds another mesh beside what there is; nothing is welded.
+  void append(const Mesh& other) {
+    const auto base = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const auto& t : other.triangles)
+      triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+  }
 };
 
 /// A mesh with the name of the file's node that it came from.

@@ -77,4 +77,14 @@ std::size_t open_edges(const Mesh& welded) {
   return open;
 }
 
+double enclosed_volume_m3(const Mesh& mesh) {
+  const Vec3 middle = mesh.bounds().center();
+  double six_times = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - middle;
+    six_times += a.dot((mesh.vertices[t[1]] - middle).cross(mesh.vertices[t[2]] - middle));
+  }
+  return six_times / 6;
+}
+
 }  // namespace mechane::geometry

@@ -21,4 +21,7 @@ inline constexpr std::size_t kMaxTriangles = 2'000'000;
 /// How many directed edges have no partner that runs the other way: 0 means closed. The mesh must be welded.
 [[nodiscard]] std::size_t open_edges(const Mesh& welded);
 
+/// Of a closed mesh; negative where it is inside out. Overlapping pieces count as often as they overlap.
+[[nodiscard]] double enclosed_volume_m3(const Mesh& mesh);
+
 }  // namespace mechane::geometry

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "server/geometry/mesh_check.hpp"
+
 namespace mechane::geometry {
 namespace {
 
@@ -130,16 +132,6 @@ void measure_with(const DecomposeModel& model, PieceRegion& region, std::size_t 
 }
 
 }  // namespace
-
-double enclosed_volume_m3(const Mesh& mesh) {
-  const Vec3 middle = mesh.bounds().center();
-  double six_times = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]] - middle;
-    six_times += a.dot((mesh.vertices[t[1]] - middle).cross(mesh.vertices[t[2]] - middle));
-  }
-  return six_times / 6;
-}
 
 DecomposeModel::DecomposeModel(Mesh welded, double max_concavity, int grid_cells, std::uint64_t seed_)
     : mesh(std::move(welded)),

@@ -17,9 +17,6 @@
 
 namespace mechane::geometry {
 
-/// Of a closed mesh; negative where it is inside out. Overlapping pieces count as often as they overlap.
-[[nodiscard]] double enclosed_volume_m3(const Mesh& mesh);
-
 /// What all pieces of one object ask: its mesh, welded and closed, and the distance to it.
 struct DecomposeModel {
   DecomposeModel(Mesh welded, double max_concavity, int grid_cells, std::uint64_t seed);

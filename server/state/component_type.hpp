@@ -55,6 +55,7 @@ struct ComponentType {
 template <class Kinds>
 [[nodiscard]] std::vector<ComponentType> types_of(const Kinds& kinds) {
   std::vector<ComponentType> types;
+  types.reserve(std::size(kinds));
   for (const auto* kind : kinds)
     types.push_back(kind->type);
   return types;

@@ -76,6 +76,24 @@ void expect_same(const Answer& want, const Answer& got, const char* name) {
   }
 }
 
+/// Asks every set of kernels the same of a map; returns how many points were inside.
+template <class Map, class Inside, class Depth>
+std::size_t expect_all_alike(const Map& map, Inside Kernels::*inside, Depth Kernels::*depth, geometry::Random& random) {
+  const BlockTransform X = any_transform(random);
+  const PointBlock points = any_points(random);
+  const auto ask = [&](const Kernels& kernels) {
+    Answer answer;
+    answer.inside = (kernels.*inside)(map, X, points.view(), answer.points);
+    (kernels.*depth)(map, answer.points.p_Q, answer.inside, answer.depth);
+    return answer;
+  };
+  const auto sets = all_kernels();
+  const Answer want = ask(*sets.front());
+  for (const Kernels* kernels : sets)
+    expect_same(want, ask(*kernels), kernels->name);
+  return static_cast<std::size_t>(__builtin_popcount(want.inside));
+}
+
 std::vector<std::uint16_t> any_texels(geometry::Random& random, int resolution) {
   std::vector<std::uint16_t> texels(static_cast<std::size_t>(6 * resolution * resolution));
   for (auto& texel : texels)
@@ -95,19 +113,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForARadialMap) {
       map.half[i] = between(random, 0.05, 1);
       map.inverse_half[i] = 1 / map.half[i];
     }
-    const BlockTransform X = any_transform(random);
-    const PointBlock points = any_points(random);
-    const auto ask = [&](const Kernels& kernels) {
-      Answer answer;
-      answer.inside = kernels.radial_inside(map, X, points.view(), answer.points);
-      kernels.radial_depth(map, answer.points.p_Q, answer.inside, answer.depth);
-      return answer;
-    };
-    const auto sets = all_kernels();
-    const Answer want = ask(*sets.front());
-    inside += static_cast<std::size_t>(__builtin_popcount(want.inside));
-    for (const Kernels* kernels : sets)
-      expect_same(want, ask(*kernels), kernels->name);
+    inside += expect_all_alike(map, &Kernels::radial_inside, &Kernels::radial_depth, random);
   }
   EXPECT_GT(inside, 400U);  // else nothing was compared
 }
@@ -127,19 +133,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
     for (auto& value : values)
       value = static_cast<std::int16_t>(static_cast<int>(random.below(60'000)) - 40'000 + 7'000);
     map.values = values.data();
-    const BlockTransform X = any_transform(random);
-    const PointBlock points = any_points(random);
-    const auto ask = [&](const Kernels& kernels) {
-      Answer answer;
-      answer.inside = kernels.brick_inside(map, X, points.view(), answer.points);
-      kernels.brick_depth(map, answer.points.p_Q, answer.inside, answer.depth);
-      return answer;
-    };
-    const auto sets = all_kernels();
-    const Answer want = ask(*sets.front());
-    inside += static_cast<std::size_t>(__builtin_popcount(want.inside));
-    for (const Kernels* kernels : sets)
-      expect_same(want, ask(*kernels), kernels->name);
+    inside += expect_all_alike(map, &Kernels::brick_inside, &Kernels::brick_depth, random);
   }
   EXPECT_GT(inside, 300U);
 }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "server/geometry/mesh_check.hpp"
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/piece_region.hpp"
 #include "server/geometry/random.hpp"
