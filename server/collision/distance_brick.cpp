@@ -23,6 +23,7 @@ bool DistanceBrick::is_valid(const Grid& grid, float step_m, std::size_t values)
 DistanceBrick::DistanceBrick(const Grid& grid, float step_m, std::vector<std::int16_t> values)
     : grid_(grid), step_m_(step_m), values_(std::move(values)) {
   MECHANE_ASSERT(is_valid(grid_, step_m_, values_.size()));
+  steepest_ = steepest_outside();
 }
 
 DistanceBrick DistanceBrick::from_distances(const Grid& grid, float band_m, std::span<const float> distances_m) {
@@ -34,12 +35,39 @@ DistanceBrick DistanceBrick::from_distances(const Grid& grid, float band_m, std:
   return {grid, step, std::move(values)};
 }
 
+/// The largest slope of the interpolated distance in the cells that are not inside as a whole. Each part of the gradient is bilinear in
+/// the cell, so its length is convex along every edge and largest in a corner.
+float DistanceBrick::steepest_outside() const {
+  const auto& n = grid_.nodes;
+  const auto value = [&](int x, int y, int z) {
+    return static_cast<float>(values_[static_cast<std::size_t>((z * n[1] + y) * n[0] + x)]);
+  };
+  float square = 0;
+  for (int z = 0; z + 1 < n[2]; ++z) {
+    for (int y = 0; y + 1 < n[1]; ++y) {
+      for (int x = 0; x + 1 < n[0]; ++x) {
+        float highest = -1;
+        float steepest = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+          const int cx = x + corner % 2;
+          const int cy = y + corner / 2 % 2;
+          const int cz = z + corner / 4;
+          const Vec3f slope(value(x + 1, cy, cz) - value(x, cy, cz), value(cx, y + 1, cz) - value(cx, y, cz),
+                            value(cx, cy, z + 1) - value(cx, cy, z));
+          steepest = std::max(steepest, slope.squaredNorm());
+          highest = std::max(highest, value(cx, cy, cz));
+        }
+        if (highest >= 0) square = std::max(square, steepest);
+      }
+    }
+  }
+  constexpr float kRounding = 1.001F;
+  return std::max(1e-3F, kRounding * std::sqrt(square) * step_m_ / grid_.cell_m);
+}
+
 BrickView DistanceBrick::view() const noexcept {
-  return {values_.data(),
-          grid_.nodes,
-          {grid_.origin_Q.x(), grid_.origin_Q.y(), grid_.origin_Q.z()},
-          1 / grid_.cell_m,
-          step_m_};
+  return {values_.data(),   grid_.nodes, {grid_.origin_Q.x(), grid_.origin_Q.y(), grid_.origin_Q.z()},
+          1 / grid_.cell_m, step_m_,     steepest_};
 }
 
 BoxView DistanceBrick::box() const noexcept {

@@ -46,8 +46,11 @@ class DistanceBrick {
   [[nodiscard]] BoxView box() const noexcept;
 
  private:
+  [[nodiscard]] float steepest_outside() const;
+
   Grid grid_;
   float step_m_ = 0;
+  float steepest_ = 1;
   std::vector<std::int16_t> values_;
 };
 

@@ -68,6 +68,7 @@ struct BrickView {
   std::array<float, 3> origin;
   float inverse_cell;
   float step_m;
+  float steepest;  ///< outside the surface the distance changes by no more than this over a metre
 };
 
 /// Points in a part's frame Q, and how central each lies in the part: what decides between parts that overlap.

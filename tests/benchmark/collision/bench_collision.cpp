@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "server/collision/kernels.hpp"
 #include "tests/benchmark/bench_stats.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/oracle.hpp"

@@ -9,8 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "server/collision/kernels.hpp"
 #include "tests/benchmark/collision/scene.hpp"
+
+namespace mechane::collision {
+enum class InstructionSet;
+}
 
 namespace mechane::benchmark {
 

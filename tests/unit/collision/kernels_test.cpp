@@ -122,7 +122,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
   geometry::Random random(8);
   std::size_t inside = 0;
   for (int round = 0; round < 400; ++round) {
-    BrickView map{nullptr, {}, {}, between(random, 10, 30), 1e-5F};
+    BrickView map{nullptr, {}, {}, between(random, 10, 30), 1e-5F, 1};
     std::size_t count = 1;
     for (std::size_t i = 0; i < 3; ++i) {
       map.nodes[i] = static_cast<int>(2 + random.below(20));

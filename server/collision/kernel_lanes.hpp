@@ -1,0 +1,123 @@
+// Vectors of floats for the kernels, and what both kinds of map do with them. Compiled once for each instruction set, like everything
+// that includes it: see kernel_body.hpp.
+#pragma once
+
+#include "server/collision/kernels.hpp"
+
+// Vectors wider than the instruction set's are passed in some way of the compiler's own, and only within this file.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace mechane::collision {
+namespace {
+
+// The compilers' own vectors; their size must not depend on a template's parameter.
+template <int Width>
+struct VectorsOf;
+template <>
+struct VectorsOf<4> {
+  typedef float F __attribute__((vector_size(16)));
+  typedef int I __attribute__((vector_size(16)));
+};
+template <>
+struct VectorsOf<8> {
+  typedef float F __attribute__((vector_size(32)));
+  typedef int I __attribute__((vector_size(32)));
+};
+template <>
+struct VectorsOf<16> {
+  typedef float F __attribute__((vector_size(64)));
+  typedef int I __attribute__((vector_size(64)));
+};
+
+/// Lanes of `Width` floats. A class that derives from it may bring better root(), gather() and mask_of().
+template <int Width>
+struct PortableLanes {
+  static constexpr int kWidth = Width;
+  using F = typename VectorsOf<Width>::F;
+  using I = typename VectorsOf<Width>::I;
+
+  static F root(F x) {
+    for (int i = 0; i < Width; ++i)
+      x[i] = __builtin_sqrtf(x[i]);
+    return x;
+  }
+  /// For each lane the two 16-bit values from table[index] on, the first in the low half.
+  static I gather(const void* table, I index) {
+    I out{};
+    for (int i = 0; i < Width; ++i) {
+      int pair = 0;
+      __builtin_memcpy(&pair, static_cast<const char*>(table) + 2 * static_cast<long>(index[i]), sizeof pair);
+      out[i] = pair;
+    }
+    return out;
+  }
+  static LaneMask mask_of(I condition) {
+    LaneMask bits = 0;
+    for (int i = 0; i < Width; ++i)
+      bits |= (condition[i] != 0 ? 1U : 0U) << i;
+    return bits;
+  }
+};
+
+/// What both kinds of map share.
+template <class Lanes>
+struct KernelMath {
+  using F = typename Lanes::F;
+  using I = typename Lanes::I;
+  static constexpr int kWidth = Lanes::kWidth;
+  static constexpr LaneMask kAll = kWidth == 32 ? ~0U : (1U << kWidth) - 1;
+  static constexpr float kTiny = 1e-20F;
+
+  struct Point {
+    F x, y, z;
+  };
+
+  static F all(float value) { return F{} + value; }
+  static F select(I condition, F a, F b) {
+    return reinterpret_cast<F>((condition & reinterpret_cast<I>(a)) | (~condition & reinterpret_cast<I>(b)));
+  }
+  // Both give b where a is NaN.
+  static F lesser(F a, F b) { return select(a < b, a, b); }
+  static F greater(F a, F b) { return select(a > b, a, b); }
+  static F magnitude(F x) { return reinterpret_cast<F>(reinterpret_cast<I>(x) & 0x7fffffff); }
+  static F sign_of(F x) { return select(x < 0.0F, all(-1), all(1)); }
+  static I to_int(F x) { return __builtin_convertvector(x, I); }
+  static F to_float(I x) { return __builtin_convertvector(x, F); }
+  static F clamp(F x, float least, float most) { return lesser(greater(x, all(least)), all(most)); }
+  static F dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+  static F load(const float* from, int at) {
+    F out;
+    __builtin_memcpy(&out, from + at, sizeof out);
+    return out;
+  }
+  template <class Array>
+  static void store(F value, Array& to, int at) {
+    __builtin_memcpy(&to[static_cast<std::size_t>(at)], &value, sizeof value);
+  }
+  static Point load_points(const PointsView& points, int at) {
+    return {load(points.x, at), load(points.y, at), load(points.z, at)};
+  }
+  static void store_points(const Point& p, PointBlock& block, int at) {
+    store(p.x, block.x, at);
+    store(p.y, block.y, at);
+    store(p.z, block.z, at);
+  }
+
+  static Point transform(const BlockTransform& X, const Point& p) {
+    const auto& r = X.R_BA;
+    return {r[0] * p.x + r[1] * p.y + r[2] * p.z + X.p_BA[0], r[3] * p.x + r[4] * p.y + r[5] * p.z + X.p_BA[1],
+            r[6] * p.x + r[7] * p.y + r[8] * p.z + X.p_BA[2]};
+  }
+
+  /// Squared distance to a box around the origin.
+  static F outside_box(const Point& p, const std::array<float, 3>& half) {
+    const Point out{greater(magnitude(p.x) - half[0], all(0)), greater(magnitude(p.y) - half[1], all(0)),
+                    greater(magnitude(p.z) - half[2], all(0))};
+    return dot(out, out);
+  }
+  static LaneMask first(std::size_t count) { return count >= kLanes ? 0xffffU : (1U << count) - 1; }
+};
+
+}  // namespace
+}  // namespace mechane::collision
