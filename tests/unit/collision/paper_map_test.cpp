@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "server/geometry/fit.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "server/geometry/surface_samples.hpp"
 #include "tests/support/allocation_guard.hpp"
@@ -147,31 +146,39 @@ TEST(PaperMap, SearchingOnBothSidesIsBetterThanThePrintedSideWhereAxesDiffer) {
   EXPECT_LT(error_at(0.99, map, probes, {}), 0.8 * error_at(0.99, map, probes, printed));
 }
 
-/// The paper's Figure 4: two spheres, in a superquadric that bounds them.
-TEST(PaperMap, OnTheTwoSpheresOfFigure4TheDepthIsTheMeshesWithinAPerCent) {
+/// The paper's Figure 4: two spheres in a superquadric that bounds them.
+TEST(PaperMap, OnTheTwoSpheresOfFigure4TheDepthIsTheMeshesWithinAPerCentAndAHalf) {
   const geometry::Mesh mesh = test::peanut();
   const geometry::MeshQuery query(mesh);
-  const auto fit = geometry::fit_superquadric(mesh);
-  ASSERT_TRUE(fit.has_value());
-  const PaperMap map = cast_paper_map({query}, fit->shape, fit->X_OQ);
-  auto probes = probes_under(mesh, 0.03, 3000);
-  for (PaperProbe& probe : probes)
-    probe.p_Q = fit->X_OQ.inverse() * probe.p_Q;
+  const PaperMap map = cast_paper_map({query}, ellipsoid({0.45, 0.45, 0.8}), {});
   const double diagonal = mesh.bounds().diagonal().norm();
+  const auto probes = probes_under(mesh, 0.02, 3000);
   EXPECT_LT(error_at(0.50, map, probes, {}), 0.002 * diagonal);
-  EXPECT_LT(error_at(0.99, map, probes, {}), 0.010 * diagonal);
+  EXPECT_LT(error_at(0.99, map, probes, {}), 0.015 * diagonal);
   // Outside the mesh, but inside the superquadric, points move freely.
   std::size_t outside = 0;
   std::size_t touched = 0;
-  for (const auto& sample : geometry::sample_by_area(mesh, 2000, 9)) {
+  for (const auto& sample : geometry::sample_by_area(mesh, 3000, 9)) {
     const Vec3 p = sample.p + 0.02 * query.triangle_normal(sample.triangle);
-    const PaperAnswer answer = map.search((fit->X_OQ.inverse() * p).cast<float>());
+    const PaperAnswer answer = map.search(p.cast<float>());
     if (!answer.inside || query.signed_distance(p) < 0.01) continue;
     ++outside;
     touched += answer.hit.hit ? 1 : 0;
   }
-  EXPECT_GT(outside, 100U);
-  EXPECT_LE(100 * touched, outside);
+  EXPECT_GT(outside, 1000U);
+  EXPECT_LE(50 * touched, outside);
+}
+
+/// Why the paper's map is no more than a reference: (5) in even steps of eta jumps over most of a face where an exponent is small, so
+/// that the place found lies far aside.
+TEST(PaperMap, SmallExponentsLeaveGapsInTheGridAndTheDepthErrsByThem) {
+  const auto probes = [](double e) {
+    return probes_under(geometry::tessellate(ellipsoid({0.05, 0.05, 0.05}, e, e), 60), 0.003, 3000);
+  };
+  const double round = error_at(0.99, bare_map(ellipsoid({0.05, 0.05, 0.05}, 0.9, 0.9)), probes(0.9), {});
+  const double boxy = error_at(0.99, bare_map(ellipsoid({0.05, 0.05, 0.05}, 0.3, 0.3)), probes(0.3), {});
+  EXPECT_LT(round, 0.001);
+  EXPECT_GT(boxy, 0.005);
 }
 
 TEST(PaperMap, WhatNoRayMeetsIsNoHitAndTouchesNothing) {
@@ -222,7 +229,8 @@ TEST(PaperMap, OutsideAndWhatIsNotANumberIsNoHit) {
   EXPECT_TRUE(centre.n_Q.allFinite());
 }
 
-/// The mean angle between the normals of cells that are neighbours along omega, of the surface as the map has it, radians.
+/// How much the normal turns from cell to cell along omega, of the surface as the map has it: root mean square, radians. On facets the
+/// turns gather at the edges.
 double roughness(const PaperMap& map) {
   const auto normal = [&](int eta, int omega) {
     const Vec3f across = *map.surface_Q(eta, (omega + 1) % 200) - *map.surface_Q(eta, omega);
@@ -230,25 +238,28 @@ double roughness(const PaperMap& map) {
     return Vec3f(across.cross(up).normalized());
   };
   double sum = 0;
-  for (int eta = 20; eta < 80; ++eta)
-    for (int omega = 0; omega < 200; ++omega)
-      sum += std::acos(std::min(1.0F, normal(eta, omega).dot(normal(eta, (omega + 1) % 200)))) / (60 * 200);
-  return sum;
+  for (int eta = 20; eta < 80; ++eta) {
+    for (int omega = 0; omega < 200; ++omega) {
+      const float cosine = normal(eta, omega).dot(normal(eta, (omega + 1) % 200));
+      sum += std::pow(std::acos(std::min(1.0F, cosine)), 2) / (60 * 200);
+    }
+  }
+  return std::sqrt(sum);
 }
 
-/// How much the force k S n (15, 18) of a point that sweeps around jumps from step to step: the mean second difference of S n.
+/// How much the force k S n (15, 18) of a point that sweeps around within a sphere's map changes its slope from place to place: root mean
+/// square of its second difference, k = 1.
 double force_jumps(const PaperMap& map, double radius_m) {
-  std::vector<Vec3f> forces;
-  for (int i = 0; i < 3000; ++i) {
-    const double angle = 2 * kPi * i / 3000;
-    const MapHit hit =
-        map.search(Vec3(radius_m * std::cos(angle), radius_m * std::sin(angle), 0.04).cast<float>(), kAlongNormal).hit;
-    forces.emplace_back(hit.hit ? Vec3f(hit.depth_m * hit.n_Q) : Vec3f::Zero());
-  }
+  const auto force = [&](int eta, int omega) {
+    const Vec3 way = geometry::surface_normal(map.shape(), PaperMap::angles(map.grid(), eta, omega));
+    const MapHit hit = map.evaluate((radius_m * way).cast<float>());
+    return Vec3f(hit.hit ? Vec3f(hit.depth_m * hit.n_Q) : Vec3f::Zero());
+  };
   double sum = 0;
-  for (std::size_t i = 2; i < forces.size(); ++i)
-    sum += static_cast<double>((forces[i] - 2 * forces[i - 1] + forces[i - 2]).norm());
-  return sum;
+  for (int eta = 20; eta < 80; ++eta)
+    for (int omega = 1; omega < 199; ++omega)
+      sum += static_cast<double>((force(eta, omega + 1) - 2 * force(eta, omega) + force(eta, omega - 1)).squaredNorm());
+  return std::sqrt(sum / (60 * 198));
 }
 
 TEST(PaperMap, SmoothingLowersTheRoughnessOfNormalAndForceAndKeepsTheMeanDepth) {
