@@ -145,8 +145,8 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
 def _plot_map(path: Path, rows: list[list[float | None]]) -> None:
     """Rows from pole to pole, both included; columns once around, the last at +180 degrees."""
     columns, last = len(rows[0]), len(rows) - 1
-    around = [((columns * (degrees + 180) / 360 - 0.5) / columns, f"{degrees}°") for degrees in (-90, 0, 90, 180)]
-    up = [((last * (90 - degrees) / 180 + 0.5) / (last + 1), f"{degrees}°") for degrees in (90, 45, 0, -45, -90)]
+    around = [(max(0, (columns * (degrees + 180) / 360 - 0.5) / columns), f"{degrees}°".replace("-", "−")) for degrees in (-180, -90, 0, 90, 180)]
+    up = [((last * (90 - degrees) / 180 + 0.5) / (last + 1), f"{degrees}°".replace("-", "−")) for degrees in (90, 45, 0, -45, -90)]
     heat_map(path, "The distance map of two spheres in one superquadric",
              "the paper's Figure 4 with our data: how far under the superquadric the object's surface lies", rows,
              "around, ω", "from pole to pole, η", "mm", around, up, "no hit")

@@ -55,6 +55,7 @@ PaperMap::PaperMap(const geometry::Superquadric& shape, const PaperGrid& grid, s
   MECHANE_ASSERT(is_valid(shape, grid, distances_m));
   levels_ = pyramid_levels(grid);
   tabulate();
+  bound();
   float largest = 1e-9F;
   for (const float d : distances_m)
     if (!std::isnan(d)) largest = std::max(largest, std::abs(d));
@@ -116,6 +117,18 @@ void PaperMap::tabulate() {
   }
 }
 
+/// The undeformed box, deformed. At one height taper and bend are affine, so its corners there are the outermost; between two heights a
+/// bend bulges by less than the margin.
+void PaperMap::bound() {
+  static constexpr int kSteps = 32;
+  for (int i = 0; i < 4 * (kSteps + 1); ++i) {
+    const Vec3 at(i % 2 == 0 ? -1 : 1, i / 2 % 2 == 0 ? -1 : 1, -1 + 2.0 * (i / 4) / kSteps);
+    bound_Q_.extend(geometry::deform(shape_, at.cwiseProduct(shape_.a)).cast<float>());
+  }
+  const Vec3f margin = Vec3f::Constant((deformed_ ? 0.02F : 1e-6F) * bound_Q_.sizes().maxCoeff());
+  bound_Q_ = {bound_Q_.min() - margin, bound_Q_.max() + margin};
+}
+
 PaperMap::Place PaperMap::place(Index at) const noexcept {
   const Row& row = rows_[static_cast<std::size_t>(at.eta)];
   const Column& column = columns_[static_cast<std::size_t>(at.omega)];
@@ -147,7 +160,7 @@ PaperMap::Place PaperMap::deformed(const Row& row, Place at) const noexcept {
 
 /// False outside the superquadric. F (1) and the angles share their powers.
 bool PaperMap::guess(const Vec3f& p_QP, Guess& out) const noexcept {
-  if (!p_QP.allFinite()) return false;
+  if (!((p_QP.array() >= bound_Q_.min().array()) && (p_QP.array() <= bound_Q_.max().array())).all()) return false;
   const Vec3f p = deformed_ ? Vec3f(geometry::math::undeform<float>(shape_f_, p_QP)) : p_QP;
   const Vec3f ratio = p.cwiseQuotient(shape_f_.a).cwiseAbs();
   if (!(ratio.maxCoeff() <= 1)) return false;

@@ -110,6 +110,7 @@ class PaperMap {
   class Climb;
 
   void tabulate();
+  void bound();
   [[nodiscard]] Place place(Index at) const noexcept;
   [[nodiscard]] Place deformed(const Row& row, Place undeformed) const noexcept;
   [[nodiscard]] bool guess(const Vec3f& p_QP, Guess& out) const noexcept;
@@ -129,6 +130,7 @@ class PaperMap {
   bool sided_eta_ = false;  // (10) may be trusted
   bool sided_omega_ = false;
   float cos_alpha_ = 1, sin_alpha_ = 0;
+  Eigen::AlignedBox3f bound_Q_;  // around the superquadric: what is outside needs no powers
   float step_m_ = 0;
   std::vector<Row> rows_;
   std::vector<Column> columns_;
