@@ -148,5 +148,5 @@ def _plot_map(path: Path, rows: list[list[float | None]]) -> None:
     around = [(max(0, (columns * (degrees + 180) / 360 - 0.5) / columns), f"{degrees}°".replace("-", "−")) for degrees in (-180, -90, 0, 90, 180)]
     up = [((last * (90 - degrees) / 180 + 0.5) / (last + 1), f"{degrees}°".replace("-", "−")) for degrees in (90, 45, 0, -45, -90)]
     heat_map(path, "The distance map of two spheres in one superquadric",
-             "the paper's Figure 4 with our data: how far under the superquadric the object's surface lies", rows,
+             "the paper's Figure 4 with our data: how far the surface lies under an ellipsoid; the light band is the waist", rows,
              "around, ω", "from pole to pole, η", "mm", around, up, "no hit")

@@ -214,7 +214,7 @@ def heat_map(path: Path, title: str, subtitle: str, rows: list[list[float | None
               f"<g transform='translate(18 {top + high / 2:.1f}) rotate(-90)'>{_text(0, 0, y_name, 12, QUIET, 'middle')}</g>"]
     bar, bar_high = left + wide + 36, high - (40 if bare else 0)
     parts += [f"<rect x='{bar}' y='{top + bar_high * (1 - (k + 1) / SHADES):.2f}' width='16' height='{bar_high / SHADES + 0.3:.2f}' "
-              f"fill='{_shade((k + 0.5) / SHADES)}'/>" for k in range(SHADES)]
+              f"fill='{_shade((k + 0.5) / SHADES)}' shape-rendering='crispEdges'/>" for k in range(SHADES)]
     step = _round_step(span)
     for k in range(int(span / step + 1e-9) + 1):
         y = top + bar_high * (1 - k * step / span)

@@ -69,8 +69,8 @@ bool PaperMap::is_valid(const geometry::Superquadric& shape, const PaperGrid& gr
                         std::span<const float> distances_m) {
   const auto fits = [](int places) { return places >= kMinPlaces && places <= kMaxPlaces; };
   if (!geometry::is_valid(shape) || !fits(grid.eta) || !fits(grid.omega)) return false;
-  // With fewer places from pole to pole the pyramid would reach around the superquadric.
-  if (grid.omega < 32 || grid.omega % 2 != 0 || grid.omega > 8 * grid.eta) return false;
+  // With fewer places one way the pyramid would reach around the superquadric.
+  if (grid.omega < 32 || grid.omega % 2 != 0 || grid.omega > 8 * grid.eta || grid.eta > 4 * grid.omega) return false;
   if (distances_m.size() != static_cast<std::size_t>(grid.eta) * static_cast<std::size_t>(grid.omega)) return false;
   return std::none_of(distances_m.begin(), distances_m.end(), [](float d) { return std::isinf(d); });
 }
@@ -183,8 +183,8 @@ PaperMap::Index PaperMap::wrapped(int eta, int omega) const noexcept {
     eta = eta < 0 ? -eta : 2 * last - eta;
     omega += grid_.omega / 2;
   }
-  omega %= grid_.omega;
-  return {eta, omega < 0 ? omega + grid_.omega : omega};
+  if (omega < 0) return {eta, omega + grid_.omega};
+  return {eta, omega < grid_.omega ? omega : omega - grid_.omega};
 }
 
 /// One search: the best place so far.

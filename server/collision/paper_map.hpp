@@ -58,7 +58,8 @@ class PaperMap {
   /// `distances_m` holds a value for each place, omega fastest; NaN is 'no hit'. Kept in 16 bits. Asserts on what is_valid refuses.
   PaperMap(const geometry::Superquadric& shape, const PaperGrid& grid, std::span<const float> distances_m);
 
-  /// A valid superquadric, 16 to 1024 places each way, omega even and at most eight times eta, a value for each, none infinite.
+  /// A valid superquadric; 16 to 1024 places each way, omega even, from a quarter of eta to eight times it; a value for each, none
+  /// infinite.
   [[nodiscard]] static bool is_valid(const geometry::Superquadric& shape, const PaperGrid& grid,
                                      std::span<const float> distances_m);
 

@@ -102,8 +102,8 @@ MethodPtr make_embree(const Scene& scene);
 MethodPtr make_fcl_contacts(const Scene& scene);
 MethodPtr make_fcl_yesno(const Scene& scene);
 
-/// The paper's Figure 4: the distance map of two spheres in one superquadric, mm, coarse; from the north pole down, omega from -pi on.
-/// NaN: no hit.
+/// The paper's Figure 4: the distance map of two spheres in an ellipsoid that bounds them, mm, coarse; from the north pole down, omega
+/// from -pi on; NaN: no hit. Not in the superquadric that fits best: that is boxy, and the even grid jumps over the waist.
 std::vector<std::vector<double>> paper_picture(const Scene& scene);
 
 }  // namespace mechane::benchmark

@@ -1,4 +1,5 @@
 // The paper's method: superquadric parts with a distance map each, a sphere around each part, a pyramid search for each point.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -6,6 +7,7 @@
 #include "server/base/assert.hpp"
 #include "server/collision/object_builder.hpp"
 #include "server/collision/paper_map.hpp"
+#include "server/geometry/fit.hpp"
 #include "tests/benchmark/collision/culling.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/resolution.hpp"
@@ -14,9 +16,9 @@ namespace mechane::benchmark {
 namespace {
 
 /// Of our builder's parts the paper needs the superquadrics alone: their own maps are kept small, to be thrown away.
-std::vector<collision::Part> superquadric_parts(const SceneObject& object, collision::Parts parts) {
+std::vector<collision::Part> superquadric_parts(const SceneObject& object) {
   collision::BuildConfig config;
-  config.parts = parts;
+  config.parts = collision::Parts::decomposed;
   config.max_error_m = 1;
   config.probe_depth_m = 0.015 * object.diagonal_m;
   config.bricks = false;
@@ -69,7 +71,7 @@ class Paper final : public Method {
     for (const SceneObject& object : scene.objects) {
       const geometry::MeshQuery query(object.mesh_O);
       auto& parts = objects_.emplace_back();
-      for (const collision::Part& part : superquadric_parts(object, collision::Parts::decomposed))
+      for (const collision::Part& part : superquadric_parts(object))
         parts.push_back(place_part(part, query, object));
     }
     build_s_ = watch.seconds();
@@ -138,11 +140,18 @@ MethodPtr make_paper(const Scene& scene, const std::string& name) {
 }
 
 std::vector<std::vector<double>> paper_picture(const Scene& scene) {
-  const SceneObject& object = scene.objects[1];
-  const geometry::MeshQuery query(object.mesh_O);
+  const geometry::Mesh& spheres_O = scene.objects[1].mesh_O;
+  const auto fit = geometry::fit_superquadric(spheres_O);
+  MECHANE_ASSERT(fit.has_value());
+  geometry::Superquadric ellipsoid;
+  ellipsoid.a = fit->shape.a;
+  double largest = 0;
+  for (const Vec3& v : spheres_O.vertices)
+    largest = std::max(largest, geometry::radial_form(ellipsoid, fit->X_OQ.inverse() * v));
+  ellipsoid.a *= largest;
+  const geometry::MeshQuery query(spheres_O);
   const collision::PaperGrid grid{50, 100};
-  const collision::Part part = superquadric_parts(object, collision::Parts::as_given).front();
-  const collision::PaperMap map = collision::cast_paper_map({query}, part.superquadric, part.X_OQ, grid);
+  const collision::PaperMap map = collision::cast_paper_map({query}, ellipsoid, fit->X_OQ, grid);
   std::vector<std::vector<double>> rows_mm;
   for (int eta = grid.eta - 1; eta >= 0; --eta) {
     auto& row = rows_mm.emplace_back();

@@ -67,7 +67,7 @@ RC_GTEST_PROP(PaperMap, EverySearchTakesEightEvaluationsALevelAndOne, ()) {
   const geometry::Superquadric shape = test::draw_superquadric(*rc::gen::arbitrary<std::uint64_t>()).shape;
   // Levels by (12): log2(max(eta / 16, omega / 32)), cut off.
   const auto& [grid, levels] = *rc::gen::elementOf(std::vector<std::pair<PaperGrid, int>>{
-      {{16, 32}, 0}, {{32, 64}, 1}, {{50, 100}, 1}, {{100, 200}, 2}, {{64, 256}, 3}, {{128, 256}, 3}});
+      {{16, 32}, 0}, {{32, 64}, 1}, {{50, 100}, 1}, {{100, 200}, 2}, {{64, 256}, 3}, {{128, 256}, 3}, {{128, 32}, 3}});
   const PaperMap map = bare_map(shape, grid);
   RC_ASSERT(map.levels() == levels);
   geometry::Random random(*rc::gen::arbitrary<std::uint64_t>());
@@ -302,9 +302,10 @@ TEST(PaperMap, ArgumentsThatMakeNoMapAreRefused) {
   const std::vector<float> zeros(20000, 0.0F);
   const geometry::Superquadric shape = ellipsoid(Vec3::Ones());
   EXPECT_TRUE(PaperMap::is_valid(shape, {100, 200}, zeros));
-  EXPECT_FALSE(PaperMap::is_valid(shape, {100, 201}, zeros));
-  EXPECT_FALSE(PaperMap::is_valid(shape, {200, 50}, zeros));
-  EXPECT_FALSE(PaperMap::is_valid(shape, {16, 1250}, zeros));
+  EXPECT_FALSE(PaperMap::is_valid(shape, {100, 198}, zeros));
+  EXPECT_FALSE(PaperMap::is_valid(shape, {200, 48}, std::vector<float>(200 * 48, 0.0F)));
+  EXPECT_FALSE(PaperMap::is_valid(shape, {100, 201}, std::vector<float>(100 * 201, 0.0F)));
+  EXPECT_FALSE(PaperMap::is_valid(shape, {20, 1000}, zeros));
   EXPECT_FALSE(PaperMap::is_valid(ellipsoid({1, -1, 1}), {100, 200}, zeros));
   EXPECT_FALSE(
       PaperMap::is_valid(shape, {100, 200}, std::vector<float>(20000, std::numeric_limits<float>::infinity())));
