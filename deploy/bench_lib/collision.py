@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from peers import Measured, Missing, own
-from plots import bars, lines, number
+from plots import bars, heat_map, lines, number
 
 PROGRAM_LIMIT_S = 600  # before the program counts as hung; it takes a minute or three
 OURS = "sqmap"
@@ -136,4 +136,17 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
         triangles = metrics.get("scene.triangles", 0)
         bars(made[-1], "Memory of the scene", f"the paper's Figure 15b with our data: {triangles:.0f} triangles, equal depth error",
              rows, "KB", ours="Mechane")
+    if "paper_map_mm" in result.curves:
+        made.append(out / "collision-map.svg")
+        _plot_map(made[-1], result.curves["paper_map_mm"])
     return made
+
+
+def _plot_map(path: Path, rows: list[list[float | None]]) -> None:
+    """Rows from pole to pole, both included; columns once around, the last at +180 degrees."""
+    columns, last = len(rows[0]), len(rows) - 1
+    around = [(max(0, (columns * (degrees + 180) / 360 - 0.5) / columns), f"{degrees}°".replace("-", "−")) for degrees in (-180, -90, 0, 90, 180)]
+    up = [((last * (90 - degrees) / 180 + 0.5) / (last + 1), f"{degrees}°".replace("-", "−")) for degrees in (90, 45, 0, -45, -90)]
+    heat_map(path, "The distance map of two spheres in one superquadric",
+             "the paper's Figure 4 with our data: how far the surface lies under an ellipsoid; the light band is the waist", rows,
+             "around, ω", "from pole to pole, η", "mm", around, up, "no hit")

@@ -1,4 +1,4 @@
-"""Two plain plots as SVG: tails of distributions, and bars. No library: a plot is a few lines and some text."""
+"""Plain plots as SVG: tails of distributions, bars, lines, a map of values. No library: a plot is a few lines and some text."""
 
 import math
 from html import escape
@@ -157,4 +157,70 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
             points = " ".join(f"{place_x(x):.1f},{place_y(y):.1f}" for x, y in piece)
             parts.append(f"<polyline points='{points}' fill='none' stroke='{colour}' stroke-width='1.8' stroke-linejoin='round'/>")
         parts.append(_text(width - right + 10, label_y[index], name, 12, colour, weight="bold"))
+    _page(path, width, height, title, subtitle, parts)
+
+
+DEPTHS = ["#0d2b52", "#1b5aa6", "#5b9bdc", "#b9d6ee", "#fbf6e6"]  # of a map of values: from low, dark, to high, light
+SHADES = 32
+
+
+def _shade(share: float) -> str:
+    place = min(max(share, 0), 1) * (len(DEPTHS) - 1)
+    index = min(int(place), len(DEPTHS) - 2)
+    low, high = (tuple(int(colour[i:i + 2], 16) for i in (1, 3, 5)) for colour in DEPTHS[index:index + 2])
+    return "#" + "".join(f"{round(a + (b - a) * (place - index)):02x}" for a, b in zip(low, high))
+
+
+def _round_step(span: float) -> float:
+    """1, 2 or 5 times a power of ten, so that three to seven fit into the span."""
+    power = 10.0 ** math.floor(math.log10(span / 3))
+    return max(step * power for step in (1, 2, 5) if step * power <= span / 3)
+
+
+def _cells(rows: list[list[float | None]], span: float, left: float, top: float, cell: float) -> list[str]:
+    """One path for each shade: cells of the same shade that lie side by side are one rectangle."""
+    runs: dict[int | None, list[str]] = {}
+    for j, row in enumerate(rows):
+        begin = 0
+        shades = [None if value is None else min(int(max(value, 0) / span * SHADES), SHADES - 1) for value in row]
+        for i in range(1, len(shades) + 1):
+            if i == len(shades) or shades[i] != shades[begin]:
+                wide = cell * (i - begin)
+                runs.setdefault(shades[begin], []).append(f"M{left + cell * begin:g} {top + cell * j:g}h{wide:g}v{cell:g}h{-wide:g}z")
+                begin = i
+    return [f"<path d='{''.join(run)}' fill='{'url(#none)' if shade is None else _shade((shade + 0.5) / SHADES)}' "
+            "shape-rendering='crispEdges'/>" for shade, run in runs.items()]
+
+
+def heat_map(path: Path, title: str, subtitle: str, rows: list[list[float | None]], x_name: str, y_name: str, unit: str,
+             x_marks: list[tuple[float, str]], y_marks: list[tuple[float, str]], none_name: str) -> None:
+    """Values from 0 on as shades, top row first; None is hatched and goes by `none_name`. Marks: pairs of (share of the axis from the
+    left or the top, text)."""
+    left, top, cell = 64, 80, 5.6
+    wide, high = cell * len(rows[0]), cell * len(rows)
+    width, height = round(left + wide + 136), round(top + high + 60)
+    span = max((value for row in rows for value in row if value is not None), default=0) or 1
+    bare = any(value is None for row in rows for value in row)
+    parts = ["<defs><pattern id='none' width='6' height='6' patternUnits='userSpaceOnUse' patternTransform='rotate(45)'>"
+             f"<rect width='6' height='6' fill='{GRID}'/><rect width='1.5' height='6' fill='{QUIET}'/></pattern></defs>",
+             *_cells(rows, span, left, top, cell)]
+    for share, text in x_marks:
+        x = left + share * wide
+        parts += [_line(x, top + high, x, top + high + 5, QUIET), _text(x, top + high + 20, text, 11, QUIET, "middle")]
+    for share, text in y_marks:
+        y = top + share * high
+        parts += [_line(left - 5, y, left, y, QUIET), _text(left - 9, y + 4, text, 11, QUIET, "end")]
+    parts += [_text(left + wide / 2, height - 16, x_name, 12, QUIET, "middle"),
+              f"<g transform='translate(18 {top + high / 2:.1f}) rotate(-90)'>{_text(0, 0, y_name, 12, QUIET, 'middle')}</g>"]
+    bar, bar_high = left + wide + 36, high - (40 if bare else 0)
+    parts += [f"<rect x='{bar}' y='{top + bar_high * (1 - (k + 1) / SHADES):.2f}' width='16' height='{bar_high / SHADES + 0.3:.2f}' "
+              f"fill='{_shade((k + 0.5) / SHADES)}' shape-rendering='crispEdges'/>" for k in range(SHADES)]
+    step = _round_step(span)
+    for k in range(int(span / step + 1e-9) + 1):
+        y = top + bar_high * (1 - k * step / span)
+        parts += [_line(bar + 16, y, bar + 21, y, QUIET), _text(bar + 26, y + 4, f"{k * step:g}", 11, QUIET)]
+    parts.append(_text(bar, top - 10, unit, 11, QUIET))
+    if bare:
+        parts += [f"<rect x='{bar}' y='{top + high - 16:.1f}' width='16' height='16' fill='url(#none)'/>",
+                  _text(bar + 26, top + high - 4, none_name, 11, QUIET)]
     _page(path, width, height, title, subtitle, parts)

@@ -72,6 +72,9 @@ class Report {
     json_["curves"][name] = points;
   }
 
+  /// A picture: values row by row, top first; NaN where there is none. It lies among the curves.
+  void rows(const std::string& name, const std::vector<std::vector<double>>& values) { json_["curves"][name] = values; }
+
   [[nodiscard]] std::string text() const { return json_.dump(); }
 
  private:

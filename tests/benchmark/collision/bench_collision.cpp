@@ -26,9 +26,9 @@ struct Config {
   std::size_t checked = 200;
   double budget_pct = 0.3;
   TimingConfig timing;
-  std::vector<std::string> methods = {kOurs,    "sqmap_avx2",   "sqmap_portable", "sqmap_nobrick",
-                                      "brick",  "brick_scalar", "openvdb",        "bt_sdf",
-                                      "embree", "fcl_contacts", "fcl_yesno"};
+  std::vector<std::string> methods = {kOurs,    "sqmap_avx2", "sqmap_portable", "sqmap_nobrick",
+                                      "paper",  "brick",      "brick_scalar",   "openvdb",
+                                      "bt_sdf", "embree",     "fcl_contacts",   "fcl_yesno"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
@@ -57,6 +57,7 @@ MethodPtr make_method(const std::string& name, const Scene& scene, const Accurac
   if (name == "sqmap_avx2") return ours(InstructionSet::avx2);
   if (name == "sqmap_portable") return ours(InstructionSet::portable);
   if (name == "sqmap_nobrick") return make_sqmap(scene, name, OurMaps::radial_only, collision::best_set());
+  if (name == "paper" || name == "paper_along") return make_paper(scene, name);
   if (name == "brick") return make_brick(scene, accuracy, Simd::best);
   if (name == "brick_scalar") return make_brick(scene, accuracy, Simd::scalar);
   if (name == "openvdb") return make_openvdb(scene, accuracy);
@@ -238,6 +239,8 @@ int main_of(const Config& config) {
     std::cerr << "bench_collision: checking " << method->name() << "\n";
     report_agreement(scene, method->name(), compare(scene, oracle, *method), report);
   }
+  if (std::find(config.methods.begin(), config.methods.end(), "paper") != config.methods.end())
+    report.rows("paper_map_mm", paper_picture(scene));
   if (!pin_to_one_core()) report.note("the system refused to pin the program to one core");
   std::cerr << "bench_collision: timing\n";
   const std::vector<StepTimes> times = time_methods(scene, methods, config.timing);

@@ -96,11 +96,17 @@ enum class Simd { best, scalar };
 enum class OurMaps { any, radial_only };
 
 MethodPtr make_sqmap(const Scene& scene, const std::string& name, OurMaps maps, collision::InstructionSet set);
+/// 'paper': the depth as published; 'paper_along': along the normal (see collision::PaperDepth).
+MethodPtr make_paper(const Scene& scene, const std::string& name);
 MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd);
 MethodPtr make_openvdb(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_bt_sdf(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_embree(const Scene& scene);
 MethodPtr make_fcl_contacts(const Scene& scene);
 MethodPtr make_fcl_yesno(const Scene& scene);
+
+/// The paper's Figure 4: the distance map of two spheres in an ellipsoid that bounds them, mm, coarse; from the north pole down, omega
+/// from -pi on; NaN: no hit. Not in the superquadric that fits best: that is boxy, and the even grid jumps over the waist.
+std::vector<std::vector<double>> paper_picture(const Scene& scene);
 
 }  // namespace mechane::benchmark
