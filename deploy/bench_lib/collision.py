@@ -9,7 +9,7 @@ PROGRAM_LIMIT_S = 600  # before the program counts as hung; it takes a minute or
 OURS = "sqmap"
 # How each method goes by in tables and plots; what is not here goes by its own name.
 NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 brick, scalar", "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
-         "embree": "Embree, exact", "paper": "the paper's search", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no"}
+         "embree": "Embree, exact", "paper": "the paper's search", "paper_along": "the same, depth along the normal", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no"}
 MESH_METHODS = ("fcl_contacts", "fcl_yesno", "fcl_gjk")  # contacts of meshes, not depths of points: listed apart
 IDLE_US = 2  # a step of FCL's below this met no sphere
 BIN_STEPS = 10  # of the grasp's curve: the mean of so many steps is one point

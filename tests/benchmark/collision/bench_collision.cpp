@@ -27,7 +27,7 @@ struct Config {
   double budget_pct = 0.3;
   TimingConfig timing;
   std::vector<std::string> methods = {kOurs,    "sqmap_avx2", "sqmap_portable", "sqmap_nobrick",
-                                      "paper",  "brick",      "brick_scalar",   "openvdb",
+                                      "paper", "paper_along",  "brick",      "brick_scalar",   "openvdb",
                                       "bt_sdf", "embree",     "fcl_contacts",   "fcl_yesno"};
 };
 
