@@ -6,7 +6,7 @@ from pathlib import Path
 
 INK, QUIET, GRID, PAPER = "#1f1e1b", "#6b6a64", "#e4e2da", "#fcfcfb"
 MUTED = "#a9bccf"  # of what stands beside the row that counts
-COLOURS = ["#2a78d6", "#eb6834", "#1a9e77", "#7a5cc8"]
+COLOURS = ["#2a78d6", "#eb6834", "#1a9e77", "#7a5cc8", "#b3266e"]
 FONT = "font-family='DejaVu Sans, Helvetica, Arial, sans-serif'"
 
 
