@@ -247,13 +247,6 @@ std::size_t owner(std::span<const Part> parts, const Vec3& p_O) {
   return best;
 }
 
-/// The error with so many missed points more.
-double worse(MapError error, std::size_t missed) {
-  error.missed += missed;
-  error.probes += missed;
-  return error.badness_m();
-}
-
 /// What the parts did not answer well when all were asked together.
 struct Faults {
   std::size_t inexact = 0;    // of the part's own probes
@@ -338,9 +331,9 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
     });
     for (std::size_t k = 0; k < guilty.size(); ++k) {
       const std::size_t i = guilty[k];
-      // What the old map makes of the same points: it was measured before they were known to matter.
-      const double before = must[i].empty() ? reports[i].error.badness_m() : worse(reports[i].error, must[i].size());
-      const bool better = !finer[k].map.empty() && (finer[k].met || finer[k].error.badness_m() < before);
+      const MapError& before = reports[i].error;
+      const bool fewer = finer[k].error.p99_m <= before.p99_m && finer[k].error.missed < before.missed + must[i].size();
+      const bool better = !finer[k].map.empty() && (finer[k].met || fewer);
       exhausted[i] = !better || !finer[k].met;
       if (better) set_map(std::move(finer[k]), parts[i], reports[i]);
     }
