@@ -174,11 +174,12 @@ struct Made {
 };
 
 MapChoice map_for(const Made& made, std::size_t node, const Ground& ground, std::size_t more_than,
-                  std::span<const Probe> must) {
+                  std::span<const Probe> must, bool may_grow = false) {
   const BuildConfig& config = ground.config;
   MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
   candidates.must = must;
-  if (more_than > 0)
+  // What errs too much may grow as it needs to; what only misses a thin layer may not.
+  if (more_than > 0 && !may_grow)
     candidates.at_most =
         std::max(kAlwaysGranted, static_cast<std::size_t>(kMostGrowth * static_cast<double>(more_than)));
   return choose_map(ground.solid, ground.skin, node, made.frame, made.probes, ground.budget, candidates);
@@ -316,18 +317,20 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
   for (int round = 0; round < kRefinements; ++round) {
     const std::vector<Faults> faults = find_faults(parts, made, witnesses, ground.budget);
     std::vector<std::size_t> guilty;
+    std::vector<bool> may_grow(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       must[i].insert(must[i].end(), faults[i].missed.begin(), faults[i].missed.end());
       // What a finer map leaves inexact stays so.
       const bool inexact = faults[i].made_up || static_cast<double>(faults[i].inexact) >
                                                     kFaultShare * static_cast<double>(made[i].probes.size());
+      may_grow[i] = round == 0 && inexact;
       if (!exhausted[i] && ((round == 0 && inexact) || !faults[i].missed.empty())) guilty.push_back(i);
     }
     if (guilty.empty()) return;
     std::vector<MapChoice> finer(guilty.size());
     for_each_index(guilty.size(), [&](std::size_t k) {
       const std::size_t i = guilty[k];
-      finer[k] = map_for(made[i], sources[i].node, ground, parts[i].map.bytes(), must[i]);
+      finer[k] = map_for(made[i], sources[i].node, ground, parts[i].map.bytes(), must[i], may_grow[i]);
     });
     for (std::size_t k = 0; k < guilty.size(); ++k) {
       const std::size_t i = guilty[k];
