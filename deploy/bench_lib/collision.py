@@ -9,7 +9,10 @@ PROGRAM_LIMIT_S = 600  # before the program counts as hung; it takes a minute or
 OURS = "sqmap"
 # How each method goes by in tables and plots; what is not here goes by its own name.
 NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 brick, scalar", "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
-         "embree": "Embree, exact", "paper": "the paper's search", "paper_along": "the same, depth along the normal", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no"}
+         "embree": "Embree, exact", "paper": "the paper's search", "paper_along": "the same, depth along the normal", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no",
+         "fcl_gjk": "FCL GJK, convex parts", "sqmap_avx512": "Mechane, AVX-512", "sqmap_avx2": "Mechane, AVX2",
+         "sqmap_portable": "Mechane, no vectors", "sqmap_nobrick": "Mechane, no bricks", "sqmap_boxes": "Mechane, boxes"}
+MODEL_GRASP_METHODS = ("sqmap", "brick", "fcl_contacts")
 MESH_METHODS = ("fcl_contacts", "fcl_yesno", "fcl_gjk")  # contacts of meshes, not depths of points: listed apart
 IDLE_US = 2  # a step of FCL's below this met no sphere
 BIN_STEPS = 10  # of the grasp's curve: the mean of so many steps is one point
@@ -30,7 +33,12 @@ def measure(context) -> tuple[Measured, list[str]]:
     """Queries, and the fit where its program was built."""
     result, missing = Measured(), []
     seed = [] if context.seed is None else ["--seed", str(context.seed)]
-    for program, arguments in (("bench_collision", seed), ("bench_fit", seed)):
+    shipped = sorted(str(file) for file in (context.root / "scenarios/models").glob("*.glb"))
+    # Meshes from elsewhere that may lie beside the repository; most people have none.
+    found = sorted(str(file) for kind in ("obj", "stl", "ply", "glb") for file in (context.root / "../shared/meshes").resolve().glob(f"*.{kind}"))
+    if not found:
+        result.notes.append("no meshes beside the repository (../shared/meshes): the shipped models alone")
+    for program, arguments in (("bench_collision", seed), ("bench_models", [*shipped, *found, *seed]), ("bench_fit", seed)):
         if program == "bench_fit" and not (context.bin / program).exists():
             continue
         print(f"  {program} ...", flush=True)
@@ -62,6 +70,23 @@ def _grid(rows: list[list[str]]) -> list[str]:
     return [_row(row, widths) for row in rows]
 
 
+def _models(metrics: dict[str, float]) -> list[list[str]]:
+    """A row for each mesh file's thing: what it takes, how exact it is, how fast beside its peers."""
+    names = sorted({name.split(".")[1] for name in metrics if name.startswith("model.")})
+    rows = [["", "triangles", "diag mm", "build s", "parts", "radial %", "KB", "brick KB", "err p99 %", "err p99 mm", "brick p99 %", "missed", "false",
+             "step us", "brick us", "FCL us"]]
+    for name in names:
+        def show(metric: str, scale: float = 1) -> str:
+            full = f"model.{name}.{metric}"
+            return number(metrics[full] * scale) if full in metrics else "-"
+
+        rows.append([name, f"{metrics[f'model.{name}.triangles']:.0f}", show("diagonal_mm"), show("build_s"), show("parts"), show("share_radial", 100),
+                     show("bytes.sqmap", 1e-3), show("bytes.brick", 1e-3), show("depth_error_pct.sqmap.p99"), show("depth_error_mm.sqmap.p99"),
+                     show("depth_error_pct.brick.p99"), show("missed.sqmap"), show("false.sqmap"),
+                     *(show(f"step_us.{method}.median") for method in MODEL_GRASP_METHODS)])
+    return rows if names else []
+
+
 def table(name: str, metrics: dict[str, float]) -> str:
     """One row for each method, then our figures object by object, then what neither table holds."""
     def show(metric: str) -> str:
@@ -80,14 +105,22 @@ def table(name: str, metrics: dict[str, float]) -> str:
                          show(f"missed.{method}"), show(f"false.{method}"), show("build_s" if method == OURS else f"build_s.{method}")])
         lines_out += _grid(rows)
     if objects:
-        rows = [["", "step us", "p99", "brick us", "FCL us", "error p99 %", "error max %", "normal p99 deg", "missed", "false"]]
+        rows = [["", "step us", "p99", "brick us", "FCL us", "error p99 %", "error max %", "normal p99 deg", "missed", "false",
+                 "parts", "KB", "radial KB", "brick KB", "peer KB"]]
         for thing in objects:
+            def kilobytes(metric: str) -> str:
+                return number(metrics[metric] / 1000) if metric in metrics else "-"
+
             rows.append([thing, show(f"step_us.{OURS}.{thing}.median"), show(f"step_us.{OURS}.{thing}.p99"),
                          show(f"step_us.brick.{thing}.median"), show(f"step_us.fcl_contacts.{thing}.median"),
                          show(f"depth_error_pct.{OURS}.{thing}.p99"), show(f"depth_error_pct.{OURS}.{thing}.max"),
-                         show(f"normal_error_deg.{OURS}.{thing}.p99"), show(f"missed.{OURS}.{thing}"), show(f"false.{OURS}.{thing}")])
-        lines_out += ["", *_grid(rows)]
-    rest = {metric: value for metric, value in metrics.items() if metric.split(".")[0] in ("scene", "fit", "share", "ratio_avx2") and not metric.startswith("scene.first_step")}
+                         show(f"normal_error_deg.{OURS}.{thing}.p99"), show(f"missed.{OURS}.{thing}"), show(f"false.{OURS}.{thing}"), show(f"parts.{thing}"),
+                         kilobytes(f"bytes.{OURS}.{thing}"), kilobytes(f"map_bytes.{thing}.radial"), kilobytes(f"map_bytes.{thing}.brick"),
+                         kilobytes(f"bytes.brick.{thing}")])
+        lines_out += ["", *_grid(rows), "  KB: our maps and what a part takes besides; radial, brick: the maps of either kind; peer: the int16 brick"]
+    if models := _models(metrics):
+        lines_out += ["", *_grid(models)]
+    rest = {metric: value for metric, value in metrics.items() if metric.split(".")[0] in ("scene", "fit", "share", "ratio_avx2", "hulls") and not metric.startswith("scene.first_step")}
     if rest:
         width = max(len(metric) for metric in rest)
         lines_out += ["", *(f"  {metric:<{width}}  {number(value):>12}" for metric, value in sorted(rest.items()))]
@@ -124,7 +157,7 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
     if base:
         made.append(out / "collision-grasp.svg")
         shown = {NAMES[name]: _share_of(result.curves[f"grasp.{name}"], base)
-                 for name in (OURS, "brick", "openvdb", "embree") if f"grasp.{name}" in result.curves}
+                 for name in (OURS, "brick", "openvdb", "embree", "fcl_gjk") if f"grasp.{name}" in result.curves}
         lines(made[-1], "A step of the grasp, as a share of FCL's trees of oriented boxes",
               f"the paper's Figure 15a with our data: per cent of FCL's contact query while the hand is near. {machine}", shown, "step", "%",
               _grasps(metrics, base[-1][0] + 1))

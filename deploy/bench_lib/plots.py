@@ -6,7 +6,7 @@ from pathlib import Path
 
 INK, QUIET, GRID, PAPER = "#1f1e1b", "#6b6a64", "#e4e2da", "#fcfcfb"
 MUTED = "#a9bccf"  # of what stands beside the row that counts
-COLOURS = ["#2a78d6", "#eb6834", "#1a9e77", "#7a5cc8"]
+COLOURS = ["#2a78d6", "#eb6834", "#1a9e77", "#7a5cc8", "#b3266e"]
 FONT = "font-family='DejaVu Sans, Helvetica, Arial, sans-serif'"
 
 
@@ -125,7 +125,8 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
           bands: list[tuple[float, float, str]] = ()) -> None:
     """One line each over a plain x axis, y logarithmic. `series`: name -> pairs (x, y), y None where the line breaks; `bands`:
     stretches of x with a name."""
-    width, height, left, right, top, bottom = 760, 420, 64, 150, 96, 56
+    right = max(150, *(round(8.6 * len(name)) + 20 for name in series))  # room for the longest label
+    width, height, left, top, bottom = 610 + right, 420, 64, 96, 56
     every = [y for curve in series.values() for _, y in curve if y]
     low, high = min(every) / 1.15, max(every) * 1.15
     begin = min(x for curve in series.values() for x, _ in curve)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "server/collision/texel_fit.hpp"
+
 namespace mechane::collision {
 namespace {
 
@@ -93,17 +95,21 @@ MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const Surf
 RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, int resolution) {
   const Vec3f half_Q = frame.half_Q.cast<float>();
   const Vec3 center_O = frame.X_OQ * frame.center_Q;
-  std::vector<float> sigma;
-  sigma.reserve(6 * static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution));
+  const int rays = (resolution - 1) * rays_per_cell(resolution) + 1;
+  std::vector<float> texels;
+  texels.reserve(6 * static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution));
+  std::vector<float> sigma(static_cast<std::size_t>(rays) * static_cast<std::size_t>(rays));
   for (int face = 0; face < 6; ++face) {
-    for (int texel = 0; texel < resolution * resolution; ++texel) {
-      const Vec3 direction_Q =
-          RadialMap::texel_direction(resolution, half_Q, face, texel % resolution, texel / resolution);
+    for (int ray = 0; ray < rays * rays; ++ray) {
+      const Vec3 direction_Q = RadialMap::texel_direction(rays, half_Q, face, ray % rays, ray / rays);
       const double rho = solid.walk(node, center_O, frame.X_OQ.rotate(direction_Q), kMaxRho);
-      sigma.push_back(static_cast<float>(1 / std::max(rho, kMinRho)));
+      sigma[static_cast<std::size_t>(ray)] = static_cast<float>(1 / std::max(rho, kMinRho));
     }
+    const std::vector<float> fitted = fit_texels(resolution, sigma);
+    texels.insert(texels.end(), fitted.begin(), fitted.end());
   }
-  return RadialMap::from_sigma(resolution, frame.center_Q.cast<float>(), half_Q, sigma);
+  join_faces(resolution, texels);
+  return RadialMap::from_sigma(resolution, frame.center_Q.cast<float>(), half_Q, texels);
 }
 
 }  // namespace mechane::collision

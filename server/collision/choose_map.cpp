@@ -146,7 +146,7 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
   Trend radial;
   Trend brick;
   for (const Candidate& candidate : list_candidates(frame, solid.is_closed(node), candidates)) {
-    if (candidate.bytes <= candidates.more_than) continue;
+    if (candidate.bytes <= candidates.more_than || candidate.bytes > candidates.at_most) continue;
     MapChoice tried;
     const bool is_radial = candidate.resolution > 0;
     Trend& trend = is_radial ? radial : brick;
@@ -157,10 +157,14 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
     } else {
       tried.map = make_brick(solid, skin, frame, candidate.grid, budget.probe_depth_m);
     }
-    tried.error =
-        measure(probes, budget, [&](const Vec3& p_O) { return tried.map.evaluate((X_QO * p_O).cast<float>()); });
-    tried.met = tried.error.meets(budget, kStrayShare);
+    const Ask ask = [&](const Vec3& p_O) { return tried.map.evaluate((X_QO * p_O).cast<float>()); };
+    tried.error = measure(probes, budget, ask);
     trend = {fineness, tried.error};
+    const MapError must = measure(candidates.must, budget, ask);
+    tried.met = tried.error.meets(budget, kStrayShare) && must.missed + must.wrong == 0;
+    tried.error.missed += must.missed;
+    tried.error.wrong += must.wrong;
+    tried.error.probes += must.probes;
     if (best.map.empty() || tried.met || tried.error.badness_m() < best.error.badness_m()) best = std::move(tried);
     if (best.met) break;
   }

@@ -40,23 +40,25 @@ struct MapError {
   }
 };
 
+/// A point whose exact depth is known; negative outside.
+struct Probe {
+  Vec3 p_O = Vec3::Zero();
+  double depth_m = 0;
+};
+
 struct MapCandidates {
   bool radial = true;
   bool brick = true;
-  int only_resolution = 0;    ///< of a radial map; 0: any
-  std::size_t more_than = 0;  ///< bytes: only larger maps
+  int only_resolution = 0;                                        ///< of a radial map; 0: any
+  std::size_t more_than = 0;                                      ///< bytes: only larger maps
+  std::size_t at_most = std::numeric_limits<std::size_t>::max();  ///< bytes
+  std::span<const Probe> must = {};  ///< points of which not one may be missed or wrong, besides the budget
 };
 
 struct MapChoice {
   PartMap map;
   MapError error;
   bool met = false;
-};
-
-/// A point whose exact depth is known; negative outside.
-struct Probe {
-  Vec3 p_O = Vec3::Zero();
-  double depth_m = 0;
 };
 
 /// Points up to `budget.probe_depth_m` under and above the places, with their exact depths. Places beside which the solid is not what

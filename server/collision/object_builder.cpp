@@ -4,14 +4,18 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "server/base/parallel.hpp"
 #include "server/collision/cast_map.hpp"
 #include "server/collision/choose_map.hpp"
+#include "server/collision/part_box.hpp"
 #include "server/collision/part_source.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision/solid.hpp"
 #include "server/geometry/mesh_check.hpp"
+#include "server/geometry/random.hpp"
+#include "server/geometry/surface_samples.hpp"
 
 namespace mechane::collision {
 namespace {
@@ -19,9 +23,14 @@ namespace {
 constexpr double kWeld = 1e-6;               // of the part's diagonal
 constexpr std::size_t kProbesPerPart = 600;  // for the choice of its map
 constexpr std::size_t kReportProbes = 400;   // per part, for the object's error
-constexpr int kRefinements = 1;              // rounds
-constexpr double kFaultShare = 0.01;         // of a part's probes: the budget is one of a 99th percentile
-constexpr std::size_t kGraveFault = 1000;    // a miss is one too many
+constexpr int kRefinements = 4;              // rounds, at most
+constexpr std::size_t kWitnessesPerPart = 12'000;
+constexpr std::size_t kMostWitnesses = 120'000;
+constexpr double kWitnessDepth = 2.5;  // times what must not be missed
+constexpr std::size_t kChunk = 1000;   // witnesses
+constexpr double kMostGrowth = 2.5;    // of a map's bytes in one round: a thin layer under a crest is not worth more
+constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
+constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is one of a 99th percentile
 
 std::string where_of(const std::string& part) {
   return "part '" + part + "'";
@@ -102,6 +111,7 @@ ErrorBudget budget_of(const BuildConfig& config, double diagonal_m) {
 struct Ground {
   std::span<const geometry::Mesh> nodes;
   const Solid& solid;
+  const geometry::Mesh& skin_mesh;  // what borders on air
   const geometry::MeshQuery& skin;
   const BuildConfig& config;
   ErrorBudget budget;
@@ -137,11 +147,21 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
   return sources;
 }
 
-Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground& ground) {
+Expected<geometry::FitResult> fit_bound(const PartSource& source, const Ground& ground) {
+  if (ground.config.bounds == Bounds::boxes) {
+    std::vector<Vec3> surface_points_O;
+    for (const SurfacePlace& place : source.places)
+      surface_points_O.push_back(place.p_O);
+    return fit_box(source.bound_points_O, surface_points_O);
+  }
   geometry::FitConfig config;
   config.seed = ground.config.seed;
-  auto fit = source.is_whole_node() ? geometry::fit_superquadric(ground.nodes[source.node], config)
-                                    : geometry::fit_superquadric(source.bound_points_O, config);
+  return source.is_whole_node() ? geometry::fit_superquadric(ground.nodes[source.node], config)
+                                : geometry::fit_superquadric(source.bound_points_O, config);
+}
+
+Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground& ground) {
+  auto fit = fit_bound(source, ground);
   if (!fit) return fail(fit.error().what, where_of(source.name), fit.error().remedy);
   return fit;
 }
@@ -153,9 +173,15 @@ struct Made {
   std::vector<Probe> probes;
 };
 
-MapChoice map_for(const Made& made, std::size_t node, const Ground& ground, std::size_t more_than) {
+MapChoice map_for(const Made& made, std::size_t node, const Ground& ground, std::size_t more_than,
+                  std::span<const Probe> must, bool may_grow = false) {
   const BuildConfig& config = ground.config;
-  const MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
+  MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
+  candidates.must = must;
+  // What errs too much may grow as it needs to; what only misses a thin layer may not.
+  if (more_than > 0 && !may_grow)
+    candidates.at_most =
+        std::max(kAlwaysGranted, static_cast<std::size_t>(kMostGrowth * static_cast<double>(more_than)));
   return choose_map(ground.solid, ground.skin, node, made.frame, made.probes, ground.budget, candidates);
 }
 
@@ -183,7 +209,7 @@ Expected<Made> make_part(const PartSource& source, const Ground& ground, PartRep
   made.part.X_OQ = fit->X_OQ;
   made.part.superquadric = fit->shape;
   made.part.bound_O = bounding_sphere(source.bound_points_O);
-  set_map(map_for(made, source.node, ground, 0), made.part, report);
+  set_map(map_for(made, source.node, ground, 0, {}), made.part, report);
   return made;
 }
 
@@ -203,42 +229,116 @@ Answer ask(std::span<const Part> parts, const Vec3& p_O) {
   return best;
 }
 
-/// Parts of whose answers, or missing answers, too many break the budget once all parts are asked together.
-std::vector<std::size_t> culprits(std::span<const Part> parts, std::span<const Made> made, const ErrorBudget& budget) {
-  std::vector<std::size_t> faults(parts.size());
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    for (const Probe& probe : made[i].probes) {
+/// The part that should have answered for a point that none did: the one whose map's box holds it the most centrally.
+std::size_t owner(std::span<const Part> parts, const Vec3& p_O) {
+  std::size_t best = 0;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const BoxView box = parts[i].map.box();
+    const Vec3f p_Q = (parts[i].X_OQ.inverse() * p_O).cast<float>();
+    float m = 0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      m = std::max(m, std::abs(p_Q[k] - box.center[axis]) / box.half[axis]);
+    }
+    if (m >= least) continue;
+    least = m;
+    best = i;
+  }
+  return best;
+}
+
+/// What the parts did not answer well when all were asked together.
+struct Faults {
+  std::size_t inexact = 0;    // of the part's own probes
+  bool made_up = false;       // one of them is a contact with air
+  std::vector<Probe> missed;  // own probes and witnesses
+};
+
+void judge_own(std::span<const Part> parts, std::span<const Made> made, const ErrorBudget& budget,
+               std::vector<Faults>& faults) {
+  for (const Made& one : made) {
+    for (const Probe& probe : one.probes) {
       const Answer answer = ask(parts, probe.p_O);
-      const double depth = answer.hit.hit ? static_cast<double>(answer.hit.depth_m) : 0.0;
-      const bool missed = !answer.hit.hit && probe.depth_m > budget.missed_m;
-      const bool wrong = answer.hit.hit && probe.depth_m < -budget.missed_m;
-      if (missed || wrong) faults[answer.hit.hit ? answer.part : i] += kGraveFault;
-      if (answer.hit.hit && std::abs(depth - probe.depth_m) > budget.depth_p99_m) ++faults[answer.part];
+      if (!answer.hit.hit) {
+        if (probe.depth_m > budget.missed_m) faults[owner(parts, probe.p_O)].missed.push_back(probe);
+        continue;
+      }
+      Faults& answering = faults[answer.part];
+      if (probe.depth_m < -budget.missed_m) answering.made_up = true;
+      if (std::abs(static_cast<double>(answer.hit.depth_m) - probe.depth_m) > budget.depth_p99_m) ++answering.inexact;
     }
   }
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < faults.size(); ++i) {
-    if (static_cast<double>(faults[i]) > kFaultShare * static_cast<double>(made[i].probes.size())) found.push_back(i);
+}
+
+std::vector<Faults> find_faults(std::span<const Part> parts, std::span<const Made> made,
+                                std::span<const Probe> witnesses, const ErrorBudget& budget) {
+  std::vector<Faults> faults(parts.size());
+  judge_own(parts, made, budget, faults);
+  std::vector<std::uint8_t> missed(witnesses.size());
+  for_each_index((witnesses.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t k = kChunk * chunk; k < std::min(witnesses.size(), kChunk * (chunk + 1)); ++k)
+      missed[k] = ask(parts, witnesses[k].p_O).hit.hit ? 0 : 1;
+  });
+  for (std::size_t k = 0; k < witnesses.size(); ++k) {
+    if (missed[k] != 0) faults[owner(parts, witnesses[k].p_O)].missed.push_back(witnesses[k]);
   }
-  return found;
+  return faults;
+}
+
+/// Many points just deep enough to count, all over the surface. The crest of a thread is a few per cent of its part, and only a thin
+/// layer under it gets lost: a part's own probes, at all depths, seldom meet it.
+std::vector<Probe> make_witnesses(const Ground& ground, std::size_t parts) {
+  const std::size_t count = std::min(kMostWitnesses, kWitnessesPerPart * parts);
+  const auto places = geometry::sample_by_area(ground.skin_mesh, count, ground.config.seed + 4);
+  std::vector<std::vector<Probe>> some((places.size() + kChunk - 1) / kChunk);
+  for_each_index(some.size(), [&](std::size_t chunk) {
+    geometry::Random random(ground.config.seed + 5 + chunk);
+    for (std::size_t k = kChunk * chunk; k < std::min(places.size(), kChunk * (chunk + 1)); ++k) {
+      const double wanted_m = ground.budget.missed_m * (1 + (kWitnessDepth - 1) * random.unit());
+      const Vec3 p_O = places[k].p - wanted_m * ground.skin.triangle_normal(places[k].triangle);
+      if (!ground.solid.contains(p_O)) continue;
+      const double depth_m = ground.skin.closest(p_O).distance_m;
+      if (depth_m > ground.budget.missed_m) some[chunk].push_back({p_O, depth_m});
+    }
+  });
+  std::vector<Probe> witnesses;
+  for (const auto& probes : some)
+    witnesses.insert(witnesses.end(), probes.begin(), probes.end());
+  return witnesses;
 }
 
 /// Gives parts finer maps until the object as a whole meets the budget, or nothing finer is left.
 void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<const PartSource> sources,
             const Ground& ground, std::vector<PartReport>& reports) {
+  const std::vector<Probe> witnesses = make_witnesses(ground, parts.size());
+  std::vector<std::vector<Probe>> must(parts.size());
+  std::vector<bool> exhausted(parts.size());
   for (int round = 0; round < kRefinements; ++round) {
-    const std::vector<std::size_t> guilty = culprits(parts, made, ground.budget);
+    const std::vector<Faults> faults = find_faults(parts, made, witnesses, ground.budget);
+    std::vector<std::size_t> guilty;
+    std::vector<bool> may_grow(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      must[i].insert(must[i].end(), faults[i].missed.begin(), faults[i].missed.end());
+      // What a finer map leaves inexact stays so.
+      const bool inexact = faults[i].made_up || static_cast<double>(faults[i].inexact) >
+                                                    kFaultShare * static_cast<double>(made[i].probes.size());
+      may_grow[i] = round == 0 && inexact;
+      if (!exhausted[i] && ((round == 0 && inexact) || !faults[i].missed.empty())) guilty.push_back(i);
+    }
     if (guilty.empty()) return;
     std::vector<MapChoice> finer(guilty.size());
     for_each_index(guilty.size(), [&](std::size_t k) {
       const std::size_t i = guilty[k];
-      finer[k] = map_for(made[i], sources[i].node, ground, parts[i].map.bytes());
+      finer[k] = map_for(made[i], sources[i].node, ground, parts[i].map.bytes(), must[i], may_grow[i]);
     });
     for (std::size_t k = 0; k < guilty.size(); ++k) {
       const std::size_t i = guilty[k];
-      if (finer[k].map.empty()) continue;
-      if (finer[k].met || finer[k].error.badness_m() < reports[i].error.badness_m())
-        set_map(std::move(finer[k]), parts[i], reports[i]);
+      const MapError& before = reports[i].error;
+      const bool fewer = finer[k].error.p99_m <= before.p99_m && finer[k].error.missed < before.missed + must[i].size();
+      const bool better = !finer[k].map.empty() && (finer[k].met || fewer);
+      exhausted[i] = !better || !finer[k].met;
+      if (better) set_map(std::move(finer[k]), parts[i], reports[i]);
     }
   }
 }
@@ -264,9 +364,10 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
   const auto welded = weld_nodes(nodes);
   if (!welded) return tl::unexpected(welded.error());
   const Solid solid(*welded, config.seam_gap_m);
-  const geometry::MeshQuery skin(air_side(*welded, solid));
+  const geometry::Mesh skin_mesh = air_side(*welded, solid);
+  const geometry::MeshQuery skin(skin_mesh);
   const double diagonal_m = diagonal_of(*welded);
-  const Ground ground{*welded, solid, skin, config, budget_of(config, diagonal_m)};
+  const Ground ground{*welded, solid, skin_mesh, skin, config, budget_of(config, diagonal_m)};
 
   auto sources = find_sources(nodes, ground);
   if (!sources) return tl::unexpected(sources.error());

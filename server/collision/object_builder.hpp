@@ -23,6 +23,9 @@ enum class Parts {
   decomposed,  ///< each mesh is cut into pieces close to convex
 };
 
+/// What gives a part its frame and its bound: the superquadric that is fitted to it, or, to measure what that is worth, its tight box.
+enum class Bounds { superquadrics, boxes };
+
 struct BuildConfig {
   Parts parts = Parts::automatic;
   double max_concavity = 0.02;  ///< of a piece, as a share of its mesh's diagonal; see geometry::decompose
@@ -34,6 +37,7 @@ struct BuildConfig {
   double probe_depth_m = 0.004;  ///< how deep the error is measured: a finger that presses hard sinks in this far
   bool radial_maps = true;       ///< what the builder may choose from
   bool bricks = true;
+  Bounds bounds = Bounds::superquadrics;
   int map_resolution = 0;                   ///< of radial maps: one of RadialMap::kResolutions; 0: chosen
   double sample_spacing_m = 0.005;          ///< between surface samples; under a third of a fingertip
   std::size_t max_samples_per_part = 4096;  ///< a part that would need more gets a wider spacing instead

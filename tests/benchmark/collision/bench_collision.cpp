@@ -26,9 +26,10 @@ struct Config {
   std::size_t checked = 200;
   double budget_pct = 0.3;
   TimingConfig timing;
-  std::vector<std::string> methods = {kOurs,    "sqmap_avx2", "sqmap_portable", "sqmap_nobrick",
-                                      "paper", "paper_along",  "brick",      "brick_scalar",   "openvdb",
-                                      "bt_sdf", "embree",     "fcl_contacts",   "fcl_yesno"};
+  std::vector<std::string> methods = {kOurs,           "sqmap_avx512", "sqmap_avx2", "sqmap_portable",
+                                      "sqmap_nobrick", "sqmap_boxes",  "paper",      "paper_along",
+                                      "brick",         "brick_scalar", "openvdb",    "bt_sdf",
+                                      "embree",        "fcl_contacts", "fcl_yesno",  "fcl_gjk"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
@@ -48,24 +49,54 @@ class Quantiles {
   std::vector<float> us_;
 };
 
-MethodPtr make_method(const std::string& name, const Scene& scene, const Accuracy& accuracy) {
-  using collision::InstructionSet;
-  const auto ours = [&](InstructionSet set) {
-    return collision::is_supported(set) ? make_sqmap(scene, name, OurMaps::any, set) : nullptr;
-  };
-  if (name == kOurs) return ours(collision::best_set());
-  if (name == "sqmap_avx2") return ours(InstructionSet::avx2);
-  if (name == "sqmap_portable") return ours(InstructionSet::portable);
-  if (name == "sqmap_nobrick") return make_sqmap(scene, name, OurMaps::radial_only, collision::best_set());
-  if (name == "paper" || name == "paper_along") return make_paper(scene, name);
-  if (name == "brick") return make_brick(scene, accuracy, Simd::best);
-  if (name == "brick_scalar") return make_brick(scene, accuracy, Simd::scalar);
-  if (name == "openvdb") return make_openvdb(scene, accuracy);
-  if (name == "bt_sdf") return make_bt_sdf(scene, accuracy);
-  if (name == "embree") return make_embree(scene);
-  if (name == "fcl_contacts") return make_fcl_contacts(scene);
-  if (name == "fcl_yesno") return make_fcl_yesno(scene);
-  return nullptr;
+/// Our objects are built once for all instruction sets.
+class Workshop {
+ public:
+  Workshop(const Scene& scene, Report& report) : scene_(scene), report_(report) {}
+
+  /// Null where the machine lacks what it takes, which the report then says, or where there is no such method.
+  MethodPtr make(const std::string& name, const Accuracy& accuracy) {
+    if (name.starts_with(kOurs)) return make_ours(name);
+    if (name.starts_with("paper")) return make_paper(scene_, name);
+    if (name == "brick") return make_brick(scene_, accuracy, Simd::best);
+    if (name == "brick_scalar") return make_brick(scene_, accuracy, Simd::scalar);
+    if (name == "openvdb") return make_openvdb(scene_, accuracy);
+    if (name == "bt_sdf") return make_bt_sdf(scene_, accuracy);
+    if (name == "embree") return make_embree(scene_);
+    if (name == "fcl_contacts") return make_fcl_contacts(scene_);
+    if (name == "fcl_yesno") return make_fcl_yesno(scene_);
+    if (name == "fcl_gjk") return make_fcl_gjk(scene_);
+    return nullptr;
+  }
+
+ private:
+  MethodPtr make_ours(const std::string& name) {
+    using collision::InstructionSet;
+    if (name == kOurs) return with(name, OurMaps::any, collision::best_set());
+    if (name == "sqmap_avx512") return with(name, OurMaps::any, InstructionSet::avx512);
+    if (name == "sqmap_avx2") return with(name, OurMaps::any, InstructionSet::avx2);
+    if (name == "sqmap_portable") return with(name, OurMaps::any, InstructionSet::portable);
+    if (name == "sqmap_nobrick") return with(name, OurMaps::radial_only, collision::best_set());
+    if (name == "sqmap_boxes") return with(name, OurMaps::boxes, collision::best_set());
+    return nullptr;
+  }
+  MethodPtr with(const std::string& name, OurMaps maps, collision::InstructionSet set) {
+    if (!collision::is_supported(set)) {
+      report_.note(name + " was not run: this processor lacks its instructions");
+      return nullptr;
+    }
+    std::shared_ptr<const OurObjects>& built = built_[maps];
+    if (built == nullptr) built = build_ours(scene_, maps);
+    return make_sqmap(scene_, name, built, set);
+  }
+
+  const Scene& scene_;
+  Report& report_;
+  std::map<OurMaps, std::shared_ptr<const OurObjects>> built_;
+};
+
+std::vector<std::string> known_methods() {
+  return Config{}.methods;
 }
 
 /// The grids may err as much as our maps do, object by object: no more than the budget, and no less than a tenth of it.
@@ -173,6 +204,7 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
   const Quantiles cold(times.cold_us);
   report.metric("cold_step_us." + method + ".median", cold.quantile_us(0.5));
   report.metric("cold_step_us." + method + ".p99", cold.quantile_us(0.99));
+  if (method == "sqmap_boxes") report.metric("step_us.box_frame.median", whole.quantile_us(0.5));
   report.curve("grasp." + method, by_step(times, scene.steps.size()));
 }
 
@@ -189,8 +221,25 @@ void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<Step
   }
 }
 
+/// Where the bytes are: maps of either kind, how many parts there are, and what a part takes besides its map.
+void report_shares(const Scene& scene, const std::vector<MapShare>& maps, Report& report) {
+  std::map<std::string, double> sums;
+  for (const MapShare& share : maps) {
+    const std::string& object = scene.objects[share.object].name;
+    for (const std::string& place : {std::string(), "." + object}) {
+      sums["parts" + place] += 1;
+      sums["map_bytes" + place + (share.radial ? ".radial" : ".brick")] += static_cast<double>(share.bytes);
+    }
+  }
+  for (const auto& [name, sum] : sums)
+    report.metric(name, sum);
+}
+
 void report_method(const Scene& scene, const Method& method, Report& report) {
   report.metric("bytes." + method.name(), static_cast<double>(method.bytes()));
+  const std::vector<std::size_t> bytes = method.bytes_by_object();
+  for (std::size_t k = 0; k < bytes.size(); ++k)
+    report.metric("bytes." + method.name() + "." + scene.objects[k].name, static_cast<double>(bytes[k]));
   report.metric((method.name() == kOurs ? "build_s" : "build_s." + method.name()), method.build_s());
   std::size_t radial = 0;
   std::map<std::string, std::string> kept;
@@ -200,6 +249,7 @@ void report_method(const Scene& scene, const Method& method, Report& report) {
     kept[scene.objects[share.object].name] += (kept[scene.objects[share.object].name].empty() ? "" : ", ") + share.name;
   }
   if (!maps.empty() && method.name() == kOurs) {
+    report_shares(scene, maps, report);
     report.metric("share.radial", static_cast<double>(radial) / static_cast<double>(maps.size()));
     report.metric("share.brick", 1 - static_cast<double>(radial) / static_cast<double>(maps.size()));
     for (const auto& [object, names] : kept)
@@ -223,16 +273,14 @@ int main_of(const Config& config) {
   std::vector<MethodPtr> methods;
   Accuracy accuracy;
   const bool with_ours = std::find(config.methods.begin(), config.methods.end(), kOurs) != config.methods.end();
-  if (with_ours) methods.push_back(make_method(kOurs, scene, accuracy));
+  Workshop workshop(scene, report);
+  if (with_ours) methods.push_back(workshop.make(kOurs, accuracy));
   accuracy = accuracy_for(config, scene, oracle, with_ours ? methods.front().get() : nullptr);
   for (const std::string& name : config.methods) {
     if (name == kOurs) continue;
     std::cerr << "bench_collision: building " << name << "\n";
-    methods.push_back(make_method(name, scene, accuracy));
-    if (methods.back() == nullptr) {
-      std::cerr << "bench_collision: no method '" << name << "'\n";
-      return 2;
-    }
+    MethodPtr method = workshop.make(name, accuracy);
+    if (method != nullptr) methods.push_back(std::move(method));
   }
   for (const MethodPtr& method : methods) {
     if (!method->answers_points()) continue;
@@ -271,7 +319,9 @@ int main(int argc, char** argv) {
   app.add_option("--budget", config.budget_pct,
                  "p99 depth error that a grid may have at most, % of the object's diagonal")
       ->check(CLI::Range(0.01, 10.0));
-  app.add_option("--methods", config.methods, "which, separated by commas")->delimiter(',');
+  app.add_option("--methods", config.methods, "which, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(mechane::benchmark::known_methods()));
   CLI11_PARSE(app, argc, argv);
   return mechane::benchmark::main_of(config);
 }

@@ -13,9 +13,9 @@ class Brick final : public Method {
  public:
   Brick(const Scene& scene, const Accuracy& accuracy, Simd simd)
       : simd_(simd), vector_(simd == Simd::best && brick_has_avx2()) {
-    for (std::size_t k = 0; k < kSceneObjects; ++k) {
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
       const SceneObject& object = scene.objects[k];
-      const geometry::MeshQuery query(object.mesh_O);
+      const SolidQuery query(object);
       cells_.push_back(fewest_cells(accuracy.p99_m[k], [&](int cells) {
         const BrickGrid grid = make_brick_grid(object, query, cells);
         return p99_error_m(accuracy.points[k], [&](const Vec3f& p_O) -> double {
@@ -24,8 +24,8 @@ class Brick final : public Method {
       }));
     }
     const Stopwatch watch;
-    for (std::size_t k = 0; k < kSceneObjects; ++k)
-      grids_.push_back(make_brick_grid(scene.objects[k], geometry::MeshQuery(scene.objects[k].mesh_O), cells_[k]));
+    for (std::size_t k = 0; k < scene.objects.size(); ++k)
+      grids_.push_back(make_brick_grid(scene.objects[k], SolidQuery(scene.objects[k]), cells_[k]));
     build_s_ = watch.seconds();
   }
 
@@ -35,6 +35,12 @@ class Brick final : public Method {
     for (const BrickGrid& grid : grids_)
       sum += grid.bytes();
     return sum;
+  }
+  [[nodiscard]] std::vector<std::size_t> bytes_by_object() const override {
+    std::vector<std::size_t> bytes;
+    for (const BrickGrid& grid : grids_)
+      bytes.push_back(grid.bytes());
+    return bytes;
   }
   [[nodiscard]] double build_s() const override { return build_s_; }
   [[nodiscard]] std::vector<int> cells() const override { return cells_; }
@@ -70,7 +76,7 @@ std::vector<double> axis_nodes(double low, double high, double cell) {
 
 }  // namespace
 
-BrickGrid make_brick_grid(const SceneObject& object, const geometry::MeshQuery& query, int cells) {
+BrickGrid make_brick_grid(const SceneObject& object, const SolidQuery& query, int cells) {
   const auto box = object.mesh_O.bounds();
   const double cell = box.sizes().maxCoeff() / cells;
   GridAxes axes;

@@ -26,7 +26,7 @@ struct BrickGrid {
   }
 };
 
-[[nodiscard]] BrickGrid make_brick_grid(const SceneObject& object, const geometry::MeshQuery& query, int cells);
+[[nodiscard]] BrickGrid make_brick_grid(const SceneObject& object, const SolidQuery& query, int cells);
 
 /// Trilinear, metres, and its gradient in cells; positive outside the box.
 struct BrickSample {

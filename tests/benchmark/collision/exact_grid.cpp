@@ -9,7 +9,7 @@ namespace {
 
 /// One line of nodes along x. Distance changes by no more than the way between two nodes: that bounds the search from one to the next,
 /// and where two distances together are longer than the way, no surface lies between, so the side is the same.
-void fill_row(const geometry::MeshQuery& query, const std::vector<double>& xs, double y, double z, double* out) {
+void fill_row(const SolidQuery& query, const std::vector<double>& xs, double y, double z, double* out) {
   for (std::size_t i = 0; i < xs.size(); ++i) {
     const Vec3 p(xs[i], y, z);
     const double way = i == 0 ? 0 : xs[i] - xs[i - 1];
@@ -24,7 +24,7 @@ void fill_row(const geometry::MeshQuery& query, const std::vector<double>& xs, d
 
 }  // namespace
 
-std::vector<double> exact_distances(const geometry::MeshQuery& query, const GridAxes& axes) {
+std::vector<double> exact_distances(const SolidQuery& query, const GridAxes& axes) {
   const std::size_t nx = axes[0].size();
   const std::size_t rows = axes[1].size() * axes[2].size();
   std::vector<double> distances(nx * rows);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "server/base/math.hpp"
-#include "server/geometry/mesh_query.hpp"
+#include "tests/benchmark/collision/solid_query.hpp"
 
 namespace mechane::benchmark {
 
@@ -14,6 +14,6 @@ namespace mechane::benchmark {
 using GridAxes = std::array<std::vector<double>, 3>;
 
 /// Signed distance, metres, negative inside; x fastest. On all cores.
-[[nodiscard]] std::vector<double> exact_distances(const geometry::MeshQuery& query, const GridAxes& axes);
+[[nodiscard]] std::vector<double> exact_distances(const SolidQuery& query, const GridAxes& axes);
 
 }  // namespace mechane::benchmark

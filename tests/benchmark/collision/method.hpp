@@ -9,11 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/collision/object.hpp"
 #include "tests/benchmark/collision/scene.hpp"
-
-namespace mechane::collision {
-enum class InstructionSet;
-}
 
 namespace mechane::benchmark {
 
@@ -60,6 +57,8 @@ class Method {
   [[nodiscard]] virtual std::string name() const = 0;
   /// Of everything that a query reads, all objects together.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// The same object by object; empty where nobody counted.
+  [[nodiscard]] virtual std::vector<std::size_t> bytes_by_object() const { return {}; }
   [[nodiscard]] virtual double build_s() const = 0;
   /// All hand points against all objects. `out` comes empty. What gives no depth of points leaves it empty.
   virtual void step(const HandStep& hand, Hits& out) = 0;
@@ -92,10 +91,19 @@ using MethodPtr = std::unique_ptr<Method>;
 
 enum class Simd { best, scalar };
 
-/// What our builder may choose from.
-enum class OurMaps { any, radial_only };
+/// How our builder goes about it: as it is; without bricks; with boxes in place of the superquadrics.
+enum class OurMaps { any, radial_only, boxes };
 
-MethodPtr make_sqmap(const Scene& scene, const std::string& name, OurMaps maps, collision::InstructionSet set);
+/// What it made of the scene's objects. Several methods may ask the same.
+struct OurObjects {
+  std::vector<collision::Object> objects;
+  double build_s = 0;
+};
+
+[[nodiscard]] std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps);
+
+MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
+                     collision::InstructionSet set);
 /// 'paper': the depth as published; 'paper_along': along the normal (see collision::PaperDepth).
 MethodPtr make_paper(const Scene& scene, const std::string& name);
 MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd);
@@ -104,6 +112,7 @@ MethodPtr make_bt_sdf(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_embree(const Scene& scene);
 MethodPtr make_fcl_contacts(const Scene& scene);
 MethodPtr make_fcl_yesno(const Scene& scene);
+MethodPtr make_fcl_gjk(const Scene& scene);
 
 /// The paper's Figure 4: the distance map of two spheres in an ellipsoid that bounds them, mm, coarse; from the north pole down, omega
 /// from -pi on; NaN: no hit. Not in the superquadric that fits best: that is boxy, and the even grid jumps over the waist.

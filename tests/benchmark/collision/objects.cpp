@@ -18,6 +18,7 @@ using geometry::Mesh;
 using geometry::Random;
 
 constexpr double kUnit_m = 0.14;
+constexpr double kPressShare = 0.015;  // of the diagonal: no hand presses deeper
 constexpr double kSpacing = 2.4;  // between neighbours on the table: a hand that grasps one does not touch the next
 
 /// What the default seed has as it stands, the others draw from a range around.
@@ -221,28 +222,33 @@ Quat any_rotation(Random& random) {
 }
 
 SceneObject place(std::string name, Mesh mesh, std::size_t index, Random& random) {
-  SceneObject object;
-  object.name = std::move(name);
   for (Vec3& v : mesh.vertices)
     v *= kUnit_m;
   MECHANE_ASSERT(geometry::open_edges(mesh) == 0);
   MECHANE_ASSERT(volume_m3(mesh) > 0);
-  object.mesh_O = std::move(mesh);
-  const auto box = object.mesh_O.bounds();
-  object.diagonal_m = box.diagonal().norm();
-  object.box_O = box.cast<float>();
-  object.bound_O = collision::bounding_sphere(object.mesh_O.vertices);
   const double angle = 2 * kPi * static_cast<double>(index) / kSceneObjects;
   const double circle = 0.5 * kSpacing * kUnit_m / std::sin(kPi / kSceneObjects);
-  object.X_WO.p = circle * Vec3(std::cos(angle), 0, std::sin(angle));
-  object.X_WO.R = any_rotation(random);
+  const Vec3 p_WO = circle * Vec3(std::cos(angle), 0, std::sin(angle));
+  return make_scene_object(std::move(name), std::move(mesh), {p_WO, any_rotation(random)});
+}
+
+}  // namespace
+
+SceneObject make_scene_object(std::string name, Mesh mesh_O, const Pose& X_WO) {
+  SceneObject object;
+  object.name = std::move(name);
+  object.mesh_O = std::move(mesh_O);
+  const auto box = object.mesh_O.bounds();
+  object.diagonal_m = box.diagonal().norm();
+  object.probe_depth_m = kPressShare * object.diagonal_m;
+  object.box_O = box.cast<float>();
+  object.bound_O = collision::bounding_sphere(object.mesh_O.vertices);
+  object.X_WO = X_WO;
   const Pose X_OW = object.X_WO.inverse();
   object.R_OW = X_OW.R.toRotationMatrix().cast<float>();
   object.p_OW = X_OW.p.cast<float>();
   return object;
 }
-
-}  // namespace
 
 std::vector<SceneObject> make_objects(std::uint64_t seed) {
   Draw draw(seed);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "server/geometry/mesh_query.hpp"
+#include "tests/benchmark/collision/solid_query.hpp"
 
 namespace mechane::benchmark {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr double kNear = 0.005;    // of the diagonal: exact answers are kept this far outside
 constexpr double kCounts = 0.002;  // of the diagonal: a contact this deep must not be missed, nor be made up
 
-void ask(const SceneObject& object, std::size_t index, const geometry::MeshQuery& query, const HandStep& hand,
+void ask(const SceneObject& object, std::size_t index, const SolidQuery& query, const HandStep& hand,
          std::vector<Oracle::Answer>& out) {
   const Pose X_OW = object.X_WO.inverse();
   const double reach = kNear * object.diagonal_m;
@@ -87,9 +87,9 @@ void compare_answer(const Oracle::Answer& exact, double diagonal, const Hits& hi
 }  // namespace
 
 Oracle::Oracle(const Scene& scene, std::size_t steps) {
-  std::vector<std::unique_ptr<geometry::MeshQuery>> queries;
+  std::vector<std::unique_ptr<SolidQuery>> queries;
   for (const SceneObject& object : scene.objects)
-    queries.push_back(std::make_unique<geometry::MeshQuery>(object.mesh_O));
+    queries.push_back(std::make_unique<SolidQuery>(object));
   steps = std::min(steps, scene.steps.size());
   steps_.resize(steps);
   std::atomic<std::size_t> next{0};
@@ -98,7 +98,7 @@ Oracle::Oracle(const Scene& scene, std::size_t steps) {
     for (std::size_t i = next++; i < steps; i = next++) {
       steps_[i].step = (2 * i + 1) * scene.steps.size() / (2 * steps);
       scene.fill(steps_[i].step, *hand);
-      for (std::size_t k = 0; k < kSceneObjects; ++k)
+      for (std::size_t k = 0; k < scene.objects.size(); ++k)
         ask(scene.objects[k], k, *queries[k], *hand, steps_[i].near);
     }
   };

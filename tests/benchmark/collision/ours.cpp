@@ -1,5 +1,6 @@
 // The product's own query, through the collision room.
 #include <array>
+#include <iostream>
 
 #include "server/base/assert.hpp"
 #include "server/collision/object_builder.hpp"
@@ -12,42 +13,47 @@ namespace {
 
 collision::BuildConfig config_for(const SceneObject& object, OurMaps maps) {
   collision::BuildConfig config;
-  config.parts = collision::Parts::decomposed;
-  config.max_error_m = 1;  // the share alone: these objects have no touchable size of their own
-  config.probe_depth_m = 0.015 * object.diagonal_m;
+  config.parts = object.parts_O.empty() ? collision::Parts::decomposed : collision::Parts::as_given;
+  config.max_error_m = object.max_error_m;
+  config.probe_depth_m = object.probe_depth_m;
   config.bricks = maps != OurMaps::radial_only;
+  config.bounds = maps == OurMaps::boxes ? collision::Bounds::boxes : collision::Bounds::superquadrics;
   return config;
+}
+
+std::size_t bytes_of(const collision::Object& object) {
+  std::size_t sum = 0;
+  for (const collision::Part& part : object.parts)
+    sum += part.map.bytes() + sizeof(part) + sizeof(collision::PlacedPart);
+  return sum;
 }
 
 class Ours final : public Method {
  public:
-  Ours(const Scene& scene, std::string name, OurMaps maps, collision::InstructionSet set)
-      : name_(std::move(name)), kernels_(collision::kernels_of(set)), found_(kHandPoints) {
-    const Stopwatch watch;
-    for (const SceneObject& object : scene.objects) {
-      const std::array<geometry::NamedMesh, 1> whole = {{{object.name, object.mesh_O}}};
-      auto built = collision::build_object(whole, config_for(object, maps));
-      MECHANE_ASSERT(built.has_value());
-      objects_.push_back(std::move(*built));
-    }
-    build_s_ = watch.seconds();
-    for (std::size_t k = 0; k < objects_.size(); ++k)
-      placed_.emplace_back(objects_[k], scene.objects[k].X_WO);
+  Ours(const Scene& scene, std::string name, std::shared_ptr<const OurObjects> built, collision::InstructionSet set)
+      : name_(std::move(name)), kernels_(collision::kernels_of(set)), found_(kHandPoints), built_(std::move(built)) {
+    for (std::size_t k = 0; k < built_->objects.size(); ++k)
+      placed_.emplace_back(built_->objects[k], scene.objects[k].X_WO);
   }
 
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::size_t bytes() const override {
     std::size_t sum = 0;
-    for (const collision::Object& object : objects_)
-      for (const collision::Part& part : object.parts)
-        sum += part.map.bytes() + sizeof(part) + sizeof(collision::PlacedPart);
+    for (const std::size_t bytes : bytes_by_object())
+      sum += bytes;
     return sum;
   }
-  [[nodiscard]] double build_s() const override { return build_s_; }
+  [[nodiscard]] std::vector<std::size_t> bytes_by_object() const override {
+    std::vector<std::size_t> bytes;
+    for (const collision::Object& object : built_->objects)
+      bytes.push_back(bytes_of(object));
+    return bytes;
+  }
+  [[nodiscard]] double build_s() const override { return built_->build_s; }
   [[nodiscard]] std::vector<MapShare> maps() const override {
     std::vector<MapShare> shares;
-    for (std::size_t k = 0; k < objects_.size(); ++k) {
-      for (const collision::Part& part : objects_[k].parts)
+    for (std::size_t k = 0; k < built_->objects.size(); ++k) {
+      for (const collision::Part& part : built_->objects[k].parts)
         shares.push_back({k, part.map.name(), part.map.radial() != nullptr, part.map.bytes()});
     }
     return shares;
@@ -74,15 +80,30 @@ class Ours final : public Method {
   std::string name_;
   const collision::Kernels& kernels_;
   collision::PointHits found_;
-  double build_s_ = 0;
-  std::vector<collision::Object> objects_;
+  std::shared_ptr<const OurObjects> built_;
   std::vector<collision::PlacedObject> placed_;
 };
 
 }  // namespace
 
-MethodPtr make_sqmap(const Scene& scene, const std::string& name, OurMaps maps, collision::InstructionSet set) {
-  return std::make_unique<Ours>(scene, name, maps, set);
+std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps) {
+  auto built = std::make_shared<OurObjects>();
+  const Stopwatch watch;
+  for (const SceneObject& object : scene.objects) {
+    const std::array<geometry::NamedMesh, 1> whole = {{{object.name, object.mesh_O}}};
+    auto made = object.parts_O.empty() ? collision::build_object(whole, config_for(object, maps))
+                                       : collision::build_object(object.parts_O, config_for(object, maps));
+    if (!made) std::cerr << object.name << ": " << made.error().what << "; " << made.error().remedy << "\n";
+    MECHANE_ASSERT(made.has_value());
+    built->objects.push_back(std::move(*made));
+  }
+  built->build_s = watch.seconds();
+  return built;
+}
+
+MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
+                     collision::InstructionSet set) {
+  return std::make_unique<Ours>(scene, name, std::move(built), set);
 }
 
 }  // namespace mechane::benchmark

@@ -74,7 +74,7 @@ Layout layout_of(const SceneObject& object, int cells) {
 /// times too many, so each of the four families is sampled as a grid of its own.
 class NodeTable {
  public:
-  NodeTable(const Layout& layout, const geometry::MeshQuery& query) : layout_(layout) {
+  NodeTable(const Layout& layout, const SolidQuery& query) : layout_(layout) {
     for (std::size_t family = 0; family < 4; ++family) {  // 0: corners; 1 to 3: along x, y, z
       GridAxes axes;
       for (std::size_t a = 0; a < 3; ++a)
@@ -108,7 +108,7 @@ class NodeTable {
   std::vector<double> values_;
 };
 
-std::vector<char> discregrid_bytes(const SceneObject& object, const geometry::MeshQuery& query, int cells) {
+std::vector<char> discregrid_bytes(const SceneObject& object, const SolidQuery& query, int cells) {
   const Layout layout = layout_of(object, cells);
   const NodeTable nodes(layout, query);
   const auto count = [&](std::size_t a) { return static_cast<unsigned>(layout.cells[a]); };
@@ -152,7 +152,7 @@ struct Sdf {
   float cell_m = 0;
 };
 
-Sdf make_sdf(const SceneObject& object, const geometry::MeshQuery& query, int cells) {
+Sdf make_sdf(const SceneObject& object, const SolidQuery& query, int cells) {
   const std::vector<char> bytes = discregrid_bytes(object, query, cells);
   Sdf sdf{std::make_unique<btSdfCollisionShape>(), bytes.size(),
           static_cast<float>(object.mesh_O.bounds().sizes().maxCoeff() / cells)};
@@ -177,7 +177,7 @@ class BulletSdf final : public Method {
   BulletSdf(const Scene& scene, const Accuracy& accuracy) : scene_(scene) {
     for (std::size_t k = 0; k < kSceneObjects; ++k) {
       const SceneObject& object = scene.objects[k];
-      const geometry::MeshQuery query(object.mesh_O);
+      const SolidQuery query(object);
       cells_.push_back(fewest_cells(accuracy.p99_m[k], [&](int cells) {
         const Sdf sdf = make_sdf(object, query, cells);
         return p99_error_m(accuracy.points[k], [&](const Vec3f& p_O) -> double {
@@ -189,7 +189,7 @@ class BulletSdf final : public Method {
     }
     const Stopwatch watch;
     for (std::size_t k = 0; k < kSceneObjects; ++k)
-      shapes_.push_back(make_sdf(scene.objects[k], geometry::MeshQuery(scene.objects[k].mesh_O), cells_[k]));
+      shapes_.push_back(make_sdf(scene.objects[k], SolidQuery(scene.objects[k]), cells_[k]));
     build_s_ = watch.seconds();
   }
 

@@ -7,6 +7,7 @@
 #include <fcl/narrowphase/collision_object.h>
 
 #include "tests/benchmark/collision/culling.hpp"
+#include "tests/benchmark/collision/fcl_common.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/resolution.hpp"
 
@@ -26,13 +27,6 @@ std::shared_ptr<Model> make_model(const geometry::Mesh& mesh) {
   return model;
 }
 
-fcl::Transform3d transform(const Pose& X) {
-  fcl::Transform3d result = fcl::Transform3d::Identity();
-  result.linear() = X.R.toRotationMatrix();
-  result.translation() = X.p;
-  return result;
-}
-
 enum class Asked { contacts, yes_or_no };
 
 class Fcl final : public Method {
@@ -41,7 +35,7 @@ class Fcl final : public Method {
     const Stopwatch watch;
     for (const SceneObject& object : scene.objects) {
       objects_.push_back(make_model(object.mesh_O));
-      X_WO_.push_back(transform(object.X_WO));
+      X_WO_.push_back(fcl_transform(object.X_WO));
     }
     build_s_ = watch.seconds();
     for (const Segment& segment : scene.hand)
@@ -72,7 +66,7 @@ class Fcl final : public Method {
         const Vec3f p_W(hand.segment_x[s], hand.segment_y[s], hand.segment_z[s]);
         if (!reaches(object, object.R_OW * p_W + object.p_OW, hand.segment_r[s])) continue;
         result_.clear();
-        fcl::collide(segments_[s].get(), transform(hand.X_WS[s]), objects_[k].get(), X_WO_[k], request_, result_);
+        fcl::collide(segments_[s].get(), fcl_transform(hand.X_WS[s]), objects_[k].get(), X_WO_[k], request_, result_);
         contacts_ += static_cast<double>(result_.numContacts());
       }
     }

@@ -31,6 +31,10 @@ inline constexpr std::size_t kClusters = kSegments * kSegmentClusters;
 struct SceneObject {
   std::string name;
   geometry::Mesh mesh_O;
+  geometry::Mesh skin_O;                     ///< the surface without the seams inside; empty: mesh_O has none
+  std::vector<geometry::NamedMesh> parts_O;  ///< as the author gave them; empty: the mesh is to be decomposed
+  double max_error_m = 1;                    ///< of our maps; 1: a share of the diagonal alone counts
+  double probe_depth_m = 0;                  ///< how deep a hand presses, at most
   Pose X_WO;
   double diagonal_m = 0;       ///< of the mesh's bounding box: what errors are a share of
   Eigen::AlignedBox3f box_O;   ///< of the mesh
@@ -73,6 +77,9 @@ struct Scene {
   void fill(std::size_t step, HandStep& out) const;
 };
 
+/// An object with all that follows from its mesh and its place. The mesh must not be empty.
+[[nodiscard]] SceneObject make_scene_object(std::string name, geometry::Mesh mesh_O, const Pose& X_WO);
+
 /// The five objects, side by side on a table. Closed, of positive volume, and of 8108 triangles for the default seed: asserted.
 [[nodiscard]] std::vector<SceneObject> make_objects(std::uint64_t seed);
 
@@ -87,5 +94,8 @@ using Bends = std::array<std::array<double, kJoints>, kFingers>;
 /// Objects, hand and `steps` steps: for each object the palm comes, the fingers close around it, press and play, open, and the palm
 /// leaves. How far they go is measured against the meshes, so that they press some tenths of a per cent of the diagonal into the object.
 [[nodiscard]] Scene make_scene(std::uint64_t seed, std::size_t steps);
+
+/// One object, of its true size, grasped at `grasps` places of its surface in turn, `steps` steps in all.
+[[nodiscard]] Scene make_scene_of(SceneObject object, std::uint64_t seed, std::size_t grasps, std::size_t steps);
 
 }  // namespace mechane::benchmark

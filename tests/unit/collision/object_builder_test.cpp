@@ -139,6 +139,28 @@ TEST(BuildObject, SameInputSameBits) {
   EXPECT_EQ(write_object(*once), write_object(*again));
 }
 
+TEST(BuildObject, ATurnedPlankGetsItsTightBox) {
+  const Vec3 half(0.2, 0.05, 0.02);
+  std::vector<NamedMesh> parts = {{"plank", test::box(half)}};
+  const Quat turn = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()));
+  for (Vec3& v : parts[0].mesh.vertices)
+    v = turn * v + Vec3(0.3, -0.1, 0.2);
+  BuildConfig config;
+  config.bounds = Bounds::boxes;
+  BuildReport report;
+  const auto object = build_object(parts, config, &report);
+  ASSERT_TRUE(object) << object.error().to_string();
+  const Part& part = object->parts[0];
+  EXPECT_LT((part.X_OQ.p - Vec3(0.3, -0.1, 0.2)).norm(), 1e-6);
+  for (const Vec3& v : parts[0].mesh.vertices) {
+    EXPECT_LE(geometry::inside_outside(part.superquadric, part.X_OQ.inverse() * v), 1 + 1e-6);
+    const Vec3 corner = (part.X_OQ.inverse() * v).cwiseAbs();
+    EXPECT_NEAR(corner.prod(), half.prod(), 1e-3 * half.prod());
+  }
+  EXPECT_LT(report.parts[0].fit.max_pct, 0.1);
+  EXPECT_TRUE(report.parts[0].met);
+}
+
 TEST(BuildObject, TheCapOnSamplesWidensTheSpacing) {
   BuildConfig config;
   config.max_samples_per_part = 200;

@@ -1,0 +1,136 @@
+// Mesh files through the product's builder and its contact query: what they take, how exact they are, and their peers' time.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "server/geometry/mesh_check.hpp"
+#include "tests/benchmark/bench_stats.hpp"
+#include "tests/benchmark/collision/method.hpp"
+#include "tests/benchmark/collision/models.hpp"
+#include "tests/benchmark/collision/oracle.hpp"
+#include "tests/benchmark/collision/timing.hpp"
+
+namespace mechane::benchmark {
+namespace {
+
+struct Config {
+  std::vector<std::filesystem::path> files;
+  std::uint64_t seed = kDefaultSeed;
+  std::size_t grasps = 8;
+  std::size_t steps = 800;
+  std::size_t checked = 160;
+  std::size_t rounds = 3;
+};
+
+double quantile(std::vector<float> us, double share) {
+  if (us.empty()) return 0;
+  std::sort(us.begin(), us.end());
+  return static_cast<double>(
+      us[std::min(us.size() - 1, static_cast<std::size_t>(share * static_cast<double>(us.size())))]);
+}
+
+void report_build(const std::string& place, const Scene& scene, const Method& ours, Report& report) {
+  const SceneObject& object = scene.objects.front();
+  const std::vector<MapShare> maps = ours.maps();
+  const auto radial = std::count_if(maps.begin(), maps.end(), [](const MapShare& share) { return share.radial; });
+  report.metric(place + "triangles", static_cast<double>(object.mesh_O.triangles.size()));
+  report.metric(place + "diagonal_mm", 1000 * object.diagonal_m);
+  report.metric(place + "build_s", ours.build_s());
+  report.metric(place + "parts", static_cast<double>(maps.size()));
+  report.metric(place + "share_radial",
+                static_cast<double>(radial) / static_cast<double>(std::max<std::size_t>(maps.size(), 1)));
+}
+
+void report_answers(const std::string& place, const std::string& method, double diagonal_m, const Agreement& agreement,
+                    Report& report) {
+  report.metric(place + "depth_error_pct." + method + ".p99", agreement.error_p99_pct);
+  report.metric(place + "depth_error_mm." + method + ".p99", 10 * agreement.error_p99_pct * diagonal_m);
+  report.metric(place + "depth_error_mm." + method + ".max", 10 * agreement.error_max_pct * diagonal_m);
+  report.metric(place + "missed." + method, static_cast<double>(agreement.missed));
+  report.metric(place + "false." + method, static_cast<double>(agreement.false_hits));
+  report.metric(place + "checked_contacts." + method, static_cast<double>(agreement.points));
+}
+
+/// On a thread of its own: the builders of the next model want all cores again.
+std::vector<StepTimes> time_pinned(const Scene& scene, const std::vector<MethodPtr>& methods,
+                                   const TimingConfig& config) {
+  std::vector<StepTimes> times;
+  std::jthread([&] {
+    (void)pin_to_one_core();
+    times = time_methods(scene, methods, config);
+  }).join();
+  return times;
+}
+
+void measure(const Config& config, SceneObject object, Report& report) {
+  const std::string place = "model." + object.name + ".";
+  std::cerr << "bench_models: " << object.name << "\n";
+  const bool closed = geometry::open_edges(object.mesh_O) == 0;
+  const Scene scene = make_scene_of(std::move(object), config.seed, config.grasps, config.steps);
+  const double diagonal_m = scene.objects.front().diagonal_m;
+  const Oracle oracle(scene, config.checked);
+  std::vector<MethodPtr> methods;
+  methods.push_back(make_sqmap(scene, "sqmap", build_ours(scene, OurMaps::any), collision::best_set()));
+  report_build(place, scene, *methods.front(), report);
+  if (closed) {
+    const Agreement agreement = compare(scene, oracle, *methods.front())[0];
+    report_answers(place, "sqmap", diagonal_m, agreement, report);
+    Accuracy accuracy;
+    accuracy.points = oracle.known_points();
+    accuracy.p99_m[0] = std::max(agreement.error_p99_pct, 0.03) / 100 * diagonal_m;
+    methods.push_back(make_brick(scene, accuracy, Simd::best));
+    report_answers(place, "brick", diagonal_m, compare(scene, oracle, *methods.back())[0], report);
+  } else {
+    report.note(scene.objects.front().name + " has open edges: it has no inside to compare depths with, and no brick");
+  }
+  methods.push_back(make_fcl_contacts(scene));
+  const std::vector<StepTimes> times = time_pinned(scene, methods, {config.rounds, 0});
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    std::vector<float> all;
+    for (const auto& round : times[m].rounds_us)
+      all.insert(all.end(), round.begin(), round.end());
+    report.metric(place + "step_us." + methods[m]->name() + ".median", quantile(all, 0.5));
+    report.metric(place + "step_us." + methods[m]->name() + ".p99", quantile(all, 0.99));
+    report.metric(place + "bytes." + methods[m]->name(), static_cast<double>(methods[m]->bytes()));
+  }
+}
+
+int main_of(const Config& config) {
+  Report report;
+  std::vector<SceneObject> objects;
+  for (const std::filesystem::path& file : config.files) {
+    auto found = load_models(file);
+    if (!found) {
+      std::cerr << "bench_models: " << found.error().to_string() << "\n";
+      return 2;
+    }
+    std::move(found->begin(), found->end(), std::back_inserter(objects));
+  }
+  for (SceneObject& object : objects)
+    measure(config, std::move(object), report);
+  std::cout << report.text() << "\n";
+  return 0;
+}
+
+}  // namespace
+}  // namespace mechane::benchmark
+
+int main(int argc, char** argv) {
+  mechane::benchmark::Config config;
+  CLI::App app{"A hand that grasps the things in mesh files: ours, a brick of equal error, FCL"};
+  app.add_option(
+         "files", config.files,
+         ".glb, .gltf, .obj, .stl or .ply; bodies with named parts keep their size, other meshes are scaled to 20 cm")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--seed", config.seed, "other seeds draw other grasps");
+  app.add_option("--steps", config.steps, "of all grasps of a thing")->check(CLI::Range(8, 1'000'000));
+  app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")
+      ->check(CLI::Range(1, 100'000));
+  CLI11_PARSE(app, argc, argv);
+  return mechane::benchmark::main_of(config);
+}
