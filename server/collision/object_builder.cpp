@@ -323,7 +323,7 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
       // What a finer map leaves inexact stays so.
       const bool inexact = faults[i].made_up || static_cast<double>(faults[i].inexact) >
                                                     kFaultShare * static_cast<double>(made[i].probes.size());
-      may_grow[i] = round == 0 && inexact;
+      may_grow[i] = round == 0 && inexact && !reports[i].met;
       if (!exhausted[i] && ((round == 0 && inexact) || !faults[i].missed.empty())) guilty.push_back(i);
     }
     if (guilty.empty()) return;
