@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <new>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "server/base/assert.hpp"
+#include "server/dynamics/body_samples.hpp"
 #include "server/dynamics/pair_contacts.hpp"
 
 namespace mechane::dynamics {
@@ -42,8 +44,9 @@ Pose pose_of(const btTransform& X) {
 /// Our own kind of shape: a collision object. The object's frame is the body's.
 class ObjectShape final : public btCollisionShape {
  public:
-  ObjectShape(const state::BodyDescription& from, const Pose& X_CB_in)
-      : object(from.object), X_CB(X_CB_in), material(from.haptic), restitution(from.restitution) {
+  ObjectShape(const state::BodyDescription& from, std::shared_ptr<const collision::Object> object_in,
+              const Pose& X_CB_in)
+      : object(std::move(object_in)), X_CB(X_CB_in), material(from.haptic), restitution(from.restitution) {
     m_shapeType = kShapeType;
   }
 
@@ -262,9 +265,13 @@ Expected<std::unique_ptr<BodyContacts>> BodyContacts::create(const state::WorldD
   impl->bodies.resize(bodies.size(), nullptr);
   impl->shapes.resize(bodies.size());
   impl->held.resize(bodies.size(), 0);
+  std::map<const collision::Object*, std::shared_ptr<const collision::Object>> thinned;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!description.bodies[i].collides) continue;
-    impl->shapes[i] = std::make_unique<ObjectShape>(description.bodies[i], bodies[i].X_CB);
+    const state::BodyDescription& from = description.bodies[i];
+    if (!from.collides) continue;
+    auto& object = thinned[from.object.get()];
+    if (object == nullptr) object = std::make_shared<const collision::Object>(with_fewer_samples(*from.object));
+    impl->shapes[i] = std::make_unique<ObjectShape>(from, object, bodies[i].X_CB);
     impl->bodies[i] = bodies[i].bullet;
     impl->bodies[i]->setCollisionShape(impl->shapes[i].get());
   }
