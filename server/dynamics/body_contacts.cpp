@@ -24,11 +24,12 @@
 namespace mechane::dynamics {
 namespace {
 
-constexpr double kSlop_m = 1e-4;                 // bodies at rest overlap by this much: far above what maps flicker
-constexpr double kErrorShare = 0.2;              // of what they overlap more, taken back in a step
-constexpr double kMaxCorrection_m_per_s = 1.0;   // as a joint's
-constexpr double kBounceFrom_m_per_s = 0.05;     // slower bodies do not bounce: a tick's gravity is 0.01
-constexpr double kSlipsFrom_m_per_s = 1e-3;      // a faster contact has dynamic friction
+constexpr double kSlop_m = 1e-4;                // bodies at rest overlap by this much: far above what maps flicker
+constexpr double kErrorShare = 0.2;             // of what they overlap more, taken back in a step
+constexpr double kMaxCorrection_m_per_s = 1.0;  // as a joint's
+constexpr double kBounceFrom_m_per_s = 0.05;    // slower bodies do not bounce: a tick's gravity is 0.01
+constexpr double kSlipsFrom_m_per_s = 1e-3;     // a faster contact has dynamic friction
+constexpr double kStill_m_per_s = 2e-3;
 constexpr std::size_t kMaxTouchingPerBody = 12;  // in one step; what is over is left out, in the order of the pairs
 constexpr int kShapeType = CUSTOM_CONCAVE_SHAPE_TYPE;
 
@@ -207,6 +208,7 @@ Expected<void> check_collider(const state::BodyDescription& body) {
 }  // namespace
 
 struct BodyContacts::Impl {
+  enum class Rest : std::uint8_t { free, rests, moves };
   struct Pair {
     std::size_t a;
     std::size_t b;
@@ -228,6 +230,7 @@ struct BodyContacts::Impl {
 
   void add_pair(std::size_t a, std::size_t b);
   [[nodiscard]] btCollisionObjectWrapper wrap(std::size_t body) const;
+  [[nodiscard]] bool is_still(std::size_t body) const noexcept;
   [[nodiscard]] bool may_touch(const Pair& pair, const state::WorldState& state) const noexcept;
   void note_held(const state::WorldState& state) noexcept;
 
@@ -238,9 +241,11 @@ struct BodyContacts::Impl {
   std::vector<btRigidBody*> bodies;                  // by index in the world; null: does not collide
   std::vector<std::unique_ptr<ObjectShape>> shapes;  // likewise
   std::vector<std::uint8_t> held;                    // likewise: in a hand, this step
+  std::vector<Rest> rest;                            // likewise
   std::vector<Pair> pairs;
   std::size_t most_touching = 0;                // in one step
   std::vector<btPersistentManifold*> touching;  // capacity for these
+  std::vector<const Pair*> touching_pairs;      // theirs
 };
 
 BodyContacts::BodyContacts(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -265,6 +270,7 @@ Expected<std::unique_ptr<BodyContacts>> BodyContacts::create(const state::WorldD
   impl->bodies.resize(bodies.size(), nullptr);
   impl->shapes.resize(bodies.size());
   impl->held.resize(bodies.size(), 0);
+  impl->rest.resize(bodies.size(), Impl::Rest::free);
   std::map<const collision::Object*, std::shared_ptr<const collision::Object>> thinned;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const state::BodyDescription& from = description.bodies[i];
@@ -279,6 +285,7 @@ Expected<std::unique_ptr<BodyContacts>> BodyContacts::create(const state::WorldD
     impl->add_pair(a, b);
   impl->most_touching = std::min(pairs.size(), kMaxTouchingPerBody * colliders);
   impl->touching.reserve(impl->most_touching);
+  impl->touching_pairs.reserve(impl->most_touching);
   return std::unique_ptr<BodyContacts>(new BodyContacts(std::move(impl)));
 }
 
@@ -315,6 +322,7 @@ bool BodyContacts::Impl::may_touch(const Pair& pair, const state::WorldState& st
 std::span<btPersistentManifold*> BodyContacts::find(const state::WorldState& state, double dt_s) noexcept {
   impl_->note_held(state);
   impl_->touching.clear();
+  impl_->touching_pairs.clear();
   btDispatcherInfo info;
   info.m_timeStep = dt_s;
   for (const Impl::Pair& pair : impl_->pairs) {
@@ -324,10 +332,35 @@ std::span<btPersistentManifold*> BodyContacts::find(const state::WorldState& sta
     const btCollisionObjectWrapper b = impl_->wrap(pair.b);
     btManifoldResult result(&a, &b);
     pair.algorithm->processCollision(&a, &b, info, &result);
-    if (result.getPersistentManifold()->getNumContacts() > 0)
-      impl_->touching.push_back(result.getPersistentManifold());
+    if (result.getPersistentManifold()->getNumContacts() == 0) continue;
+    impl_->touching.push_back(result.getPersistentManifold());
+    impl_->touching_pairs.push_back(&pair);
   }
   return impl_->touching;
+}
+
+bool BodyContacts::Impl::is_still(std::size_t body) const noexcept {
+  const ObjectShape& shape = *shapes[body];
+  const geometry::Sphere& bound = shape.object->bound_O;
+  const double reach_m = (shape.X_CB * bound.center).norm() + bound.radius;
+  const btRigidBody& b = *bodies[body];
+  return b.getLinearVelocity().length() + reach_m * b.getAngularVelocity().length() < kStill_m_per_s;
+}
+
+void BodyContacts::note_rest() noexcept {
+  using Rest = Impl::Rest;
+  std::fill(impl_->rest.begin(), impl_->rest.end(), Rest::free);
+  for (const Impl::Pair* pair : impl_->touching_pairs) {
+    const bool still = impl_->is_still(pair->a) && impl_->is_still(pair->b);
+    for (const std::size_t body : {pair->a, pair->b}) {
+      Rest& rest = impl_->rest[body];
+      if (!still || rest == Rest::free) rest = still ? Rest::rests : Rest::moves;
+    }
+  }
+}
+
+bool BodyContacts::rests(std::size_t body) const noexcept {
+  return impl_->rest[body] == Impl::Rest::rests;
 }
 
 std::span<btPersistentManifold*> BodyContacts::fill() {

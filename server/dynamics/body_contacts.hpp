@@ -39,6 +39,13 @@ class BodyContacts {
   /// and masses. Allocates nothing. One thread at a time.
   [[nodiscard]] std::span<btPersistentManifold*> find(const state::WorldState& state, double dt_s) noexcept;
 
+  /// After the solver: which of the touching bodies stay where they are, see rests().
+  void note_rest() noexcept;
+
+  /// Whether the body, and all that it touches, is slower than the solver is exact: up to 2 mm/s at the outermost point. Its pose shall
+  /// then stay as it is, or it would creep; its velocity stays too, so that what really begins to move is not held.
+  [[nodiscard]] bool rests(std::size_t body) const noexcept;
+
   /// As many manifolds as find() can ever return, each full: one solve with them sizes the solver's tables.
   [[nodiscard]] std::span<btPersistentManifold*> fill();
 

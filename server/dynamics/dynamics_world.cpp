@@ -373,11 +373,13 @@ void DynamicsWorld::Impl::solve(std::span<btPersistentManifold*> manifolds, doub
 }
 
 void DynamicsWorld::Impl::integrate(double dt_s) {
-  for (auto& body : bodies) {
-    if (!body->moves) continue;
+  if (contacts) contacts->note_rest();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    btRigidBody& body = bodies[i]->bullet;
+    if (!bodies[i]->moves || (contacts && contacts->rests(i))) continue;
     btTransform next;
-    body->bullet.predictIntegratedTransform(dt_s, next);
-    body->bullet.setCenterOfMassTransform(next);
+    body.predictIntegratedTransform(dt_s, next);
+    body.setCenterOfMassTransform(next);
   }
 }
 

@@ -48,8 +48,9 @@ struct BodyDescription {
   MeshReference mesh;
   bool visible = true;
   bool graspable = false;
-  bool collides = false;   ///< with other bodies that do; see dynamics::DynamicsWorld for those that never meet
-  double restitution = 0;  ///< share of the approach speed that a collision gives back, 0 to 1; of a pair: the geometric mean
+  bool collides = false;  ///< with other bodies that do; see dynamics::DynamicsWorld for those that never meet
+  double restitution =
+      0;  ///< share of the approach speed that a collision gives back, 0 to 1; of a pair: the geometric mean
 };
 
 /// Two bodies that never collide, for one is made to sit in the other, closer than distance maps are exact.

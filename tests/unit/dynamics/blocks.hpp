@@ -30,7 +30,8 @@ inline Vec3 box_inertia(double mass_kg, const Vec3& half_m) {
 }
 
 /// A wooden block that falls and collides, at a place.
-inline state::BodyDescription block(const std::string& name, const Vec3& half_m, const Pose& X_WB, double friction = 0.5) {
+inline state::BodyDescription block(const std::string& name, const Vec3& half_m, const Pose& X_WB,
+                                    double friction = 0.5) {
   const double mass_kg = kDensity_kg_per_m3 * 8 * half_m.prod();
   state::BodyDescription out = body(name, mass_kg, box_inertia(mass_kg, half_m));
   out.use_gravity = true;

@@ -1,7 +1,7 @@
 // What the loop asks of collisions: the same bits, a resume from a state, no allocation, and speed.
-#include <time.h>
-
 #include <iostream>
+
+#include <time.h>
 
 #include "server/state/snapshot.hpp"
 #include "tests/support/allocation_guard.hpp"
