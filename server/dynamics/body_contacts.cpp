@@ -24,12 +24,12 @@
 namespace mechane::dynamics {
 namespace {
 
-constexpr double kSlop_m = 1e-4;                // bodies at rest overlap by this much: far above what maps flicker
-constexpr double kErrorShare = 0.2;             // of what they overlap more, taken back in a step
-constexpr double kMaxCorrection_m_per_s = 1.0;  // as a joint's
-constexpr double kBounceFrom_m_per_s = 0.05;    // slower bodies do not bounce: a tick's gravity is 0.01
-constexpr double kSlipsFrom_m_per_s = 1e-3;     // a faster contact has dynamic friction
-constexpr double kStill_m_per_s = 2e-3;
+constexpr double kSlop_m = 1e-4;            // bodies at rest overlap by this much: far above what maps flicker
+constexpr double kContactErrorShare = 0.2;  // of what they overlap more, taken back in a step
+constexpr double kMaxContactCorrection_m_per_s = 1.0;  // as a joint's
+constexpr double kBounceFrom_m_per_s = 0.05;           // slower bodies do not bounce: a tick's gravity is 0.01
+constexpr double kSlipsFrom_m_per_s = 1e-3;            // a faster contact has dynamic friction
+constexpr double kStill_m_per_s = 2e-3;          // at the outermost point; what the solver leaves is a tenth of it
 constexpr std::size_t kMaxTouchingPerBody = 12;  // in one step; what is over is left out, in the order of the pairs
 constexpr int kShapeType = CUSTOM_CONCAVE_SHAPE_TYPE;
 
@@ -124,7 +124,7 @@ class ObjectAlgorithm final : public btCollisionAlgorithm {
            double dt_s) {
     const ObjectShape& shape_a = shape_of(a);
     const ObjectShape& shape_b = shape_of(b);
-    const double most_m = kSlop_m + kMaxCorrection_m_per_s * dt_s / kErrorShare;
+    const double most_m = kSlop_m + kMaxContactCorrection_m_per_s * dt_s / kContactErrorShare;
     // One point for both bodies, half way: impulses at two points would turn the pair.
     const Vec3 p_W = contact.p_WC - 0.5 * contact.depth_m * contact.n_BA_W;
     const btVector3 p = bullet_vector(p_W);
@@ -384,7 +384,7 @@ std::span<btPersistentManifold*> BodyContacts::fill() {
 
 void set_contact_solver(btContactSolverInfo& info) {
   info.m_linearSlop = kSlop_m;
-  info.m_erp2 = kErrorShare;
+  info.m_erp2 = kContactErrorShare;
   info.m_splitImpulse = 1;  // overlap is taken back by moving apart, not by speed that would stay
   info.m_splitImpulsePenetrationThreshold = 0;
   info.m_restitutionVelocityThreshold = kBounceFrom_m_per_s;
