@@ -170,7 +170,7 @@ btDefaultCollisionConstructionInfo sized_for(std::size_t pairs) {
 using BodyPair = std::pair<std::size_t, std::size_t>;
 
 BodyPair ordered(BodyId one, BodyId other) {
-  return std::minmax(one.index(), other.index());
+  return std::minmax({one.index(), other.index()});
 }
 
 /// The pairs of bodies that may ever meet, by index.
