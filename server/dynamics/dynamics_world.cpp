@@ -9,6 +9,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "server/base/assert.hpp"
+#include "server/dynamics/body_contacts.hpp"
 #include "server/dynamics/grasp_rows.hpp"
 #include "server/dynamics/joint_rows.hpp"
 
@@ -151,6 +152,7 @@ struct DynamicsWorld::Impl {
   std::vector<Joint> joints;
   std::array<Hand, state::kMaxUsers> hands;
   std::vector<std::unique_ptr<RowConstraint>> grips;  // by user, then body
+  std::unique_ptr<BodyContacts> contacts;             // null: no two bodies may ever meet
   btSequentialImpulseConstraintSolver solver;
   btContactSolverInfo solver_info;
   std::vector<btCollisionObject*> solver_bodies;
@@ -169,7 +171,7 @@ struct DynamicsWorld::Impl {
   void store_bodies(state::WorldState& state);
   void store_joints(state::WorldState& state);
   void store_grasps(state::WorldState& state);
-  void solve(double dt_s);
+  void solve(std::span<btPersistentManifold*> manifolds, double dt_s);
 
   RowConstraint& grip(std::size_t user, std::size_t body) { return *grips[user * bodies.size() + body]; }
 };
@@ -194,6 +196,12 @@ Expected<std::unique_ptr<DynamicsWorld>> DynamicsWorld::create(const state::Worl
     if (const auto good = check_joint(description, from); !good) return tl::unexpected(good.error());
     impl->add_joint(from);
   }
+  std::vector<Collider> colliders;
+  for (const auto& body : impl->bodies)
+    colliders.push_back({&body->bullet, body->X_CB});
+  auto contacts = BodyContacts::create(description, colliders);
+  if (!contacts) return tl::unexpected(contacts.error());
+  impl->contacts = std::move(*contacts);
   impl->add_grips();
   impl->warm_up(1e-3);
   return std::unique_ptr<DynamicsWorld>(new DynamicsWorld(std::move(impl)));
@@ -220,6 +228,7 @@ void DynamicsWorld::Impl::add_grips() {
   active.reserve(joints.size() + grips.size());
   solver_info.m_numIterations = kSolverIterations;
   solver_info.m_leastSquaresResidualThreshold = kSolverResidual;
+  set_contact_solver(solver_info);
 }
 
 /// Bullet's solver keeps its tables from step to step: one solve with every row that can ever be asked for at once sizes them, so
@@ -236,7 +245,7 @@ void DynamicsWorld::Impl::warm_up(double dt_s) {
     while (rows.count < rows.rows.size())
       rows.add(angular_row(Vec3::UnitX()));
   }
-  solve(dt_s);
+  solve(contacts ? contacts->fill() : std::span<btPersistentManifold*>(), dt_s);
   active.clear();
 }
 
@@ -248,7 +257,7 @@ void DynamicsWorld::step(state::WorldState& state, double dt_s) noexcept {
   impl_->active.clear();
   impl_->gather_joints(state, dt_s);
   impl_->gather_grasps(state, dt_s);
-  impl_->solve(dt_s);
+  impl_->solve(impl_->contacts ? impl_->contacts->find(state, dt_s) : std::span<btPersistentManifold*>(), dt_s);
   impl_->integrate(dt_s);
   impl_->store_bodies(state);
   impl_->store_joints(state);
@@ -356,18 +365,21 @@ void DynamicsWorld::Impl::gather_grasps(state::WorldState& state, double dt_s) {
   }
 }
 
-void DynamicsWorld::Impl::solve(double dt_s) {
+void DynamicsWorld::Impl::solve(std::span<btPersistentManifold*> manifolds, double dt_s) {
   solver_info.m_timeStep = dt_s;
-  solver.solveGroup(solver_bodies.data(), static_cast<int>(solver_bodies.size()), nullptr, 0, active.data(),
-                    static_cast<int>(active.size()), solver_info, nullptr, nullptr);
+  solver.solveGroup(solver_bodies.data(), static_cast<int>(solver_bodies.size()), manifolds.data(),
+                    static_cast<int>(manifolds.size()), active.data(), static_cast<int>(active.size()), solver_info,
+                    nullptr, nullptr);
 }
 
 void DynamicsWorld::Impl::integrate(double dt_s) {
-  for (auto& body : bodies) {
-    if (!body->moves) continue;
+  if (contacts) contacts->note_rest();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    btRigidBody& body = bodies[i]->bullet;
+    if (!bodies[i]->moves || (contacts && contacts->rests(i))) continue;
     btTransform next;
-    body->bullet.predictIntegratedTransform(dt_s, next);
-    body->bullet.setCenterOfMassTransform(next);
+    body.predictIntegratedTransform(dt_s, next);
+    body.setCenterOfMassTransform(next);
   }
 }
 

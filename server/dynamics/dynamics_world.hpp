@@ -26,13 +26,18 @@ namespace mechane::dynamics {
 /// the grip: the step then turns Grasp::X_HB about the grip's centre. Grasp::reaction_W is what the body does to the hand, at the
 /// grip.
 ///
-/// Bodies do not collide with each other in this version: joints and grasps alone hold them apart.
+/// Bodies collide where both opted in (BodyDescription::collides) and at least one can move, but for pairs that a joint ties (on or
+/// off), mates, and bodies that are both in hands; hidden ones touch nothing. Their objects' maps are asked for contacts at the start
+/// of each step, and the best four of a pair hold it apart: with the static friction of the bodies' haptic materials (the geometric
+/// mean) up to 1 mm/s, the dynamic above. Bodies at rest on each other overlap by 0.1 mm; what they overlap more is taken back at
+/// 1 m/s at most, without a kick. Only where they are at a step is looked at: a plate holds back what comes by less than half its
+/// thickness in a step.
 ///
 /// One thread at a time. step() allocates nothing, locks nothing, throws nothing; same inputs give the same bits.
 class DynamicsWorld {
  public:
   /// Errors: a body that is not fixed has a mass or an inertia that is not positive, a joint has no second body or a frame that is
-  /// not finite. `state` must be made from `description`; neither is kept.
+  /// not finite; see BodyContacts::create for bodies that collide. `state` must be made from `description`; neither is kept.
   [[nodiscard]] static Expected<std::unique_ptr<DynamicsWorld>> create(const state::WorldDescription& description,
                                                                        const state::WorldState& state);
   ~DynamicsWorld();

@@ -59,7 +59,14 @@ void read_shape(Compilation& c, NodeId id, Attributes& attributes, state::BodyDe
   const std::string url = model_url(c, fields);
   if (url.empty()) return;
   body.mesh = {url, c.model_hashes[url], fields.given("node") ? fields.string("node") : body.name};
-  if (!fields.boolean("touchable")) return;
+  body.collides = fields.boolean("collides");
+  body.restitution = fields.number("restitution");
+  if (!fields.boolean("touchable")) {
+    if (!body.collides) return;
+    c.problems.error(fields.line("collides"), fields.where(), "the body is to collide but is not touchable",
+                     "remove touchable false: one shape serves both");
+    return;
+  }
   auto object = c.loader.load(c.document.path().parent_path() / url, body.mesh.node);
   if (!object) {
     c.problems.error(fields.line("node"), fields.where(),

@@ -125,13 +125,24 @@ void compile_tree(Compilation& c, std::string_view key, const Registry& registry
   }
 }
 
+/// What snaps into another body sits in it: the two never collide.
+void add_mates(Compilation& c, const state::ComponentDescription& component, const state::Parameters& parameters) {
+  if (component.type != "geometry.snap" || !parameters.given("into")) return;
+  const BodyId object = parameters.body("object");
+  const BodyId into = parameters.body("into");
+  if (object != into) c.world.mates.push_back({object, into});
+}
+
 void check_one(Compilation& c, const state::ComponentDescription& component, const ComponentType* type,
                std::string_view word) {
   if (type == nullptr) return;
   const auto parameters = state::Parameters::check(*type, component, c.world);
-  if (!parameters)
+  if (!parameters) {
     c.problems.error(component.line, fmt::format("{} {}", word, component.name), parameters.error().what,
                      parameters.error().remedy);
+    return;
+  }
+  add_mates(c, component, *parameters);
 }
 
 }  // namespace

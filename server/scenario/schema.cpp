@@ -201,6 +201,15 @@ constexpr Key kBodyKeys[] = {
      .required = true},
     {.name = "node", .summary = "the node in that file; else the one named as the body", .example = "\"INNER\""},
     {.name = "touchable", .kind = boolean, .summary = "false: drawn only", .default_number = 1},
+    {.name = "collides",
+     .kind = boolean,
+     .summary = "with every other body that does, but for those joined or snapped to it"},
+    {.name = "restitution",
+     .kind = number,
+     .summary = "share of its speed that a collision gives back",
+     .example = "0.2",
+     .min = 0,
+     .max = 1},
 };
 
 constexpr Table kScenario{"mechane:scenario", "on the WorldInfo: all that X3D itself cannot say", kScenarioKeys};

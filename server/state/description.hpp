@@ -48,6 +48,15 @@ struct BodyDescription {
   MeshReference mesh;
   bool visible = true;
   bool graspable = false;
+  bool collides = false;  ///< with other bodies that do; see dynamics::DynamicsWorld for those that never meet
+  double restitution =
+      0;  ///< share of the approach speed that a collision gives back, 0 to 1; of a pair: the geometric mean
+};
+
+/// Two bodies that never collide, for one is made to sit in the other, closer than distance maps are exact.
+struct Mates {
+  BodyId body1;
+  BodyId body2;
 };
 
 enum class JointKind { hinge, slider, ball };
@@ -155,6 +164,7 @@ struct WorldDescription {
   double effort_scale = 1;  ///< of the machine's loads at the hand
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
+  std::vector<Mates> mates;
   std::vector<ComponentDescription> agents;
   std::vector<ComponentDescription> machines;
   std::vector<QuantityDescription> quantities;

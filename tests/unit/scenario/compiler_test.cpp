@@ -165,6 +165,13 @@ const Fault kFaults[] = {
     {"name='model' value='\"MODEL\"'", "name='model' value='\"MODLE\"'", "MODLE", "did you mean 'MODEL'?"},
     {"../models/archimedes-screw.glb", "https://example.org/a.glb", "https://example.org", "relative path"},
     {"name='joint' value='\"AXLE\"'", "name='joint' value='\"AXEL\"'", "name='COUNTER'", "AXEL"},
+    {"name='node' value='\"INNER\"'/>",
+     "name='node' value='\"INNER\"'/>\n<MetadataBoolean containerField='value' name='touchable' value='false'/>"
+     "<MetadataBoolean containerField='value' name='collides' value='true'/>",
+     "name='collides'", "to collide but is not touchable"},
+    {"name='node' value='\"INNER\"'/>",
+     "name='node' value='\"INNER\"'/>\n<MetadataDouble containerField='value' name='restitution' value='1.5'/>",
+     "name='restitution'", "restitution"},
     {"name='grip' value='0.25 0 1.36'", "name='grip' value='0.25 0'", "value='0.25 0'", "3 numbers"},
 };
 
@@ -182,6 +189,24 @@ TEST(Compiler, MeshesThatAreMissing) {
   const Outcome outcome = compile_text(text, partial);
   EXPECT_FALSE(outcome.world);
   EXPECT_EQ(outcome.find("does not exist").line, line_of(text, "name='node' value='\"INNER\"'"));
+}
+
+TEST(Compiler, BodiesCollideWhenAskedToAndWhatSnapsTogetherIsMated) {
+  const Outcome plain = compile_text(text_of(shipped_file()));
+  ASSERT_TRUE(plain.world);
+  const Outcome outcome = compile_text(
+      edited("name='node' value='\"INNER\"'/>",
+             "name='node' value='\"INNER\"'/><MetadataBoolean containerField='value' name='collides' value='true'/>"
+             "<MetadataDouble containerField='value' name='restitution' value='0.25'/>"));
+  ASSERT_TRUE(outcome.world) << outcome.world.error().to_string();
+  const auto inner = outcome.world->find_body("INNER"), outer = outcome.world->find_body("OUTER");
+  EXPECT_FALSE(plain.world->bodies[inner.index()].collides) << "a body must be asked to";
+  EXPECT_TRUE(outcome.world->bodies[inner.index()].collides);
+  EXPECT_EQ(outcome.world->bodies[inner.index()].restitution, 0.25);
+  EXPECT_FALSE(outcome.world->bodies[outer.index()].collides);
+  ASSERT_EQ(outcome.world->mates.size(), 1u) << "SEAT snaps INNER into OUTER";
+  EXPECT_EQ(outcome.world->mates[0].body1, inner);
+  EXPECT_EQ(outcome.world->mates[0].body2, outer);
 }
 
 TEST(Compiler, SlidersAndBallsStandWhereTheirBodiesDo) {
