@@ -114,8 +114,8 @@ std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& sk
     for (int halvings = 0; halvings < kHalvings; ++halvings, depth *= 0.5) {
       const Vec3 p = places[i].p_O - depth * places[i].n_O;
       const geometry::SurfacePoint nearest = skin.closest(p);
-      const bool inside = solid.is_closed(node) ? solid.contains(p)
-                                                : skin.triangle_normal(nearest.triangle).dot(p - nearest.p) < 0;
+      const bool inside =
+          solid.is_closed(node) ? solid.contains(p) : skin.triangle_normal(nearest.triangle).dot(p - nearest.p) < 0;
       if (inside != (depth > 0)) continue;
       probes.push_back({p, depth > 0 ? nearest.distance_m : -nearest.distance_m});
       break;

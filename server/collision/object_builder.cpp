@@ -175,9 +175,8 @@ Expected<Made> make_part(const PartSource& source, const Ground& ground, PartRep
   if (!fit) return tl::unexpected(fit.error());
   Made made;
   made.frame = choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
-  made.probes =
-      make_probes(ground.solid, ground.skin, source.node, source.places, ground.budget, kProbesPerPart,
-                  ground.config.seed + 2);
+  made.probes = make_probes(ground.solid, ground.skin, source.node, source.places, ground.budget, kProbesPerPart,
+                            ground.config.seed + 2);
   report.name = source.name;
   report.fit = fit->report;
   report.closed = ground.solid.is_closed(source.node);
@@ -254,9 +253,8 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
 MapError error_of(const Object& object, std::span<const PartSource> sources, const Ground& ground) {
   std::vector<std::vector<Probe>> probes(sources.size());
   for_each_index(sources.size(), [&](std::size_t i) {
-    probes[i] =
-        make_probes(ground.solid, ground.skin, sources[i].node, sources[i].places, ground.budget, kReportProbes,
-                    ground.config.seed + 3);
+    probes[i] = make_probes(ground.solid, ground.skin, sources[i].node, sources[i].places, ground.budget, kReportProbes,
+                            ground.config.seed + 3);
   });
   std::vector<Probe> all;
   for (const auto& some : probes)

@@ -12,7 +12,8 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kSmallest_m = 1e-6;
-constexpr double kLargest_m = 1000;  // a machine is a few metres large: a kilometre is a wrong unit, and squares of it still fit
+constexpr double kLargest_m =
+    1000;  // a machine is a few metres large: a kilometre is a wrong unit, and squares of it still fit
 
 }  // namespace
 

@@ -103,7 +103,8 @@ collision::BuildConfig config_of(std::uint8_t flags) {
 }
 
 void check_error(const Error& error) {
-  require(!error.what.empty() && !error.where.empty() && !error.remedy.empty(), "an error without what, where or remedy");
+  require(!error.what.empty() && !error.where.empty() && !error.remedy.empty(),
+          "an error without what, where or remedy");
 }
 
 void check_report(const collision::Object& object, const collision::BuildReport& report,
@@ -118,8 +119,9 @@ void check_report(const collision::Object& object, const collision::BuildReport&
     const collision::PartReport& part = report.parts[i];
     require(part.bytes == object.parts[i].map.bytes() && part.map == object.parts[i].map.name(), "whose map it is");
     require(part.error.p99_m >= 0 && part.error.p50_m >= 0, "an error that is a number");
-    require(!part.met || (part.error.p99_m <= report.budget.depth_p99_m && part.error.probes > 0),
-            "a budget is met where it was measured");
+    require(
+        !part.met || (part.error.p99_m <= report.budget.depth_p99_m && (part.error.probes > 0 || part.samples == 0)),
+        "a budget is met where it was measured");
     require(std::isfinite(part.fit.mean_pct) && std::isfinite(part.fit.max_pct), "the fit's error");
     bytes += part.bytes;
     samples += part.samples;
