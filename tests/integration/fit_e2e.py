@@ -138,7 +138,8 @@ class Fit(EndToEnd):
             self.assertRegex(result.stdout, says)
             self.assertNotIn("edges without", result.stdout)
             felt = re.search(r"([\d.]+) mm at p99; ([\d.]+) % of it is not felt", result.stdout)
-            self.assertLess(float(felt[1]), 1, result.stdout)
+            # Where two bodies cross, the edges of the crossing are rounded, and the summary says so.
+            self.assertLess(float(felt[1]), 5 if name == "crossed.obj" else 1, result.stdout)
             self.assertLess(float(felt[2]), 0.5, result.stdout)
 
     def test_a_sheet_is_refused(self):
