@@ -7,6 +7,7 @@
 #include "server/collision/object_io.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
+#include "server/geometry/mesh_orient.hpp"
 
 namespace mechane::fit {
 namespace {
@@ -35,6 +36,9 @@ Expected<void> import_parts(const FitOptions& options, FittedObject& fitted) {
   auto parts = content::collision_parts(*scene, options.node);
   if (!parts) return in_file(fitted.mesh_file, parts.error());
   fitted.meshes = options.whole ? one_piece(*parts, fitted.mesh_file.stem().string()) : std::move(*parts);
+  for (geometry::NamedMesh& part : fitted.meshes) {
+    if (geometry::turn_outwards(part.mesh) > 0) fitted.turned.push_back(part.name);
+  }
   return {};
 }
 

@@ -17,6 +17,7 @@ struct FittedObject {
   std::filesystem::path part_file;
   std::size_t part_file_bytes = 0;
   std::vector<geometry::NamedMesh> meshes;  ///< as the builder got them, welded, in the object's frame O
+  std::vector<std::string> turned;          ///< meshes that came inside out, by name
   collision::BuildConfig config;
   collision::Object object;
   collision::BuildReport report;

@@ -50,21 +50,17 @@ std::string listed(const std::vector<std::string>& names) {
 
 void note_meshes(const FittedObject& fitted, Summary& summary) {
   std::vector<std::string> open;
-  std::vector<std::string> inverted;
   for (const geometry::NamedMesh& part : fitted.meshes) {
-    if (geometry::open_edges(part.mesh) > 0) {
-      open.push_back(part.name);
-    } else if (geometry::enclosed_volume_m3(part.mesh) < 0) {
-      inverted.push_back(part.name);
-    }
+    if (geometry::open_edges(part.mesh) > 0) open.push_back(part.name);
   }
   if (!open.empty()) {
     summary.notes.push_back(
         listed(open) +
         ": edges without a neighbour, so the mesh is open and felt from outside only; close it to make it solid");
   }
-  if (!inverted.empty()) {
-    summary.notes.push_back(listed(inverted) + ": turned inside out; turn the faces round in the model");
+  if (!fitted.turned.empty()) {
+    summary.notes.push_back(listed(fitted.turned) +
+                            ": inside out in the model, built with its faces turned round; turn them in the model");
   }
 }
 
@@ -174,6 +170,7 @@ std::string bytes_text(std::size_t bytes) {
 }
 
 std::string mm_text(double mm) {
+  if (!std::isfinite(mm)) return "?";  // not measured
   if (mm == 0) return "0";
   if (std::abs(mm) < 0.001) return "0.000";
   const int before = static_cast<int>(std::floor(std::log10(std::abs(mm))));

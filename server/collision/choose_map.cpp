@@ -16,6 +16,8 @@ constexpr std::size_t kMaxBrickBytes = 128U << 10;
 // More missed points than this mean that no centre sees the part whole: a finer radial map would not either.
 constexpr double kBlindShare = 0.02;
 constexpr double kStrayShare = 0.005;
+// Of a probe's depth, to find the inside of a thin wall: 4 mm become 0.06 mm.
+constexpr int kHalvings = 7;
 // A brick's values beyond this many cells from the surface are cut off there: nobody asks so deep, and the step gets finer.
 constexpr double kBandCells = 4;
 
@@ -100,7 +102,7 @@ DistanceBrick make_brick(const Solid& solid, const geometry::MeshQuery& skin, co
 
 }  // namespace
 
-std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin,
+std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
                                std::span<const SurfacePlace> places, const ErrorBudget& budget, std::size_t count,
                                std::uint64_t seed) {
   geometry::Random random(seed);
@@ -108,11 +110,16 @@ std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& sk
   const std::size_t step = std::max<std::size_t>(1, places.size() / count);
   for (std::size_t i = 0; i < places.size(); i += step) {
     // Two under the surface for one above it.
-    const double depth = budget.probe_depth_m * (probes.size() % 3 == 2 ? -random.unit() : random.unit());
-    const Vec3 p = places[i].p_O - depth * places[i].n_O;
-    if (solid.contains(p) != (depth > 0)) continue;
-    const double exact = skin.closest(p).distance_m;
-    probes.push_back({p, depth > 0 ? exact : -exact});
+    double depth = budget.probe_depth_m * (probes.size() % 3 == 2 ? -random.unit() : random.unit());
+    for (int halvings = 0; halvings < kHalvings; ++halvings, depth *= 0.5) {
+      const Vec3 p = places[i].p_O - depth * places[i].n_O;
+      const geometry::SurfacePoint nearest = skin.closest(p);
+      const bool inside =
+          solid.is_closed(node) ? solid.contains(p) : skin.triangle_normal(nearest.triangle).dot(p - nearest.p) < 0;
+      if (inside != (depth > 0)) continue;
+      probes.push_back({p, depth > 0 ? nearest.distance_m : -nearest.distance_m});
+      break;
+    }
   }
   return probes;
 }
@@ -128,6 +135,7 @@ MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const
     if (hit.hit || probe.depth_m > 0) errors.push_back(std::abs(depth - probe.depth_m));
   }
   error.probes = probes.size();
+  if (probes.empty()) return error;
   if (errors.empty()) {
     error.p99_m = error.max_m = 0;
     return error;
@@ -166,7 +174,7 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
     tried.error.wrong += must.wrong;
     tried.error.probes += must.probes;
     if (best.map.empty() || tried.met || tried.error.badness_m() < best.error.badness_m()) best = std::move(tried);
-    if (best.met) break;
+    if (best.met || probes.empty()) break;
   }
   return best;
 }

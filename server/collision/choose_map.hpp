@@ -22,7 +22,7 @@ struct ErrorBudget {
   double probe_depth_m = 0;  ///< how deep points are asked
 };
 
-/// What a map's answers are worth, over points just under the surface and just above it.
+/// What a map's answers are worth, over points just under the surface and just above it. Infinite where there was no point to ask.
 struct MapError {
   double p50_m = 0;
   double p99_m = std::numeric_limits<double>::infinity();
@@ -61,9 +61,10 @@ struct MapChoice {
   bool met = false;
 };
 
-/// Points up to `budget.probe_depth_m` under and above the places, with their exact depths. Places beside which the solid is not what
-/// their normal says (seams, thin walls) are left out.
-[[nodiscard]] std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin,
+/// Points up to `budget.probe_depth_m` under and above the places of a node, with their exact depths; less deep where the solid is thin.
+/// Places beside which it is not what their normal says (seams) are left out. An open mesh has no inside: there the nearest triangle
+/// tells the side.
+[[nodiscard]] std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
                                              std::span<const SurfacePlace> places, const ErrorBudget& budget,
                                              std::size_t count, std::uint64_t seed);
 

@@ -14,6 +14,7 @@
 #include "server/collision/samples.hpp"
 #include "server/collision/solid.hpp"
 #include "server/geometry/mesh_check.hpp"
+#include "server/geometry/mesh_orient.hpp"
 #include "server/geometry/random.hpp"
 #include "server/geometry/surface_samples.hpp"
 
@@ -91,6 +92,7 @@ Expected<std::vector<geometry::Mesh>> weld_nodes(std::span<const geometry::Named
     if (welded.back().triangles.empty()) {
       return fail("all triangles are without area", where_of(node.name), "export the model with its faces");
     }
+    static_cast<void>(geometry::turn_outwards(welded.back()));
   }
   return welded;
 }
@@ -128,6 +130,7 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
     geometry::DecomposeConfig config;
     config.max_concavity = ground.config.max_concavity;
     config.max_parts = ground.config.max_pieces;
+    config.grid_cells = ground.config.grid_cells;
     config.seed = ground.config.seed;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!ground.solid.is_closed(i)) continue;  // no inside, no pieces
@@ -198,8 +201,8 @@ Expected<Made> make_part(const PartSource& source, const Ground& ground, PartRep
   if (!fit) return tl::unexpected(fit.error());
   Made made;
   made.frame = choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
-  made.probes =
-      make_probes(ground.solid, ground.skin, source.places, ground.budget, kProbesPerPart, ground.config.seed + 2);
+  made.probes = make_probes(ground.solid, ground.skin, source.node, source.places, ground.budget, kProbesPerPart,
+                            ground.config.seed + 2);
   report.name = source.name;
   report.fit = fit->report;
   report.closed = ground.solid.is_closed(source.node);
@@ -210,6 +213,10 @@ Expected<Made> make_part(const PartSource& source, const Ground& ground, PartRep
   made.part.superquadric = fit->shape;
   made.part.bound_O = bounding_sphere(source.bound_points_O);
   set_map(map_for(made, source.node, ground, 0, {}), made.part, report);
+  if (source.places.empty()) {  // wholly inside others: nobody feels it
+    report.error = {0, 0, 0, 0, 0, 0};
+    report.met = true;
+  }
   return made;
 }
 
@@ -346,8 +353,8 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
 MapError error_of(const Object& object, std::span<const PartSource> sources, const Ground& ground) {
   std::vector<std::vector<Probe>> probes(sources.size());
   for_each_index(sources.size(), [&](std::size_t i) {
-    probes[i] =
-        make_probes(ground.solid, ground.skin, sources[i].places, ground.budget, kReportProbes, ground.config.seed + 3);
+    probes[i] = make_probes(ground.solid, ground.skin, sources[i].node, sources[i].places, ground.budget, kReportProbes,
+                            ground.config.seed + 3);
   });
   std::vector<Probe> all;
   for (const auto& some : probes)

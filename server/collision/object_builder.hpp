@@ -30,6 +30,7 @@ struct BuildConfig {
   Parts parts = Parts::automatic;
   double max_concavity = 0.02;  ///< of a piece, as a share of its mesh's diagonal; see geometry::decompose
   std::size_t max_pieces = 48;  ///< of one mesh
+  int grid_cells = 64;          ///< of the grid on which pieces are searched; see geometry::DecomposeConfig
   /// The error budget: a map's depth error at its 99th percentile, as a share of the object's diagonal, and in metres; the lesser holds.
   double max_error_share = 0.003;
   double max_error_m = 0.001;    ///< what a finger still takes for the real surface

@@ -27,14 +27,14 @@ constexpr std::uintmax_t kLongestPartFile = 1ULL << 30U;
 /// What the file of the object is called: whatever can change the object is in the name.
 std::string cache_name(const std::string& file_hash, const std::string& node, const collision::BuildConfig& config) {
   const std::string key = fmt::format(
-      "part file {} build {} import {} mesh {} node {}:{} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} maps "
-      "{}{} bounds {} resolution {} "
+      "part file {} build {} import {} mesh {} node {}:{} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} {} "
+      "maps {}{} bounds {} resolution {} "
       "spacing {:a} samples {} seam {:a} seed {}",
       collision::kPartFileVersion, kObjectBuildVersion, kSceneCodecVersion, file_hash, node.size(), node,
       config.max_error_share, config.max_error_m, config.miss_share, config.probe_depth_m,
-      static_cast<int>(config.parts), config.max_concavity, config.max_pieces, config.radial_maps, config.bricks,
-      static_cast<int>(config.bounds), config.map_resolution, config.sample_spacing_m, config.max_samples_per_part,
-      config.seam_gap_m, config.seed);
+      static_cast<int>(config.parts), config.max_concavity, config.max_pieces, config.grid_cells, config.radial_maps,
+      config.bricks, static_cast<int>(config.bounds), config.map_resolution, config.sample_spacing_m,
+      config.max_samples_per_part, config.seam_gap_m, config.seed);
   return content_hash(std::as_bytes(std::span(key))) + ".part";
 }
 

@@ -1,11 +1,21 @@
 #include "server/geometry/mesh_check.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace mechane::geometry {
+namespace {
+
+constexpr double kSmallest_m = 1e-6;
+constexpr double kLargest_m =
+    1000;  // a machine is a few metres large: a kilometre is a wrong unit, and squares of it still fit
+
+}  // namespace
 
 Expected<void> check_mesh(const Mesh& mesh, const std::string& where) {
   if (mesh.triangles.empty()) return fail("the mesh has no triangles", where, "export the model with its faces");
@@ -15,8 +25,7 @@ Expected<void> check_mesh(const Mesh& mesh, const std::string& where) {
                 where, "simplify the collision shape");
   }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    // A machine is a few metres large: a kilometre is a wrong unit, and squares of it still fit.
-    if (!mesh.vertices[i].allFinite() || mesh.vertices[i].cwiseAbs().maxCoeff() > 1000) {
+    if (!mesh.vertices[i].allFinite() || mesh.vertices[i].cwiseAbs().maxCoeff() > kLargest_m) {
       return fail("vertex " + std::to_string(i) + " is not a finite point within 1000 m", where,
                   "check the model's units and modifiers, and export it again");
     }
@@ -28,6 +37,10 @@ Expected<void> check_mesh(const Mesh& mesh, const std::string& where) {
                       std::to_string(mesh.vertices.size()),
                   where, "the file is damaged: export it again");
     }
+  }
+  // Squares and cubes of less than a micrometre drown in rounding.
+  if (!(mesh.bounds().diagonal().norm() >= kSmallest_m)) {
+    return fail("the mesh is smaller than a micrometre", where, "export the model in metres");
   }
   return {};
 }
@@ -54,9 +67,14 @@ Mesh weld(const Mesh& mesh, double tolerance_m) {
     }
     new_index[i] = found->second;
   }
+  std::set<std::array<std::uint32_t, 3>> known;
   for (const auto& t : mesh.triangles) {
     const std::array<std::uint32_t, 3> w{new_index[t[0]], new_index[t[1]], new_index[t[2]]};
-    if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) out.triangles.push_back(w);
+    if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) continue;
+    auto smallest_first = w;
+    std::rotate(smallest_first.begin(), std::min_element(smallest_first.begin(), smallest_first.end()),
+                smallest_first.end());
+    if (known.insert(smallest_first).second) out.triangles.push_back(w);
   }
   return out;
 }

@@ -11,11 +11,12 @@ namespace mechane::geometry {
 
 inline constexpr std::size_t kMaxTriangles = 2'000'000;
 
-/// An Error that names `where` when the mesh has no triangles or too many, an index out of range, or a number that is not finite.
+/// An Error that names `where` when the mesh has no triangles or too many, an index out of range, a number that is not finite or beyond
+/// a kilometre, or when it is smaller than a micrometre.
 [[nodiscard]] Expected<void> check_mesh(const Mesh& mesh, const std::string& where);
 
-/// The mesh with vertices at the same place (within `tolerance_m`) made one and triangles without area left out. Exporters double
-/// vertices along creases and texture seams.
+/// The mesh with vertices at the same place (within `tolerance_m`) made one, triangles without area left out, and one left of triangles
+/// that have the same corners and look the same way. Exporters double vertices along creases and texture seams.
 [[nodiscard]] Mesh weld(const Mesh& mesh, double tolerance_m);
 
 /// How many directed edges have no partner that runs the other way: 0 means closed. The mesh must be welded.

@@ -1,7 +1,9 @@
 """`mechane fit`: a mesh into a .part file and a page of pictures; bad meshes, full disks, Ctrl-C."""
 
+import math
 import os
 import pty
+import re
 import signal
 import struct
 import subprocess
@@ -31,6 +33,26 @@ CRANK = obj_of_boxes([("part_shaft", (0, 0, 0), (0.02, 0.02, 0.1)), ("part_arm",
                       ("part_grip", (0.21, 0, 0.16), (0.017, 0.017, 0.06))])
 # Many parts: long enough to be interrupted, and too much for a small disk.
 FENCE = obj_of_boxes([(f"part_{i}", (0.3 * i, 0, 0), (0.1, 0.12, 0.14)) for i in range(60)])
+
+
+BOX = obj_of_boxes([("part_box", (0, 0, 0), (0.02, 0.03, 0.04))])
+
+
+def fine_ball(triangles):
+    """A ball of 0.2 m as a binary STL."""
+    down = round(math.sqrt(triangles / 4))
+    ring = [[struct.pack("<3f", 0.1 * math.sin(math.pi * j / down) * math.cos(math.pi * i / down),
+                         0.1 * math.sin(math.pi * j / down) * math.sin(math.pi * i / down),
+                         0.1 * math.cos(math.pi * j / down)) for i in range(2 * down)] for j in range(down + 1)]
+    for j in (0, down):
+        ring[j] = [struct.pack("<3f", 0, 0, 0.1 if j == 0 else -0.1)] * (2 * down)
+    faces = []
+    for j in range(down):
+        for i in range(2 * down):
+            a, b = ring[j][i], ring[j][(i + 1) % (2 * down)]
+            c, d = ring[j + 1][i], ring[j + 1][(i + 1) % (2 * down)]
+            faces += ([a + c + d] if j < down - 1 else []) + ([a + d + b] if j > 0 else [])
+    return bytes(80) + struct.pack("<I", len(faces)) + b"".join(bytes(12) + face + bytes(2) for face in faces)
 
 
 class Fit(EndToEnd):
@@ -82,14 +104,55 @@ class Fit(EndToEnd):
             self.assertIn("; ", line, "what to do stands behind what is wrong")
         self.assertEqual([p.name for p in self.folder.glob("*.part")], ["good.part"])
 
+    def fit_alone(self, name, content, limit_s=120):
+        return self.run_command("fit", self.mesh(name, content), "--report", "none", limit_s=limit_s)
+
     def test_an_open_mesh_is_built_with_a_word_about_it(self):
         text = "\n".join(CRANK.splitlines()[:-1]) + "\n"  # the last triangle is gone
-        # The import leaves out triangles that are not finite: what is left is open.
-        nan = CRANK.replace("v 0.02 ", "v nan ", 1)
-        for name, content, part in (("open.obj", text, "part_grip"), ("nan.obj", nan, "part_shaft")):
-            result = self.run_command("fit", self.mesh(name, content), "--report", "none", limit_s=120)
+        fin = BOX + "v 0.02 0.02 0.3\nf 1 2 9\n"  # three triangles share an edge
+        for name, content, part in (("open.obj", text, "part_grip"), ("fin.obj", fin, "part_box")):
+            result = self.fit_alone(name, content)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stdout, rf"part '{part}': edges without a\s+neighbour")
+
+    def test_a_number_that_is_none_is_told_as_such(self):
+        for name, content in (("nan.obj", CRANK.replace("v 0.02 ", "v nan ", 1)), ("inf.obj", BOX.replace("v -0.02 ", "v inf ", 1))):
+            result = self.fit_alone(name, content)
+            self.assertEqual(result.returncode, 1, result.stdout)
+            self.assertRegex(result.stderr, rf"{name}, mesh part_\w+: corner \d+ .* not a finite number; .*export it again")
+        self.assertEqual([name for name in self.files() if name.endswith(".part")], [])
+
+    def test_faults_that_can_be_mended_are(self):
+        turned = re.sub(r"f (\d+) (\d+) (\d+)", r"f \1 \3 \2", BOX)
+        faces = [line for line in BOX.splitlines() if line.startswith("f ")]
+        second = obj_of_boxes([("same", (0.02, 0.01, 0.03), (0.015, 0.06, 0.02))]).splitlines()
+        second = [re.sub(r"\d+", lambda index: str(int(index[0]) + 8), line) if line.startswith("f ") else line for line in second]
+        crossed = BOX + "\n".join(line for line in second if not line.startswith("o ")) + "\n"
+        for name, content, says in (("plain.obj", BOX, "12 triangles"),
+                                    ("turned.obj", turned, r"part 'part_box': inside out in the\s+model"),
+                                    ("duplicate.obj", BOX + "\n".join(faces) + "\n", "12 triangles"),
+                                    ("degenerate.obj", BOX + "f 1 1 2\nf 3 3 3\n", "12 triangles"),
+                                    ("crossed.obj", crossed, "24 triangles")):
+            result = self.fit_alone(name, content)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, says)
+            self.assertNotIn("edges without", result.stdout)
+            felt = re.search(r"([\d.]+) mm at p99; ([\d.]+) % of it is not felt", result.stdout)
+            # Where two bodies cross, the edges of the crossing are rounded, and the summary says so.
+            self.assertLess(float(felt[1]), 5 if name == "crossed.obj" else 1, result.stdout)
+            self.assertLess(float(felt[2]), 0.5, result.stdout)
+
+    def test_a_sheet_is_refused(self):
+        sheet = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\n"
+        for name, faces in (("two.obj", "f 1 2 3\nf 1 3 4\n"), ("folded.obj", "f 1 2 3\nf 1 3 2\n")):
+            result = self.fit_alone(name, sheet + faces)
+            self.assertEqual(result.returncode, 1, result.stdout)
+            self.assertRegex(result.stderr, rf"mechane fit: .*{name}.*: .*; .+")
+
+    def test_a_fine_mesh_is_done_in_a_while(self):
+        result = self.fit_alone("fine.stl", fine_ball(50_000), limit_s=240)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"1 part, [45]\d{4} triangles")
 
     def test_two_meshes_of_one_name_do_not_overwrite_each_other(self):
         first = self.mesh("a/crank.obj", CRANK)

@@ -109,6 +109,20 @@ void configure(Assimp::Importer& importer) {
                                                           aiComponent_CAMERAS);
 }
 
+/// Before any step of assimp's: joining of vertices takes a NaN for equal to its neighbour, and the triangles about it are gone.
+Expected<void> check_numbers(const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      if (vector(mesh.mVertices[i]).allFinite()) continue;
+      const std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : std::to_string(m + 1);
+      return fail(fmt::format("corner {} has a coordinate that is not a finite number", i + 1), "mesh " + name,
+                  "look for broken modifiers or a scale of zero in the model, and export it again");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, const ImportLimits& limits) {
@@ -125,8 +139,11 @@ Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, cons
   constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_RemoveComponent |
                               aiProcess_GenSmoothNormals | aiProcess_CalcTangentSpace |
                               aiProcess_JoinIdenticalVertices | aiProcess_FlipUVs;
-  const aiScene* from = importer.ReadFile(file.string(), kSteps);
+  const aiScene* from = importer.ReadFile(file.string(), 0);
+  const Expected<void> numbers = from != nullptr ? check_numbers(*from) : Expected<void>();
+  if (from != nullptr && numbers) from = importer.ApplyPostProcessing(kSteps);
   importer.SetIOHandler(nullptr);  // `io` is ours; assimp would delete it
+  if (!numbers) return tl::unexpected<Error>(numbers.error());
   if (from == nullptr || from->mRootNode == nullptr) {
     std::string why = importer.GetErrorString();
     std::replace(why.begin(), why.end(), '\n', ' ');

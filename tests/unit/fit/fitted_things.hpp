@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client-sdk/fit/fitted_object.hpp"
+#include "server/geometry/mesh_orient.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace mechane::fit {
@@ -15,6 +16,9 @@ inline FittedObject fitted(std::vector<geometry::NamedMesh> meshes) {
   out.part_file = "thing.part";
   out.mesh_hash = "00";
   out.meshes = std::move(meshes);
+  for (geometry::NamedMesh& part : out.meshes) {
+    if (geometry::turn_outwards(part.mesh) > 0) out.turned.push_back(part.name);
+  }
   out.config.map_resolution = 16;
   auto object = collision::build_object(out.meshes, out.config, &out.report);
   if (!object) std::abort();

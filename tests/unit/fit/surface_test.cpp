@@ -86,7 +86,7 @@ TEST(Summary, MeshesThatWillDisappointAreNamed) {
   for (const std::string& note : summary.notes)
     notes += note + "\n";
   EXPECT_NE(notes.find("part 'lid': edges without a neighbour"), std::string::npos) << notes;
-  EXPECT_NE(notes.find("part 'turned': turned inside out"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("part 'turned': inside out"), std::string::npos) << notes;
 }
 
 }  // namespace
