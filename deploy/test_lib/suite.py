@@ -31,7 +31,8 @@ SANITIZER_ENV = {
 # others fit, and sample, a thousand times what their neighbours fit and sample too, or need a limit on the address space.
 TOO_SLOW_SANITIZED = ("Visit.test_(two|five|without|a_whole)", "Faults.test_a_(killed_visitor|full_disk)", "ArchimedesScrew.TenThousand",
                       "SameInputsGiveTheSameBits", "AllocatesNothingAndRepeats", "SeamsAreNotSampled", "Staves/Barrel",
-                      "AFingerEntersABarrel", "WhateverItReturnsBounds", "AFileThatEatsMemory", "unit_geometry.Decompose")
+                      "AFingerEntersABarrel", "WhateverItReturnsBounds", "AFileThatEatsMemory", "unit_geometry.Decompose", "ThinParts",
+                      "AgainstBulletsBoxes", "PaperMap.(Smoothing|OnTheTwo)", "a_fine_mesh")
 # What has threads of its own.
 THREADED = ("unit_realtime", "unit_record", "unit_transport", "unit_client", "unit_content", "unit_collision", "unit_world")
 

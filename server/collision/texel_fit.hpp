@@ -8,7 +8,7 @@ namespace mechane::collision {
 
 /// How many rays are cast along a cell's edge: fewer for fine maps, whose cells show little between their corners.
 [[nodiscard]] constexpr int rays_per_cell(int resolution) {
-  return resolution <= 16 ? 4 : resolution <= 24 ? 3 : resolution <= 32 ? 2 : 1;
+  return resolution <= 16 ? 3 : resolution <= 32 ? 2 : 1;
 }
 
 /// The texels of one face, u fastest, of which bilinear interpolation comes closest to `sigma`, in the least squares of the surface's

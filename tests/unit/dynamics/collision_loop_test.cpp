@@ -1,8 +1,4 @@
-// What the loop asks of collisions: the same bits, a resume from a state, no allocation, and speed.
-#include <iostream>
-
-#include <time.h>
-
+// What the loop asks of collisions: the same bits, a resume from a state, no allocation.
 #include "server/state/snapshot.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/unit/dynamics/blocks.hpp"
@@ -90,25 +86,6 @@ TEST(CollisionLoop, AHeapOfAllInOnePlaceAllocatesNothingAndIsNotShotApart) {
   }
   for (std::size_t i = 1; i < world.bodies.size(); ++i)
     EXPECT_LT(scene.at(i).V_WB.v.norm(), 1.0) << "pushed apart, but with no speed that stays";
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-TEST(CollisionLoop, TimeOfAStepWithTwentyBricksInPiles) {
-  Scene scene(piles(20, 0));
-  scene.run(0.3);
-  constexpr int kTicks = 1000;
-  const double start = thread_seconds();
-  for (int n = 0; n < kTicks; ++n)
-    scene.world->step(*scene.state, kStep);
-  const double spent_us = (thread_seconds() - start) * 1e6 / kTicks;
-  RecordProperty("us_per_step", static_cast<int>(spent_us));
-  std::cout << "DynamicsWorld::step, 20 bricks in 5 piles on a table: " << spent_us << " us of CPU\n";
-  EXPECT_LT(spent_us, 2e4);
 }
 
 }  // namespace
