@@ -40,7 +40,8 @@ DistanceBrick DistanceBrick::from_distances(const Grid& grid, float band_m, std:
 float DistanceBrick::steepest_outside() const {
   const auto& n = grid_.nodes;
   const auto value = [&](int x, int y, int z) {
-    return static_cast<float>(values_[static_cast<std::size_t>((z * n[1] + y) * n[0] + x)]);
+    const int index = (z * n[1] + y) * n[0] + x;
+    return static_cast<float>(values_[static_cast<std::size_t>(index)]);
   };
   float square = 0;
   for (int z = 0; z + 1 < n[2]; ++z) {

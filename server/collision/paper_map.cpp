@@ -122,7 +122,8 @@ void PaperMap::tabulate() {
 void PaperMap::bound() {
   static constexpr int kSteps = 32;
   for (int i = 0; i < 4 * (kSteps + 1); ++i) {
-    const Vec3 at(i % 2 == 0 ? -1 : 1, i / 2 % 2 == 0 ? -1 : 1, -1 + 2.0 * (i / 4) / kSteps);
+    const int height = i / 4;
+    const Vec3 at(i % 2 == 0 ? -1 : 1, i / 2 % 2 == 0 ? -1 : 1, -1 + 2.0 * height / kSteps);
     bound_Q_.extend(geometry::deform(shape_, at.cwiseProduct(shape_.a)).cast<float>());
   }
   const Vec3f margin = Vec3f::Constant((deformed_ ? 0.02F : 1e-6F) * bound_Q_.sizes().maxCoeff());

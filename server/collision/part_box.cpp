@@ -76,8 +76,10 @@ double farthest_of_box(const Vec3& half, std::span<const Vec3> points_Q) {
       const int i = cell / 2;
       Vec3 at;
       at[axis] = cell % 2 == 0 ? -1 : 1;
-      at[(axis + 1) % 3] = -1 + 2.0 * (i % (kFaceCells + 1)) / kFaceCells;
-      at[(axis + 2) % 3] = -1 + 2.0 * (i / (kFaceCells + 1)) / kFaceCells;
+      const int column = i % (kFaceCells + 1);
+      const int row = i / (kFaceCells + 1);
+      at[(axis + 1) % 3] = -1 + 2.0 * column / kFaceCells;
+      at[(axis + 2) % 3] = -1 + 2.0 * row / kFaceCells;
       const Vec3 p = at.cwiseProduct(half);
       double nearest = std::numeric_limits<double>::infinity();
       for (const Vec3& q : points_Q)

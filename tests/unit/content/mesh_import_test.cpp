@@ -132,7 +132,7 @@ TEST_F(MeshImport, RefusesFaultyFilesWithAReason) {
               AllOf(HasSubstr("half.glb"), HasSubstr("cannot be read")));
   EXPECT_THAT(fault("empty.glb", empty_glb), HasSubstr("empty.glb"));
   EXPECT_THAT(fault("range.obj", obj + "f 1 2 99\n"), HasSubstr("range.obj"));
-  EXPECT_THAT(fault("nan.glb", cube_glb(std::numeric_limits<float>::quiet_NaN())), HasSubstr("not finite"));
+  EXPECT_THAT(fault("nan.glb", cube_glb(std::numeric_limits<float>::quiet_NaN())), HasSubstr("not a finite number"));
   EXPECT_THAT(fault("far.glb", cube_glb(-1e30F)), HasSubstr("metres"));
   EXPECT_THAT(fault("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), HasSubstr("points.obj"));
   EXPECT_THAT(fault("text.stl", "this is not a mesh"), HasSubstr("text.stl"));

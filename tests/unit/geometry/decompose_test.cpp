@@ -255,7 +255,9 @@ TEST(Decompose, WhatCannotBeTakenApartIsNamed) {
   const Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
   EXPECT_NE(what(sheet).find("no volume"), std::string::npos);
   const Mesh point{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}};
-  EXPECT_NE(what(point).find("without area"), std::string::npos);
+  EXPECT_NE(what(point).find("smaller than a micrometre"), std::string::npos);
+  const Mesh line{{{1, 1, 1}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}};
+  EXPECT_NE(what(line).find("without area"), std::string::npos);
   EXPECT_NE(what(test::ball(1), {.max_concavity = 0}).find("max_concavity"), std::string::npos);
   EXPECT_NE(what(test::ball(1), {.max_parts = 0}).find("max_parts"), std::string::npos);
   EXPECT_NE(what(test::ball(1), {.grid_cells = 1000}).find("grid_cells"), std::string::npos);
