@@ -1,12 +1,15 @@
 #include "server/collision/samples.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "server/base/assert.hpp"
 
 namespace mechane::collision {
 namespace {
+
+constexpr double kFloatRounding = 1.2e-7;  // of a place's distance from the origin, at most
 
 /// Sorts the points so that each run of 16 is compact: halve along the longest side, at a multiple of 16.
 void sort_into_runs(std::span<Vec3> points) {
@@ -76,7 +79,7 @@ geometry::Sphere bounding_sphere(std::span<const Vec3> points) {
   }
   for (const Vec3& x : points)
     sphere.radius = std::max(sphere.radius, (x - sphere.center).norm());
-  sphere.radius *= 1 + 1e-6;  // the samples are rounded to float32
+  sphere.radius *= 1 + 1e-6;  // for what the sums above round
   return sphere;
 }
 
@@ -86,15 +89,19 @@ void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points
   for (std::size_t at = 0; at < points.size(); at += kLanes) {
     const auto run = points.subspan(at, std::min(kLanes, points.size() - at));
     Cluster cluster;
-    cluster.bound_O = bounding_sphere(run);
     cluster.count = static_cast<std::uint16_t>(run.size());
     cluster.part = part;
+    std::array<Vec3, kLanes> rounded;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const Vec3f p = run[lane < run.size() ? lane : 0].cast<float>();
       cluster.samples_O.x[lane] = p.x();
       cluster.samples_O.y[lane] = p.y();
       cluster.samples_O.z[lane] = p.z();
+      rounded[lane] = p.cast<double>();
     }
+    cluster.bound_O = bounding_sphere(rounded);
+    // The kernels get the centre in float32, too: far from the origin that moves it by more than a small sphere's own margin.
+    cluster.bound_O.radius += kFloatRounding * cluster.bound_O.center.norm();
     object.clusters.push_back(cluster);
   }
 }

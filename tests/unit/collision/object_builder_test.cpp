@@ -150,6 +150,7 @@ TEST(BuildObject, ATurnedPlankGetsItsTightBox) {
   BuildReport report;
   const auto object = build_object(parts, config, &report);
   ASSERT_TRUE(object) << object.error().to_string();
+  expect_sound(*object);
   const Part& part = object->parts[0];
   EXPECT_LT((part.X_OQ.p - Vec3(0.3, -0.1, 0.2)).norm(), 1e-6);
   for (const Vec3& v : parts[0].mesh.vertices) {
