@@ -32,7 +32,8 @@ SANITIZER_ENV = {
 TOO_SLOW_SANITIZED = ("Visit.test_(two|five|without|a_whole)", "Faults.test_a_(killed_visitor|full_disk)", "ArchimedesScrew.TenThousand",
                       "SameInputsGiveTheSameBits", "AllocatesNothingAndRepeats", "SeamsAreNotSampled", "Staves/Barrel",
                       "AFingerEntersABarrel", "WhateverItReturnsBounds", "AFileThatEatsMemory", "unit_geometry.Decompose", "ThinParts",
-                      "AgainstBulletsBoxes", "PaperMap.(Smoothing|OnTheTwo)", "a_fine_mesh")
+                      "AgainstBulletsBoxes", "PaperMap.(Smoothing|OnTheTwo)", "Fit.test_(a_fine_mesh|a_full_disk|a_mesh_becomes)",
+                      "SameInputSameBits", "AStackOfThree", "AHeapOfAll")
 # What has threads of its own.
 THREADED = ("unit_realtime", "unit_record", "unit_transport", "unit_client", "unit_content", "unit_collision", "unit_world")
 
