@@ -7,20 +7,13 @@
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
+#include "tests/support/property_draw.hpp"
 
 namespace mechane::collision {
 namespace {
 
-rc::Gen<double> between(double low, double high) {
-  return rc::gen::map(rc::gen::inRange(0, 1'000'001), [=](int i) { return low + (high - low) * i / 1e6; });
-}
-
-Vec3 any_unit() {
-  const double z = *between(-1, 1);
-  const double angle = *between(-kPi, kPi);
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
+using test::any_unit;
+using test::between;
 
 struct Convex {
   geometry::Superquadric shape;

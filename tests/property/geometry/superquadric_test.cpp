@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/support/property_draw.hpp"
+
 namespace mechane::geometry {
 namespace {
 
-rc::Gen<double> between(double low, double high) {
-  return rc::gen::map(rc::gen::inRange(0, 1'000'001), [=](int i) { return low + (high - low) * i / 1e6; });
-}
+using test::between;
 
 rc::Gen<Superquadric> shapes(bool deformed) {
   return rc::gen::exec([=] {

@@ -13,23 +13,15 @@
 #include "server/collision/object_builder.hpp"
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/hand_model.hpp"
+#include "tests/support/property_draw.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace mechane::haptics {
 namespace {
 
 using collision::Object;
-
-rc::Gen<double> thin_between(double low, double high) {
-  return rc::gen::map(rc::gen::inRange(0, 1'000'001), [=](int i) { return low + (high - low) * i / 1e6; });
-}
-
-Vec3 thin_unit() {
-  const double z = *thin_between(-1, 1);
-  const double angle = *thin_between(-kPi, kPi);
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
+using test::any_unit;
+using test::between;
 
 /// A thin part: the object that the product builds of it, and the middle between its sides: a rectangle, or a line where `low.x()` is
 /// `high.x()`, in the plane z = 0.
@@ -143,12 +135,12 @@ Passing any_passing(const ThinPart& part, bool with_palm) {
   Passing passing;
   passing.part = &part;
   passing.segment = &hand.segment(sample, *rc::gen::inRange(first, segments));
-  passing.R_WF = quat_from_rotation_vector(kPi * thin_unit());
-  passing.target_W = {*thin_between(0.6 * part.low.x(), 0.6 * part.high.x()),
-                      *thin_between(0.6 * part.low.y(), 0.6 * part.high.y()), 0};
-  passing.way = thin_unit();
-  passing.speed_m_per_s = *thin_between(0.5, 2);
-  passing.phase = *thin_between(0, 1);
+  passing.R_WF = quat_from_rotation_vector(kPi * any_unit());
+  passing.target_W = {*between(0.6 * part.low.x(), 0.6 * part.high.x()),
+                      *between(0.6 * part.low.y(), 0.6 * part.high.y()), 0};
+  passing.way = any_unit();
+  passing.speed_m_per_s = *between(0.5, 2);
+  passing.phase = *between(0, 1);
   return passing;
 }
 
