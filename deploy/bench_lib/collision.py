@@ -70,6 +70,10 @@ def _grid(rows: list[list[str]]) -> list[str]:
     return [_row(row, widths) for row in rows]
 
 
+def _shown(metrics: dict[str, float], metric: str, scale: float = 1) -> str:
+    return number(metrics[metric] * scale) if metric in metrics else "-"
+
+
 def _models(metrics: dict[str, float]) -> list[list[str]]:
     """A row for each mesh file's thing: what it takes, how exact it is, how fast beside its peers."""
     names = sorted({name.split(".")[1] for name in metrics if name.startswith("model.")})
@@ -77,8 +81,7 @@ def _models(metrics: dict[str, float]) -> list[list[str]]:
              "step us", "brick us", "FCL us"]]
     for name in names:
         def show(metric: str, scale: float = 1) -> str:
-            full = f"model.{name}.{metric}"
-            return number(metrics[full] * scale) if full in metrics else "-"
+            return _shown(metrics, f"model.{name}.{metric}", scale)
 
         rows.append([name, f"{metrics[f'model.{name}.triangles']:.0f}", show("diagonal_mm"), show("build_s"), show("parts"), show("share_radial", 100),
                      show("bytes.sqmap", 1e-3), show("bytes.brick", 1e-3), show("depth_error_pct.sqmap.p99"), show("depth_error_mm.sqmap.p99"),
@@ -89,8 +92,8 @@ def _models(metrics: dict[str, float]) -> list[list[str]]:
 
 def table(name: str, metrics: dict[str, float]) -> str:
     """One row for each method, then our figures object by object, then what neither table holds."""
-    def show(metric: str) -> str:
-        return number(metrics[metric]) if metric in metrics else "-"
+    def show(metric: str, scale: float = 1) -> str:
+        return _shown(metrics, metric, scale)
 
     methods, objects = _methods(metrics), _objects(metrics)
     lines_out = [f"\n{name}"]
@@ -98,25 +101,21 @@ def table(name: str, metrics: dict[str, float]) -> str:
         head = ["", "step us", "p99", "p99.9", "cold us", "x ours", "KB", "error p99 %", "missed", "false", "build s"]
         rows = [head]
         for method in methods:
-            size = f"bytes.{method}"
             rows.append([NAMES.get(method, method), *(show(f"step_us.{method}.{q}") for q in ("median", "p99", "p999")),
                          show(f"cold_step_us.{method}.median"), show(f"ratio.{method}"),
-                         number(metrics[size] / 1000) if size in metrics else "-", show(f"depth_error_pct.{method}.p99"),
+                         show(f"bytes.{method}", 1e-3), show(f"depth_error_pct.{method}.p99"),
                          show(f"missed.{method}"), show(f"false.{method}"), show("build_s" if method == OURS else f"build_s.{method}")])
         lines_out += _grid(rows)
     if objects:
         rows = [["", "step us", "p99", "brick us", "FCL us", "error p99 %", "error max %", "normal p99 deg", "missed", "false",
                  "parts", "KB", "radial KB", "brick KB", "peer KB"]]
         for thing in objects:
-            def kilobytes(metric: str) -> str:
-                return number(metrics[metric] / 1000) if metric in metrics else "-"
-
             rows.append([thing, show(f"step_us.{OURS}.{thing}.median"), show(f"step_us.{OURS}.{thing}.p99"),
                          show(f"step_us.brick.{thing}.median"), show(f"step_us.fcl_contacts.{thing}.median"),
                          show(f"depth_error_pct.{OURS}.{thing}.p99"), show(f"depth_error_pct.{OURS}.{thing}.max"),
                          show(f"normal_error_deg.{OURS}.{thing}.p99"), show(f"missed.{OURS}.{thing}"), show(f"false.{OURS}.{thing}"), show(f"parts.{thing}"),
-                         kilobytes(f"bytes.{OURS}.{thing}"), kilobytes(f"map_bytes.{thing}.radial"), kilobytes(f"map_bytes.{thing}.brick"),
-                         kilobytes(f"bytes.brick.{thing}")])
+                         show(f"bytes.{OURS}.{thing}", 1e-3), show(f"map_bytes.{thing}.radial", 1e-3), show(f"map_bytes.{thing}.brick", 1e-3),
+                         show(f"bytes.brick.{thing}", 1e-3)])
         lines_out += ["", *_grid(rows), "  KB: our maps and what a part takes besides; radial, brick: the maps of either kind; peer: the int16 brick"]
     if models := _models(metrics):
         lines_out += ["", *_grid(models)]

@@ -34,21 +34,6 @@ struct Config {
 
 using Agreements = std::array<Agreement, kSceneObjects>;
 
-/// Quantiles of plain numbers, for Report::distribution.
-class Quantiles {
- public:
-  explicit Quantiles(std::vector<float> us) : us_(std::move(us)) { std::sort(us_.begin(), us_.end()); }
-  [[nodiscard]] double quantile_us(double share) const {
-    if (us_.empty()) return 0;
-    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(us_.size())));
-    return static_cast<double>(us_[std::clamp<std::size_t>(rank, 1, us_.size()) - 1]);
-  }
-  [[nodiscard]] std::size_t size() const { return us_.size(); }
-
- private:
-  std::vector<float> us_;
-};
-
 /// Our objects are built once for all instruction sets.
 class Workshop {
  public:
@@ -57,7 +42,7 @@ class Workshop {
   /// Null where the machine lacks what it takes, which the report then says, or where there is no such method.
   MethodPtr make(const std::string& name, const Accuracy& accuracy) {
     if (name.starts_with(kOurs)) return make_ours(name);
-    if (name.starts_with("paper")) return make_paper(scene_, name);
+    if (name.starts_with("paper")) return make_paper(scene_, name, *objects_of(OurMaps::any));
     if (name == "brick") return make_brick(scene_, accuracy, Simd::best);
     if (name == "brick_scalar") return make_brick(scene_, accuracy, Simd::scalar);
     if (name == "openvdb") return make_openvdb(scene_, accuracy);
@@ -85,9 +70,12 @@ class Workshop {
       report_.note(name + " was not run: this processor lacks its instructions");
       return nullptr;
     }
+    return make_sqmap(scene_, name, objects_of(maps), set);
+  }
+  const std::shared_ptr<const OurObjects>& objects_of(OurMaps maps) {
     std::shared_ptr<const OurObjects>& built = built_[maps];
     if (built == nullptr) built = build_ours(scene_, maps);
-    return make_sqmap(scene_, name, built, set);
+    return built;
   }
 
   const Scene& scene_;
@@ -166,13 +154,6 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
   report.metric("checked_contacts." + method, static_cast<double>(worst.points));
 }
 
-std::vector<float> all_passes(const StepTimes& times) {
-  std::vector<float> all;
-  for (const auto& round : times.rounds_us)
-    all.insert(all.end(), round.begin(), round.end());
-  return all;
-}
-
 /// The median over the rounds, step by step.
 std::vector<std::array<double, 2>> by_step(const StepTimes& times, std::size_t steps) {
   std::vector<std::array<double, 2>> curve;
@@ -186,7 +167,7 @@ std::vector<std::array<double, 2>> by_step(const StepTimes& times, std::size_t s
 }
 
 void report_times(const Scene& scene, const std::string& method, const StepTimes& times, Report& report) {
-  const std::vector<float> all = all_passes(times);
+  const std::vector<float> all = times.all_passes_us();
   Quantiles whole(all);
   report.distribution("step_us." + method, whole);
   const auto count = static_cast<double>(std::max<std::size_t>(all.size(), 1));
@@ -212,7 +193,7 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
 void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
   std::map<std::string, double> medians;
   for (std::size_t m = 0; m < methods.size(); ++m)
-    medians[methods[m]->name()] = Quantiles(all_passes(times[m])).quantile_us(0.5);
+    medians[methods[m]->name()] = Quantiles(times[m].all_passes_us()).quantile_us(0.5);
   for (const auto& [base, prefix] : {std::pair{kOurs, "ratio."}, std::pair{"sqmap_avx2", "ratio_avx2."}}) {
     const auto ours = medians.find(base);
     if (ours == medians.end() || ours->second <= 0) continue;

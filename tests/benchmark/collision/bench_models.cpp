@@ -26,13 +26,6 @@ struct Config {
   std::size_t rounds = 3;
 };
 
-double quantile(std::vector<float> us, double share) {
-  if (us.empty()) return 0;
-  std::sort(us.begin(), us.end());
-  return static_cast<double>(
-      us[std::min(us.size() - 1, static_cast<std::size_t>(share * static_cast<double>(us.size())))]);
-}
-
 void report_build(const std::string& place, const Scene& scene, const Method& ours, Report& report) {
   const SceneObject& object = scene.objects.front();
   const std::vector<MapShare> maps = ours.maps();
@@ -90,11 +83,9 @@ void measure(const Config& config, SceneObject object, Report& report) {
   methods.push_back(make_fcl_contacts(scene));
   const std::vector<StepTimes> times = time_pinned(scene, methods, {config.rounds, 0});
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    std::vector<float> all;
-    for (const auto& round : times[m].rounds_us)
-      all.insert(all.end(), round.begin(), round.end());
-    report.metric(place + "step_us." + methods[m]->name() + ".median", quantile(all, 0.5));
-    report.metric(place + "step_us." + methods[m]->name() + ".p99", quantile(all, 0.99));
+    const Quantiles all(times[m].all_passes_us());
+    report.metric(place + "step_us." + methods[m]->name() + ".median", all.quantile_us(0.5));
+    report.metric(place + "step_us." + methods[m]->name() + ".p99", all.quantile_us(0.99));
     report.metric(place + "bytes." + methods[m]->name(), static_cast<double>(methods[m]->bytes()));
   }
 }

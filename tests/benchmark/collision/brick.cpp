@@ -30,12 +30,6 @@ class Brick final : public Method {
   }
 
   [[nodiscard]] std::string name() const override { return simd_ == Simd::best ? "brick" : "brick_scalar"; }
-  [[nodiscard]] std::size_t bytes() const override {
-    std::size_t sum = 0;
-    for (const BrickGrid& grid : grids_)
-      sum += grid.bytes();
-    return sum;
-  }
   [[nodiscard]] std::vector<std::size_t> bytes_by_object() const override {
     std::vector<std::size_t> bytes;
     for (const BrickGrid& grid : grids_)

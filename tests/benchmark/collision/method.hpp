@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,8 +57,11 @@ class Method {
   /// As in the metrics: sqmap, brick, openvdb...
   [[nodiscard]] virtual std::string name() const = 0;
   /// Of everything that a query reads, all objects together.
-  [[nodiscard]] virtual std::size_t bytes() const = 0;
-  /// The same object by object; empty where nobody counted.
+  [[nodiscard]] virtual std::size_t bytes() const {
+    const std::vector<std::size_t> bytes = bytes_by_object();
+    return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0});
+  }
+  /// The same object by object; empty where only bytes() counts.
   [[nodiscard]] virtual std::vector<std::size_t> bytes_by_object() const { return {}; }
   [[nodiscard]] virtual double build_s() const = 0;
   /// All hand points against all objects. `out` comes empty. What gives no depth of points leaves it empty.
@@ -105,7 +109,7 @@ struct OurObjects {
 MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
                      collision::InstructionSet set);
 /// 'paper': the depth as published; 'paper_along': along the normal (see collision::PaperDepth).
-MethodPtr make_paper(const Scene& scene, const std::string& name);
+MethodPtr make_paper(const Scene& scene, const std::string& name, const OurObjects& built);
 MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd);
 MethodPtr make_openvdb(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_bt_sdf(const Scene& scene, const Accuracy& accuracy);

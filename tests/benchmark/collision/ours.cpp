@@ -37,12 +37,6 @@ class Ours final : public Method {
   }
 
   [[nodiscard]] std::string name() const override { return name_; }
-  [[nodiscard]] std::size_t bytes() const override {
-    std::size_t sum = 0;
-    for (const std::size_t bytes : bytes_by_object())
-      sum += bytes;
-    return sum;
-  }
   [[nodiscard]] std::vector<std::size_t> bytes_by_object() const override {
     std::vector<std::size_t> bytes;
     for (const collision::Object& object : built_->objects)

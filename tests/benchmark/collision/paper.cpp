@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "server/base/assert.hpp"
-#include "server/collision/object_builder.hpp"
 #include "server/collision/paper_map.hpp"
+#include "server/collision/samples.hpp"
 #include "server/geometry/fit.hpp"
 #include "tests/benchmark/collision/culling.hpp"
 #include "tests/benchmark/collision/method.hpp"
@@ -14,20 +14,6 @@
 
 namespace mechane::benchmark {
 namespace {
-
-/// Of our builder's parts the paper needs the superquadrics alone: their own maps are kept small, to be thrown away.
-std::vector<collision::Part> superquadric_parts(const SceneObject& object) {
-  collision::BuildConfig config;
-  config.parts = collision::Parts::decomposed;
-  config.max_error_m = 1;
-  config.probe_depth_m = 0.015 * object.diagonal_m;
-  config.bricks = false;
-  config.map_resolution = 8;
-  const std::array<geometry::NamedMesh, 1> whole = {{{object.name, object.mesh_O}}};
-  auto built = collision::build_object(whole, config);
-  MECHANE_ASSERT(built.has_value());
-  return std::move(built->parts);
-}
 
 /// A part's map and the ways between its frame and the others.
 struct PaperPart {
@@ -48,33 +34,30 @@ PaperPart place_part(const collision::Part& part, const geometry::MeshQuery& que
   PaperPart placed{collision::cast_paper_map({query}, part.superquadric, part.X_OQ),
                    X_QW.R.toRotationMatrix().cast<float>(), X_QW.p.cast<float>(), Vec3f::Zero(), 0};
   const collision::PaperGrid& grid = placed.map.grid();
-  Eigen::AlignedBox3d box_Q;
+  std::vector<Vec3> surface_O;
   for (int i = 0; i < grid.eta * grid.omega; ++i)
-    box_Q.extend(
+    surface_O.push_back(
+        part.X_OQ *
         geometry::surface_point(part.superquadric, collision::PaperMap::angles(grid, i / grid.omega, i % grid.omega)));
-  double radius = 0;
-  for (int i = 0; i < grid.eta * grid.omega; ++i) {
-    const Vec3 p_Q =
-        geometry::surface_point(part.superquadric, collision::PaperMap::angles(grid, i / grid.omega, i % grid.omega));
-    radius = std::max(radius, (p_Q - box_Q.center()).norm());
-  }
-  placed.center_O = (part.X_OQ * box_Q.center()).cast<float>();
-  placed.radius = static_cast<float>(1.001 * radius);
+  const geometry::Sphere bound_O = collision::bounding_sphere(surface_O);
+  placed.center_O = bound_O.center.cast<float>();
+  placed.radius = static_cast<float>(1.001 * bound_O.radius);
   return placed;
 }
 
 class Paper final : public Method {
  public:
-  Paper(const Scene& scene, std::string name, collision::PaperDepth depth)
+  /// Of our builder's parts it takes the superquadrics alone.
+  Paper(const Scene& scene, std::string name, const OurObjects& built, collision::PaperDepth depth)
       : scene_(scene), name_(std::move(name)), how_{collision::PaperWindow::corrected, depth} {
     const Stopwatch watch;
-    for (const SceneObject& object : scene.objects) {
-      const geometry::MeshQuery query(object.mesh_O);
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+      const geometry::MeshQuery query(scene.objects[k].mesh_O);
       auto& parts = objects_.emplace_back();
-      for (const collision::Part& part : superquadric_parts(object))
-        parts.push_back(place_part(part, query, object));
+      for (const collision::Part& part : built.objects[k].parts)
+        parts.push_back(place_part(part, query, scene.objects[k]));
     }
-    build_s_ = watch.seconds();
+    build_s_ = built.build_s + watch.seconds();
   }
 
   [[nodiscard]] std::string name() const override { return name_; }
@@ -133,9 +116,9 @@ class Paper final : public Method {
 
 }  // namespace
 
-MethodPtr make_paper(const Scene& scene, const std::string& name) {
+MethodPtr make_paper(const Scene& scene, const std::string& name, const OurObjects& built) {
   const bool published = name == "paper";
-  return std::make_unique<Paper>(scene, name,
+  return std::make_unique<Paper>(scene, name, built,
                                  published ? collision::PaperDepth::distance : collision::PaperDepth::along_normal);
 }
 

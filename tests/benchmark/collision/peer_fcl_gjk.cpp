@@ -82,12 +82,6 @@ class FclGjk final : public Method {
   }
 
   [[nodiscard]] std::string name() const override { return "fcl_gjk"; }
-  [[nodiscard]] std::size_t bytes() const override {
-    std::size_t sum = 0;
-    for (const std::size_t bytes : bytes_by_object())
-      sum += bytes;
-    return sum;
-  }
   [[nodiscard]] std::vector<std::size_t> bytes_by_object() const override {
     std::vector<std::size_t> bytes;
     for (const auto& hulls : hulls_) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -89,6 +90,23 @@ void time_cold(const Scene& scene, const std::vector<MethodPtr>& methods, std::s
 }
 
 }  // namespace
+
+std::vector<float> StepTimes::all_passes_us() const {
+  std::vector<float> all;
+  for (const auto& round : rounds_us)
+    all.insert(all.end(), round.begin(), round.end());
+  return all;
+}
+
+Quantiles::Quantiles(std::vector<float> us) : us_(std::move(us)) {
+  std::sort(us_.begin(), us_.end());
+}
+
+double Quantiles::quantile_us(double share) const {
+  if (us_.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(us_.size())));
+  return static_cast<double>(us_[std::clamp<std::size_t>(rank, 1, us_.size()) - 1]);
+}
 
 bool pin_to_one_core() {
   cpu_set_t allowed;

@@ -1,6 +1,7 @@
 // How long a method takes, step by step, each pass kept.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,20 @@ struct StepTimes {
   /// would leave out the long ones.
   std::size_t preempted = 0;
   std::vector<float> cold_us;  ///< of some steps, all caches walked over before each
+
+  [[nodiscard]] std::vector<float> all_passes_us() const;
+};
+
+/// Quantiles of plain numbers, for Report::distribution.
+class Quantiles {
+ public:
+  explicit Quantiles(std::vector<float> us);
+  /// The one of rank ceil(share * n); 0 when there is none.
+  [[nodiscard]] double quantile_us(double share) const;
+  [[nodiscard]] std::size_t size() const { return us_.size(); }
+
+ private:
+  std::vector<float> us_;
 };
 
 struct TimingConfig {
