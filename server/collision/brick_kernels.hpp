@@ -16,6 +16,7 @@ struct BrickKernels : KernelMath<Lanes> {
   using Base::greater;
   using Base::kAll;
   using Base::kWidth;
+  using Base::lesser;
   using Base::load;
   using Base::load_points;
   using Base::select;
@@ -33,58 +34,101 @@ struct BrickKernels : KernelMath<Lanes> {
     F fx, fy, fz;
     F x00, x10, x01, x11;  // along x
     F d00, d10, d01, d11;  // their slopes
+    F base;                // of all values
   };
+  /// Of a point in blocks. What lies outside the box gets the cell next to it. Indices are exact in floats: below 2^24.
   static Cell cell_of(const BrickView& map, const Point& u) {
-    const auto low = [](F t, int nodes) { return to_int(clamp(t, 0.0F, static_cast<float>(nodes - 2))); };
-    const I ix = low(u.x, map.nodes[0]);
-    const I iy = low(u.y, map.nodes[1]);
-    const I iz = low(u.z, map.nodes[2]);
-    const I index = (iz * map.nodes[1] + iy) * map.nodes[0] + ix;
-    const int layer = map.nodes[0] * map.nodes[1];
-    const I g00 = Lanes::gather(map.values, index);
-    const I g10 = Lanes::gather(map.values, index + map.nodes[0]);
-    const I g01 = Lanes::gather(map.values, index + layer);
-    const I g11 = Lanes::gather(map.values, index + layer + map.nodes[0]);
-    const auto first = [](I pair) { return to_float((pair << 16) >> 16); };
-    const auto slope = [&](I pair) { return to_float(pair >> 16) - first(pair); };
+    const auto floor_below = [](F t, F most) { return to_float(to_int(lesser(greater(t, all(0)), most))); };
+    const auto block_at = [&](F t, int count) { return floor_below(t, all(static_cast<float>(count - 1))); };
+    const F bx = block_at(u.x, map.blocks[0]);
+    const F by = block_at(u.y, map.blocks[1]);
+    const F bz = block_at(u.z, map.blocks[2]);
+    const auto row = static_cast<float>(map.blocks[0]);
+    const auto layer = static_cast<float>(map.blocks[0] * map.blocks[1]);
+    const I entry = Lanes::template gather<sizeof(std::uint32_t)>(map.index, to_int(bz * layer + by * row + bx));
+    // See DistanceBrick::Entry: 2 bits of level, 20 of place, 1 each for outer, inner and three, 7 of base.
+    const I level = entry & 3;
+    const I sheets = level == 3;
+    const I cells = (I{} + 1) << (level & ~sheets);
+    const F along = to_float(cells);
+    const F last = along - 1.0F;
+    const F stride = along + 1.0F;
+    const Point v{(u.x - bx) * along, (u.y - by) * along, (u.z - bz) * along};
+    const F ix = floor_below(v.x, last);
+    const F iy = floor_below(v.y, last);
+    const F iz = floor_below(v.z, last);
+    const I at = (entry & 0x3ffffc) + to_int((iz * stride + iy) * stride + ix);
+    const I layer_step = to_int(stride * stride);
     Cell c;
-    c.fx = u.x - to_float(ix);
-    c.fy = u.y - to_float(iy);
-    c.fz = u.z - to_float(iz);
+    c.fx = v.x - ix;
+    c.fy = v.y - iy;
+    c.fz = v.z - iz;
+    c.base = to_float((entry >> 25) << 5);
+    read_values(map, at, cells + 1, layer_step, c);
+    if (Lanes::mask_of(sheets) == 0) return c;
+    Cell rest = c;
+    read_values(map, at + (sheets & 8), cells + 1, layer_step, rest);
+    const I three = sheets & ((entry << 7) < 0);
+    if (Lanes::mask_of(three) != 0) {
+      Cell third = rest;
+      read_values(map, at + (sheets & 8) + (three & 8), cells + 1, layer_step, third);
+      take(three & (((entry << 8) < 0) ^ (steps(third) < steps(rest))), third, rest);
+    }
+    take(sheets & (((entry << 9) < 0) ^ (steps(rest) < steps(c))), rest, c);
+    const F unit = select(sheets, all(2), all(1));
+    for (F Cell::*value : kValues)
+      c.*value *= unit;
+    return c;
+  }
+  static constexpr F Cell::*kValues[] = {&Cell::x00, &Cell::x10, &Cell::x01, &Cell::x11,
+                                         &Cell::d00, &Cell::d10, &Cell::d01, &Cell::d11};
+  /// Where `holds`, the values of `other` in place of those of `c`.
+  static void take(I holds, const Cell& other, Cell& c) {
+    for (F Cell::*value : kValues)
+      c.*value = select(holds, other.*value, c.*value);
+  }
+  static void read_values(const BrickView& map, I at, I row_step, I layer_step, Cell& c) {
+    const auto four = [&](I index) { return Lanes::template gather<1>(map.values, index); };
+    const I g00 = four(at);
+    const I g10 = four(at + row_step);
+    const I g01 = four(at + layer_step);
+    const I g11 = four(at + layer_step + row_step);
+    const auto value = [](I bytes) { return to_float((bytes << 24) >> 24); };
+    const auto slope = [&](I bytes) { return to_float((bytes << 16) >> 24) - value(bytes); };
     c.d00 = slope(g00);
     c.d10 = slope(g10);
     c.d01 = slope(g01);
     c.d11 = slope(g11);
-    c.x00 = first(g00) + c.d00 * c.fx;
-    c.x10 = first(g10) + c.d10 * c.fx;
-    c.x01 = first(g01) + c.d01 * c.fx;
-    c.x11 = first(g11) + c.d11 * c.fx;
-    return c;
+    c.x00 = value(g00) + c.d00 * c.fx;
+    c.x10 = value(g10) + c.d10 * c.fx;
+    c.x01 = value(g01) + c.d01 * c.fx;
+    c.x11 = value(g11) + c.d11 * c.fx;
   }
-  static Point brick_coordinates(const BrickView& map, const Point& p) {
-    return {(p.x - map.origin[0]) * map.inverse_cell, (p.y - map.origin[1]) * map.inverse_cell,
-            (p.z - map.origin[2]) * map.inverse_cell};
-  }
-  static F distance(const BrickView& map, const Cell& c) {
+  static F steps(const Cell& c) {
     const F y0 = c.x00 + (c.x10 - c.x00) * c.fy;
     const F y1 = c.x01 + (c.x11 - c.x01) * c.fy;
-    return (y0 + (y1 - y0) * c.fz) * map.step_m;
+    return y0 + (y1 - y0) * c.fz;
   }
+  static Point brick_coordinates(const BrickView& map, const Point& p) {
+    return {(p.x - map.origin[0]) * map.inverse_block, (p.y - map.origin[1]) * map.inverse_block,
+            (p.z - map.origin[2]) * map.inverse_block};
+  }
+  static F distance(const BrickView& map, const Cell& c) { return (steps(c) + c.base) * map.step_m; }
 
   static LaneMask brick_near(const BrickView& map, const BlockTransform& X, const SpheresView& spheres,
                              std::size_t count) noexcept {
     LaneMask near = 0;
-    const auto most = [&](int axis) { return static_cast<float>(map.nodes[static_cast<std::size_t>(axis)] - 1); };
+    const auto most = [&](int axis) { return static_cast<float>(map.blocks[static_cast<std::size_t>(axis)]); };
     for (int at = 0; at < static_cast<int>(count); at += kWidth) {
       const Point u =
           brick_coordinates(map, transform(X, {load(spheres.x, at), load(spheres.y, at), load(spheres.z, at)}));
-      const F radius = load(spheres.radius, at) * map.inverse_cell;
+      const F radius = load(spheres.radius, at) * map.inverse_block;
       const Point inner{clamp(u.x, 0.0F, most(0)), clamp(u.y, 0.0F, most(1)), clamp(u.z, 0.0F, most(2))};
       const Point way{u.x - inner.x, u.y - inner.y, u.z - inner.z};
       const I at_box = dot(way, way) <= radius * radius;
       if (Lanes::mask_of(at_box) == 0) continue;
       // Seen from the box's nearest point, everything in the box lies ahead or to the side.
-      const F ahead = greater(distance(map, cell_of(map, inner)), all(0)) * (map.inverse_cell / map.steepest);
+      const F ahead = greater(distance(map, cell_of(map, inner)) - map.slack_m, all(0)) * map.inverse_block;
       near |= Lanes::mask_of(at_box & (dot(way, way) + ahead * ahead <= radius * radius)) << at;
     }
     return near & first(count);
@@ -96,8 +140,8 @@ struct BrickKernels : KernelMath<Lanes> {
     for (int at = 0; at < static_cast<int>(kLanes); at += kWidth) {
       const Point p = transform(X, load_points(points, at));
       const Point u = brick_coordinates(map, p);
-      const auto within = [](F t, int nodes) { return (t >= 0.0F) & (t <= static_cast<float>(nodes - 1)); };
-      const I in_box = within(u.x, map.nodes[0]) & within(u.y, map.nodes[1]) & within(u.z, map.nodes[2]);
+      const auto within = [](F t, int blocks) { return (t >= 0.0F) & (t <= static_cast<float>(blocks)); };
+      const I in_box = within(u.x, map.blocks[0]) & within(u.y, map.blocks[1]) & within(u.z, map.blocks[2]);
       store_points(p, out.p_Q, at);
       store(all(0), out.m, at);  // exact wherever it reaches: it goes before every radial map
       if (Lanes::mask_of(in_box) == 0) continue;

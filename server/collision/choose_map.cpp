@@ -1,33 +1,30 @@
+#include <cstdio>
+#include <cstdlib>
 #include "server/collision/choose_map.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "server/geometry/random.hpp"
 
 namespace mechane::collision {
 namespace {
 
-// Cells of a brick along its longest edge.
-constexpr std::array<int, 8> kBrickCells = {8, 12, 16, 24, 32, 48, 64, 96};
-constexpr std::size_t kMaxBrickBytes = 128U << 10;
+// Blocks of a brick along its longest edge.
+constexpr std::array<int, 11> kBrickBlocks = {2, 3, 4, 6, 8, 11, 16, 22, 32, 45, 64};
+// Of the lesser bound: what a block's level may cost, so that what is asked between its nodes stays within the budget too.
+constexpr double kBlockTolerance = 0.6;
+// Of a depth: by how much it may err deep down, as long as the budget allows. In a concave corner sheets tell less than there is.
+constexpr double kDepthShare = 0.2;
 // More missed points than this mean that no centre sees the part whole: a finer radial map would not either.
 constexpr double kBlindShare = 0.02;
 constexpr double kStrayShare = 0.005;
 // Of a probe's depth, to find the inside of a thin wall: 4 mm become 0.06 mm.
 constexpr int kHalvings = 7;
-// A brick's values beyond this many cells from the surface are cut off there: nobody asks so deep, and the step gets finer.
-constexpr double kBandCells = 4;
-
-/// A map that could be made, by what it would take.
-struct Candidate {
-  std::size_t bytes = 0;
-  int resolution = 0;  // of a radial map, or 0
-  int cells = 0;       // of a brick, or 0
-  DistanceBrick::Grid grid;
-};
 
 /// What the last map of one kind showed, to spare the making of those that cannot do.
 struct Trend {
@@ -45,60 +42,82 @@ struct Trend {
   }
 };
 
-DistanceBrick::Grid grid_of(const MapFrame& frame, int cells) {
-  DistanceBrick::Grid grid;
-  const double cell = 2 * frame.half_Q.maxCoeff() / cells;
-  Vec3 size;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    // A margin of half a cell or more on each side, so that the surface is nowhere at the very edge.
-    const double count = std::ceil(2 * frame.half_Q[i] / cell) + 1;
-    grid.nodes[static_cast<std::size_t>(i)] = static_cast<int>(count) + 1;
-    size[i] = count * cell;
-  }
-  grid.cell_m = static_cast<float>(cell);
-  grid.origin_Q = (frame.center_Q - 0.5 * size).cast<float>();
-  return grid;
-}
+/// The candidates of one part, tried one after the other.
+class Trials {
+ public:
+  Trials(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node, const MapFrame& frame,
+         std::span<const Probe> probes, const ErrorBudget& budget, const MapCandidates& allowed)
+      : solid_(solid),
+        skin_(skin),
+        node_(node),
+        frame_(frame),
+        X_QO_(frame.X_OQ.inverse()),
+        probes_(probes),
+        budget_(budget),
+        allowed_(allowed) {}
 
-std::vector<Candidate> list_candidates(const MapFrame& frame, bool closed, const MapCandidates& allowed) {
-  std::vector<Candidate> list;
-  for (const int n : RadialMap::kResolutions) {
-    if (!allowed.radial || (allowed.only_resolution != 0 && allowed.only_resolution != n)) continue;
-    list.push_back({static_cast<std::size_t>(6 * n * n) * sizeof(std::uint16_t), n, 0, {}});
-  }
-  for (const int cells : kBrickCells) {
-    if (!allowed.brick || !closed) break;  // an open mesh has no inside
-    const DistanceBrick::Grid grid = grid_of(frame, cells);
-    std::size_t bytes = sizeof(std::int16_t);
-    for (const int n : grid.nodes)
-      bytes *= static_cast<std::size_t>(n);
-    if (*std::max_element(grid.nodes.begin(), grid.nodes.end()) > DistanceBrick::kMaxNodes) break;
-    if (bytes <= kMaxBrickBytes) list.push_back({bytes, 0, cells, grid});
-  }
-  std::stable_sort(list.begin(), list.end(), [](const Candidate& l, const Candidate& r) { return l.bytes < r.bytes; });
-  return list;
-}
-
-DistanceBrick make_brick(const Solid& solid, const geometry::MeshQuery& skin, const MapFrame& frame,
-                         const DistanceBrick::Grid& grid, double probe_depth_m) {
-  const double band = std::max(kBandCells * static_cast<double>(grid.cell_m), 1.5 * probe_depth_m);
-  std::vector<float> distances;
-  bool inside = false;
-  bool sign_known = false;  // the node before lies more than a cell from the surface: this one is on the same side
-  for (int z = 0; z < grid.nodes[2]; ++z) {
-    for (int y = 0; y < grid.nodes[1]; ++y) {
-      for (int x = 0; x < grid.nodes[0]; ++x) {
-        const Vec3 p_Q = grid.origin_Q.cast<double>() + static_cast<double>(grid.cell_m) * Vec3(x, y, z);
-        const Vec3 p_O = frame.X_OQ * p_Q;
-        const double distance = std::min(skin.closest(p_O, band).distance_m, band);
-        if (!sign_known || x == 0) inside = solid.contains(p_O);
-        sign_known = distance > static_cast<double>(grid.cell_m);
-        distances.push_back(static_cast<float>(inside ? -distance : distance));
-      }
+  void try_radial_maps() {
+    Trend trend;
+    for (const int n : RadialMap::kResolutions) {
+      const std::size_t bytes = static_cast<std::size_t>(6 * n * n) * sizeof(std::uint16_t);
+      if (allowed_.only_resolution != 0 && allowed_.only_resolution != n) continue;
+      if (bytes <= allowed_.more_than || bytes > allowed_.at_most || trend.rules_out(n, budget_)) continue;
+      if (trend.fineness >= 16 && trend.is_blind()) return;
+      trend = judge(cast_map(solid_, node_, frame_, n), n);
+      if (is_done()) return;
     }
   }
-  return DistanceBrick::from_distances(grid, static_cast<float>(band), distances);
-}
+
+  /// Those that are smaller than what was found before.
+  void try_bricks() {
+    Trend trend;
+    const BrickNeeds needs{budget_.probe_depth_m, kBlockTolerance * std::min(budget_.depth_p99_m, budget_.missed_m),
+                           std::min(kDepthShare, budget_.depth_p99_m / budget_.probe_depth_m), budget_.missed_m};
+    for (const int n : kBrickBlocks) {
+      if (trend.rules_out(n, budget_)) continue;
+      const DistanceBrick::Grid grid = brick_grid(frame_, n);
+      if (!DistanceBrick::is_valid(grid)) return;
+      const std::size_t limit = best_.met ? std::min(allowed_.at_most, best_.map.bytes() - 1) : allowed_.at_most;
+      std::optional<DistanceBrick> brick = build_brick(solid_, skin_, frame_.X_OQ, grid, needs, allowed_.must, limit);
+      if (!brick && getenv("DBG")) fprintf(stderr, "brick %d over %zu\n", n, limit);
+      if (!brick) return;  // a finer one is larger
+      if (brick->bytes() <= allowed_.more_than) continue;
+      trend = judge(std::move(*brick), n);
+      if (best_.met && best_.map.brick() != nullptr) return;
+    }
+  }
+
+  [[nodiscard]] MapChoice take() { return std::move(best_); }
+  [[nodiscard]] bool is_done() const { return !best_.map.empty() && (best_.met || probes_.empty()); }
+
+ private:
+  Trend judge(PartMap map, int fineness) {
+    MapChoice tried;
+    tried.map = std::move(map);
+    const Ask ask = [&](const Vec3& p_O) { return tried.map.evaluate((X_QO_ * p_O).cast<float>()); };
+    tried.error = measure(probes_, budget_, ask);
+    const Trend trend{fineness, tried.error};
+    const MapError must = measure(allowed_.must, budget_, ask);
+    if (getenv("DBG")) fprintf(stderr, "%s %s bytes %zu (at most %zu) p99 %.4f of %.4f mm max %.3f missed %zu wrong %zu of %zu, must missed %zu wrong %zu of %zu max %.3f\n", "try", tried.map.name().c_str(), tried.map.bytes(), allowed_.at_most, 1e3*tried.error.p99_m, 1e3*budget_.depth_p99_m, 1e3*tried.error.max_m, tried.error.missed, tried.error.wrong, tried.error.probes, must.missed, must.wrong, must.probes, 1e3*must.max_m);
+    tried.met = tried.error.meets(budget_, kStrayShare) && must.missed + must.wrong == 0;
+    tried.error.missed += must.missed;
+    tried.error.wrong += must.wrong;
+    tried.error.probes += must.probes;
+    const bool lesser = !best_.met && tried.error.badness_m() < best_.error.badness_m();
+    if (best_.map.empty() || tried.met || lesser) best_ = std::move(tried);
+    return trend;
+  }
+
+  const Solid& solid_;
+  const geometry::MeshQuery& skin_;
+  std::size_t node_;
+  const MapFrame& frame_;
+  Pose X_QO_;
+  std::span<const Probe> probes_;
+  const ErrorBudget& budget_;
+  const MapCandidates& allowed_;
+  MapChoice best_;
+};
 
 }  // namespace
 
@@ -149,34 +168,12 @@ MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const
 
 MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node, const MapFrame& frame,
                      std::span<const Probe> probes, const ErrorBudget& budget, const MapCandidates& candidates) {
-  MapChoice best;
-  const Pose X_QO = frame.X_OQ.inverse();
-  Trend radial;
-  Trend brick;
-  for (const Candidate& candidate : list_candidates(frame, solid.is_closed(node), candidates)) {
-    if (candidate.bytes <= candidates.more_than || candidate.bytes > candidates.at_most) continue;
-    MapChoice tried;
-    const bool is_radial = candidate.resolution > 0;
-    Trend& trend = is_radial ? radial : brick;
-    const int fineness = std::max(candidate.resolution, candidate.cells);
-    if (trend.rules_out(fineness, budget) || (is_radial && radial.fineness >= 16 && radial.is_blind())) continue;
-    if (is_radial) {
-      tried.map = cast_map(solid, node, frame, candidate.resolution);
-    } else {
-      tried.map = make_brick(solid, skin, frame, candidate.grid, budget.probe_depth_m);
-    }
-    const Ask ask = [&](const Vec3& p_O) { return tried.map.evaluate((X_QO * p_O).cast<float>()); };
-    tried.error = measure(probes, budget, ask);
-    trend = {fineness, tried.error};
-    const MapError must = measure(candidates.must, budget, ask);
-    tried.met = tried.error.meets(budget, kStrayShare) && must.missed + must.wrong == 0;
-    tried.error.missed += must.missed;
-    tried.error.wrong += must.wrong;
-    tried.error.probes += must.probes;
-    if (best.map.empty() || tried.met || tried.error.badness_m() < best.error.badness_m()) best = std::move(tried);
-    if (best.met || probes.empty()) break;
-  }
-  return best;
+  Trials trials(solid, skin, node, frame, probes, budget, candidates);
+  if (candidates.radial) trials.try_radial_maps();
+  const bool asked_once = probes.empty() && trials.is_done();
+  // An open mesh has no inside.
+  if (candidates.brick && solid.is_closed(node) && !asked_once) trials.try_bricks();
+  return trials.take();
 }
 
 }  // namespace mechane::collision

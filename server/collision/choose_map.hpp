@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "server/collision/build_brick.hpp"
 #include "server/collision/cast_map.hpp"
 #include "server/collision/part_map.hpp"
 #include "server/collision/solid.hpp"
@@ -40,19 +41,13 @@ struct MapError {
   }
 };
 
-/// A point whose exact depth is known; negative outside.
-struct Probe {
-  Vec3 p_O = Vec3::Zero();
-  double depth_m = 0;
-};
-
 struct MapCandidates {
   bool radial = true;
   bool brick = true;
-  int only_resolution = 0;                                        ///< of a radial map; 0: any
-  std::size_t more_than = 0;                                      ///< bytes: only larger maps
-  std::size_t at_most = std::numeric_limits<std::size_t>::max();  ///< bytes
-  std::span<const Probe> must = {};  ///< points of which not one may be missed or wrong, besides the budget
+  int only_resolution = 0;            ///< of a radial map; 0: any
+  std::size_t more_than = 0;          ///< bytes: only larger maps
+  std::size_t at_most = 128U << 10;   ///< bytes
+  std::span<const Probe> must = {};   ///< points of which not one may be missed or wrong, besides the budget
 };
 
 struct MapChoice {
@@ -71,7 +66,7 @@ struct MapChoice {
 using Ask = std::function<MapHit(const Vec3& p_O)>;
 [[nodiscard]] MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const Ask& ask);
 
-/// Tries candidates from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap it, and the
+/// Tries the candidates of either kind from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap it, and the
 /// whole object is measured afterwards. Where none meets the budget: the one with the least error, `met` false; an empty map where no
 /// candidate is left.
 [[nodiscard]] MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,

@@ -2,79 +2,350 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "server/base/assert.hpp"
 #include "server/collision/evaluate_one.hpp"
 
 namespace mechane::collision {
+namespace {
 
-bool DistanceBrick::is_valid(const Grid& grid, float step_m, std::size_t values) {
-  std::size_t wanted = 1;
-  for (const int n : grid.nodes) {
-    if (n < 2 || n > kMaxNodes) return false;
-    wanted *= static_cast<std::size_t>(n);
+using Node = std::array<int, 3>;
+
+// A kernel reads four values where it wants two.
+constexpr std::size_t kPadding = 3;
+constexpr int kLargest = 127;
+// Distances differ by a block's diagonal at most from corner to corner, so from its base by half of it and what the base is rounded by.
+constexpr float kStepsOfHalfDiagonal = kLargest - DistanceBrick::kBaseSteps / 2;
+constexpr float kHalfDiagonal = 0.8661F;
+// What lies between the nodes at which the slack is measured.
+constexpr float kBetweenNodes = 1.25F;
+
+// An entry: level, place of the first value, how sheets meet, base.
+constexpr std::uint32_t kLevelBits = 2;
+constexpr std::uint32_t kFirstBits = 20;
+constexpr std::uint32_t kBaseBits = 7;
+constexpr std::uint32_t kOuterBit = 1U << (kLevelBits + kFirstBits);
+constexpr std::uint32_t kInnerBit = kOuterBit << 1;
+constexpr std::uint32_t kThreeBit = kOuterBit << 2;
+constexpr std::size_t kSheetValues = 8;
+/// Of a block whose values are distances at nodes.
+int cells_of(int level) {
+  return 1 << level;
+}
+
+std::size_t index_of(const Node& blocks, const Node& block) {
+  return static_cast<std::size_t>((block[2] * blocks[1] + block[1]) * blocks[0] + block[0]);
+}
+
+template <class Body>
+void for_each_block(const Node& blocks, const Body& body) {
+  for (int z = 0; z < blocks[2]; ++z)
+    for (int y = 0; y < blocks[1]; ++y)
+      for (int x = 0; x < blocks[0]; ++x)
+        body(Node{x, y, z});
+}
+
+/// The values at nodes, in steps, such that blocks of different levels agree on their common faces.
+class SharedNodes {
+ public:
+  SharedNodes(const DistanceBrick::Grid& grid, std::span<const std::uint8_t> levels, float step_m,
+              const DistanceBrick::NodeDistance& distance)
+      : grid_(grid), levels_(levels), step_m_(step_m), distance_(distance) {}
+
+  [[nodiscard]] int at(const Node& node) const {
+    const Lowest low = lowest_around(node);
+    const int stride = DistanceBrick::kFinest / cells_of(low.level);
+    if (std::all_of(node.begin(), node.end(), [&](int n) { return n % stride == 0; })) return own(node);
+    return between(low.block, stride, node);
   }
-  if (values != wanted || wanted > kMaxValues) return false;
-  if (!grid.origin_Q.allFinite() || grid.origin_Q.cwiseAbs().maxCoeff() > 1e4F) return false;
-  return std::isfinite(grid.cell_m) && grid.cell_m >= 1e-6F && grid.cell_m <= 1e4F && std::isfinite(step_m) &&
-         step_m > 0 && step_m <= 1.0F;
-}
 
-DistanceBrick::DistanceBrick(const Grid& grid, float step_m, std::vector<std::int16_t> values)
-    : grid_(grid), step_m_(step_m), values_(std::move(values)) {
-  MECHANE_ASSERT(is_valid(grid_, step_m_, values_.size()));
-  steepest_ = steepest_outside();
-}
-
-DistanceBrick DistanceBrick::from_distances(const Grid& grid, float band_m, std::span<const float> distances_m) {
-  const float step = band_m / 32767.0F;
-  std::vector<std::int16_t> values(distances_m.size());
-  for (std::size_t i = 0; i < distances_m.size(); ++i) {
-    values[i] = static_cast<std::int16_t>(std::lround(std::clamp(distances_m[i] / step, -32767.0F, 32767.0F)));
-  }
-  return {grid, step, std::move(values)};
-}
-
-/// The largest slope of the interpolated distance in the cells that are not inside as a whole. Each part of the gradient is bilinear in
-/// the cell, so its length is convex along every edge and largest in a corner.
-float DistanceBrick::steepest_outside() const {
-  const auto& n = grid_.nodes;
-  const auto value = [&](int x, int y, int z) {
-    const int index = (z * n[1] + y) * n[0] + x;
-    return static_cast<float>(values_[static_cast<std::size_t>(index)]);
+ private:
+  struct Lowest {
+    int level = DistanceBrick::kLevels;
+    Node block{};
   };
-  float square = 0;
-  for (int z = 0; z + 1 < n[2]; ++z) {
-    for (int y = 0; y + 1 < n[1]; ++y) {
-      for (int x = 0; x + 1 < n[0]; ++x) {
-        float highest = -1;
-        float steepest = 0;
-        for (int corner = 0; corner < 8; ++corner) {
-          const int cx = x + corner % 2;
-          const int cy = y + corner / 2 % 2;
-          const int cz = z + corner / 4;
-          const Vec3f slope(value(x + 1, cy, cz) - value(x, cy, cz), value(cx, y + 1, cz) - value(cx, y, cz),
-                            value(cx, cy, z + 1) - value(cx, cy, z));
-          steepest = std::max(steepest, slope.squaredNorm());
-          highest = std::max(highest, value(cx, cy, cz));
+
+  /// Of the blocks that meet in the node, one of the lowest level: it knows no more than its own nodes, so the others follow it.
+  [[nodiscard]] Lowest lowest_around(const Node& node) const {
+    Node from{};
+    Node to{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool shared = node[i] % DistanceBrick::kFinest == 0;
+      const int above = node[i] / DistanceBrick::kFinest;
+      from[i] = std::max(0, shared ? above - 1 : above);
+      to[i] = std::min(grid_.blocks[i] - 1, above);
+    }
+    Lowest low;
+    for (int z = from[2]; z <= to[2]; ++z) {
+      for (int y = from[1]; y <= to[1]; ++y) {
+        for (int x = from[0]; x <= to[0]; ++x) {
+          const int level = levels_[index_of(grid_.blocks, {x, y, z})];
+          if (level != DistanceBrick::kSheets && level < low.level) low = {level, {x, y, z}};
         }
-        if (highest >= 0) square = std::max(square, steepest);
       }
     }
+    return low;
   }
-  constexpr float kRounding = 1.001F;
-  return std::max(1e-3F, kRounding * std::sqrt(square) * step_m_ / grid_.cell_m);
+
+  [[nodiscard]] int own(const Node& node) const {
+    constexpr float kMost = static_cast<float>(DistanceBrick::kMaxBase * DistanceBrick::kBaseSteps);
+    return static_cast<int>(std::lround(std::clamp(distance_(node) / step_m_, -kMost, kMost)));
+  }
+
+  /// Interpolated in the cell of `block` that holds the node. Its corners may be shared with still lower levels.
+  [[nodiscard]] int between(const Node& block, int stride, const Node& node) const {
+    Node low{};
+    std::array<float, 3> f{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int begin = DistanceBrick::kFinest * block[i];
+      const int cell = std::min((node[i] - begin) / stride, DistanceBrick::kFinest / stride - 1);
+      low[i] = begin + cell * stride;
+      f[i] = static_cast<float>(node[i] - low[i]) / static_cast<float>(stride);
+    }
+    float sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      float weight = 1;
+      Node at = low;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const bool high = (corner >> i & 1) != 0;
+        weight *= high ? f[i] : 1 - f[i];
+        at[i] += high ? stride : 0;
+      }
+      if (weight > 0) sum += weight * static_cast<float>(this->at(at));
+    }
+    return static_cast<int>(std::lround(sum));
+  }
+
+  const DistanceBrick::Grid& grid_;
+  std::span<const std::uint8_t> levels_;
+  float step_m_;
+  const DistanceBrick::NodeDistance& distance_;
+};
+
+float step_of(float block_m) {
+  return kHalfDiagonal * block_m / kStepsOfHalfDiagonal;
+}
+
+/// Blocks as they are stored, one after the other.
+struct BlockWriter {
+  std::vector<std::uint32_t> index;
+  std::vector<std::int8_t> values;
+
+  /// `entry` says how; its place and base are found here. `nodes` in steps.
+  void add(DistanceBrick::Entry entry, std::span<const int> nodes) {
+    constexpr int kSteps = DistanceBrick::kBaseSteps;
+    const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
+    const int base = static_cast<int>(std::lround(0.5 * (*least + *most) / kSteps));
+    entry.base = std::clamp(base, -DistanceBrick::kMaxBase, DistanceBrick::kMaxBase);
+    entry.first = values.size();
+    index.push_back(entry.packed());
+    for (const int node : nodes) {
+      const int value = static_cast<int>(std::lround(static_cast<double>(node - kSteps * entry.base) / entry.unit()));
+      values.push_back(static_cast<std::int8_t>(std::clamp(value, -kLargest - 1, kLargest)));
+    }
+    while (values.size() % DistanceBrick::kAlign != 0)
+      values.push_back(0);
+  }
+};
+
+}  // namespace
+
+std::size_t DistanceBrick::Grid::block_count() const {
+  std::size_t count = 1;
+  for (const int n : blocks)
+    count *= static_cast<std::size_t>(n);
+  return count;
+}
+
+std::uint32_t DistanceBrick::Entry::packed() const {
+  return static_cast<std::uint32_t>(base) << (32 - kBaseBits) | (outer_convex ? kOuterBit : 0) |
+         (inner_convex ? kInnerBit : 0) | (three ? kThreeBit : 0) |
+         static_cast<std::uint32_t>(first / kAlign) << kLevelBits | static_cast<std::uint32_t>(level);
+}
+
+DistanceBrick::Entry DistanceBrick::Entry::unpacked(std::uint32_t word) {
+  Entry entry;
+  entry.level = static_cast<int>(word & ((1U << kLevelBits) - 1));
+  entry.outer_convex = (word & kOuterBit) != 0;
+  entry.inner_convex = (word & kInnerBit) != 0;
+  entry.three = (word & kThreeBit) != 0;
+  entry.base = static_cast<std::int32_t>(word) >> (32 - kBaseBits);
+  entry.first = kAlign * (word >> kLevelBits & ((1U << kFirstBits) - 1));
+  return entry;
+}
+
+std::size_t DistanceBrick::Entry::count() const {
+  const auto nodes = static_cast<std::size_t>(cells() + 1);
+  return static_cast<std::size_t>(sheets()) * nodes * nodes * nodes;
+}
+
+bool DistanceBrick::is_valid(const Grid& grid) {
+  const auto fits = [](int n) { return n >= 1 && n <= kMaxBlocks; };
+  if (!std::all_of(grid.blocks.begin(), grid.blocks.end(), fits)) return false;
+  if (!grid.origin_Q.allFinite() || grid.origin_Q.cwiseAbs().maxCoeff() > 1e4F) return false;
+  return std::isfinite(grid.block_m) && grid.block_m >= 1e-6F && grid.block_m <= 1e4F;
+}
+
+bool DistanceBrick::is_valid(const Grid& grid, float step_m, float slack_m, std::span<const std::uint32_t> index,
+                             std::size_t values) {
+  if (!is_valid(grid) || index.size() != grid.block_count() || values > kMaxValues) return false;
+  if (!(std::isfinite(step_m) && step_m > 0 && step_m <= grid.block_m)) return false;
+  if (!(std::isfinite(slack_m) && slack_m >= 0)) return false;
+  return std::all_of(index.begin(), index.end(), [&](std::uint32_t word) {
+    const Entry entry = Entry::unpacked(word);
+    return entry.first + entry.count() <= values;
+  });
+}
+
+DistanceBrick::DistanceBrick(const Grid& grid, float step_m, float slack_m, std::vector<std::uint32_t> index,
+                             std::span<const std::int8_t> values)
+    : grid_(grid),
+      step_m_(step_m),
+      slack_m_(slack_m),
+      index_(std::move(index)),
+      values_(values.begin(), values.end()) {
+  MECHANE_ASSERT(is_valid(grid_, step_m_, slack_m_, index_, values.size()));
+  values_.insert(values_.end(), kPadding, 0);
+}
+
+bool DistanceBrick::fits(const Sheets& sheets, float block_m) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (int sheet = 0; sheet < sheets.count; ++sheet) {
+    for (const double value : sheets.values_m[static_cast<std::size_t>(sheet)]) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  const auto step_m = static_cast<double>(step_of(block_m));
+  return high - low <= 4 * static_cast<double>(kStepsOfHalfDiagonal) * step_m &&
+         std::max(-low, high) < static_cast<double>(kMaxBase * kBaseSteps) * step_m;
+}
+
+DistanceBrick DistanceBrick::from_distances(const Grid& grid, std::span<const std::uint8_t> levels,
+                                            const NodeDistance& distance, const BlockSheets& sheets) {
+  MECHANE_ASSERT(is_valid(grid) && levels.size() == grid.block_count());
+  const float step_m = step_of(grid.block_m);
+  const SharedNodes shared(grid, levels, step_m, distance);
+  BlockWriter writer;
+  for_each_block(grid.blocks, [&](const Node& block) {
+    const int level = levels[writer.index.size()];
+    std::vector<int> nodes;
+    if (level == kSheets) {
+      const Sheets& some = sheets.at(writer.index.size());
+      for (int sheet = 0; sheet < some.count; ++sheet)
+        for (const double distance_m : some.values_m[static_cast<std::size_t>(sheet)])
+          nodes.push_back(static_cast<int>(std::lround(distance_m / static_cast<double>(step_m))));
+      writer.add({level, some.outer_convex, some.inner_convex, some.count == 3}, nodes);
+      return;
+    }
+    const int stride = kFinest / cells_of(level);
+    for_each_block({cells_of(level) + 1, cells_of(level) + 1, cells_of(level) + 1}, [&](const Node& at) {
+      nodes.push_back(shared.at({kFinest * block[0] + stride * at[0], kFinest * block[1] + stride * at[1],
+                                 kFinest * block[2] + stride * at[2]}));
+    });
+    writer.add({level}, nodes);
+  });
+  MECHANE_ASSERT(writer.values.size() <= kMaxValues);
+  DistanceBrick brick(grid, step_m, 0, std::move(writer.index), writer.values);
+  brick.slack_m_ = brick.measured_slack(distance);
+  return brick;
+}
+
+Vec3f DistanceBrick::lattice_place(const Vec3f& p_QP) const {
+  Vec3f cells = (p_QP - grid_.origin_Q) * (kFinest / grid_.block_m);
+  for (std::size_t i = 0; i < 3; ++i) {
+    float& at = cells[static_cast<Eigen::Index>(i)];
+    at = std::clamp(at, 0.0F, static_cast<float>(kFinest * grid_.blocks[i]));
+  }
+  return cells;
+}
+
+float DistanceBrick::distance_m(const Vec3f& p_QP) const {
+  const Vec3f at = lattice_place(p_QP) / kFinest;
+  Node block{};
+  Vec3f p_B;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    block[i] = std::min(static_cast<int>(at[axis]), grid_.blocks[i] - 1);
+    p_B[axis] = at[axis] - static_cast<float>(block[i]);
+  }
+  return told(index_of(grid_.blocks, block), p_B);
+}
+
+/// What a block tells of a place, 0 to 1 along each of its edges.
+float DistanceBrick::told(std::size_t block, const Vec3f& p_B) const {
+  const Entry entry = Entry::unpacked(index_[block]);
+  const int cells = entry.cells();
+  Node low{};
+  Vec3f f;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    const float at = p_B[axis] * static_cast<float>(cells);
+    low[i] = std::clamp(static_cast<int>(at), 0, cells - 1);
+    f[axis] = at - static_cast<float>(low[i]);
+  }
+  const auto sheet = [&](std::size_t first) {
+    float sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      float weight = 1;
+      Node at = low;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const bool high = (corner >> i & 1) != 0;
+        const float share = f[static_cast<Eigen::Index>(i)];
+        weight *= high ? share : 1 - share;
+        at[i] += high ? 1 : 0;
+      }
+      const auto k = static_cast<std::size_t>((at[2] * (cells + 1) + at[1]) * (cells + 1) + at[0]);
+      sum += weight * static_cast<float>(entry.unit() * values_[first + k] + kBaseSteps * entry.base);
+    }
+    return sum * step_m_;
+  };
+  const auto either = [](float a, float b, bool larger) { return larger ? std::max(a, b) : std::min(a, b); };
+  const float one = sheet(entry.first);
+  if (entry.sheets() == 1) return one;
+  float rest = sheet(entry.first + kSheetValues);
+  if (entry.three) rest = either(rest, sheet(entry.first + 2 * kSheetValues), entry.inner_convex);
+  return either(one, rest, entry.outer_convex);
+}
+
+/// For culling: a point that is told inside lies no farther outside than the one, a centre that is told outside lies no nearer than what
+/// it is told less the other; and true distances change by no more than the way.
+float DistanceBrick::measured_slack(const NodeDistance& distance) const {
+  float made_up = 0;
+  float too_far = 0;
+  for_each_block({kFinest * grid_.blocks[0] + 1, kFinest * grid_.blocks[1] + 1, kFinest * grid_.blocks[2] + 1},
+                 [&](const Node& node) {
+                   const float truth = distance(node);
+                   if (truth <= 0 || std::isinf(truth)) return;
+                   const Vec3f p_Q = grid_.origin_Q + grid_.block_m / kFinest *
+                                                          Vec3f(Eigen::Vector3i(node.data()).cast<float>());
+                   const float told = distance_m(p_Q);
+                   if (told < 0) made_up = std::max(made_up, truth);
+                   too_far = std::max(too_far, told - truth);
+                 });
+  return kBetweenNodes * (made_up + too_far) + step_m_;
+}
+
+std::span<const std::int8_t> DistanceBrick::values() const {
+  return std::span(values_).first(values_.size() - kPadding);
 }
 
 BrickView DistanceBrick::view() const noexcept {
-  return {values_.data(),   grid_.nodes, {grid_.origin_Q.x(), grid_.origin_Q.y(), grid_.origin_Q.z()},
-          1 / grid_.cell_m, step_m_,     steepest_};
+  return {index_.data(),
+          values_.data(),
+          grid_.blocks,
+          {grid_.origin_Q.x(), grid_.origin_Q.y(), grid_.origin_Q.z()},
+          1 / grid_.block_m,
+          step_m_,
+          slack_m_};
 }
 
 BoxView DistanceBrick::box() const noexcept {
   BoxView box;
   for (std::size_t i = 0; i < 3; ++i) {
-    box.half[i] = 0.5F * grid_.cell_m * static_cast<float>(grid_.nodes[i] - 1);
+    box.half[i] = 0.5F * grid_.block_m * static_cast<float>(grid_.blocks[i]);
     box.center[i] = grid_.origin_Q[static_cast<Eigen::Index>(i)] + box.half[i];
   }
   return box;

@@ -40,6 +40,7 @@ class Direction {
         if (!is_near(source_.parts[s], target_center_S)) continue;
         for (std::uint32_t g = source_.first_group[s]; g < source_.first_group[s + 1]; ++g) {
           const ClusterGroup& group = source_.groups[g];
+          if (!overlap(group.bound_O, target_center_S, target_.bound_O.radius)) continue;
           query.test_group(group.bounds_O.view(), group.count, group.first_cluster, all);
         }
       }

@@ -41,13 +41,14 @@ struct PortableLanes {
       x[i] = __builtin_sqrtf(x[i]);
     return x;
   }
-  /// For each lane the two 16-bit values from table[index] on, the first in the low half.
+  /// For each lane the four bytes from table + Scale * index on, the first the lowest.
+  template <int Scale>
   static I gather(const void* table, I index) {
     I out{};
     for (int i = 0; i < Width; ++i) {
-      int pair = 0;
-      __builtin_memcpy(&pair, static_cast<const char*>(table) + 2 * static_cast<long>(index[i]), sizeof pair);
-      out[i] = pair;
+      int four = 0;
+      __builtin_memcpy(&four, static_cast<const char*>(table) + Scale * static_cast<long>(index[i]), sizeof four);
+      out[i] = four;
     }
     return out;
   }

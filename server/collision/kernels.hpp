@@ -63,12 +63,13 @@ struct RadialView {
 
 /// What a kernel reads of a DistanceBrick.
 struct BrickView {
-  const std::int16_t* values;
-  std::array<int, 3> nodes;
+  const std::uint32_t* index;  ///< DistanceBrick::Entry of each block
+  const std::int8_t* values;   ///< and three bytes that nobody looks at
+  std::array<int, 3> blocks;
   std::array<float, 3> origin;
-  float inverse_cell;
+  float inverse_block;
   float step_m;
-  float steepest;  ///< outside the surface the distance changes by no more than this over a metre
+  float slack_m;  ///< see DistanceBrick: for culling
 };
 
 /// Points in a part's frame Q, and how central each lies in the part: what decides between parts that overlap.

@@ -12,9 +12,10 @@ namespace {
 
 struct Avx2Lanes : PortableLanes<8> {
   static F root(F x) { return _mm256_sqrt_ps(x); }
+  template <int Scale>
   static I gather(const void* table, I index) {
     return reinterpret_cast<I>(
-        _mm256_i32gather_epi32(static_cast<const int*>(table), reinterpret_cast<__m256i>(index), 2));
+        _mm256_i32gather_epi32(static_cast<const int*>(table), reinterpret_cast<__m256i>(index), Scale));
   }
   static LaneMask mask_of(I condition) {
     return static_cast<LaneMask>(_mm256_movemask_ps(reinterpret_cast<__m256>(condition)));

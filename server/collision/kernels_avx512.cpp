@@ -15,9 +15,10 @@ struct Avx512Lanes : PortableLanes<16> {
   static constexpr __mmask16 kEvery = 0xffff;
 
   static F root(F x) { return _mm512_mask_sqrt_ps(x, kEvery, x); }
+  template <int Scale>
   static I gather(const void* table, I index) {
     const auto lanes = reinterpret_cast<__m512i>(index);
-    return reinterpret_cast<I>(_mm512_mask_i32gather_epi32(lanes, kEvery, lanes, table, 2));
+    return reinterpret_cast<I>(_mm512_mask_i32gather_epi32(lanes, kEvery, lanes, table, Scale));
   }
   static LaneMask mask_of(I condition) { return _mm512_movepi32_mask(reinterpret_cast<__m512i>(condition)); }
 };

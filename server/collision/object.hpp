@@ -43,6 +43,7 @@ struct Cluster {
 /// The spheres of up to 16 clusters that follow one another in Object::clusters, all of one part.
 struct ClusterGroup {
   SphereBlock bounds_O{};
+  geometry::Sphere bound_O;  ///< around all of them
   std::uint32_t first_cluster = 0;
   std::uint32_t count = 0;
 };

@@ -5,12 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "server/base/parallel.hpp"
 #include "server/collision/cast_map.hpp"
 #include "server/collision/choose_map.hpp"
 #include "server/collision/part_box.hpp"
 #include "server/collision/part_source.hpp"
+#include "server/collision/placed_part.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision/solid.hpp"
 #include "server/geometry/mesh_check.hpp"
@@ -317,8 +319,7 @@ std::vector<Probe> make_witnesses(const Ground& ground, std::size_t parts) {
 
 /// Gives parts finer maps until the object as a whole meets the budget, or nothing finer is left.
 void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<const PartSource> sources,
-            const Ground& ground, std::vector<PartReport>& reports) {
-  const std::vector<Probe> witnesses = make_witnesses(ground, parts.size());
+            std::span<const Probe> witnesses, const Ground& ground, std::vector<PartReport>& reports) {
   std::vector<std::vector<Probe>> must(parts.size());
   std::vector<bool> exhausted(parts.size());
   for (int round = 0; round < kRefinements; ++round) {
@@ -350,7 +351,81 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
   }
 }
 
-MapError error_of(const Object& object, std::span<const PartSource> sources, const Ground& ground) {
+/// What a query has in its hands for a part.
+std::size_t bytes_of(const Part& part) {
+  return part.map.bytes() + sizeof(Part) + sizeof(PlacedPart);
+}
+
+/// The whole object as one source.
+PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const PartSource> sources, const Ground& ground) {
+  PartSource whole;
+  whole.name = nodes.size() == 1 ? nodes[0].name : "whole";
+  for (const geometry::Mesh& node : ground.nodes)
+    whole.bound_points_O.insert(whole.bound_points_O.end(), node.vertices.begin(), node.vertices.end());
+  for (const PartSource& source : sources) {
+    whole.places.insert(whole.places.end(), source.places.begin(), source.places.end());
+    whole.samples_O.insert(whole.samples_O.end(), source.samples_O.begin(), source.samples_O.end());
+    whole.spacing_m = std::max(whole.spacing_m, source.spacing_m);
+  }
+  return whole;
+}
+
+MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
+  Eigen::AlignedBox3d box_Q;
+  for (const Vec3& p_O : points_O)
+    box_Q.extend(X_OQ.inverse() * p_O);
+  return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
+}
+
+/// One brick in place of all parts, where it meets the budget and is not much larger: a query then asks once, not part after part. Nothing
+/// where the parts are better.
+std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> parts, std::span<const Made> made,
+                               std::span<const Probe> witnesses, const Ground& ground, PartReport& report) {
+  geometry::Mesh mesh;
+  for (const geometry::Mesh& node : ground.nodes)
+    mesh.append(node);
+  geometry::FitConfig config;
+  config.seed = ground.config.seed;
+  const auto fit = geometry::fit_superquadric(mesh, config);
+  if (!fit) return std::nullopt;
+  std::vector<Probe> probes;
+  for (const Made& one : made)
+    probes.insert(probes.end(), one.probes.begin(), one.probes.end());
+  std::vector<Probe> must(witnesses.begin(), witnesses.end());  // no neighbour helps out
+  must.insert(must.end(), probes.begin(), probes.end());
+  MapCandidates candidates;
+  candidates.radial = false;
+  candidates.must = must;
+  candidates.at_most = 0;
+  for (const Part& part : parts)
+    candidates.at_most += bytes_of(part);
+  candidates.at_most += candidates.at_most / 2;
+  MapChoice choice = choose_map(ground.solid, ground.skin, 0, frame_around(whole.bound_points_O, fit->X_OQ), probes,
+                                ground.budget, candidates);
+  if (!choice.met) return std::nullopt;
+  report.name = whole.name;
+  report.fit = fit->report;
+  report.samples = whole.samples_O.size();
+  report.spacing_m = whole.spacing_m;
+  Part part;
+  part.name = whole.name;
+  part.X_OQ = fit->X_OQ;
+  part.superquadric = fit->shape;
+  part.bound_O = bounding_sphere(whole.bound_points_O);
+  set_map(std::move(choice), part, report);
+  return part;
+}
+
+bool may_be_whole(const BuildConfig& config, const Solid& solid, std::size_t nodes, std::size_t parts) {
+  if (!config.bricks || config.parts == Parts::as_given || parts < 2) return false;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    if (!solid.is_closed(i)) return false;
+  }
+  return true;
+}
+
+/// For the object's error: of the same number from each source.
+std::vector<Probe> make_report_probes(std::span<const PartSource> sources, const Ground& ground) {
   std::vector<std::vector<Probe>> probes(sources.size());
   for_each_index(sources.size(), [&](std::size_t i) {
     probes[i] = make_probes(ground.solid, ground.skin, sources[i].node, sources[i].places, ground.budget, kReportProbes,
@@ -359,7 +434,7 @@ MapError error_of(const Object& object, std::span<const PartSource> sources, con
   std::vector<Probe> all;
   for (const auto& some : probes)
     all.insert(all.end(), some.begin(), some.end());
-  return measure(all, ground.budget, [&](const Vec3& p_O) { return ask(object.parts, p_O).hit; });
+  return all;
 }
 
 }  // namespace
@@ -393,8 +468,20 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
     object.parts.push_back(std::move(one->part));
     made.push_back(std::move(*one));
   }
-  refine(object.parts, made, *sources, ground, built.parts);
-  for (std::size_t i = 0; i < made.size(); ++i) {
+  const std::vector<Probe> witnesses = make_witnesses(ground, object.parts.size());
+  refine(object.parts, made, *sources, witnesses, ground, built.parts);
+  std::vector<Probe> report_probes;
+  if (report != nullptr) report_probes = make_report_probes(*sources, ground);
+  if (may_be_whole(config, solid, nodes.size(), object.parts.size())) {
+    PartSource whole = unite(nodes, *sources, ground);
+    PartReport whole_report;
+    if (auto part = make_whole(whole, object.parts, made, witnesses, ground, whole_report)) {
+      object.parts = {std::move(*part)};
+      built.parts = {std::move(whole_report)};
+      *sources = {std::move(whole)};
+    }
+  }
+  for (std::size_t i = 0; i < object.parts.size(); ++i) {
     built.bytes += object.parts[i].map.bytes();
     append_samples(object, static_cast<std::uint16_t>(i), std::move((*sources)[i].samples_O));
   }
@@ -403,7 +490,7 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
   if (report != nullptr) {
     built.diagonal_m = diagonal_m;
     built.budget = ground.budget;
-    built.error = error_of(object, *sources, ground);
+    built.error = measure(report_probes, ground.budget, [&](const Vec3& p_O) { return ask(object.parts, p_O).hit; });
     built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     *report = std::move(built);
   }

@@ -143,11 +143,14 @@ void put_map(Writer& w, const PartMap& map) {
     w.put(radial->sigma_step());
     w.put_all(radial->texels());
   } else if (const DistanceBrick* brick = map.brick()) {
-    for (const int n : brick->grid().nodes)
+    for (const int n : brick->grid().blocks)
       w.put(static_cast<std::uint16_t>(n));
     w.put_vector(brick->grid().origin_Q);
-    w.put(brick->grid().cell_m);
+    w.put(brick->grid().block_m);
     w.put(brick->step_m());
+    w.put(brick->slack_m());
+    w.put(static_cast<std::uint32_t>(brick->values().size()));
+    w.put_all(brick->index());
     w.put_all(brick->values());
   }
 }
@@ -180,19 +183,19 @@ PartMap get_radial(Reader& r) {
 
 PartMap get_brick(Reader& r) {
   DistanceBrick::Grid grid;
-  std::size_t count = 1;
-  for (int& n : grid.nodes) {
+  for (int& n : grid.blocks)
     n = r.get<std::uint16_t>();
-    r.require(n <= DistanceBrick::kMaxNodes);
-    count *= static_cast<std::size_t>(n);
-  }
   grid.origin_Q = r.get_vec3f();
-  grid.cell_m = r.get<float>();
+  grid.block_m = r.get<float>();
   const auto step = r.get<float>();
-  r.require(DistanceBrick::is_valid(grid, step, count));
-  std::vector<std::int16_t> values = r.get_all<std::int16_t>(count);
+  const auto slack = r.get<float>();
+  const auto count = r.get<std::uint32_t>();
+  r.require(DistanceBrick::is_valid(grid));
+  std::vector<std::uint32_t> index = r.get_all<std::uint32_t>(r.ok() ? grid.block_count() : 0);
+  const std::vector<std::int8_t> values = r.get_all<std::int8_t>(r.ok() ? count : 0);
+  r.require(r.ok() && DistanceBrick::is_valid(grid, step, slack, index, values.size()));
   if (!r.ok()) return {};
-  return DistanceBrick(grid, step, std::move(values));
+  return DistanceBrick(grid, step, slack, std::move(index), values);
 }
 
 PartMap get_map(Reader& r) {

@@ -12,7 +12,7 @@
 namespace mechane::collision {
 
 /// Raised with every change of the layout: a reader takes no other version, and the cache builds the object again.
-inline constexpr std::uint32_t kPartFileVersion = 2;
+inline constexpr std::uint32_t kPartFileVersion = 3;
 
 [[nodiscard]] std::vector<std::byte> write_object(const Object& object);
 

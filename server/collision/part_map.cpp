@@ -17,7 +17,7 @@ BoxView PartMap::box() const noexcept {
 std::string PartMap::name() const {
   if (const RadialMap* map = radial()) return "radial " + std::to_string(map->resolution());
   if (const DistanceBrick* map = brick()) {
-    const auto& n = map->grid().nodes;
+    const auto& n = map->grid().blocks;
     return "brick " + std::to_string(n[0]) + "x" + std::to_string(n[1]) + "x" + std::to_string(n[2]);
   }
   return "none";
@@ -25,7 +25,7 @@ std::string PartMap::name() const {
 
 std::size_t PartMap::bytes() const noexcept {
   if (const RadialMap* map = radial()) return map->texels().size_bytes();
-  if (const DistanceBrick* map = brick()) return map->values().size_bytes();
+  if (const DistanceBrick* map = brick()) return map->bytes();
   return 0;
 }
 

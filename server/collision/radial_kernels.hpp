@@ -65,8 +65,8 @@ struct RadialKernels : KernelMath<Lanes> {
     const F fu = tu - to_float(iu);
     const F fv = tv - to_float(iv);
     const I index = (face * n + iv) * n + iu;
-    const I low = Lanes::gather(map.texels, index);
-    const I high = Lanes::gather(map.texels, index + n);
+    const I low = Lanes::template gather<sizeof(std::uint16_t)>(map.texels, index);
+    const I high = Lanes::template gather<sizeof(std::uint16_t)>(map.texels, index + n);
     const F s00 = to_float(low & 0xffff);
     const F s10 = to_float((low >> 16) & 0xffff);
     const F s01 = to_float(high & 0xffff);

@@ -31,6 +31,20 @@ void sort_into_runs(std::span<Vec3> points) {
   sort_into_runs(points.subspan(half));
 }
 
+/// Around some of the object's clusters.
+geometry::Sphere sphere_around(std::span<const Cluster> clusters) {
+  Eigen::AlignedBox3d box;
+  for (const Cluster& cluster : clusters) {
+    box.extend(Vec3(cluster.bound_O.center.array() - cluster.bound_O.radius));
+    box.extend(Vec3(cluster.bound_O.center.array() + cluster.bound_O.radius));
+  }
+  geometry::Sphere sphere{box.center(), 0};
+  for (const Cluster& cluster : clusters)
+    sphere.radius =
+        std::max(sphere.radius, (cluster.bound_O.center - sphere.center).norm() + cluster.bound_O.radius);
+  return sphere;
+}
+
 void close_groups(Object& object) {
   object.groups.clear();
   object.first_group.clear();
@@ -40,7 +54,7 @@ void close_groups(Object& object) {
     object.first_group.push_back(static_cast<std::uint32_t>(object.groups.size()));
     for (; next < object.clusters.size() && object.clusters[next].part == part; ++next) {
       const bool starts = object.groups.size() == object.first_group.back() || object.groups.back().count == kLanes;
-      if (starts) object.groups.push_back({{}, static_cast<std::uint32_t>(next), 0});
+      if (starts) object.groups.push_back({{}, {}, static_cast<std::uint32_t>(next), 0});
       ClusterGroup& group = object.groups.back();
       object.clusters[next].first_sample = samples;
       samples += object.clusters[next].count;
@@ -52,6 +66,8 @@ void close_groups(Object& object) {
       group.bounds_O.radius[lane] = static_cast<float>(bound.radius * (1 + 1e-6));  // rounded up
     }
   }
+  for (ClusterGroup& group : object.groups)
+    group.bound_O = sphere_around(std::span(object.clusters).subspan(group.first_cluster, group.count));
   object.first_group.push_back(static_cast<std::uint32_t>(object.groups.size()));
   MECHANE_ASSERT(next == object.clusters.size());
 }

@@ -1,0 +1,375 @@
+#include "server/collision/build_brick.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "server/base/parallel.hpp"
+
+namespace mechane::collision {
+namespace {
+
+using Node = std::array<int, 3>;
+constexpr int kFinest = DistanceBrick::kFinest;
+constexpr float kNotAsked = std::numeric_limits<float>::infinity();
+constexpr double kHalfBlockDiagonal = 0.8661;  // of its edge
+// Cosine between a face and the way to its nearest point, where that is not on its edge.
+constexpr double kOnFace = 0.9999;
+// Of a block's edge, how far below what a finger reaches a sheet is still told by its samples.
+constexpr double kBelow = 0.1;
+constexpr int kMendings = 4;          // rounds, at most
+constexpr double kHopeless = 0.01;    // of the witnesses
+// The box is wider than what it holds by this share on the whole: the surface is nowhere at its very edge.
+constexpr double kRoom = 1.002;
+
+/// Signed distances at the nodes of the finest lattice, of those that somebody asked for, and the faces that lie nearest.
+class LatticeDistances {
+ public:
+  LatticeDistances(const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ,
+                   const DistanceBrick::Grid& grid)
+      : solid_(solid), skin_(skin), X_OQ_(X_OQ), grid_(grid) {
+    std::size_t count = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      nodes_[i] = kFinest * grid.blocks[i] + 1;
+      count *= static_cast<std::size_t>(nodes_[i]);
+    }
+    distance_m_.assign(count, kNotAsked);
+    nearest_.assign(count, {});
+    wanted_.assign(count, 0);
+  }
+
+  /// What lies nearest to a node.
+  struct Nearest {
+    std::uint32_t triangle = 0;
+    bool on_face = false;  // and not on its edge
+  };
+
+  void want(const Node& node) { wanted_[index(node)] = 1; }
+  [[nodiscard]] float at(const Node& node) const { return distance_m_[index(node)]; }
+  [[nodiscard]] const Nearest& nearest(const Node& node) const { return nearest_[index(node)]; }
+
+  void shift(const Node& node, float by_m) { distance_m_[index(node)] += by_m; }
+
+  /// Measures what is wanted and not known yet.
+  void measure() {
+    for_each_index(static_cast<std::size_t>(nodes_[2]), [&](std::size_t z) {
+      for (int y = 0; y < nodes_[1]; ++y)
+        measure_row(y, static_cast<int>(z));
+    });
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(const Node& node) const {
+    return static_cast<std::size_t>((node[2] * nodes_[1] + node[1]) * nodes_[0] + node[0]);
+  }
+
+  /// Two nodes lie on the same side when one is farther from the surface than from the other: that spares most rays.
+  void measure_row(int y, int z) {
+    const double spacing_m = static_cast<double>(grid_.block_m) / kFinest;
+    int known = -1;
+    for (int x = 0; x < nodes_[0]; ++x) {
+      const std::size_t here = index({x, y, z});
+      if (distance_m_[here] == kNotAsked && wanted_[here] != 0) {
+        const Vec3 p_O = X_OQ_ * (grid_.origin_Q.cast<double>() + spacing_m * Vec3(x, y, z));
+        const geometry::SurfacePoint found = skin_.closest(p_O);
+        const double distance_m = found.distance_m;
+        const double above_m = std::abs(skin_.triangle_normal(found.triangle).dot(p_O - found.p));
+        nearest_[here] = {found.triangle, above_m >= kOnFace * distance_m};
+        bool inside = false;
+        const float before = known < 0 ? 0 : distance_m_[index({known, y, z})];
+        if (static_cast<double>(std::abs(before)) > 1.0001 * spacing_m * (x - known)) {
+          inside = before < 0;
+        } else {
+          inside = solid_.contains(p_O);
+        }
+        distance_m_[here] = static_cast<float>(inside ? -distance_m : distance_m);
+      }
+      if (distance_m_[here] != kNotAsked) known = x;
+    }
+  }
+
+  const Solid& solid_;
+  const geometry::MeshQuery& skin_;
+  const Pose& X_OQ_;
+  const DistanceBrick::Grid& grid_;
+  Node nodes_{};
+  std::vector<float> distance_m_;
+  std::vector<Nearest> nearest_;
+  std::vector<std::uint8_t> wanted_;
+};
+
+/// Calls body(node) for the nodes of a block that lie `stride` apart.
+template <class Body>
+void for_each_node(const Node& block, int stride, const Body& body) {
+  for (int z = 0; z <= kFinest; z += stride)
+    for (int y = 0; y <= kFinest; y += stride)
+      for (int x = 0; x <= kFinest; x += stride)
+        body(Node{kFinest * block[0] + x, kFinest * block[1] + y, kFinest * block[2] + z});
+}
+
+/// The distance at `node` as a block whose nodes lie `stride` apart would have it.
+double interpolated(const LatticeDistances& distances, const Node& block, int stride, const Node& node) {
+  Node low{};
+  Vec3 f;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int begin = kFinest * block[i];
+    low[i] = begin + std::min((node[i] - begin) / stride, kFinest / stride - 1) * stride;
+    f[static_cast<Eigen::Index>(i)] = static_cast<double>(node[i] - low[i]) / stride;
+  }
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    Node at = low;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool high = (corner >> i & 1) != 0;
+      const double share = f[static_cast<Eigen::Index>(i)];
+      weight *= high ? share : 1 - share;
+      at[i] += high ? stride : 0;
+    }
+    if (weight > 0) sum += weight * static_cast<double>(distances.at(at));
+  }
+  return sum;
+}
+
+/// By how much the depth may err where the distance is `truth_m`.
+double tolerance_m(double truth_m, const BrickNeeds& needs) {
+  if (truth_m < -needs.probe_depth_m) return std::numeric_limits<double>::infinity();
+  return std::max(needs.tolerance_m, -needs.share * truth_m);
+}
+
+/// Whether a block whose nodes lie `stride` apart tells the depth at those of the finest lattice well enough.
+bool is_fine_enough(const LatticeDistances& distances, const Node& block, int stride, const BrickNeeds& needs) {
+  bool good = true;
+  for_each_node(block, 1, [&](const Node& node) {
+    const double truth = distances.at(node);
+    if (!good) return;
+    const double told = interpolated(distances, block, stride, node);
+    good = std::abs(std::max(-told, 0.0) - std::max(-truth, 0.0)) <= tolerance_m(truth, needs);
+  });
+  return good;
+}
+
+struct Block {
+  Node at{};
+  int level = 0;
+  bool open = false;  // not decided yet
+};
+
+std::vector<Block> list_blocks(const Node& blocks) {
+  std::vector<Block> list;
+  for (int z = 0; z < blocks[2]; ++z)
+    for (int y = 0; y < blocks[1]; ++y)
+      for (int x = 0; x < blocks[0]; ++x)
+        list.push_back({{x, y, z}, 0, false});
+  return list;
+}
+
+/// Opens the blocks in which a finger could feel something, and measures them.
+void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double block_m, const BrickNeeds& needs) {
+  constexpr int kHalf = kFinest / 2;
+  const auto center = [](const Block& block) {
+    return Node{kFinest * block.at[0] + kHalf, kFinest * block.at[1] + kHalf, kFinest * block.at[2] + kHalf};
+  };
+  for (const Block& block : blocks) {
+    distances.want(center(block));
+    for_each_node(block.at, kFinest, [&](const Node& node) { distances.want(node); });
+  }
+  distances.measure();
+  const double reach_m = kHalfBlockDiagonal * block_m;
+  for (Block& block : blocks) {
+    const double distance_m = distances.at(center(block));
+    block.open = distance_m < reach_m && distance_m > -reach_m - needs.probe_depth_m;
+    if (block.open) for_each_node(block.at, 1, [&](const Node& node) { distances.want(node); });
+  }
+  distances.measure();
+}
+
+/// Closes the open blocks for which their level is enough, and gives the others the next.
+void try_level(std::vector<Block>& blocks, const LatticeDistances& distances, const BrickNeeds& needs, int level) {
+  for (Block& block : blocks) {
+    if (!block.open) continue;
+    block.open = !is_fine_enough(distances, block.at, kFinest >> level, needs);
+    if (block.open) block.level = level + 1;
+  }
+}
+
+/// Sheets in place of finer cells, where they serve.
+class SheetMaker {
+ public:
+  SheetMaker(const LatticeDistances& distances, const geometry::MeshQuery& skin, const Pose& X_OQ, double block_m,
+             const BrickNeeds& needs)
+      : distances_(distances), skin_(skin), R_QO_(X_OQ.R.inverse()), block_m_(block_m), needs_(needs) {}
+
+  [[nodiscard]] std::optional<Sheets> make(const Block& block) const {
+    std::vector<SheetSample> samples;
+    for_each_node(block.at, 1, [&](const Node& node) {
+      SheetSample sample;
+      sample.distance_m = static_cast<double>(distances_.at(node));
+      if (sample.distance_m < -needs_.probe_depth_m - kBelow * block_m_) return;
+      for (std::size_t i = 0; i < 3; ++i)
+        sample.p_B[static_cast<Eigen::Index>(i)] = static_cast<double>(node[i] - kFinest * block.at[i]) / kFinest;
+      const LatticeDistances::Nearest& nearest = distances_.nearest(node);
+      sample.n_B = R_QO_ * skin_.triangle_normal(nearest.triangle);
+      sample.on_face = nearest.on_face;
+      sample.tolerance_m = tolerance_m(sample.distance_m, needs_);
+      samples.push_back(sample);
+    });
+    auto sheets = fit_sheets(samples, block_m_);
+    if (!sheets || !DistanceBrick::fits(*sheets, static_cast<float>(block_m_))) return std::nullopt;
+    return sheets;
+  }
+
+ private:
+  const LatticeDistances& distances_;
+  const geometry::MeshQuery& skin_;
+  Quat R_QO_;
+  double block_m_;
+  const BrickNeeds& needs_;
+};
+
+DistanceBrick::BlockSheets try_sheets(std::vector<Block>& blocks, const SheetMaker& maker) {
+  std::vector<std::optional<Sheets>> made(blocks.size());
+  for_each_index(blocks.size(), [&](std::size_t i) {
+    if (blocks[i].open) made[i] = maker.make(blocks[i]);
+  });
+  DistanceBrick::BlockSheets sheets;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (!made[i]) continue;
+    sheets.emplace(i, *made[i]);
+    blocks[i].level = DistanceBrick::kSheets;
+    blocks[i].open = false;
+  }
+  return sheets;
+}
+
+std::size_t bytes_of(std::span<const std::uint8_t> levels, const DistanceBrick::BlockSheets& sheets) {
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    DistanceBrick::Entry entry{levels[i]};
+    if (const auto found = sheets.find(i); found != sheets.end()) entry.three = found->second.count == 3;
+    const std::size_t nodes = entry.count();
+    bytes += (nodes + DistanceBrick::kAlign - 1) / DistanceBrick::kAlign * DistanceBrick::kAlign;
+  }
+  return bytes;
+}
+
+/// A brick in the making, and what it was made from.
+class BrickMaker {
+ public:
+  BrickMaker(const DistanceBrick::Grid& grid, const std::vector<Block>& blocks, DistanceBrick::BlockSheets sheets,
+             LatticeDistances& distances, std::size_t at_most)
+      : grid_(grid), blocks_(blocks), sheets_(std::move(sheets)), distances_(distances), at_most_(at_most) {
+    for (const Block& block : blocks)
+      levels_.push_back(static_cast<std::uint8_t>(block.level));
+  }
+
+  /// Nothing when it would be too large.
+  [[nodiscard]] std::optional<DistanceBrick> make() const {
+    const std::size_t bytes = bytes_of(levels_, sheets_);
+    if (bytes > DistanceBrick::kMaxValues || bytes + sizeof(std::uint32_t) * levels_.size() > at_most_)
+      return std::nullopt;
+    return DistanceBrick::from_distances(
+        grid_, levels_, [&](const Node& node) { return distances_.at(node); }, sheets_);
+  }
+
+  /// The block that answers a witness wrongly becomes as fine as can be; where it is, the corners of the cell give way, by as little as
+  /// will do. False when every witness is answered rightly, or too many are not.
+  [[nodiscard]] bool mend(const DistanceBrick& brick, const Pose& X_OQ, double stray_m,
+                          std::span<const Probe> witnesses) {
+    std::vector<Fault> faults;
+    for (const Probe& witness : witnesses) {
+      const Vec3f p_Q = (X_OQ.inverse() * witness.p_O).cast<float>();
+      const float told_m = brick.distance_m(p_Q);
+      if (told_m < 0 ? witness.depth_m < -stray_m : witness.depth_m > stray_m) faults.push_back({p_Q, told_m});
+    }
+    if (faults.empty() || static_cast<double>(faults.size()) > kHopeless * static_cast<double>(witnesses.size()))
+      return false;
+    std::map<Node, float> shifts_m;
+    for (const auto& [p_Q, told_m] : faults) {
+      const Vec3f place = brick.lattice_place(p_Q);
+      Node cell{};
+      for (std::size_t i = 0; i < 3; ++i)
+        cell[i] = std::min(static_cast<int>(place[static_cast<Eigen::Index>(i)]), kFinest * grid_.blocks[i] - 1);
+      if (!make_finest(block_of(cell))) give_way(cell, (told_m < 0 ? brick.step_m() : -brick.step_m()) - told_m, shifts_m);
+    }
+    distances_.measure();
+    for (const auto& [node, by_m] : shifts_m)
+      distances_.shift(node, by_m);
+    return true;
+  }
+
+ private:
+  struct Fault {
+    Vec3f p_Q;
+    float told_m;
+  };
+
+  [[nodiscard]] std::size_t block_of(const Node& cell) const {
+    std::size_t block = 0;
+    for (std::size_t i = 3; i-- > 0;)
+      block = block * static_cast<std::size_t>(grid_.blocks[i]) + static_cast<std::size_t>(cell[i] / kFinest);
+    return block;
+  }
+
+  /// False when it is already.
+  bool make_finest(std::size_t block) {
+    constexpr std::uint8_t kHighest = DistanceBrick::kLevels - 1;
+    if (levels_[block] == kHighest) return false;
+    levels_[block] = kHighest;
+    sheets_.erase(block);
+    for_each_node(blocks_[block].at, 1, [&](const Node& node) { distances_.want(node); });
+    return true;
+  }
+
+  /// Of several witnesses in a cell the one that asks the most.
+  static void give_way(const Node& cell, float by_m, std::map<Node, float>& shifts_m) {
+    for (int corner = 0; corner < 8; ++corner) {
+      float& shift_m = shifts_m[{cell[0] + corner % 2, cell[1] + corner / 2 % 2, cell[2] + corner / 4}];
+      if (std::abs(by_m) > std::abs(shift_m)) shift_m = by_m;
+    }
+  }
+
+  const DistanceBrick::Grid& grid_;
+  const std::vector<Block>& blocks_;
+  DistanceBrick::BlockSheets sheets_;
+  LatticeDistances& distances_;
+  std::size_t at_most_;
+  std::vector<std::uint8_t> levels_;
+};
+
+}  // namespace
+
+DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks) {
+  DistanceBrick::Grid grid;
+  const double block_m = 2 * kRoom * frame.half_Q.maxCoeff() / blocks;
+  Vec3 size;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double count = std::max(1.0, std::ceil(2 * kRoom * frame.half_Q[i] / block_m - 1e-6));
+    grid.blocks[static_cast<std::size_t>(i)] = static_cast<int>(count);
+    size[i] = count * block_m;
+  }
+  grid.block_m = static_cast<float>(block_m);
+  grid.origin_Q = (frame.center_Q - 0.5 * size).cast<float>();
+  return grid;
+}
+
+std::optional<DistanceBrick> build_brick(const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ,
+                                         const DistanceBrick::Grid& grid, const BrickNeeds& needs,
+                                         std::span<const Probe> witnesses, std::size_t at_most) {
+  LatticeDistances distances(solid, skin, X_OQ, grid);
+  std::vector<Block> blocks = list_blocks(grid.blocks);
+  open_blocks(blocks, distances, static_cast<double>(grid.block_m), needs);
+  try_level(blocks, distances, needs, 0);
+  auto sheets = try_sheets(blocks, SheetMaker(distances, skin, X_OQ, static_cast<double>(grid.block_m), needs));
+  try_level(blocks, distances, needs, 1);
+  BrickMaker maker(grid, blocks, std::move(sheets), distances, at_most);
+  std::optional<DistanceBrick> brick = maker.make();
+  for (int round = 0; brick && round < kMendings && maker.mend(*brick, X_OQ, needs.stray_m, witnesses); ++round)
+    brick = maker.make();
+  return brick;
+}
+
+}  // namespace mechane::collision

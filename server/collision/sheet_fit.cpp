@@ -1,0 +1,228 @@
+#include "server/collision/sheet_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+namespace mechane::collision {
+namespace {
+
+constexpr int kRounds = 6;
+constexpr std::ptrdiff_t kLeastSamples = 2;  // of a sheet
+constexpr double kSlope = 0.3;            // what a slope has to say beside a distance
+// How much a sheet's twists cost: where it has no samples it then goes on straight.
+constexpr double kTwist = 1e-3;
+constexpr double kRidge = 1e-9;
+constexpr double kSameFace = 0.97;  // cosine: faces that are less apart are one
+
+using Weights = Eigen::Matrix<double, 8, 1>;
+
+/// How much each corner has to say at a place.
+Weights corner_weights(const Vec3& p_B) {
+  Weights w;
+  for (int corner = 0; corner < 8; ++corner) {
+    w[corner] = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      w[corner] *= (corner >> axis & 1) != 0 ? p_B[axis] : 1 - p_B[axis];
+  }
+  return w;
+}
+
+/// 1, x, y, xy, z, xz, yz, xyz about the block's middle.
+Weights monomials(const Vec3& p_B) {
+  const Vec3 q = p_B.array() - 0.5;
+  Weights m;
+  m << 1, q.x(), q.y(), q.x() * q.y(), q.z(), q.x() * q.z(), q.y() * q.z(), q.prod();
+  return m;
+}
+
+std::array<double, 8> at_corners(const Weights& coefficients) {
+  std::array<double, 8> values{};
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p_B(corner & 1, corner >> 1 & 1, corner >> 2);
+    values[static_cast<std::size_t>(corner)] = coefficients.dot(monomials(p_B));
+  }
+  return values;
+}
+
+/// Of the monomials along an edge of the block.
+Weights slopes(const Vec3& p_B, Eigen::Index axis) {
+  const Vec3 q = p_B.array() - 0.5;
+  Weights m;
+  switch (axis) {
+    case 0:
+      m << 0, 1, 0, q.y(), 0, q.z(), 0, q.y() * q.z();
+      break;
+    case 1:
+      m << 0, 0, 1, q.x(), 0, 0, q.z(), q.x() * q.z();
+      break;
+    default:
+      m << 0, 0, 0, 0, 1, q.x(), q.y(), q.x() * q.y();
+  }
+  return m;
+}
+
+/// Least squares over the distances and slopes of one sheet's samples.
+std::array<double, 8> follow(std::span<const SheetSample> samples, double block_m, const std::vector<int>& sheet_of,
+                             int sheet) {
+  Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
+  Weights right = Weights::Zero();
+  double count = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (sheet_of[i] != sheet) continue;
+    const Weights m = monomials(samples[i].p_B);
+    normal += m * m.transpose();
+    right += samples[i].distance_m * m;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Weights slope = slopes(samples[i].p_B, axis);
+      normal += kSlope * slope * slope.transpose();
+      right += kSlope * block_m * samples[i].n_B[axis] * slope;
+    }
+    count += 1;
+  }
+  for (const int twist : {3, 5, 6, 7})
+    normal(twist, twist) += kTwist * count;
+  normal.diagonal().array() += kRidge * (count + 1);
+  return at_corners(normal.ldlt().solve(right));
+}
+
+double at(const std::array<double, 8>& sheet, const Weights& w) {
+  return Eigen::Map<const Weights>(sheet.data()).dot(w);
+}
+
+/// Up to three samples whose faces are unlike each other, the one next to the surface first.
+std::vector<const SheetSample*> unlike_faces(std::span<const SheetSample> samples) {
+  const SheetSample* first = nullptr;
+  for (const SheetSample& s : samples) {
+    if (s.on_face && (first == nullptr || std::abs(s.distance_m) < std::abs(first->distance_m))) first = &s;
+  }
+  std::vector<const SheetSample*> found;
+  if (first != nullptr) found.push_back(first);
+  while (!found.empty() && found.size() < 3) {
+    const SheetSample* farthest = nullptr;
+    double least = kSameFace;
+    for (const SheetSample& s : samples) {
+      if (!s.on_face) continue;
+      double likest = -1;
+      for (const SheetSample* other : found)
+        likest = std::max(likest, s.n_B.dot(other->n_B));
+      if (likest >= least) continue;
+      least = likest;
+      farthest = &s;
+    }
+    if (farthest == nullptr) break;
+    found.push_back(farthest);
+  }
+  return found;
+}
+
+/// Which of the faces each sample's nearest is the most like. -1: it lies on the edge between some.
+std::vector<int> split_by_normals(std::span<const SheetSample> samples, std::span<const SheetSample* const> faces) {
+  std::vector<int> sheet_of;
+  for (const SheetSample& s : samples) {
+    const auto nearest = std::max_element(faces.begin(), faces.end(), [&](const auto* l, const auto* r) {
+      return l->n_B.dot(s.n_B) < r->n_B.dot(s.n_B);
+    });
+    sheet_of.push_back(s.on_face ? static_cast<int>(nearest - faces.begin()) : -1);
+  }
+  return sheet_of;
+}
+
+bool have_enough(const std::vector<int>& sheet_of, int sheets) {
+  for (int sheet = 0; sheet < sheets; ++sheet) {
+    if (std::count(sheet_of.begin(), sheet_of.end(), sheet) < kLeastSamples) return false;
+  }
+  return true;
+}
+
+/// The sheet that holds at a place, and what it tells.
+struct Told {
+  int sheet = 0;
+  double distance_m = 0;
+};
+
+Told ask(const Sheets& sheets, const Vec3& p_B) {
+  const Weights w = corner_weights(p_B);
+  const auto of = [&](int sheet) { return Told{sheet, at(sheets.values_m[static_cast<std::size_t>(sheet)], w)}; };
+  const auto either = [](const Told& a, const Told& b, bool larger) {
+    return (b.distance_m > a.distance_m) == larger ? b : a;
+  };
+  const Told rest = sheets.count == 2 ? of(1) : either(of(1), of(2), sheets.inner_convex);
+  return either(of(0), rest, sheets.outer_convex);
+}
+
+bool tell(const Sheets& sheets, std::span<const SheetSample> samples) {
+  return std::all_of(samples.begin(), samples.end(), [&](const SheetSample& s) {
+    const double told = distance_of(sheets, s.p_B);
+    return std::abs(std::max(-told, 0.0) - std::max(-s.distance_m, 0.0)) <= s.tolerance_m;
+  });
+}
+
+/// `sheets` says how many there are and how they meet.
+std::optional<Sheets> fit(std::span<const SheetSample> samples, double block_m, std::vector<int> sheet_of,
+                          Sheets sheets) {
+  for (int round = 0; round < kRounds; ++round) {
+    if (!have_enough(sheet_of, sheets.count)) return std::nullopt;
+    for (int sheet = 0; sheet < sheets.count; ++sheet)
+      sheets.values_m[static_cast<std::size_t>(sheet)] = follow(samples, block_m, sheet_of, sheet);
+    if (tell(sheets, samples)) return sheets;
+    std::vector<int> next = sheet_of;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (samples[i].on_face) next[i] = ask(sheets, samples[i].p_B).sheet;
+    }
+    if (next == sheet_of) return std::nullopt;
+    sheet_of = std::move(next);
+  }
+  return std::nullopt;
+}
+
+std::optional<Sheets> fit_one(std::span<const SheetSample> samples, double block_m) {
+  const std::vector<int> sheet_of(samples.size(), 0);
+  Sheets sheets;
+  sheets.values_m[0] = sheets.values_m[1] = follow(samples, block_m, sheet_of, 0);
+  return tell(sheets, samples) ? std::optional(sheets) : std::nullopt;
+}
+
+std::optional<Sheets> fit_two(std::span<const SheetSample> samples, double block_m,
+                              std::span<const SheetSample* const> faces) {
+  const std::vector<int> sheet_of = split_by_normals(samples, faces.first(2));
+  for (const bool convex : {true, false}) {
+    if (auto sheets = fit(samples, block_m, sheet_of, {2, {}, convex, convex})) return sheets;
+  }
+  return std::nullopt;
+}
+
+/// All ways in which three faces can meet: in a tip, in a nook, or an edge that runs into a third face.
+std::optional<Sheets> fit_three(std::span<const SheetSample> samples, double block_m,
+                                std::array<const SheetSample*, 3> faces) {
+  for (int turn = 0; turn < 3; ++turn) {
+    const std::vector<int> sheet_of = split_by_normals(samples, faces);
+    for (const bool outer : {true, false}) {
+      for (const bool inner : {outer, !outer}) {
+        if (turn > 0 && inner == outer) continue;  // their order does not matter
+        if (auto sheets = fit(samples, block_m, sheet_of, {3, {}, outer, inner})) return sheets;
+      }
+    }
+    std::rotate(faces.begin(), faces.begin() + 1, faces.end());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+double distance_of(const Sheets& sheets, const Vec3& p_B) {
+  return ask(sheets, p_B).distance_m;
+}
+
+std::optional<Sheets> fit_sheets(std::span<const SheetSample> samples, double block_m) {
+  const std::vector<const SheetSample*> faces = unlike_faces(samples);
+  if (faces.empty()) return std::nullopt;
+  if (faces.size() == 1) return fit_one(samples, block_m);
+  if (auto sheets = fit_two(samples, block_m, faces)) return sheets;
+  if (faces.size() == 2) return std::nullopt;
+  return fit_three(samples, block_m, {faces[0], faces[1], faces[2]});
+}
+
+}  // namespace mechane::collision
