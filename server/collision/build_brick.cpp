@@ -20,6 +20,8 @@ constexpr double kHalfBlockDiagonal = 0.8661;  // of its edge
 constexpr double kOnFace = 0.9999;
 // Of a block's edge, how far below what a finger reaches a sheet is still told by its samples.
 constexpr double kBelow = 0.1;
+// Of a block's edge: how much farther away than it is the surface may be told to be. Culling has to make up for it.
+constexpr double kExcess = 0.1;
 constexpr int kMendings = 4;          // rounds, at most
 constexpr double kHopeless = 0.01;    // of the witnesses
 // The box is wider than what it holds by this share on the whole: the surface is nowhere at its very edge.
@@ -141,13 +143,15 @@ double tolerance_m(double truth_m, const BrickNeeds& needs) {
 }
 
 /// Whether a block whose nodes lie `stride` apart tells the depth at those of the finest lattice well enough.
-bool is_fine_enough(const LatticeDistances& distances, const Node& block, int stride, const BrickNeeds& needs) {
+bool is_fine_enough(const LatticeDistances& distances, const Node& block, int stride, double block_m,
+                    const BrickNeeds& needs) {
   bool good = true;
   for_each_node(block, 1, [&](const Node& node) {
     const double truth = distances.at(node);
     if (!good) return;
     const double told = interpolated(distances, block, stride, node);
-    good = std::abs(std::max(-told, 0.0) - std::max(-truth, 0.0)) <= tolerance_m(truth, needs);
+    good = std::abs(std::max(-told, 0.0) - std::max(-truth, 0.0)) <= tolerance_m(truth, needs) &&
+           (truth < 0 || told - truth <= kExcess * block_m);
   });
   return good;
 }
@@ -167,7 +171,7 @@ std::vector<Block> list_blocks(const Node& blocks) {
   return list;
 }
 
-/// Opens the blocks in which a finger could feel something, and measures them.
+/// Opens the blocks in which a finger could feel something, and those that would tell too much of the air; and measures them.
 void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double block_m, const BrickNeeds& needs) {
   constexpr int kHalf = kFinest / 2;
   const auto center = [](const Block& block) {
@@ -181,17 +185,20 @@ void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double
   const double reach_m = kHalfBlockDiagonal * block_m;
   for (Block& block : blocks) {
     const double distance_m = distances.at(center(block));
-    block.open = distance_m < reach_m && distance_m > -reach_m - needs.probe_depth_m;
+    const bool is_near = distance_m < reach_m && distance_m > -reach_m - needs.probe_depth_m;
+    const double told_m = interpolated(distances, block.at, kFinest, center(block));
+    block.open = is_near || (distance_m > 0 && told_m - distance_m > 0.5 * kExcess * block_m);
     if (block.open) for_each_node(block.at, 1, [&](const Node& node) { distances.want(node); });
   }
   distances.measure();
 }
 
 /// Closes the open blocks for which their level is enough, and gives the others the next.
-void try_level(std::vector<Block>& blocks, const LatticeDistances& distances, const BrickNeeds& needs, int level) {
+void try_level(std::vector<Block>& blocks, const LatticeDistances& distances, double block_m, const BrickNeeds& needs,
+               int level) {
   for (Block& block : blocks) {
     if (!block.open) continue;
-    block.open = !is_fine_enough(distances, block.at, kFinest >> level, needs);
+    block.open = !is_fine_enough(distances, block.at, kFinest >> level, block_m, needs);
     if (block.open) block.level = level + 1;
   }
 }
@@ -215,6 +222,7 @@ class SheetMaker {
       sample.n_B = R_QO_ * skin_.triangle_normal(nearest.triangle);
       sample.on_face = nearest.on_face;
       sample.tolerance_m = tolerance_m(sample.distance_m, needs_);
+      sample.excess_m = kExcess * block_m_;
       samples.push_back(sample);
     });
     auto sheets = fit_sheets(samples, block_m_);
@@ -359,12 +367,13 @@ DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks) {
 std::optional<DistanceBrick> build_brick(const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ,
                                          const DistanceBrick::Grid& grid, const BrickNeeds& needs,
                                          std::span<const Probe> witnesses, std::size_t at_most) {
+  const auto block_m = static_cast<double>(grid.block_m);
   LatticeDistances distances(solid, skin, X_OQ, grid);
   std::vector<Block> blocks = list_blocks(grid.blocks);
-  open_blocks(blocks, distances, static_cast<double>(grid.block_m), needs);
-  try_level(blocks, distances, needs, 0);
-  auto sheets = try_sheets(blocks, SheetMaker(distances, skin, X_OQ, static_cast<double>(grid.block_m), needs));
-  try_level(blocks, distances, needs, 1);
+  open_blocks(blocks, distances, block_m, needs);
+  try_level(blocks, distances, block_m, needs, 0);
+  auto sheets = try_sheets(blocks, SheetMaker(distances, skin, X_OQ, block_m, needs));
+  try_level(blocks, distances, block_m, needs, 1);
   BrickMaker maker(grid, blocks, std::move(sheets), distances, at_most);
   std::optional<DistanceBrick> brick = maker.make();
   for (int round = 0; brick && round < kMendings && maker.mend(*brick, X_OQ, needs.stray_m, witnesses); ++round)

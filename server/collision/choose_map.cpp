@@ -17,7 +17,7 @@ namespace {
 // Blocks of a brick along its longest edge.
 constexpr std::array<int, 11> kBrickBlocks = {2, 3, 4, 6, 8, 11, 16, 22, 32, 45, 64};
 // Of the lesser bound: what a block's level may cost, so that what is asked between its nodes stays within the budget too.
-constexpr double kBlockTolerance = 0.6;
+constexpr double kBlockTolerance = 0.5;
 // Of a depth: by how much it may err deep down, as long as the budget allows. In a concave corner sheets tell less than there is.
 constexpr double kDepthShare = 0.2;
 // More missed points than this mean that no centre sees the part whole: a finer radial map would not either.

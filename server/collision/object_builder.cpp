@@ -32,6 +32,7 @@ constexpr std::size_t kMostWitnesses = 120'000;
 constexpr double kWitnessDepth = 2.5;  // times what must not be missed
 constexpr std::size_t kChunk = 1000;   // witnesses
 constexpr double kMostGrowth = 2.5;    // of a map's bytes in one round: a thin layer under a crest is not worth more
+constexpr std::size_t kWorthOfWhole = 2;         // a brick may take as many times the bytes of the parts that it replaces
 constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
 constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is one of a 99th percentile
 
@@ -399,7 +400,7 @@ std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> pa
   candidates.at_most = 0;
   for (const Part& part : parts)
     candidates.at_most += bytes_of(part);
-  candidates.at_most += candidates.at_most / 2;
+  candidates.at_most *= kWorthOfWhole;
   MapChoice choice = choose_map(ground.solid, ground.skin, 0, frame_around(whole.bound_points_O, fit->X_OQ), probes,
                                 ground.budget, candidates);
   if (!choice.met) return std::nullopt;

@@ -156,6 +156,7 @@ Told ask(const Sheets& sheets, const Vec3& p_B) {
 bool tell(const Sheets& sheets, std::span<const SheetSample> samples) {
   return std::all_of(samples.begin(), samples.end(), [&](const SheetSample& s) {
     const double told = distance_of(sheets, s.p_B);
+    if (s.distance_m > 0 && told - s.distance_m > s.excess_m) return false;
     return std::abs(std::max(-told, 0.0) - std::max(-s.distance_m, 0.0)) <= s.tolerance_m;
   });
 }

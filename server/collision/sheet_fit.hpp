@@ -16,6 +16,7 @@ struct SheetSample {
   Vec3 n_B = Vec3::Zero();   ///< unit, of the nearest face
   bool on_face = true;       ///< the nearest point lies in the face, and not on its edge
   double tolerance_m = 0;    ///< by how much the depth may err there; infinite where no finger gets
+  double excess_m = 0;       ///< outside: how much farther it may be told to be, which culling has to make up for
 };
 
 /// Distances to two or three faces, each trilinear over the block, by their values at its corners: x fastest. Together they are
