@@ -90,7 +90,8 @@ Expected<Coupling> read_rope(const Build& build) {
   if (p.numbers("points").size() != 3 * bodies.size())
     return fail(fmt::format("points has {} numbers for {} bodies", p.numbers("points").size(), bodies.size()), where,
                 "write x y z for each of 'bodies', in the body's frame");
-  for (const auto& [name, each] : {std::pair{"radii", 1}, std::pair{"senses", 1}, std::pair{"efficiencies", 1}, std::pair{"axes", 3}}) {
+  for (const auto& [name, each] :
+       {std::pair{"radii", 1}, std::pair{"senses", 1}, std::pair{"efficiencies", 1}, std::pair{"axes", 3}}) {
     if (auto good = check_count(build, name, static_cast<std::size_t>(each), bodies.size()); !good)
       return tl::unexpected(good.error());
   }

@@ -158,7 +158,8 @@ void CouplingRows::add_intermittent(const Coupling& gear) noexcept {
   const double over = std::abs(way) > kLeast ? way : kLeast;
   const double ratio = (intermittent_position(gear, driver.position + over) - now) / over;
   if (ratio == 0 && !gear.lock) return;
-  const double error = now - axes_[j2].now.position - gear.offset;
+  // A wheel that nothing holds may stand anywhere when the tooth comes: it is taken along from there.
+  const double error = gear.lock ? now - axes_[j2].now.position - gear.offset : 0;
   const std::size_t row = train.add(-correction(error, dt_s_, kMaxAngularCorrection));
   if (ratio != 0) add_axis(row, j1, ratio);
   add_axis(row, j2, -1);

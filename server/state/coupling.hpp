@@ -43,8 +43,9 @@ struct Coupling {
   double step = 0;    ///< intermittent: rad of joint2 a turn of joint1
   double window = 0;  ///< intermittent: rad of joint1 in which it drives
   double phase = 0;   ///< intermittent: rad of joint1 in the window's middle
-  bool lock = true;   ///< intermittent: joint2 is held outside of the window
-  double sign = 1;    ///< stop
+  bool lock =
+      true;  ///< intermittent: joint2 is held outside of the window; else it is taken along from wherever it stands
+  double sign = 1;  ///< stop
   std::array<RopeNode, kMaxRopeNodes> nodes{};
   std::uint32_t node_count = 0;
   bool drum = false;  ///< the first node is a drum that turns with joint1

@@ -109,8 +109,8 @@ TEST(Ball, StaysInItsCone) {
   state::WorldDescription world;
   world.bodies = {fixed_body("FRAME"), body("BOB", 1, {0.002, 0.003, 0.004})};
   world.bodies[1].use_gravity = true;
-  world.bodies[1].X_WB.p = Vec3(0, 0.3, 0);
   world.bodies[1].X_WB.R = quat_from_rotation_vector(Vec3(0.02, 0, 0.05));
+  world.bodies[1].X_WB.p = world.bodies[1].X_WB.rotate(Vec3(0, 0.3, 0));
   world.joints = {joint(JointKind::ball, {Vec3(0, 0, 0), Quat::Identity()}, {Vec3(0, -0.3, 0), Quat::Identity()})};
   Scene scene(world);
   scene.hinge().cone_axis_J = Vec3::UnitY();
