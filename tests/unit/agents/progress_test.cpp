@@ -230,7 +230,8 @@ TEST(AgentSet, RefusesStepsThatPointNowhere) {
   world.agents[0].type = "geometry.string";
   EXPECT_THAT(
       error_of(world),
-      HasSubstr("line 10, geometry.string HINGE: there is no agent of type 'geometry.string'; use one of: geometry.hinge"));
+      HasSubstr(
+          "line 10, geometry.string HINGE: there is no agent of type 'geometry.string'; use one of: geometry.hinge"));
 }
 
 TEST(AgentSet, ATickAllocatesNothing) {
