@@ -20,6 +20,9 @@ class Agent {
 
   /// One tick, whether the agent is switched on or off. Allocates nothing.
   virtual void run(state::WorldState& state, bool enabled, double dt_s) const noexcept = 0;
+
+  /// Whether it switches other agents: such run first in a tick, so that what they say holds in it.
+  [[nodiscard]] virtual bool switches_others() const noexcept { return false; }
 };
 
 /// What a maker gets. Parameters are checked against the type already; the references live until the set is made, the description
@@ -35,6 +38,15 @@ struct Build {
   [[nodiscard]] std::size_t slot(const std::string& value, double initial = 0) const {
     return layout.add(component.name, value, initial);
   }
+  /// A coupling of the component's: its index into WorldState::couplings.
+  [[nodiscard]] std::size_t coupling(const state::Coupling& coupling) const {
+    return layout.add_coupling(component.name, coupling);
+  }
+  /// A real force for one that is felt: couplings bear felt forces, scenarios speak of real ones.
+  [[nodiscard]] double real_per_felt() const { return description.effort_scale > 0 ? 1 / description.effort_scale : 1; }
+  [[nodiscard]] const state::ComponentDescription& agent(AgentId other) const {
+    return description.agents[other.index()];
+  }
 };
 
 struct AgentKind {
@@ -48,6 +60,24 @@ struct AgentKind {
 [[nodiscard]] const AgentKind& grasp_kind();
 [[nodiscard]] const AgentKind& placed_kind();
 [[nodiscard]] const AgentKind& turned_kind();
+[[nodiscard]] const AgentKind& slider_kind();
+[[nodiscard]] const AgentKind& ball_kind();
+[[nodiscard]] const AgentKind& fixed_kind();
+[[nodiscard]] const AgentKind& screw_kind();
+[[nodiscard]] const AgentKind& gear_kind();
+[[nodiscard]] const AgentKind& worm_kind();
+[[nodiscard]] const AgentKind& intermittent_gear_kind();
+[[nodiscard]] const AgentKind& ratchet_kind();
+[[nodiscard]] const AgentKind& rope_kind();
+[[nodiscard]] const AgentKind& breakable_kind();
+[[nodiscard]] const AgentKind& pulled_kind();
+[[nodiscard]] const AgentKind& pushed_kind();
+[[nodiscard]] const AgentKind& fired_kind();
+[[nodiscard]] const AgentKind& lit_kind();
+[[nodiscard]] const AgentKind& assembled_kind();
+[[nodiscard]] const AgentKind& dwell_kind();
+[[nodiscard]] const AgentKind& point_kind();
+[[nodiscard]] const AgentKind& idle_kind();
 
 /// Null where no type has this name.
 [[nodiscard]] const AgentKind* find_kind(std::string_view type);

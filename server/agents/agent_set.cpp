@@ -12,6 +12,8 @@ namespace mechane::agents {
 
 struct AgentSet::Impl {
   std::vector<std::unique_ptr<Agent>> agents;
+  std::vector<std::size_t> order;  // those that switch others first, then as described
+  std::vector<state::Coupling> couplings;
   Touches touches;
   ProgressRules progress;
   Quantities quantities;
@@ -54,6 +56,12 @@ Expected<std::unique_ptr<AgentSet>> AgentSet::create(const state::WorldDescripti
   for (auto& agent : impl->agents) {
     if (auto linked = agent->link(layout); !linked) return tl::unexpected(linked.error());
   }
+  impl->couplings = layout.couplings();
+  for (const bool first : {true, false}) {
+    for (std::size_t i = 0; i < impl->agents.size(); ++i) {
+      if (impl->agents[i]->switches_others() == first) impl->order.push_back(i);
+    }
+  }
   impl->touches = Touches(description, layout);
   auto progress = ProgressRules::create(description, layout);
   if (!progress) return tl::unexpected(progress.error());
@@ -66,6 +74,7 @@ Expected<std::unique_ptr<AgentSet>> AgentSet::create(const state::WorldDescripti
 }
 
 void AgentSet::start(state::WorldState& state) const noexcept {
+  state.couplings = impl_->couplings;
   impl_->progress.start(state);
   impl_->quantities.update(state);
 }
@@ -73,7 +82,12 @@ void AgentSet::start(state::WorldState& state) const noexcept {
 void AgentSet::run(state::WorldState& state, std::span<const state::Command> commands, double dt_s) const noexcept {
   for (const state::Command& command : commands)
     impl_->progress.run_command(state, command);
-  for (std::size_t i = 0; i < impl_->agents.size(); ++i)
+  // An activity that has just begun knows nothing of what the couplings bore before it.
+  if (!commands.empty() && state.progress.activity_tick == state.tick) {
+    for (state::Coupling& coupling : state.couplings)
+      coupling.forget_forces();
+  }
+  for (const std::size_t i : impl_->order)
     impl_->agents[i]->run(state, state.agent_enabled[i] != 0, dt_s);
   impl_->touches.run(state, dt_s);
   impl_->quantities.update(state);

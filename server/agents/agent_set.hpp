@@ -34,10 +34,11 @@ class AgentSet {
   AgentSet(const AgentSet&) = delete;
   AgentSet& operator=(const AgentSet&) = delete;
 
-  /// Puts a new state into the first activity's first step. `state.memory` must hold layout.initial().
+  /// Puts a new state into the first activity's first step, and gives it its couplings. `state.memory` must hold layout.initial().
+  /// Not in the tick; before DynamicsWorld::create.
   void start(state::WorldState& state) const noexcept;
 
-  /// One tick: commands, agents in the order of the description, `touched` events, quantities, triggers. Reads contacts, samples and
+  /// One tick: commands, agents that switch others (breakable, assembled, fired), the other agents in the order of the description, `touched` events, quantities, triggers. Reads contacts, samples and
   /// poses; writes grasps, joints, body flags, progress, quantities, events. Allocates nothing. Any thread, one at a time a state.
   void run(state::WorldState& state, std::span<const state::Command> commands, double dt_s) const noexcept;
 

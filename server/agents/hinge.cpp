@@ -1,5 +1,5 @@
 // geometry.hinge: a joint's switch, friction and limits.
-#include "server/agents/agent.hpp"
+#include "server/agents/joint_switch.hpp"
 
 namespace mechane::agents {
 namespace {
@@ -55,13 +55,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
                 "give both, or none for a hinge that turns on and on");
   if (p.given("minAngle") && p.number("minAngle") > p.number("maxAngle"))
     return fail("minAngle is above maxAngle", where, "swap them");
-  for (const state::ComponentDescription& other : build.description.agents) {
-    const auto it = other.parameters.find("joint");
-    if (&other != &build.component && other.type == build.component.type && it != other.parameters.end() &&
-        it->second == build.component.parameters.at("joint"))
-      return fail("the agent " + other.name + " switches the same joint", where,
-                  "keep one geometry.hinge for each joint");
-  }
+  if (auto only = check_only_switch(build); !only) return tl::unexpected(only.error());
   return std::make_unique<Hinge>(build);
 }
 

@@ -7,8 +7,13 @@
 namespace mechane::agents {
 namespace {
 
-std::array<const AgentKind*, 5> kinds() {
-  return {&hinge_kind(), &snap_kind(), &grasp_kind(), &placed_kind(), &turned_kind()};
+std::array<const AgentKind*, 23> kinds() {
+  return {&hinge_kind(),   &slider_kind(), &ball_kind(),   &fixed_kind(),
+          &screw_kind(),   &gear_kind(),   &worm_kind(),   &intermittent_gear_kind(),
+          &ratchet_kind(), &rope_kind(),   &snap_kind(),   &breakable_kind(),
+          &grasp_kind(),   &placed_kind(), &turned_kind(), &pulled_kind(),
+          &pushed_kind(),  &fired_kind(),  &lit_kind(),    &assembled_kind(),
+          &dwell_kind(),   &point_kind(),  &idle_kind()};
 }
 
 }  // namespace

@@ -1,34 +1,12 @@
 // geometry.snap: a body that comes close to its place goes there and stays.
 #include <algorithm>
 
-#include "server/agents/agent.hpp"
+#include "server/agents/pose_slots.hpp"
 
 namespace mechane::agents {
 namespace {
 
 using state::ParameterKind;
-
-/// A pose in seven slots of memory.
-class PoseSlots {
- public:
-  PoseSlots(const Build& build, const std::string& name) {
-    for (std::size_t i = 0; i < at_.size(); ++i)
-      at_[i] = build.slot(name + "." + std::to_string(i), i == 6 ? 1 : 0);
-  }
-  [[nodiscard]] Pose read(const state::WorldState& state) const noexcept {
-    const auto& m = state.memory;
-    return {Vec3(m[at_[0]], m[at_[1]], m[at_[2]]), Quat(m[at_[6]], m[at_[3]], m[at_[4]], m[at_[5]])};
-  }
-  void write(state::WorldState& state, const Pose& X) const noexcept {
-    for (int i = 0; i < 3; ++i)
-      state.memory[at_[static_cast<std::size_t>(i)]] = X.p[i];
-    for (int i = 0; i < 4; ++i)
-      state.memory[at_[3 + static_cast<std::size_t>(i)]] = X.R.coeffs()[i];
-  }
-
- private:
-  std::array<std::size_t, 7> at_{};
-};
 
 class Snap final : public Agent {
  public:
@@ -40,13 +18,21 @@ class Snap final : public Agent {
         reach_m_(build.parameters.numbers("tolerance")[0]),
         reach_rad_(build.parameters.numbers("tolerance")[1]),
         duration_s_(build.parameters.number("duration")),
+        tied_(build.parameters.boolean("tied")),
         placed_(build.slot("placed")),
         distance_(build.slot("distance")),
         angle_(build.slot("angle")),
         moving_(build.slot("moving")),
         time_s_(build.slot("time")),
         X_IFrom_(build, "from"),
-        X_ITo_(build, "to") {}
+        X_ITo_(build, "to") {
+    if (!tied_) return;
+    state::Coupling tie;
+    tie.kind = state::CouplingKind::fixed;
+    tie.body1 = into_;
+    tie.body2 = object_;
+    tie_ = build.coupling(tie);
+  }
 
   void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
     measure(state);
@@ -57,6 +43,10 @@ class Snap final : public Agent {
     } else if (enabled && within(state, 1)) {
       begin(state);
     }
+    if (!tied_) return;
+    state::Coupling& tie = state.couplings[tie_];
+    tie.enabled = state.memory[placed_] != 0;
+    tie.X_B1B2 = X_ITo_.read(state);
   }
 
  private:
@@ -104,7 +94,7 @@ class Snap final : public Agent {
     state::BodyState& body = state[object_];
     body.X_WB = X_WI(state) * (t < 1 ? X_IB : to);
     body.V_WB = {};
-    body.movable = false;
+    body.movable = t >= 1 && tied_;
     if (t < 1) return;
     state.memory[moving_] = 0;
     state.memory[placed_] = 1;
@@ -117,6 +107,8 @@ class Snap final : public Agent {
   double reach_m_;
   double reach_rad_;
   double duration_s_;
+  bool tied_;
+  std::size_t tie_ = 0;
   std::size_t placed_;
   std::size_t distance_;
   std::size_t angle_;
@@ -184,6 +176,9 @@ constexpr state::ParameterType kParameters[] = {
      .default_value = 0.2,
      .min = 0.001,
      .max = 10},
+    {.name = "tied",
+     .kind = ParameterKind::boolean,
+     .summary = "held in its place by a tie, which bears forces and can break, instead of standing still"},
 };
 constexpr state::ValueType kValues[] = {
     {"placed", "", "1 once the object is in its place"},

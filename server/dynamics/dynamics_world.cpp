@@ -10,6 +10,7 @@
 
 #include "server/base/assert.hpp"
 #include "server/dynamics/body_contacts.hpp"
+#include "server/dynamics/coupling_rows.hpp"
 #include "server/dynamics/grasp_rows.hpp"
 #include "server/dynamics/joint_rows.hpp"
 
@@ -65,6 +66,48 @@ class RowConstraint final : public btTypedConstraint {
     for (int k = 0; k < 3; ++k)
       to[k] = v[k];
   }
+};
+
+/// Bullet's solver, with a train of couplings swept after each of its own sweeps. The first of the bodies that it is given are those
+/// of the train, in their order.
+class Solver final : public btSequentialImpulseConstraintSolver {
+ public:
+  Train* train = nullptr;  // null: none
+
+  void reserve(std::size_t bodies) {
+    start_.resize(bodies);
+    delta_.resize(bodies);
+  }
+
+ protected:
+  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
+                                btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** constraints,
+                                int constraint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override {
+    const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
+        iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, draw);
+    if (train == nullptr || train->size() == 0) return residual;
+    for (const std::size_t i : train->bodies()) {
+      const btSolverBody& body = solver_body(bodies[i]);
+      delta_[i] = {from_bt(body.m_deltaLinearVelocity), from_bt(body.m_deltaAngularVelocity)};
+      if (iteration != 0) continue;
+      start_[i] = {from_bt(body.m_linearVelocity + body.m_externalForceImpulse),
+                   from_bt(body.m_angularVelocity + body.m_externalTorqueImpulse)};
+    }
+    if (iteration == 0) train->begin(start_);
+    const double change = train->sweep(delta_);
+    for (const std::size_t i : train->bodies()) {
+      btSolverBody& body = solver_body(bodies[i]);
+      body.m_deltaLinearVelocity = to_bt(delta_[i].v);
+      body.m_deltaAngularVelocity = to_bt(delta_[i].w);
+    }
+    return std::max(residual, change);
+  }
+
+ private:
+  btSolverBody& solver_body(const btCollisionObject* body) { return m_tmpSolverBodyPool[body->getCompanionId()]; }
+
+  std::vector<Twist> start_;
+  std::vector<Twist> delta_;
 };
 
 /// A body of ours and Bullet's: same thing, other frame. C is the centre of mass with the principal axes.
@@ -144,6 +187,7 @@ struct DynamicsWorld::Impl {
     Body* body1;
     Body* body2;
     std::unique_ptr<RowConstraint> constraint;
+    std::unique_ptr<btJointFeedback> feedback;  // null: nobody asks what it bears
   };
 
   Vec3 gravity_W;
@@ -153,12 +197,16 @@ struct DynamicsWorld::Impl {
   std::array<Hand, state::kMaxUsers> hands;
   std::vector<std::unique_ptr<RowConstraint>> grips;  // by user, then body
   std::unique_ptr<BodyContacts> contacts;             // null: no two bodies may ever meet
-  btSequentialImpulseConstraintSolver solver;
+  std::unique_ptr<CouplingRows> couplings;            // null: the world has none
+  std::vector<JointAxis> axes;                        // by joint; empty without couplings
+  std::vector<Frame> frames;                          // by body, at the start of this step; empty without couplings
+  Solver solver;
   btContactSolverInfo solver_info;
   std::vector<btCollisionObject*> solver_bodies;
   std::vector<btTypedConstraint*> active;  // the constraints of this step, in a fixed order; capacity for all
 
   void add_joint(const state::JointDescription& from);
+  Expected<void> add_couplings(const state::WorldState& state);
   void add_grips();
   void warm_up(double dt_s);
   void load_bodies(const state::WorldState& state);
@@ -167,10 +215,12 @@ struct DynamicsWorld::Impl {
   static double most_viscous(const Joint& joint, const JointMeasure& now, double dt_s);
   void gather_joints(state::WorldState& state, double dt_s);
   void gather_grasps(state::WorldState& state, double dt_s);
+  void gather_couplings(const state::WorldState& state, double dt_s);
   void integrate(double dt_s);
   void store_bodies(state::WorldState& state);
   void store_joints(state::WorldState& state);
   void store_grasps(state::WorldState& state);
+  void store_couplings(state::WorldState& state, double dt_s);
   void solve(std::span<btPersistentManifold*> manifolds, double dt_s);
 
   RowConstraint& grip(std::size_t user, std::size_t body) { return *grips[user * bodies.size() + body]; }
@@ -203,6 +253,7 @@ Expected<std::unique_ptr<DynamicsWorld>> DynamicsWorld::create(const state::Worl
   if (!contacts) return tl::unexpected(contacts.error());
   impl->contacts = std::move(*contacts);
   impl->add_grips();
+  if (const auto good = impl->add_couplings(state); !good) return tl::unexpected(good.error());
   impl->warm_up(1e-3);
   return std::unique_ptr<DynamicsWorld>(new DynamicsWorld(std::move(impl)));
 }
@@ -210,7 +261,30 @@ Expected<std::unique_ptr<DynamicsWorld>> DynamicsWorld::create(const state::Worl
 void DynamicsWorld::Impl::add_joint(const state::JointDescription& from) {
   Body* body1 = from.body1 ? bodies[from.body1.index()].get() : ground.get();
   Body* body2 = bodies[from.body2.index()].get();
-  joints.push_back({from, body1, body2, std::make_unique<RowConstraint>(body1->bullet, body2->bullet)});
+  joints.push_back({from, body1, body2, std::make_unique<RowConstraint>(body1->bullet, body2->bullet), nullptr});
+}
+
+Expected<void> DynamicsWorld::Impl::add_couplings(const state::WorldState& state) {
+  if (state.couplings.empty()) return {};
+  auto made = CouplingRows::create(state);
+  if (!made) return tl::unexpected(made.error());
+  couplings = std::make_unique<CouplingRows>(std::move(*made));
+  frames.resize(bodies.size());
+  axes.resize(joints.size());
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const state::JointDescription& joint = joints[i].description;
+    axes[i].body1 = joint.body1 ? joint.body1.index() : kGround;
+    axes[i].body2 = joint.body2.index();
+  }
+  for (const state::Coupling& coupling : state.couplings) {
+    if (coupling.kind != state::CouplingKind::watch) continue;
+    Joint& joint = joints[coupling.joint1.index()];
+    if (!joint.feedback) joint.feedback = std::make_unique<btJointFeedback>();
+    joint.constraint->setJointFeedback(joint.feedback.get());
+  }
+  solver.train = &couplings->train;
+  solver.reserve(bodies.size());
+  return {};
 }
 
 void DynamicsWorld::Impl::add_grips() {
@@ -251,17 +325,20 @@ void DynamicsWorld::Impl::warm_up(double dt_s) {
 
 void DynamicsWorld::step(state::WorldState& state, double dt_s) noexcept {
   MECHANE_ASSERT(dt_s > 0 && state.bodies.size() == impl_->bodies.size() &&
-                 state.joints.size() == impl_->joints.size());
+                 state.joints.size() == impl_->joints.size() &&
+                 (impl_->couplings != nullptr || state.couplings.empty()));
   impl_->load_bodies(state);
   impl_->apply_forces(state, dt_s);
   impl_->active.clear();
   impl_->gather_joints(state, dt_s);
   impl_->gather_grasps(state, dt_s);
+  if (impl_->couplings) impl_->gather_couplings(state, dt_s);
   impl_->solve(impl_->contacts ? impl_->contacts->find(state, dt_s) : std::span<btPersistentManifold*>(), dt_s);
   impl_->integrate(dt_s);
   impl_->store_bodies(state);
   impl_->store_joints(state);
   impl_->store_grasps(state);
+  if (impl_->couplings) impl_->store_couplings(state, dt_s);
 }
 
 void DynamicsWorld::Impl::load_bodies(const state::WorldState& state) {
@@ -330,12 +407,20 @@ void DynamicsWorld::Impl::gather_joints(state::WorldState& state, double dt_s) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     Joint& joint = joints[i];
     state::JointState& at = state.joints[i];
+    JointAxis* axis = couplings ? &axes[i] : nullptr;
+    if (axis != nullptr) axis->on = false;
     if (at.enabled) {
       const JointMeasure now = measure_joint(joint.description, joint.body1->frame, joint.body2->frame, at.position);
       const double drag = -std::min(at.viscous, most_viscous(joint, now, dt_s)) * now.velocity;
       apply_axis_force(joint, now, at.load + drag);
-      joint_rows(joint.description, at, joint.body1->frame, joint.body2->frame, dt_s, joint.constraint->rows);
+      joint_rows(joint.description, at, joint.body1->frame, joint.body2->frame, dt_s, joint.constraint->rows,
+                 axis != nullptr ? &axis->row : nullptr);
       if (joint.constraint->rows.count > 0) active.push_back(joint.constraint.get());
+      if (axis != nullptr) {
+        axis->on = joint.constraint->rows.count > 0 && joint.description.kind != state::JointKind::ball;
+        axis->now = now;
+        axis->raw = joint_axis_row(joint.description, joint.body1->frame, joint.body2->frame, now);
+      }
     }
     at.load = 0;
     at.resistance = 0;
@@ -363,6 +448,12 @@ void DynamicsWorld::Impl::gather_grasps(state::WorldState& state, double dt_s) {
     proxy.setAngularVelocity(to_bt(step.V_WG.w));
     active.push_back(&constraint);
   }
+}
+
+void DynamicsWorld::Impl::gather_couplings(const state::WorldState& state, double dt_s) {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    frames[i] = bodies[i]->frame;
+  couplings->gather(state, frames, axes, dt_s);
 }
 
 void DynamicsWorld::Impl::solve(std::span<btPersistentManifold*> manifolds, double dt_s) {
@@ -425,6 +516,23 @@ void DynamicsWorld::Impl::store_grasps(state::WorldState& state) {
     const bool solved =
         state.users[u].present && grasp.active && grasp.body && grip(u, grasp.body.index()).rows.count > 0;
     if (solved) grasp.reaction_W = {from_bt(feedback.m_appliedForceBodyB), from_bt(feedback.m_appliedTorqueBodyB)};
+  }
+}
+
+/// What a joint bears is what its own rows gave to body2, and what couplings along its axis left to its locks.
+void DynamicsWorld::Impl::store_couplings(state::WorldState& state, double dt_s) {
+  couplings->store(state, axes, dt_s);
+  for (state::Coupling& watch : state.couplings) {
+    if (watch.kind != state::CouplingKind::watch || !watch.joint1 || !state[watch.joint1].enabled) continue;
+    const std::size_t i = watch.joint1.index();
+    if (joints[i].constraint->rows.count == 0) continue;
+    const JointAxis& axis = axes[i];
+    const double extra = axis.on ? axis.extra_impulse / dt_s : 0;
+    const Vec3 f = from_bt(joints[i].feedback->m_appliedForceBodyA) + extra * (axis.row.n_W - axis.raw.n_W);
+    const Vec3 t = from_bt(joints[i].feedback->m_appliedTorqueBodyA) + extra * (axis.row.a2_W - axis.raw.a2_W);
+    const Vec3 arm = axis.now.p_WJ - frames[joints[i].description.body2.index()].p_WCm;
+    watch.force_n = f.norm();
+    watch.torque_nm = (t - arm.cross(f)).norm();
   }
 }
 

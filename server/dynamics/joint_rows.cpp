@@ -6,17 +6,9 @@
 namespace mechane::dynamics {
 namespace {
 
-constexpr double kErrorShare = 0.2;            // of a position error, taken back in a step
-constexpr double kMaxLinearCorrection = 1.0;   // m/s
-constexpr double kMaxAngularCorrection = 5.0;  // rad/s
-constexpr double kLimitHorizon_s = 0.05;       // a limit gets its row when the joint could reach it within this time
+constexpr double kLimitHorizon_s = 0.05;  // a limit gets its row when the joint could reach it within this time
 
 using state::JointKind;
-
-/// Velocity that takes back `error` (m or rad).
-double correction(double error, double dt_s, double max_speed) {
-  return std::clamp(kErrorShare * error / dt_s, -max_speed, max_speed);
-}
 
 void lock_rotation(const Quat& R_WJ1, const Vec3& error_W, bool about_z_too, double dt_s, RowSet& rows) {
   for (int k = 0; k < (about_z_too ? 3 : 2); ++k) {
@@ -26,12 +18,23 @@ void lock_rotation(const Quat& R_WJ1, const Vec3& error_W, bool about_z_too, dou
 }
 
 void lock_position(const Frame& body1, const Frame& body2, const Pose& X_WJ1, const Vec3& p_WJ2, int first_axis,
-                   double dt_s, RowSet& rows) {
+                   int end_axis, double dt_s, RowSet& rows) {
   const Vec3 error_W = X_WJ1.p - p_WJ2;
-  for (int k = first_axis; k < 3; ++k) {
+  for (int k = first_axis; k < end_axis; ++k) {
     const Vec3 n_W = X_WJ1.rotate(Vec3::Unit(k));
     rows.add(linear_row(body1, body2, p_WJ2, n_W)).target = correction(n_W.dot(error_W), dt_s, kMaxLinearCorrection);
   }
+}
+
+/// A screw's thread: along the axis it goes `pitch` for each radian.
+void lock_thread(const Frame& body1, const Frame& body2, const Pose& X_WJ1, const JointMeasure& now, double pitch,
+                 double dt_s, RowSet& rows) {
+  const double error = pitch * now.position - now.axis_W.dot(now.p_WJ - X_WJ1.p);
+  Row row = linear_row(body1, body2, now.p_WJ, now.axis_W);
+  row.a1_W -= pitch * now.axis_W;
+  row.a2_W -= pitch * now.axis_W;
+  row.target = correction(error, dt_s, kMaxLinearCorrection);
+  rows.add(row);
 }
 
 void add_friction(const Row& axis_row, const state::JointState& state, double dt_s, RowSet& rows) {
@@ -41,11 +44,6 @@ void add_friction(const Row& axis_row, const state::JointState& state, double dt
   row.target = 0;
   row.min_impulse = -most;
   row.max_impulse = most;
-}
-
-/// Outside the limit the error is taken back softly; inside, the joint may go as far as the limit.
-double limit_speed(double error, double dt_s, double max_speed) {
-  return error > 0 ? correction(error, dt_s, max_speed) : error / dt_s;
 }
 
 void add_limits(const Row& axis_row, const state::JointState& state, const JointMeasure& now, double max_speed,
@@ -62,6 +60,19 @@ void add_limits(const Row& axis_row, const state::JointState& state, const Joint
     row.target = -limit_speed(now.position - state.max_position, dt_s, max_speed);
     row.max_impulse = 0;
   }
+}
+
+/// One row at the edge of a ball's cone. On the axis no direction leads out, and none is needed.
+void add_cone(const state::JointState& state, const Pose& X_WJ1, const Pose& X_WJ2, double dt_s, RowSet& rows) {
+  if (state.cone_axis_J.isZero()) return;
+  const Vec3 at_W = X_WJ1.rotate(state.cone_axis_J), is_W = X_WJ2.rotate(state.cone_axis_J);
+  const Vec3 about_W = at_W.cross(is_W);
+  const double sine = about_W.norm();
+  if (sine < 1e-9) return;
+  const double angle = std::atan2(sine, at_W.dot(is_W));
+  Row& row = rows.add(angular_row(about_W / sine));
+  row.target = -limit_speed(angle - state.cone_rad, dt_s, kMaxAngularCorrection);
+  row.max_impulse = 0;
 }
 
 /// The angle of the turn that is nearest to `near`.
@@ -90,8 +101,21 @@ JointMeasure measure_joint(const state::JointDescription& joint, const Frame& bo
   return out;
 }
 
+Row joint_axis_row(const state::JointDescription& joint, const Frame& body1, const Frame& body2,
+                   const JointMeasure& now) noexcept {
+  switch (joint.kind) {
+    case JointKind::hinge:
+      return angular_row(now.axis_W);
+    case JointKind::slider:
+      return linear_row(body1, body2, now.p_WJ, now.axis_W);
+    case JointKind::ball:
+      break;
+  }
+  return {};
+}
+
 void joint_rows(const state::JointDescription& joint, const state::JointState& state, const Frame& body1,
-                const Frame& body2, double dt_s, RowSet& rows) noexcept {
+                const Frame& body2, double dt_s, RowSet& rows, Row* axis) noexcept {
   rows.clear();
   if (body1.inverse_mass + body2.inverse_mass <= 0) return;
   const Pose X_WJ1 = body1.X_WB * joint.X_B1J;
@@ -100,31 +124,41 @@ void joint_rows(const state::JointDescription& joint, const state::JointState& s
   std::size_t locked = 0;
   switch (joint.kind) {
     case JointKind::ball:
-      lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, dt_s, rows);
+      lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, 3, dt_s, rows);
       locked = rows.count;
+      add_cone(state, X_WJ1, X_WJ2, dt_s, rows);
       break;
     case JointKind::hinge: {
       const Vec3 error_W = X_WJ2.rotate(Vec3::UnitZ()).cross(now.axis_W);
-      lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, dt_s, rows);
+      if (state.pitch_m_per_rad == 0) {
+        lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, 3, dt_s, rows);
+      } else {
+        lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, 2, dt_s, rows);
+        lock_thread(body1, body2, X_WJ1, now, state.pitch_m_per_rad, dt_s, rows);
+      }
       lock_rotation(X_WJ1.R, error_W, false, dt_s, rows);
       locked = rows.count;
-      const Row axis_row = angular_row(now.axis_W);
+      const Row axis_row = joint_axis_row(joint, body1, body2, now);
       add_friction(axis_row, state, dt_s, rows);
       add_limits(axis_row, state, now, kMaxAngularCorrection, dt_s, rows);
       break;
     }
     case JointKind::slider: {
       const Vec3 error_W = rotation_vector(X_WJ1.R * X_WJ2.R.conjugate());
-      lock_position(body1, body2, X_WJ1, X_WJ2.p, 1, dt_s, rows);
+      lock_position(body1, body2, X_WJ1, X_WJ2.p, 1, 3, dt_s, rows);
       lock_rotation(X_WJ1.R, error_W, true, dt_s, rows);
       locked = rows.count;
-      const Row axis_row = linear_row(body1, body2, X_WJ2.p, now.axis_W);
+      const Row axis_row = joint_axis_row(joint, body1, body2, now);
       add_friction(axis_row, state, dt_s, rows);
       add_limits(axis_row, state, now, kMaxLinearCorrection, dt_s, rows);
       break;
     }
   }
+  // The axis goes along as one row more: it has no influence on the others.
+  const bool wants_axis = axis != nullptr && joint.kind != JointKind::ball;
+  if (wants_axis) rows.add(joint_axis_row(joint, body1, body2, now));
   decouple(body1, body2, locked, rows);
+  if (wants_axis) *axis = rows.rows[--rows.count];
 }
 
 }  // namespace mechane::dynamics

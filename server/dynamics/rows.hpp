@@ -1,6 +1,7 @@
 // Constraint rows between two bodies, free of any engine: what joints and grasps ask for, and what the solver then fulfils.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -59,6 +60,20 @@ struct RowSet {
 /// The row's value at the velocities that the bodies have now.
 [[nodiscard]] inline double row_velocity(const Row& row, const Frame& body1, const Frame& body2) noexcept {
   return row.n_W.dot(body2.V_WCm.v - body1.V_WCm.v) + row.a2_W.dot(body2.V_WCm.w) - row.a1_W.dot(body1.V_WCm.w);
+}
+
+inline constexpr double kErrorShare = 0.2;            ///< of a position error, taken back in a step
+inline constexpr double kMaxLinearCorrection = 1.0;   ///< m/s
+inline constexpr double kMaxAngularCorrection = 5.0;  ///< rad/s
+
+/// Velocity that takes back `error` (m or rad).
+[[nodiscard]] inline double correction(double error, double dt_s, double max_speed) noexcept {
+  return std::clamp(kErrorShare * error / dt_s, -max_speed, max_speed);
+}
+
+/// Outside of a limit the error is taken back softly; inside, one may go as far as the limit.
+[[nodiscard]] inline double limit_speed(double error, double dt_s, double max_speed) noexcept {
+  return error > 0 ? correction(error, dt_s, max_speed) : error / dt_s;
 }
 
 /// Combines rows so that they do not disturb each other: the first `locked` rows, whose impulses have no limits, become orthonormal

@@ -1,5 +1,6 @@
 // One walk over the fields of a world that the next tick depends on, used by the hash, the writer and the reader of snapshots:
-// what is hashed is what is saved. Contacts, loads and events are made anew in each tick and are left out.
+// what is hashed is what is saved. Contacts, loads and events are made anew in each tick and are left out, and so are pitch and cone of
+// joints, which their agents write in each tick.
 #pragma once
 
 #include <type_traits>
@@ -29,6 +30,9 @@ class StateWalk {
     for (auto& user : state_.users)
       walk_user(user);
     walk_progress(state_.progress);
+    // Last, so that a world without couplings has the bytes and the hash that it had before there were any.
+    for (auto& coupling : state_.couplings)
+      walk_coupling(coupling);
   }
 
  private:
@@ -105,6 +109,18 @@ class StateWalk {
     archive_.bytes(progress.activity_tick);
     archive_.bytes(progress.steps_done);
     archive_.bytes(progress.hint_shown);
+  }
+
+  template <class C>
+  void walk_coupling(C& coupling) {
+    archive_.bytes(coupling.enabled);
+    archive_.bytes(coupling.offset);
+    pose(coupling.X_B1B2);
+    archive_.bytes(coupling.force_n);
+    archive_.bytes(coupling.torque_nm);
+    archive_.bytes(coupling.end_force_n);
+    archive_.bytes(coupling.length_m);
+    archive_.bytes(coupling.slack_m);
   }
 
   Archive& archive_;

@@ -22,6 +22,16 @@ enum class EventKind : std::uint8_t {
   spilled = 13,           ///< subject: machine; value: m^3 that ran off since the last such event
   command_done = 14,      ///< value: the command's id
   command_refused = 15,   ///< value: the command's id
+  pulled = 16,            ///< subject: agent, object: body
+  pushed = 17,            ///< subject: agent, object: body
+  lit = 18,               ///< subject: agent, object: body
+  fired = 19,             ///< subject: agent, object: body
+  assembled = 20,         ///< subject: agent; every part is in its place
+  part_refused = 21,      ///< subject: agent, object: body that came to its place before its turn
+  dwelt = 22,             ///< subject: agent; value: seconds
+  pointed = 23,           ///< subject: agent, object: body; value: user
+  idled = 24,             ///< subject: agent; value: seconds
+  broke = 25,             ///< subject: agent; value: the force, N, or where that is whole, the torque, N m
 };
 
 /// Ids are indices into the tables of WorldDescription; 0xffffffff where there is none.

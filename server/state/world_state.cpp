@@ -44,9 +44,28 @@ std::size_t MemoryLayout::add(const std::string& component, const std::string& v
   return index;
 }
 
+namespace {
+
+const MemorySlot* slot_of(const std::vector<MemorySlot>& slots, const std::string& name) {
+  const auto it = std::find_if(slots.begin(), slots.end(), [&](const MemorySlot& slot) { return slot.name == name; });
+  return it == slots.end() ? nullptr : &*it;
+}
+
+}  // namespace
+
 const MemorySlot* MemoryLayout::find(const std::string& name) const {
-  const auto it = std::find_if(slots_.begin(), slots_.end(), [&](const MemorySlot& slot) { return slot.name == name; });
-  return it == slots_.end() ? nullptr : &*it;
+  return slot_of(slots_, name);
+}
+
+std::size_t MemoryLayout::add_coupling(const std::string& component, const Coupling& coupling) {
+  const std::size_t index = couplings_.size();
+  coupling_slots_.push_back({component, index});
+  couplings_.push_back(coupling);
+  return index;
+}
+
+const MemorySlot* MemoryLayout::find_coupling(const std::string& component) const {
+  return slot_of(coupling_slots_, component);
 }
 
 }  // namespace mechane::state

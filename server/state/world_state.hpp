@@ -9,6 +9,7 @@
 
 #include "server/base/ids.hpp"
 #include "server/base/math.hpp"
+#include "server/state/coupling.hpp"
 #include "server/state/description.hpp"
 #include "server/state/event.hpp"
 #include "server/state/input.hpp"
@@ -32,8 +33,11 @@ struct JointState {
   double velocity = 0;
   double min_position = 0;  ///< min > max: none
   double max_position = -1;
-  double friction = 0;  ///< Coulomb friction, N m or N, as felt (already scaled)
-  double viscous = 0;   ///< N m s/rad or N s/m, as felt
+  double friction = 0;              ///< Coulomb friction, N m or N, as felt (already scaled)
+  double viscous = 0;               ///< N m s/rad or N s/m, as felt
+  double pitch_m_per_rad = 0;       ///< hinge: not 0: a screw, which goes so far along its axis as it turns
+  Vec3 cone_axis_J = Vec3::Zero();  ///< ball: not 0: unit vector, in either joint frame, that stays within the cone
+  double cone_rad = 0;              ///< ball: half the cone's opening
   double load = 0;  ///< torque or force along the axis this tick, from machines (signed). Cleared by `step_dynamics`.
   double resistance =
       0;  ///< torque or force this tick, from machines, that only opposes motion (>= 0). Cleared by `step_dynamics`.
@@ -131,6 +135,7 @@ struct WorldState {
   std::vector<JointState> joints;
   std::vector<double> quantities;           ///< by QuantityId; written by `update_quantities` in agents
   std::vector<std::uint8_t> agent_enabled;  ///< by AgentId
+  std::vector<Coupling> couplings;          ///< of the agents; see MemoryLayout::add_coupling
   std::vector<double> memory;  ///< what agents and machines remember: slots given out when the world is built
   std::array<UserState, kMaxUsers> users{};
   Progress progress;
@@ -164,12 +169,20 @@ class MemoryLayout {
   /// A new slot named "<component>.<value>", starting at `initial`. Not in the tick.
   std::size_t add(const std::string& component, const std::string& value, double initial = 0);
   [[nodiscard]] const MemorySlot* find(const std::string& name) const;
+  /// A coupling of that component: its index into WorldState::couplings. Not in the tick.
+  std::size_t add_coupling(const std::string& component, const Coupling& coupling);
+  /// The component's first coupling; null where it has none.
+  [[nodiscard]] const MemorySlot* find_coupling(const std::string& component) const;
+  /// What WorldState::couplings is at the start.
+  [[nodiscard]] const std::vector<Coupling>& couplings() const { return couplings_; }
   [[nodiscard]] const std::vector<MemorySlot>& slots() const { return slots_; }
   [[nodiscard]] const std::vector<double>& initial() const { return initial_; }
 
  private:
   std::vector<MemorySlot> slots_;
   std::vector<double> initial_;
+  std::vector<MemorySlot> coupling_slots_;
+  std::vector<Coupling> couplings_;
 };
 
 /// 64-bit XXH3 over the bits of everything that the next tick depends on, in a fixed order. Equal hashes: equal worlds.

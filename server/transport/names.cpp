@@ -54,6 +54,26 @@ EventNames names_of(const state::WorldDescription& world, const state::Event& ev
       return {"command_done", {}, {}};
     case Kind::command_refused:
       return {"command_refused", {}, {}};
+    case Kind::pulled:
+      return {"pulled", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::pushed:
+      return {"pushed", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::lit:
+      return {"lit", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::fired:
+      return {"fired", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::assembled:
+      return {"assembled", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::part_refused:
+      return {"part_refused", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::dwelt:
+      return {"dwelt", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::pointed:
+      return {"pointed", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::idled:
+      return {"idled", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
+    case Kind::broke:
+      return {"broke", name_at(world.agents, event.subject), name_at(world.bodies, event.object)};
     case Kind::none:
       break;
   }

@@ -227,10 +227,11 @@ TEST(AgentSet, RefusesStepsThatPointNowhere) {
   world.activities[1].first = StepId::none();
   EXPECT_THAT(error_of(world), HasSubstr("activity use: it has no first step"));
   world = two_activities();
-  world.agents[0].type = "geometry.rope";
+  world.agents[0].type = "geometry.string";
   EXPECT_THAT(
       error_of(world),
-      HasSubstr("line 10, geometry.rope HINGE: there is no agent of type 'geometry.rope'; use one of: geometry.hinge"));
+      HasSubstr(
+          "line 10, geometry.string HINGE: there is no agent of type 'geometry.string'; use one of: geometry.hinge"));
 }
 
 TEST(AgentSet, ATickAllocatesNothing) {

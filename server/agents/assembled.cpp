@@ -1,0 +1,196 @@
+// simulation.assembled: which part goes when. A part that comes to its place before its turn is not taken.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "server/agents/agent.hpp"
+
+namespace mechane::agents {
+namespace {
+
+using state::ParameterKind;
+
+constexpr std::string_view kBefore = " before ";
+
+/// One part: the snap that takes it, and what must be in place before.
+struct Part {
+  AgentId snap;
+  std::string name;
+  BodyId object;
+  double reach_m = 0;
+  double reach_rad = 0;
+  std::vector<std::size_t> after;  // parts
+  std::size_t placed = 0;          // slots of the snap
+  std::size_t distance = 0;
+  std::size_t angle = 0;
+  std::size_t refused = 0;  // slot of ours: it is at its place and not taken
+};
+
+class Assembled final : public Agent {
+ public:
+  Assembled(const Build& build, std::vector<Part> parts)
+      : id_(build.id),
+        parts_(std::move(parts)),
+        placed_(build.slot("placed")),
+        complete_(build.slot("complete")),
+        refused_(build.slot("refused")),
+        next_(build.slot("next", -1)) {
+    for (Part& part : parts_)
+      part.refused = build.slot("own." + part.name);
+  }
+
+  Expected<void> link(const state::MemoryLayout& layout) override {
+    for (Part& part : parts_) {
+      part.placed = layout.find(part.name + ".placed")->index;
+      part.distance = layout.find(part.name + ".distance")->index;
+      part.angle = layout.find(part.name + ".angle")->index;
+    }
+    return {};
+  }
+
+  [[nodiscard]] bool switches_others() const noexcept override { return true; }
+
+  void run(state::WorldState& state, bool enabled, double /*dt_s*/) const noexcept override {
+    double placed = 0, next = -1;
+    for (const Part& part : parts_) {
+      const bool home = state.memory[part.placed] != 0;
+      const bool allowed = std::all_of(part.after.begin(), part.after.end(),
+                                       [&](std::size_t i) { return state.memory[parts_[i].placed] != 0; });
+      placed += home ? 1 : 0;
+      if (!home && allowed && next < 0) next = static_cast<double>(part.object.index());
+      if (!enabled) continue;
+      state.agent_enabled[part.snap.index()] = allowed ? 1 : 0;
+      refuse(state, part, !home && !allowed);
+    }
+    const bool complete = placed == static_cast<double>(parts_.size());
+    if (enabled && complete && state.memory[complete_] == 0)
+      state.emit(state::EventKind::assembled, static_cast<std::uint32_t>(id_.index()));
+    state.memory[placed_] = placed;
+    state.memory[next_] = next;
+    state.memory[complete_] = complete ? 1 : 0;
+  }
+
+ private:
+  /// Says once that a part came too early; again when it has been away.
+  void refuse(state::WorldState& state, const Part& part, bool early) const noexcept {
+    const auto within = [&](double share) {
+      return state.memory[part.distance] <= share * part.reach_m && state.memory[part.angle] <= share * part.reach_rad;
+    };
+    double& said = state.memory[part.refused];
+    if (said != 0 && (!early || !within(1.5))) said = 0;
+    // Before the snap has measured anything its distances are 0.
+    const bool measured = state.tick > state.progress.activity_tick + 1;
+    if (said != 0 || !early || !measured || !within(1)) return;
+    said = 1;
+    state.memory[refused_] += 1;
+    state.emit(state::EventKind::part_refused, static_cast<std::uint32_t>(id_.index()),
+               static_cast<std::uint32_t>(part.object.index()));
+  }
+
+  AgentId id_;
+  std::vector<Part> parts_;
+  std::size_t placed_;
+  std::size_t complete_;
+  std::size_t refused_;
+  std::size_t next_;
+};
+
+/// The snap's object and tolerance. Its own parameters are checked when it is made; what is wrong there is said there.
+void read_snap(const state::WorldDescription& world, const state::ComponentDescription& snap, Part& part) {
+  const auto object = snap.parameters.find("object");
+  if (object != snap.parameters.end()) {
+    const auto* texts = std::get_if<std::vector<std::string>>(&object->second);
+    if (texts != nullptr && texts->size() == 1) part.object = world.find_body(texts->front());
+  }
+  const auto tolerance = snap.parameters.find("tolerance");
+  if (tolerance == snap.parameters.end()) return;
+  const auto* numbers = std::get_if<std::vector<double>>(&tolerance->second);
+  if (numbers == nullptr || numbers->size() != 2) return;
+  part.reach_m = (*numbers)[0];
+  part.reach_rad = (*numbers)[1];
+}
+
+Expected<void> read_order(const Build& build, std::vector<Part>& parts) {
+  const std::string where = state::component_place(build.component);
+  const auto find = [&](std::string_view name) {
+    return static_cast<std::size_t>(
+        std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; }) - parts.begin());
+  };
+  for (const std::string& line : build.parameters.texts("order")) {
+    const std::size_t at = line.find(kBefore);
+    const std::size_t first = at == std::string::npos ? parts.size() : find(std::string_view(line).substr(0, at));
+    const std::size_t then =
+        at == std::string::npos ? parts.size() : find(std::string_view(line).substr(at + kBefore.size()));
+    if (first >= parts.size() || then >= parts.size())
+      return fail(fmt::format("'{}' is no order of two of the parts", line), where,
+                  "write \"ONE before OTHER\", both named in 'parts'");
+    parts[then].after.push_back(first);
+  }
+  return {};
+}
+
+/// Whether some order of the parts fulfils every line.
+bool can_be_built(const std::vector<Part>& parts) {
+  std::vector<bool> placed(parts.size(), false);
+  for (std::size_t round = 0; round < parts.size(); ++round) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      placed[i] = placed[i] ||
+                  std::all_of(parts[i].after.begin(), parts[i].after.end(), [&](std::size_t k) { return placed[k]; });
+  }
+  return std::all_of(placed.begin(), placed.end(), [](bool p) { return p; });
+}
+
+Expected<std::unique_ptr<Agent>> make(const Build& build) {
+  const std::string where = state::component_place(build.component);
+  std::vector<Part> parts;
+  for (const std::string& name : build.parameters.texts("parts")) {
+    Part part;
+    part.snap = build.description.find_agent(name);
+    part.name = name;
+    const state::ComponentDescription& snap = build.agent(part.snap);
+    if (snap.type != "geometry.snap") return fail("'" + name + "' is a " + snap.type, where, "name a geometry.snap");
+    if (std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; }))
+      return fail("'" + name + "' is named twice", where, "name each part once");
+    read_snap(build.description, snap, part);
+    parts.push_back(std::move(part));
+  }
+  if (parts.empty()) return fail("there are no parts", where, "name the snaps that take them");
+  if (build.parameters.given("order")) {
+    if (auto good = read_order(build, parts); !good) return tl::unexpected(good.error());
+  } else {
+    for (std::size_t i = 1; i < parts.size(); ++i)
+      parts[i].after = {i - 1};
+  }
+  if (!can_be_built(parts))
+    return fail("some parts wait for each other", where, "remove one of the lines of 'order' that go round");
+  return std::make_unique<Assembled>(build, std::move(parts));
+}
+
+constexpr state::ParameterType kParameters[] = {
+    {.name = "parts",
+     .kind = ParameterKind::texts,
+     .summary = "the geometry.snap of each part; this agent switches them",
+     .required = true,
+     .reference = state::Reference::agent},
+    {.name = "order",
+     .kind = ParameterKind::texts,
+     .summary =
+         "lines like \"ONE before OTHER\": what must be in place before what; none: one after the other as listed"},
+};
+constexpr state::ValueType kValues[] = {
+    {"placed", "", "how many parts are in their places"},
+    {"complete", "", "1 while all are"},
+    {"refused", "", "how often a part came before its turn"},
+    {"next", "", "index of a body whose turn it is; -1: none"},
+};
+
+}  // namespace
+
+const AgentKind& assembled_kind() {
+  static const AgentKind kKind{
+      {"simulation.assembled", "Takes parts in their order, and says when all are in place", kParameters, kValues},
+      make};
+  return kKind;
+}
+
+}  // namespace mechane::agents

@@ -1,0 +1,131 @@
+// simulation.point: an index finger, or a one-point device, at a sign or pointing at it.
+#include <algorithm>
+#include <cmath>
+
+#include "server/agents/agent.hpp"
+
+namespace mechane::agents {
+namespace {
+
+using state::HandKind;
+using state::ParameterKind;
+
+constexpr std::size_t kIndexTip = 6;  // segment of the index finger's last phalanx; x along it, origin in its middle
+constexpr double kHalfTip_m = 0.5 * 0.020 + 0.0075;  // from there to the skin, of a hand of scale 1
+
+struct Finger {
+  Vec3 p_W;
+  Vec3 direction_W;
+};
+
+/// A device of one point points away from who holds it: along -z, as a view does.
+Finger finger_of(const state::UserState& user) {
+  if (user.sample.kind == HandKind::one_point) return {user.X_WH.p, user.X_WH.rotate(-Vec3::UnitZ())};
+  const Pose& X_WS = user.X_WS[kIndexTip];
+  return {X_WS * Vec3(kHalfTip_m * user.sample.hand_scale, 0, 0), X_WS.rotate(Vec3::UnitX())};
+}
+
+class Point final : public Agent {
+ public:
+  explicit Point(const Build& build)
+      : id_(build.id),
+        body_(build.parameters.body("body")),
+        distance_m_(build.parameters.given("distance") || !build.parameters.given("cone")
+                        ? build.parameters.number("distance")
+                        : 0),
+        cone_rad_(build.parameters.given("cone") ? build.parameters.number("cone") : 0),
+        reach_m_(build.parameters.number("reach")),
+        time_s_(build.parameters.number("time")),
+        pointed_(build.slot("pointed")),
+        distance_(build.slot("distance")),
+        angle_(build.slot("angle")),
+        time_(build.slot("time")) {
+    const std::vector<double> p = build.parameters.numbers("position");
+    p_BQ_ = Vec3(p[0], p[1], p[2]);
+  }
+
+  void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
+    const Vec3 p_WQ = state[body_].X_WB * p_BQ_;
+    double nearest = kFar, best_angle = kPi;
+    double who = -1;
+    for (std::size_t u = 0; u < state.users.size(); ++u) {
+      const state::UserState& user = state.users[u];
+      if (!user.present || user.stale) continue;
+      const Finger finger = finger_of(user);
+      const Vec3 way = p_WQ - finger.p_W;
+      const double distance = way.norm();
+      const double angle = std::atan2(finger.direction_W.cross(way).norm(), finger.direction_W.dot(way));
+      const bool hits = distance <= distance_m_ || (cone_rad_ > 0 && angle <= cone_rad_ && distance <= reach_m_);
+      if (hits && who < 0) who = static_cast<double>(u);
+      nearest = std::min(nearest, distance);
+      best_angle = std::min(best_angle, angle);
+    }
+    const bool points = enabled && state[body_].visible && who >= 0;
+    state.memory[distance_] = nearest;
+    state.memory[angle_] = best_angle;
+    state.memory[time_] = points ? state.memory[time_] + dt_s : 0;
+    const bool long_enough = points && state.memory[time_] + 0.5 * dt_s >= time_s_;
+    if (long_enough && state.memory[pointed_] == 0) {
+      state.emit(state::EventKind::pointed, static_cast<std::uint32_t>(id_.index()),
+                 static_cast<std::uint32_t>(body_.index()), who);
+    }
+    state.memory[pointed_] = long_enough ? 1 : 0;
+  }
+
+ private:
+  static constexpr double kFar = 1e6;  // m: no hand is there
+
+  AgentId id_;
+  BodyId body_;
+  Vec3 p_BQ_ = Vec3::Zero();
+  double distance_m_;
+  double cone_rad_;
+  double reach_m_;
+  double time_s_;
+  std::size_t pointed_;
+  std::size_t distance_;
+  std::size_t angle_;
+  std::size_t time_;
+};
+
+Expected<std::unique_ptr<Agent>> make(const Build& build) {
+  return std::make_unique<Point>(build);
+}
+
+constexpr state::ParameterType kParameters[] = {
+    {.name = "body",
+     .kind = ParameterKind::text,
+     .summary = "the sign; a hidden one is not pointed at",
+     .required = true,
+     .reference = state::Reference::body},
+    {.name = "position",
+     .kind = ParameterKind::numbers,
+     .unit = "m",
+     .summary = "the point meant, in its frame",
+     .count = 3},
+    {.name = "distance",
+     .unit = "m",
+     .summary = "the fingertip is at the sign within this; with cone: not given, only the cone counts",
+     .default_value = 0.03,
+     .min = 0.001,
+     .max = 10},
+    {.name = "cone", .unit = "rad", .summary = "the finger points at the sign within this", .min = 0.01, .max = 1.5},
+    {.name = "reach", .unit = "m", .summary = "how far pointing reaches", .default_value = 3, .min = 0.01, .max = 100},
+    {.name = "time", .unit = "s", .summary = "for how long", .default_value = 0.3, .min = 0, .max = 60},
+};
+constexpr state::ValueType kValues[] = {
+    {"pointed", "", "1 while a finger has been on it for long enough"},
+    {"distance", "m", "from the nearest fingertip"},
+    {"angle", "rad", "between the sign and where the best finger points"},
+    {"time", "s", "for how long"},
+};
+
+}  // namespace
+
+const AgentKind& point_kind() {
+  static const AgentKind kKind{
+      {"simulation.point", "An index finger is at a sign, or points at it", kParameters, kValues}, make};
+  return kKind;
+}
+
+}  // namespace mechane::agents

@@ -1,0 +1,69 @@
+// geometry.slider: a straight guide's switch, friction and stops.
+#include "server/agents/joint_switch.hpp"
+
+namespace mechane::agents {
+namespace {
+
+using state::ParameterKind;
+
+class Slider final : public Agent {
+ public:
+  Slider(const Build& build, const JointSwitch& joint)
+      : joint_(joint), position_(build.slot("position")), speed_(build.slot("speed")) {}
+
+  void run(state::WorldState& state, bool enabled, double /*dt_s*/) const noexcept override {
+    const state::JointState& joint = joint_.apply(state, enabled);
+    state.memory[position_] = joint.position;
+    state.memory[speed_] = joint.velocity;
+  }
+
+ private:
+  JointSwitch joint_;
+  std::size_t position_;
+  std::size_t speed_;
+};
+
+Expected<std::unique_ptr<Agent>> make(const Build& build) {
+  auto joint = JointSwitch::create(build, state::JointKind::slider, "SliderJoint",
+                                   {"friction", "viscous", "minPosition", "maxPosition"});
+  if (!joint) return tl::unexpected(joint.error());
+  return std::make_unique<Slider>(build, *joint);
+}
+
+constexpr state::ParameterType kParameters[] = {
+    {.name = "joint",
+     .kind = ParameterKind::text,
+     .summary = "the slider that is on while this agent is",
+     .required = true,
+     .reference = state::Reference::joint},
+    {.name = "friction",
+     .unit = "N",
+     .summary = "Coulomb friction of the real guide; felt times the world's effort_scale",
+     .min = 0,
+     .max = 1e7},
+    {.name = "viscous",
+     .unit = "N s/m",
+     .summary = "drag that grows with the speed; felt times the world's effort_scale",
+     .min = 0,
+     .max = 1e7},
+    {.name = "minPosition",
+     .unit = "m",
+     .summary = "lower stop; with maxPosition. Neither: the joint's own",
+     .min = -1e4,
+     .max = 1e4},
+    {.name = "maxPosition", .unit = "m", .summary = "upper stop; with minPosition", .min = -1e4, .max = 1e4},
+};
+constexpr state::ValueType kValues[] = {
+    {"position", "m", "of body2 against body1, along the axis; 0 at the start"},
+    {"speed", "m/s", "how fast it slides"},
+};
+
+}  // namespace
+
+const AgentKind& slider_kind() {
+  static const AgentKind kKind{
+      {"geometry.slider", "Ties two bodies by a straight guide while it is on", kParameters, kValues}, make};
+  return kKind;
+}
+
+}  // namespace mechane::agents

@@ -1,0 +1,66 @@
+// Gears, ratchets, ropes and ties as rows of a Train.
+#pragma once
+
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/dynamics/joint_rows.hpp"
+#include "server/dynamics/train.hpp"
+
+namespace mechane::dynamics {
+
+/// A joint as couplings see it in one step: one way to go.
+struct JointAxis {
+  bool on = false;
+  std::size_t body1 = kGround;
+  std::size_t body2 = kGround;
+  Row raw;  ///< the joint's rate
+  Row row;  ///< the same, free of the joint's own locks; see decouple()
+  JointMeasure now;
+  double extra_impulse = 0;  ///< of couplings along it, after the step
+};
+
+/// The couplings of one world. Joints that are off, and balls, couple nothing.
+class CouplingRows {
+ public:
+  /// Errors: a coupling that names a body or joint that is not there, or a number that makes no sense, by index. Allocates for all
+  /// steps to come.
+  [[nodiscard]] static Expected<CouplingRows> create(const state::WorldState& state);
+
+  /// Overwrites the train with what the couplings ask for in a step of dt_s. Position errors are taken back as joints do. A rope and
+  /// a stop let their ends come as far as they reach in this step, and no further. `frames` are the bodies at the start of the step.
+  void gather(const state::WorldState& state, std::span<const Frame> frames, std::span<const JointAxis> axes,
+              double dt_s) noexcept;
+  /// Writes what the couplings bore, after the train was solved, and the impulse along each joint's axis.
+  void store(state::WorldState& state, std::span<JointAxis> axes, double dt_s) const noexcept;
+
+  Train train;
+
+ private:
+  struct Use {
+    std::size_t row;
+    std::size_t joint;
+    double factor;
+  };
+  void add_axis(std::size_t row, std::size_t joint, double factor) noexcept;
+  void add_fixed(const state::Coupling& tie) noexcept;
+  void add_gear(const state::Coupling& gear) noexcept;
+  void add_intermittent(const state::Coupling& gear) noexcept;
+  void add_stop(const state::Coupling& stop) noexcept;
+  void add_rope(const state::WorldState& state, const state::Coupling& rope) noexcept;
+  void add_rope_part(const state::Coupling& rope, const state::RopePath& path, std::size_t part) noexcept;
+  [[nodiscard]] bool axis_on(JointId joint) const noexcept { return joint && axes_[joint.index()].on; }
+
+  std::vector<std::size_t> first_;  // row of each coupling
+  std::vector<std::size_t> rows_;   // how many
+  std::vector<Use> uses_;
+  // Of the step that is being gathered.
+  std::span<const Frame> frames_;
+  std::span<const JointAxis> axes_;
+  double dt_s_ = 0;
+};
+
+/// The poses of a rope's bodies, and of what bears its drum, as measure_rope() wants them.
+[[nodiscard]] state::RopePath rope_path(const state::Coupling& rope, const state::WorldState& state) noexcept;
+
+}  // namespace mechane::dynamics

@@ -1,0 +1,162 @@
+// simulation.lit, dwell, point, idle.
+#include "tests/unit/agents/stage.hpp"
+
+namespace mechane::agents::test {
+namespace {
+
+using state::EventKind;
+using state::HandKind;
+using ::testing::HasSubstr;
+
+state::WorldDescription with_agents(std::vector<state::ComponentDescription> agents) {
+  state::WorldDescription world = stage_world();
+  world.agents = std::move(agents);
+  return world;
+}
+
+/// PART is a torch that CRANK, a hearth, is lit by; the torch itself is lit at FRAME.
+state::WorldDescription with_fire() {
+  return with_agents(
+      {{"TORCH",
+        "simulation.lit",
+        {{"body", text({"PART"})}, {"flame", text({"FRAME"})}, {"time", number({0.2})}, {"burnTime", number({3})}},
+        1},
+       {"HEARTH",
+        "simulation.lit",
+        {{"body", text({"CRANK"})},
+         {"flame", text({"PART"})},
+         {"flamePoint", number({0, 0.5, 0})},
+         {"at", number({0, 0, 1})},
+         {"distance", number({0.05})},
+         {"needs", text({"TORCH"})}},
+        2}});
+}
+
+TEST(Lit, NeedsABurningFlameNearForItsTime) {
+  Stage stage(with_fire());
+  const auto bring_torch = [&](const Vec3& p) { stage.state->bodies[1].X_WB.p = p; };
+  bring_torch(Vec3(0, -0.5, 1.04));
+  stage.run(1);
+  EXPECT_EQ(stage.value("HEARTH.lit"), 0) << "the torch does not burn";
+  EXPECT_NEAR(stage.value("HEARTH.distance"), 0.04, 1e-9);
+  bring_torch(Vec3(0.05, 0, 0));
+  stage.run(0.19);
+  EXPECT_EQ(stage.value("TORCH.lit"), 0);
+  stage.run(0.02);
+  EXPECT_EQ(stage.value("TORCH.lit"), 1);
+  bring_torch(Vec3(0, -0.5, 1.04));
+  stage.run(0.6);
+  EXPECT_EQ(stage.value("HEARTH.lit"), 1);
+  bring_torch(Vec3(9, 9, 9));
+  stage.run(3);
+  EXPECT_EQ(stage.value("TORCH.lit"), 0) << "burnt down";
+  EXPECT_EQ(stage.value("HEARTH.lit"), 1);
+  EXPECT_EQ(stage.count(EventKind::lit), 2);
+}
+
+TEST(Lit, RefusesWhatCannotBe) {
+  state::WorldDescription world = with_fire();
+  world.agents[0].parameters["flame"] = text({"PART"});
+  EXPECT_THAT(error_of(world), HasSubstr("light itself"));
+  world = with_fire();
+  world.agents[1].parameters["needs"] = text({"HEARTH"});
+  EXPECT_THAT(error_of(world), HasSubstr("another simulation.lit"));
+}
+
+TEST(Dwell, CountsWhileAHandOrABodyStays) {
+  Stage stage(with_agents(
+      {{"HAND",
+        "simulation.dwell",
+        {{"position", number({0, 1, 0})}, {"radius", number({0.2})}, {"time", number({0.5})}},
+        1},
+       {"BODY",
+        "simulation.dwell",
+        {{"at", text({"CRANK"})}, {"body", text({"PART"})}, {"radius", number({0.1})}, {"time", number({0.1})}},
+        2}}));
+  stage.appear(0, HandKind::glove, Vec3(0, 1.1, 0));
+  stage.run(0.4);
+  stage.user().X_WH.p = Vec3(0, 1.3, 0);
+  stage.tick();
+  EXPECT_EQ(stage.value("HAND.time"), 0) << "it went";
+  stage.user().X_WH.p = Vec3(0, 1.1, 0);
+  stage.run(0.499);
+  EXPECT_EQ(stage.value("HAND.dwelt"), 0);
+  stage.run(0.002);
+  EXPECT_EQ(stage.value("HAND.dwelt"), 1);
+  EXPECT_EQ(stage.value("BODY.inside"), 0);
+  stage.state->bodies[1].X_WB.p = stage.state->bodies[2].X_WB.p;
+  stage.run(0.2);
+  EXPECT_EQ(stage.value("BODY.dwelt"), 1);
+  EXPECT_EQ(stage.count(EventKind::dwelt), 2);
+}
+
+TEST(Point, TakesAFingertipAtTheSignOrAFingerThatPointsAtIt) {
+  Stage stage(
+      with_agents({{"NEAR",
+                    "simulation.point",
+                    {{"body", text({"PART"})}, {"distance", number({0.02})}, {"time", number({0.1})}},
+                    1},
+                   {"AIM",
+                    "simulation.point",
+                    {{"body", text({"PART"})}, {"cone", number({0.1})}, {"reach", number({2})}, {"time", number({0})}},
+                    2}}));
+  // PART is at (1, 0, 0). The finger points along its segment's x.
+  stage.appear(0, HandKind::glove);
+  auto& finger = stage.user().X_WS[6];
+  finger.p = Vec3(1 - 0.0175 - 0.03, 0, 0);
+  finger.R = Quat(Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ()));
+  stage.run(0.2);
+  EXPECT_EQ(stage.value("NEAR.pointed"), 0);
+  EXPECT_EQ(stage.value("AIM.pointed"), 0) << "it points up";
+  finger.R = Quat::Identity();
+  stage.run(0.2);
+  EXPECT_NEAR(stage.value("NEAR.distance"), 0.03, 1e-9);
+  EXPECT_EQ(stage.value("NEAR.pointed"), 0);
+  EXPECT_EQ(stage.value("AIM.pointed"), 1);
+  finger.p.x() += 0.015;
+  stage.run(0.05);
+  EXPECT_EQ(stage.value("NEAR.pointed"), 0) << "not for long enough";
+  stage.run(0.1);
+  EXPECT_EQ(stage.value("NEAR.pointed"), 1);
+  state::Event event;
+  EXPECT_EQ(stage.count(EventKind::pointed, &event), 2);
+  EXPECT_EQ(event.object, 1u);
+  stage.state->bodies[1].visible = false;
+  stage.tick();
+  EXPECT_EQ(stage.value("NEAR.pointed"), 0) << "a sign that is not there";
+}
+
+TEST(Point, TakesAOnePointDeviceToo) {
+  Stage stage(with_agents(
+      {{"AIM", "simulation.point", {{"body", text({"PART"})}, {"cone", number({0.1})}, {"time", number({0})}}, 2}}));
+  stage.appear(0, HandKind::one_point, Vec3(1, 0, 1));
+  stage.tick();
+  EXPECT_EQ(stage.value("AIM.pointed"), 1) << "it looks along -z";
+  stage.user().X_WH.R = Quat(Eigen::AngleAxisd(0.2, Vec3::UnitY()));
+  stage.tick();
+  EXPECT_EQ(stage.value("AIM.pointed"), 0);
+}
+
+TEST(Idle, IsAHandThatRestsOrNone) {
+  Stage stage(with_agents({{"QUIET", "simulation.idle", {{"time", number({2})}}, 1}}));
+  stage.run(1.9);
+  EXPECT_EQ(stage.value("QUIET.idle"), 0);
+  stage.run(0.2);
+  EXPECT_EQ(stage.value("QUIET.idle"), 1) << "nobody is there";
+  stage.appear(0, HandKind::glove);
+  stage.user().V_WH.v = Vec3(0.1, 0, 0);
+  stage.tick();
+  EXPECT_EQ(stage.value("QUIET.idle"), 0);
+  stage.user().V_WH.v = Vec3(0.01, 0, 0);
+  stage.run(1.5);
+  EXPECT_NEAR(stage.value("QUIET.time"), 1.5, 1e-6) << "a tremble is no motion";
+  stage.touch(0, BodyId(1), 0, Vec3::UnitX());
+  stage.tick();
+  EXPECT_EQ(stage.value("QUIET.time"), 0);
+  stage.lift_off();
+  stage.run(2.1);
+  EXPECT_EQ(stage.count(EventKind::idled), 2);
+}
+
+}  // namespace
+}  // namespace mechane::agents::test
