@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kFire = 1000, kNozzle_m = 0.12, kBore_m = 0.003, kBearing = 2e-4, kAir = 2e-7, kSphereInertia = 2e-3;
+constexpr double kFire = 1000, kNozzle_m = 0.12, kBore_m = 0.003, kBearing = 2e-4, kAir = 2e-7, kSphereInertia = 2e-4;
 constexpr double kNozzleArea = 2 * kPi * kBore_m * kBore_m / 4;
 constexpr double kSteamFlow = kFire / 2.26e6;
 
