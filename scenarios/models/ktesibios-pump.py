@@ -35,10 +35,10 @@ PIPE_RADIUS, PIPE_Y, SEAT_X = 0.020, 0.055, 0.052  # PIPE_Y: above the cylinder'
 VESSEL_Y, VESSEL_RADIUS, VESSEL_HEIGHT = 0.40, 0.108, 0.11
 COWL_HEIGHT, TRUMPET_RADIUS = 0.17, 0.019
 PIVOT_Y, ARM = 0.94, 0.22
-MOUTH_Y, MOUTH_Z, BEND = 1.20, -0.40, 0.085
+MOUTH_Y, MOUTH_Z, BEND = 1.20, -0.44, 0.085  # the middle of the trumpet's mouth
 HANDLE_X, HANDLE_END, GRIP_RADIUS = 0.20, 0.70, 0.017  # HANDLE_END: from the seat; so 0.90 m from the hinge
 TROUGH_X, TROUGH_Z, TROUGH_WALL, TROUGH_FLOOR, TROUGH_TOP, WELL_LEVEL = 0.38, 0.21, 0.085, 0.06, 0.34, 0.24
-TUB_Z, TUB_RADIUS, TUB_FOOT, TUB_HEIGHT, TUB_STAVES = -0.66, 0.25, 0.16, 0.40, 18
+TUB_Z, TUB_RADIUS, TUB_FOOT, TUB_HEIGHT, TUB_STAVES = -0.62, 0.25, 0.16, 0.40, 18
 SECTORS = 8
 
 PISTON_MID = CYLINDER_Y + DEAD + STROKE / 2
@@ -185,9 +185,8 @@ def pipe_path(side):
 
 
 def collar(shape, centre, axis, radius, half=0.009, out=0.008):
-    up = (0, 0, 1)
     outline = rounded([(radius - 0.002, -half), (radius + out, -half), (radius + out, half), (radius - 0.002, half)], 0.002)
-    shell(shape, outline, 0, 2 * math.pi, 36, centre, axis, up, uv=(1, 5), caps=False)
+    shell(shape, outline, 0, 2 * math.pi, 36, centre, axis, (0, 1, 0) if axis[2] else (0, 0, 1), uv=(1, 5), caps=False)
 
 
 def make_pipes(model):
@@ -253,11 +252,11 @@ def make_cowl(model):
 def trumpet_path():
     """Upright, over the beam, a bend to the back, a level run, a bend down: as (y, z) from the trumpet's foot."""
     foot = PLACES["TRUMPET"][1]
-    top = MOUTH_Y + 0.06 - foot - BEND
+    fall = math.radians(65)
+    top = MOUTH_Y + 0.06 * (1 - math.cos(fall)) + 0.092 * math.sin(fall) - foot - BEND
     points = [(0.0, 0.0), (top, 0.0)]
     bend = [(top + BEND * math.sin(a), -BEND + BEND * math.cos(a)) for a in np.linspace(0, math.pi / 2, 10)]
-    fall = math.radians(65)
-    end = MOUTH_Z + 0.06
+    end = MOUTH_Z + 0.06 * math.sin(fall) + 0.092 * math.cos(fall)
     down = [(top + BEND - 0.06 * (1 - math.cos(a)), end - 0.06 * math.sin(a)) for a in np.linspace(0, fall, 8)]
     return points, bend, down, fall
 
@@ -281,9 +280,7 @@ def make_trumpet(model):
     outline = rounded([(TRUMPET_RADIUS - 0.001, 0.0), (0.037, 0.0), (0.037, 0.010), (TRUMPET_RADIUS + 0.004, 0.014), (TRUMPET_RADIUS - 0.001, 0.030)], 0.0015)
     shell(shape, outline, 0, 2 * math.pi, 36, uv=(1, 5), caps=False)
     for place, axis in ((bend[0], (0, 1, 0)), (bend[-1], (0, 0, -1)), (down[0], (0, 0, -1))):
-        collar(shape, at([place])[0], axis, TRUMPET_RADIUS, 0.008, 0.006) if axis[1] else shell(
-            shape, rounded([(TRUMPET_RADIUS - 0.002, -0.008), (TRUMPET_RADIUS + 0.006, -0.008), (TRUMPET_RADIUS + 0.006, 0.008), (TRUMPET_RADIUS - 0.002, 0.008)], 0.002),
-            0, 2 * math.pi, 36, at([place])[0], axis, (0, 1, 0), uv=(1, 5), caps=False)
+        collar(shape, at([place])[0], axis, TRUMPET_RADIUS, 0.008, 0.006)
     model.add("visual_collars", shape, ["verdigris"], trumpet, 180)
 
 
@@ -346,10 +343,12 @@ def make_handle(model):
         block(shape, (x - 0.010, y - 0.030, -0.0255), (x + 0.010, y + 0.0225, 0.0255), 0.0015, 6, 0.0, 0.2)
         for z in (-0.052, 0.052):
             block(shape, (x - 0.010, -0.020, min(z, z * 0.45)), (x + 0.010, 0.0015, max(z, z * 0.45)), 0.0015, 6, 0.0, 0.2)
+    model.add("visual_bronze", shape, ["bronze"], handle, 40)
+    shape = Shape()
     ferrule = rounded([(0.012, -0.007), (0.0188, -0.007), (0.0188, 0.007), (0.012, 0.007)], 0.0015)
     for s in (-1, 1):
         shell(shape, ferrule, 0, 2 * math.pi, 28, end + np.array([0, 0, s * 0.030]), (0, 0, 1), (0, 1, 0), uv=(1, 5), caps=False)
-    model.add("visual_bronze", shape, ["bronze"], handle, 40)
+    model.add("visual_ferrules", shape, ["bronze"], handle, 180)
 
 
 # Its place -----------------------------------------------------------------------------------------------------------------------
