@@ -37,7 +37,7 @@ COWL_HEIGHT, TRUMPET_RADIUS = 0.17, 0.019
 PIVOT_Y, ARM = 0.94, 0.22
 MOUTH_Y, MOUTH_Z, BEND = 1.20, -0.44, 0.085  # the middle of the trumpet's mouth
 HANDLE_X, HANDLE_END, GRIP_RADIUS = 0.20, 0.70, 0.017  # HANDLE_END: from the seat; so 0.90 m from the hinge
-TROUGH_X, TROUGH_Z, TROUGH_WALL, TROUGH_FLOOR, TROUGH_TOP, WELL_LEVEL = 0.38, 0.21, 0.085, 0.06, 0.34, 0.24
+TROUGH_X, TROUGH_Z, TROUGH_WALL, TROUGH_FLOOR, TROUGH_TOP, WELL_LEVEL = 0.38, 0.21, 0.085, 0.06, 0.26, 0.20
 TUB_Z, TUB_RADIUS, TUB_FOOT, TUB_HEIGHT, TUB_STAVES = -0.62, 0.25, 0.16, 0.40, 18
 SECTORS = 8
 
@@ -366,25 +366,25 @@ def make_trough(model, scene):
 
 
 def make_frame(model, scene):
-    """Two posts in the trough carry the beam's stub axles; braces hold them."""
+    """Two trestles on the trough's rim carry the beam's stub axles; the pump is seen between their legs."""
     shape = Shape()
     for k, s in enumerate((-1, 1)):
         z = s * 0.165
-        timber(shape, (0, TROUGH_FLOOR - 0.01, z), (0, PIVOT_Y + 0.075, z), 0.085, 0.055, up=(0, 0, 1), bevel=0.008, seed=41 + k, rough=0.002)
+        timber(shape, (0, PIVOT_Y - 0.13, z), (0, PIVOT_Y + 0.075, z), 0.105, 0.056, up=(0, 0, 1), bevel=0.008, seed=41 + k, rough=0.0015)
         for m, side in enumerate((-1, 1)):
-            timber(shape, (side * 0.34, TROUGH_TOP - 0.005, s * 0.245), (side * 0.015, 0.72, s * 0.185), 0.042, 0.042, up=(0, 0, 1), bevel=0.006, seed=45 + 2 * k + m,
-                   rough=0.0015)
-        timber(shape, (-0.40, TROUGH_TOP + 0.022, s * 0.250), (0.40, TROUGH_TOP + 0.022, s * 0.250), 0.060, 0.050, bevel=0.006, seed=51 + k, rough=0.002)
+            timber(shape, (side * 0.345, TROUGH_TOP - 0.005, s * 0.250), (side * 0.022, PIVOT_Y + 0.01, s * 0.172), 0.052, 0.046, up=(0, 0, 1), bevel=0.006,
+                   seed=45 + 2 * k + m, rough=0.0015)
+        timber(shape, (-0.44, TROUGH_TOP + 0.020, s * 0.250), (0.44, TROUGH_TOP + 0.020, s * 0.250), 0.070, 0.046, bevel=0.006, seed=51 + k, rough=0.002)
     model.add("visual_frame", shape, ["planks"], scene)
     shape = Shape()
     for s in (-1, 1):
         for out in (0.0, 1.0):  # bronze plates round the bearing, on both sides of a post
-            z = s * (0.165 + (0.0275 if out else -0.0275))
+            z = s * (0.165 + (0.035 if out else -0.029))
             d = 0.003
             lathe(shape, [(0.013, z - d), (0.032, z - d), (0.034, z), (0.032, z + d), (0.013, z + d)], 36, (0, PIVOT_Y, 0), (0, 0, 1), uv_scale=(1, 5))
         for side in (-1, 1):
             peg = [(0.0, -0.002), (0.010, -0.002), (0.010, 0.012), (0.007, 0.015), (0.0, 0.016)]
-            lathe(shape, peg, 14, (side * 0.040, 0.70, s * 0.208), (0, 0, s), uv_scale=(0.2, 3))
+            lathe(shape, peg, 14, (side * 0.034, PIVOT_Y - 0.075, s * 0.2015), (0, 0, s), uv_scale=(0.2, 3))
     model.add("visual_bearings", shape, ["bronze"], scene, 40)
 
 

@@ -532,16 +532,18 @@ def export(path):
     print(f"wrote {path}, {os.path.getsize(path)} bytes")
 
 
-def picture(path, eye, look_at, width=900, height=675, samples=48, lens=40):
+def picture(path, eye, look_at, width=640, height=480, samples=48, lens=40):
     """Renders the scene by Cycles on the CPU, under a hazy sky and a low sun: to judge a model by."""
     scene = bpy.context.scene
     world = bpy.data.worlds.new("sky")
     world.use_nodes = True
     nodes, links = world.node_tree.nodes, world.node_tree.links
-    sky = nodes.new("ShaderNodeTexSky")
-    sky.sun_elevation, sky.sun_rotation, sky.sun_intensity, sky.dust_density = math.radians(38), math.radians(-50), 0.35, 2.0
-    links.new(sky.outputs["Color"], nodes["Background"].inputs["Color"])
-    nodes["Background"].inputs["Strength"].default_value = 0.16
+    sky, fill = nodes.new("ShaderNodeTexSky"), nodes.new("ShaderNodeMixRGB")
+    sky.sun_elevation, sky.sun_rotation, sky.sun_intensity, sky.dust_density = math.radians(42), math.radians(-40), 0.25, 1.0
+    fill.blend_type, fill.inputs["Fac"].default_value, fill.inputs["Color2"].default_value = "ADD", 1.0, (1.1, 1.05, 1.0, 1)
+    links.new(sky.outputs["Color"], fill.inputs["Color1"])
+    links.new(fill.outputs["Color"], nodes["Background"].inputs["Color"])
+    nodes["Background"].inputs["Strength"].default_value = 0.15
     scene.world = world
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.data.lens = lens
@@ -551,7 +553,7 @@ def picture(path, eye, look_at, width=900, height=675, samples=48, lens=40):
     camera.rotation_euler = (Vector(to_blender(look_at)) - camera.location).to_track_quat("-Z", "Y").to_euler()
     scene.camera = camera
     scene.render.engine = "CYCLES"
-    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", samples, True
+    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", samples, False  # Debian's has no denoiser
     scene.render.resolution_x, scene.render.resolution_y = width, height
     scene.view_settings.view_transform = "Filmic"
     scene.view_settings.look = "Medium High Contrast"

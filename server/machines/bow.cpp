@@ -102,9 +102,8 @@ class Bow final : public Machine {
     if (!joint.enabled || draw_m <= 0) return;
     // The mean force over this tick's way: so a fast slider gets what the bow loses, and no more.
     const double way_m = s_.direction * joint.velocity * dt_s;
-    const double force_n = std::abs(way_m) < 1e-7
-                               ? curve_.force_n(draw_m)
-                               : (curve_.energy_j(draw_m + way_m) - curve_.energy_j(draw_m)) / way_m;
+    const double force_n = std::abs(way_m) < 1e-7 ? curve_.force_n(draw_m)
+                                                  : (curve_.energy_j(draw_m + way_m) - curve_.energy_j(draw_m)) / way_m;
     joint.load -= s_.effort_scale * s_.direction * force_n;
   }
 
@@ -186,15 +185,11 @@ constexpr state::ParameterType kParameters[] = {
      .default_value = 1,
      .min = 0,
      .max = 1},
-    {.name = "reversed",
-     .kind = ParameterKind::boolean,
-     .summary = "true: the slider draws to negative positions"},
+    {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the slider draws to negative positions"},
 };
 constexpr state::ValueType kValues[] = {
-    {"caught", "", "1 while the claw holds the string"},
-    {"string_m", "m", "how far the string is drawn"},
-    {"force_n", "N", "of the string on the slider, unscaled"},
-    {"energy_j", "J", "held by the bow, unscaled"},
+    {"caught", "", "1 while the claw holds the string"},       {"string_m", "m", "how far the string is drawn"},
+    {"force_n", "N", "of the string on the slider, unscaled"}, {"energy_j", "J", "held by the bow, unscaled"},
     {"shot_j", "J", "what the last projectile took"},
 };
 

@@ -46,7 +46,8 @@ Expected<EnergyOffer> EnergyOffer::find(const Build& build, std::string_view par
   const state::MemorySlot* taken = build.layout.find(name + "." + kTaken);
   if (offered == nullptr || taken == nullptr) {
     return fail("the machine '" + name + "' is no spring, or stands below this one",
-                state::component_place(build.component), "name a machine.torsion_spring or machine.bow, and write it first");
+                state::component_place(build.component),
+                "name a machine.torsion_spring or machine.bow, and write it first");
   }
   EnergyOffer out;
   out.offered_j_ = offered->index;

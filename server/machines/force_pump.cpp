@@ -100,8 +100,8 @@ class ForcePump final : public Machine {
   /// Of a piston over its bottom.
   [[nodiscard]] double piston_m(const state::JointState& joint, std::size_t i) const noexcept {
     const double side = i == 0 ? s_.direction : -s_.direction;
-    const double x_m = s_.beam ? s_.stroke_m / 2 + side * s_.arm_m * joint.position
-                               : s_.direction * joint.position - s_.bottom_m;
+    const double x_m =
+        s_.beam ? s_.stroke_m / 2 + side * s_.arm_m * joint.position : s_.direction * joint.position - s_.bottom_m;
     return std::clamp(x_m, 0.0, s_.stroke_m);
   }
 
@@ -193,7 +193,8 @@ Expected<void> read_drive(const Build& build, const std::string& where, Settings
     s.beam = p.joint("beam");
     if (kind_of(s.beam) != state::JointKind::hinge)
       return fail("the beam '" + p.text("beam") + "' does not turn", where, "name a SingleAxisHingeJoint");
-    if (!p.given("arm")) return fail("the beam has no 'arm'", where, "write its length from the hinge to a piston's rod");
+    if (!p.given("arm"))
+      return fail("the beam has no 'arm'", where, "write its length from the hinge to a piston's rod");
     s.arm_m = p.number("arm");
     s.handle_m = p.given("handleArm") ? p.number("handleArm") : s.arm_m;
     if (p.number("cylinders") != std::floor(p.number("cylinders")))
@@ -248,11 +249,7 @@ constexpr state::ParameterType kParameters[] = {
      .kind = ParameterKind::text,
      .summary = "the hinge of the beam that moves the pistons; level, with both half way, at angle 0",
      .reference = state::Reference::joint},
-    {.name = "arm",
-     .unit = "m",
-     .summary = "of the beam, from its hinge to a piston's rod",
-     .min = 0.01,
-     .max = 10},
+    {.name = "arm", .unit = "m", .summary = "of the beam, from its hinge to a piston's rod", .min = 0.01, .max = 10},
     {.name = "handleArm",
      .unit = "m",
      .summary = "of the beam, from its hinge to the hand; not given: as arm",

@@ -21,9 +21,9 @@
 namespace mechane::machines {
 namespace {
 
-constexpr double kStruck_m_s = 1.0;    // a change of speed in a tick that only a blow explains
-constexpr double kStuck_m_s = 0.01;    // slower, and the target holds the missile
-constexpr double kFledge_per_s = 60;   // how fast a fletched missile follows its flight
+constexpr double kStruck_m_s = 1.0;   // a change of speed in a tick that only a blow explains
+constexpr double kStuck_m_s = 0.01;   // slower, and the target holds the missile
+constexpr double kFledge_per_s = 60;  // how fast a fletched missile follows its flight
 
 enum class Phase : int { rests = 0, flies = 1, struck = 2, enters = 3, sticks = 4 };
 
@@ -91,6 +91,7 @@ class Projectile final : public Machine {
         off_centre_(build.slot("off_centre_m")),
         depth_(build.slot("depth_m")),
         phase_(build.slot("flight.phase")),
+        carry_(build.slot("flight.carry")),
         from_(build, "flight.from"),
         expected_(build, "flight.expected") {}
 
@@ -105,7 +106,8 @@ class Projectile final : public Machine {
         fly(state, dt_s);
         break;
       case Phase::enters:
-        enter(state, 1, dt_s);
+        enter(state, 1 + state.memory[carry_], dt_s);
+        state.memory[carry_] = 0;
         break;
       default:
         break;
@@ -168,7 +170,7 @@ class Projectile final : public Machine {
       follow(state, p_WCm(body) + share * dt_s * v_W);
       state.memory[hit_] = 1;
       set_phase(state, Phase::enters);
-      enter(state, 1 - share, dt_s);
+      enter(state, first_push(state, 1 - share), dt_s);
       return;
     }
     follow(state, p_WCm(body));
@@ -226,8 +228,15 @@ class Projectile final : public Machine {
     return share;
   }
 
-  /// The target's force holds the missile back, for a share of the tick; never more than stops it.
-  void enter(state::WorldState& state, double share, double dt_s) const noexcept {
+  /// Dynamics move a body by its speed at the end of a tick. So that it goes in as far as it should, the push lags by half a tick:
+  /// of one that begins with `left` of a tick to go, left^2 / 2 comes now, and in the next tick what makes left + 1/2 of both.
+  [[nodiscard]] double first_push(state::WorldState& state, double left) const noexcept {
+    state.memory[carry_] = left - 0.5 - left * left / 2;
+    return left * left / 2;
+  }
+
+  /// The target's force holds the missile back, for `ticks`; never more than stops it.
+  void enter(state::WorldState& state, double ticks, double dt_s) const noexcept {
     state::BodyState& body = state[s_.body];
     const Vec3 v_W = v_WCm(body);
     const double speed = v_W.norm();
@@ -238,7 +247,7 @@ class Projectile final : public Machine {
       set_phase(state, Phase::sticks);
       return;
     }
-    const double stop_n = std::min(share * s_.target.stop_n, s_.mass_kg * speed / dt_s);
+    const double stop_n = std::min(ticks * s_.target.stop_n, s_.mass_kg * speed / dt_s);
     push(body, -stop_n / speed * v_W - s_.mass_kg * s_.gravity_W);
     body.V_WB = {v_W, Vec3::Zero()};
     state.memory[speed_] = speed - stop_n * dt_s / s_.mass_kg;
@@ -258,6 +267,7 @@ class Projectile final : public Machine {
   std::size_t off_centre_;
   std::size_t depth_;
   std::size_t phase_;
+  std::size_t carry_;     // of the target's push, from the tick of entering to the next
   VectorSlots from_;      // centre of mass at the shot
   VectorSlots expected_;  // its velocity after this tick if it meets nothing
 };
@@ -396,11 +406,7 @@ constexpr state::ParameterType kParameters[] = {
      .min = -100,
      .max = 100,
      .count = 3},
-    {.name = "ground",
-     .unit = "m",
-     .summary = "height in the world at which the flight ends",
-     .min = -1e4,
-     .max = 1e4},
+    {.name = "ground", .unit = "m", .summary = "height in the world at which the flight ends", .min = -1e4, .max = 1e4},
     {.name = "target",
      .kind = ParameterKind::text,
      .summary = "the body whose face holds what enters",
@@ -418,12 +424,7 @@ constexpr state::ParameterType kParameters[] = {
      .min = -1e4,
      .max = 1e4,
      .count = 3},
-    {.name = "targetRadius",
-     .unit = "m",
-     .summary = "of the face",
-     .default_value = 0.5,
-     .min = 0.01,
-     .max = 100},
+    {.name = "targetRadius", .unit = "m", .summary = "of the face", .default_value = 0.5, .min = 0.01, .max = 100},
     {.name = "stopForce",
      .unit = "N",
      .summary = "by which the target holds what enters; straw: some 1000",

@@ -20,7 +20,7 @@ namespace mechane::machines {
 namespace {
 
 constexpr double kBoiling_c = 100;
-constexpr double kFastest_m_s = 250;  // beyond, the pressure in the sphere is no longer near that of the air
+constexpr double kFastest_m_s = 250;      // beyond, the pressure in the sphere is no longer near that of the air
 constexpr double kLeastWater_kg = 0.005;  // what warms with the last drops: the cauldron's floor
 constexpr std::size_t kMostNozzles = 8;
 
@@ -35,8 +35,8 @@ struct Settings {
   double time_scale = 1;
   double delay_s = 0.5;
   double radius_m = 0;
-  double area_m2 = 0;          // of all nozzles
-  double mean_cosine = 1;      // over the nozzles
+  double area_m2 = 0;      // of all nozzles
+  double mean_cosine = 1;  // over the nozzles
   bool lid = true;
   double bearing_nm = 0;
   double air_nm_s2 = 0;
@@ -163,14 +163,19 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "the quantity that is above 0.5 while the fire burns",
      .required = true,
      .reference = state::Reference::quantity},
-    {.name = "firePower",
-     .unit = "W",
-     .summary = "of the fire into the water",
-     .required = true,
-     .min = 1,
-     .max = 1e6},
-    {.name = "water", .unit = "l", .summary = "in the cauldron at the start", .default_value = 1, .min = 0, .max = 1000},
-    {.name = "ambient", .unit = "deg C", .summary = "around, and of the water at the start", .default_value = 20, .min = -20, .max = 60},
+    {.name = "firePower", .unit = "W", .summary = "of the fire into the water", .required = true, .min = 1, .max = 1e6},
+    {.name = "water",
+     .unit = "l",
+     .summary = "in the cauldron at the start",
+     .default_value = 1,
+     .min = 0,
+     .max = 1000},
+    {.name = "ambient",
+     .unit = "deg C",
+     .summary = "around, and of the water at the start",
+     .default_value = 20,
+     .min = -20,
+     .max = 60},
     {.name = "loss", .unit = "W/K", .summary = "what the cauldron gives to the air", .min = 0, .max = 1e4},
     {.name = "timeScale",
      .summary = "how many times as fast as the clock the water heats and is used up",
@@ -189,12 +194,7 @@ constexpr state::ParameterType kParameters[] = {
      .required = true,
      .min = 0.005,
      .max = 5},
-    {.name = "nozzleDiameter",
-     .unit = "m",
-     .summary = "of a nozzle's bore",
-     .required = true,
-     .min = 1e-4,
-     .max = 0.5},
+    {.name = "nozzleDiameter", .unit = "m", .summary = "of a nozzle's bore", .required = true, .min = 1e-4, .max = 0.5},
     {.name = "nozzleAngles",
      .kind = ParameterKind::numbers,
      .unit = "rad",
@@ -221,12 +221,9 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "true: the nozzles drive the hinge to negative angles"},
 };
 constexpr state::ValueType kValues[] = {
-    {"temperature_c", "deg C", "of the water"},
-    {"steam_kg_s", "kg/s", "that comes off the water, in real time"},
-    {"water_l", "l", "left in the cauldron"},
-    {"rate", "rad/s", "of the sphere; the unit rpm converts"},
-    {"torque_nm", "N m", "of the jets, unscaled"},
-    {"exit_m_s", "m/s", "of the steam out of the nozzles"},
+    {"temperature_c", "deg C", "of the water"},    {"steam_kg_s", "kg/s", "that comes off the water, in real time"},
+    {"water_l", "l", "left in the cauldron"},      {"rate", "rad/s", "of the sphere; the unit rpm converts"},
+    {"torque_nm", "N m", "of the jets, unscaled"}, {"exit_m_s", "m/s", "of the steam out of the nozzles"},
     {"boils", "", "1 while the water boils"},
 };
 

@@ -109,15 +109,15 @@ double philons_calibre_dactyls(double stone_kg) {
 }
 
 Expected<double> read_calibre(const state::Parameters& p, const std::string& where) {
-  if (!p.given("springDiameter"))
-    return p.given("stoneMass") ? philons_calibre_dactyls(p.number("stoneMass")) : 0.0;
+  if (!p.given("springDiameter")) return p.given("stoneMass") ? philons_calibre_dactyls(p.number("stoneMass")) : 0.0;
   const double calibre = p.number("springDiameter") / kDactyl_m;
   if (!p.given("stoneMass")) return calibre;
   const double philons = philons_calibre_dactyls(p.number("stoneMass"));
   if (std::abs(calibre / philons - 1) > kCalibration) {
-    return fail(fmt::format("springs of {:.1f} dactyls are not made for a stone of {:.1f} minas: Philon asks for {:.1f}",
-                            calibre, p.number("stoneMass") / kMina_kg, philons),
-                where, fmt::format("write {:.4f} for springDiameter, or another stoneMass", philons * kDactyl_m));
+    return fail(
+        fmt::format("springs of {:.1f} dactyls are not made for a stone of {:.1f} minas: Philon asks for {:.1f}",
+                    calibre, p.number("stoneMass") / kMina_kg, philons),
+        where, fmt::format("write {:.4f} for springDiameter, or another stoneMass", philons * kDactyl_m));
   }
   return calibre;
 }
@@ -131,8 +131,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
     return fail("the joint '" + p.text("joint") + "' does not turn", where, "name a SingleAxisHingeJoint");
   s.direction = p.boolean("reversed") ? -1 : 1;
   s.springs = p.number("springs");
-  if (s.springs != std::floor(s.springs))
-    return fail("springs is not a whole number", where, "write 0, 1 or 2");
+  if (s.springs != std::floor(s.springs)) return fail("springs is not a whole number", where, "write 0, 1 or 2");
   s.preload_nm = p.number("preload");
   s.stiffness_nm_per_rad = p.number("stiffness");
   s.effort_scale = build.effort_scale();
@@ -150,7 +149,11 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "the hinge of the arm, at 0 when the arm is at rest",
      .required = true,
      .reference = state::Reference::joint},
-    {.name = "springs", .summary = "how many bundles drive it; 0: they are cut", .default_value = 2, .min = 0, .max = 2},
+    {.name = "springs",
+     .summary = "how many bundles drive it; 0: they are cut",
+     .default_value = 2,
+     .min = 0,
+     .max = 2},
     {.name = "preload",
      .unit = "N m",
      .summary = "torque of one bundle at rest",
@@ -182,9 +185,7 @@ constexpr state::ParameterType kParameters[] = {
      .default_value = 1,
      .min = 0,
      .max = 1},
-    {.name = "reversed",
-     .kind = ParameterKind::boolean,
-     .summary = "true: the arm is drawn to negative angles"},
+    {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the arm is drawn to negative angles"},
 };
 constexpr state::ValueType kValues[] = {
     {"torque_nm", "N m", "of all springs on the arm, unscaled"},

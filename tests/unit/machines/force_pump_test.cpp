@@ -84,8 +84,7 @@ TEST(ForcePump, WorkOfTheHandIsWhatWasLiftedOverTheEfficiency) {
   state::WorldDescription world = pump_with("friction", number(0));
   Bench pump(world);
   double work_j = 0;
-  rock(pump, 8, 0.5,
-       [&] { work_j += pump.joint().resistance / kScale * std::abs(pump.joint().velocity) * kTick; });
+  rock(pump, 8, 0.5, [&] { work_j += pump.joint().resistance / kScale * std::abs(pump.joint().velocity) * kTick; });
   const double lifted_j = pump.value("PUMP.lifted_l") * 9.81 * kLift;
   EXPECT_GT(work_j, lifted_j);
   EXPECT_NEAR(work_j, lifted_j / 0.8, 0.01 * work_j);
@@ -113,7 +112,7 @@ TEST(ForcePump, TwoCylindersGiveAContinuousJetAndOneDoesNot) {
 TEST(ForcePump, TheFirstWaterComesWhenVesselAndPipeAreFull) {
   Bench pump(pump_with("riser", number(3)));
   double into_l = 0;
-  rock(pump, 2, 0.5, [&] {
+  rock(pump, 4, 0.5, [&] {
     into_l += pump.value("PUMP.flow_l_per_s") * kTick;
     if (into_l < 2.999) {
       ASSERT_EQ(pump.value("PUMP.lifted_l"), 0);

@@ -87,7 +87,8 @@ TEST(PebbleCounter, PebblesRideInTheDrumUntilTheyFallOneByOne) {
     ride(kTooth * 0.6);
   EXPECT_TRUE(bench.body("PEBBLE0").movable);
   EXPECT_FALSE(bench.body("PEBBLE1").movable);
-  EXPECT_NEAR(bench.body("PEBBLE0").X_WB.p.y(), 0.1 * std::sin(kTooth * 0.6) - 0.5 * 9.81 * 0.36, 0.05) << "0.6 s of fall";
+  EXPECT_NEAR(bench.body("PEBBLE0").X_WB.p.y(), 0.1 * std::sin(kTooth * 0.6) - 0.5 * 9.81 * 0.36, 0.05)
+      << "0.6 s of fall";
   ride(kTooth * 1.6);
   EXPECT_TRUE(bench.body("PEBBLE1").movable);
   EXPECT_FALSE(bench.body("PEBBLE2").movable);
