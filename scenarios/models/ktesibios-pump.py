@@ -457,12 +457,17 @@ def make_water(model):
 # The file ------------------------------------------------------------------------------------------------------------------------
 
 
+LAID_OUT = {
+    "CYLINDER_L": (-0.58, 0.06, 0.52), "CYLINDER_R": (-0.34, 0.06, 0.52), "VESSEL": (-0.02, 0.02, 0.52), "COWL": (0.30, 0.0, 0.52), "PIPE_L": (0.48, 0.02, 0.60),
+    "PIPE_R": (0.82, 0.02, 0.60), "TRUMPET": (-0.80, 0.0, 0.75), "ROD_L": (0.62, 0.68, 0.30), "ROD_R": (0.72, 0.68, 0.30), "PISTON_L": (-0.50, 0.0, 0.80),
+    "PISTON_R": (-0.34, 0.0, 0.80), "VALVE_IN_L": (-0.19, 0.0, 0.80), "VALVE_IN_R": (-0.09, 0.0, 0.80), "VALVE_OUT_L": (0.01, 0.0, 0.80), "VALVE_OUT_R": (0.10, 0.0, 0.80),
+    "HANDLE": (0.34, 0.02, 0.84)}
+
+
 def put(apart):
-    """Puts the parts where they are in the pump, or lays it open: for pictures."""
-    lift = {"COWL": 0.16, "TRUMPET": 0.30, "VALVE_OUT_L": 0.06, "VALVE_OUT_R": 0.06, "BEAM": 0.62, "HANDLE": 0.74, "ROD_L": 0.52, "ROD_R": 0.52, "PISTON_L": 0.40,
-            "PISTON_R": 0.40, "VALVE_IN_L": 0.0, "VALVE_IN_R": 0.0}
-    for name, place in PLACES.items():
-        bpy.data.objects[name].location = to_blender(np.array(place) + np.array([0, lift.get(name, 0.0) if apart else 0.0, 0]))
+    """Puts the parts where they are in the pump, or lays them out before it: for pictures."""
+    for name, place in {**PLACES, **(LAID_OUT if apart else {})}.items():
+        bpy.data.objects[name].location = to_blender(place)
 
 
 def main():
@@ -479,7 +484,7 @@ def main():
         export(os.path.abspath(arguments[0]))
         if len(arguments) > 1:
             for name, apart, eye, look_at in (("together", False, (1.45, 1.25, 1.85), (0.10, 0.58, -0.12)), ("near", False, (0.55, 0.78, 0.95), (0.0, 0.48, 0)),
-                                              ("apart", True, (1.2, 1.45, 2.5), (0.12, 0.80, -0.05))):
+                                              ("apart", True, (0.55, 1.25, 2.35), (0.02, 0.42, 0.35))):
                 put(apart)
                 picture(os.path.abspath(arguments[1]) + f"-{name}.png", eye, look_at)
 
