@@ -114,12 +114,17 @@ def rounded(outline, bevel=0.0018):
     return result
 
 
-def add_shell(model, parent, name, outline, tiles=(2, 5.0), sectors=SECTORS, origin=(0, 0, 0), bevel=0.0018, materials=("bronze",)):
+def add_shell(model, parent, name, outline, tiles=(2, 5.0), origin=(0, 0, 0), bevel=0.0018):
     """A hollow turned body as closed sectors that together look like one."""
-    outline = rounded(outline, bevel)
-    for k in range(sectors):
-        shape = shell(Shape(), outline, 2 * math.pi * k / sectors, 2 * math.pi * (k + 1) / sectors, 48 // sectors, origin, uv=tiles)
-        model.add(f"part_{name}_{k:02d}", shape, list(materials), parent, 180)
+    sectors(model, parent, name, rounded(outline, bevel), tiles, origin)
+
+
+def sectors(model, parent, name, outline, tiles=(2, 5.0), origin=(0, 0, 0), offset=0.0):
+    """The outline's normals are those of `outline` alone: where two meet smoothly, their last edges should be in line."""
+    for k in range(SECTORS):
+        shape = shell(Shape(), outline, 2 * math.pi * k / SECTORS, 2 * math.pi * (k + 1) / SECTORS, 48 // SECTORS, origin, uv=tiles)
+        shape.uvs = [tuple((u, v + offset) for u, v in face) for face in shape.uvs]
+        model.add(f"part_{name}_{k:02d}", shape, ["bronze"], parent, 180)
 
 
 def add_disc(model, parent, name, radius, low, high, tiles=5.0, origin=(0, 0, 0), material_name="bronze", segments=40, bevel=0.002, kind="part"):
@@ -140,12 +145,15 @@ def make_cylinders(model):
     r, o, h = BORE, BORE + WALL, CYLINDER_HEIGHT
     for name, side in SIDES:
         group = model.group(f"CYLINDER_{name}")
-        # Foot flange, plain barrel, two raised bands, a lip at the top.
-        outline = [(r, 0.010), (o + 0.020, 0.010), (o + 0.020, 0.022), (o + 0.004, 0.026), (o, 0.034)]
-        for band in (0.120, 0.225):
-            outline += [(o, band), (o + 0.0045, band + 0.004), (o + 0.0045, band + 0.014), (o, band + 0.018)]
-        outline += [(o, h - 0.032), (o + 0.013, h - 0.020), (o + 0.015, h - 0.003), (o + 0.012, h), (r + 0.002, h), (r, h - 0.004)]
-        add_shell(model, group, "wall", outline)
+        # Each ring is close to convex by itself: that is how they are felt.
+        add_shell(model, group, "barrel", [(r, 0.010), (o, 0.010), (o, h - 0.004), (o - 0.003, h), (r + 0.002, h), (r, h - 0.004)])
+        add_shell(model, group, "flange", [(o - 0.002, 0.010), (o + 0.020, 0.010), (o + 0.020, 0.022), (o + 0.004, 0.026), (o - 0.002, 0.034)])
+        add_shell(model, group, "lip", [(o - 0.002, h - 0.032), (o + 0.013, h - 0.020), (o + 0.015, h - 0.003), (o + 0.012, h), (o - 0.003, h)])
+        shape = Shape()
+        for y in (0.120, 0.225):
+            band = rounded([(o - 0.002, y), (o, y), (o + 0.0045, y + 0.004), (o + 0.0045, y + 0.014), (o, y + 0.018), (o - 0.002, y + 0.018)], 0.0012)
+            shell(shape, band, 0, 2 * math.pi, 48, uv=(2, 5), caps=False)
+        model.add("visual_bands", shape, ["bronze"], group, 180)
         # The bottom: a ring round the inlet's hole, on three feet that let the water in.
         floor = rounded([(0.024, 0.0), (o + 0.018, 0.0), (o + 0.018, 0.010), (0.028, 0.010)], 0.0015)
         for k in range(4):
@@ -232,10 +240,12 @@ def make_vessel(model):
 def make_cowl(model):
     cowl = model.group("COWL")
     o, h, t = VESSEL_RADIUS, COWL_HEIGHT, 0.007
-    curve = [(0.092, 0.020), (0.088, 0.040), (0.076, 0.064), (0.058, 0.088), (0.042, 0.112), (0.032, 0.138), (0.028, h - 0.012)]
-    outside = [(o - 0.006, 0.0), (o + 0.020, 0.0), (o + 0.020, 0.012), (0.098, 0.014)] + curve + [(0.037, h - 0.010), (0.037, h), (TRUMPET_RADIUS, h)]
-    inside = [(TRUMPET_RADIUS, h - 0.02)] + [(max(r - t, TRUMPET_RADIUS), y - 0.002) for r, y in reversed(curve[:-1])]
-    add_shell(model, cowl, "funnel", outside + inside, tiles=(2, 5.0), bevel=0.0016)
+    curve = [(0.0975, 0.012), (0.092, 0.020), (0.088, 0.040), (0.076, 0.064), (0.058, 0.088), (0.042, 0.112), (0.032, 0.138), (0.028, h - 0.010)]
+    add_shell(model, cowl, "flange", [(o - 0.014, 0.0), (o + 0.020, 0.0), (o + 0.020, 0.012), (0.096, 0.014)], bevel=0.0016)
+    for k, piece in enumerate((curve[0:3], curve[2:5], curve[4:8])):
+        inside = [(max(r - t, TRUMPET_RADIUS), y - 0.004) for r, y in reversed(piece)]
+        sectors(model, cowl, f"funnel_{k}", piece + inside, tiles=(2, 5.0), offset=0.06 * k)
+    add_shell(model, cowl, "neck", [(TRUMPET_RADIUS, h - 0.012), (0.036, h - 0.012), (0.037, h - 0.010), (0.037, h), (TRUMPET_RADIUS, h)], bevel=0.0012)
     shape = Shape()
     for k in range(4):  # wedges of oak, driven through the staples
         a = math.pi / 4 + math.pi / 2 * k
@@ -271,8 +281,8 @@ def make_trumpet(model):
     for k, path in enumerate((straight, bend, [bend[-1], down[0]], down)):
         model.add(f"part_pipe_{k}", tube(Shape(), at(path), TRUMPET_RADIUS, 28, v_scale=5), ["bronze"], trumpet, 50)
     direction = np.array([0, -math.sin(fall), -math.cos(fall)])
-    bell = [(TRUMPET_RADIUS - 0.001, -0.004), (TRUMPET_RADIUS + 0.002, 0.0), (0.021, 0.030), (0.027, 0.058), (0.040, 0.082), (0.047, 0.090), (0.047, 0.094),
-            (0.043, 0.093), (0.035, 0.083), (0.022, 0.058), (0.016, 0.030), (0.015, -0.004)]
+    bell = [(TRUMPET_RADIUS - 0.001, -0.004), (TRUMPET_RADIUS + 0.002, 0.0), (0.021, 0.030), (0.027, 0.058), (0.040, 0.082), (0.047, 0.090), (0.047, 0.095),
+            (0.040, 0.095), (0.031, 0.083), (0.020, 0.058), (0.016, 0.030), (0.015, -0.004)]
     for k in range(6):
         shape = shell(Shape(), bell, 2 * math.pi * k / 6, 2 * math.pi * (k + 1) / 6, 8, at(down[-1:])[0], direction, (1, 0, 0), uv=(1, 5), smooth_degrees=50)
         model.add(f"part_bell_{k}", shape, ["bronze"], trumpet, 180)
@@ -296,8 +306,12 @@ def make_pistons(model):
 
         rod = model.group(f"ROD_{name}")
         low = PISTON_MID + h + 0.010 - PIVOT_Y
-        outline = [(0.0, low), (0.008, low), (0.0095, low + 0.003), (0.0095, -0.040), (0.013, -0.032), (0.013, -0.020), (0.0, -0.018)]
-        model.add("part_rod", lathe(Shape(), outline, 24, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 5)), ["bronze"], rod, 35)
+        for k in range(4):  # short pieces: their maps are finer
+            bottom, top = mix(low, -0.020, k / 4), mix(low, -0.020, (k + 1) / 4)
+            outline = [(0.0, bottom), (0.0095, bottom), (0.0095, top), (0.0, top)]
+            model.add(f"part_rod_{k}", lathe(Shape(), outline, 24, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 5), uv_offset=(0, 5 * bottom)), ["bronze"], rod, 35)
+        neck = lathe(Shape(), [(0.0095, -0.046), (0.013, -0.036), (0.0135, -0.024), (0.0, -0.020)], 24, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 5))
+        model.add("visual_neck", neck, ["bronze"], rod, 35)
         eye = rounded([(0.0105, -0.010), (0.025, -0.010), (0.025, 0.010), (0.0105, 0.010)], 0.002)
         for k in range(6):
             shape = shell(Shape(), eye, 2 * math.pi * k / 6, 2 * math.pi * (k + 1) / 6, 6, (0, 0, 0), (0, 0, 1), (0, 1, 0), uv=(1, 5))
@@ -330,7 +344,7 @@ def make_beam(model):
 def make_handle(model):
     handle = model.group("HANDLE")
     start, end = np.array([-0.135, 0.021, 0]), np.array([HANDLE_END, 0.055, 0])
-    model.add("part_lever", timber(Shape(), start, end + (end - start) * 0.04, 0.046, 0.040, bevel=0.007, seed=81, rough=0.0012, taper=0.86), ["timber"], handle)
+    model.add("part_lever", timber(Shape(), start, end + (end - start) * 0.04, 0.046, 0.040, bevel=0.007, seed=81, rough=0.0005, taper=0.86), ["timber"], handle)
     saddle = timber(Shape(), (-0.10, 0.006, 0), (0.09, 0.006, 0), 0.066, 0.012, bevel=0.003, seed=83, rough=0.0006)
     model.add("part_saddle", saddle, ["timber"], handle)
     swell = [(0.0, -1.0), (0.0115, -1.0), (0.0145, -0.97), (0.0155, -0.90), (0.0150, -0.80), (0.0160, -0.5), (GRIP_RADIUS, -0.2), (GRIP_RADIUS, 0.2), (0.0160, 0.5),
