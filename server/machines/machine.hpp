@@ -28,6 +28,10 @@ struct Build {
   [[nodiscard]] std::size_t slot(const std::string& value, double initial = 0) const {
     return layout.add(component.name, value, initial);
   }
+  /// The parameter effortScale, or the world's where the author wrote none.
+  [[nodiscard]] double effort_scale() const {
+    return parameters.given("effortScale") ? parameters.number("effortScale") : description.effort_scale;
+  }
 };
 
 struct MachineKind {
@@ -37,6 +41,12 @@ struct MachineKind {
 
 /// One file each.
 [[nodiscard]] const MachineKind& screw_pump_kind();
+[[nodiscard]] const MachineKind& force_pump_kind();
+[[nodiscard]] const MachineKind& torsion_spring_kind();
+[[nodiscard]] const MachineKind& bow_kind();
+[[nodiscard]] const MachineKind& projectile_kind();
+[[nodiscard]] const MachineKind& steam_sphere_kind();
+[[nodiscard]] const MachineKind& pebble_counter_kind();
 
 /// Null where no type has this name.
 [[nodiscard]] const MachineKind* find_kind(std::string_view type);

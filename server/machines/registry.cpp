@@ -7,8 +7,9 @@
 namespace mechane::machines {
 namespace {
 
-std::array<const MachineKind*, 1> kinds() {
-  return {&screw_pump_kind()};
+std::array<const MachineKind*, 7> kinds() {
+  return {&screw_pump_kind(), &force_pump_kind(),   &torsion_spring_kind(), &bow_kind(),
+          &projectile_kind(), &steam_sphere_kind(), &pebble_counter_kind()};
 }
 
 }  // namespace

@@ -15,14 +15,13 @@
 #include <cmath>
 
 #include "server/machines/machine.hpp"
+#include "server/machines/nature.hpp"
 #include "server/machines/screw_geometry.hpp"
 #include "server/machines/screw_train.hpp"
 
 namespace mechane::machines {
 namespace {
 
-constexpr double kDensity_kg_m3 = 1000;
-constexpr double kGravity_m_s2 = 9.81;
 constexpr double kTightRate_rad_s = 2.0 * 2 * kPi / 60;  // above it buckets do not leak
 constexpr double kBackBlend_rad_s = 0.2;                 // over which the load changes from forwards to backwards
 constexpr double kEventPeriod_s = 0.5;
@@ -173,8 +172,8 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
   s.limit_rad_s = muysken_limit_rad_s(p.number("diameter"));
   s.efficiency = p.number("efficiency");
   s.torque_full_nm =
-      s.volume_per_turn_m3 * kDensity_kg_m3 * kGravity_m_s2 * p.number("lift") / (2 * kPi) / s.efficiency;
-  s.effort_scale = p.given("effortScale") ? p.number("effortScale") : build.description.effort_scale;
+      s.volume_per_turn_m3 * kWaterDensity_kg_m3 * kGravity_m_s2 * p.number("lift") / (2 * kPi) / s.efficiency;
+  s.effort_scale = build.effort_scale();
   s.leak_s = p.number("leakTime");
   s.basin_m2 = p.number("basinArea");
   s.basin_capacity_m3 = p.number("basinCapacity") / 1000;

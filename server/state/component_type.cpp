@@ -82,6 +82,12 @@ Expected<void> check_reference(const ParameterType& type, const std::string& tex
     case Reference::activity:
       if (!world.find_activity(text)) return unknown("activity", names_of_items(world.activities));
       break;
+    case Reference::quantity:
+      if (!world.find_quantity(text)) return unknown("quantity", names_of_items(world.quantities));
+      break;
+    case Reference::machine:
+      if (!world.find_machine(text)) return unknown("machine", names_of_items(world.machines));
+      break;
   }
   return {};
 }

@@ -22,7 +22,7 @@ enum class ParameterKind {
 };
 
 /// What a text names, so that a checker and an editor can offer the right list.
-enum class Reference { none, body, joint, agent, activity };
+enum class Reference { none, body, joint, agent, activity, quantity, machine };
 
 struct ParameterType {
   std::string_view name;

@@ -1,0 +1,564 @@
+"""What the models of the museum share: textures that numpy makes, materials, and shapes with uvs, in metres and glTF's axes (y up).
+
+A model's script lies beside this file; Blender does not look there of itself, so it begins with
+
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+Every random number is seeded by what it is for: the same script gives the same file.
+"""
+import math
+import os
+
+import bpy
+import numpy as np
+
+TEXTURE = 1024
+
+
+def to_blender(p):
+    return (p[0], -p[2], p[1])
+
+
+# Textures ------------------------------------------------------------------------------------------------------------------------
+
+
+def noise(shape, cells, rng):
+    """Smooth random values in 0..1 on a grid of `cells`, periodic both ways."""
+    lattice = rng.random(cells)
+    result = np.zeros(shape)
+    places = []
+    for size, count in zip(shape, cells):
+        at = np.arange(size) * count / size
+        low = np.floor(at).astype(int)
+        f = at - low
+        places.append((low % count, (low + 1) % count, f * f * (3 - 2 * f)))
+    (y0, y1, fy), (x0, x1, fx) = places
+    fy = fy[:, None]
+    result = (lattice[np.ix_(y0, x0)] * (1 - fx) + lattice[np.ix_(y0, x1)] * fx) * (1 - fy)
+    result += (lattice[np.ix_(y1, x0)] * (1 - fx) + lattice[np.ix_(y1, x1)] * fx) * fy
+    return result
+
+
+def fractal(shape, cells, rng, octaves=5, gain=0.5):
+    total, weight, amplitude = np.zeros(shape), 0.0, 1.0
+    for octave in range(octaves):
+        count = tuple(min(c * 2**octave, s) for c, s in zip(cells, shape))
+        total += amplitude * noise(shape, count, rng)
+        weight += amplitude
+        amplitude *= gain
+    return total / weight
+
+
+def mix(a, b, t):
+    return a + (b - a) * t
+
+
+def step(low, high, x):
+    t = np.clip((x - low) / (high - low), 0, 1)
+    return t * t * (3 - 2 * t)
+
+
+def tint(a, b, t):
+    return mix(np.array(a)[None, None, :], np.array(b)[None, None, :], t[..., None])
+
+
+def normal_map(height, strength):
+    """Tangent-space normals of a periodic height, green towards larger v."""
+    du = (np.roll(height, -1, 1) - np.roll(height, 1, 1)) * strength
+    dv = (np.roll(height, -1, 0) - np.roll(height, 1, 0)) * strength
+    n = np.dstack([-du, -dv, np.ones_like(height)])
+    n /= np.linalg.norm(n, axis=2, keepdims=True)
+    return n * 0.5 + 0.5
+
+
+WOOD_STRIPS = 8
+
+
+def wood_strip(shape, rng, width_m, length_m, ring_m):
+    """One plank: (ring darkness, fibre, crack and knot darkness), each 0..1. Rings of a log cut off its middle."""
+    rows, columns = shape
+    x = (np.arange(columns) / columns - 0.5)[None, :] * width_m
+    y = (np.arange(rows) / rows)[:, None] * length_m
+    wander = (fractal(shape, (5, 1), rng, 4) - 0.5) * 0.022 + (fractal(shape, (24, 3), rng, 3) - 0.5) * 0.003
+    centre, depth = rng.uniform(-0.05, 0.05), rng.uniform(0.012, 0.06)
+    radius = np.sqrt((x - centre + wander) ** 2 + depth**2)
+    knots = np.zeros(shape)
+    for _ in range(rng.integers(1, 4)):
+        kx, ky, size = rng.uniform(-0.4, 0.4) * width_m, rng.uniform(0.05, 0.95) * length_m, rng.uniform(0.004, 0.010)
+        d2 = ((x - kx) / size) ** 2 + ((y - ky) / (1.8 * size)) ** 2
+        radius = radius + 0.012 * np.exp(-d2 / 6)
+        knots = np.maximum(knots, np.exp(-d2))
+    rings = np.mod(radius / ring_m + (fractal(shape, (30, 2), rng, 2) - 0.5) * 0.4, 1.0)
+    late = step(0.25, 0.92, rings) * (1 - step(0.92, 1.0, rings))
+    fibre = 0.6 * noise(shape, (14, columns // 2), rng) + 0.4 * noise(shape, (50, columns // 3), rng)
+    crack_line = noise(shape, (3, columns // 5), rng) * noise(shape, (7, columns // 3), rng)
+    cracks = step(0.74, 0.84, crack_line)
+    return late, fibre, np.maximum(cracks, 0.9 * knots)
+
+
+def wood(seed, light, dark, weathered, weathering, ring_m=0.0042):
+    """An atlas of planks side by side, grain along v. Returns colour and height."""
+    rng = np.random.default_rng(seed)
+    colours, heights = [], []
+    columns = TEXTURE // WOOD_STRIPS
+    for _ in range(WOOD_STRIPS):
+        shape = (TEXTURE, columns)
+        late, fibre, marks = wood_strip(shape, rng, 0.075, 2.3, ring_m)
+        tone = np.clip(0.62 * late + 0.35 * (fibre - 0.5) + 0.12, 0, 1)
+        colour = tint(light, dark, tone)
+        grey = weathering * step(0.35, 0.75, fractal(shape, (6, 2), rng, 4)) * (0.65 + 0.35 * fibre)
+        colour = mix(colour, np.array(weathered)[None, None, :] * (0.75 + 0.5 * fibre[..., None]), grey[..., None])
+        colour *= rng.uniform(0.84, 1.12) * (1 - 0.72 * marks[..., None])
+        u = (np.arange(columns) + 0.5) / columns
+        edge = 1 - 0.35 * np.maximum(np.exp(-u / 0.05), np.exp(-(1 - u) / 0.05))
+        colours.append(colour * edge[None, :, None])
+        heights.append(-0.30 * late - 0.45 * (1 - fibre) - 1.3 * marks)
+    return np.clip(np.concatenate(colours, 1), 0, 1), np.concatenate(heights, 1)
+
+
+def stone():
+    rng = np.random.default_rng(41)
+    shape = (TEXTURE, TEXTURE)
+    broad, fine = fractal(shape, (3, 3), rng, 6, 0.55), fractal(shape, (48, 48), rng, 4, 0.6)
+    pits = step(0.63, 0.78, fractal(shape, (40, 40), rng, 3)) * step(0.4, 0.6, broad)
+    bedding = noise(shape, (26, 2), rng)
+    colour = tint((0.50, 0.44, 0.345), (0.33, 0.28, 0.205), np.clip(1.6 * broad - 0.4 + 0.25 * (bedding - 0.5), 0, 1))
+    colour *= (0.82 + 0.32 * fine)[..., None] * (1 - 0.5 * pits)[..., None]
+    lichen = step(0.60, 0.70, fractal(shape, (9, 9), rng, 5, 0.6)) * 0.45
+    colour = mix(colour, np.array([0.30, 0.29, 0.19])[None, None, :], lichen[..., None])
+    chisel = np.sin((np.arange(TEXTURE)[:, None] + np.arange(TEXTURE)[None, :]) * 2 * math.pi * 24 / TEXTURE + 6 * broad)
+    height = 1.6 * fine + 2.0 * broad - 2.2 * pits + 0.10 * chisel
+    return np.clip(colour, 0, 1), height
+
+
+def ground():
+    rng = np.random.default_rng(51)
+    shape = (TEXTURE, TEXTURE)
+    broad, grit = fractal(shape, (4, 4), rng, 6, 0.55), fractal(shape, (90, 90), rng, 3, 0.7)
+    crumbs = fractal(shape, (28, 28), rng, 4, 0.6)
+    colour = tint((0.315, 0.235, 0.145), (0.185, 0.13, 0.078), np.clip(1.8 * broad - 0.4, 0, 1))
+    colour *= (0.62 + 0.5 * grit + 0.3 * crumbs)[..., None]
+    grass = step(0.50, 0.66, fractal(shape, (6, 6), rng, 6, 0.62)) * (0.35 + 0.65 * grit)
+    colour = mix(colour, np.array([0.165, 0.185, 0.055])[None, None, :] * (0.6 + 0.9 * grit[..., None]), 0.8 * grass[..., None])
+    lie = fractal(shape, (5, 5), rng, 2) > 0.5
+    straw = np.where(lie, step(0.78, 0.86, noise(shape, (50, 300), rng)), step(0.78, 0.86, noise(shape, (300, 50), rng)))
+    colour = mix(colour, np.array([0.52, 0.43, 0.25])[None, None, :], np.clip(0.35 * straw, 0, 0.5)[..., None])
+    return np.clip(colour, 0, 1), 2.4 * crumbs + 1.6 * grit + 0.8 * grass
+
+
+def bronze():
+    rng = np.random.default_rng(61)
+    shape = (512, 512)
+    broad, fine = fractal(shape, (4, 4), rng, 6, 0.6), fractal(shape, (40, 40), rng, 4, 0.6)
+    patina = step(0.54, 0.68, 0.7 * broad + 0.3 * fine)
+    colour = tint((0.80, 0.52, 0.24), (0.42, 0.245, 0.115), np.clip(1.7 * broad - 0.4, 0, 1))
+    colour = mix(colour, np.array([0.21, 0.27, 0.20])[None, None, :], (0.55 * patina)[..., None])
+    rough, metal = np.clip(0.30 + 0.20 * fine + 0.35 * patina, 0, 1), 1 - 0.45 * patina
+    return np.clip(colour, 0, 1), np.dstack([np.ones(shape), rough, metal])
+
+
+def rope():
+    shape = (256, 256)
+    rng = np.random.default_rng(71)
+    v, u = np.mgrid[0:256, 0:256] / 256
+    strand = np.abs(np.sin(math.pi * (3 * u + 8 * v)))
+    fibre = noise(shape, (100, 60), rng)
+    colour = tint((0.20, 0.14, 0.075), (0.56, 0.44, 0.27), np.clip(strand * (0.7 + 0.5 * fibre), 0, 1))
+    return np.clip(colour, 0, 1), 3.0 * strand + 0.6 * fibre
+
+
+class Textures:
+    """Writes arrays to JPEG files of a temporary folder and gives them to Blender, which copies their bytes into the glb."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def image(self, name, rgb, linear=False, quality=86):
+        """`rgb` is what the file shall hold for data, and linear light for colour."""
+        value = rgb if linear else np.where(rgb <= 0.0031308, 12.92 * rgb, 1.055 * np.power(np.maximum(rgb, 1e-9), 1 / 2.4) - 0.055)
+        height, width, _ = rgb.shape
+        made = bpy.data.images.new(name, width, height)
+        made.colorspace_settings.name = "Non-Color"  # the numbers go to the file as they are
+        made.pixels.foreach_set(np.dstack([value, np.ones((height, width))]).astype(np.float32).ravel())
+        scene = bpy.context.scene
+        scene.view_settings.view_transform = "Raw"
+        scene.render.image_settings.file_format = "JPEG"
+        scene.render.image_settings.quality = quality
+        path = os.path.join(self.folder, name + ".jpg")
+        made.save_render(path, scene=scene)
+        bpy.data.images.remove(made)
+        loaded = bpy.data.images.load(path)
+        loaded.name = name
+        loaded.colorspace_settings.name = "Non-Color" if linear else "sRGB"
+        return loaded
+
+
+def material(name, colour=None, normal=None, orm=None, base=(1, 1, 1, 1), roughness=0.7, metallic=0.0, two_sided=False):
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    made.use_backface_culling = not two_sided
+    nodes, links = made.node_tree.nodes, made.node_tree.links
+    shader = nodes["Principled BSDF"]
+    shader.inputs["Base Color"].default_value = base
+    shader.inputs["Roughness"].default_value = roughness
+    shader.inputs["Metallic"].default_value = metallic
+    if base[3] < 1:
+        shader.inputs["Alpha"].default_value = base[3]
+        made.blend_method = "BLEND"
+
+    def texture(image):
+        node = nodes.new("ShaderNodeTexImage")
+        node.image = image
+        return node.outputs["Color"]
+
+    if colour:
+        links.new(texture(colour), shader.inputs["Base Color"])
+    if normal:
+        node = nodes.new("ShaderNodeNormalMap")
+        links.new(texture(normal), node.inputs["Color"])
+        links.new(node.outputs["Normal"], shader.inputs["Normal"])
+    if orm:
+        node = nodes.new("ShaderNodeSeparateColor")
+        links.new(texture(orm), node.inputs["Color"])
+        links.new(node.outputs["Green"], shader.inputs["Roughness"])
+        links.new(node.outputs["Blue"], shader.inputs["Metallic"])
+    return made
+
+
+def surface(textures, name, colour, height, strength):
+    """Colour and normals as two images."""
+    return textures.image(name, colour), textures.image(name + "_normal", normal_map(height, strength), linear=True, quality=82)
+
+
+def museum_materials(textures):
+    """Those that any of the models may use. Blender leaves out of the file what none of its meshes has."""
+    barrel = surface(textures, "planks", *wood(11, (0.40, 0.255, 0.135), (0.19, 0.105, 0.048), (0.33, 0.285, 0.235), 0.75), 0.55)
+    core = surface(textures, "timber", *wood(21, (0.52, 0.325, 0.155), (0.27, 0.145, 0.060), (0.45, 0.34, 0.22), 0.25, 0.0055), 0.40)
+    limestone = surface(textures, "limestone", *stone(), 0.9)
+    earth = surface(textures, "earth", *ground(), 0.8)
+    bronze_colour, bronze_orm = bronze()
+    hemp = surface(textures, "hemp", *rope(), 0.5)
+    return {
+        "planks": material("planks", *barrel, roughness=0.78),
+        "timber": material("timber", *core, roughness=0.62),
+        "grip": material("grip", core[0], roughness=0.38),
+        "bronze": material("bronze", textures.image("bronze", bronze_colour), None, textures.image("bronze_orm", bronze_orm, linear=True)),
+        "limestone": material("limestone", *limestone, roughness=0.85),
+        "earth": material("earth", *earth, roughness=0.95),
+        "hemp": material("hemp", *hemp, roughness=0.9),
+        "terracotta": material("terracotta", base=(0.46, 0.17, 0.075, 1), roughness=0.72),
+        "water": material("water", base=(0.045, 0.10, 0.095, 0.72), roughness=0.06, two_sided=True),
+    }
+
+
+# Shapes --------------------------------------------------------------------------------------------------------------------------
+
+
+class Shape:
+    """Faces with a uv for each corner; vertices in glTF's axes."""
+
+    def __init__(self):
+        self.vertices, self.faces, self.uvs, self.slots, self.normals = [], [], [], [], []
+
+    def face(self, corners, uvs, slot=0, normals=None):
+        self.faces.append(corners)
+        self.uvs.append(uvs)
+        self.slots.append(slot)
+        self.normals.append(normals)
+
+    def points(self, points):
+        first = len(self.vertices)
+        self.vertices.extend(tuple(float(v) for v in p) for p in points)
+        return list(range(first, first + len(points)))
+
+    def loft(self, rings, uv, slot=0, cap_slot=None, cap_scale=1.0, cap_uv=(0.0, 0.0)):
+        """Joins closed rings of equal length, counter-clockwise seen from the last ring; flat caps close the ends.
+        `uv(i, j)` is the uv at ring i, corner j, where j runs one past the last corner."""
+        index = [self.points(ring) for ring in rings]
+        count = len(rings[0])
+        for i in range(len(rings) - 1):
+            for j in range(count):
+                k = (j + 1) % count
+                self.face((index[i][j], index[i][k], index[i + 1][k], index[i + 1][j]),
+                          (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)), slot)
+        for ring, points, flip in ((index[0], rings[0], True), (index[-1], rings[-1], False)):
+            flat = flat_uv(points, cap_scale, cap_uv)
+            order = list(range(count))[::-1] if flip else list(range(count))
+            self.face(tuple(ring[j] for j in order), tuple(flat[j] for j in order), slot if cap_slot is None else cap_slot)
+        return self
+
+
+def flat_uv(points, scale, offset):
+    """Plane coordinates of nearly coplanar points."""
+    p = np.asarray(points, dtype=float)
+    centre = p.mean(0)
+    _, _, axes = np.linalg.svd(p - centre)
+    return [tuple(((q - centre) @ axes[:2].T) * scale + np.asarray(offset)) for q in p]
+
+
+def frame_of(direction, up):
+    """Unit vectors (side, up) that make a right-handed frame with the direction: side x up = direction."""
+    w = np.asarray(direction, float) / np.linalg.norm(direction)
+    side = np.cross(up, w)
+    side /= np.linalg.norm(side)
+    return side, np.cross(w, side), w
+
+
+def rounded_rectangle(width, height, bevel):
+    """Corners, counter-clockwise, with the side (0..3) that each edge from it belongs to."""
+    x, y, b = width / 2, height / 2, bevel
+    corners = []
+    for cx, cy, start in ((x - b, -y + b, -90), (x - b, y - b, 0), (-x + b, y - b, 90), (-x + b, -y + b, 180)):
+        for degrees in (0, 45, 90):
+            a = math.radians(start + degrees)
+            corners.append((cx + b * math.cos(a), cy + b * math.sin(a)))
+    return corners
+
+
+def strip_uv(strip, across, along):
+    return ((strip % WOOD_STRIPS + 0.04 + 0.92 * across) / WOOD_STRIPS, along)
+
+
+def timber(shape, start, end, width, height, up=(0, 1, 0), bevel=0.006, seed=0, slot=0, rough=0.0015, taper=1.0):
+    """A hewn beam from `start` to `end`: grain along it, a different plank of the atlas on each side."""
+    rng = np.random.default_rng(1000 + seed)
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    length = np.linalg.norm(end - start)
+    side, top, _ = frame_of(end - start, up)
+    outline = rounded_rectangle(width, height, bevel)
+    count, steps = len(outline), max(2, int(length / 0.12))
+    along = [0.0, bevel] + [length * k / steps for k in range(1, steps)] + [length - bevel, length]
+    rings = []
+    for i, s in enumerate(along):
+        shrink = 1 - 1.4 * bevel / min(width, height) if i in (0, len(along) - 1) else 1.0
+        size = shrink * mix(1.0, taper, s / length)
+        jitter = rng.normal(0, rough, (count, 2)) if 0 < i < len(along) - 1 else np.zeros((count, 2))
+        rings.append([start + (end - start) * (s / length) + side * (x * size + jx) + top * (y * size + jy)
+                      for (x, y), (jx, jy) in zip(outline, jitter)])
+    strips = [seed * 3 + k for k in range(4)]
+    offset = rng.uniform(0, 1)
+
+    index = [shape.points(r) for r in rings]
+    for i in range(len(rings) - 1):
+        for j in range(count):
+            k = (j + 1) % count
+            which, inside = divmod(j, 3)
+            low, high = ((0.0, 0.02), (0.02, 0.04), (0.04, 0.96))[inside]
+            strip = strips[which]
+            shape.face((index[i][j], index[i][k], index[i + 1][k], index[i + 1][j]),
+                       (strip_uv(strip, low, offset + along[i] / 2.3), strip_uv(strip, high, offset + along[i] / 2.3),
+                        strip_uv(strip, high, offset + along[i + 1] / 2.3), strip_uv(strip, low, offset + along[i + 1] / 2.3)), slot)
+    for ring, points, flip in ((index[0], rings[0], True), (index[-1], rings[-1], False)):
+        flat = flat_uv(points, 0.9, (0.06 + (seed % WOOD_STRIPS) / WOOD_STRIPS, 0.5))
+        order = list(range(count))[::-1] if flip else list(range(count))
+        shape.face(tuple(ring[j] for j in order), tuple(flat[j] for j in order), slot)
+    return shape
+
+
+def lathe(shape, profile, segments, origin=(0, 0, 0), axis=(0, 0, 1), up=(0, 1, 0), slots=None, uv_scale=(1.0, 1.0), uv_offset=(0.0, 0.0),
+          end_grain=()):
+    """Turns (radius, height) points about the axis, bottom first. A radius of 0 closes the end in a point. u runs round, v along;
+    on the segments in `end_grain` u runs outwards, so that a timber's rings lie round its middle."""
+    side, top, w = frame_of(axis, up)
+    origin = np.asarray(origin, float)
+    travelled = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(np.asarray(profile), axis=0).T))])
+    rings = []
+    for radius, z in profile:
+        angles = [2 * math.pi * k / segments for k in range(segments)]
+        ring = [origin + w * z + radius * (side * math.cos(a) + top * math.sin(a)) for a in angles]
+        rings.append(shape.points(ring if radius > 0 else ring[:1]))
+
+    for i in range(len(profile) - 1):
+        slot = slots[i] if slots else 0
+
+        def uv(row, j, across=i in end_grain):
+            if across:
+                return strip_uv(5, profile[row][0] / 0.077, 0.02 * math.sin(2 * math.pi * j / segments))
+            return (uv_offset[0] + uv_scale[0] * j / segments, uv_offset[1] + uv_scale[1] * travelled[row])
+
+        for j in range(segments):
+            k = (j + 1) % segments
+            low, high = rings[i], rings[i + 1]
+            if len(low) == 1:
+                shape.face((low[0], high[k], high[j]), (uv(i, j + 0.5), uv(i + 1, j + 1), uv(i + 1, j)), slot)
+            elif len(high) == 1:
+                shape.face((low[j], low[k], high[0]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 0.5)), slot)
+            else:
+                shape.face((low[j], low[k], high[k], high[j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)), slot)
+    return shape
+
+
+def shell(shape, profile, start, stop, steps, origin=(0, 0, 0), axis=(0, 1, 0), up=(0, 0, 1), slot=0, uv=(1, 1.0), smooth_degrees=40.0, caps=True):
+    """Turns a closed (radius, height) outline, counter-clockwise, from angle `start` to `stop`: a sector of a hollow body, closed itself
+    by flat caps. Normals are those of the whole, so that sectors side by side show no seam. `uv`: tiles round a turn, tiles a metre."""
+    side, top, w = frame_of(axis, up)
+    origin = np.asarray(origin, float)
+    count = len(profile)
+    edges = np.diff(np.asarray(profile + profile[:1], float), axis=0)
+    lengths = np.hypot(*edges.T)
+    out = np.stack([edges[:, 1], -edges[:, 0]], 1) / lengths[:, None]
+    travelled = np.concatenate([[0], np.cumsum(lengths)])
+    limit = math.cos(math.radians(smooth_degrees))
+
+    def normal(edge, corner, a):
+        other = (corner - 1) % count if corner == edge else corner % count
+        n = out[edge] + out[other] if out[edge] @ out[other] > limit else out[edge]
+        n = n / np.linalg.norm(n)
+        return n[0] * (side * math.cos(a) + top * math.sin(a)) + n[1] * w
+
+    angles = np.linspace(start, stop, steps + 1)
+    rings = [shape.points([origin + w * h + r * (side * math.cos(a) + top * math.sin(a)) for r, h in profile]) for a in angles]
+    for e in range(count):
+        n = (e + 1) % count
+        for i in range(steps):
+            corners = ((i, e, e), (i + 1, e, e), (i + 1, n, e + 1), (i, n, e + 1))
+            shape.face(tuple(rings[i_][c] for i_, c, _ in corners),
+                       tuple((uv[0] * angles[i_] / (2 * math.pi), uv[1] * travelled[v]) for i_, _, v in corners), slot,
+                       [normal(e, e if c == e and v == e else e + 1, angles[i_]) for i_, c, v in corners])
+    if caps:
+        flat = [(r * uv[1], h * uv[1]) for r, h in profile]
+        for i, sign in ((0, -1), (steps, 1)):
+            order = list(range(count)) if sign < 0 else list(range(count))[::-1]
+            across = sign * (top * math.cos(angles[i]) - side * math.sin(angles[i]))
+            shape.face(tuple(rings[i][c] for c in order), tuple(flat[c] for c in order), slot, [across] * count)
+    return shape
+
+
+def tube(shape, path, radius, sides=7, slot=0, closed=False, v_scale=6.0):
+    """A rope or stalk along a path of points."""
+    path = [np.asarray(p, float) for p in path]
+    count = len(path)
+    rings, along = [], 0.0
+    lengths = []
+    previous = None
+    for i, p in enumerate(path):
+        ahead = path[(i + 1) % count] if closed else path[min(i + 1, count - 1)]
+        behind = path[i - 1] if closed or i else path[0]
+        direction = ahead - behind
+        hint = previous if previous is not None else np.array([0.31, 0.87, 0.38])
+        side, top, _ = frame_of(direction, hint)
+        previous = top
+        r = radius(i / (count - 1)) if callable(radius) else radius
+        rings.append([p + r * (side * math.cos(a) + top * math.sin(a)) for a in np.arange(sides) * 2 * math.pi / sides])
+        lengths.append(along)
+        along += np.linalg.norm(ahead - p)
+    if not closed:
+        return shape.loft(rings, lambda i, j: (j / sides, lengths[i] * v_scale), slot)
+    index = [shape.points(r) for r in rings]
+    for i in range(count):
+        n = (i + 1) % count
+        v0, v1 = lengths[i] * v_scale, (lengths[n] if n else along) * v_scale
+        for j in range(sides):
+            k = (j + 1) % sides
+            shape.face((index[i][j], index[i][k], index[n][k], index[n][j]),
+                       ((j / sides, v0), ((j + 1) / sides, v0), ((j + 1) / sides, v1), (j / sides, v1)), slot)
+    return shape
+
+
+def block(shape, low, high, bevel=0.012, seed=0, rough=0.004, tile=1.4, slot=0):
+    """A dressed stone: a box with worn edges, uv by the direction that each face looks to."""
+    rng = np.random.default_rng(2000 + seed)
+    low, high = np.asarray(low, float), np.asarray(high, float)
+    centre, half = (low + high) / 2, (high - low) / 2
+    cuts = [[-1.0, -1 + bevel / h] + list(np.linspace(-1, 1, max(3, int(h * 2 / 0.14)))[1:-1]) + [1 - bevel / h, 1.0] for h in half]
+    offset = rng.uniform(0, 1, 2)
+    seen = {}
+
+    def vertex(p):
+        key = tuple(np.round(p, 6))
+        if key not in seen:
+            q = np.array(p) * half
+            inner = np.clip(q, -half + bevel, half - bevel)
+            out = q - inner
+            length = np.linalg.norm(out)
+            place = inner + out / length * bevel if length > 0 else q
+            place = place + np.sin(place * 9.1 + seed) * rough + rng.normal(0, rough * 0.35, 3)
+            seen[key] = shape.points([centre + place])[0]
+        return seen[key]
+
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for sign in (-1.0, 1.0):
+            for i in range(len(cuts[u]) - 1):
+                for j in range(len(cuts[v]) - 1):
+                    corners = []
+                    for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        p = [0.0, 0.0, 0.0]
+                        p[axis], p[u], p[v] = sign, cuts[u][a], cuts[v][b]
+                        corners.append(p)
+                    if sign < 0:
+                        corners.reverse()
+                    flat = [tuple((np.array([c[u] * half[u], c[v] * half[v]]) + centre[[u, v]]) / tile + offset) for c in corners]
+                    shape.face(tuple(vertex(c) for c in corners), tuple(flat), slot)
+    return shape
+
+
+class Model:
+    def __init__(self, materials):
+        self.materials = materials
+        self.collection = bpy.context.scene.collection
+
+    def group(self, name):
+        made = bpy.data.objects.new(name, None)
+        self.collection.objects.link(made)
+        return made
+
+    def add(self, name, shape, material_names, parent=None, smooth_degrees=35.0):
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata([to_blender(v) for v in shape.vertices], [], [list(f) for f in shape.faces])
+        layer = mesh.uv_layers.new(name="uv")
+        layer.data.foreach_set("uv", np.array([c for face in shape.uvs for c in face], dtype=np.float32).ravel())
+        mesh.polygons.foreach_set("material_index", shape.slots)
+        mesh.polygons.foreach_set("use_smooth", [True] * len(shape.faces))
+        for used in material_names:
+            mesh.materials.append(self.materials[used])
+        mesh.use_auto_smooth = True
+        mesh.auto_smooth_angle = math.radians(smooth_degrees)
+        if any(n is not None for n in shape.normals):
+            mesh.normals_split_custom_set([to_blender(n) for face in shape.normals for n in face])
+        if mesh.validate(verbose=True):
+            raise RuntimeError(f"{name} has faulty faces")
+        made = bpy.data.objects.new(name, mesh)
+        made.parent = parent
+        self.collection.objects.link(made)
+        return made
+
+
+def export(path):
+    """Writes the scene as it is to a glb."""
+    bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", export_apply=False, export_yup=True, export_normals=True,
+                              export_texcoords=True, export_tangents=False, export_colors=False, export_animations=False,
+                              export_morph=False, export_skins=False, export_extras=False, export_image_format="AUTO")
+    print(f"wrote {path}, {os.path.getsize(path)} bytes")
+
+
+def picture(path, eye, look_at, width=640, height=480, samples=48, lens=40):
+    """Renders the scene by Cycles on the CPU, under a hazy sky and a low sun: to judge a model by."""
+    scene = bpy.context.scene
+    world = bpy.data.worlds.new("sky")
+    world.use_nodes = True
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    sky, fill = nodes.new("ShaderNodeTexSky"), nodes.new("ShaderNodeMixRGB")
+    sky.sun_elevation, sky.sun_rotation, sky.sun_intensity, sky.dust_density = math.radians(42), math.radians(-40), 0.25, 1.0
+    fill.blend_type, fill.inputs["Fac"].default_value, fill.inputs["Color2"].default_value = "ADD", 1.0, (1.1, 1.05, 1.0, 1)
+    links.new(sky.outputs["Color"], fill.inputs["Color1"])
+    links.new(fill.outputs["Color"], nodes["Background"].inputs["Color"])
+    nodes["Background"].inputs["Strength"].default_value = 0.15
+    scene.world = world
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.lens = lens
+    scene.collection.objects.link(camera)
+    from mathutils import Vector
+    camera.location = to_blender(eye)
+    camera.rotation_euler = (Vector(to_blender(look_at)) - camera.location).to_track_quat("-Z", "Y").to_euler()
+    scene.camera = camera
+    scene.render.engine = "CYCLES"
+    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", samples, False  # Debian's has no denoiser
+    scene.render.resolution_x, scene.render.resolution_y = width, height
+    scene.view_settings.view_transform = "Filmic"
+    scene.view_settings.look = "Medium High Contrast"
+    scene.render.threads_mode, scene.render.threads = "FIXED", 2
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.filepath = path
+    bpy.ops.render.render(write_still=True)
+    bpy.data.objects.remove(camera)

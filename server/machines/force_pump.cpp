@@ -1,0 +1,324 @@
+// machine.force_pump: Ktesibios' pump (Vitruvius X.7; Heron, Pneumatica I.28): one or two cylinders, a vessel, an upright pipe.
+//
+// Pistons. Their positions are those of slider joints, or a rocking beam's angle times `arm`, one up as the other goes down. What they
+// draw and press is in pump_cylinder.hpp: the flow is area * stroke * efficiency for each falling stroke.
+//
+// Vessel. What comes in fills the vessel and the pipe (`riser`) first; the head grows with it up to `lift`. Then it leaves by the
+// trumpet. Air under the cowl takes up the pulses: what is above the brim runs out with the time constant `cushion`. That, and the
+// second cylinder, make the jet continuous.
+//
+// Load. A falling piston carries rho g head area; every piston its leather's friction. Through the beam that is a torque, over the
+// handle's arm the force at the hand. Times effort_scale it goes to the joints as a resistance, which holds but never drives: valves keep
+// the water from pushing back. Below kTight_m_s the leather leaks, lifts and carries in proportion less: this model's own, so that a
+// piston that turns round does so smoothly. Energy in is force times way, at least rho g lift times what was lifted.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "server/machines/machine.hpp"
+#include "server/machines/nature.hpp"
+#include "server/machines/pump_cylinder.hpp"
+
+namespace mechane::machines {
+namespace {
+
+constexpr std::size_t kMostCylinders = 2;
+constexpr double kTight_m_s = 0.02;
+constexpr double kTurn = 0.25;  // share of the stroke after which a piston counts as turned round
+
+struct Settings {
+  std::array<JointId, kMostCylinders> pistons;  // sliders; none where a beam drives
+  JointId beam;
+  std::size_t cylinders = 2;
+  std::array<PumpCylinder, kMostCylinders> cylinder;
+  double direction = 1;
+  double arm_m = 0;
+  double handle_m = 0;
+  double bottom_m = 0;  // position of a slider whose piston is at the bottom
+  double stroke_m = 0;
+  double lift_m = 0;
+  double friction_n = 0;
+  double riser_m3 = 0;
+  double cushion_s = 0;
+  double effort_scale = 1;
+};
+
+class ForcePump final : public Machine {
+ public:
+  ForcePump(const Build& build, const Settings& settings)
+      : s_(settings),
+        flow_(build.slot("flow_l_per_s")),
+        jet_(build.slot("jet_l_per_s")),
+        lifted_l_(build.slot("lifted_l")),
+        leaked_l_(build.slot("leaked_l")),
+        head_m_(build.slot("head_m")),
+        force_n_(build.slot("force_n")),
+        handle_n_(build.slot("handle_n")),
+        strokes_(build.slot("strokes")),
+        vessel_m3_(build.slot("vessel.m3")),
+        turn_m_(build.slot("stroke.turn_m")),
+        rises_(build.slot("stroke.rises", 1)),
+        piston_m_(build.slot("piston.0")),
+        water_m3_(0),
+        known_(0) {
+    (void)build.slot("piston.1");
+    water_m3_ = build.slot("cylinder.0");
+    (void)build.slot("cylinder.1");
+    known_ = build.slot("known.0");
+    (void)build.slot("known.1");
+  }
+
+  void run(state::WorldState& state, double dt_s) const noexcept override {
+    double in_m3 = 0, leaked_m3 = 0, force_n = 0;
+    double& vessel_m3 = state.memory[vessel_m3_];
+    const double full = s_.riser_m3 > 0 ? std::min(1.0, vessel_m3 / s_.riser_m3) : 1;
+    for (std::size_t i = 0; i < s_.cylinders; ++i) {
+      const PumpHead head{kWaterDensity_kg_m3 * kGravity_m_s2 * s_.lift_m * full, vessel_m3};
+      const PumpFlow flow = move(state, i, head, dt_s);
+      vessel_m3 += flow.to_vessel - flow.from_vessel;
+      in_m3 += flow.to_vessel - flow.from_vessel;
+      leaked_m3 += flow.leaked;
+      force_n += flow.force_n;
+      load(state, i, flow.force_n);
+    }
+    const double over_m3 = std::max(0.0, vessel_m3 - s_.riser_m3);
+    const double out_m3 = s_.cushion_s > 0 ? over_m3 * (1 - std::exp(-dt_s / s_.cushion_s)) : over_m3;
+    vessel_m3 -= out_m3;
+    state.memory[flow_] = 1000 * in_m3 / dt_s;
+    state.memory[jet_] = 1000 * out_m3 / dt_s;
+    state.memory[lifted_l_] += 1000 * out_m3;
+    state.memory[leaked_l_] += 1000 * leaked_m3;
+    state.memory[head_m_] = s_.lift_m * full;
+    state.memory[force_n_] = force_n;
+    state.memory[handle_n_] = handle_force_n(force_n);
+    count_strokes(state);
+  }
+
+ private:
+  [[nodiscard]] JointId joint_of(std::size_t i) const noexcept { return s_.beam ? s_.beam : s_.pistons[i]; }
+
+  /// Of a piston over its bottom.
+  [[nodiscard]] double piston_m(const state::JointState& joint, std::size_t i) const noexcept {
+    const double side = i == 0 ? s_.direction : -s_.direction;
+    const double x_m =
+        s_.beam ? s_.stroke_m / 2 + side * s_.arm_m * joint.position : s_.direction * joint.position - s_.bottom_m;
+    return std::clamp(x_m, 0.0, s_.stroke_m);
+  }
+
+  PumpFlow move(state::WorldState& state, std::size_t i, const PumpHead& head, double dt_s) const noexcept {
+    const state::JointState& joint = state[joint_of(i)];
+    double& known = state.memory[known_ + i];
+    double& at_m = state.memory[piston_m_ + i];
+    const double from_m = at_m;
+    at_m = piston_m(joint, i);
+    const bool moves = joint.enabled && known != 0;  // a piston that was just put in has moved nothing yet
+    known = joint.enabled ? 1 : 0;
+    if (!moves) return {};
+    const double tight = std::min(1.0, std::abs(at_m - from_m) / dt_s / kTight_m_s);
+    return move_piston(s_.cylinder[i], from_m, at_m, tight, head, state.memory[water_m3_ + i]);
+  }
+
+  void load(state::WorldState& state, std::size_t i, double force_n) const noexcept {
+    state::JointState& joint = state[joint_of(i)];
+    if (!joint.enabled) return;
+    const double lever_m = s_.beam ? s_.arm_m : 1;
+    joint.resistance += s_.effort_scale * lever_m * (force_n + s_.friction_n);
+  }
+
+  [[nodiscard]] double handle_force_n(double water_n) const noexcept {
+    const double pistons_n = water_n + static_cast<double>(s_.cylinders) * s_.friction_n;
+    return s_.beam ? pistons_n * s_.arm_m / s_.handle_m : pistons_n;
+  }
+
+  /// Counts how often the first piston turns round.
+  void count_strokes(state::WorldState& state) const noexcept {
+    if (state.memory[known_] == 0) return;
+    const double at_m = state.memory[piston_m_];
+    double& turn_m = state.memory[turn_m_];
+    double& rises = state.memory[rises_];
+    turn_m = rises != 0 ? std::max(turn_m, at_m) : std::min(turn_m, at_m);
+    if (std::abs(at_m - turn_m) < kTurn * s_.stroke_m) return;
+    rises = rises != 0 ? 0 : 1;
+    turn_m = at_m;
+    state.memory[strokes_] += 1;
+  }
+
+  Settings s_;
+  std::size_t flow_;
+  std::size_t jet_;
+  std::size_t lifted_l_;
+  std::size_t leaked_l_;
+  std::size_t head_m_;
+  std::size_t force_n_;
+  std::size_t handle_n_;
+  std::size_t strokes_;
+  std::size_t vessel_m3_;
+  std::size_t turn_m_;    // where the first piston last turned round, or the farthest since
+  std::size_t rises_;     // 1 while it goes up
+  std::size_t piston_m_;  // of each cylinder, from here on
+  std::size_t water_m3_;  // under each piston
+  std::size_t known_;     // 1: the piston was there in the tick before
+};
+
+Expected<void> read_valves(const state::Parameters& p, std::string_view name, Valve PumpCylinder::*valve,
+                           const std::string& where, Settings& s) {
+  if (!p.given(name)) return {};
+  const std::vector<std::string> words = p.texts(name);
+  if (words.size() != 1 && words.size() != s.cylinders)
+    return fail(std::string(name) + " names " + std::to_string(words.size()) + " valves", where,
+                "write one word for all cylinders, or one for each");
+  for (std::size_t i = 0; i < s.cylinders; ++i) {
+    const std::string& word = words[words.size() == 1 ? 0 : i];
+    if (word == "good") {
+      s.cylinder[i].*valve = Valve::good;
+    } else if (word == "reversed") {
+      s.cylinder[i].*valve = Valve::reversed;
+    } else if (word == "missing") {
+      s.cylinder[i].*valve = Valve::missing;
+    } else {
+      return fail("'" + word + "' is no state of a valve", where, "write good, reversed or missing");
+    }
+  }
+  return {};
+}
+
+/// Who moves the pistons: sliders, or a beam.
+Expected<void> read_drive(const Build& build, const std::string& where, Settings& s) {
+  const state::Parameters& p = build.parameters;
+  const auto kind_of = [&](JointId id) { return build.description.joints[id.index()].kind; };
+  if (p.given("pistons") == p.given("beam"))
+    return fail("both or neither of 'pistons' and 'beam' are given", where,
+                "name the pistons' sliders, or the hinge of the beam that moves them");
+  if (p.given("beam")) {
+    s.beam = p.joint("beam");
+    if (kind_of(s.beam) != state::JointKind::hinge)
+      return fail("the beam '" + p.text("beam") + "' does not turn", where, "name a SingleAxisHingeJoint");
+    if (!p.given("arm"))
+      return fail("the beam has no 'arm'", where, "write its length from the hinge to a piston's rod");
+    s.arm_m = p.number("arm");
+    s.handle_m = p.given("handleArm") ? p.number("handleArm") : s.arm_m;
+    if (p.number("cylinders") != std::floor(p.number("cylinders")))
+      return fail("cylinders is not a whole number", where, "write 1 or 2");
+    s.cylinders = static_cast<std::size_t>(p.number("cylinders"));
+    return {};
+  }
+  const std::vector<std::string> names = p.texts("pistons");
+  if (names.empty() || names.size() > kMostCylinders)
+    return fail("there are " + std::to_string(names.size()) + " pistons", where, "name one slider or two");
+  s.cylinders = names.size();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    s.pistons[i] = build.description.find_joint(names[i]);
+    if (kind_of(s.pistons[i]) != state::JointKind::slider)
+      return fail("the joint '" + names[i] + "' does not slide", where, "name SliderJoints");
+  }
+  return {};
+}
+
+Expected<std::unique_ptr<Machine>> make(const Build& build) {
+  const std::string where = state::component_place(build.component);
+  const state::Parameters& p = build.parameters;
+  Settings s;
+  if (auto good = read_drive(build, where, s); !good) return tl::unexpected(good.error());
+  const double radius_m = p.number("bore") / 2;
+  for (PumpCylinder& cylinder : s.cylinder) {
+    cylinder.area_m2 = kPi * radius_m * radius_m;
+    cylinder.efficiency = p.number("efficiency");
+  }
+  if (auto good = read_valves(p, "inletValves", &PumpCylinder::inlet, where, s); !good)
+    return tl::unexpected(good.error());
+  if (auto good = read_valves(p, "outletValves", &PumpCylinder::outlet, where, s); !good)
+    return tl::unexpected(good.error());
+  s.direction = p.boolean("reversed") ? -1 : 1;
+  s.bottom_m = p.number("bottom");
+  s.stroke_m = p.number("stroke");
+  s.lift_m = p.number("lift");
+  s.friction_n = p.number("friction");
+  s.riser_m3 = p.number("riser") / 1000;
+  s.cushion_s = p.number("cushion");
+  s.effort_scale = build.effort_scale();
+  return std::make_unique<ForcePump>(build, s);
+}
+
+using state::ParameterKind;
+constexpr state::ParameterType kParameters[] = {
+    {.name = "pistons",
+     .kind = ParameterKind::texts,
+     .summary = "one slider or two that move the pistons, upwards to positive positions; or see beam",
+     .reference = state::Reference::joint},
+    {.name = "beam",
+     .kind = ParameterKind::text,
+     .summary = "the hinge of the beam that moves the pistons; level, with both half way, at angle 0",
+     .reference = state::Reference::joint},
+    {.name = "arm", .unit = "m", .summary = "of the beam, from its hinge to a piston's rod", .min = 0.01, .max = 10},
+    {.name = "handleArm",
+     .unit = "m",
+     .summary = "of the beam, from its hinge to the hand; not given: as arm",
+     .min = 0.01,
+     .max = 10},
+    {.name = "cylinders", .summary = "under a beam: 1 or 2", .default_value = 2, .min = 1, .max = 2},
+    {.name = "bore", .unit = "m", .summary = "of a cylinder, inside", .required = true, .min = 0.005, .max = 1},
+    {.name = "stroke", .unit = "m", .summary = "of a piston", .required = true, .min = 0.005, .max = 2},
+    {.name = "bottom",
+     .unit = "m",
+     .summary = "of sliders: the position at which a piston is at the bottom",
+     .min = -10,
+     .max = 10},
+    {.name = "lift",
+     .unit = "m",
+     .summary = "from the well's surface to the trumpet's mouth",
+     .required = true,
+     .min = 0.01,
+     .max = 100},
+    {.name = "efficiency",
+     .summary = "share of the displaced water that is lifted, 0 to 1",
+     .default_value = 0.8,
+     .min = 0.05,
+     .max = 1},
+    {.name = "friction", .unit = "N", .summary = "of each piston's leather", .min = 0, .max = 1e5},
+    {.name = "inletValves",
+     .kind = ParameterKind::texts,
+     .summary = "in the cylinders' bottoms: good, reversed or missing; one word, or one for each cylinder"},
+    {.name = "outletValves",
+     .kind = ParameterKind::texts,
+     .summary = "over the forked pipe's ends: good, reversed or missing; one word, or one for each cylinder"},
+    {.name = "riser",
+     .unit = "l",
+     .summary = "vessel and pipe up to the mouth: filled before the first water comes",
+     .default_value = 1,
+     .min = 0,
+     .max = 1e4},
+    {.name = "cushion",
+     .unit = "s",
+     .summary = "in which the air under the cowl gives back two thirds of a pulse; 0: there is none",
+     .default_value = 0.3,
+     .min = 0,
+     .max = 100},
+    {.name = "effortScale",
+     .summary = "share of the load that the hand feels; not given: the world's effort_scale",
+     .default_value = 1,
+     .min = 0,
+     .max = 1},
+    {.name = "reversed",
+     .kind = ParameterKind::boolean,
+     .summary = "true: the (first) piston rises when its joint goes to negative positions"},
+};
+constexpr state::ValueType kValues[] = {
+    {"flow_l_per_s", "l/s", "what comes into the vessel now; negative where it runs back"},
+    {"jet_l_per_s", "l/s", "what leaves the trumpet now"},
+    {"lifted_l", "l", "out of the trumpet so far"},
+    {"leaked_l", "l", "past the pistons so far"},
+    {"head_m", "m", "of the water over the well"},
+    {"force_n", "N", "of the water on the pressing pistons, unscaled"},
+    {"handle_n", "N", "what pistons and friction ask of the hand, unscaled"},
+    {"strokes", "", "how often the first piston has turned round"},
+};
+
+}  // namespace
+
+const MachineKind& force_pump_kind() {
+  static const MachineKind kKind{
+      {"machine.force_pump", "Ktesibios' pump: pistons and valves lift water", kParameters, kValues}, make};
+  return kKind;
+}
+
+}  // namespace mechane::machines
