@@ -59,6 +59,19 @@ void Problems::warning(int line, std::string node, std::string what, std::string
   add(Severity::warning, line, std::move(node), std::move(what), std::move(remedy));
 }
 
+void Problems::unknown(int line, std::string node, std::string what, const std::string& word,
+                       std::span<const std::string> candidates) {
+  if (full() && errors_ > 0) return;
+  const bool near = !nearest(word, candidates).empty();
+  add(near ? Severity::error : Severity::warning, line, std::move(node), std::move(what),
+      near ? suggest(word, candidates, "") : "remove it; " + suggest(word, candidates, "nothing may be written here"));
+  if (near) ++errors_;
+}
+
+void Problems::note(int line, std::string node, std::string what, std::string remedy) {
+  add(Severity::note, line, std::move(node), std::move(what), std::move(remedy));
+}
+
 Error Problems::first_error() const {
   const auto first =
       std::find_if(problems_.begin(), problems_.end(), [](const Problem& p) { return p.severity == Severity::error; });
@@ -70,8 +83,13 @@ Error Problems::first_error() const {
   return {first->what, where, remedy};
 }
 
+std::string_view word_of(Severity severity) {
+  if (severity == Severity::note) return "note";
+  return severity == Severity::error ? "error" : "warning";
+}
+
 std::string to_string(const Problem& problem) {
-  std::string text = place(problem) + (problem.severity == Severity::error ? ": error: " : ": warning: ");
+  std::string text = fmt::format("{}: {}: ", place(problem), word_of(problem.severity));
   if (!problem.node.empty()) text += problem.node + ": ";
   text += problem.what;
   if (!problem.remedy.empty()) text += "; " + problem.remedy;
@@ -81,7 +99,7 @@ std::string to_string(const Problem& problem) {
 std::string to_json(std::span<const Problem> problems) {
   nlohmann::json list = nlohmann::json::array();
   for (const Problem& p : problems) {
-    list.push_back({{"severity", p.severity == Severity::error ? "error" : "warning"},
+    list.push_back({{"severity", word_of(p.severity)},
                     {"file", p.file},
                     {"line", p.line},
                     {"node", p.node},
