@@ -58,7 +58,8 @@ int add_and_parse(int argc, char** argv) {
   check_command->add_flag("--json", check_json, "as JSON");
   std::vector<std::string> merge_files;
   std::string merged_file;
-  auto* merge_command = app.add_subcommand("merge", "put several scenarios into one file, with names that clash renamed");
+  auto* merge_command =
+      app.add_subcommand("merge", "put several scenarios into one file, with names that clash renamed");
   merge_command->add_option("files", merge_files, "X3D files, two or more")->required();
   merge_command->add_option("-o,--output", merged_file, "the file to write")->required();
   auto* reference_command = app.add_subcommand("reference", "print the manual of the scenario format, as Markdown");

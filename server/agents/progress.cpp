@@ -62,7 +62,8 @@ bool holds(const state::RuleDescription& rule, const std::vector<double>& quanti
 }
 
 bool holds(const state::TriggerDescription& trigger, const std::vector<double>& quantities) {
-  const bool first = holds(state::RuleDescription{trigger.quantity, trigger.comparison, trigger.value, trigger.tolerance}, quantities);
+  const bool first =
+      holds(state::RuleDescription{trigger.quantity, trigger.comparison, trigger.value, trigger.tolerance}, quantities);
   if (first == trigger.any) return first;
   for (const state::RuleDescription& rule : trigger.more) {
     if (holds(rule, quantities) == trigger.any) return trigger.any;

@@ -60,8 +60,9 @@ double parameter_of(const state::ComponentDescription& component, const state::C
   return known == type.parameters.end() || known->required ? kInfinity : known->default_value;
 }
 
-void narrow(const std::vector<state::ComponentDescription>& table, const state::ComponentType* (*find)(std::string_view),
-            const std::string& name, const std::string& value, Range& range) {
+void narrow(const std::vector<state::ComponentDescription>& table,
+            const state::ComponentType* (*find)(std::string_view), const std::string& name, const std::string& value,
+            Range& range) {
   for (const state::ComponentDescription& component : table) {
     const state::ComponentType* type = component.name == name ? find(component.type) : nullptr;
     const state::ValueType* stated = type != nullptr ? find_value(*type, value) : nullptr;
@@ -112,7 +113,8 @@ bool can_hold(const state::RuleDescription& rule, const Range& range) {
 
 std::string in_words(const Range& range, const std::string& unit) {
   const std::string of = unit.empty() ? "" : " " + unit;
-  if (range.min > -kInfinity && range.max < kInfinity) return fmt::format("goes from {} to {}{}", range.min, range.max, of);
+  if (range.min > -kInfinity && range.max < kInfinity)
+    return fmt::format("goes from {} to {}{}", range.min, range.max, of);
   return range.max < kInfinity ? fmt::format("is at most {}{}", range.max, of)
                                : fmt::format("is at least {}{}", range.min, of);
 }

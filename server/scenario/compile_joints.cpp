@@ -58,8 +58,7 @@ Vec3 read_axis(Attributes& attributes) {
   return Vec3::UnitY();
 }
 
-void read_stops(Attributes& attributes, std::string_view least, std::string_view most,
-                state::JointDescription& joint) {
+void read_stops(Attributes& attributes, std::string_view least, std::string_view most, state::JointDescription& joint) {
   joint.min_position = attributes.number(least);
   joint.max_position = attributes.number(most);
   if (joint.min_position > joint.max_position)

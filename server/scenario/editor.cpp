@@ -113,7 +113,8 @@ bool is_of(ValueKind kind, const state::Parameter& value, bool any_count) {
 }
 
 WrittenValue to_metadata(const state::Parameter& value) {
-  if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return {"MetadataString", quote_strings(*texts)};
+  if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
+    return {"MetadataString", quote_strings(*texts)};
   if (const auto* flag = std::get_if<bool>(&value)) return {"MetadataBoolean", *flag ? "true" : "false"};
   return {"MetadataDouble", numbers_in_words(std::get<std::vector<double>>(value))};
 }
@@ -228,9 +229,9 @@ Expected<void> Editor::add(std::string_view path, std::string_view after) {
   const std::string margin = inner_margin_of(document_, spot->set);
   const std::vector<std::string> outer(spot->rest.begin(), spot->rest.end() - 1);
   const std::string deep = margin.empty() ? "" : margin + std::string(2 * outer.size(), ' ');
-  const std::string text = in_sets(
-      outer, margin,
-      fmt::format("<MetadataSet containerField='value' name='{}'>{}</MetadataSet>", escape_attribute(spot->rest.back()), deep));
+  const std::string text = in_sets(outer, margin,
+                                   fmt::format("<MetadataSet containerField='value' name='{}'>{}</MetadataSet>",
+                                               escape_attribute(spot->rest.back()), deep));
   if (after.empty()) {
     append_inside(document_, spot->set, text, edits);
   } else {

@@ -16,8 +16,7 @@ Scope of_table(const Table& table) {
 }
 
 /// A component's type, as its key `type` says.
-const state::ComponentType* type_in(const Document& document, NodeId set,
-                                    std::span<const state::ComponentType> types) {
+const state::ComponentType* type_in(const Document& document, NodeId set, std::span<const state::ComponentType> types) {
   const NodeId element = set ? find_child(document, set, "type") : NodeId::none();
   const std::string* value = element ? document[element].attribute("value") : nullptr;
   const auto names = value != nullptr ? parse_strings(*value) : Value<std::vector<std::string>>();
@@ -148,9 +147,7 @@ NodeId find_child(const Document& document, NodeId set, std::string_view name) {
 }
 
 NodeId find_set(const Document& document, NodeId owner, std::string_view name) {
-  const auto is_named = [&](NodeId id) {
-    return document[id].name == "MetadataSet" && name_of(document, id) == name;
-  };
+  const auto is_named = [&](NodeId id) { return document[id].name == "MetadataSet" && name_of(document, id) == name; };
   NodeId found;
   for (const NodeId child : document.child_elements(owner)) {
     if (!document[child].name.starts_with("Metadata") || document.container_field(child, "metadata") != "metadata")

@@ -128,12 +128,11 @@ void check_triggers(Compilation& c) {
                                     : std::any_of(quantities.begin(), quantities.end(), off);
       if (!dead) continue;
       const QuantityId quantity = *std::find_if(quantities.begin(), quantities.end(), off);
-      c.problems.warning(
-          c.step_lines[i], "step " + step.name,
-          fmt::format("the trigger on '{}' can never fire: the agent '{}' is off in this step",
-                      c.world.quantities[quantity.index()].name,
-                      c.world.agents[agent_off(c, step, quantity).index()].name),
-          "enable the agent in this step");
+      c.problems.warning(c.step_lines[i], "step " + step.name,
+                         fmt::format("the trigger on '{}' can never fire: the agent '{}' is off in this step",
+                                     c.world.quantities[quantity.index()].name,
+                                     c.world.agents[agent_off(c, step, quantity).index()].name),
+                         "enable the agent in this step");
     }
   }
 }

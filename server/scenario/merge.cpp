@@ -209,7 +209,8 @@ class Merge {
       return numbers ? *numbers : std::vector<double>();
     };
     if (gravity(ours_, collection) != gravity(theirs_, other))
-      notes_.push_back(fmt::format("gravity: that of the first file is kept, that of {} is not", theirs_.path().string()));
+      notes_.push_back(
+          fmt::format("gravity: that of the first file is kept, that of {} is not", theirs_.path().string()));
     append_inside(ours_, collection, inner_text(theirs_, other), edits_);
     remove_element(theirs_, other, taken_);
   }
@@ -271,7 +272,8 @@ std::string with_id(const Document& document, const fs::path& out) {
   const NodeId tree = tree_of(document);
   const NodeId id = tree ? find_child(document, tree, "id") : NodeId::none();
   const std::string stem = out.stem().string();
-  const bool fits = !stem.empty() && stem.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+  const bool fits =
+      !stem.empty() && stem.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
   TextEdits edits;
   if (id && fits) set_attribute(document, id, "value", quote_strings({stem}), edits);
   return edits.apply(document.source());

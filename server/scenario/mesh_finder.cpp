@@ -39,8 +39,7 @@ Expected<std::shared_ptr<const collision::Object>> MeshFinder::load(const std::f
   if (auto found = find_node(file, node); !found) return tl::unexpected(std::move(found.error()));
   const auto scene = scene_of(file);
   if (scene && *scene != nullptr) {
-    if (auto parts = content::collision_parts(**scene, node); !parts)
-      return tl::unexpected(std::move(parts.error()));
+    if (auto parts = content::collision_parts(**scene, node); !parts) return tl::unexpected(std::move(parts.error()));
   }
   return nullptr;
 }

@@ -66,6 +66,8 @@ class MetadataReader {
   }
 
   bool read_value(const std::string& type, const std::string& text, Metadata& out) {
+    if (type != "MetadataString" && text.find('"') != std::string::npos)
+      return refuse(out, fmt::format("a {} holds no words", type), "write a MetadataString, or take the quotes away");
     if (type == "MetadataString") return take(parse_strings(text), MetadataKind::strings, out.strings, out);
     if (type == "MetadataDouble" || type == "MetadataFloat")
       return take(parse_numbers(text), MetadataKind::numbers, out.numbers, out);

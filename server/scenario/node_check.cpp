@@ -36,6 +36,7 @@ struct Aside {
 };
 
 std::optional<Aside> aside_of(const X3dSchema& x3d, const X3dType& type) {
+  if (find_node_table(type.name) != nullptr) return std::nullopt;
   const auto is = [&](std::string_view base) { return x3d.is_a(type.name, base); };
   if (is("X3DRigidJointNode"))
     return Aside{"not simulated", "use SingleAxisHingeJoint, SliderJoint or BallJoint, or an agent"};
@@ -51,7 +52,7 @@ std::optional<Aside> aside_of(const X3dSchema& x3d, const X3dType& type) {
                  "give bodies their own position, and shapes by a mesh file"};
   if (is("X3DShapeNode") || is("X3DGeometryNode"))
     return Aside{"neither drawn nor touched", "put shapes into a mesh file, and name it by an Inline"};
-  if (find_node_table(type.name) != nullptr || type.is_statement() || is_metadata(type.name)) return std::nullopt;
+  if (type.is_statement() || is_metadata(type.name)) return std::nullopt;
   if (is("X3DBindableNode") || is("X3DLightNode") || type.name == "LocalFog" || is("X3DInfoNode")) return std::nullopt;
   return Aside{"not simulated", "other X3D readers may show it"};
 }
@@ -61,9 +62,12 @@ struct Home {
   std::string_view type;
   std::string_view holder;
 };
-constexpr Home kHomes[] = {{"X3DRigidJointNode", "RigidBodyCollection"}, {"RigidBody", "RigidBodyCollection"},
-                           {"X3DGeometryNode", "Shape"},                 {"X3DAppearanceNode", "Shape"},
-                           {"X3DAppearanceChildNode", "Appearance"},     {"X3DChildNode", "Scene"}};
+constexpr Home kHomes[] = {{"X3DRigidJointNode", "RigidBodyCollection"},
+                           {"RigidBody", "RigidBodyCollection"},
+                           {"X3DGeometryNode", "Shape"},
+                           {"X3DAppearanceNode", "Shape"},
+                           {"X3DAppearanceChildNode", "Appearance"},
+                           {"X3DChildNode", "Scene"}};
 
 class NodeChecker {
  public:
@@ -149,8 +153,8 @@ class NodeChecker {
     std::string plain = attribute.value;
     std::replace(plain.begin(), plain.end(), ' ', ',');
     if (plain == field.default_value) return;
-    problems_.note(document_[id].line, document_.describe(id),
-                   fmt::format("{} is not simulated", attribute.name), "other X3D readers may use it");
+    problems_.note(document_[id].line, document_.describe(id), fmt::format("{} is not simulated", attribute.name),
+                   "other X3D readers may use it");
   }
 
   /// Which field of its parent the element fills.
@@ -180,10 +184,9 @@ class NodeChecker {
       problems_.error(node.line, document_.describe(id),
                       fmt::format("it is not said which field of the {} it fills", parent->name), remedy);
     } else {
-      problems_.warning(node.line, document_.describe(id),
-                        fmt::format("without containerField other readers do not see what it is to the {}",
-                                    parent->name),
-                        remedy);
+      problems_.warning(
+          node.line, document_.describe(id),
+          fmt::format("without containerField other readers do not see what it is to the {}", parent->name), remedy);
     }
   }
 
@@ -199,11 +202,10 @@ class NodeChecker {
       };
       if (holders.empty() && std::any_of(slots.begin(), slots.end(), takes)) holders.push_back(name);
     }
-    problems_.error(document_[id].line, document_.describe(id),
-                    fmt::format("a {} cannot stand in a {}", type.name, parent.name),
-                    holders.empty() ? std::string("move it out; an end tag before it may be missing")
-                                    : fmt::format("move it into a {}; an end tag before it may be missing",
-                                                  holders.front()));
+    problems_.error(
+        document_[id].line, document_.describe(id), fmt::format("a {} cannot stand in a {}", type.name, parent.name),
+        holders.empty() ? std::string("move it out; an end tag before it may be missing")
+                        : fmt::format("move it into a {}; an end tag before it may be missing", holders.front()));
   }
 
   void check_metadata_place(NodeId id, const X3dType& parent) {
@@ -215,10 +217,10 @@ class NodeChecker {
       return;
     }
     if (*written == wanted || *written == "metadata") return;
-    problems_.error(node.line, document_.describe(id),
-                    fmt::format("containerField='{}' is wrong for metadata of a {}", written->substr(0, 80),
-                                parent.name),
-                    fmt::format("write containerField='{}'", wanted));
+    problems_.error(
+        node.line, document_.describe(id),
+        fmt::format("containerField='{}' is wrong for metadata of a {}", written->substr(0, 80), parent.name),
+        fmt::format("write containerField='{}'", wanted));
   }
 
   /// True where the node is left aside.
@@ -234,15 +236,14 @@ class NodeChecker {
 
   void report_asides() {
     for (const auto& [name, of_type] : asides_) {
-      const std::string more =
-          of_type.count == 1 ? "" : fmt::format(" (and {} more {})", of_type.count - 1, name);
+      const std::string more = of_type.count == 1 ? "" : fmt::format(" (and {} more {})", of_type.count - 1, name);
       problems_.note(document_[of_type.first].line, document_.describe(of_type.first),
                      fmt::format("it is {}{}", of_type.aside.what, more), std::string(of_type.aside.remedy));
     }
     if (unsaid_ == 0) return;
     problems_.warning(document_[first_unsaid_].line, document_.describe(first_unsaid_),
-                      fmt::format("{} metadata node{} without containerField: readers differ in what they are",
-                                  unsaid_, unsaid_ == 1 ? " is" : "s are"),
+                      fmt::format("{} metadata node{} without containerField: readers differ in what they are", unsaid_,
+                                  unsaid_ == 1 ? " is" : "s are"),
                       "write containerField='metadata' on a node's own set, and 'value' inside a set");
   }
 
@@ -291,7 +292,8 @@ void check_own_sets(Compilation& c) {
       continue;
     const NodeId owner = owner_of(c.document, id);
     const std::string where = c.document.describe(owner);
-    const auto own = std::find_if(std::begin(kOwnSets), std::end(kOwnSets), [&](const OwnSet& s) { return s.name == *name; });
+    const auto own =
+        std::find_if(std::begin(kOwnSets), std::end(kOwnSets), [&](const OwnSet& s) { return s.name == *name; });
     if (own == std::end(kOwnSets)) {
       c.problems.unknown(c.document[id].line, where, fmt::format("there is no set '{}', and it does nothing", *name),
                          *name, known);

@@ -221,6 +221,7 @@ std::string choices_of(const Key& key) {
 std::string default_of(const Key& key) {
   if (key.required) return key.unless.empty() ? "**required**" : fmt::format("**required** without `{}`", key.unless);
   if (key.kind == ValueKind::number) return fmt::format("{}", key.default_number);
+  if (key.kind == ValueKind::boolean && !key.default_text.empty()) return std::string(key.default_text);
   if (key.kind == ValueKind::boolean) return key.default_number != 0 ? "true" : "false";
   return code(key.default_text);
 }
@@ -241,10 +242,17 @@ std::string node_row(const Key& key, const X3dType& type) {
               key.required ? "**required**" : code(value), std::string(key.summary), code(key.example)});
 }
 
+/// With a capital at its beginning.
+std::string sentence(std::string_view words) {
+  std::string text(words);
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 std::string node_tables_text() {
   std::string text(kNodesIntroduction);
   for (const Table& table : node_tables()) {
-    text += fmt::format("\n### {}\n\n{}.\n\n{}", table.name, table.summary, kKeyHead);
+    text += fmt::format("\n### {}\n\n{}.\n\n{}", table.name, sentence(table.summary), kKeyHead);
     for (const Key& key : table.keys)
       text += node_row(key, *X3dSchema::standard().find(table.name));
   }
@@ -254,7 +262,7 @@ std::string node_tables_text() {
 std::string key_tables_text() {
   std::string text(kMetadataIntroduction);
   for (const Table* table : all_tables()) {
-    text += fmt::format("\n### {}\n\n{}.\n\n{}", table->name, table->summary, kKeyHead);
+    text += fmt::format("\n### {}\n\n{}.\n\n{}", table->name, sentence(table->summary), kKeyHead);
     for (const Key& key : table->keys)
       text += key_row(key);
   }
@@ -324,14 +332,17 @@ std::string reference_page() {
   page += "```\n";
   page += node_tables_text();
   page += key_tables_text();
+  page += components_text("Agents",
+                          "An agent makes things behave (`geometry.*`), or says what a visitor does with them "
+                          "(`simulation.*`). It is a set in `agents`,\n"
+                          "named as you like, with its `type` and its parameters; or it stands on a joint or body as "
+                          "the set `mechane:agent`, is called\n"
+                          "as that is, and need not name it again. Steps switch agents on and off.",
+                          agents::registry());
   page += components_text(
-      "Agents",
-      "An agent makes things behave (`geometry.*`), or says what a visitor does with them (`simulation.*`). It is a set in `agents`,\n"
-      "named as you like, with its `type` and its parameters; or it stands on a joint or body as the set `mechane:agent`, is called\n"
-      "as that is, and need not name it again. Steps switch agents on and off.",
-      agents::registry());
-  page += components_text("Machines", "A machine is the physics behind a joint: water, springs, steam. It is a set in `machines`, as agents are.",
-                          machines::registry());
+      "Machines",
+      "A machine is the physics behind a joint: water, springs, steam. It is a set in `machines`, as agents are.",
+      machines::registry());
   page += "\n## What else quantities can read\n\n| source | unit | what it is |\n|---|---|---|\n";
   page += row({"`JOINT.angle`, `JOINT.position`", "rad or m", "where body2 stands against body1; 0 at the start"});
   page += row({"`JOINT.turns`", "", "the angle in turns"});

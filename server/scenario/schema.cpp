@@ -12,13 +12,13 @@ namespace {
 using enum ValueKind;
 
 constexpr Key kTextKeys[] = {
-    {.name = "*", .kind = string, .summary = "the words, as <what>.<language>", .example = "caption.el"},
+    {.name = "*", .kind = string, .summary = "the words, as WHAT.LANGUAGE", .example = "caption.el"},
 };
 constexpr Table kText{"text", "words for people", kTextKeys};
 
 constexpr Key kQuantityKeys[] = {
     {.name = "source",
-     .summary = "what it reads, as <component>.<value>",
+     .summary = "what it reads, as NAME.VALUE",
      .example = "\"PUMP.basin_l\"",
      .required = true,
      .names = Names::source},
@@ -27,9 +27,9 @@ constexpr Key kQuantityKeys[] = {
 constexpr Table kQuantity{"quantity", "a number with a name", kQuantityKeys};
 
 constexpr Key kOverrideKeys[] = {
-    {.name = "movable", .kind = boolean, .summary = "false: held still"},
-    {.name = "visible", .kind = boolean, .summary = "false: not drawn"},
-    {.name = "graspable", .kind = boolean, .summary = "a hand may take it"},
+    {.name = "movable", .kind = boolean, .summary = "false: held still", .default_text = "as it was"},
+    {.name = "visible", .kind = boolean, .summary = "false: not drawn", .default_text = "as it was"},
+    {.name = "graspable", .kind = boolean, .summary = "a hand may take it", .default_text = "as it was"},
     {.name = "position",
      .kind = vector,
      .unit = "m",
@@ -48,16 +48,10 @@ constexpr Key kRuleQuantity{.name = "quantity",
                             .example = "\"level\"",
                             .required = true,
                             .names = Names::quantity};
-constexpr Key kRuleOp{.name = "op",
-                      .summary = "how: below, equal, above",
-                      .example = "\">\"",
-                      .required = true,
-                      .choices = "< = >"};
-constexpr Key kRuleValue{.name = "value",
-                         .kind = number,
-                         .summary = "with what, in the quantity's unit",
-                         .example = "40",
-                         .required = true};
+constexpr Key kRuleOp{
+    .name = "op", .summary = "how: below, equal, above", .example = "\">\"", .required = true, .choices = "< = >"};
+constexpr Key kRuleValue{
+    .name = "value", .kind = number, .summary = "with what, in the quantity's unit", .example = "40", .required = true};
 constexpr Key kRuleTolerance{.name = "tolerance",
                              .kind = number,
                              .summary = "how near is equal",
@@ -122,7 +116,7 @@ constexpr Key kStepKeys[] = {
      .inner = &kOverride},
     {.name = "text",
      .kind = set,
-     .summary = "caption, narration, hint, each with .<language>; audio.<language>: a sound file of the narration",
+     .summary = "caption, narration, hint, each with .LANGUAGE; audio.LANGUAGE: a sound file of the narration",
      .inner = &kText},
     {.name = "trigger:*",
      .kind = set,
@@ -172,7 +166,7 @@ constexpr Key kQuestionKeys[] = {
      .max = 11},
     {.name = "text",
      .kind = set,
-     .summary = "question.<language>; choice: answer:NAME.<language>; scale: low.<language>, high.<language>",
+     .summary = "question.LANGUAGE; choice: answer:NAME.LANGUAGE; scale: low.LANGUAGE, high.LANGUAGE",
      .required = true,
      .inner = &kText},
 };
@@ -185,7 +179,7 @@ constexpr Key kActivityKeys[] = {
      .names = Names::step},
     {.name = "text",
      .kind = set,
-     .summary = "title.<language>; goal.<language>: what a visitor shall learn",
+     .summary = "title.LANGUAGE; goal.LANGUAGE: what a visitor shall learn",
      .inner = &kText},
     {.name = "steps",
      .kind = set,
@@ -277,7 +271,7 @@ constexpr Key kScenarioKeys[] = {
      .default_number = 1,
      .min = 1e-4,
      .max = 1},
-    {.name = "text", .kind = set, .summary = "title.<language>", .inner = &kText},
+    {.name = "text", .kind = set, .summary = "title.LANGUAGE", .inner = &kText},
     {.name = "agents",
      .kind = set,
      .summary = "sets named as the agents, each with its type and parameters",
@@ -367,8 +361,9 @@ constexpr Key kBodyKeys[] = {
 };
 constexpr Table kBody{"mechane:body", "on a RigidBody: its shape in a mesh file", kBodyKeys};
 
-constexpr std::array<const Table*, 13> kTables{&kScenario, &kQuantity, &kActivity, &kQuestion, &kStep,   &kOverride, &kTrigger,
-                                               &kRule,     &kText,     &kVisit,    &kMove,     &kHaptic, &kBody};
+constexpr std::array<const Table*, 13> kTables{&kScenario, &kQuantity, &kActivity, &kQuestion, &kStep,
+                                               &kOverride, &kTrigger,  &kRule,     &kText,     &kVisit,
+                                               &kMove,     &kHaptic,   &kBody};
 
 }  // namespace
 
@@ -462,7 +457,8 @@ std::string limits_of(const Key& key) {
 std::optional<BadValue> range_fault(const Key& key, std::span<const double> numbers, const std::string* text) {
   const std::string example = key.example.empty() ? std::string() : fmt::format(", like {}", key.example);
   if (text != nullptr && !key.choices.empty() && !one_of(*text, key.choices)) {
-    return BadValue{fmt::format("'{}' is none of: {}", text->substr(0, 80), key.choices), "write one of them" + example};
+    return BadValue{fmt::format("'{}' is none of: {}", text->substr(0, 80), key.choices),
+                    "write one of them" + example};
   }
   for (const double value : numbers) {
     if (value >= key.min && value <= key.max) continue;

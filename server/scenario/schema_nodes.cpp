@@ -70,7 +70,13 @@ constexpr Key kCollection[] = {
 constexpr Key kRigidBody[] = {
     kDef,
     {.name = "fixed", .kind = boolean, .summary = "true: it never moves, and its mass does not matter"},
-    {.name = "mass", .kind = number, .unit = "kg", .summary = "of the real thing", .example = "42", .min = 0, .max = 1e6},
+    {.name = "mass",
+     .kind = number,
+     .unit = "kg",
+     .summary = "of the real thing",
+     .example = "42",
+     .min = 0,
+     .max = 1e6},
     {.name = "inertia",
      .kind = matrix,
      .unit = "kg m2",
@@ -138,8 +144,8 @@ std::span<const Table> node_tables() {
 }
 
 const Table* find_node_table(std::string_view node_type) {
-  const auto it = std::find_if(std::begin(kNodeTables), std::end(kNodeTables),
-                               [&](const Table& t) { return t.name == node_type; });
+  const auto it =
+      std::find_if(std::begin(kNodeTables), std::end(kNodeTables), [&](const Table& t) { return t.name == node_type; });
   return it == std::end(kNodeTables) ? nullptr : &*it;
 }
 

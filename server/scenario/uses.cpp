@@ -46,7 +46,8 @@ std::vector<std::string> names_within(const NamesByScope& names, NameScope scope
   return found;
 }
 
-void resolve_one(std::vector<Node>& nodes, std::size_t i, NameScope scope, const NamesByScope& names, Problems& problems) {
+void resolve_one(std::vector<Node>& nodes, std::size_t i, NameScope scope, const NamesByScope& names,
+                 Problems& problems) {
   Node& node = nodes[i];
   const std::string* use = node.kind == NodeKind::element ? node.attribute("USE") : nullptr;
   if (use == nullptr || use->empty()) return;

@@ -57,7 +57,8 @@ Value<std::vector<double>> parse_integers(std::string_view text) {
   if (!values) return values;
   for (const double value : *values) {
     if (value != std::trunc(value))
-      return bad(fmt::format("{} is not a whole number", value), "write a whole number; in metadata, MetadataDouble takes fractions");
+      return bad(fmt::format("{} is not a whole number", value),
+                 "write a whole number; in metadata, MetadataDouble takes fractions");
   }
   return values;
 }
@@ -77,7 +78,10 @@ Value<std::vector<std::string>> parse_strings(std::string_view text) {
   for (;;) {
     const std::size_t begin = text.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos) return values;
-    if (text[begin] != '"') return bad("a string is not in quotes", "write value='\"...\"'");
+    if (text[begin] != '"') {
+      const bool plain = text.find('"') == std::string_view::npos && text.size() <= 40;
+      return bad("a string is not in quotes", fmt::format("write value='\"{}\"'", plain ? text.substr(begin) : "..."));
+    }
     text.remove_prefix(begin + 1);
     std::string value;
     while (!text.empty() && text.front() != '"') {

@@ -40,7 +40,8 @@ struct X3dSlot {
 
 struct X3dType {
   std::string_view name;
-  std::string_view container;  ///< the parent's field that it fills where containerField is not written; empty: a statement
+  std::string_view
+      container;  ///< the parent's field that it fills where containerField is not written; empty: a statement
   std::vector<std::string_view> bases;
   std::vector<X3dField> fields;  ///< its own and those of its bases, by name
   std::vector<X3dSlot> slots;

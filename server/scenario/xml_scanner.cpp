@@ -44,7 +44,7 @@ class Scanner {
     if (!fault_ && !open_.empty()) {
       const std::string name = name_of(open_.back());
       fail(spans_.elements[open_.back()].begin, fmt::format("<{}> is never closed", name),
-           fmt::format("write </{}> where it ends, or /> at the end of its tag", name));
+           fmt::format("write </{}> where it ends, or /> at the end of its tag{}", name, by_indentation()));
     }
     if (fault_) return tl::unexpected(std::move(*fault_));
     return std::move(spans_);
@@ -53,7 +53,8 @@ class Scanner {
  private:
   void fail(std::size_t offset, std::string what, std::string remedy) {
     if (fault_) return;
-    fault_ = XmlFault{offset, open_.empty() ? std::string() : name_of(open_.back()), std::move(what), std::move(remedy)};
+    fault_ =
+        XmlFault{offset, open_.empty() ? std::string() : name_of(open_.back()), std::move(what), std::move(remedy)};
   }
 
   [[nodiscard]] bool sees(std::string_view word) const { return text_.substr(at_).starts_with(word); }
@@ -185,7 +186,8 @@ class Scanner {
       const std::vector<std::string> meant{wanted};
       return fail(begin, fmt::format("</{}> comes where </{}> is awaited", name, wanted),
                   nearest(name, meant).empty()
-                      ? fmt::format("<{}> of line {} is still open: close it first", wanted, line_of(open_.back()))
+                      ? fmt::format("<{}> of line {} is still open: close it first{}", wanted, line_of(open_.back()),
+                                    by_indentation())
                       : fmt::format("write the same name here and in line {}", line_of(open_.back())));
     }
     ++at_;
@@ -205,6 +207,7 @@ class Scanner {
       return fail(begin, "there is a second outermost element", "an X3D file is one <X3D>...</X3D>");
     }
     const std::size_t index = spans_.elements.size();
+    suspect(begin);
     spans_.elements.push_back({.begin = static_cast<std::uint32_t>(begin),
                                .first_attribute = static_cast<std::uint32_t>(spans_.attributes.size())});
     open_.push_back(index);
@@ -217,6 +220,31 @@ class Scanner {
       if (text_[at_] == '>' || sees("/>")) return finish_tag(index);
       attribute(index, apart);
     }
+  }
+
+  /// How far an element is indented; none where other things stand before it on its line.
+  std::optional<std::size_t> column_of(std::size_t begin) const {
+    constexpr std::size_t kDeepest = 400;  // nobody indents further
+    const std::size_t from = begin > kDeepest ? begin - kDeepest : 0;
+    const std::size_t found = text_.substr(from, begin - from).find_last_not_of(" \t");
+    if (found == std::string_view::npos) return std::nullopt;
+    const std::size_t last = from + found;
+    return text_[last] == '\n' ? std::optional(begin - last - 1) : std::nullopt;
+  }
+
+  /// An element that stands no deeper than the one around it: authors indent, so the one around it was likely meant to end before.
+  void suspect(std::size_t begin) {
+    if (suspect_ || open_.empty()) return;
+    const auto column = column_of(begin);
+    const auto around = column ? column_of(spans_.elements[open_.back()].begin) : std::nullopt;
+    if (around && *around > 0 && *column <= *around) suspect_ = open_.back();
+  }
+
+  /// Where to look, for a fault of tags that do not fit each other.
+  std::string by_indentation() const {
+    if (!suspect_) return {};
+    return fmt::format("; by the indentation it is <{}> of line {} that is not closed", name_of(*suspect_),
+                       line_of(*suspect_));
   }
 
   void finish_tag(std::size_t index) {
@@ -260,9 +288,10 @@ class Scanner {
     const std::size_t end = text_.find(quote, at_);
     if (text_.substr(at_, end == std::string_view::npos ? end : end - at_).find('<') != std::string_view::npos ||
         end == std::string_view::npos) {
-      return fail(begin, fmt::format("the value of '{}' in the tag <{}> holds < or has no closing quote",
-                                     name.substr(0, 80), tag),
-                  "write the closing quote; for the letter < write &lt;");
+      return fail(
+          begin,
+          fmt::format("the value of '{}' in the tag <{}> holds < or has no closing quote", name.substr(0, 80), tag),
+          "write the closing quote; for the letter < write &lt;");
     }
     if (!is_new(element, name)) {
       return fail(begin, fmt::format("'{}' is written twice in one tag <{}>", name.substr(0, 80), tag),
@@ -280,16 +309,16 @@ class Scanner {
       fail(at_, fmt::format("a tag has more than {} attributes", kMostAttributes), "no element of X3D has so many");
       return true;
     }
-    return std::none_of(spans_.attributes.begin() + static_cast<std::ptrdiff_t>(first), spans_.attributes.end(),
-                        [&](const XmlAttributeSpan& other) {
-                          return text_.substr(other.begin, other.name_end - other.begin) == name;
-                        });
+    return std::none_of(
+        spans_.attributes.begin() + static_cast<std::ptrdiff_t>(first), spans_.attributes.end(),
+        [&](const XmlAttributeSpan& other) { return text_.substr(other.begin, other.name_end - other.begin) == name; });
   }
 
   std::string_view text_;
   std::size_t at_ = 0;
   std::vector<std::size_t> open_;
   XmlSpans spans_;
+  std::optional<std::size_t> suspect_;  // an element
   std::optional<XmlFault> fault_;
 };
 

@@ -92,13 +92,16 @@ RC_GTEST_PROP(Editor, AnyAttributeOfAnyFileCanBeWrittenAndWrittenBack, ()) {
     const NodeId id(i);
     const Node& node = editor.document()[id];
     // A DEF, and what X3D needs of its outermost element, cannot be just anything.
-    if (node.attributes.empty() || node.name == "X3D" || node.attributes[0].name == "DEF") continue;
+    if (node.kind != NodeKind::element || node.attributes.empty() || node.name == "X3D" ||
+        node.attributes[0].name == "DEF")
+      continue;
     if (node.attributes[0].name != "USE") elements.push_back(id);
   }
   if (elements.empty()) return;
   const NodeId id = elements[*rc::gen::inRange<std::size_t>(0, elements.size())];
   const Attribute old = editor.document()[id].attributes[0];
-  const std::string value = *rc::gen::element<std::string>("a&b", "<", "'", "\"", "ά\n\tβ", "", "plain", "]]>", "&amp;");
+  const std::string value =
+      *rc::gen::element<std::string>("a&b", "<", "'", "\"", "ά\n\tβ", "", "plain", "]]>", "&amp;");
   TextEdits edits;
   set_attribute(editor.document(), id, old.name, value, edits);
   const Editor changed = editor_of(edits.apply(before));
@@ -219,8 +222,9 @@ TEST(Editor, KeepsLineEndsAndOpensEmptySets) {
   ASSERT_TRUE(world) << world.error().to_string();
   EXPECT_EQ(world->title.at("en"), "A \"wheel\" & more");
   EXPECT_EQ(world->steps[0].hint_after_s, 3);
-  Editor bare = editor_of("<X3D version='4.0'><Scene><WorldInfo><MetadataSet containerField='metadata' "
-                          "name='mechane:scenario'/></WorldInfo></Scene></X3D>");
+  Editor bare = editor_of(
+      "<X3D version='4.0'><Scene><WorldInfo><MetadataSet containerField='metadata' "
+      "name='mechane:scenario'/></WorldInfo></Scene></X3D>");
   ASSERT_TRUE(bare.set("id", Texts{"bare"}));
   EXPECT_NE(bare.text().find("name='mechane:scenario'><MetadataString"), std::string::npos) << bare.text();
 }

@@ -113,16 +113,18 @@ TEST_F(MergeFiles, RoutesImportsExportsAndPrototypesFollow) {
   const std::string& both = merged->text;
   for (const char* words :
        {"<Inline DEF='IN_2' url='\"a.x3d\"'/>", "<IMPORT inlineDEF='IN_2' importedDEF='LAMP' AS='LAMP_2'/>",
-        "<IMPORT inlineDEF='IN_2' importedDEF='FAR' AS='NEAR_2'/>", "<ProtoDeclare name='P_2'><ProtoBody><Group DEF='A'/>",
-        "<ProtoInstance DEF='I_2' name='P_2'/>", "<Group DEF='A_2'/><Group USE='A_2'/>",
-        "<EXPORT localDEF='A_2'/>", "<ROUTE fromNode='NEAR_2' fromField='x' toNode='A_2' toField='y'/>"})
+        "<IMPORT inlineDEF='IN_2' importedDEF='FAR' AS='NEAR_2'/>",
+        "<ProtoDeclare name='P_2'><ProtoBody><Group DEF='A'/>", "<ProtoInstance DEF='I_2' name='P_2'/>",
+        "<Group DEF='A_2'/><Group USE='A_2'/>", "<EXPORT localDEF='A_2'/>",
+        "<ROUTE fromNode='NEAR_2' fromField='x' toNode='A_2' toField='y'/>"})
     EXPECT_NE(both.find(words), std::string::npos) << words << "\n" << both;
   EXPECT_NE(both.find("<!-- kept -->"), both.rfind("<!-- kept -->")) << "comments of both";
   EXPECT_TRUE(both.starts_with(text.substr(0, text.find("</Scene>") - 1))) << "the first file stays as it was";
 }
 
 TEST_F(MergeFiles, WhatTheFirstFileLacksIsTakenWhole) {
-  const std::string plain = write("plain.x3d", "<X3D profile='Interactive' version='4.0'>\n<head/>\n<Scene>\n</Scene>\n</X3D>\n");
+  const std::string plain =
+      write("plain.x3d", "<X3D profile='Interactive' version='4.0'>\n<head/>\n<Scene>\n</Scene>\n</X3D>\n");
   const state::WorldDescription world = merged_world({plain, shipped_file().string()}, folder / "in/whole.x3d");
   EXPECT_EQ(world.activities.size(), 2u);
   EXPECT_EQ(world.bodies.size(), 2u);

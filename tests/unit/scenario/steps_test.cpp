@@ -31,10 +31,10 @@ const state::StepDescription& fill_of(const Outcome& outcome) {
 }
 
 TEST(Steps, ATriggerMayHaveSeveralRules) {
-  const Outcome outcome = with_fill(
-      set_key("trigger:2", set_key("rule:1", rule("speed", "&lt;", "5") + number_key("tolerance", "0.5")) +
-                               set_key("rule:2", rule("turns", "=", "3")) + text_key("match", "any") +
-                               number_key("holdSeconds", "2") + text_key("next", "turn")));
+  const Outcome outcome =
+      with_fill(set_key("trigger:2", set_key("rule:1", rule("speed", "&lt;", "5") + number_key("tolerance", "0.5")) +
+                                         set_key("rule:2", rule("turns", "=", "3")) + text_key("match", "any") +
+                                         number_key("holdSeconds", "2") + text_key("next", "turn")));
   ASSERT_TRUE(outcome.world) << outcome.world.error().to_string();
   EXPECT_TRUE(outcome.problems.empty()) << to_string(outcome.problems[0]);
   const state::TriggerDescription& trigger = fill_of(outcome).triggers.front();
@@ -69,10 +69,10 @@ TEST(Steps, ATimeOutLeadsOn) {
 }
 
 TEST(Steps, SoundsAreNamedByLanguage) {
-  const Outcome outcome = compile_text(
-      edited("<MetadataString containerField='value' name='hint.el' value='\"Το νερό βγαίνει",
-             text_key("audio.el", "audio/fill.el.ogg") + text_key("audio.en", "audio/fill.en.ogg") +
-                 "<MetadataString containerField='value' name='hint.el' value='\"Το νερό βγαίνει"));
+  const Outcome outcome =
+      compile_text(edited("<MetadataString containerField='value' name='hint.el' value='\"Το νερό βγαίνει",
+                          text_key("audio.el", "audio/fill.el.ogg") + text_key("audio.en", "audio/fill.en.ogg") +
+                              "<MetadataString containerField='value' name='hint.el' value='\"Το νερό βγαίνει"));
   ASSERT_TRUE(outcome.world) << outcome.world.error().to_string();
   EXPECT_EQ(fill_of(outcome).texts.at("audio").at("en"), "audio/fill.en.ogg");
 }
@@ -81,20 +81,20 @@ const std::string kUseTitle = "<MetadataString containerField='value' name='titl
 
 /// The shipped file, with a goal and a questionnaire beside the steps of 'use'.
 Outcome with_questions(const std::string& inside) {
-  const std::string closing = kUseTitle + "              </MetadataSet>\n";
+  const std::string closing = kUseTitle + "            </MetadataSet>\n";
   return compile_text(edited(closing, kUseTitle + text_key("goal.el", "Γιατί") + text_key("goal.en", "Why it lifts") +
                                           "</MetadataSet>\n" + set_key("questionnaire", inside)));
 }
 
 TEST(Activities, HaveAGoalAndQuestions) {
   const Outcome outcome = with_questions(
-      set_key("why", text_key("kind", "choice") +
-                         "<MetadataString containerField='value' name='answers' value='\"tilt\" \"speed\"'/>\n" +
-                         text_key("correct", "tilt") +
-                         set_key("text", text_key("question.el", "Γιατί;") + text_key("question.en", "Why?") +
-                                             text_key("answer:tilt.el", "κλίση") + text_key("answer:tilt.en", "tilt") +
-                                             text_key("answer:speed.el", "ταχύτητα") +
-                                             text_key("answer:speed.en", "speed"))) +
+      set_key("why",
+              text_key("kind", "choice") +
+                  "<MetadataString containerField='value' name='answers' value='\"tilt\" \"speed\"'/>\n" +
+                  text_key("correct", "tilt") +
+                  set_key("text", text_key("question.el", "Γιατί;") + text_key("question.en", "Why?") +
+                                      text_key("answer:tilt.el", "κλίση") + text_key("answer:tilt.en", "tilt") +
+                                      text_key("answer:speed.el", "ταχύτητα") + text_key("answer:speed.en", "speed"))) +
       set_key("liked",
               text_key("kind", "scale") + number_key("steps", "7") +
                   set_key("text", text_key("question.el", "Σας άρεσε;") + text_key("question.en", "Did you like it?") +
@@ -145,17 +145,18 @@ TEST(Steps, FaultsSayWhatToDo) {
 
 TEST(Steps, ARuleThatCanNeverHoldIsAnError) {
   // The hinge gets stops, so that its angle has a range; the pump's basin has one of its own (see node_check_test).
-  const std::string text = edited("<SingleAxisHingeJoint DEF='AXLE'",
-                                  "<SingleAxisHingeJoint minAngle='-1' maxAngle='6.2831853' DEF='AXLE'");
+  const std::string text =
+      edited("<SingleAxisHingeJoint DEF='AXLE'", "<SingleAxisHingeJoint minAngle='-1' maxAngle='6.2831853' DEF='AXLE'");
   const std::string turns = "value='\"COUNTER.turns\"'";
   std::string stopped = text;
   stopped.replace(stopped.find(turns), turns.size(), "value='\"AXLE.turns\"'");
   const Outcome outcome = compile_text(stopped);
   EXPECT_FALSE(outcome.world);
   EXPECT_EQ(outcome.find("this can never hold: 'turns' goes from").severity, Severity::error);
-  const Outcome placed = compile_text(edited("name='value' value='1'/>\n                  <MetadataDouble "
-                                             "containerField='value' name='holdSeconds' value='0.3'/>",
-                                             "name='value' value='2'/>\n"));
+  const Outcome placed =
+      compile_text(edited("name='value' value='1'/>\n                  <MetadataDouble "
+                          "containerField='value' name='holdSeconds' value='0.3'/>",
+                          "name='value' value='2'/>\n"));
   EXPECT_FALSE(placed.world);
   EXPECT_NE(placed.find("this can never hold: 'seated' goes from 0 to 1").remedy, "");
 }
