@@ -126,12 +126,22 @@ class Merge {
     const NodeId other = head_of(theirs_);
     if (!head || !other) return;
     std::string added;
+    std::string components;
     const std::string margin = inner_margin_of(ours_, head);
     for (const NodeId id : theirs_.child_elements(other)) {
       if (theirs_[id].name == "component") {
-        added += merged_component(head, id, margin);
+        components += merged_component(head, id, margin);
       } else if (theirs_[id].name == "meta" && is_credit(id) && !holds(head, element_text(theirs_, id))) {
         added += margin + std::string(element_text(theirs_, id));
+      }
+    }
+    // X3D wants components first.
+    if (!components.empty() && !insert_after_last(head, "component", components)) {
+      const XmlElementSpan& span = ours_[head].span;
+      if (span.tag_end == span.end) {
+        added.insert(0, components);
+      } else {
+        edits_.insert(span.tag_end, components);
       }
     }
     if (!added.empty()) append_inside(ours_, head, added, edits_);
@@ -211,8 +221,28 @@ class Merge {
     if (gravity(ours_, collection) != gravity(theirs_, other))
       notes_.push_back(
           fmt::format("gravity: that of the first file is kept, that of {} is not", theirs_.path().string()));
-    append_inside(ours_, collection, inner_text(theirs_, other), edits_);
+    // X3D wants bodies before joints. What stands before an element, a comment say, goes with it.
+    std::string bodies;
+    std::string rest;
+    std::size_t from = theirs_[other].span.tag_end;
+    for (const NodeId child : theirs_.child_elements(other)) {
+      const std::size_t end = theirs_[child].span.end;
+      (theirs_[child].name == "RigidBody" ? bodies : rest) += theirs_.source().substr(from, end - from);
+      from = end;
+    }
+    if (!insert_after_last(collection, "RigidBody", bodies)) rest.insert(0, bodies);
+    if (!rest.empty()) append_inside(ours_, collection, rest, edits_);
     remove_element(theirs_, other, taken_);
+  }
+
+  /// Behind our last child of a type; false where there is none.
+  bool insert_after_last(NodeId parent, std::string_view type, const std::string& text) {
+    NodeId last;
+    for (const NodeId id : ours_.child_elements(parent)) {
+      if (ours_[id].name == type) last = id;
+    }
+    if (last) edits_.insert(ours_[last].span.end, text);
+    return static_cast<bool>(last);
   }
 
   /// By a USE, a ROUTE or an EXPORT: it must stay where it is.

@@ -1,6 +1,8 @@
 // Two scenarios in one file: names that clash change wherever they stand.
 #include "server/scenario/merge.hpp"
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -74,6 +76,21 @@ TEST_F(MergeFiles, TheScrewWithItselfIsTwoScrews) {
   EXPECT_EQ(two.visits[3].moves[0].body, two.find_body("INNER_2"));
   const auto& placed = two.agents[two.find_agent("SEATED_2").index()];
   EXPECT_EQ(std::get<std::vector<std::string>>(placed.parameters.at("snap")), std::vector<std::string>{"SEAT_2"});
+}
+
+TEST_F(MergeFiles, TheResultHoldsAgainstTheStandardsSchema) {
+  const auto schema = shared_folder() / "x3d/schema/x3d-4.0.xsd";
+  if (!std::filesystem::exists(schema)) GTEST_SKIP() << "the standard's schema is not beside the project";
+  const std::string file = shipped_file().string();
+  const std::string bare = write("bare.x3d",
+                                 "<X3D profile='Interactive' version='4.0'>\n<head>\n<meta name='title' "
+                                 "content='bare'/>\n</head>\n<Scene/>\n</X3D>\n");
+  for (const auto& files : {std::vector<std::string>{file, file}, std::vector<std::string>{bare, file}}) {
+    const auto merged = merge_files(files, folder / "in/both.x3d");
+    ASSERT_TRUE(merged);
+    const std::string both = write("both.x3d", merged->text);
+    EXPECT_EQ(std::system(("xmllint --nonet --noout --schema '" + schema.string() + "' '" + both + "'").c_str()), 0);
+  }
 }
 
 TEST_F(MergeFiles, ThreeTimesAndMergedAgainStillReads) {
