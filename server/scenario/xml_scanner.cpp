@@ -242,7 +242,7 @@ class Scanner {
 
   /// Where to look, for a fault of tags that do not fit each other.
   std::string by_indentation() const {
-    if (!suspect_) return {};
+    if (!suspect_ || (!open_.empty() && *suspect_ == open_.back())) return {};
     return fmt::format("; by the indentation it is <{}> of line {} that is not closed", name_of(*suspect_),
                        line_of(*suspect_));
   }
