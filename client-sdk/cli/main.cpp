@@ -13,6 +13,8 @@
 #include "client-sdk/cli/sibling.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/checker.hpp"
+#include "server/scenario/merge.hpp"
+#include "server/scenario/reference.hpp"
 
 namespace {
 
@@ -54,6 +56,13 @@ int add_and_parse(int argc, char** argv) {
   check_command->add_option("files", files, "X3D files")->required();
   bool check_json = false;
   check_command->add_flag("--json", check_json, "as JSON");
+  std::vector<std::string> merge_files;
+  std::string merged_file;
+  auto* merge_command =
+      app.add_subcommand("merge", "put several scenarios into one file, with names that clash renamed");
+  merge_command->add_option("files", merge_files, "X3D files, two or more")->required();
+  merge_command->add_option("-o,--output", merged_file, "the file to write")->required();
+  auto* reference_command = app.add_subcommand("reference", "print the manual of the scenario format, as Markdown");
   bool doctor_json = false;
   double probe_s = 2;
   auto* doctor_command = app.add_subcommand("doctor", "tell whether this machine can hold 1 kHz");
@@ -68,6 +77,11 @@ int add_and_parse(int argc, char** argv) {
   if (*check_command)
     return scenario::run_check(files, std::cout,
                                check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);
+  if (*merge_command) return scenario::run_merge(merge_files, merged_file, std::cout);
+  if (*reference_command) {
+    std::cout << scenario::reference_page();
+    return 0;
+  }
   return cli::run_doctor(doctor_json, probe_s);
 }
 

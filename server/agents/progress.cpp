@@ -36,20 +36,39 @@ Expected<void> check_step(const state::WorldDescription& world, const state::Ste
       return fail("a trigger leads to a step that is not there", where, "name a step, or 'end'");
     if (!std::isfinite(trigger.value) || !(trigger.hold_s >= 0))
       return fail("a trigger's value or hold time is not a number", where, "write a number; the time is 0 s or more");
+    for (const state::RuleDescription& rule : trigger.more) {
+      if (!in_table(rule.quantity, world.quantities.size()))
+        return fail("a trigger tests a quantity that is not there", where, "name a quantity");
+      if (!std::isfinite(rule.value)) return fail("a rule's value is not a number", where, "write a number");
+    }
   }
+  if (!(step.timeout_s >= 0)) return fail("the time-out is not a time", where, "write 0 s or more");
+  if (step.timeout_next && !in_table(step.timeout_next, world.steps.size()))
+    return fail("its time-out leads to a step that is not there", where, "name a step, or 'end'");
   return {};
 }
 
-bool holds(const state::TriggerDescription& trigger, double quantity) {
-  switch (trigger.comparison) {
+bool holds(const state::RuleDescription& rule, const std::vector<double>& quantities) {
+  const double quantity = quantities[rule.quantity.index()];
+  switch (rule.comparison) {
     case state::Comparison::less:
-      return quantity < trigger.value;
+      return quantity < rule.value;
     case state::Comparison::equal:
-      return std::abs(quantity - trigger.value) <= trigger.tolerance;
+      return std::abs(quantity - rule.value) <= rule.tolerance;
     case state::Comparison::greater:
-      return quantity > trigger.value;
+      return quantity > rule.value;
   }
   return false;
+}
+
+bool holds(const state::TriggerDescription& trigger, const std::vector<double>& quantities) {
+  const bool first =
+      holds(state::RuleDescription{trigger.quantity, trigger.comparison, trigger.value, trigger.tolerance}, quantities);
+  if (first == trigger.any) return first;
+  for (const state::RuleDescription& rule : trigger.more) {
+    if (holds(rule, quantities) == trigger.any) return trigger.any;
+  }
+  return !trigger.any;
 }
 
 double seconds_since(const state::WorldState& state, std::uint64_t tick) {
@@ -160,8 +179,8 @@ void ProgressRules::run_command(state::WorldState& state, const state::Command& 
     case state::CommandKind::next_step:
       done = at.step && !at.done;
       if (done) {
-        const auto& triggers = description_->steps[at.step.index()].triggers;
-        leave_step(state, triggers.empty() ? StepId::none() : triggers.front().next);
+        const state::StepDescription& step = description_->steps[at.step.index()];
+        leave_step(state, step.triggers.empty() ? step.timeout_next : step.triggers.front().next);
       }
       break;
   }
@@ -177,11 +196,14 @@ void ProgressRules::run_triggers(state::WorldState& state, double dt_s) const no
   for (std::size_t i = 0; i < step.triggers.size(); ++i) {
     const state::TriggerDescription& trigger = step.triggers[i];
     double& held_s = state.memory[first_hold_[at.step.index()] + i];
-    const bool now = holds(trigger, state.quantities[trigger.quantity.index()]);
+    const bool now = holds(trigger, state.quantities);
     held_s = now ? held_s + dt_s : 0;
     // Half a tick of slack: the sum of ticks must not miss its time by rounding.
     if (now && held_s + 0.5 * dt_s >= trigger.hold_s) return leave_step(state, trigger.next);
   }
+  // What a visitor did comes first: a goal that is reached in the last tick counts.
+  if (step.timeout_s > 0 && seconds_since(state, at.step_tick) + 0.5 * dt_s >= step.timeout_s)
+    leave_step(state, step.timeout_next);
 }
 
 }  // namespace mechane::agents

@@ -21,7 +21,8 @@ class ProgressRules {
 
   void start(state::WorldState& state) const noexcept;
   void run_command(state::WorldState& state, const state::Command& command) const noexcept;
-  /// Tests the step's triggers on the quantities; the first that has held long enough fires. Notes when it is time for a hint.
+  /// Tests the step's triggers on the quantities; the first that has held long enough fires. Leaves the step when its time is out.
+  /// Notes when it is time for a hint.
   void run_triggers(state::WorldState& state, double dt_s) const noexcept;
 
  private:

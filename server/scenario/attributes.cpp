@@ -2,12 +2,43 @@
 
 #include <fmt/format.h>
 
+#include "server/base/assert.hpp"
 #include "server/scenario/values.hpp"
 
 namespace mechane::scenario {
+namespace {
+
+const Table& table_of(const Node& node) {
+  const Table* table = find_node_table(node.name);
+  MECHANE_ASSERT(table != nullptr);
+  return *table;
+}
+
+const X3dType& type_of(const Node& node) {
+  const X3dType* type = X3dSchema::standard().find(node.name);
+  MECHANE_ASSERT(type != nullptr);
+  return *type;
+}
+
+}  // namespace
+
+std::optional<BadValue> attribute_fault(const X3dField& field, const Key* key, std::string_view text) {
+  if (auto fault = field.fault(text)) return fault;
+  if (key == nullptr) return std::nullopt;
+  std::vector<double> numbers;
+  if (key->kind != ValueKind::string && key->kind != ValueKind::strings && key->kind != ValueKind::boolean) {
+    if (const auto parsed = parse_numbers(text)) numbers = *parsed;
+  }
+  const std::string word(text);
+  return range_fault(*key, numbers, key->kind == ValueKind::string ? &word : nullptr);
+}
 
 Attributes::Attributes(const Document& document, NodeId id, Problems& problems)
-    : node_(document[id]), where_(document.describe(id)), problems_(problems) {}
+    : node_(document[id]),
+      table_(table_of(node_)),
+      type_(type_of(node_)),
+      where_(document.describe(id)),
+      problems_(problems) {}
 
 bool Attributes::given(std::string_view name) const {
   return node_.attribute(name) != nullptr;
@@ -21,77 +52,78 @@ void Attributes::warning(std::string what, std::string remedy) {
   problems_.warning(node_.line, where_, std::move(what), std::move(remedy));
 }
 
-std::optional<std::vector<double>> Attributes::numbers(std::string_view name, std::size_t count) {
+void Attributes::note(std::string what, std::string remedy) {
+  problems_.note(node_.line, where_, std::move(what), std::move(remedy));
+}
+
+const Key& Attributes::key(std::string_view name, ValueKind kind) const {
+  const Key* found = table_.find(name);
+  MECHANE_ASSERT(found != nullptr && found->kind == kind);
+  return *found;
+}
+
+std::string_view Attributes::value(std::string_view name) const {
+  const X3dField* field = type_.field(name);
+  MECHANE_ASSERT(field != nullptr);
   const std::string* text = node_.attribute(name);
-  if (text == nullptr) return std::nullopt;
-  auto values = parse_numbers(*text);
-  if (!values) {
-    error(fmt::format("{}: {}", name, values.error().what), values.error().remedy);
-    return std::nullopt;
-  }
-  if (values->size() != count) {
-    error(fmt::format("{} has {} numbers", name, values->size()), fmt::format("write {}", count));
-    return std::nullopt;
-  }
+  if (text == nullptr || attribute_fault(*field, table_.find(name), *text)) return field->default_value;
+  return *text;
+}
+
+std::vector<double> Attributes::numbers(std::string_view name) const {
+  auto values = parse_numbers(value(name));
+  MECHANE_ASSERT(values.has_value());
   return std::move(*values);
 }
 
-double Attributes::number(std::string_view name, double otherwise) {
-  const auto values = numbers(name, 1);
-  return values ? values->front() : otherwise;
+double Attributes::number(std::string_view name) const {
+  static_cast<void>(key(name, ValueKind::number));
+  const std::vector<double> values = numbers(name);
+  return values.empty() ? 0 : values.front();
 }
 
-Vec3 Attributes::vector(std::string_view name, const Vec3& otherwise) {
-  const auto values = numbers(name, 3);
-  return values ? Vec3((*values)[0], (*values)[1], (*values)[2]) : otherwise;
+Vec3 Attributes::vector(std::string_view name) const {
+  static_cast<void>(key(name, ValueKind::vector));
+  const std::vector<double> values = numbers(name);
+  MECHANE_ASSERT(values.size() == 3);
+  return {values[0], values[1], values[2]};
 }
 
-Quat Attributes::rotation(std::string_view name) {
-  const auto values = numbers(name, 4);
-  if (!values || (*values)[3] == 0) return Quat::Identity();
-  const Vec3 axis((*values)[0], (*values)[1], (*values)[2]);
-  if (axis.norm() < 1e-9) {
-    error(fmt::format("the axis of {} has no length", name),
-          "write axis x y z and an angle in radians, like 0 1 0 1.57");
-    return Quat::Identity();
-  }
-  return Quat(Eigen::AngleAxisd((*values)[3], axis.normalized()));
+Quat Attributes::rotation(std::string_view name) const {
+  static_cast<void>(key(name, ValueKind::rotation));
+  const std::vector<double> values = numbers(name);
+  MECHANE_ASSERT(values.size() == 4);
+  const Vec3 axis(values[0], values[1], values[2]);
+  if (values[3] == 0 || axis.norm() < 1e-9) return Quat::Identity();
+  return Quat(Eigen::AngleAxisd(values[3], axis.normalized()));
 }
 
-Mat3 Attributes::symmetric_matrix(std::string_view name, const Mat3& otherwise) {
-  const auto values = numbers(name, 9);
-  if (!values) return otherwise;
-  const Mat3 matrix = Eigen::Map<const Mat3>(values->data());
-  if (!matrix.isApprox(matrix.transpose(), 1e-6)) {
-    error(fmt::format("{} is not symmetric", name), "write the same number on both sides of the diagonal");
-    return otherwise;
-  }
-  return matrix;
+Mat3 Attributes::symmetric_matrix(std::string_view name) {
+  static_cast<void>(key(name, ValueKind::matrix));
+  const std::vector<double> values = numbers(name);
+  MECHANE_ASSERT(values.size() == 9);
+  const Mat3 matrix = Eigen::Map<const Mat3>(values.data());
+  if (matrix.isApprox(matrix.transpose(), 1e-6)) return matrix;
+  error(fmt::format("{} is not symmetric", name), "write the same number on both sides of the diagonal");
+  return Mat3::Identity();
 }
 
-bool Attributes::boolean(std::string_view name, bool otherwise) {
-  const std::string* text = node_.attribute(name);
-  if (text == nullptr) return otherwise;
-  const auto values = parse_booleans(*text);
-  if (!values || values->size() != 1) {
-    error(fmt::format("{} is neither true nor false", name), "write true or false");
-    return otherwise;
-  }
+bool Attributes::boolean(std::string_view name) const {
+  static_cast<void>(key(name, ValueKind::boolean));
+  const auto values = parse_booleans(value(name));
+  MECHANE_ASSERT(values.has_value() && values->size() == 1);
   return values->front();
 }
 
-std::vector<std::string> Attributes::strings(std::string_view name) {
-  const std::string* text = node_.attribute(name);
-  if (text == nullptr) return {};
-  auto values = parse_strings(*text);
-  if (!values) {
-    error(fmt::format("{}: {}", name, values.error().what), values.error().remedy);
-    return {};
-  }
+std::vector<std::string> Attributes::strings(std::string_view name) const {
+  static_cast<void>(key(name, ValueKind::strings));
+  auto values = parse_strings(value(name));
+  MECHANE_ASSERT(values.has_value());
   return std::move(*values);
 }
 
 std::string Attributes::text(std::string_view name) const {
+  static_cast<void>(key(name, ValueKind::string));
   const std::string* text = node_.attribute(name);
   return text != nullptr ? *text : std::string();
 }

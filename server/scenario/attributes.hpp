@@ -1,44 +1,57 @@
-// An X3D element's fields as typed values. What is not a value is a problem with its line, and reads as the default.
+// An X3D element's fields as typed values: those that the schema says we read, with X3D's own defaults.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "server/base/math.hpp"
 #include "server/scenario/document.hpp"
+#include "server/scenario/schema.hpp"
+#include "server/scenario/x3d_schema.hpp"
 
 namespace mechane::scenario {
 
+/// A value that is faulty reads as X3D's default: check_nodes() has said so. Reading a field that the element's table in schema.hpp
+/// does not have is our bug.
 class Attributes {
  public:
   /// All must outlive this.
   Attributes(const Document& document, NodeId id, Problems& problems);
 
   [[nodiscard]] bool given(std::string_view name) const;
-  [[nodiscard]] double number(std::string_view name, double otherwise);
-  [[nodiscard]] Vec3 vector(std::string_view name, const Vec3& otherwise);
-  /// SFRotation: axis x y z, angle in radians. Default: none.
-  [[nodiscard]] Quat rotation(std::string_view name);
+  [[nodiscard]] double number(std::string_view name) const;
+  [[nodiscard]] Vec3 vector(std::string_view name) const;
+  /// SFRotation: axis x y z, angle in radians.
+  [[nodiscard]] Quat rotation(std::string_view name) const;
   /// SFMatrix3f. X3D writes it by columns; what we read is symmetric, or a problem.
-  [[nodiscard]] Mat3 symmetric_matrix(std::string_view name, const Mat3& otherwise);
-  [[nodiscard]] bool boolean(std::string_view name, bool otherwise);
+  [[nodiscard]] Mat3 symmetric_matrix(std::string_view name);
+  [[nodiscard]] bool boolean(std::string_view name) const;
   /// MFString.
-  [[nodiscard]] std::vector<std::string> strings(std::string_view name);
+  [[nodiscard]] std::vector<std::string> strings(std::string_view name) const;
+  /// SFString, and DEF.
   [[nodiscard]] std::string text(std::string_view name) const;
 
   /// An error about this element.
   void error(std::string what, std::string remedy);
   void warning(std::string what, std::string remedy);
+  void note(std::string what, std::string remedy);
   [[nodiscard]] int line() const { return node_.line; }
 
  private:
-  std::optional<std::vector<double>> numbers(std::string_view name, std::size_t count);
+  const Key& key(std::string_view name, ValueKind kind) const;
+  /// The text that was written, where it is right; X3D's default otherwise.
+  std::string_view value(std::string_view name) const;
+  std::vector<double> numbers(std::string_view name) const;
 
   const Node& node_;
+  const Table& table_;
+  const X3dType& type_;
   std::string where_;
   Problems& problems_;
 };
+
+/// What is wrong with an attribute's text against X3D and against what we read of it; nothing where it is right. `key` may be null.
+[[nodiscard]] std::optional<BadValue> attribute_fault(const X3dField& field, const Key* key, std::string_view text);
 
 }  // namespace mechane::scenario

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "server/scenario/file_finder.hpp"
+#include "server/scenario/mesh_finder.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -14,16 +14,27 @@ std::string count(std::size_t number, std::string_view word) {
   return fmt::format("{} {}{}", number, word, number == 1 ? "" : "s");
 }
 
+std::vector<Problem> sorted(const Problems& problems) {
+  std::vector<Problem> all = problems.all();
+  std::stable_sort(all.begin(), all.end(), [](const Problem& a, const Problem& b) { return a.line < b.line; });
+  return all;
+}
+
 }  // namespace
 
 std::vector<Problem> check(const std::filesystem::path& file) {
   Problems problems(file.string());
-  FileFinder finder;
+  MeshFinder finder;
   // The result is of no interest here: what is wrong with it is in `problems`.
   static_cast<void>(read_scenario(file, finder, problems));
-  std::vector<Problem> sorted = problems.all();
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) { return a.line < b.line; });
-  return sorted;
+  return sorted(problems);
+}
+
+std::vector<Problem> check_text(std::string_view text, const std::filesystem::path& file, ObjectLoader& loader) {
+  Problems problems(file.string());
+  if (const auto document = read_document(text, file, problems))
+    static_cast<void>(compile(*document, loader, problems));
+  return sorted(problems);
 }
 
 int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat format) {
@@ -36,15 +47,19 @@ int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat
     const std::vector<Problem> found = check(file);
     all.insert(all.end(), found.begin(), found.end());
   }
-  const auto is_error = [](const Problem& p) { return p.severity == Severity::error; };
-  const auto errors = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_error));
+  const auto of = [&](Severity severity) {
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](const Problem& p) { return p.severity == severity; }));
+  };
+  const std::size_t errors = of(Severity::error);
   if (format == CheckFormat::json) {
     out << to_json(all) << "\n";
   } else {
     for (const Problem& problem : all)
       out << to_string(problem) << "\n";
-    out << fmt::format("{}: {}, {}\n", count(files.size(), "file"), count(errors, "error"),
-                       count(all.size() - errors, "warning"));
+    const std::size_t notes = of(Severity::note);
+    out << fmt::format("{}: {}, {}{}\n", count(files.size(), "file"), count(errors, "error"),
+                       count(of(Severity::warning), "warning"), notes == 0 ? "" : ", " + count(notes, "note"));
   }
   return errors > 0 ? 1 : 0;
 }

@@ -15,6 +15,14 @@
 
 namespace mechane::scenario {
 
+/// A rule as written, for what can be said of it only when all components are known.
+struct WrittenRule {
+  int line = 0;
+  std::string where;
+  StepId step;
+  state::RuleDescription rule;
+};
+
 /// A world in the making. Each stage reads the document and adds to the world; a fault becomes a problem and the stage goes on, so that
 /// an author sees all faults at once.
 struct Compilation {
@@ -26,9 +34,11 @@ struct Compilation {
   std::map<std::string, std::string> model_hashes;  ///< by url as written
   std::vector<int> activity_lines;                  ///< by ActivityId
   std::vector<int> step_lines;                      ///< by StepId
+  std::vector<WrittenRule> rules;                   ///< of all triggers, but for those that are faulty
 };
 
 /// Stages, in the order in which they need each other.
+void check_nodes(Compilation& c);         // elements against X3D's schema
 void compile_scenario(Compilation& c);    // id, languages, title, units
 void compile_bodies(Compilation& c);      // RigidBodyCollection, RigidBody, mechane:body, mechane:haptic
 void compile_joints(Compilation& c);      // X3D's joints
@@ -36,6 +46,7 @@ void compile_components(Compilation& c);  // mechane:agent on nodes, agents and 
 void compile_quantities(Compilation& c);
 void compile_activities(Compilation& c);  // activities and their steps
 void check_components(Compilation& c);    // parameters against their types; names may be of anything above
+void check_goals(Compilation& c);         // rules that no value of their quantity can meet
 void compile_visits(Compilation& c);
 void compile_viewpoints(Compilation& c);
 void compile_hash(Compilation& c);
@@ -52,6 +63,9 @@ void compile_all(Compilation& c);
 /// Texts of a `text` set: keys "<what>.<language>", with `what` among `allowed` (separated by blanks). By what, then by language.
 [[nodiscard]] std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* set,
                                                              const std::string& where, std::string_view allowed);
+
+/// The questions of an activity.
+[[nodiscard]] std::vector<state::QuestionDescription> read_questionnaire(Compilation& c, const Fields& activity);
 
 /// The type of an agent or machine; null where none has that name.
 [[nodiscard]] const state::ComponentType* find_agent_type(std::string_view name);

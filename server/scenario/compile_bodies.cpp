@@ -7,11 +7,6 @@
 namespace mechane::scenario {
 namespace {
 
-bool is_path_in_museum(const std::string& url) {
-  return !url.empty() && url.find("://") == std::string::npos && url.front() != '/' &&
-         url.find('\\') == std::string::npos && !url.starts_with("urn:") && !url.starts_with("data:");
-}
-
 /// The url of a model's mesh file, checked to be there; empty after a problem.
 std::string model_url(Compilation& c, const Fields& fields) {
   const std::string model = fields.string("model");
@@ -30,7 +25,7 @@ std::string model_url(Compilation& c, const Fields& fields) {
     return {};
   }
   const std::string& url = urls.front();
-  if (!is_path_in_museum(url)) {
+  if (!is_relative_path(url)) {
     inline_node.error(fmt::format("the url '{}' is not a path beside the scenario", url),
                       "copy the file there and name it by a relative path");
     return {};
@@ -61,19 +56,20 @@ void read_shape(Compilation& c, NodeId id, Attributes& attributes, state::BodyDe
   body.mesh = {url, c.model_hashes[url], fields.given("node") ? fields.string("node") : body.name};
   body.collides = fields.boolean("collides");
   body.restitution = fields.number("restitution");
+  const std::filesystem::path file = c.document.path().parent_path() / url;
+  const auto refuse_node = [&](const Error& error) {
+    c.problems.error(fields.line("node"), fields.where(),
+                     fmt::format("node '{}' of {}: {}", body.mesh.node, url, error.what), error.remedy);
+  };
   if (!fields.boolean("touchable")) {
+    if (const auto found = c.loader.find_node(file, body.mesh.node); !found) refuse_node(found.error());
     if (!body.collides) return;
     c.problems.error(fields.line("collides"), fields.where(), "the body is to collide but is not touchable",
                      "remove touchable false: one shape serves both");
     return;
   }
-  auto object = c.loader.load(c.document.path().parent_path() / url, body.mesh.node);
-  if (!object) {
-    c.problems.error(fields.line("node"), fields.where(),
-                     fmt::format("node '{}' of {}: {}", body.mesh.node, url, object.error().what),
-                     object.error().remedy);
-    return;
-  }
+  auto object = c.loader.load(file, body.mesh.node);
+  if (!object) return refuse_node(object.error());
   body.object = std::move(*object);
 }
 
@@ -91,12 +87,11 @@ void read_haptic(Compilation& c, NodeId id, state::BodyDescription& body) {
 }
 
 void read_mass(Attributes& attributes, state::BodyDescription& body) {
-  body.mass_kg = attributes.number("mass", 1);
-  body.inertia_kg_m2 = attributes.symmetric_matrix("inertia", Mat3::Identity());
-  body.p_BCm = attributes.vector("centerOfMass", Vec3::Zero());
+  body.mass_kg = attributes.number("mass");
+  body.inertia_kg_m2 = attributes.symmetric_matrix("inertia");
+  body.p_BCm = attributes.vector("centerOfMass");
   if (body.fixed) return;
-  if (body.mass_kg <= 0 || body.mass_kg > 1e6)
-    attributes.error(fmt::format("the mass is {} kg", body.mass_kg), "write a mass above 0");
+  if (body.mass_kg <= 0) attributes.error("the mass is 0 kg", "write a mass above 0, or fixed='true'");
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(body.inertia_kg_m2, Eigen::EigenvaluesOnly);
   const Vec3& principal = solver.eigenvalues();  // from small to large
   if (principal[0] <= 0) {
@@ -112,27 +107,7 @@ void read_mass(Attributes& attributes, state::BodyDescription& body) {
 
 double damping(Attributes& attributes, std::string_view name, double otherwise) {
   // X3D applies the factors only where autoDamp says so; without it a body has the air's small damping.
-  if (!attributes.boolean("autoDamp", false) || !attributes.given(name)) return otherwise;
-  const double factor = attributes.number(name, otherwise);
-  if (factor >= 0 && factor <= 1) return factor;
-  attributes.error(fmt::format("{} is {}", name, factor), "write the share of speed lost in a second, from 0 to 1");
-  return otherwise;
-}
-
-void warn_of_unused(Compilation& c, NodeId id, Attributes& attributes) {
-  for (const char* name : {"linearVelocity", "angularVelocity", "forces", "torques", "finiteRotationAxis"}) {
-    if (attributes.given(name))
-      attributes.warning(fmt::format("{} is not used: bodies start at rest", name), "remove it");
-  }
-  if (!attributes.boolean("enabled", true))
-    attributes.warning("enabled='false' is not used", "let a step hide and hold the body");
-  for (const NodeId child : c.document.child_elements(id)) {
-    const std::string& type = c.document[child].name;
-    if (type.starts_with("Collidable")) {
-      attributes.warning(fmt::format("the {} is not touched: shapes come from mesh files", type),
-                         "name a model in mechane:body");
-    }
-  }
+  return attributes.boolean("autoDamp") && attributes.given(name) ? attributes.number(name) : otherwise;
 }
 
 void compile_body(Compilation& c, NodeId id) {
@@ -143,16 +118,15 @@ void compile_body(Compilation& c, NodeId id) {
     attributes.error("a RigidBody has no DEF", "give it a name: everything refers to bodies by name");
     return;
   }
-  body.fixed = attributes.boolean("fixed", false);
-  body.use_gravity = attributes.boolean("useGlobalGravity", true);
-  body.X_WB = {attributes.vector("position", Vec3::Zero()), attributes.rotation("orientation")};
-  body.visible = attributes.boolean("visible", true);
+  body.fixed = attributes.boolean("fixed");
+  body.use_gravity = attributes.boolean("useGlobalGravity");
+  body.X_WB = {attributes.vector("position"), attributes.rotation("orientation")};
+  body.visible = attributes.boolean("visible");
   body.linear_damping = damping(attributes, "linearDampingFactor", body.linear_damping);
   body.angular_damping = damping(attributes, "angularDampingFactor", body.angular_damping);
   read_mass(attributes, body);
   read_haptic(c, id, body);
   read_shape(c, id, attributes, body);
-  warn_of_unused(c, id, attributes);
   c.world.bodies.push_back(std::move(body));
 }
 
@@ -163,7 +137,7 @@ void compile_bodies(Compilation& c) {
   for (const NodeId id : collections) {
     Attributes attributes(c.document, id, c.problems);
     if (id == collections.front()) {
-      c.world.gravity_W = attributes.vector("gravity", c.world.gravity_W);
+      c.world.gravity_W = attributes.vector("gravity");
     } else {
       attributes.warning("a second RigidBodyCollection: its bodies move in the first one, with the first one's gravity",
                          "merge them");

@@ -60,8 +60,8 @@ bool read_component(Compilation& c, const Metadata& set, const Registry& registr
     const auto known = std::find_if(type->parameters.begin(), type->parameters.end(),
                                     [&](const ParameterType& p) { return p.name == child.name; });
     if (known == type->parameters.end()) {
-      c.problems.warning(child.line, where, fmt::format("{} has no parameter '{}'", out.type, child.name),
-                         suggest(child.name, names_of_all(type->parameters), "remove it"));
+      c.problems.unknown(child.line, where, fmt::format("{} has no parameter '{}'", out.type, child.name), child.name,
+                         names_of_all(type->parameters));
     } else if (child.kind == MetadataKind::set ||
                (child.kind == MetadataKind::booleans && child.booleans.size() != 1)) {
       c.problems.error(child.line, where, fmt::format("the parameter '{}' is not one value", child.name),

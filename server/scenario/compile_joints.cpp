@@ -52,16 +52,15 @@ bool read_bodies(Compilation& c, NodeId id, Attributes& attributes, state::Joint
 }
 
 Vec3 read_axis(Attributes& attributes) {
-  const Vec3 axis = attributes.vector("axis", Vec3::UnitY());
+  const Vec3 axis = attributes.vector("axis");
   if (axis.norm() > 1e-9) return axis.normalized();
   attributes.error("the axis has no length", "write a direction, like 0 1 0");
   return Vec3::UnitY();
 }
 
-void read_stops(Attributes& attributes, std::string_view least, std::string_view most, double least_default,
-                double most_default, state::JointDescription& joint) {
-  joint.min_position = attributes.number(least, least_default);
-  joint.max_position = attributes.number(most, most_default);
+void read_stops(Attributes& attributes, std::string_view least, std::string_view most, state::JointDescription& joint) {
+  joint.min_position = attributes.number(least);
+  joint.max_position = attributes.number(most);
   if (joint.min_position > joint.max_position)
     attributes.error(fmt::format("{} is above {}", least, most), "swap them");
 }
@@ -74,21 +73,21 @@ Quat frame_along(const Vec3& axis_W, const Vec3& which) {
 Pose read_geometry(Compilation& c, Attributes& attributes, state::JointDescription& joint) {
   switch (joint.kind) {
     case state::JointKind::hinge: {
-      read_stops(attributes, "minAngle", "maxAngle", -kPi, kPi, joint);
+      read_stops(attributes, "minAngle", "maxAngle", joint);
       if (joint.min_position <= -kNoStop && joint.max_position >= kNoStop) {
         joint.min_position = 0;
         joint.max_position = -1;
       }
-      return {attributes.vector("anchorPoint", Vec3::Zero()), frame_along(read_axis(attributes), Vec3::UnitZ())};
+      return {attributes.vector("anchorPoint"), frame_along(read_axis(attributes), Vec3::UnitZ())};
     }
     case state::JointKind::slider:
-      read_stops(attributes, "minSeparation", "maxSeparation", 0, 1, joint);
+      read_stops(attributes, "minSeparation", "maxSeparation", joint);
       // X3D's slider has no anchor: it acts where its moving body is.
       return {c.world.bodies[joint.body2.index()].X_WB.p, frame_along(read_axis(attributes), Vec3::UnitX())};
     case state::JointKind::ball:
       break;
   }
-  return {attributes.vector("anchorPoint", Vec3::Zero()), Quat::Identity()};
+  return {attributes.vector("anchorPoint"), Quat::Identity()};
 }
 
 void compile_joint(Compilation& c, NodeId id, state::JointKind kind) {
@@ -115,13 +114,6 @@ void compile_joints(Compilation& c) {
     compile_joint(c, id, Kind::slider);
   for (const NodeId id : c.document.elements("BallJoint"))
     compile_joint(c, id, Kind::ball);
-  for (const char* type : {"DoubleAxisHingeJoint", "UniversalJoint", "MotorJoint"}) {
-    for (const NodeId id : c.document.elements(type)) {
-      Attributes(c.document, id, c.problems)
-          .warning(fmt::format("a {} is not simulated", type),
-                   "use SingleAxisHingeJoint, SliderJoint or BallJoint, or an agent");
-    }
-  }
 }
 
 }  // namespace mechane::scenario

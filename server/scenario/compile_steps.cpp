@@ -111,27 +111,95 @@ state::Comparison comparison_of(const std::string& op) {
   return op == "=" ? state::Comparison::equal : state::Comparison::greater;
 }
 
-void read_trigger(Compilation& c, const Written& activity, const Metadata& set, const std::string& step,
-                  state::StepDescription& out) {
-  const Fields fields(&set, trigger_table(), fmt::format("{}, {}", step, set.name), c.problems);
-  state::TriggerDescription trigger;
+/// Of a rule's set, or of a trigger that is its own rule.
+state::RuleDescription read_rule(Compilation& c, const Fields& fields, StepId step) {
+  state::RuleDescription rule;
   const std::string quantity = fields.string("quantity");
-  trigger.quantity = c.world.find_quantity(quantity);
-  if (fields.given("quantity") && !trigger.quantity) {
+  rule.quantity = c.world.find_quantity(quantity);
+  if (fields.given("quantity") && !rule.quantity) {
     c.problems.error(fields.line("quantity"), fields.where(), fmt::format("no quantity is called '{}'", quantity),
                      suggest(quantity, names_of(c.world.quantities), "add it to the scenario's quantities"));
   }
-  trigger.comparison = comparison_of(fields.string("op"));
-  trigger.value = fields.number("value");
-  trigger.tolerance = fields.number("tolerance");
-  trigger.hold_s = fields.number("holdSeconds");
-  const std::string next = fields.string("next");
-  trigger.next = activity.find(next);
-  if (next != "end" && !trigger.next) {
-    c.problems.error(fields.line("next"), fields.where(), fmt::format("the activity has no step '{}'", next),
-                     suggest(next, activity.names(), "name one of its steps, or end"));
+  rule.comparison = comparison_of(fields.string("op"));
+  rule.value = fields.number("value");
+  rule.tolerance = fields.number("tolerance");
+  if (rule.quantity && fields.given("op") && fields.given("value"))
+    c.rules.push_back({fields.line("value"), fields.where(), step, rule});
+  return rule;
+}
+
+StepId read_next(Compilation& c, const Written& activity, const Fields& fields, std::string_view key) {
+  const std::string next = fields.string(key);
+  const StepId step = activity.find(next);
+  if (next != "end" && !step) {
+    std::vector<std::string> names = activity.names();
+    names.emplace_back("end");
+    c.problems.error(fields.line(key), fields.where(), fmt::format("the activity has no step '{}'", next),
+                     suggest(next, names, "name one of its steps, or end"));
   }
-  out.triggers.push_back(trigger);
+  return step;
+}
+
+void read_trigger(Compilation& c, const Written& activity, const Metadata& set, const std::string& step,
+                  state::StepDescription& out, StepId id) {
+  const Fields fields(&set, trigger_table(), fmt::format("{}, {}", step, set.name), c.problems);
+  std::vector<state::RuleDescription> rules;
+  const bool several = !fields.sets_like("rule:*").empty();
+  if (set.find("quantity") != nullptr || set.find("op") != nullptr || set.find("value") != nullptr) {
+    for (const char* key : {"quantity", "op", "value"}) {
+      if (set.find(key) != nullptr || !several) continue;  // without rules the table has said so
+      c.problems.error(set.line, fields.where(), fmt::format("the key '{}' is missing", key),
+                       "add it: a trigger compares quantity, op and value; or write them into a rule:N of its own");
+    }
+    rules.push_back(read_rule(c, fields, id));
+  }
+  for (const Metadata* rule : fields.sets_like("rule:*")) {
+    const Fields of_rule(rule, rule_table(), fmt::format("{}, {}", fields.where(), rule->name), c.problems);
+    rules.push_back(read_rule(c, of_rule, id));
+  }
+  if (rules.size() < 2 && fields.given("match")) {
+    c.problems.warning(fields.line("match"), fields.where(), "there is nothing to match: the trigger has one rule",
+                       "remove match, or write the comparisons as rule:1, rule:2");
+  }
+  state::TriggerDescription trigger;
+  if (!rules.empty()) {
+    trigger.quantity = rules.front().quantity;
+    trigger.comparison = rules.front().comparison;
+    trigger.value = rules.front().value;
+    trigger.tolerance = rules.front().tolerance;
+    trigger.more.assign(rules.begin() + 1, rules.end());
+  }
+  trigger.any = fields.string("match") == "any";
+  trigger.hold_s = fields.number("holdSeconds");
+  trigger.next = read_next(c, activity, fields, "next");
+  out.triggers.push_back(std::move(trigger));
+}
+
+void read_timeout(Compilation& c, const Written& activity, const Fields& fields, state::StepDescription& step) {
+  step.timeout_s = fields.number("timeoutSeconds");
+  if (step.timeout_s > 0) {
+    step.timeout_next = read_next(c, activity, fields, "timeoutNext");
+  } else if (fields.given("timeoutNext")) {
+    c.problems.warning(fields.line("timeoutNext"), fields.where(), "the step has no time-out that could lead there",
+                       "add timeoutSeconds, or remove it");
+  }
+}
+
+/// Sound files lie in the museum: a path from the scenario file.
+void check_audio(Compilation& c, const Fields& fields, state::StepDescription& step) {
+  const auto audio = step.texts.find("audio");
+  if (audio == step.texts.end()) return;
+  const Metadata* set = fields.set("text");
+  for (auto it = audio->second.begin(); it != audio->second.end();) {
+    const Metadata* written = set->find("audio." + it->first);
+    if (is_relative_path(it->second)) {
+      ++it;
+      continue;
+    }
+    c.problems.error(written->line, fields.where(), fmt::format("'{}' is not a path beside the scenario", it->second),
+                     "copy the sound there and name it by a relative path, like audio/turn.en.ogg");
+    it = audio->second.erase(it);
+  }
 }
 
 void compile_step(Compilation& c, const Written& activity, const Metadata& set) {
@@ -148,8 +216,10 @@ void compile_step(Compilation& c, const Written& activity, const Metadata& set) 
   for (const Metadata* change : fields.sets_like("object:*"))
     read_override(c, *change, where, step);
   for (const Metadata* trigger : fields.sets_like("trigger:*"))
-    read_trigger(c, activity, *trigger, where, step);
-  step.texts = read_texts(c, fields.set("text"), where + ", text", "caption narration hint");
+    read_trigger(c, activity, *trigger, where, step, activity.find(set.name));
+  read_timeout(c, activity, fields, step);
+  step.texts = read_texts(c, fields.set("text"), where + ", text", "caption narration hint audio");
+  check_audio(c, fields, step);
   step.hint_after_s = fields.number("hintSeconds");
 }
 
@@ -197,7 +267,10 @@ void compile_activities(Compilation& c) {
     Written activity{ActivityId(c.world.activities.size()), Fields(&set, activity_table(), where, c.problems), {}, 0};
     state::ActivityDescription description;
     description.name = set.name;
-    description.title = read_texts(c, activity.fields.set("text"), where + ", text", "title")["title"];
+    auto texts = read_texts(c, activity.fields.set("text"), where + ", text", "title goal");
+    description.title = std::move(texts["title"]);
+    description.goal = std::move(texts["goal"]);
+    description.questionnaire = read_questionnaire(c, activity.fields);
     c.world.activities.push_back(std::move(description));
     c.activity_lines.push_back(set.line);
     collect_steps(c, activity);

@@ -30,7 +30,7 @@ void refuse_units(Compilation& c) {
     for (const NodeId id : c.document.child_elements(head)) {
       if (c.document[id].name != "unit") continue;
       Attributes unit(c.document, id, c.problems);
-      if (unit.number("conversionFactor", 1) != 1) {
+      if (unit.given("conversionFactor") && unit.number("conversionFactor") != 1) {
         unit.error(fmt::format("the unit '{}' is not SI", unit.text("name")),
                    "write metres, kilograms, seconds and radians, and remove the unit");
       }
@@ -49,6 +49,36 @@ void read_languages(Compilation& c, const Fields& fields) {
                        "write a code of BCP 47, like el or en");
     }
   }
+}
+
+std::vector<std::string> words_of(std::string_view list) {
+  std::vector<std::string> words;
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(' '), list.size());
+    words.emplace_back(list.substr(0, end));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return words;
+}
+
+/// An X3D file of somebody else's: its bodies and joints move, and there is nothing to do. A file that has some of our metadata was
+/// meant to be more.
+void take_plain_file(Compilation& c) {
+  const std::string remedy = "add <WorldInfo><MetadataSet containerField='metadata' name='mechane:scenario'>...";
+  const int line = c.document[c.document.scene()].line;
+  for (const NodeId id : c.document.elements("MetadataSet")) {
+    const std::string* name = c.document[id].attribute("name");
+    if (name == nullptr || !name->starts_with("mechane")) continue;
+    // Where it is there, it is faulty or misplaced, and that has been said.
+    if (*name == "mechane:scenario") return;
+    c.problems.error(line, "WorldInfo", "there is no metadata set 'mechane:scenario'", remedy);
+    return;
+  }
+  c.problems.warning(line, "WorldInfo", "the file has no 'mechane:scenario': it is a scene with nothing to do in it",
+                     remedy);
+  const std::string stem = c.document.path().stem().string();
+  c.world.id = is_id(stem) ? stem : "scene";
+  c.world.languages = {"en"};
 }
 
 }  // namespace
@@ -72,8 +102,11 @@ std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* s
     const std::string language = dot == std::string::npos ? "" : child.name.substr(dot + 1);
     const auto& known = c.world.languages;
     if (padded.find(" " + what + " ") == std::string::npos || language.empty()) {
+      const std::string near = nearest(what, words_of(allowed));
       c.problems.warning(child.line, where, fmt::format("the text '{}' is shown nowhere", child.name),
-                         fmt::format("name it <what>.<language>, with what one of: {}", allowed));
+                         near.empty() || near == what || language.empty()
+                             ? fmt::format("name it <what>.<language>, with what one of: {}", allowed)
+                             : fmt::format("did you mean '{}.{}'?", near, language));
     } else if (std::find(known.begin(), known.end(), language) == known.end()) {
       c.problems.warning(child.line, where, fmt::format("'{}' is not among the scenario's languages", language),
                          fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
@@ -89,13 +122,7 @@ void compile_scenario(Compilation& c) {
   for (const NodeId info : c.document.elements("WorldInfo")) {
     if (!c.scenario) c.scenario = read_metadata(c.document, info, "mechane:scenario", c.problems);
   }
-  if (!c.scenario) {
-    if (!c.problems.has_errors()) {
-      c.problems.error(c.document[c.document.scene()].line, "WorldInfo", "there is no metadata set 'mechane:scenario'",
-                       "add <WorldInfo><MetadataSet containerField='metadata' name='mechane:scenario'>...");
-    }
-    return;
-  }
+  if (!c.scenario) return take_plain_file(c);
   const Fields fields(&*c.scenario, scenario_table(), "mechane:scenario", c.problems);
   if (fields.given("format") && fields.number("format") != kFormatVersion) {
     c.problems.error(fields.line("format"), fields.where(),
@@ -117,12 +144,8 @@ void compile_viewpoints(Compilation& c) {
     Attributes attributes(c.document, id, c.problems);
     state::Viewpoint viewpoint;
     viewpoint.description = attributes.text("description");
-    viewpoint.X_WV = {attributes.vector("position", Vec3(0, 0, 10)), attributes.rotation("orientation")};
-    viewpoint.field_of_view_rad = attributes.number("fieldOfView", kPi / 4);
-    if (viewpoint.field_of_view_rad <= 0 || viewpoint.field_of_view_rad >= kPi) {
-      attributes.error("fieldOfView is not between 0 and pi", "write radians, like 0.7854");
-      continue;
-    }
+    viewpoint.X_WV = {attributes.vector("position"), attributes.rotation("orientation")};
+    viewpoint.field_of_view_rad = attributes.number("fieldOfView");
     if (c.document[id].parent != c.document.scene()) {
       attributes.warning("the Viewpoint is read without the nodes around it", "put it directly under the Scene");
     }
@@ -139,6 +162,7 @@ void compile_hash(Compilation& c) {
 
 void compile_all(Compilation& c) {
   c.world.folder = c.document.path().parent_path().string();
+  check_nodes(c);
   compile_scenario(c);
   compile_bodies(c);
   compile_joints(c);
@@ -146,10 +170,11 @@ void compile_all(Compilation& c) {
   compile_quantities(c);
   compile_activities(c);
   check_components(c);
+  check_goals(c);
   compile_visits(c);
   compile_viewpoints(c);
   compile_hash(c);
-  if (!c.problems.has_errors()) lint(c);
+  if (!c.problems.has_errors() && c.scenario) lint(c);
 }
 
 Expected<std::string> hash_file(const std::filesystem::path& file) {
@@ -157,7 +182,7 @@ Expected<std::string> hash_file(const std::filesystem::path& file) {
 }
 
 Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader, Problems& problems) {
-  Compilation c{document, loader, problems, {}, {}, {}, {}, {}};
+  Compilation c{document, loader, problems, {}, {}, {}, {}, {}, {}};
   compile_all(c);
   if (problems.has_errors()) return tl::unexpected(problems.first_error());
   return std::move(c.world);

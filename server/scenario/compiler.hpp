@@ -19,6 +19,8 @@ class ObjectLoader {
   /// A loader that builds nothing returns null.
   [[nodiscard]] virtual Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                                 const std::string& node) = 0;
+  /// Whether a mesh file has a node, for bodies that are only drawn. A loader that does not look says yes.
+  [[nodiscard]] virtual Expected<void> find_node(const std::filesystem::path&, const std::string&) { return {}; }
   /// The name of the file's bytes: content::content_hash(). Fails where the file cannot be read.
   [[nodiscard]] virtual Expected<std::string> content_hash(const std::filesystem::path& file) = 0;
 };

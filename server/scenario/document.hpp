@@ -13,6 +13,7 @@
 #include "server/base/error.hpp"
 #include "server/base/ids.hpp"
 #include "server/scenario/problem.hpp"
+#include "server/scenario/xml_scanner.hpp"
 
 namespace mechane::scenario {
 
@@ -30,7 +31,8 @@ enum class NodeKind : std::uint8_t { element, text, comment, cdata, doctype, dec
 
 struct Attribute {
   std::string name;
-  std::string value;
+  std::string value;      ///< with its references resolved
+  XmlAttributeSpan span;  ///< where it stands in Document::source()
 };
 
 struct Node {
@@ -42,12 +44,13 @@ struct Node {
   std::vector<NodeId> children;
   NodeId used;  ///< of an element with USE: the element that it stands for
   int line = 0;
+  XmlElementSpan span;  ///< of an element: where it stands in Document::source()
 
   /// The attribute's value; null where it is not written.
   [[nodiscard]] const std::string* attribute(std::string_view name) const;
 };
 
-/// One file. Immutable once read; any thread may look.
+/// One file. Immutable once read; any thread may look. To change a file, see editor.hpp.
 class Document {
  public:
   [[nodiscard]] const Node& operator[](NodeId id) const { return nodes_[id.index()]; }
@@ -72,12 +75,15 @@ class Document {
   [[nodiscard]] std::vector<std::string> defs(std::string_view type) const;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// The bytes that were read, every one of them.
+  [[nodiscard]] const std::string& source() const { return source_; }
   /// 32 hex digits, XXH3-128 of the bytes.
   [[nodiscard]] const std::string& content_hash() const { return content_hash_; }
 
  private:
   friend class DocumentBuilder;
   std::filesystem::path path_;
+  std::string source_;
   std::string content_hash_;
   std::vector<Node> nodes_;
   std::vector<NodeId> top_;

@@ -1,4 +1,4 @@
-// Bytes to a Document: the caps first, then pugixml, then a copy of its tree in the order written, then DEF and USE.
+// Bytes to a Document: the caps first, then what keeps it from being XML, then pugixml, then a copy of its tree in the order written, then DEF and USE.
 #include <algorithm>
 #include <fstream>
 #include <memory>
@@ -81,6 +81,7 @@ class DocumentBuilder {
     if (!check_bytes() || !parse() || !copy_tree() || !find_scene()) return tl::unexpected(problems_.first_error());
     resolve_uses(document_.nodes_, document_.defs_, problems_);
     if (problems_.has_errors()) return tl::unexpected(problems_.first_error());
+    document_.source_ = std::string(bytes_);
     document_.content_hash_ = content::content_hash(std::as_bytes(std::span(bytes_)));
     return std::move(document_);
   }
@@ -120,6 +121,13 @@ class DocumentBuilder {
   }
 
   bool parse() {
+    auto spans = scan_xml(bytes_);
+    if (!spans) {
+      XmlFault& fault = spans.error();
+      return refuse(lines_.at(static_cast<std::ptrdiff_t>(fault.offset)), std::move(fault.element),
+                    "not well-formed XML: " + fault.what, std::move(fault.remedy));
+    }
+    spans_ = std::move(*spans);
     const auto result = xml_.load_buffer(bytes_.data(), bytes_.size(), pugi::parse_full, pugi::encoding_utf8);
     if (result) return true;
     return refuse(lines_.at(result.offset), {}, fmt::format("not well-formed XML: {}", result.description()),
@@ -147,6 +155,10 @@ class DocumentBuilder {
                       "flatten the tree; no scenario needs that depth");
       }
       const NodeId id = copy_node(from, open.back().parent);
+      if (apart_) {
+        return refuse(document_[id].line, document_.describe(id), "not well-formed XML: it can be read in two ways",
+                      "write this element and the DOCTYPE in the plainest form");
+      }
       if (metadata_bytes_ > limits_.metadata_bytes) {
         return refuse(document_[id].line, document_.describe(id),
                       fmt::format("metadata values take more than {}", megabytes(limits_.metadata_bytes)),
@@ -170,7 +182,8 @@ class DocumentBuilder {
     node.parent = parent;
     node.line = lines_.at(from.offset_debug());
     for (const pugi::xml_attribute& a : from.attributes())
-      node.attributes.push_back({a.name(), a.value()});
+      node.attributes.push_back({a.name(), a.value(), {}});
+    if (node.kind == NodeKind::element) place(node);
     if (is_metadata(node)) {
       for (const Attribute& a : node.attributes)
         metadata_bytes_ += a.value.size();
@@ -178,6 +191,16 @@ class DocumentBuilder {
     document_.nodes_.push_back(std::move(node));
     (parent ? document_.nodes_[parent.index()].children : document_.top_).push_back(id);
     return id;
+  }
+
+  /// The parser and the scanner meet elements and attributes in the same order.
+  void place(Node& node) {
+    const bool known = elements_ < spans_.elements.size();
+    if (known) node.span = spans_.elements[elements_++];
+    apart_ = apart_ || !known || node.span.attributes != node.attributes.size();
+    if (apart_) return;
+    for (std::size_t i = 0; i < node.attributes.size(); ++i)
+      node.attributes[i].span = spans_.attributes[node.span.first_attribute + i];
   }
 
   [[nodiscard]] bool has_entities(NodeId id) const {
@@ -221,6 +244,9 @@ class DocumentBuilder {
   Problems& problems_;
   const DocumentLimits& limits_;
   Lines lines_;
+  XmlSpans spans_;
+  std::size_t elements_ = 0;  // placed so far
+  bool apart_ = false;        // scanner and parser saw different files
   pugi::xml_document xml_;
   Document document_;
   std::size_t metadata_bytes_ = 0;

@@ -25,10 +25,37 @@ void check_texts(Compilation& c, const state::Texts& texts, int line, const std:
                      fmt::format("add {}.{}", what, missing.front()));
 }
 
+void check_question(Compilation& c, const state::QuestionDescription& question, int line, const std::string& where) {
+  check_texts(c, question.question, line, where, "question");
+  for (const auto& answer : question.answers)
+    check_texts(c, answer.text, line, where, "answer:" + answer.name);
+  if (question.kind != state::QuestionDescription::Kind::scale) return;
+  check_texts(c, question.low, line, where, "low");
+  check_texts(c, question.high, line, where, "high");
+}
+
+/// Recordings may come later: without them a step is silent.
+void check_sounds(Compilation& c) {
+  for (std::size_t i = 0; i < c.world.steps.size(); ++i) {
+    const auto audio = c.world.steps[i].texts.find("audio");
+    if (audio == c.world.steps[i].texts.end()) continue;
+    for (const auto& [language, url] : audio->second) {
+      if (c.loader.content_hash(c.document.path().parent_path() / url)) continue;
+      c.problems.warning(c.step_lines[i], "step " + c.world.steps[i].name,
+                         fmt::format("the sound '{}' is not there", url), "record it, or correct audio." + language);
+    }
+  }
+}
+
 void check_all_texts(Compilation& c) {
   check_texts(c, c.world.title, c.scenario->line, "mechane:scenario", "title");
   for (std::size_t i = 0; i < c.world.activities.size(); ++i) {
-    check_texts(c, c.world.activities[i].title, c.activity_lines[i], "activity " + c.world.activities[i].name, "title");
+    const state::ActivityDescription& activity = c.world.activities[i];
+    const std::string where = "activity " + activity.name;
+    check_texts(c, activity.title, c.activity_lines[i], where, "title");
+    if (!activity.goal.empty()) check_texts(c, activity.goal, c.activity_lines[i], where, "goal");
+    for (const state::QuestionDescription& question : activity.questionnaire)
+      check_question(c, question, c.activity_lines[i], where + ", question " + question.name);
   }
   for (std::size_t i = 0; i < c.world.steps.size(); ++i) {
     const StepDescription& step = c.world.steps[i];
@@ -55,6 +82,8 @@ void check_reach(Compilation& c) {
     for (const state::TriggerDescription& trigger : c.world.steps[id.index()].triggers) {
       if (trigger.next) open.push_back(trigger.next);
     }
+    const StepDescription& left = c.world.steps[id.index()];
+    if (left.timeout_s > 0 && left.timeout_next) open.push_back(left.timeout_next);
   }
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const StepDescription& step = c.world.steps[i];
@@ -62,9 +91,9 @@ void check_reach(Compilation& c) {
       c.problems.warning(c.step_lines[i], "step " + step.name, "no trigger leads to this step",
                          "name it as the next of a trigger, or remove it");
     }
-    if (step.triggers.empty()) {
+    if (step.triggers.empty() && step.timeout_s == 0) {
       c.problems.warning(c.step_lines[i], "step " + step.name, "the step has no trigger: a visitor cannot leave it",
-                         "add trigger:1");
+                         "add trigger:1, or timeoutSeconds");
     }
   }
 }
@@ -76,23 +105,34 @@ AgentId agent_behind(const state::WorldDescription& world, QuantityId quantity) 
   return world.find_joint(name) ? AgentId::none() : world.find_agent(name);
 }
 
-/// A trigger that waits for an agent which the same step has switched off, or which no step of the activity has on.
+/// The agent that a rule waits for though it is off: the same step has switched it off, or no step of the activity has it on.
+AgentId agent_off(const Compilation& c, const StepDescription& step, QuantityId quantity) {
+  const AgentId agent = agent_behind(c.world, quantity);
+  if (!agent) return agent;
+  const auto enables = [&](const StepDescription& s) { return names(s.enable, agent); };
+  const auto enables_here = [&](const StepDescription& s) { return s.activity == step.activity && enables(s); };
+  const bool switched = std::any_of(c.world.steps.begin(), c.world.steps.end(), enables);
+  const bool here = std::any_of(c.world.steps.begin(), c.world.steps.end(), enables_here);
+  return names(step.disable, agent) || (switched && !here) ? agent : AgentId::none();
+}
+
 void check_triggers(Compilation& c) {
   for (std::size_t i = 0; i < c.world.steps.size(); ++i) {
     const StepDescription& step = c.world.steps[i];
     for (const state::TriggerDescription& trigger : step.triggers) {
-      const AgentId agent = agent_behind(c.world, trigger.quantity);
-      if (!agent) continue;
-      const auto enables = [&](const StepDescription& s) { return names(s.enable, agent); };
-      const auto enables_here = [&](const StepDescription& s) { return s.activity == step.activity && enables(s); };
-      const bool switched = std::any_of(c.world.steps.begin(), c.world.steps.end(), enables);
-      const bool here = std::any_of(c.world.steps.begin(), c.world.steps.end(), enables_here);
-      if (!names(step.disable, agent) && (!switched || here)) continue;
-      c.problems.warning(
-          c.step_lines[i], "step " + step.name,
-          fmt::format("the trigger on '{}' can never fire: the agent '{}' is off in this step",
-                      c.world.quantities[trigger.quantity.index()].name, c.world.agents[agent.index()].name),
-          "enable the agent in this step");
+      std::vector<QuantityId> quantities{trigger.quantity};
+      for (const state::RuleDescription& rule : trigger.more)
+        quantities.push_back(rule.quantity);
+      const auto off = [&](QuantityId quantity) { return static_cast<bool>(agent_off(c, step, quantity)); };
+      const bool dead = trigger.any ? std::all_of(quantities.begin(), quantities.end(), off)
+                                    : std::any_of(quantities.begin(), quantities.end(), off);
+      if (!dead) continue;
+      const QuantityId quantity = *std::find_if(quantities.begin(), quantities.end(), off);
+      c.problems.warning(c.step_lines[i], "step " + step.name,
+                         fmt::format("the trigger on '{}' can never fire: the agent '{}' is off in this step",
+                                     c.world.quantities[quantity.index()].name,
+                                     c.world.agents[agent_off(c, step, quantity).index()].name),
+                         "enable the agent in this step");
     }
   }
 }
@@ -127,6 +167,7 @@ void lint(Compilation& c) {
   check_all_texts(c);
   check_reach(c);
   check_triggers(c);
+  check_sounds(c);
   check_visits(c);
   check_world(c);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "server/base/assert.hpp"
+#include "server/scenario/key_scope.hpp"
 #include "server/scenario/values.hpp"
 
 namespace mechane::scenario {
@@ -65,6 +66,8 @@ class MetadataReader {
   }
 
   bool read_value(const std::string& type, const std::string& text, Metadata& out) {
+    if (type != "MetadataString" && text.find('"') != std::string::npos)
+      return refuse(out, fmt::format("a {} holds no words", type), "write a MetadataString, or take the quotes away");
     if (type == "MetadataString") return take(parse_strings(text), MetadataKind::strings, out.strings, out);
     if (type == "MetadataDouble" || type == "MetadataFloat")
       return take(parse_numbers(text), MetadataKind::numbers, out.numbers, out);
@@ -88,61 +91,42 @@ class MetadataReader {
   std::size_t bytes_ = 0;
 };
 
-bool matches(std::string_view pattern, std::string_view name) {
-  if (!pattern.ends_with('*')) return pattern == name;
-  return name.starts_with(pattern.substr(0, pattern.size() - 1));
-}
-
 bool is_number(const Metadata& m) {
   return m.kind == MetadataKind::numbers || m.kind == MetadataKind::integers;
 }
 
-bool one_of(std::string_view word, std::string_view choices) {
-  while (!choices.empty()) {
-    const std::size_t end = std::min(choices.find(' '), choices.size());
-    if (choices.substr(0, end) == word) return true;
-    choices.remove_prefix(std::min(end + 1, choices.size()));
+/// Whether a value is of a kind.
+bool is_of_kind(ValueKind kind, const Metadata& m) {
+  switch (kind) {
+    case ValueKind::string:
+      return m.kind == MetadataKind::strings && m.strings.size() == 1;
+    case ValueKind::strings:
+      return m.kind == MetadataKind::strings;
+    case ValueKind::number:
+      return is_number(m) && m.numbers.size() == 1;
+    case ValueKind::vector:
+      return is_number(m) && m.numbers.size() == 3;
+    case ValueKind::rotation:
+      return is_number(m) && m.numbers.size() == 4;
+    case ValueKind::matrix:
+      return is_number(m) && m.numbers.size() == 9;
+    case ValueKind::boolean:
+      return m.kind == MetadataKind::booleans && m.booleans.size() == 1;
+    case ValueKind::set:
+      return m.kind == MetadataKind::set;
   }
   return false;
 }
 
-/// "MetadataDouble with 3 numbers": what to write for a kind of value; empty where the value is of that kind.
-std::string kind_fault(ValueKind kind, const Metadata& m) {
-  const auto unless = [](bool good, const char* wanted) { return good ? std::string() : std::string(wanted); };
-  switch (kind) {
-    case ValueKind::string:
-      return unless(m.kind == MetadataKind::strings && m.strings.size() == 1, "a MetadataString with one string");
-    case ValueKind::strings:
-      return unless(m.kind == MetadataKind::strings, "a MetadataString");
-    case ValueKind::number:
-      return unless(is_number(m) && m.numbers.size() == 1, "a MetadataDouble with one number");
-    case ValueKind::vector:
-      return unless(is_number(m) && m.numbers.size() == 3, "a MetadataDouble with 3 numbers");
-    case ValueKind::rotation:
-      return unless(is_number(m) && m.numbers.size() == 4,
-                    "a MetadataDouble with 4 numbers: axis x y z, angle in radians");
-    case ValueKind::boolean:
-      return unless(m.kind == MetadataKind::booleans && m.booleans.size() == 1, "a MetadataBoolean with true or false");
-    case ValueKind::set:
-      return unless(m.kind == MetadataKind::set, "a MetadataSet");
-  }
-  return {};
-}
-
-std::string range_fault(const Key& key, const Metadata& m) {
-  if (key.kind == ValueKind::string && !key.choices.empty() && !one_of(m.strings.front(), key.choices)) {
-    return fmt::format("'{}' is none of: {}", m.strings.front(), key.choices);
-  }
-  for (const double value : m.numbers) {
-    if (value < key.min || value > key.max) {
-      return fmt::format("{} {} is not between {} and {}", value, key.unit, key.min, key.max);
-    }
-  }
-  if (key.kind == ValueKind::rotation && Vec3(m.numbers[0], m.numbers[1], m.numbers[2]).norm() < 1e-9 &&
-      m.numbers[3] != 0) {
-    return "the axis of the rotation has no length";
-  }
-  return {};
+/// What may have been meant by a name: for "objct:INNER" the pattern "object:*" stands as "object:INNER".
+std::vector<std::string> candidates(const Table& table, const std::string& name) {
+  const std::size_t colon = name.find(':');
+  const std::string rest = colon == std::string::npos ? "1" : name.substr(colon + 1);
+  std::vector<std::string> all;
+  for (const Key& key : table.keys)
+    all.push_back(key.name.ends_with('*') ? std::string(key.name.substr(0, key.name.size() - 1)) + rest
+                                          : std::string(key.name));
+  return all;
 }
 
 }  // namespace
@@ -154,18 +138,7 @@ const Metadata* Metadata::find(std::string_view child) const {
 
 std::optional<Metadata> read_metadata(const Document& document, NodeId owner, std::string_view name,
                                       Problems& problems) {
-  const auto is_named = [&](NodeId id) {
-    return document[id].name == "MetadataSet" && attribute_or(document[document.resolve(id)], "name", {}) == name;
-  };
-  NodeId found;
-  for (const NodeId child : document.child_elements(owner)) {
-    if (!document[child].name.starts_with("Metadata") || document.container_field(child, "metadata") != "metadata")
-      continue;
-    if (is_named(child)) found = child;
-    for (const NodeId inner : document.child_elements(document.resolve(child))) {
-      if (!found && is_named(inner)) found = inner;
-    }
-  }
+  const NodeId found = find_set(document, owner, name);
   Metadata metadata;
   if (!found || !MetadataReader(document, problems).read(found, 0, metadata)) return std::nullopt;
   return metadata;
@@ -177,47 +150,47 @@ Fields::Fields(const Metadata* set, const Table& table, std::string where, Probl
 }
 
 void Fields::check(Problems& problems) {
-  std::vector<std::string> known;
-  for (const Key& key : table_.keys)
-    known.emplace_back(key.name);
   for (const Metadata& child : set_->children) {
-    const auto key =
-        std::find_if(table_.keys.begin(), table_.keys.end(), [&](const Key& k) { return matches(k.name, child.name); });
-    if (key == table_.keys.end()) {
-      problems.warning(child.line, where_, fmt::format("the key '{}' is not known here and does nothing", child.name),
-                       suggest(child.name, known, "remove it"));
+    const Key* key = table_.find(child.name);
+    if (key == nullptr) {
+      problems.unknown(child.line, where_, fmt::format("the key '{}' is not known here and does nothing", child.name),
+                       child.name, candidates(table_, child.name));
     } else if (check_value(*key, child, problems)) {
       good_[child.name] = &child;
     }
   }
   for (const Key& key : table_.keys) {
-    if (!key.required || set_->find(key.name) != nullptr) continue;
+    if (!key.required || set_->find(key.name) != nullptr || has_like(key.unless)) continue;
     problems.error(
         set_->line, where_, fmt::format("the key '{}' is missing", key.name),
         fmt::format("add it: {}{}", key.summary, key.example.empty() ? "" : fmt::format(", like {}", key.example)));
   }
 }
 
+bool Fields::has_like(std::string_view pattern) const {
+  return !pattern.empty() && std::any_of(set_->children.begin(), set_->children.end(),
+                                         [&](const Metadata& m) { return matches(pattern, m.name); });
+}
+
 bool Fields::check_value(const Key& key, const Metadata& value, Problems& problems) const {
-  if (const std::string wanted = kind_fault(key.kind, value); !wanted.empty()) {
+  if (!is_of_kind(key.kind, value)) {
     problems.error(value.line, where_, fmt::format("'{}' is of the wrong type or count", value.name),
-                   fmt::format("write {}{}", wanted, key.example.empty() ? "" : fmt::format(", like {}", key.example)));
+                   fmt::format("write a {}{}", kind_in_words(key.kind),
+                               key.example.empty() ? "" : fmt::format(", like {}", key.example)));
     return false;
   }
-  if (const std::string fault = range_fault(key, value); !fault.empty()) {
-    problems.error(
-        value.line, where_, fmt::format("'{}': {}", value.name, fault),
-        key.example.empty() ? std::string("correct it") : fmt::format("write something like {}", key.example));
+  const std::string* text = key.kind == ValueKind::string ? &value.strings.front() : nullptr;
+  if (const auto fault = range_fault(key, value.numbers, text)) {
+    problems.error(value.line, where_, fmt::format("'{}': {}", value.name, fault->what), fault->remedy);
     return false;
   }
   return true;
 }
 
 const Key& Fields::key(std::string_view name, ValueKind kind) const {
-  const auto it =
-      std::find_if(table_.keys.begin(), table_.keys.end(), [&](const Key& k) { return matches(k.name, name); });
-  MECHANE_ASSERT(it != table_.keys.end() && it->kind == kind);
-  return *it;
+  const Key* found = table_.find(name);
+  MECHANE_ASSERT(found != nullptr && found->kind == kind);
+  return *found;
 }
 
 const Metadata* Fields::value(std::string_view name) const {

@@ -33,8 +33,8 @@ struct Metadata {
 [[nodiscard]] std::optional<Metadata> read_metadata(const Document& document, NodeId owner, std::string_view name,
                                                     Problems& problems);
 
-/// A set held against its table of the schema: unknown keys are warned of with the nearest known one, wrong types, counts, ranges and
-/// missing keys are errors. Values that were not written, or are wrong, read as the table's default.
+/// A set held against its table of the schema: a key that is nearly a known one is an error, any other unknown key a warning; wrong
+/// types, counts, ranges and missing keys are errors. Values that were not written, or are wrong, read as the table's default.
 class Fields {
  public:
   /// `where` names the set for people: "step turn". `set` must outlive this; null reads as empty.
@@ -60,6 +60,7 @@ class Fields {
   const Key& key(std::string_view name, ValueKind kind) const;
   const Metadata* value(std::string_view name) const;
   void check(Problems& problems);
+  bool has_like(std::string_view pattern) const;
   bool check_value(const Key& key, const Metadata& value, Problems& problems) const;
 
   const Metadata* set_ = nullptr;

@@ -20,17 +20,20 @@ char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// Levenshtein's distance, letters compared without case.
+/// Letters to add, drop, change, or swap with their neighbour (the optimal string alignment distance), compared without case.
 std::size_t edits(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> above = row;
+  std::vector<std::size_t> above_that = row;
+  const auto same = [&](std::size_t i, std::size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    std::swap(above_that, above);
+    std::swap(above, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1)});
-      diagonal = above;
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same(i, j) ? 0 : 1)});
+      if (i > 1 && j > 1 && same(i, j - 1) && same(i - 1, j)) row[j] = std::min(row[j], above_that[j - 2] + 1);
     }
   }
   return row.back();
@@ -59,6 +62,19 @@ void Problems::warning(int line, std::string node, std::string what, std::string
   add(Severity::warning, line, std::move(node), std::move(what), std::move(remedy));
 }
 
+void Problems::unknown(int line, std::string node, std::string what, const std::string& word,
+                       std::span<const std::string> candidates) {
+  if (full() && errors_ > 0) return;
+  const bool near = !nearest(word, candidates).empty();
+  add(near ? Severity::error : Severity::warning, line, std::move(node), std::move(what),
+      near ? suggest(word, candidates, "") : "remove it; " + suggest(word, candidates, "nothing may be written here"));
+  if (near) ++errors_;
+}
+
+void Problems::note(int line, std::string node, std::string what, std::string remedy) {
+  add(Severity::note, line, std::move(node), std::move(what), std::move(remedy));
+}
+
 Error Problems::first_error() const {
   const auto first =
       std::find_if(problems_.begin(), problems_.end(), [](const Problem& p) { return p.severity == Severity::error; });
@@ -70,8 +86,13 @@ Error Problems::first_error() const {
   return {first->what, where, remedy};
 }
 
+std::string_view word_of(Severity severity) {
+  if (severity == Severity::note) return "note";
+  return severity == Severity::error ? "error" : "warning";
+}
+
 std::string to_string(const Problem& problem) {
-  std::string text = place(problem) + (problem.severity == Severity::error ? ": error: " : ": warning: ");
+  std::string text = fmt::format("{}: {}: ", place(problem), word_of(problem.severity));
   if (!problem.node.empty()) text += problem.node + ": ";
   text += problem.what;
   if (!problem.remedy.empty()) text += "; " + problem.remedy;
@@ -81,7 +102,7 @@ std::string to_string(const Problem& problem) {
 std::string to_json(std::span<const Problem> problems) {
   nlohmann::json list = nlohmann::json::array();
   for (const Problem& p : problems) {
-    list.push_back({{"severity", p.severity == Severity::error ? "error" : "warning"},
+    list.push_back({{"severity", word_of(p.severity)},
                     {"file", p.file},
                     {"line", p.line},
                     {"node", p.node},

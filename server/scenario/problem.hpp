@@ -3,15 +3,17 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/base/error.hpp"
 
 namespace mechane::scenario {
 
-enum class Severity { warning, error };
+enum class Severity { note, warning, error };
 
-/// One fault. An error keeps the scenario from running; a warning does not.
+/// One fault. An error keeps the scenario from running; a warning does not, but is likely not meant; a note says what of a right file
+/// Mechane leaves aside.
 struct Problem {
   Severity severity = Severity::error;
   std::string file;    ///< as the caller named it
@@ -28,6 +30,11 @@ class Problems {
 
   void error(int line, std::string node, std::string what, std::string remedy);
   void warning(int line, std::string node, std::string what, std::string remedy);
+  /// For a word that is not known where it stands: an error that names the nearest candidate, for something was meant; a warning
+  /// where none is near.
+  void unknown(int line, std::string node, std::string what, const std::string& word,
+               std::span<const std::string> candidates);
+  void note(int line, std::string node, std::string what, std::string remedy);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   /// True once no more are kept: whoever looks for more may stop. A broken file can have one fault a line.
@@ -46,6 +53,9 @@ class Problems {
   std::vector<Problem> problems_;
   std::size_t errors_ = 0;
 };
+
+/// "note", "warning" or "error".
+[[nodiscard]] std::string_view word_of(Severity severity);
 
 /// One line for a person: "file:line: error: node: what; remedy".
 [[nodiscard]] std::string to_string(const Problem& problem);

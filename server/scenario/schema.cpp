@@ -1,5 +1,7 @@
+// The tables of metadata keys, from the inside out: a table stands before those that hold it.
 #include "server/scenario/schema.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -9,65 +11,25 @@ namespace {
 
 using enum ValueKind;
 
-constexpr Key kScenarioKeys[] = {
-    {.name = "format", .kind = number, .summary = "version of these tables", .example = "1", .required = true},
-    {.name = "id",
-     .summary = "the exhibit's name in logs and on the wire",
-     .example = "\"archimedes-screw\"",
-     .required = true},
-    {.name = "languages",
-     .kind = strings,
-     .summary = "codes, the first is shown first",
-     .example = "\"el\" \"en\"",
-     .required = true},
-    {.name = "effortScale",
-     .kind = number,
-     .summary = "share of a machine's loads that the hand feels",
-     .example = "0.06",
-     .default_number = 1,
-     .min = 1e-4,
-     .max = 1},
-    {.name = "text", .kind = set, .summary = "title.<language>"},
-    {.name = "agents", .kind = set, .summary = "sets named as the agents, each with its type and parameters"},
-    {.name = "machines", .kind = set, .summary = "sets named as the machines, each with its type and parameters"},
-    {.name = "quantities",
-     .kind = set,
-     .summary = "what rules and displays read: a set, or a string with the source, each"},
-    {.name = "activities", .kind = set, .summary = "sets named as the activities", .required = true},
-    {.name = "visits", .kind = set, .summary = "sets named as the scripted visits"},
+constexpr Key kTextKeys[] = {
+    {.name = "*", .kind = string, .summary = "the words, as WHAT.LANGUAGE", .example = "caption.el"},
 };
+constexpr Table kText{"text", "words for people", kTextKeys};
 
 constexpr Key kQuantityKeys[] = {
-    {.name = "source", .summary = "<component>.<value>", .example = "\"PUMP.basin_l\"", .required = true},
+    {.name = "source",
+     .summary = "what it reads, as NAME.VALUE",
+     .example = "\"PUMP.basin_l\"",
+     .required = true,
+     .names = Names::source},
     {.name = "unit", .summary = "as a visitor reads it; rpm and deg convert", .example = "\"l\""},
 };
-
-constexpr Key kActivityKeys[] = {
-    {.name = "first", .summary = "the step to begin with; else the first one written", .example = "\"grasp\""},
-    {.name = "text", .kind = set, .summary = "title.<language>"},
-    {.name = "steps", .kind = set, .summary = "sets named as the steps", .required = true},
-};
-
-constexpr Key kStepKeys[] = {
-    {.name = "enable", .kind = strings, .summary = "agents to switch on", .example = "\"HINGE\""},
-    {.name = "disable", .kind = strings, .summary = "agents to switch off", .example = "\"SNAP\""},
-    {.name = "object:*", .kind = set, .summary = "what changes of a body", .example = "object:INNER"},
-    {.name = "text", .kind = set, .summary = "caption.<language>, narration.<language>, hint.<language>"},
-    {.name = "trigger:*", .kind = set, .summary = "what ends the step", .example = "trigger:1"},
-    {.name = "hintSeconds",
-     .kind = number,
-     .unit = "s",
-     .summary = "when the hint is shown",
-     .example = "20",
-     .default_number = 20,
-     .min = 0,
-     .max = 3600},
-};
+constexpr Table kQuantity{"quantity", "a number with a name", kQuantityKeys};
 
 constexpr Key kOverrideKeys[] = {
-    {.name = "movable", .kind = boolean, .summary = "false: held still"},
-    {.name = "visible", .kind = boolean, .summary = "false: not drawn"},
-    {.name = "graspable", .kind = boolean, .summary = "a hand may take it"},
+    {.name = "movable", .kind = boolean, .summary = "false: held still", .default_text = "as it was"},
+    {.name = "visible", .kind = boolean, .summary = "false: not drawn", .default_text = "as it was"},
+    {.name = "graspable", .kind = boolean, .summary = "a hand may take it", .default_text = "as it was"},
     {.name = "position",
      .kind = vector,
      .unit = "m",
@@ -79,37 +41,159 @@ constexpr Key kOverrideKeys[] = {
      .summary = "turn it so when the step begins, in W",
      .example = "0 1 0 1.57"},
 };
+constexpr Table kOverride{"object:NAME", "what a step changes of a body", kOverrideKeys};
+
+constexpr Key kRuleQuantity{.name = "quantity",
+                            .summary = "what is compared",
+                            .example = "\"level\"",
+                            .required = true,
+                            .names = Names::quantity};
+constexpr Key kRuleOp{
+    .name = "op", .summary = "how: below, equal, above", .example = "\">\"", .required = true, .choices = "< = >"};
+constexpr Key kRuleValue{
+    .name = "value", .kind = number, .summary = "with what, in the quantity's unit", .example = "40", .required = true};
+constexpr Key kRuleTolerance{.name = "tolerance",
+                             .kind = number,
+                             .summary = "how near is equal",
+                             .example = "0.1",
+                             .default_number = 1e-6,
+                             .min = 0};
+
+constexpr Key kRuleKeys[] = {kRuleQuantity, kRuleOp, kRuleValue, kRuleTolerance};
+constexpr Table kRule{"rule:N", "one comparison of a trigger that has several", kRuleKeys};
+
+constexpr Key unless_rules(Key key) {
+  key.unless = "rule:*";
+  return key;
+}
 
 constexpr Key kTriggerKeys[] = {
-    {.name = "quantity", .summary = "what is compared", .example = "\"level\"", .required = true},
-    {.name = "op", .summary = "how", .example = "\">\"", .required = true, .choices = "< = >"},
-    {.name = "value",
-     .kind = number,
-     .summary = "with what, in the quantity's unit",
-     .example = "40",
-     .required = true},
-    {.name = "tolerance", .kind = number, .summary = "how near is equal", .default_number = 1e-6, .min = 0},
+    unless_rules(kRuleQuantity),
+    unless_rules(kRuleOp),
+    unless_rules(kRuleValue),
+    kRuleTolerance,
+    {.name = "rule:*",
+     .kind = set,
+     .summary = "instead of quantity, op and value: a comparison each",
+     .example = "rule:1",
+     .inner = &kRule},
+    {.name = "match",
+     .summary = "whether all rules must hold at once, or any one",
+     .example = "\"any\"",
+     .default_text = "all",
+     .choices = "all any"},
     {.name = "holdSeconds",
      .kind = number,
      .unit = "s",
-     .summary = "how long it must hold",
+     .summary = "how long it must hold without a break",
      .example = "0.3",
      .min = 0,
      .max = 3600},
     {.name = "next",
      .summary = "the step that follows; end: the activity is done",
      .example = "\"turn\"",
-     .default_text = "end"},
+     .default_text = "end",
+     .names = Names::step},
 };
+constexpr Table kTrigger{"trigger:N", "when a step is over, and what follows", kTriggerKeys};
 
-constexpr Key kTextKeys[] = {
-    {.name = "*", .kind = string, .summary = "<what>.<language>", .example = "caption.el"},
+constexpr Key kStepKeys[] = {
+    {.name = "enable",
+     .kind = strings,
+     .summary = "agents to switch on",
+     .example = "\"HINGE\"",
+     .names = Names::agent},
+    {.name = "disable",
+     .kind = strings,
+     .summary = "agents to switch off",
+     .example = "\"SNAP\"",
+     .names = Names::agent},
+    {.name = "object:*",
+     .kind = set,
+     .summary = "what changes of a body",
+     .example = "object:INNER",
+     .names = Names::body,
+     .inner = &kOverride},
+    {.name = "text",
+     .kind = set,
+     .summary = "caption, narration, hint, each with .LANGUAGE; audio.LANGUAGE: a sound file of the narration",
+     .inner = &kText},
+    {.name = "trigger:*",
+     .kind = set,
+     .summary = "what ends the step; the first that fires decides",
+     .example = "trigger:1",
+     .inner = &kTrigger},
+    {.name = "timeoutSeconds",
+     .kind = number,
+     .unit = "s",
+     .summary = "the step is left after so long, whatever happens; 0: never",
+     .example = "60",
+     .min = 0,
+     .max = 3600},
+    {.name = "timeoutNext",
+     .summary = "the step that follows then; end: the activity is done",
+     .example = "\"show\"",
+     .default_text = "end",
+     .names = Names::step},
+    {.name = "hintSeconds",
+     .kind = number,
+     .unit = "s",
+     .summary = "when the hint is shown",
+     .example = "20",
+     .default_number = 20,
+     .min = 0,
+     .max = 3600},
 };
+constexpr Table kStep{"step", "one thing to do", kStepKeys};
 
-constexpr Key kVisitKeys[] = {
-    {.name = "activity", .summary = "which activity it plays", .example = "\"use\"", .required = true},
-    {.name = "move:*", .kind = set, .summary = "the moves, played in the order written", .example = "move:1"},
+constexpr Key kQuestionKeys[] = {
+    {.name = "kind",
+     .summary = "choice: one of several answers; scale: a number from low to high",
+     .example = "\"choice\"",
+     .required = true,
+     .choices = "choice scale"},
+    {.name = "answers",
+     .kind = strings,
+     .summary = "choice: names of the answers, in the order shown",
+     .example = "\"pitch\" \"speed\""},
+    {.name = "correct", .summary = "choice: the right answer, if there is one", .example = "\"speed\""},
+    {.name = "steps",
+     .kind = number,
+     .summary = "scale: how many marks it has",
+     .example = "5",
+     .default_number = 5,
+     .min = 2,
+     .max = 11},
+    {.name = "text",
+     .kind = set,
+     .summary = "question.LANGUAGE; choice: answer:NAME.LANGUAGE; scale: low.LANGUAGE, high.LANGUAGE",
+     .required = true,
+     .inner = &kText},
 };
+constexpr Table kQuestion{"question", "one question after an activity", kQuestionKeys};
+
+constexpr Key kActivityKeys[] = {
+    {.name = "first",
+     .summary = "the step to begin with; else the first one written",
+     .example = "\"grasp\"",
+     .names = Names::step},
+    {.name = "text",
+     .kind = set,
+     .summary = "title.LANGUAGE; goal.LANGUAGE: what a visitor shall learn",
+     .inner = &kText},
+    {.name = "steps",
+     .kind = set,
+     .summary = "sets named as the steps",
+     .required = true,
+     .inner = &kStep,
+     .free_names = true},
+    {.name = "questionnaire",
+     .kind = set,
+     .summary = "sets named as the questions, asked in the order written",
+     .inner = &kQuestion,
+     .free_names = true},
+};
+constexpr Table kActivity{"activity", "a task for a visitor", kActivityKeys};
 
 constexpr Key kMoveKeys[] = {
     {.name = "kind",
@@ -117,7 +201,7 @@ constexpr Key kMoveKeys[] = {
      .example = "\"reach\"",
      .required = true,
      .choices = "reach grasp move_to turn release wait"},
-    {.name = "body", .summary = "reach, grasp, move_to: of which body", .example = "\"INNER\""},
+    {.name = "body", .summary = "reach, grasp, move_to: of which body", .example = "\"INNER\"", .names = Names::body},
     {.name = "grip",
      .kind = vector,
      .unit = "m",
@@ -133,7 +217,7 @@ constexpr Key kMoveKeys[] = {
      .unit = "rad",
      .summary = "move_to: how the body stands, in W",
      .example = "0 1 0 1.57"},
-    {.name = "joint", .summary = "turn: which joint", .example = "\"HINGE\""},
+    {.name = "joint", .summary = "turn: which joint", .example = "\"AXLE\"", .names = Names::joint},
     {.name = "turns", .kind = number, .summary = "turn: how far", .example = "8", .min = -1000, .max = 1000},
     {.name = "rpm",
      .kind = number,
@@ -152,6 +236,68 @@ constexpr Key kMoveKeys[] = {
      .min = 0,
      .max = 600},
 };
+constexpr Table kMove{"move:N", "one move of a visit", kMoveKeys};
+
+constexpr Key kVisitKeys[] = {
+    {.name = "activity",
+     .summary = "which activity it plays",
+     .example = "\"use\"",
+     .required = true,
+     .names = Names::activity},
+    {.name = "move:*",
+     .kind = set,
+     .summary = "the moves, played in the order written",
+     .example = "move:1",
+     .inner = &kMove},
+};
+constexpr Table kVisit{"visit", "a scripted hand", kVisitKeys};
+
+constexpr Key kScenarioKeys[] = {
+    {.name = "format", .kind = number, .summary = "version of these tables", .example = "1", .required = true},
+    {.name = "id",
+     .summary = "the exhibit's name in logs and on the wire: small letters, digits, '-'",
+     .example = "\"archimedes-screw\"",
+     .required = true},
+    {.name = "languages",
+     .kind = strings,
+     .summary = "codes, the first is shown first",
+     .example = "\"el\" \"en\"",
+     .required = true,
+     .names = Names::language},
+    {.name = "effortScale",
+     .kind = number,
+     .summary = "share of a machine's loads that the hand feels",
+     .example = "0.06",
+     .default_number = 1,
+     .min = 1e-4,
+     .max = 1},
+    {.name = "text", .kind = set, .summary = "title.LANGUAGE", .inner = &kText},
+    {.name = "agents",
+     .kind = set,
+     .summary = "sets named as the agents, each with its type and parameters",
+     .free_names = true},
+    {.name = "machines",
+     .kind = set,
+     .summary = "sets named as the machines, each with its type and parameters",
+     .free_names = true},
+    {.name = "quantities",
+     .kind = set,
+     .summary = "what rules and displays read, by name: a set each, or only a string with the source",
+     .inner = &kQuantity,
+     .free_names = true},
+    {.name = "activities",
+     .kind = set,
+     .summary = "sets named as the activities",
+     .required = true,
+     .inner = &kActivity,
+     .free_names = true},
+    {.name = "visits",
+     .kind = set,
+     .summary = "sets named as the scripted visits",
+     .inner = &kVisit,
+     .free_names = true},
+};
+constexpr Table kScenario{"mechane:scenario", "on the WorldInfo: all that X3D itself cannot say", kScenarioKeys};
 
 constexpr Key kHapticKeys[] = {
     {.name = "stiffness",
@@ -193,12 +339,14 @@ constexpr Key kHapticKeys[] = {
      .max = 1},
     {.name = "graspable", .kind = boolean, .summary = "a hand may take it"},
 };
+constexpr Table kHaptic{"mechane:haptic", "on a RigidBody: what touch feels", kHapticKeys};
 
 constexpr Key kBodyKeys[] = {
     {.name = "model",
      .summary = "DEF of the Inline whose file holds the shape",
      .example = "\"MODEL\"",
-     .required = true},
+     .required = true,
+     .names = Names::model},
     {.name = "node", .summary = "the node in that file; else the one named as the body", .example = "\"INNER\""},
     {.name = "touchable", .kind = boolean, .summary = "false: drawn only", .default_number = 1},
     {.name = "collides",
@@ -211,56 +359,18 @@ constexpr Key kBodyKeys[] = {
      .min = 0,
      .max = 1},
 };
-
-constexpr Table kScenario{"mechane:scenario", "on the WorldInfo: all that X3D itself cannot say", kScenarioKeys};
-constexpr Table kQuantity{"quantity", "a number with a name", kQuantityKeys};
-constexpr Table kActivity{"activity", "a task for a visitor", kActivityKeys};
-constexpr Table kStep{"step", "one thing to do", kStepKeys};
-constexpr Table kOverride{"object:NAME", "what a step changes of a body", kOverrideKeys};
-constexpr Table kTrigger{"trigger:N", "when a step is over, and what follows", kTriggerKeys};
-constexpr Table kText{"text", "words for people", kTextKeys};
-constexpr Table kVisit{"visit", "a scripted hand", kVisitKeys};
-constexpr Table kMove{"move:N", "one move of a visit", kMoveKeys};
-constexpr Table kHaptic{"mechane:haptic", "on a RigidBody: what touch feels", kHapticKeys};
 constexpr Table kBody{"mechane:body", "on a RigidBody: its shape in a mesh file", kBodyKeys};
 
-constexpr std::array<const Table*, 11> kAll{&kScenario, &kQuantity, &kActivity, &kStep,   &kOverride, &kTrigger,
-                                            &kText,     &kVisit,    &kMove,     &kHaptic, &kBody};
-
-std::string_view kind_name(ValueKind kind) {
-  switch (kind) {
-    case string:
-      return "string";
-    case strings:
-      return "strings";
-    case number:
-      return "number";
-    case vector:
-      return "3 numbers";
-    case rotation:
-      return "4 numbers (axis, angle)";
-    case boolean:
-      return "true or false";
-    case set:
-      return "MetadataSet";
-  }
-  return "";
-}
-
-std::string describe_key(const Key& key) {
-  std::string line = fmt::format("  {:<16} {:<24} {}", key.name, kind_name(key.kind), key.summary);
-  if (!key.unit.empty()) line += fmt::format(" [{}]", key.unit);
-  if (!key.choices.empty()) line += fmt::format(", one of: {}", key.choices);
-  if (key.required) {
-    line += ", required";
-  } else if (key.kind == number) {
-    line += fmt::format(", default {}", key.default_number);
-  }
-  if (!key.example.empty()) line += fmt::format(" (example: {})", key.example);
-  return line + "\n";
-}
+constexpr std::array<const Table*, 13> kTables{&kScenario, &kQuantity, &kActivity, &kQuestion, &kStep,
+                                               &kOverride, &kTrigger,  &kRule,     &kText,     &kVisit,
+                                               &kMove,     &kHaptic,   &kBody};
 
 }  // namespace
+
+const Key* Table::find(std::string_view wanted) const {
+  const auto it = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return matches(key.name, wanted); });
+  return it == keys.end() ? nullptr : &*it;
+}
 
 const Table& scenario_table() {
   return kScenario;
@@ -271,6 +381,9 @@ const Table& quantity_table() {
 const Table& activity_table() {
   return kActivity;
 }
+const Table& question_table() {
+  return kQuestion;
+}
 const Table& step_table() {
   return kStep;
 }
@@ -279,6 +392,9 @@ const Table& override_table() {
 }
 const Table& trigger_table() {
   return kTrigger;
+}
+const Table& rule_table() {
+  return kRule;
 }
 const Table& text_table() {
   return kText;
@@ -296,17 +412,87 @@ const Table& body_table() {
   return kBody;
 }
 std::span<const Table* const> all_tables() {
-  return kAll;
+  return kTables;
 }
 
-std::string describe_tables() {
-  std::string text;
-  for (const Table* table : kAll) {
-    text += fmt::format("{}: {}\n", table->name, table->summary);
-    for (const Key& key : table->keys)
-      text += describe_key(key);
+bool one_of(std::string_view word, std::string_view choices) {
+  while (!choices.empty()) {
+    const std::size_t end = std::min(choices.find(' '), choices.size());
+    if (choices.substr(0, end) == word) return true;
+    choices.remove_prefix(std::min(end + 1, choices.size()));
   }
-  return text;
+  return false;
+}
+
+bool matches(std::string_view pattern, std::string_view name) {
+  if (!pattern.ends_with('*')) return pattern == name;
+  return name.starts_with(pattern.substr(0, pattern.size() - 1));
+}
+
+namespace {
+
+bool has_min(const Key& key) {
+  return key.min > -std::numeric_limits<double>::infinity();
+}
+bool has_max(const Key& key) {
+  return key.max < std::numeric_limits<double>::infinity();
+}
+
+std::string range_of(const Key& key) {
+  if (has_min(key) && has_max(key)) return fmt::format("{} to {}", key.min, key.max);
+  if (has_min(key)) return fmt::format("{} or more", key.min);
+  return has_max(key) ? fmt::format("{} or less", key.max) : std::string();
+}
+
+}  // namespace
+
+std::string limits_of(const Key& key) {
+  std::string words(key.unit);
+  for (const std::string& more : {range_of(key), std::string(key.choices)}) {
+    if (!more.empty()) words += (words.empty() ? "" : ", ") + more;
+  }
+  return words;
+}
+
+std::optional<BadValue> range_fault(const Key& key, std::span<const double> numbers, const std::string* text) {
+  const std::string example = key.example.empty() ? std::string() : fmt::format(", like {}", key.example);
+  if (text != nullptr && !key.choices.empty() && !one_of(*text, key.choices)) {
+    return BadValue{fmt::format("'{}' is none of: {}", text->substr(0, 80), key.choices),
+                    "write one of them" + example};
+  }
+  for (const double value : numbers) {
+    if (value >= key.min && value <= key.max) continue;
+    const std::string unit = key.unit.empty() ? "" : fmt::format(" {}", key.unit);
+    return BadValue{fmt::format("{}{} is out of its range", value, unit),
+                    fmt::format("write {}{}", range_of(key), example)};
+  }
+  if (key.kind == rotation && numbers.size() == 4 && numbers[3] != 0 &&
+      numbers[0] * numbers[0] + numbers[1] * numbers[1] + numbers[2] * numbers[2] < 1e-18) {
+    return BadValue{"the axis of the rotation has no length", "write axis x y z and an angle in radians" + example};
+  }
+  return std::nullopt;
+}
+
+std::string_view kind_in_words(ValueKind kind) {
+  switch (kind) {
+    case string:
+      return "MetadataString with one string";
+    case strings:
+      return "MetadataString";
+    case number:
+      return "MetadataDouble with one number";
+    case vector:
+      return "MetadataDouble with 3 numbers";
+    case rotation:
+      return "MetadataDouble with 4 numbers: axis x y z, angle in radians";
+    case matrix:
+      return "MetadataDouble with 9 numbers";
+    case boolean:
+      return "MetadataBoolean with true or false";
+    case set:
+      return "MetadataSet";
+  }
+  return "";
 }
 
 }  // namespace mechane::scenario

@@ -1,10 +1,14 @@
-// Every key that a scenario's metadata may hold, in tables: what the reader checks against, and what a form or a manual is made from.
+// Every key that a scenario may hold, in tables: keys of its metadata, and those fields of X3D's nodes that Mechane reads. The reader
+// takes types, ranges and defaults from here, the checker its remedies, the merge what refers to what, the reference page its text.
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "server/scenario/values.hpp"
 
 namespace mechane::scenario {
 
@@ -14,9 +18,15 @@ enum class ValueKind {
   number,    ///< one number (Double, Float or Integer)
   vector,    ///< three numbers
   rotation,  ///< four: axis, angle in radians
+  matrix,    ///< nine, of a 3x3 matrix; fields of nodes only
   boolean,
   set,  ///< a MetadataSet with a table of its own, or with free names
 };
+
+/// What a string names.
+enum class Names { nothing, body, joint, agent, quantity, step, activity, model, source, language };
+
+struct Table;
 
 struct Key {
   std::string_view name;  ///< "trigger:*" stands for every name with that beginning, "*" for any name
@@ -25,17 +35,24 @@ struct Key {
   std::string_view summary = {};
   std::string_view example = {};
   bool required = false;
+  std::string_view unless = {};        ///< a required key may be left out where a key of this name is given
   std::string_view default_text = {};  ///< of a string
   double default_number = 0;           ///< of a number, of every number of a vector; a boolean: not 0 is true
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   std::string_view choices = {};  ///< of a string: the words allowed, separated by blanks; empty: any
+  Names names = Names::nothing;   ///< what the strings name; of a set "object:*": what stands for the star
+  const Table* inner = nullptr;   ///< of a set: its own table, or, where its names are free, that of each set in it
+  bool free_names = false;        ///< of a set: what it holds is named as the author likes
 };
 
 struct Table {
-  std::string_view name;  ///< what the set is: "step"
+  std::string_view name;  ///< what the set is: "step"; of a node's table: the node's type
   std::string_view summary;
   std::span<const Key> keys;
+
+  /// Null where no key of that name may be.
+  [[nodiscard]] const Key* find(std::string_view name) const;
 };
 
 inline constexpr int kFormatVersion = 1;
@@ -43,9 +60,11 @@ inline constexpr int kFormatVersion = 1;
 [[nodiscard]] const Table& scenario_table();  ///< `mechane:scenario` on the WorldInfo
 [[nodiscard]] const Table& quantity_table();  ///< a quantity written as a set
 [[nodiscard]] const Table& activity_table();
+[[nodiscard]] const Table& question_table();  ///< one of an activity's questionnaire
 [[nodiscard]] const Table& step_table();
 [[nodiscard]] const Table& override_table();  ///< `object:NAME` in a step
 [[nodiscard]] const Table& trigger_table();   ///< `trigger:N` in a step
+[[nodiscard]] const Table& rule_table();      ///< `rule:N` in a trigger
 [[nodiscard]] const Table& text_table();      ///< `text`: keys are "<what>.<language>"
 [[nodiscard]] const Table& visit_table();
 [[nodiscard]] const Table& move_table();    ///< `move:N` in a visit
@@ -53,7 +72,22 @@ inline constexpr int kFormatVersion = 1;
 [[nodiscard]] const Table& body_table();    ///< `mechane:body` on a RigidBody
 [[nodiscard]] std::span<const Table* const> all_tables();
 
-/// The tables for people, one line a key: what `mechane check --keys` prints.
-[[nodiscard]] std::string describe_tables();
+/// The nodes of X3D that Mechane reads, each with the fields that it reads: types and defaults are X3D's own (x3d_schema.hpp).
+[[nodiscard]] std::span<const Table> node_tables();
+/// Null where Mechane reads nothing of such nodes.
+[[nodiscard]] const Table* find_node_table(std::string_view node_type);
+
+/// Whether a word is one of a Key's choices.
+[[nodiscard]] bool one_of(std::string_view word, std::string_view choices);
+/// Whether a key's name is of a pattern: "trigger:1" of "trigger:*".
+[[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
+/// What is wrong with numbers or a string that a key holds, against its range and choices; nothing where they are right.
+[[nodiscard]] std::optional<BadValue> range_fault(const Key& key, std::span<const double> numbers,
+                                                  const std::string* text);
+
+/// The unit, the range and the choices of a key in words: "s, 0 to 3600". For remedies and tables; may be empty.
+[[nodiscard]] std::string limits_of(const Key& key);
+/// What to write for a kind of value, by its metadata node: "MetadataDouble with 3 numbers".
+[[nodiscard]] std::string_view kind_in_words(ValueKind kind);
 
 }  // namespace mechane::scenario

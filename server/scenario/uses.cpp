@@ -8,12 +8,12 @@ namespace mechane::scenario {
 namespace {
 
 /// Names are unique within a scope: the file, or one prototype's body.
-using Scope = NodeId;
-using Names = std::map<std::pair<Scope, std::string>, NodeId>;
+using NameScope = NodeId;
+using NamesByScope = std::map<std::pair<NameScope, std::string>, NodeId>;
 
 /// The scope of each node. Parents stand before their children.
-std::vector<Scope> scopes_of(const std::vector<Node>& nodes) {
-  std::vector<Scope> scopes(nodes.size());
+std::vector<NameScope> scopes_of(const std::vector<Node>& nodes) {
+  std::vector<NameScope> scopes(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const NodeId parent = nodes[i].parent;
     if (!parent) continue;
@@ -22,8 +22,8 @@ std::vector<Scope> scopes_of(const std::vector<Node>& nodes) {
   return scopes;
 }
 
-Names collect_names(const std::vector<Node>& nodes, const std::vector<Scope>& scopes, Problems& problems) {
-  Names names;
+NamesByScope collect_names(const std::vector<Node>& nodes, const std::vector<NameScope>& scopes, Problems& problems) {
+  NamesByScope names;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].kind != NodeKind::element) continue;
     const std::string* def = nodes[i].attribute("DEF");
@@ -38,7 +38,7 @@ Names collect_names(const std::vector<Node>& nodes, const std::vector<Scope>& sc
   return names;
 }
 
-std::vector<std::string> names_in(const Names& names, Scope scope) {
+std::vector<std::string> names_within(const NamesByScope& names, NameScope scope) {
   std::vector<std::string> found;
   for (const auto& [key, id] : names) {
     if (key.first == scope) found.push_back(key.second);
@@ -46,7 +46,8 @@ std::vector<std::string> names_in(const Names& names, Scope scope) {
   return found;
 }
 
-void resolve_one(std::vector<Node>& nodes, std::size_t i, Scope scope, const Names& names, Problems& problems) {
+void resolve_one(std::vector<Node>& nodes, std::size_t i, NameScope scope, const NamesByScope& names,
+                 Problems& problems) {
   Node& node = nodes[i];
   const std::string* use = node.kind == NodeKind::element ? node.attribute("USE") : nullptr;
   if (use == nullptr || use->empty()) return;
@@ -54,7 +55,7 @@ void resolve_one(std::vector<Node>& nodes, std::size_t i, Scope scope, const Nam
   const auto it = names.find({scope, *use});
   if (it == names.end()) {
     problems.error(node.line, place, fmt::format("no element has the DEF '{}'", *use),
-                   suggest(*use, names_in(names, scope), "give an element that DEF"));
+                   suggest(*use, names_within(names, scope), "give an element that DEF"));
     return;
   }
   const Node& target = nodes[it->second.index()];
@@ -114,8 +115,8 @@ void find_circles(std::vector<Node>& nodes, Problems& problems) {
 }  // namespace
 
 void resolve_uses(std::vector<Node>& nodes, std::map<std::string, NodeId, std::less<>>& defs, Problems& problems) {
-  const std::vector<Scope> scopes = scopes_of(nodes);
-  const Names names = collect_names(nodes, scopes, problems);
+  const std::vector<NameScope> scopes = scopes_of(nodes);
+  const NamesByScope names = collect_names(nodes, scopes, problems);
   for (std::size_t i = 0; i < nodes.size() && !problems.full(); ++i)
     resolve_one(nodes, i, scopes[i], names, problems);
   find_circles(nodes, problems);

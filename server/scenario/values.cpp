@@ -30,6 +30,11 @@ std::string shown(std::string_view word) {
 
 }  // namespace
 
+bool is_relative_path(std::string_view url) {
+  return !url.empty() && url.find("://") == std::string_view::npos && url.front() != '/' &&
+         url.find('\\') == std::string_view::npos && !url.starts_with("urn:") && !url.starts_with("data:");
+}
+
 Value<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> values;
   for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
@@ -52,7 +57,8 @@ Value<std::vector<double>> parse_integers(std::string_view text) {
   if (!values) return values;
   for (const double value : *values) {
     if (value != std::trunc(value))
-      return bad(fmt::format("{} is not a whole number", value), "use MetadataDouble for fractions");
+      return bad(fmt::format("{} is not a whole number", value),
+                 "write a whole number; in metadata, MetadataDouble takes fractions");
   }
   return values;
 }
@@ -72,7 +78,10 @@ Value<std::vector<std::string>> parse_strings(std::string_view text) {
   for (;;) {
     const std::size_t begin = text.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos) return values;
-    if (text[begin] != '"') return bad("a string is not in quotes", "write value='\"...\"'");
+    if (text[begin] != '"') {
+      const bool plain = text.find('"') == std::string_view::npos && text.size() <= 40;
+      return bad("a string is not in quotes", fmt::format("write value='\"{}\"'", plain ? text.substr(begin) : "..."));
+    }
     text.remove_prefix(begin + 1);
     std::string value;
     while (!text.empty() && text.front() != '"') {

@@ -23,6 +23,8 @@ using Value = tl::expected<T, BadValue>;
 /// The same, whole numbers only.
 [[nodiscard]] Value<std::vector<double>> parse_integers(std::string_view text);
 [[nodiscard]] Value<std::vector<bool>> parse_booleans(std::string_view text);
+/// Whether a url is a path from the file that holds it, as everything is in a museum without a network.
+[[nodiscard]] bool is_relative_path(std::string_view url);
 /// MFString: "one" "two", with \" and \\ inside.
 [[nodiscard]] Value<std::vector<std::string>> parse_strings(std::string_view text);
 

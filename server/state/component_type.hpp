@@ -42,6 +42,9 @@ struct ValueType {
   std::string_view name;
   std::string_view unit = {};
   std::string_view summary = {};
+  double min = -std::numeric_limits<double>::infinity();  ///< what it can come to
+  double max = std::numeric_limits<double>::infinity();
+  std::string_view max_parameter = {};  ///< of the same component: the value never exceeds it; in the same unit
 };
 
 struct ComponentType {

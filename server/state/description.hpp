@@ -94,13 +94,23 @@ struct QuantityDescription {
 
 enum class Comparison { less, equal, greater };
 
-struct TriggerDescription {
+/// One comparison of a trigger that has several.
+struct RuleDescription {
   QuantityId quantity;
   Comparison comparison = Comparison::greater;
   double value = 0;
   double tolerance = 1e-6;  ///< for `equal`
-  double hold_s = 0;        ///< how long it must hold
-  StepId next;              ///< none: the activity is done
+};
+
+struct TriggerDescription {
+  QuantityId quantity;
+  Comparison comparison = Comparison::greater;
+  double value = 0;
+  double tolerance = 1e-6;              ///< for `equal`
+  double hold_s = 0;                    ///< how long it must hold
+  StepId next;                          ///< none: the activity is done
+  std::vector<RuleDescription> more{};  ///< rules beside the one above
+  bool any = false;                     ///< one rule that holds is enough; else all must hold at once
 };
 
 /// What a step changes of a body, against its description.
@@ -119,14 +129,36 @@ struct StepDescription {
   std::vector<AgentId> disable;
   std::vector<BodyOverride> bodies;
   std::vector<TriggerDescription> triggers;
-  std::map<std::string, Texts> texts;  ///< "caption", "narration", "hint"
+  std::map<std::string, Texts>
+      texts;  ///< "caption", "narration", "hint"; "audio": sound files, relative to the scenario
   double hint_after_s = 20;
+  double timeout_s = 0;   ///< the step is left after so long, whatever holds; 0: never
+  StepId timeout_next{};  ///< the step that follows then; none: the activity is done
+};
+
+/// A question to a visitor after an activity.
+struct QuestionDescription {
+  enum class Kind { choice, scale };
+  struct Answer {
+    std::string name;
+    Texts text;
+  };
+  std::string name;
+  Kind kind = Kind::choice;
+  Texts question;
+  std::vector<Answer> answers;  ///< choice: in the order shown
+  std::string correct;          ///< choice: the right answer's name; empty: there is none
+  int marks = 5;                ///< scale: how many
+  Texts low;                    ///< scale: what its ends mean
+  Texts high;
 };
 
 struct ActivityDescription {
   std::string name;
   StepId first;
   Texts title;
+  Texts goal{};  ///< what a visitor shall learn
+  std::vector<QuestionDescription> questionnaire{};
 };
 
 /// One move of a scripted visit: what a person would do with one hand.

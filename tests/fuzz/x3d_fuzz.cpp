@@ -1,10 +1,13 @@
-// Any bytes as a scenario file: read, compiled, checked. Mesh files are not there, so that nothing but the bytes decides.
+// Any bytes as a scenario file: read, compiled, checked; and, where they are X3D, edited and merged with themselves. Mesh files are not
+// there, so that nothing but the bytes decides.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "server/base/assert.hpp"
 #include "server/scenario/compiler.hpp"
+#include "server/scenario/editor.hpp"
+#include "server/scenario/rename.hpp"
 
 namespace {
 
@@ -16,6 +19,21 @@ class NoFiles final : public mechane::scenario::ObjectLoader {
   }
   mechane::Expected<std::string> content_hash(const std::filesystem::path&) override { return std::string(32, '0'); }
 };
+
+/// Every edit gives a file that reads, or an error; what is only read stays as it was.
+void edit(const mechane::scenario::Document& document) {
+  namespace scenario = mechane::scenario;
+  auto editor = scenario::Editor::read(document.source(), "fuzz.x3d");
+  MECHANE_ASSERT(editor.has_value() && editor->text() == document.source());
+  static_cast<void>(editor->set("activities/use/steps/turn/hintSeconds", std::vector<double>{3}));
+  static_cast<void>(editor->add("activities/use/steps/more", "turn"));
+  static_cast<void>(editor->set_attribute("INNER", "mass", "3"));
+  static_cast<void>(editor->remove("activities/use/steps/turn"));
+  const scenario::NamesOf names = scenario::names_of_file(document);
+  scenario::TextEdits edits;
+  scenario::rename_in(document, scenario::renames_for(names, names), edits);
+  static_cast<void>(scenario::Editor::read(edits.apply(document.source()), "fuzz.x3d"));
+}
 
 }  // namespace
 
@@ -29,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     NoFiles files;
     const auto world = scenario::compile(*document, files, problems);
     MECHANE_ASSERT(world.has_value() != problems.has_errors());
+    edit(*document);
   }
   static_cast<void>(scenario::to_json(problems.all()));
   return 0;

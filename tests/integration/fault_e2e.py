@@ -153,6 +153,27 @@ class BadInput(EndToEnd):
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stdout, r"bad\.x3d:\d+: error")
 
+    def test_check_looks_into_the_mesh_file(self):
+        bad = self.folder / "bad.x3d"
+        bad.write_text(SCENARIO.read_text().replace("name='node' value='\"INNER\"'", "name='node' value='\"INER\"'"))
+        (self.folder / "models").symlink_to(SCENARIO.parents[1] / "models")
+        bad.write_text(bad.read_text().replace("../models/", "models/"))
+        result = self.run_command("check", bad)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("did you mean 'INNER'?", result.stdout)
+
+    def test_two_scenarios_become_one(self):
+        both = self.folder / "two-screws.x3d"
+        result = self.run_command("merge", SCENARIO, SCENARIO, "-o", both)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("0 errors, 0 warnings", result.stdout)
+        self.assertEqual(self.run_command("check", both).returncode, 0)
+
+    def test_the_reference_is_printed(self):
+        result = self.run_command("reference")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stdout, (SCENARIO.parents[1] / "REFERENCE.md").read_text())
+
 
 if __name__ == "__main__":
     os.chdir(SCENARIO.parents[2])

@@ -77,6 +77,53 @@ TEST(Progress, ATriggerMustHoldForItsTimeWithoutABreak) {
   EXPECT_FALSE(part.graspable);
 }
 
+/// The step "lift" waits for the height, and for x above 2.
+state::WorldDescription two_rules(bool any) {
+  state::WorldDescription world = two_activities();
+  world.steps[0].triggers[0].more = {{QuantityId(1), Comparison::greater, 2, 1e-6}};
+  world.steps[0].triggers[0].any = any;
+  return world;
+}
+
+RC_GTEST_PROP(Progress, RulesTogetherHoldAsAllOrAny, ()) {
+  const bool any = *rc::gen::arbitrary<bool>();
+  const bool high = *rc::gen::arbitrary<bool>();
+  const bool aside = *rc::gen::arbitrary<bool>();
+  Stage stage(two_rules(any));
+  stage.state->bodies[1].X_WB.p = Vec3(aside ? 3 : 1, high ? 0.6 : 0.4, 0);
+  stage.run(0.2);
+  RC_ASSERT((stage.state->progress.step == StepId(1)) == (any ? high || aside : high && aside));
+}
+
+TEST(Progress, AllRulesMustHoldAtOnceForTheHoldTime) {
+  Stage stage(two_rules(false));
+  for (int n = 0; n < 6; ++n) {
+    stage.state->bodies[1].X_WB.p = n % 2 == 0 ? Vec3(3, 0.4, 0) : Vec3(1, 0.6, 0);
+    stage.run(0.15);
+  }
+  EXPECT_EQ(stage.state->progress.step, StepId(0)) << "each held, but never both";
+  stage.state->bodies[1].X_WB.p = Vec3(3, 0.6, 0);
+  stage.run(0.11);
+  EXPECT_EQ(stage.state->progress.step, StepId(1));
+}
+
+TEST(Progress, AStepIsLeftWhenItsTimeIsOut) {
+  state::WorldDescription world = two_activities();
+  world.steps[0].timeout_s = 0.5;
+  world.steps[0].timeout_next = StepId(1);
+  world.steps[1].timeout_s = 0.2;
+  Stage stage(world);
+  stage.run(0.498);
+  EXPECT_EQ(stage.state->progress.step, StepId(0));
+  stage.run(0.003);
+  EXPECT_EQ(stage.state->progress.step, StepId(1));
+  EXPECT_FALSE(stage.state->progress.done);
+  stage.run(0.198);
+  EXPECT_FALSE(stage.state->progress.done) << "the next step has its own time";
+  stage.run(0.003);
+  EXPECT_TRUE(stage.state->progress.done) << "a time-out without a next step ends the activity";
+}
+
 TEST(Progress, TheLastTriggerEndsTheActivityAndSaysHowLongItTook) {
   Stage stage(two_activities());
   stage.state->bodies[1].X_WB.p = Vec3(-1, 1, 0);
@@ -217,6 +264,12 @@ TEST(AgentSet, RefusesStepsThatPointNowhere) {
   world = two_activities();
   world.steps[0].triggers[0].quantity = QuantityId::none();
   EXPECT_THAT(error_of(world), HasSubstr("quantity that is not there"));
+  world = two_rules(true);
+  world.steps[0].triggers[0].more[0].quantity = QuantityId(77);
+  EXPECT_THAT(error_of(world), HasSubstr("quantity that is not there"));
+  world = two_activities();
+  world.steps[0].timeout_next = StepId(9);
+  EXPECT_THAT(error_of(world), HasSubstr("its time-out leads to a step that is not there"));
   world = two_activities();
   world.steps[1].enable = {AgentId(77)};
   EXPECT_THAT(error_of(world), HasSubstr("agent that is not there"));

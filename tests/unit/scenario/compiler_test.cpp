@@ -145,10 +145,11 @@ TEST_P(Faults, NameLineNodeAndRemedy) {
 
 const Fault kFaults[] = {
     {"mass='42'", "mass='nan'", "mass='nan'", "not a finite number"},
-    {"mass='42'", "mass='-3'", "mass='-3'", "the mass is -3"},
-    {"mass='42'", "mass='1 2'", "mass='1 2'", "has 2 numbers"},
+    {"mass='42'", "mass='-3'", "mass='-3'", "mass: -3 kg is out of its range"},
+    {"mass='42'", "mass='0'", "mass='0'", "the mass is 0 kg"},
+    {"mass='42'", "mass='1 2'", "mass='1 2'", "it has 2 numbers"},
     {"inertia='20.4 0 0 0 20.3", "inertia='20.4 0 0 0 200", "inertia=", "no solid body"},
-    {"axis='-0.79", "axis='0 0 0' x='", "<SingleAxisHingeJoint", "has no length"},
+    {"axis='-0.79", "axis='0 0 0' class='", "<SingleAxisHingeJoint", "has no length"},
     {"containerField='body2' USE='INNER'", "containerField='body2' USE='INER'", "USE='INER'", "did you mean 'INNER'?"},
     {"containerField='body2' USE='INNER'", "containerField='body2' USE='OUTER'", "<SingleAxisHingeJoint", "to itself"},
     {"name='quantity' value='\"turns\"'", "name='quantity' value='\"trns\"'", "value='\"trns\"'",

@@ -125,24 +125,6 @@ TEST(Document, FilesThatCannotBeRead) {
   EXPECT_EQ(problems.all().size(), 3u);
 }
 
-TEST(Document, SamplesOfTheStandardLoad) {
-  if (!std::filesystem::exists(shared_folder() / "x3d")) GTEST_SKIP() << "no sample files beside the project";
-  std::size_t loaded = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shared_folder() / "x3d")) {
-    if (entry.path().extension() != ".x3d") continue;
-    Problems problems(entry.path().string());
-    const auto document = read_document(entry.path(), problems);
-    EXPECT_TRUE(document) << document.error().to_string();
-    FakeLoader loader;
-    // None of them is a scenario: compiling says so.
-    if (document) {
-      EXPECT_FALSE(compile(*document, loader, problems));
-    }
-    ++loaded;
-  }
-  EXPECT_GE(loaded, 10u);
-}
-
 TEST(Document, DamagedFilesGiveProblemsOrWorldsNeverCrashes) {
   const std::string whole = text_of(shipped_file());
   rc::check([&] {

@@ -50,7 +50,7 @@ TEST(Metadata, FaultsSayLineAndRemedy) {
   const std::vector<Case> cases{
       {kGood + "<MetadataDouble name='holdSecond' value='1'/>", 7, "did you mean 'holdSeconds'?"},
       {kGood + "<MetadataString name='holdSeconds' value='\"1\"'/>", 7, "write a MetadataDouble with one number"},
-      {kGood + "<MetadataDouble name='holdSeconds' value='-1'/>", 7, "not between 0 and 3600"},
+      {kGood + "<MetadataDouble name='holdSeconds' value='-1'/>", 7, "write 0 to 3600"},
       {kGood + "<MetadataDouble name='tolerance' value='nan'/>", 7, "not a finite number"},
       {kGood + "<MetadataDouble name='tolerance' value='1e999'/>", 7, "not a finite number"},
       {kGood + "<MetadataDouble name='tolerance' value='0.1m'/>", 7, "not a number"},
@@ -115,15 +115,30 @@ RC_GTEST_PROP(Values, NumbersAreReadToTheBitOrRefused, (const std::vector<double
   if (finite) RC_ASSERT(*read == numbers);
 }
 
+TEST(Metadata, AKeyThatIsNearlyOneIsAnErrorAndAnyOtherAWarning) {
+  const Held near(kGood + "<MetadataDouble name='hold' value='1'/>");
+  ASSERT_EQ(near.problems.all().size(), 1u);
+  EXPECT_EQ(near.problems.all()[0].severity, Severity::error);
+  const Held far(kGood + "<MetadataDouble name='colour' value='1'/>");
+  ASSERT_EQ(far.problems.all().size(), 1u);
+  EXPECT_EQ(far.problems.all()[0].severity, Severity::warning);
+  EXPECT_NE(far.problems.all()[0].remedy.find("quantity, op, value"), std::string::npos);
+}
+
+TEST(Metadata, ATriggerWithRulesNeedsNoQuantityOfItsOwn) {
+  const Held held("<MetadataSet name='rule:1'/><MetadataString name='match' value='\"any\"'/>");
+  EXPECT_TRUE(held.problems.all().empty()) << to_string(held.problems.all()[0]);
+  EXPECT_EQ(held.fields->sets_like("rule:*").size(), 1u);
+}
+
 TEST(Schema, EveryKeyIsExplained) {
   for (const Table* table : all_tables()) {
     for (const Key& key : table->keys) {
       EXPECT_FALSE(key.summary.empty()) << table->name << " " << key.name;
-      EXPECT_LE(key.min, key.default_number) << key.name;
-      EXPECT_GE(key.max, key.default_number) << key.name;
+      const bool whole = key.default_number >= key.min && key.default_number <= key.max;
+      EXPECT_TRUE(whole) << key.name << ": the default is out of the key's own range";
       const bool shown = !key.required || !key.example.empty() || key.kind == ValueKind::set;
       EXPECT_TRUE(shown) << key.name;
-      EXPECT_NE(describe_tables().find(key.summary), std::string::npos);
     }
   }
 }

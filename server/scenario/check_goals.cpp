@@ -1,0 +1,141 @@
+// Goals that nobody can reach: a rule against the range of its quantity.
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What a quantity can come to, in the quantity's own unit, and who says so.
+struct Range {
+  double min = -kInfinity;
+  double max = kInfinity;
+  std::string from;
+};
+
+/// Ranges of values whose types do not state them yet (state::ValueType).
+struct Stated {
+  std::string_view type;
+  state::ValueType value;
+};
+constexpr Stated kStated[] = {
+    {"machine.screw_pump", {"basin_l", "l", {}, 0, kInfinity, "basinCapacity"}},
+    {"machine.screw_pump", {"level_m", "m", {}, 0, kInfinity, {}}},
+    {"machine.screw_pump", {"lifted_l", "l", {}, 0, kInfinity, {}}},
+    {"geometry.snap", {"placed", {}, {}, 0, 1, {}}},
+    {"geometry.snap", {"distance", "m", {}, 0, kInfinity, {}}},
+    {"simulation.placed", {"placed", {}, {}, 0, 1, {}}},
+    {"simulation.grasp", {"active", {}, {}, 0, kInfinity, {}}},
+};
+
+bool says_something(const state::ValueType& value) {
+  return value.min > -kInfinity || value.max < kInfinity || !value.max_parameter.empty();
+}
+
+const state::ValueType* find_value(const state::ComponentType& type, std::string_view name) {
+  for (const state::ValueType& value : type.values) {
+    if (value.name == name && says_something(value)) return &value;
+  }
+  for (const Stated& stated : kStated) {
+    if (stated.type == type.name && stated.value.name == name) return &stated.value;
+  }
+  return nullptr;
+}
+
+/// An author's number, or the type's default.
+double parameter_of(const state::ComponentDescription& component, const state::ComponentType& type,
+                    std::string_view name) {
+  const auto it = component.parameters.find(std::string(name));
+  if (it != component.parameters.end()) {
+    const auto* numbers = std::get_if<std::vector<double>>(&it->second);
+    return numbers != nullptr && numbers->size() == 1 ? numbers->front() : kInfinity;
+  }
+  const auto known = std::find_if(type.parameters.begin(), type.parameters.end(),
+                                  [&](const state::ParameterType& p) { return p.name == name; });
+  return known == type.parameters.end() || known->required ? kInfinity : known->default_value;
+}
+
+void narrow(const std::vector<state::ComponentDescription>& table,
+            const state::ComponentType* (*find)(std::string_view), const std::string& name, const std::string& value,
+            Range& range) {
+  for (const state::ComponentDescription& component : table) {
+    const state::ComponentType* type = component.name == name ? find(component.type) : nullptr;
+    const state::ValueType* stated = type != nullptr ? find_value(*type, value) : nullptr;
+    if (stated == nullptr) continue;
+    range.min = stated->min;
+    range.max = stated->max;
+    if (stated->max_parameter.empty()) continue;
+    range.max = std::min(range.max, parameter_of(component, *type, stated->max_parameter));
+    range.from = fmt::format("{} of {}", stated->max_parameter, name);
+  }
+}
+
+/// A joint's stops.
+void narrow_to_stops(const state::WorldDescription& world, const std::string& name, const std::string& value,
+                     const std::string& unit, Range& range) {
+  const JointId id = world.find_joint(name);
+  if (!id || (value != "angle" && value != "position" && value != "turns")) return;
+  const state::JointDescription& joint = world.joints[id.index()];
+  if (joint.min_position > joint.max_position || joint.kind == state::JointKind::ball) return;
+  double factor = 1;
+  if (value == "turns") factor = 1 / (2 * kPi);
+  if (value == "angle" && unit == "deg") factor = 180 / kPi;
+  range = {factor * joint.min_position, factor * joint.max_position, "the stops of " + name};
+}
+
+Range range_of(const state::WorldDescription& world, const state::QuantityDescription& quantity) {
+  const std::size_t dot = quantity.source.find('.');
+  const std::string name = quantity.source.substr(0, dot);
+  const std::string value = dot == std::string::npos ? "" : quantity.source.substr(dot + 1);
+  Range range;
+  narrow(world.agents, find_agent_type, name, value, range);
+  narrow(world.machines, find_machine_type, name, value, range);
+  narrow_to_stops(world, name, value, quantity.unit, range);
+  return range;
+}
+
+bool can_hold(const state::RuleDescription& rule, const Range& range) {
+  switch (rule.comparison) {
+    case state::Comparison::less:
+      return rule.value > range.min;
+    case state::Comparison::equal:
+      return rule.value + rule.tolerance >= range.min && rule.value - rule.tolerance <= range.max;
+    case state::Comparison::greater:
+      return rule.value < range.max;
+  }
+  return true;
+}
+
+std::string in_words(const Range& range, const std::string& unit) {
+  const std::string of = unit.empty() ? "" : " " + unit;
+  if (range.min > -kInfinity && range.max < kInfinity)
+    return fmt::format("goes from {} to {}{}", range.min, range.max, of);
+  return range.max < kInfinity ? fmt::format("is at most {}{}", range.max, of)
+                               : fmt::format("is at least {}{}", range.min, of);
+}
+
+}  // namespace
+
+void check_goals(Compilation& c) {
+  for (const WrittenRule& written : c.rules) {
+    const state::QuantityDescription& quantity = c.world.quantities[written.rule.quantity.index()];
+    const Range range = range_of(c.world, quantity);
+    if (can_hold(written.rule, range)) continue;
+    const std::string from = range.from.empty() ? "" : fmt::format(" ({})", range.from);
+    c.problems.error(written.line, written.where,
+                     fmt::format("this can never hold: '{}' {}{}, and the rule asks for {} {}", quantity.name,
+                                 in_words(range, quantity.unit), from,
+                                 written.rule.comparison == state::Comparison::less      ? "less than"
+                                 : written.rule.comparison == state::Comparison::greater ? "more than"
+                                                                                         : "exactly",
+                                 written.rule.value),
+                     "write a value that it can come to");
+  }
+}
+
+}  // namespace mechane::scenario

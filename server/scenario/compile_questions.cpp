@@ -1,0 +1,79 @@
+// An activity's questionnaire.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+using Question = state::QuestionDescription;
+
+void read_choice(Compilation& c, const Fields& fields, std::map<std::string, state::Texts>& texts, Question& out) {
+  const std::vector<std::string> names = fields.strings("answers");
+  if (names.size() < 2)
+    c.problems.error(fields.line("answers"), fields.where(), "a choice needs two answers or more",
+                     "name them in the key answers, like \"pitch\" \"speed\"");
+  for (const std::string& name : names)
+    out.answers.push_back({name, texts["answer:" + name]});
+  out.correct = fields.string("correct");
+  if (fields.given("correct") && std::find(names.begin(), names.end(), out.correct) == names.end()) {
+    c.problems.error(fields.line("correct"), fields.where(), fmt::format("no answer is called '{}'", out.correct),
+                     suggest(out.correct, names, "add it to the answers"));
+  }
+  if (fields.given("steps"))
+    c.problems.warning(fields.line("steps"), fields.where(), "a choice has no 'steps'", "remove it");
+}
+
+void read_scale(Compilation& c, const Fields& fields, std::map<std::string, state::Texts>& texts, Question& out) {
+  out.marks = static_cast<int>(fields.number("steps"));
+  if (out.marks != fields.number("steps"))
+    c.problems.error(fields.line("steps"), fields.where(), "a scale has a whole number of marks", "write 5");
+  out.low = texts["low"];
+  out.high = texts["high"];
+  for (const char* key : {"answers", "correct"}) {
+    if (fields.given(key))
+      c.problems.warning(fields.line(key), fields.where(), fmt::format("a scale has no '{}'", key), "remove it");
+  }
+}
+
+Question read_question(Compilation& c, const Metadata& set, const std::string& activity) {
+  const Fields fields(&set, question_table(), fmt::format("{}, question {}", activity, set.name), c.problems);
+  Question out;
+  out.name = set.name;
+  out.kind = fields.string("kind") == "scale" ? Question::Kind::scale : Question::Kind::choice;
+  std::string allowed = out.kind == Question::Kind::scale ? "question low high" : "question";
+  if (out.kind == Question::Kind::choice) {
+    for (const std::string& answer : fields.strings("answers"))
+      allowed += " answer:" + answer;
+  }
+  auto texts = read_texts(c, fields.set("text"), fields.where() + ", text", allowed);
+  out.question = texts["question"];
+  if (!fields.given("kind")) return out;
+  if (out.kind == Question::Kind::scale) {
+    read_scale(c, fields, texts, out);
+  } else {
+    read_choice(c, fields, texts, out);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Question> read_questionnaire(Compilation& c, const Fields& activity) {
+  std::vector<Question> questions;
+  const Metadata* tree = activity.set("questionnaire");
+  if (tree == nullptr) return questions;
+  for (const Metadata& set : tree->children) {
+    if (set.kind != MetadataKind::set) {
+      c.problems.error(set.line, activity.where(), fmt::format("the question '{}' is not a set", set.name),
+                       "write a MetadataSet");
+    } else {
+      questions.push_back(read_question(c, set, activity.where()));
+    }
+  }
+  return questions;
+}
+
+}  // namespace mechane::scenario

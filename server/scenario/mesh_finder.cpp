@@ -1,0 +1,57 @@
+#include "server/scenario/mesh_finder.hpp"
+
+#include <fmt/format.h>
+
+#include "server/content/mesh_import.hpp"
+#include "server/scenario/problem.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+Expected<void> find_in(const content::ImportedScene& scene, const std::string& node) {
+  if (content::find_node(scene, node)) return {};
+  std::vector<std::string> names;
+  for (const content::ImportedNode& other : scene.nodes) {
+    // A body's parts are not bodies, and some exporters leave nodes without a name.
+    if (!other.name.empty() && !other.name.starts_with("part_")) names.push_back(other.name);
+  }
+  return fail("the mesh file has no node of that name", "node " + node,
+              suggest(node, names, "name the object so in the model, and export it again"));
+}
+
+}  // namespace
+
+MeshFinder::MeshFinder() = default;
+MeshFinder::~MeshFinder() = default;
+
+Expected<const content::ImportedScene*> MeshFinder::scene_of(const std::filesystem::path& file) {
+  const auto known = scenes_.find(file);
+  if (known != scenes_.end()) return known->second.get();
+  auto scene = content::import_mesh(file);
+  auto& kept = scenes_[file];
+  if (!scene) return tl::unexpected(std::move(scene.error()));
+  kept = std::make_unique<content::ImportedScene>(std::move(*scene));
+  return kept.get();
+}
+
+Expected<std::shared_ptr<const collision::Object>> MeshFinder::load(const std::filesystem::path& file,
+                                                                    const std::string& node) {
+  if (auto found = find_node(file, node); !found) return tl::unexpected(std::move(found.error()));
+  const auto scene = scene_of(file);
+  if (scene && *scene != nullptr) {
+    if (auto parts = content::collision_parts(**scene, node); !parts) return tl::unexpected(std::move(parts.error()));
+  }
+  return nullptr;
+}
+
+Expected<void> MeshFinder::find_node(const std::filesystem::path& file, const std::string& node) {
+  const auto scene = scene_of(file);
+  if (!scene) return tl::unexpected(scene.error());
+  return *scene == nullptr ? Expected<void>() : find_in(**scene, node);
+}
+
+Expected<std::string> MeshFinder::content_hash(const std::filesystem::path& file) {
+  return hash_file(file);
+}
+
+}  // namespace mechane::scenario

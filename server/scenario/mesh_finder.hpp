@@ -1,0 +1,37 @@
+// For a checker: looks into mesh files as the server will, and builds nothing.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "server/scenario/compiler.hpp"
+
+namespace mechane::content {
+struct ImportedScene;
+}
+
+namespace mechane::scenario {
+
+/// Imports each mesh file once, in the limited child process that the server uses, and holds names of nodes against it. One thread;
+/// blocks for as long as an import takes.
+class MeshFinder final : public ObjectLoader {
+ public:
+  MeshFinder();
+  ~MeshFinder() override;
+
+  /// Errors: the file cannot be imported (said once a file); no such node, with the nearest; nothing to touch in it. Returns null.
+  [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
+                                                                        const std::string& node) override;
+  [[nodiscard]] Expected<void> find_node(const std::filesystem::path& file, const std::string& node) override;
+  [[nodiscard]] Expected<std::string> content_hash(const std::filesystem::path& file) override;
+
+ private:
+  /// Null where the file could not be imported and that has been said.
+  Expected<const content::ImportedScene*> scene_of(const std::filesystem::path& file);
+
+  std::map<std::filesystem::path, std::unique_ptr<content::ImportedScene>> scenes_;
+};
+
+}  // namespace mechane::scenario

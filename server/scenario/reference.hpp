@@ -1,0 +1,15 @@
+// The manual of the scenario format, made from the tables that the reader uses: schema.hpp, X3D's own, and those of the registered
+// agents and machines. `mechane reference` prints it; scenarios/REFERENCE.md is a copy that a test holds against it.
+#pragma once
+
+#include <string>
+
+namespace mechane::scenario {
+
+/// Markdown.
+[[nodiscard]] std::string reference_page();
+
+/// The whole file that the page begins with: a scenario that checks without fault but for its mesh file.
+[[nodiscard]] std::string reference_example();
+
+}  // namespace mechane::scenario

@@ -1,0 +1,152 @@
+// The nodes of X3D that Mechane reads, and the fields that it reads of them.
+#include <algorithm>
+#include <iterator>
+
+#include "server/scenario/schema.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+using enum ValueKind;
+
+constexpr Key kDef{.name = "DEF", .summary = "its name: all else refers to it by this", .example = "INNER"};
+constexpr Key kPosition{.name = "position",
+                        .kind = vector,
+                        .unit = "m",
+                        .summary = "where its origin is at the start, in the world",
+                        .example = "0 0.55 0"};
+constexpr Key kOrientation{.name = "orientation",
+                           .kind = rotation,
+                           .unit = "rad",
+                           .summary = "how it stands at the start: axis x y z, then the angle",
+                           .example = "0 1 0 1.5708"};
+constexpr Key kAnchor{.name = "anchorPoint",
+                      .kind = vector,
+                      .unit = "m",
+                      .summary = "a point of the joint, in the world as it stands at the start",
+                      .example = "0 0.55 0"};
+constexpr Key kAxis{.name = "axis",
+                    .kind = vector,
+                    .summary = "its direction, in the world as it stands at the start; any length but 0",
+                    .example = "0 0 1"};
+
+constexpr Key kX3d[] = {
+    {.name = "version", .summary = "of X3D", .example = "4.0", .required = true},
+    {.name = "profile", .summary = "which parts of X3D a reader must know", .example = "Interactive"},
+};
+constexpr Key kUnit[] = {
+    {.name = "category", .summary = "what is measured", .example = "length"},
+    {.name = "name", .summary = "what the unit is called", .example = "metre"},
+    {.name = "conversionFactor",
+     .kind = number,
+     .summary = "1: everything is in metres, kilograms, seconds and radians",
+     .example = "1"},
+};
+constexpr Key kWorldInfo[] = {
+    {.name = "title", .summary = "for people", .example = "Archimedes' screw"},
+    {.name = "info", .kind = strings, .summary = "for people", .example = "\"after Vitruvius\""},
+};
+constexpr Key kInline[] = {
+    kDef,
+    {.name = "url",
+     .kind = strings,
+     .summary = "the mesh file (.glb), by its path from this file",
+     .example = "\"../models/screw.glb\"",
+     .required = true},
+};
+constexpr Key kViewpoint[] = {
+    {.name = "description", .summary = "its name in lists; displays ask for it", .example = "front"},
+    {.name = "position", .kind = vector, .unit = "m", .summary = "where the eye is", .example = "0 1.2 4"},
+    {.name = "orientation",
+     .kind = rotation,
+     .unit = "rad",
+     .summary = "how the eye is turned from looking along -z with y up",
+     .example = "1 0 0 -0.12"},
+    {.name = "fieldOfView", .kind = number, .unit = "rad", .summary = "how wide it sees", .example = "0.7854"},
+};
+constexpr Key kCollection[] = {
+    {.name = "gravity", .kind = vector, .unit = "m/s2", .summary = "how all bodies fall", .example = "0 -9.81 0"},
+};
+constexpr Key kRigidBody[] = {
+    kDef,
+    {.name = "fixed", .kind = boolean, .summary = "true: it never moves, and its mass does not matter"},
+    {.name = "mass",
+     .kind = number,
+     .unit = "kg",
+     .summary = "of the real thing",
+     .example = "42",
+     .min = 0,
+     .max = 1e6},
+    {.name = "inertia",
+     .kind = matrix,
+     .unit = "kg m2",
+     .summary = "about the centre of mass, row by row; computed from the shape and the mass",
+     .example = "20.4 0 0 0 20.3 0 0 0 0.35"},
+    {.name = "centerOfMass",
+     .kind = vector,
+     .unit = "m",
+     .summary = "from its origin, in its own frame",
+     .example = "0 0 0.1"},
+    kPosition,
+    kOrientation,
+    {.name = "useGlobalGravity", .kind = boolean, .summary = "false: it floats, as if balanced"},
+    {.name = "autoDamp", .kind = boolean, .summary = "true: the two factors below slow it down"},
+    {.name = "linearDampingFactor",
+     .kind = number,
+     .summary = "share of its speed lost in a second",
+     .example = "0.9",
+     .min = 0,
+     .max = 1},
+    {.name = "angularDampingFactor",
+     .kind = number,
+     .summary = "share of its turning lost in a second",
+     .example = "0.5",
+     .min = 0,
+     .max = 1},
+    {.name = "visible", .kind = boolean, .summary = "false: not drawn"},
+};
+constexpr Key kHinge[] = {
+    kDef,
+    kAnchor,
+    kAxis,
+    {.name = "minAngle",
+     .kind = number,
+     .unit = "rad",
+     .summary = "how far it turns back; with both stops at a half turn or more it turns on for ever",
+     .example = "-1.2"},
+    {.name = "maxAngle", .kind = number, .unit = "rad", .summary = "how far it turns", .example = "1.2"},
+};
+constexpr Key kSlider[] = {
+    kDef,
+    kAxis,
+    {.name = "minSeparation", .kind = number, .unit = "m", .summary = "how far it slides back", .example = "0"},
+    {.name = "maxSeparation", .kind = number, .unit = "m", .summary = "how far it slides", .example = "0.4"},
+};
+constexpr Key kBall[] = {kDef, kAnchor};
+
+constexpr Table kNodeTables[] = {
+    {"X3D", "the file", kX3d},
+    {"unit", "in the head: a unit of the file's numbers", kUnit},
+    {"WorldInfo", "under the Scene: carries `mechane:scenario`", kWorldInfo},
+    {"Inline", "under the Scene: a mesh file; bodies take their shapes from its nodes", kInline},
+    {"Viewpoint", "under the Scene: where a display may look from", kViewpoint},
+    {"RigidBodyCollection", "under the Scene: bodies and the joints between them", kCollection},
+    {"RigidBody", "a body: what can be touched, moved, or stands in the way", kRigidBody},
+    {"SingleAxisHingeJoint", "body2 turns about an axis against body1", kHinge},
+    {"SliderJoint", "body2 slides along an axis against body1", kSlider},
+    {"BallJoint", "body2 turns about a point against body1", kBall},
+};
+
+}  // namespace
+
+std::span<const Table> node_tables() {
+  return kNodeTables;
+}
+
+const Table* find_node_table(std::string_view node_type) {
+  const auto it =
+      std::find_if(std::begin(kNodeTables), std::end(kNodeTables), [&](const Table& t) { return t.name == node_type; });
+  return it == std::end(kNodeTables) ? nullptr : &*it;
+}
+
+}  // namespace mechane::scenario
