@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "server/base/parallel.hpp"
+#include "server/collision/block_lattice.hpp"
 
 namespace mechane::collision {
 namespace {
 
-using Node = std::array<int, 3>;
 constexpr int kFinest = DistanceBrick::kFinest;
 constexpr float kNotAsked = std::numeric_limits<float>::infinity();
 constexpr double kHalfBlockDiagonal = 0.8661;  // of its edge
@@ -22,8 +22,8 @@ constexpr double kOnFace = 0.9999;
 constexpr double kBelow = 0.1;
 // Of a block's edge: how much farther away than it is the surface may be told to be. Culling has to make up for it.
 constexpr double kExcess = 0.1;
-constexpr int kMendings = 4;          // rounds, at most
-constexpr double kHopeless = 0.01;    // of the witnesses
+constexpr int kMendings = 4;        // rounds, at most
+constexpr double kHopeless = 0.01;  // of the witnesses
 // The box is wider than what it holds by this share on the whole: the surface is nowhere at its very edge.
 constexpr double kRoom = 1.002;
 
@@ -52,8 +52,6 @@ class LatticeDistances {
   void want(const Node& node) { wanted_[index(node)] = 1; }
   [[nodiscard]] float at(const Node& node) const { return distance_m_[index(node)]; }
   [[nodiscard]] const Nearest& nearest(const Node& node) const { return nearest_[index(node)]; }
-
-  void shift(const Node& node, float by_m) { distance_m_[index(node)] += by_m; }
 
   /// Measures what is wanted and not known yet.
   void measure() {
@@ -103,37 +101,9 @@ class LatticeDistances {
   std::vector<std::uint8_t> wanted_;
 };
 
-/// Calls body(node) for the nodes of a block that lie `stride` apart.
-template <class Body>
-void for_each_node(const Node& block, int stride, const Body& body) {
-  for (int z = 0; z <= kFinest; z += stride)
-    for (int y = 0; y <= kFinest; y += stride)
-      for (int x = 0; x <= kFinest; x += stride)
-        body(Node{kFinest * block[0] + x, kFinest * block[1] + y, kFinest * block[2] + z});
-}
-
 /// The distance at `node` as a block whose nodes lie `stride` apart would have it.
 double interpolated(const LatticeDistances& distances, const Node& block, int stride, const Node& node) {
-  Node low{};
-  Vec3 f;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int begin = kFinest * block[i];
-    low[i] = begin + std::min((node[i] - begin) / stride, kFinest / stride - 1) * stride;
-    f[static_cast<Eigen::Index>(i)] = static_cast<double>(node[i] - low[i]) / stride;
-  }
-  double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1;
-    Node at = low;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const bool high = (corner >> i & 1) != 0;
-      const double share = f[static_cast<Eigen::Index>(i)];
-      weight *= high ? share : 1 - share;
-      at[i] += high ? stride : 0;
-    }
-    if (weight > 0) sum += weight * static_cast<double>(distances.at(at));
-  }
-  return sum;
+  return interpolate(block, stride, node, [&](const Node& n) { return distances.at(n); });
 }
 
 /// By how much the depth may err where the distance is `truth_m`.
@@ -146,7 +116,7 @@ double tolerance_m(double truth_m, const BrickNeeds& needs) {
 bool is_fine_enough(const LatticeDistances& distances, const Node& block, int stride, double block_m,
                     const BrickNeeds& needs) {
   bool good = true;
-  for_each_node(block, 1, [&](const Node& node) {
+  for_each_node_of(block, 1, [&](const Node& node) {
     const double truth = distances.at(node);
     if (!good) return;
     const double told = interpolated(distances, block, stride, node);
@@ -164,10 +134,7 @@ struct Block {
 
 std::vector<Block> list_blocks(const Node& blocks) {
   std::vector<Block> list;
-  for (int z = 0; z < blocks[2]; ++z)
-    for (int y = 0; y < blocks[1]; ++y)
-      for (int x = 0; x < blocks[0]; ++x)
-        list.push_back({{x, y, z}, 0, false});
+  for_each_node(blocks, [&](const Node& block) { list.push_back({block, 0, false}); });
   return list;
 }
 
@@ -179,7 +146,7 @@ void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double
   };
   for (const Block& block : blocks) {
     distances.want(center(block));
-    for_each_node(block.at, kFinest, [&](const Node& node) { distances.want(node); });
+    for_each_node_of(block.at, kFinest, [&](const Node& node) { distances.want(node); });
   }
   distances.measure();
   const double reach_m = kHalfBlockDiagonal * block_m;
@@ -188,7 +155,7 @@ void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double
     const bool is_near = distance_m < reach_m && distance_m > -reach_m - needs.probe_depth_m;
     const double told_m = interpolated(distances, block.at, kFinest, center(block));
     block.open = is_near || (distance_m > 0 && told_m - distance_m > 0.5 * kExcess * block_m);
-    if (block.open) for_each_node(block.at, 1, [&](const Node& node) { distances.want(node); });
+    if (block.open) for_each_node_of(block.at, 1, [&](const Node& node) { distances.want(node); });
   }
   distances.measure();
 }
@@ -212,7 +179,7 @@ class SheetMaker {
 
   [[nodiscard]] std::optional<Sheets> make(const Block& block) const {
     std::vector<SheetSample> samples;
-    for_each_node(block.at, 1, [&](const Node& node) {
+    for_each_node_of(block.at, 1, [&](const Node& node) {
       SheetSample sample;
       sample.distance_m = static_cast<double>(distances_.at(node));
       if (sample.distance_m < -needs_.probe_depth_m - kBelow * block_m_) return;
@@ -280,7 +247,12 @@ class BrickMaker {
     if (bytes > DistanceBrick::kMaxValues || bytes + sizeof(std::uint32_t) * levels_.size() > at_most_)
       return std::nullopt;
     return DistanceBrick::from_distances(
-        grid_, levels_, [&](const Node& node) { return distances_.at(node); }, sheets_);
+        grid_, levels_,
+        [&](const Node& node) {
+          const auto shift = shifts_m_.find(node);
+          return distances_.at(node) + (shift == shifts_m_.end() ? 0 : shift->second);
+        },
+        sheets_);
   }
 
   /// The block that answers a witness wrongly becomes as fine as can be; where it is, the corners of the cell give way, by as little as
@@ -301,11 +273,12 @@ class BrickMaker {
       Node cell{};
       for (std::size_t i = 0; i < 3; ++i)
         cell[i] = std::min(static_cast<int>(place[static_cast<Eigen::Index>(i)]), kFinest * grid_.blocks[i] - 1);
-      if (!make_finest(block_of(cell))) give_way(cell, (told_m < 0 ? brick.step_m() : -brick.step_m()) - told_m, shifts_m);
+      if (!make_finest(block_of(cell)))
+        give_way(cell, (told_m < 0 ? brick.step_m() : -brick.step_m()) - told_m, shifts_m);
     }
     distances_.measure();
     for (const auto& [node, by_m] : shifts_m)
-      distances_.shift(node, by_m);
+      shifts_m_[node] += by_m;
     return true;
   }
 
@@ -328,7 +301,7 @@ class BrickMaker {
     if (levels_[block] == kHighest) return false;
     levels_[block] = kHighest;
     sheets_.erase(block);
-    for_each_node(blocks_[block].at, 1, [&](const Node& node) { distances_.want(node); });
+    for_each_node_of(blocks_[block].at, 1, [&](const Node& node) { distances_.want(node); });
     return true;
   }
 
@@ -346,6 +319,7 @@ class BrickMaker {
   LatticeDistances& distances_;
   std::size_t at_most_;
   std::vector<std::uint8_t> levels_;
+  std::map<Node, float> shifts_m_;  // of nodes that gave way
 };
 
 }  // namespace

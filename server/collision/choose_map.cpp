@@ -1,10 +1,10 @@
-#include <cstdio>
-#include <cstdlib>
 #include "server/collision/choose_map.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -98,7 +98,13 @@ class Trials {
     tried.error = measure(probes_, budget_, ask);
     const Trend trend{fineness, tried.error};
     const MapError must = measure(allowed_.must, budget_, ask);
-    if (getenv("DBG")) fprintf(stderr, "%s %s bytes %zu (at most %zu) p99 %.4f of %.4f mm max %.3f missed %zu wrong %zu of %zu, must missed %zu wrong %zu of %zu max %.3f\n", "try", tried.map.name().c_str(), tried.map.bytes(), allowed_.at_most, 1e3*tried.error.p99_m, 1e3*budget_.depth_p99_m, 1e3*tried.error.max_m, tried.error.missed, tried.error.wrong, tried.error.probes, must.missed, must.wrong, must.probes, 1e3*must.max_m);
+    if (getenv("DBG"))
+      fprintf(stderr,
+              "%s %s bytes %zu (at most %zu) p99 %.4f of %.4f mm max %.3f missed %zu wrong %zu of %zu, must missed %zu "
+              "wrong %zu of %zu max %.3f\n",
+              "try", tried.map.name().c_str(), tried.map.bytes(), allowed_.at_most, 1e3 * tried.error.p99_m,
+              1e3 * budget_.depth_p99_m, 1e3 * tried.error.max_m, tried.error.missed, tried.error.wrong,
+              tried.error.probes, must.missed, must.wrong, must.probes, 1e3 * must.max_m);
     tried.met = tried.error.meets(budget_, kStrayShare) && must.missed + must.wrong == 0;
     tried.error.missed += must.missed;
     tried.error.wrong += must.wrong;

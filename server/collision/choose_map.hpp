@@ -44,10 +44,10 @@ struct MapError {
 struct MapCandidates {
   bool radial = true;
   bool brick = true;
-  int only_resolution = 0;            ///< of a radial map; 0: any
-  std::size_t more_than = 0;          ///< bytes: only larger maps
-  std::size_t at_most = 128U << 10;   ///< bytes
-  std::span<const Probe> must = {};   ///< points of which not one may be missed or wrong, besides the budget
+  int only_resolution = 0;           ///< of a radial map; 0: any
+  std::size_t more_than = 0;         ///< bytes: only larger maps
+  std::size_t at_most = 128U << 10;  ///< bytes
+  std::span<const Probe> must = {};  ///< points of which not one may be missed or wrong, besides the budget
 };
 
 struct MapChoice {

@@ -5,12 +5,11 @@
 #include <limits>
 
 #include "server/base/assert.hpp"
+#include "server/collision/block_lattice.hpp"
 #include "server/collision/evaluate_one.hpp"
 
 namespace mechane::collision {
 namespace {
-
-using Node = std::array<int, 3>;
 
 // A kernel reads four values where it wants two.
 constexpr std::size_t kPadding = 3;
@@ -38,14 +37,6 @@ std::size_t index_of(const Node& blocks, const Node& block) {
   return static_cast<std::size_t>((block[2] * blocks[1] + block[1]) * blocks[0] + block[0]);
 }
 
-template <class Body>
-void for_each_block(const Node& blocks, const Body& body) {
-  for (int z = 0; z < blocks[2]; ++z)
-    for (int y = 0; y < blocks[1]; ++y)
-      for (int x = 0; x < blocks[0]; ++x)
-        body(Node{x, y, z});
-}
-
 /// The values at nodes, in steps, such that blocks of different levels agree on their common faces.
 class SharedNodes {
  public:
@@ -57,7 +48,8 @@ class SharedNodes {
     const Lowest low = lowest_around(node);
     const int stride = DistanceBrick::kFinest / cells_of(low.level);
     if (std::all_of(node.begin(), node.end(), [&](int n) { return n % stride == 0; })) return own(node);
-    return between(low.block, stride, node);
+    // The corners of its cell may be shared with still lower levels.
+    return static_cast<int>(std::lround(interpolate(low.block, stride, node, [&](const Node& n) { return at(n); })));
   }
 
  private:
@@ -91,30 +83,6 @@ class SharedNodes {
   [[nodiscard]] int own(const Node& node) const {
     constexpr float kMost = static_cast<float>(DistanceBrick::kMaxBase * DistanceBrick::kBaseSteps);
     return static_cast<int>(std::lround(std::clamp(distance_(node) / step_m_, -kMost, kMost)));
-  }
-
-  /// Interpolated in the cell of `block` that holds the node. Its corners may be shared with still lower levels.
-  [[nodiscard]] int between(const Node& block, int stride, const Node& node) const {
-    Node low{};
-    std::array<float, 3> f{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int begin = DistanceBrick::kFinest * block[i];
-      const int cell = std::min((node[i] - begin) / stride, DistanceBrick::kFinest / stride - 1);
-      low[i] = begin + cell * stride;
-      f[i] = static_cast<float>(node[i] - low[i]) / static_cast<float>(stride);
-    }
-    float sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      float weight = 1;
-      Node at = low;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const bool high = (corner >> i & 1) != 0;
-        weight *= high ? f[i] : 1 - f[i];
-        at[i] += high ? stride : 0;
-      }
-      if (weight > 0) sum += weight * static_cast<float>(this->at(at));
-    }
-    return static_cast<int>(std::lround(sum));
   }
 
   const DistanceBrick::Grid& grid_;
@@ -200,11 +168,7 @@ bool DistanceBrick::is_valid(const Grid& grid, float step_m, float slack_m, std:
 
 DistanceBrick::DistanceBrick(const Grid& grid, float step_m, float slack_m, std::vector<std::uint32_t> index,
                              std::span<const std::int8_t> values)
-    : grid_(grid),
-      step_m_(step_m),
-      slack_m_(slack_m),
-      index_(std::move(index)),
-      values_(values.begin(), values.end()) {
+    : grid_(grid), step_m_(step_m), slack_m_(slack_m), index_(std::move(index)), values_(values.begin(), values.end()) {
   MECHANE_ASSERT(is_valid(grid_, step_m_, slack_m_, index_, values.size()));
   values_.insert(values_.end(), kPadding, 0);
 }
@@ -229,7 +193,7 @@ DistanceBrick DistanceBrick::from_distances(const Grid& grid, std::span<const st
   const float step_m = step_of(grid.block_m);
   const SharedNodes shared(grid, levels, step_m, distance);
   BlockWriter writer;
-  for_each_block(grid.blocks, [&](const Node& block) {
+  for_each_node(grid.blocks, [&](const Node& block) {
     const int level = levels[writer.index.size()];
     std::vector<int> nodes;
     if (level == kSheets) {
@@ -240,11 +204,7 @@ DistanceBrick DistanceBrick::from_distances(const Grid& grid, std::span<const st
       writer.add({level, some.outer_convex, some.inner_convex, some.count == 3}, nodes);
       return;
     }
-    const int stride = kFinest / cells_of(level);
-    for_each_block({cells_of(level) + 1, cells_of(level) + 1, cells_of(level) + 1}, [&](const Node& at) {
-      nodes.push_back(shared.at({kFinest * block[0] + stride * at[0], kFinest * block[1] + stride * at[1],
-                                 kFinest * block[2] + stride * at[2]}));
-    });
+    for_each_node_of(block, kFinest / cells_of(level), [&](const Node& node) { nodes.push_back(shared.at(node)); });
     writer.add({level}, nodes);
   });
   MECHANE_ASSERT(writer.values.size() <= kMaxValues);
@@ -279,28 +239,21 @@ float DistanceBrick::told(std::size_t block, const Vec3f& p_B) const {
   const Entry entry = Entry::unpacked(index_[block]);
   const int cells = entry.cells();
   Node low{};
-  Vec3f f;
+  Vec3 f;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
     const float at = p_B[axis] * static_cast<float>(cells);
     low[i] = std::clamp(static_cast<int>(at), 0, cells - 1);
-    f[axis] = at - static_cast<float>(low[i]);
+    f[axis] = static_cast<double>(at - static_cast<float>(low[i]));
   }
   const auto sheet = [&](std::size_t first) {
-    float sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      float weight = 1;
-      Node at = low;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const bool high = (corner >> i & 1) != 0;
-        const float share = f[static_cast<Eigen::Index>(i)];
-        weight *= high ? share : 1 - share;
-        at[i] += high ? 1 : 0;
-      }
-      const auto k = static_cast<std::size_t>((at[2] * (cells + 1) + at[1]) * (cells + 1) + at[0]);
-      sum += weight * static_cast<float>(entry.unit() * values_[first + k] + kBaseSteps * entry.base);
-    }
-    return sum * step_m_;
+    const double steps = trilinear(f, [&](const Node& corner) {
+      const int x = low[0] + corner[0];
+      const int y = low[1] + corner[1];
+      const int z = low[2] + corner[2];
+      return entry.unit() * values_[first + static_cast<std::size_t>((z * (cells + 1) + y) * (cells + 1) + x)];
+    });
+    return static_cast<float>(steps + kBaseSteps * entry.base) * step_m_;
   };
   const auto either = [](float a, float b, bool larger) { return larger ? std::max(a, b) : std::min(a, b); };
   const float one = sheet(entry.first);
@@ -315,16 +268,16 @@ float DistanceBrick::told(std::size_t block, const Vec3f& p_B) const {
 float DistanceBrick::measured_slack(const NodeDistance& distance) const {
   float made_up = 0;
   float too_far = 0;
-  for_each_block({kFinest * grid_.blocks[0] + 1, kFinest * grid_.blocks[1] + 1, kFinest * grid_.blocks[2] + 1},
-                 [&](const Node& node) {
-                   const float truth = distance(node);
-                   if (truth <= 0 || std::isinf(truth)) return;
-                   const Vec3f p_Q = grid_.origin_Q + grid_.block_m / kFinest *
-                                                          Vec3f(Eigen::Vector3i(node.data()).cast<float>());
-                   const float told = distance_m(p_Q);
-                   if (told < 0) made_up = std::max(made_up, truth);
-                   too_far = std::max(too_far, told - truth);
-                 });
+  for_each_node({kFinest * grid_.blocks[0] + 1, kFinest * grid_.blocks[1] + 1, kFinest * grid_.blocks[2] + 1},
+                [&](const Node& node) {
+                  const float truth = distance(node);
+                  if (truth <= 0 || std::isinf(truth)) return;
+                  const Vec3f p_Q =
+                      grid_.origin_Q + grid_.block_m / kFinest * Vec3f(Eigen::Vector3i(node.data()).cast<float>());
+                  const float told = distance_m(p_Q);
+                  if (told < 0) made_up = std::max(made_up, truth);
+                  too_far = std::max(too_far, told - truth);
+                });
   return kBetweenNodes * (made_up + too_far) + step_m_;
 }
 
@@ -333,13 +286,8 @@ std::span<const std::int8_t> DistanceBrick::values() const {
 }
 
 BrickView DistanceBrick::view() const noexcept {
-  return {index_.data(),
-          values_.data(),
-          grid_.blocks,
-          {grid_.origin_Q.x(), grid_.origin_Q.y(), grid_.origin_Q.z()},
-          1 / grid_.block_m,
-          step_m_,
-          slack_m_};
+  return {index_.data(),     values_.data(), grid_.blocks, {grid_.origin_Q.x(), grid_.origin_Q.y(), grid_.origin_Q.z()},
+          1 / grid_.block_m, step_m_,        slack_m_};
 }
 
 BoxView DistanceBrick::box() const noexcept {

@@ -40,10 +40,10 @@ class DistanceBrick {
 
   /// Where a block's values lie, as kernels read it.
   struct Entry {
-    int level = 0;        ///< or kSheets
+    int level = 0;              ///< or kSheets
     bool outer_convex = false;  ///< see Sheets; false for a level
     bool inner_convex = false;
-    bool three = false;  ///< sheets, not two
+    bool three = false;     ///< sheets, not two
     int base = 0;           ///< in kBaseSteps steps: added to each of the block's values
     std::size_t first = 0;  ///< of the values; a multiple of kAlign
 
@@ -68,8 +68,8 @@ class DistanceBrick {
                 std::span<const std::int8_t> values);
 
   [[nodiscard]] static bool is_valid(const Grid& grid);
-  [[nodiscard]] static bool is_valid(const Grid& grid, float step_m, float slack_m, std::span<const std::uint32_t> index,
-                                     std::size_t values);
+  [[nodiscard]] static bool is_valid(const Grid& grid, float step_m, float slack_m,
+                                     std::span<const std::uint32_t> index, std::size_t values);
 
   /// The exact distance, metres, at a node of the finest lattice: kFinest nodes to a block along each axis, 0 at origin_Q.
   using NodeDistance = std::function<float(const std::array<int, 3>& node)>;

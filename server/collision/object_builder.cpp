@@ -29,10 +29,11 @@ constexpr std::size_t kReportProbes = 400;   // per part, for the object's error
 constexpr int kRefinements = 4;              // rounds, at most
 constexpr std::size_t kWitnessesPerPart = 12'000;
 constexpr std::size_t kMostWitnesses = 120'000;
-constexpr double kWitnessDepth = 2.5;  // times what must not be missed
-constexpr std::size_t kChunk = 1000;   // witnesses
-constexpr double kMostGrowth = 2.5;    // of a map's bytes in one round: a thin layer under a crest is not worth more
-constexpr std::size_t kWorthOfWhole = 2;         // a brick may take as many times the bytes of the parts that it replaces
+constexpr double kWitnessDepth = 2.5;     // times what must not be missed
+constexpr std::size_t kChunk = 1000;      // witnesses
+constexpr double kMostGrowth = 2.5;       // of a map's bytes in one round: a thin layer under a crest is not worth more
+constexpr std::size_t kWorthOfWhole = 2;  // a brick may take as many times the bytes of the parts that it replaces
+constexpr std::size_t kMostPartsOfWhole = 48;   // of more, 64 blocks along the longest edge are too coarse a grid
 constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
 constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is one of a 99th percentile
 
@@ -358,7 +359,8 @@ std::size_t bytes_of(const Part& part) {
 }
 
 /// The whole object as one source.
-PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const PartSource> sources, const Ground& ground) {
+PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const PartSource> sources,
+                 const Ground& ground) {
   PartSource whole;
   whole.name = nodes.size() == 1 ? nodes[0].name : "whole";
   for (const geometry::Mesh& node : ground.nodes)
@@ -418,7 +420,7 @@ std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> pa
 }
 
 bool may_be_whole(const BuildConfig& config, const Solid& solid, std::size_t nodes, std::size_t parts) {
-  if (!config.bricks || config.parts == Parts::as_given || parts < 2) return false;
+  if (!config.bricks || config.parts == Parts::as_given || parts < 2 || parts > kMostPartsOfWhole) return false;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (!solid.is_closed(i)) return false;
   }

@@ -16,7 +16,8 @@
 
 namespace mechane::collision {
 
-/// Where an object's parts come from.
+/// Where an object's parts come from. Unless they are `as_given`, one brick of the whole object takes their place where it is exact and
+/// small enough.
 enum class Parts {
   automatic,   ///< several meshes: each is a part; a single one is decomposed
   as_given,    ///< each mesh is a part
@@ -71,9 +72,8 @@ struct BuildReport {
 /// Hears how many parts of how many are ready, from the threads that build; calls may overlap.
 using PartDone = std::function<void(std::size_t done, std::size_t parts)>;
 
-/// Decomposes, fits, maps and samples meshes in the object's frame O. A part gets the smallest map that
-/// meets the error budget, and the report says where none does. Parts that touch or overlap
-/// make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
+/// Decomposes, fits, maps and samples meshes in the object's frame O. A part gets the smallest map that meets the error budget, and the
+/// report says where none does. Parts that touch or overlap make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
 /// `report` may be null. Uses all cores.
 [[nodiscard]] Expected<Object> build_object(std::span<const geometry::NamedMesh> parts, const BuildConfig& config,
                                             BuildReport* report = nullptr, const PartDone& on_part = {});

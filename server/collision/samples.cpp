@@ -40,8 +40,7 @@ geometry::Sphere sphere_around(std::span<const Cluster> clusters) {
   }
   geometry::Sphere sphere{box.center(), 0};
   for (const Cluster& cluster : clusters)
-    sphere.radius =
-        std::max(sphere.radius, (cluster.bound_O.center - sphere.center).norm() + cluster.bound_O.radius);
+    sphere.radius = std::max(sphere.radius, (cluster.bound_O.center - sphere.center).norm() + cluster.bound_O.radius);
   return sphere;
 }
 

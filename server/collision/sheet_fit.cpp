@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRounds = 6;
 constexpr std::ptrdiff_t kLeastSamples = 2;  // of a sheet
-constexpr double kSlope = 0.3;            // what a slope has to say beside a distance
+constexpr double kSlope = 0.3;               // what a slope has to say beside a distance
 // How much a sheet's twists cost: where it has no samples it then goes on straight.
 constexpr double kTwist = 1e-3;
 constexpr double kRidge = 1e-9;

@@ -11,12 +11,12 @@ namespace mechane::collision {
 
 /// A place in a block (B, with the block's edges as units), its distance to the surface and the normal there.
 struct SheetSample {
-  Vec3 p_B = Vec3::Zero();   ///< 0 to 1 along each edge of the block
-  double distance_m = 0;     ///< negative inside
-  Vec3 n_B = Vec3::Zero();   ///< unit, of the nearest face
-  bool on_face = true;       ///< the nearest point lies in the face, and not on its edge
-  double tolerance_m = 0;    ///< by how much the depth may err there; infinite where no finger gets
-  double excess_m = 0;       ///< outside: how much farther it may be told to be, which culling has to make up for
+  Vec3 p_B = Vec3::Zero();  ///< 0 to 1 along each edge of the block
+  double distance_m = 0;    ///< negative inside
+  Vec3 n_B = Vec3::Zero();  ///< unit, of the nearest face
+  bool on_face = true;      ///< the nearest point lies in the face, and not on its edge
+  double tolerance_m = 0;   ///< by how much the depth may err there; infinite where no finger gets
+  double excess_m = 0;      ///< outside: how much farther it may be told to be, which culling has to make up for
 };
 
 /// Distances to two or three faces, each trilinear over the block, by their values at its corners: x fastest. Together they are

@@ -9,6 +9,7 @@
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/random.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/solids.hpp"
 
 namespace mechane::collision {
 namespace {
@@ -66,14 +67,15 @@ TEST(DistanceBrick, BlocksOfDifferentLevelsAgreeOnTheirFaces) {
   const DistanceBrick::Grid grid = some_grid();
   const auto depth = [](const Vec3f& p) { return 0.2F - std::abs(p.x() + 0.1F) - 0.5F * p.squaredNorm(); };
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
-    const auto brick = DistanceBrick::from_distances(grid, any_levels(grid, seed),
-                                                     [&](const Node& node) { return -0.3F - depth(place(grid, node)); });
+    const auto brick = DistanceBrick::from_distances(
+        grid, any_levels(grid, seed), [&](const Node& node) { return -0.3F - depth(place(grid, node)); });
     geometry::Random random(seed);
     for (int i = 0; i < 400; ++i) {
       Vec3f p = any_place(brick.box(), random);
       const auto axis = static_cast<Eigen::Index>(random.below(3));
       const int faces = grid.blocks[static_cast<std::size_t>(axis)] - 1;
-      p[axis] = grid.origin_Q[axis] + grid.block_m * static_cast<float>(1 + random.below(static_cast<std::size_t>(faces)));
+      p[axis] =
+          grid.origin_Q[axis] + grid.block_m * static_cast<float>(1 + random.below(static_cast<std::size_t>(faces)));
       const Vec3f aside = 1e-5F * Vec3f::Unit(axis);
       const MapHit before = brick.evaluate(p - aside);
       const MapHit after = brick.evaluate(p + aside);
@@ -141,6 +143,49 @@ TEST(BuildBrick, IsFineWhereTheSurfaceBendsAndNowhereElse) {
   }
   EXPECT_GT(asked, 500);
   EXPECT_FALSE(build_brick(solid, skin, {}, grid, needs, {}, brick->bytes() - 1).has_value());
+}
+
+/// Where sheets meet, a brick jumps; its slack has to make up for that.
+TEST(BuildBrick, CullsNoSphereThatHoldsAnInsidePoint) {
+  geometry::Mesh mesh = test::gear();
+  for (Vec3& v : mesh.vertices)
+    v *= 0.2;
+  const std::vector<geometry::Mesh> meshes = {mesh};
+  const Solid solid(meshes, 0.001);
+  const geometry::MeshQuery skin(mesh);
+  const MapFrame frame{{}, mesh.bounds().center(), 0.5 * mesh.bounds().sizes()};
+  const auto brick = build_brick(solid, skin, {}, brick_grid(frame, 11), {0.004, 3e-4, 0.2, 5e-4}, {}, 1U << 20);
+  ASSERT_TRUE(brick.has_value());
+  const Kernels& kernels = kernels_of(InstructionSet::portable);
+  constexpr BlockTransform kIdentity{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
+  geometry::Random random(5);
+  const BoxView box = brick->box();
+  std::size_t culled = 0;
+  std::size_t holding = 0;
+  for (int round = 0; round < 2000; ++round) {
+    SphereBlock spheres{};
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const Vec3f center =
+          any_place({box.center, {1.1F * box.half[0], 1.1F * box.half[1], 1.2F * box.half[2]}}, random);
+      spheres.x[i] = center.x();
+      spheres.y[i] = center.y();
+      spheres.z[i] = center.z();
+      spheres.radius[i] = static_cast<float>(0.012 * random.unit());
+    }
+    const LaneMask near = kernels.brick_near(brick->view(), kIdentity, spheres.view(), kLanes);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      bool holds = false;
+      for (int k = 0; k < 24 && !holds; ++k) {
+        const Vec3f way = Vec3f::NullaryExpr([&] { return static_cast<float>(2 * random.unit() - 1); }).normalized();
+        holds = brick->evaluate(Vec3f(spheres.x[i], spheres.y[i], spheres.z[i]) + spheres.radius[i] * way).hit;
+      }
+      EXPECT_TRUE(!holds || (near >> i & 1U) != 0);
+      culled += (near >> i & 1U) != 0 ? 0 : 1;
+      holding += holds ? 1 : 0;
+    }
+  }
+  EXPECT_GT(culled, 8000U);
+  EXPECT_GT(holding, 3000U);
 }
 
 }  // namespace

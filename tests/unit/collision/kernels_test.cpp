@@ -129,8 +129,12 @@ DistanceBrick any_brick(geometry::Random& random) {
   std::vector<std::int8_t> values;
   for (std::size_t i = 0; i < grid.block_count(); ++i) {
     const auto any = [&] { return random.below(2) == 0; };
-    const DistanceBrick::Entry entry{static_cast<int>(random.below(DistanceBrick::kLevels + 1)), any(), any(), any(),
-                                     static_cast<int>(random.below(5)) - 3, values.size()};
+    const DistanceBrick::Entry entry{static_cast<int>(random.below(DistanceBrick::kLevels + 1)),
+                                     any(),
+                                     any(),
+                                     any(),
+                                     static_cast<int>(random.below(5)) - 3,
+                                     values.size()};
     index.push_back(entry.packed());
     for (std::size_t k = 0; k < entry.count() || values.size() % DistanceBrick::kAlign != 0; ++k)
       values.push_back(static_cast<std::int8_t>(static_cast<int>(random.below(256)) - 128));

@@ -9,6 +9,7 @@
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/random.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/solids.hpp"
 
 namespace mechane::collision {
 namespace {
@@ -206,6 +207,40 @@ TEST(BuildObject, BadPartsAreNamedWithARemedy) {
   config = {};
   config.sample_spacing_m = 0;
   EXPECT_EQ(error_of({{"good", test::box({1, 1, 1})}}, config).where, "build settings");
+}
+
+geometry::Mesh small_gear() {
+  geometry::Mesh mesh = test::gear();
+  for (Vec3& v : mesh.vertices)
+    v *= 0.2;
+  return mesh;
+}
+
+TEST(BuildObject, AGearIsOneBrickThatErrsNowhereMuch) {
+  const std::vector<NamedMesh> nodes = {{"gear", small_gear()}};
+  BuildReport report;
+  const auto object = build_object(nodes, {}, &report);
+  ASSERT_TRUE(object) << object.error().to_string();
+  expect_sound(*object);
+  ASSERT_EQ(object->parts.size(), 1U);
+  ASSERT_EQ(report.parts.size(), 1U);
+  EXPECT_EQ(object->parts[0].name, "gear");
+  EXPECT_NE(object->parts[0].map.brick(), nullptr);
+  EXPECT_TRUE(report.parts[0].met);
+  EXPECT_LT(report.bytes, 60'000U);
+  EXPECT_LE(report.error.p99_m, report.budget.depth_p99_m);
+  EXPECT_EQ(report.error.missed + report.error.wrong, 0U);
+  EXPECT_LT(report.error.max_m, 3 * report.budget.depth_p99_m) << "seams of parts erred by a third of the thing";
+}
+
+TEST(BuildObject, PartsThatTheAuthorGaveStayParts) {
+  const std::vector<NamedMesh> nodes = {{"left", test::box({0.05, 0.05, 0.05}, {-0.05, 0, 0})},
+                                        {"right", test::box({0.05, 0.05, 0.05}, {0.05, 0, 0})}};
+  BuildConfig config;
+  config.parts = Parts::as_given;
+  const auto object = build_object(nodes, config);
+  ASSERT_TRUE(object);
+  EXPECT_EQ(object->parts.size(), 2U);
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ namespace mechane::collision {
 namespace {
 
 TEST(ObjectIo, ComesBackAsItWent) {
-  const auto object = build_object(test::crank(), {});
+  BuildConfig config;
+  config.parts = Parts::as_given;
+  const auto object = build_object(test::crank(), config);
   ASSERT_TRUE(object);
   const std::vector<std::byte> bytes = write_object(*object);
   const auto read = read_object(bytes);
