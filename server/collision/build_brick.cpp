@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <vector>
@@ -18,6 +19,7 @@ constexpr float kNotAsked = std::numeric_limits<float>::infinity();
 constexpr double kHalfBlockDiagonal = 0.8661;  // of its edge
 // Cosine between a face and the way to its nearest point, where that is not on its edge.
 constexpr double kOnFace = 0.9999;
+constexpr double kSameSide = 1.0001;  // of the way between two nodes
 // Of a block's edge, how far below what a finger reaches a sheet is still told by its samples.
 constexpr double kBelow = 0.1;
 // Of a block's edge: how much farther away than it is the surface may be told to be. Culling has to make up for it.
@@ -40,6 +42,7 @@ class LatticeDistances {
     }
     distance_m_.assign(count, kNotAsked);
     nearest_.assign(count, {});
+    side_.assign(count, Side::unknown);
     wanted_.assign(count, 0);
   }
 
@@ -55,39 +58,73 @@ class LatticeDistances {
 
   /// Measures what is wanted and not known yet.
   void measure() {
-    for_each_index(static_cast<std::size_t>(nodes_[2]), [&](std::size_t z) {
-      for (int y = 0; y < nodes_[1]; ++y)
-        measure_row(y, static_cast<int>(z));
+    std::vector<std::size_t> fresh;
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      if (wanted_[i] != 0 && distance_m_[i] == kNotAsked) fresh.push_back(i);
+    }
+    for_each_index((fresh.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+      for (std::size_t k = kChunk * chunk; k < std::min(fresh.size(), kChunk * (chunk + 1)); ++k)
+        measure_one(fresh[k]);
     });
+    for (std::size_t i = 0; i < side_.size(); ++i) {
+      if (side_[i] != Side::unknown) spread_side(i);
+    }
+    for (const std::size_t i : fresh) {
+      if (side_[i] != Side::unknown) continue;
+      side_[i] = solid_.contains(place(i)) ? Side::inside : Side::outside;
+      spread_side(i);
+    }
+    for (const std::size_t i : fresh) {
+      if (side_[i] == Side::inside) distance_m_[i] = -distance_m_[i];
+    }
   }
 
  private:
+  enum class Side : std::uint8_t { unknown, inside, outside };
+  static constexpr std::size_t kChunk = 256;
+
   [[nodiscard]] std::size_t index(const Node& node) const {
     return static_cast<std::size_t>((node[2] * nodes_[1] + node[1]) * nodes_[0] + node[0]);
   }
+  [[nodiscard]] Node node_of(std::size_t i) const {
+    const auto n = static_cast<int>(i);
+    return {n % nodes_[0], n / nodes_[0] % nodes_[1], n / nodes_[0] / nodes_[1]};
+  }
+  [[nodiscard]] double spacing_m() const { return static_cast<double>(grid_.block_m) / kFinest; }
+  [[nodiscard]] Vec3 place(std::size_t i) const {
+    const Node node = node_of(i);
+    return X_OQ_ * (grid_.origin_Q.cast<double>() + spacing_m() * Vec3(node[0], node[1], node[2]));
+  }
 
-  /// Two nodes lie on the same side when one is farther from the surface than from the other: that spares most rays.
-  void measure_row(int y, int z) {
-    const double spacing_m = static_cast<double>(grid_.block_m) / kFinest;
-    int known = -1;
-    for (int x = 0; x < nodes_[0]; ++x) {
-      const std::size_t here = index({x, y, z});
-      if (distance_m_[here] == kNotAsked && wanted_[here] != 0) {
-        const Vec3 p_O = X_OQ_ * (grid_.origin_Q.cast<double>() + spacing_m * Vec3(x, y, z));
-        const geometry::SurfacePoint found = skin_.closest(p_O);
-        const double distance_m = found.distance_m;
-        const double above_m = std::abs(skin_.triangle_normal(found.triangle).dot(p_O - found.p));
-        nearest_[here] = {found.triangle, above_m >= kOnFace * distance_m};
-        bool inside = false;
-        const float before = known < 0 ? 0 : distance_m_[index({known, y, z})];
-        if (static_cast<double>(std::abs(before)) > 1.0001 * spacing_m * (x - known)) {
-          inside = before < 0;
-        } else {
-          inside = solid_.contains(p_O);
+  void measure_one(std::size_t i) {
+    const Vec3 p_O = place(i);
+    const geometry::SurfacePoint found = skin_.closest(p_O);
+    const double above_m = std::abs(skin_.triangle_normal(found.triangle).dot(p_O - found.p));
+    nearest_[i] = {found.triangle, above_m >= kOnFace * found.distance_m};
+    distance_m_[i] = static_cast<float>(found.distance_m);
+  }
+
+  /// If the surface lay between two nodes, it would be no farther from them, together, than they are from each other. So nearly all nodes
+  /// get their side from a neighbour, and few need rays.
+  void spread_side(std::size_t from) {
+    std::vector<std::size_t> open = {from};
+    while (!open.empty()) {
+      const std::size_t here = open.back();
+      open.pop_back();
+      const Node node = node_of(here);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const int way : {-1, 1}) {
+          Node next = node;
+          next[axis] += way;
+          if (next[axis] < 0 || next[axis] >= nodes_[axis]) continue;
+          const std::size_t there = index(next);
+          if (distance_m_[there] == kNotAsked || side_[there] != Side::unknown) continue;
+          const auto both = static_cast<double>(std::abs(distance_m_[here]) + distance_m_[there]);
+          if (both <= kSameSide * spacing_m()) continue;
+          side_[there] = side_[here];
+          open.push_back(there);
         }
-        distance_m_[here] = static_cast<float>(inside ? -distance_m : distance_m);
       }
-      if (distance_m_[here] != kNotAsked) known = x;
     }
   }
 
@@ -98,6 +135,7 @@ class LatticeDistances {
   Node nodes_{};
   std::vector<float> distance_m_;
   std::vector<Nearest> nearest_;
+  std::vector<Side> side_;
   std::vector<std::uint8_t> wanted_;
 };
 

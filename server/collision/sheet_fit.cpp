@@ -9,7 +9,8 @@
 namespace mechane::collision {
 namespace {
 
-constexpr int kRounds = 6;
+constexpr std::size_t kMostFaces = 3;
+constexpr int kRounds = 4;
 constexpr std::ptrdiff_t kLeastSamples = 2;  // of a sheet
 constexpr double kSlope = 0.3;               // what a slope has to say beside a distance
 // How much a sheet's twists cost: where it has no samples it then goes on straight.
@@ -73,11 +74,11 @@ std::array<double, 8> follow(std::span<const SheetSample> samples, double block_
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (sheet_of[i] != sheet) continue;
     const Weights m = monomials(samples[i].p_B);
-    normal += m * m.transpose();
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(m);
     right += samples[i].distance_m * m;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const Weights slope = slopes(samples[i].p_B, axis);
-      normal += kSlope * slope * slope.transpose();
+      normal.selfadjointView<Eigen::Lower>().rankUpdate(slope, kSlope);
       right += kSlope * block_m * samples[i].n_B[axis] * slope;
     }
     count += 1;
@@ -85,14 +86,14 @@ std::array<double, 8> follow(std::span<const SheetSample> samples, double block_
   for (const int twist : {3, 5, 6, 7})
     normal(twist, twist) += kTwist * count;
   normal.diagonal().array() += kRidge * (count + 1);
-  return at_corners(normal.ldlt().solve(right));
+  return at_corners(normal.selfadjointView<Eigen::Lower>().ldlt().solve(right));
 }
 
 double at(const std::array<double, 8>& sheet, const Weights& w) {
   return Eigen::Map<const Weights>(sheet.data()).dot(w);
 }
 
-/// Up to three samples whose faces are unlike each other, the one next to the surface first.
+/// Samples whose faces are unlike each other, the one next to the surface first; no more than kMostFaces + 1.
 std::vector<const SheetSample*> unlike_faces(std::span<const SheetSample> samples) {
   const SheetSample* first = nullptr;
   for (const SheetSample& s : samples) {
@@ -100,7 +101,7 @@ std::vector<const SheetSample*> unlike_faces(std::span<const SheetSample> sample
   }
   std::vector<const SheetSample*> found;
   if (first != nullptr) found.push_back(first);
-  while (!found.empty() && found.size() < 3) {
+  while (!found.empty() && found.size() <= kMostFaces) {
     const SheetSample* farthest = nullptr;
     double least = kSameFace;
     for (const SheetSample& s : samples) {
@@ -219,7 +220,7 @@ double distance_of(const Sheets& sheets, const Vec3& p_B) {
 
 std::optional<Sheets> fit_sheets(std::span<const SheetSample> samples, double block_m) {
   const std::vector<const SheetSample*> faces = unlike_faces(samples);
-  if (faces.empty()) return std::nullopt;
+  if (faces.empty() || faces.size() > kMostFaces) return std::nullopt;
   if (faces.size() == 1) return fit_one(samples, block_m);
   if (auto sheets = fit_two(samples, block_m, faces)) return sheets;
   if (faces.size() == 2) return std::nullopt;
