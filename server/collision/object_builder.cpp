@@ -419,8 +419,9 @@ std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> pa
   return part;
 }
 
+/// Parts that the author named stay what they are.
 bool may_be_whole(const BuildConfig& config, const Solid& solid, std::size_t nodes, std::size_t parts) {
-  if (!config.bricks || config.parts == Parts::as_given || parts < 2 || parts > kMostPartsOfWhole) return false;
+  if (!config.bricks || !wants_pieces(config, nodes) || parts < 2 || parts > kMostPartsOfWhole) return false;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (!solid.is_closed(i)) return false;
   }

@@ -16,8 +16,8 @@
 
 namespace mechane::collision {
 
-/// Where an object's parts come from. Unless they are `as_given`, one brick of the whole object takes their place where it is exact and
-/// small enough.
+/// Where an object's parts come from. Where a mesh is cut into pieces, one brick of the whole takes their place if it is exact and small
+/// enough; what an author gave as parts stays parts.
 enum class Parts {
   automatic,   ///< several meshes: each is a part; a single one is decomposed
   as_given,    ///< each mesh is a part

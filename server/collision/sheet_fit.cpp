@@ -10,7 +10,7 @@ namespace mechane::collision {
 namespace {
 
 constexpr std::size_t kMostFaces = 3;
-constexpr int kRounds = 4;
+constexpr int kRounds = 6;
 constexpr std::ptrdiff_t kLeastSamples = 2;  // of a sheet
 constexpr double kSlope = 0.3;               // what a slope has to say beside a distance
 // How much a sheet's twists cost: where it has no samples it then goes on straight.
@@ -93,7 +93,7 @@ double at(const std::array<double, 8>& sheet, const Weights& w) {
   return Eigen::Map<const Weights>(sheet.data()).dot(w);
 }
 
-/// Samples whose faces are unlike each other, the one next to the surface first; no more than kMostFaces + 1.
+/// Samples whose faces are unlike each other, the one next to the surface first: up to three.
 std::vector<const SheetSample*> unlike_faces(std::span<const SheetSample> samples) {
   const SheetSample* first = nullptr;
   for (const SheetSample& s : samples) {
@@ -101,7 +101,7 @@ std::vector<const SheetSample*> unlike_faces(std::span<const SheetSample> sample
   }
   std::vector<const SheetSample*> found;
   if (first != nullptr) found.push_back(first);
-  while (!found.empty() && found.size() <= kMostFaces) {
+  while (!found.empty() && found.size() < kMostFaces) {
     const SheetSample* farthest = nullptr;
     double least = kSameFace;
     for (const SheetSample& s : samples) {
@@ -220,7 +220,7 @@ double distance_of(const Sheets& sheets, const Vec3& p_B) {
 
 std::optional<Sheets> fit_sheets(std::span<const SheetSample> samples, double block_m) {
   const std::vector<const SheetSample*> faces = unlike_faces(samples);
-  if (faces.empty() || faces.size() > kMostFaces) return std::nullopt;
+  if (faces.empty()) return std::nullopt;
   if (faces.size() == 1) return fit_one(samples, block_m);
   if (auto sheets = fit_two(samples, block_m, faces)) return sheets;
   if (faces.size() == 2) return std::nullopt;

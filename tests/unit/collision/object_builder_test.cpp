@@ -236,9 +236,7 @@ TEST(BuildObject, AGearIsOneBrickThatErrsNowhereMuch) {
 TEST(BuildObject, PartsThatTheAuthorGaveStayParts) {
   const std::vector<NamedMesh> nodes = {{"left", test::box({0.05, 0.05, 0.05}, {-0.05, 0, 0})},
                                         {"right", test::box({0.05, 0.05, 0.05}, {0.05, 0, 0})}};
-  BuildConfig config;
-  config.parts = Parts::as_given;
-  const auto object = build_object(nodes, config);
+  const auto object = build_object(nodes, {});
   ASSERT_TRUE(object);
   EXPECT_EQ(object->parts.size(), 2U);
 }

@@ -12,9 +12,7 @@ namespace mechane::collision {
 namespace {
 
 TEST(ObjectIo, ComesBackAsItWent) {
-  BuildConfig config;
-  config.parts = Parts::as_given;
-  const auto object = build_object(test::crank(), config);
+  const auto object = build_object(test::crank(), {});
   ASSERT_TRUE(object);
   const std::vector<std::byte> bytes = write_object(*object);
   const auto read = read_object(bytes);

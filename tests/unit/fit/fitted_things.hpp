@@ -10,7 +10,7 @@
 
 namespace mechane::fit {
 
-inline FittedObject fitted(std::vector<geometry::NamedMesh> meshes) {
+inline FittedObject fitted(std::vector<geometry::NamedMesh> meshes, bool bricks = true) {
   FittedObject out;
   out.mesh_file = "thing.glb";
   out.part_file = "thing.part";
@@ -20,14 +20,16 @@ inline FittedObject fitted(std::vector<geometry::NamedMesh> meshes) {
     if (geometry::turn_outwards(part.mesh) > 0) out.turned.push_back(part.name);
   }
   out.config.map_resolution = 16;
+  out.config.bricks = bricks;
   auto object = collision::build_object(out.meshes, out.config, &out.report);
   if (!object) std::abort();
   out.object = std::move(*object);
   return out;
 }
 
+/// With a radial map, which has a box exactly.
 inline FittedObject fitted_box() {
-  return fitted({{"block", test::box({0.05, 0.04, 0.03})}});
+  return fitted({{"block", test::box({0.05, 0.04, 0.03})}}, false);
 }
 
 }  // namespace mechane::fit
