@@ -66,13 +66,8 @@ class LatticeDistances {
       for (std::size_t k = kChunk * chunk; k < std::min(fresh.size(), kChunk * (chunk + 1)); ++k)
         measure_one(fresh[k]);
     });
-    for (std::size_t i = 0; i < side_.size(); ++i) {
-      if (side_[i] != Side::unknown) spread_side(i);
-    }
     for (const std::size_t i : fresh) {
-      if (side_[i] != Side::unknown) continue;
-      side_[i] = solid_.contains(place(i)) ? Side::inside : Side::outside;
-      spread_side(i);
+      if (side_[i] == Side::unknown) settle_sides(i);
     }
     for (const std::size_t i : fresh) {
       if (side_[i] == Side::inside) distance_m_[i] = -distance_m_[i];
@@ -82,6 +77,7 @@ class LatticeDistances {
  private:
   enum class Side : std::uint8_t { unknown, inside, outside };
   static constexpr std::size_t kChunk = 256;
+  static constexpr std::size_t kVotes = 9;
 
   [[nodiscard]] std::size_t index(const Node& node) const {
     return static_cast<std::size_t>((node[2] * nodes_[1] + node[1]) * nodes_[0] + node[0]);
@@ -104,26 +100,34 @@ class LatticeDistances {
     distance_m_[i] = static_cast<float>(found.distance_m);
   }
 
-  /// If the surface lay between two nodes, it would be no farther from them, together, than they are from each other. So nearly all nodes
-  /// get their side from a neighbour, and few need rays.
-  void spread_side(std::size_t from) {
-    std::vector<std::size_t> open = {from};
-    while (!open.empty()) {
-      const std::size_t here = open.back();
-      open.pop_back();
-      const Node node = node_of(here);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const int way : {-1, 1}) {
-          Node next = node;
-          next[axis] += way;
-          if (next[axis] < 0 || next[axis] >= nodes_[axis]) continue;
-          const std::size_t there = index(next);
-          if (distance_m_[there] == kNotAsked || side_[there] != Side::unknown) continue;
-          const auto both = static_cast<double>(std::abs(distance_m_[here]) + distance_m_[there]);
-          if (both <= kSameSide * spacing_m()) continue;
-          side_[there] = side_[here];
-          open.push_back(there);
-        }
+  /// If the surface lay between two nodes, it would be no farther from them, together, than they are from each other. So most nodes are on
+  /// the side of a neighbour. A whole group takes the side that some of its nodes vote for: a ray that grazes an edge may be wrong.
+  void settle_sides(std::size_t from) {
+    std::vector<std::size_t> group = {from};
+    side_[from] = Side::outside;
+    for (std::size_t next = 0; next < group.size(); ++next)
+      add_neighbours(group[next], group);
+    const std::size_t step = std::max<std::size_t>(1, group.size() / kVotes);
+    int votes = 0;
+    for (std::size_t k = 0; k < group.size(); k += step)
+      votes += solid_.contains(place(group[k])) ? 1 : -1;
+    for (const std::size_t i : group)
+      side_[i] = votes > 0 ? Side::inside : Side::outside;
+  }
+
+  /// To the group, those neighbours without a side that are on the same as node `here`.
+  void add_neighbours(std::size_t here, std::vector<std::size_t>& group) {
+    const Node node = node_of(here);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const int way : {-1, 1}) {
+        Node next = node;
+        next[axis] += way;
+        if (next[axis] < 0 || next[axis] >= nodes_[axis]) continue;
+        const std::size_t there = index(next);
+        if (distance_m_[there] == kNotAsked || side_[there] != Side::unknown) continue;
+        if (static_cast<double>(distance_m_[here] + distance_m_[there]) <= kSameSide * spacing_m()) continue;
+        side_[there] = Side::outside;  // until the vote
+        group.push_back(there);
       }
     }
   }

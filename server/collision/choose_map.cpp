@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -79,7 +77,6 @@ class Trials {
       if (!DistanceBrick::is_valid(grid)) return;
       const std::size_t limit = best_.met ? std::min(allowed_.at_most, best_.map.bytes() - 1) : allowed_.at_most;
       std::optional<DistanceBrick> brick = build_brick(solid_, skin_, frame_.X_OQ, grid, needs, allowed_.must, limit);
-      if (!brick && getenv("DBG")) fprintf(stderr, "brick %d over %zu\n", n, limit);
       if (!brick) return;  // a finer one is larger
       if (brick->bytes() <= allowed_.more_than) continue;
       trend = judge(std::move(*brick), n);
@@ -98,13 +95,6 @@ class Trials {
     tried.error = measure(probes_, budget_, ask);
     const Trend trend{fineness, tried.error};
     const MapError must = measure(allowed_.must, budget_, ask);
-    if (getenv("DBG"))
-      fprintf(stderr,
-              "%s %s bytes %zu (at most %zu) p99 %.4f of %.4f mm max %.3f missed %zu wrong %zu of %zu, must missed %zu "
-              "wrong %zu of %zu max %.3f\n",
-              "try", tried.map.name().c_str(), tried.map.bytes(), allowed_.at_most, 1e3 * tried.error.p99_m,
-              1e3 * budget_.depth_p99_m, 1e3 * tried.error.max_m, tried.error.missed, tried.error.wrong,
-              tried.error.probes, must.missed, must.wrong, must.probes, 1e3 * must.max_m);
     tried.met = tried.error.meets(budget_, kStrayShare) && must.missed + must.wrong == 0;
     tried.error.missed += must.missed;
     tried.error.wrong += must.wrong;

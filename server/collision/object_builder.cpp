@@ -109,8 +109,8 @@ double diagonal_of(std::span<const geometry::Mesh> meshes) {
 }
 
 ErrorBudget budget_of(const BuildConfig& config, double diagonal_m) {
-  return {std::min(config.max_error_share * diagonal_m, config.max_error_m), config.miss_share * diagonal_m,
-          config.probe_depth_m};
+  return {std::min(config.max_error_share * diagonal_m, config.max_error_m),
+          std::min(config.miss_share * diagonal_m, config.max_error_m), config.probe_depth_m};
 }
 
 /// Everything that the parts are made from; immutable while they are.

@@ -35,7 +35,7 @@ struct BuildConfig {
   /// The error budget: a map's depth error at its 99th percentile, as a share of the object's diagonal, and in metres; the lesser holds.
   double max_error_share = 0.003;
   double max_error_m = 0.001;    ///< what a finger still takes for the real surface
-  double miss_share = 0.002;     ///< of the diagonal: no point deeper than this may be missed
+  double miss_share = 0.002;     ///< of the diagonal: no point deeper than this, or than max_error_m, may be missed
   double probe_depth_m = 0.004;  ///< how deep the error is measured: a finger that presses hard sinks in this far
   bool radial_maps = true;       ///< what the builder may choose from
   bool bricks = true;

@@ -85,8 +85,8 @@ TEST_P(Barrel, HollowIsAirAndWoodIsWoodAlsoAtTheSeams) {
     const double z = 0.95 * kHalf * (2 * random.unit() - 1);
     // Air, up to a millimetre from the inner wall: the 96 facets are chords, and a chord lies inside the circle.
     EXPECT_FALSE(ask(*object, at((kInner - 0.0011) * std::sqrt(random.unit()), angle, z)).hit);
-    // Wood: under the outer wall by up to 5 mm, seen as such, with the wall's normal.
-    const double depth = 0.0005 + 0.0045 * random.unit();
+    // Wood: under the outer wall by what must not be missed up to 5 mm, seen as such, with the wall's normal.
+    const double depth = config.max_error_m + 0.0001 + 0.0039 * random.unit();
     const Vec3 wood = at(kOuter - depth, angle, z);
     const MapHit hit = ask(*object, wood);
     missed += hit.hit ? 0 : 1;
@@ -95,9 +95,9 @@ TEST_P(Barrel, HollowIsAirAndWoodIsWoodAlsoAtTheSeams) {
     sideways += std::abs(hit.depth_m - depth) > 0.001 ? 1 : 0;
   }
   EXPECT_EQ(missed, 0);
-  EXPECT_LT(sideways, kProbes / 100) << "worst " << worst;
   // Wide staves curve too much for one map; beside a crack the exact mesh has a wall that ours has not.
   const bool exact = staves >= 16 && gap == 0;
+  EXPECT_LT(sideways, exact ? kProbes / 100 : kProbes / 50) << "worst " << worst;
   const double bound_m = exact ? config.max_error_m : 0.002;
   for (const PartReport& part : report.parts) {
     EXPECT_TRUE(part.closed);
