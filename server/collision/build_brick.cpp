@@ -80,7 +80,8 @@ class LatticeDistances {
   static constexpr std::size_t kVotes = 9;
 
   [[nodiscard]] std::size_t index(const Node& node) const {
-    return static_cast<std::size_t>((node[2] * nodes_[1] + node[1]) * nodes_[0] + node[0]);
+    const int at = (node[2] * nodes_[1] + node[1]) * nodes_[0] + node[0];
+    return static_cast<std::size_t>(at);
   }
   [[nodiscard]] Node node_of(std::size_t i) const {
     const auto n = static_cast<int>(i);

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kPadding = 3;
 constexpr int kLargest = 127;
 // Distances differ by a block's diagonal at most from corner to corner, so from its base by half of it and what the base is rounded by.
-constexpr float kStepsOfHalfDiagonal = kLargest - DistanceBrick::kBaseSteps / 2;
+constexpr int kHalfBase = DistanceBrick::kBaseSteps / 2;
+constexpr float kStepsOfHalfDiagonal = kLargest - kHalfBase;
 constexpr float kHalfDiagonal = 0.8661F;
 // What lies between the nodes at which the slack is measured.
 constexpr float kBetweenNodes = 1.25F;
@@ -34,7 +35,8 @@ int cells_of(int level) {
 }
 
 std::size_t index_of(const Node& blocks, const Node& block) {
-  return static_cast<std::size_t>((block[2] * blocks[1] + block[1]) * blocks[0] + block[0]);
+  const int at = (block[2] * blocks[1] + block[1]) * blocks[0] + block[0];
+  return static_cast<std::size_t>(at);
 }
 
 /// The values at nodes, in steps, such that blocks of different levels agree on their common faces.
@@ -144,7 +146,8 @@ DistanceBrick::Entry DistanceBrick::Entry::unpacked(std::uint32_t word) {
 }
 
 std::size_t DistanceBrick::Entry::count() const {
-  const auto nodes = static_cast<std::size_t>(cells() + 1);
+  const int along = cells() + 1;
+  const auto nodes = static_cast<std::size_t>(along);
   return static_cast<std::size_t>(sheets()) * nodes * nodes * nodes;
 }
 
@@ -251,7 +254,8 @@ float DistanceBrick::told(std::size_t block, const Vec3f& p_B) const {
       const int x = low[0] + corner[0];
       const int y = low[1] + corner[1];
       const int z = low[2] + corner[2];
-      return entry.unit() * values_[first + static_cast<std::size_t>((z * (cells + 1) + y) * (cells + 1) + x)];
+      const int at = (z * (cells + 1) + y) * (cells + 1) + x;
+      return entry.unit() * values_[first + static_cast<std::size_t>(at)];
     });
     return static_cast<float>(steps + kBaseSteps * entry.base) * step_m_;
   };

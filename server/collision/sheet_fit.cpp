@@ -10,7 +10,7 @@ namespace mechane::collision {
 namespace {
 
 constexpr std::size_t kMostFaces = 3;
-constexpr int kRounds = 6;
+constexpr int kFitRounds = 6;
 constexpr std::ptrdiff_t kLeastSamples = 2;  // of a sheet
 constexpr double kSlope = 0.3;               // what a slope has to say beside a distance
 // How much a sheet's twists cost: where it has no samples it then goes on straight.
@@ -165,7 +165,7 @@ bool tell(const Sheets& sheets, std::span<const SheetSample> samples) {
 /// `sheets` says how many there are and how they meet.
 std::optional<Sheets> fit(std::span<const SheetSample> samples, double block_m, std::vector<int> sheet_of,
                           Sheets sheets) {
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     if (!have_enough(sheet_of, sheets.count)) return std::nullopt;
     for (int sheet = 0; sheet < sheets.count; ++sheet)
       sheets.values_m[static_cast<std::size_t>(sheet)] = follow(samples, block_m, sheet_of, sheet);

@@ -11,7 +11,7 @@
 namespace mechane::scenario {
 namespace {
 
-constexpr std::size_t kMostAttributes = 1000;  // of one tag: each is compared with those before it
+constexpr std::size_t kMostOfOneTag = 1000;  // of one tag: each is compared with those before it
 constexpr std::string_view kSpaces = " \t\r\n";
 
 bool is_space(char c) {
@@ -305,8 +305,8 @@ class Scanner {
 
   bool is_new(std::size_t element, std::string_view name) {
     const std::size_t first = spans_.elements[element].first_attribute;
-    if (spans_.attributes.size() - first >= kMostAttributes) {
-      fail(at_, fmt::format("a tag has more than {} attributes", kMostAttributes), "no element of X3D has so many");
+    if (spans_.attributes.size() - first >= kMostOfOneTag) {
+      fail(at_, fmt::format("a tag has more than {} attributes", kMostOfOneTag), "no element of X3D has so many");
       return true;
     }
     return std::none_of(
