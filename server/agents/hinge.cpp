@@ -8,55 +8,32 @@ using state::ParameterKind;
 
 class Hinge final : public Agent {
  public:
-  explicit Hinge(const Build& build)
-      : joint_(build.parameters.joint("joint")),
-        friction_(build.parameters.number("frictionTorque") * build.description.effort_scale),
-        viscous_(build.parameters.number("viscous") * build.description.effort_scale),
-        limited_(build.parameters.given("minAngle")),
-        min_(build.parameters.number("minAngle")),
-        max_(build.parameters.number("maxAngle")),
-        angle_(build.slot("angle")),
-        rate_(build.slot("rate")),
-        turns_(build.slot("turns")) {}
+  Hinge(const Build& build, const JointSwitch& joint)
+      : joint_(joint), angle_(build.slot("angle")), rate_(build.slot("rate")), turns_(build.slot("turns")) {}
 
   void run(state::WorldState& state, bool enabled, double /*dt_s*/) const noexcept override {
-    state::JointState& joint = state[joint_];
-    joint.enabled = enabled;
-    joint.friction = friction_;
-    joint.viscous = viscous_;
-    if (limited_) {
-      joint.min_position = min_;
-      joint.max_position = max_;
-    }
+    const state::JointState& joint = joint_.apply(state, enabled);
     state.memory[angle_] = joint.position;
     state.memory[rate_] = joint.velocity;
     state.memory[turns_] = joint.position / (2 * kPi);
   }
 
  private:
-  JointId joint_;
-  double friction_;
-  double viscous_;
-  bool limited_;
-  double min_;
-  double max_;
+  JointSwitch joint_;
   std::size_t angle_;
   std::size_t rate_;
   std::size_t turns_;
 };
 
 Expected<std::unique_ptr<Agent>> make(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (build.description.joints[p.joint("joint").index()].kind != state::JointKind::hinge)
-    return fail("the joint '" + p.text("joint") + "' is not a hinge", where, "name a SingleAxisHingeJoint");
-  if (p.given("minAngle") != p.given("maxAngle"))
-    return fail("only one of minAngle and maxAngle is given", where,
-                "give both, or none for a hinge that turns on and on");
-  if (p.given("minAngle") && p.number("minAngle") > p.number("maxAngle"))
-    return fail("minAngle is above maxAngle", where, "swap them");
-  if (auto only = check_only_switch(build); !only) return tl::unexpected(only.error());
-  return std::make_unique<Hinge>(build);
+    return fail("the joint '" + p.text("joint") + "' is not a hinge", state::component_place(build.component),
+                "name a SingleAxisHingeJoint");
+  auto joint = JointSwitch::create(build, state::JointKind::hinge, "SingleAxisHingeJoint",
+                                   {"frictionTorque", "viscous", "minAngle", "maxAngle"});
+  if (!joint) return tl::unexpected(joint.error());
+  return std::make_unique<Hinge>(build, *joint);
 }
 
 constexpr state::ParameterType kParameters[] = {

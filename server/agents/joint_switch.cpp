@@ -21,6 +21,9 @@ JointId switched_joint(const state::WorldDescription& description, const state::
   return texts != nullptr && texts->size() == 1 ? description.find_joint(texts->front()) : JointId::none();
 }
 
+namespace {
+
+/// Error: another agent switches the joint of this one.
 Expected<void> check_only_switch(const Build& build) {
   const JointId joint = build.parameters.joint("joint");
   for (const state::ComponentDescription& other : build.description.agents) {
@@ -30,6 +33,8 @@ Expected<void> check_only_switch(const Build& build) {
   }
   return {};
 }
+
+}  // namespace
 
 Expected<JointSwitch> JointSwitch::create(const Build& build, state::JointKind kind, std::string_view node,
                                           const JointSwitchNames& names) {
@@ -45,7 +50,9 @@ Expected<JointSwitch> JointSwitch::create(const Build& build, state::JointKind k
   if (!names.viscous.empty()) out.viscous_ = p.number(names.viscous) * build.description.effort_scale;
   if (names.least.empty()) return out;
   if (p.given(names.least) != p.given(names.most))
-    return fail(fmt::format("only one of {} and {} is given", names.least, names.most), where, "give both, or none");
+    return fail(
+        fmt::format("only one of {} and {} is given", names.least, names.most), where,
+        kind == state::JointKind::hinge ? "give both, or none for a hinge that turns on and on" : "give both, or none");
   out.limited_ = p.given(names.least);
   out.min_ = p.number(names.least);
   out.max_ = p.number(names.most);

@@ -39,7 +39,4 @@ class JointSwitch {
 [[nodiscard]] JointId switched_joint(const state::WorldDescription& description,
                                      const state::ComponentDescription& agent);
 
-/// Error: another agent switches the joint of this one.
-[[nodiscard]] Expected<void> check_only_switch(const Build& build);
-
 }  // namespace mechane::agents

@@ -13,6 +13,15 @@ namespace mechane::collision {
 /// A node of the finest lattice, or a block.
 using Node = std::array<int, 3>;
 
+/// From corner to middle of a block of edge 1, rounded up.
+inline constexpr float kHalfDiagonal = 0.8661F;
+
+/// The place of a node among all below `count`, x fastest.
+[[nodiscard]] inline std::size_t index_of(const Node& count, const Node& node) {
+  const int at = (node[2] * count[1] + node[1]) * count[0] + node[0];
+  return static_cast<std::size_t>(at);
+}
+
 /// Calls body(node) for all below `count`, x fastest.
 template <class Body>
 void for_each_node(const Node& count, const Body& body) {

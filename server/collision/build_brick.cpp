@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kFinest = DistanceBrick::kFinest;
 constexpr float kNotAsked = std::numeric_limits<float>::infinity();
-constexpr double kHalfBlockDiagonal = 0.8661;  // of its edge
 // Cosine between a face and the way to its nearest point, where that is not on its edge.
 constexpr double kOnFace = 0.9999;
 constexpr double kSameSide = 1.0001;  // of the way between two nodes
@@ -79,10 +78,7 @@ class LatticeDistances {
   static constexpr std::size_t kChunk = 256;
   static constexpr std::size_t kVotes = 9;
 
-  [[nodiscard]] std::size_t index(const Node& node) const {
-    const int at = (node[2] * nodes_[1] + node[1]) * nodes_[0] + node[0];
-    return static_cast<std::size_t>(at);
-  }
+  [[nodiscard]] std::size_t index(const Node& node) const { return index_of(nodes_, node); }
   [[nodiscard]] Node node_of(std::size_t i) const {
     const auto n = static_cast<int>(i);
     return {n % nodes_[0], n / nodes_[0] % nodes_[1], n / nodes_[0] / nodes_[1]};
@@ -192,7 +188,7 @@ void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double
     for_each_node_of(block.at, kFinest, [&](const Node& node) { distances.want(node); });
   }
   distances.measure();
-  const double reach_m = kHalfBlockDiagonal * block_m;
+  const double reach_m = static_cast<double>(kHalfDiagonal) * block_m;
   for (Block& block : blocks) {
     const double distance_m = distances.at(center(block));
     const bool is_near = distance_m < reach_m && distance_m > -reach_m - needs.probe_depth_m;
@@ -303,8 +299,9 @@ class BrickMaker {
   [[nodiscard]] bool mend(const DistanceBrick& brick, const Pose& X_OQ, double stray_m,
                           std::span<const Probe> witnesses) {
     std::vector<Fault> faults;
+    const Pose X_QO = X_OQ.inverse();
     for (const Probe& witness : witnesses) {
-      const Vec3f p_Q = (X_OQ.inverse() * witness.p_O).cast<float>();
+      const Vec3f p_Q = (X_QO * witness.p_O).cast<float>();
       const float told_m = brick.distance_m(p_Q);
       if (told_m < 0 ? witness.depth_m < -stray_m : witness.depth_m > stray_m) faults.push_back({p_Q, told_m});
     }
@@ -332,10 +329,7 @@ class BrickMaker {
   };
 
   [[nodiscard]] std::size_t block_of(const Node& cell) const {
-    std::size_t block = 0;
-    for (std::size_t i = 3; i-- > 0;)
-      block = block * static_cast<std::size_t>(grid_.blocks[i]) + static_cast<std::size_t>(cell[i] / kFinest);
-    return block;
+    return index_of(grid_.blocks, {cell[0] / kFinest, cell[1] / kFinest, cell[2] / kFinest});
   }
 
   /// False when it is already.
@@ -384,6 +378,9 @@ DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks) {
 std::optional<DistanceBrick> build_brick(const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ,
                                          const DistanceBrick::Grid& grid, const BrickNeeds& needs,
                                          std::span<const Probe> witnesses, std::size_t at_most) {
+  // All blocks coarse is the least that it can take: no need to measure what would be too large all the same.
+  const std::size_t least = sizeof(std::uint32_t) + DistanceBrick::Entry{}.count();
+  if (least * grid.block_count() > at_most) return std::nullopt;
   const auto block_m = static_cast<double>(grid.block_m);
   LatticeDistances distances(solid, skin, X_OQ, grid);
   std::vector<Block> blocks = list_blocks(grid.blocks);

@@ -66,9 +66,9 @@ struct MapChoice {
 using Ask = std::function<MapHit(const Vec3& p_O)>;
 [[nodiscard]] MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const Ask& ask);
 
-/// Tries the candidates of either kind from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap it, and the
-/// whole object is measured afterwards. Where none meets the budget: the one with the least error, `met` false; an empty map where no
-/// candidate is left.
+/// Tries the candidates of either kind from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap
+/// it, and the whole object is measured afterwards. Where none meets the budget: the one with the least error, `met` false; an empty map
+/// where no candidate is left.
 [[nodiscard]] MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
                                    const MapFrame& frame, std::span<const Probe> probes, const ErrorBudget& budget,
                                    const MapCandidates& candidates);

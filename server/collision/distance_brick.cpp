@@ -17,7 +17,6 @@ constexpr int kLargest = 127;
 // Distances differ by a block's diagonal at most from corner to corner, so from its base by half of it and what the base is rounded by.
 constexpr int kHalfBase = DistanceBrick::kBaseSteps / 2;
 constexpr float kStepsOfHalfDiagonal = kLargest - kHalfBase;
-constexpr float kHalfDiagonal = 0.8661F;
 // What lies between the nodes at which the slack is measured.
 constexpr float kBetweenNodes = 1.25F;
 
@@ -32,11 +31,6 @@ constexpr std::size_t kSheetValues = 8;
 /// Of a block whose values are distances at nodes.
 int cells_of(int level) {
   return 1 << level;
-}
-
-std::size_t index_of(const Node& blocks, const Node& block) {
-  const int at = (block[2] * blocks[1] + block[1]) * blocks[0] + block[0];
-  return static_cast<std::size_t>(at);
 }
 
 /// The values at nodes, in steps, such that blocks of different levels agree on their common faces.

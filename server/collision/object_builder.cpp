@@ -374,9 +374,10 @@ PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const Par
 }
 
 MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
+  const Pose X_QO = X_OQ.inverse();
   Eigen::AlignedBox3d box_Q;
   for (const Vec3& p_O : points_O)
-    box_Q.extend(X_OQ.inverse() * p_O);
+    box_Q.extend(X_QO * p_O);
   return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
 }
 

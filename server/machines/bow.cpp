@@ -134,9 +134,9 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   Settings s;
-  s.joint = p.joint("joint");
-  if (build.description.joints[s.joint.index()].kind != state::JointKind::slider)
-    return fail("the joint '" + p.text("joint") + "' does not slide", where, "name a SliderJoint");
+  const auto joint = read_joint(build, "joint", state::JointKind::slider);
+  if (!joint) return tl::unexpected(joint.error());
+  s.joint = *joint;
   s.direction = p.boolean("reversed") ? -1 : 1;
   s.home_m = p.number("home");
   s.strung = p.boolean("strung");

@@ -185,14 +185,13 @@ Expected<void> read_valves(const state::Parameters& p, std::string_view name, Va
 /// Who moves the pistons: sliders, or a beam.
 Expected<void> read_drive(const Build& build, const std::string& where, Settings& s) {
   const state::Parameters& p = build.parameters;
-  const auto kind_of = [&](JointId id) { return build.description.joints[id.index()].kind; };
   if (p.given("pistons") == p.given("beam"))
     return fail("both or neither of 'pistons' and 'beam' are given", where,
                 "name the pistons' sliders, or the hinge of the beam that moves them");
   if (p.given("beam")) {
-    s.beam = p.joint("beam");
-    if (kind_of(s.beam) != state::JointKind::hinge)
-      return fail("the beam '" + p.text("beam") + "' does not turn", where, "name a SingleAxisHingeJoint");
+    const auto beam = read_joint(build, "beam", state::JointKind::hinge);
+    if (!beam) return tl::unexpected(beam.error());
+    s.beam = *beam;
     if (!p.given("arm"))
       return fail("the beam has no 'arm'", where, "write its length from the hinge to a piston's rod");
     s.arm_m = p.number("arm");
@@ -208,7 +207,7 @@ Expected<void> read_drive(const Build& build, const std::string& where, Settings
   s.cylinders = names.size();
   for (std::size_t i = 0; i < names.size(); ++i) {
     s.pistons[i] = build.description.find_joint(names[i]);
-    if (kind_of(s.pistons[i]) != state::JointKind::slider)
+    if (build.description.joints[s.pistons[i].index()].kind != state::JointKind::slider)
       return fail("the joint '" + names[i] + "' does not slide", where, "name SliderJoints");
   }
   return {};

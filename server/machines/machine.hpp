@@ -34,6 +34,9 @@ struct Build {
   }
 };
 
+/// The joint that `parameter` names, which must turn (a hinge) or slide (a slider). The error says which it does not do.
+[[nodiscard]] Expected<JointId> read_joint(const Build& build, const std::string& parameter, state::JointKind kind);
+
 struct MachineKind {
   state::ComponentType type;
   Expected<std::unique_ptr<Machine>> (*make)(const Build& build);

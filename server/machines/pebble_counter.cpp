@@ -95,9 +95,9 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   Settings s;
-  s.joint = p.joint("joint");
-  if (build.description.joints[s.joint.index()].kind != state::JointKind::hinge)
-    return fail("the joint '" + p.text("joint") + "' does not turn", where, "name a SingleAxisHingeJoint");
+  const auto joint = read_joint(build, "joint", state::JointKind::hinge);
+  if (!joint) return tl::unexpected(joint.error());
+  s.joint = *joint;
   s.holes = p.number("holes");
   if (s.holes != std::floor(s.holes)) return fail("holes is not a whole number", where, "write 1, 2, 3 ...");
   s.direction = p.boolean("reversed") ? -1 : 1;

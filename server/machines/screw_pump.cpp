@@ -156,9 +156,9 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
   const auto shape = read_shape(p, where);
   if (!shape) return tl::unexpected(shape.error());
   Settings s;
-  s.joint = p.joint("joint");
-  if (build.description.joints[s.joint.index()].kind != state::JointKind::hinge)
-    return fail("the joint '" + p.text("joint") + "' does not turn", where, "name a SingleAxisHingeJoint");
+  const auto joint = read_joint(build, "joint", state::JointKind::hinge);
+  if (!joint) return tl::unexpected(joint.error());
+  s.joint = *joint;
   const double turns = p.number("length") / shape->pitch_m;
   const double buckets = std::round(turns * shape->blades);
   if (buckets < 1 || buckets > static_cast<double>(kMostBuckets))

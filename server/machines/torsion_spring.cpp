@@ -126,9 +126,9 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   Settings s;
-  s.joint = p.joint("joint");
-  if (build.description.joints[s.joint.index()].kind != state::JointKind::hinge)
-    return fail("the joint '" + p.text("joint") + "' does not turn", where, "name a SingleAxisHingeJoint");
+  const auto joint = read_joint(build, "joint", state::JointKind::hinge);
+  if (!joint) return tl::unexpected(joint.error());
+  s.joint = *joint;
   s.direction = p.boolean("reversed") ? -1 : 1;
   s.springs = p.number("springs");
   if (s.springs != std::floor(s.springs)) return fail("springs is not a whole number", where, "write 0, 1 or 2");
