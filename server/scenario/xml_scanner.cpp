@@ -224,8 +224,8 @@ class Scanner {
 
   /// How far an element is indented; none where other things stand before it on its line.
   std::optional<std::size_t> column_of(std::size_t begin) const {
-    constexpr std::size_t kDeepest = 400;  // nobody indents further
-    const std::size_t from = begin > kDeepest ? begin - kDeepest : 0;
+    constexpr std::size_t kWidestIndent = 400;  // nobody indents further
+    const std::size_t from = begin > kWidestIndent ? begin - kWidestIndent : 0;
     const std::size_t found = text_.substr(from, begin - from).find_last_not_of(" \t");
     if (found == std::string_view::npos) return std::nullopt;
     const std::size_t last = from + found;
