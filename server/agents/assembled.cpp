@@ -140,7 +140,7 @@ bool can_be_built(const std::vector<Part>& parts) {
   return std::all_of(placed.begin(), placed.end(), [](bool p) { return p; });
 }
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_assembled(const Build& build) {
   const std::string where = state::component_place(build.component);
   std::vector<Part> parts;
   for (const std::string& name : build.parameters.texts("parts")) {
@@ -166,7 +166,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Assembled>(build, std::move(parts));
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kAssembledParameters[] = {
     {.name = "parts",
      .kind = ParameterKind::texts,
      .summary = "the geometry.snap of each part; this agent switches them",
@@ -177,7 +177,7 @@ constexpr state::ParameterType kParameters[] = {
      .summary =
          "lines like \"ONE before OTHER\": what must be in place before what; none: one after the other as listed"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kAssembledValues[] = {
     {"placed", "", "how many parts are in their places"},
     {"complete", "", "1 while all are"},
     {"refused", "", "how often a part came before its turn"},
@@ -187,9 +187,9 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const AgentKind& assembled_kind() {
-  static const AgentKind kKind{
-      {"simulation.assembled", "Takes parts in their order, and says when all are in place", kParameters, kValues},
-      make};
+  static const AgentKind kKind{{"simulation.assembled", "Takes parts in their order, and says when all are in place",
+                                kAssembledParameters, kAssembledValues},
+                               make_assembled};
   return kKind;
 }
 

@@ -37,7 +37,7 @@ class Ball final : public Agent {
   std::size_t tilt_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_ball(const Build& build) {
   auto joint = JointSwitch::create(build, state::JointKind::ball, "BallJoint", {});
   if (!joint) return tl::unexpected(joint.error());
   const std::vector<double> axis = build.parameters.numbers("axis");
@@ -48,7 +48,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Ball>(build, *joint, axis_J.normalized());
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kBallParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the ball joint that is on while this agent is",
@@ -64,13 +64,13 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "the cone's axis as the bodies stand at the start; none: 0 1 0",
      .count = 3},
 };
-constexpr state::ValueType kValues[] = {{"tilt", "rad", "how far the axis is from where it was at the start"}};
+constexpr state::ValueType kBallValues[] = {{"tilt", "rad", "how far the axis is from where it was at the start"}};
 
 }  // namespace
 
 const AgentKind& ball_kind() {
-  static const AgentKind kKind{{"geometry.ball", "Ties two bodies at a point while it is on", kParameters, kValues},
-                               make};
+  static const AgentKind kKind{
+      {"geometry.ball", "Ties two bodies at a point while it is on", kBallParameters, kBallValues}, make_ball};
   return kKind;
 }
 

@@ -75,7 +75,7 @@ bool is_tied_snap(const state::ComponentDescription& agent) {
   return agent.type == "geometry.snap" && tied != nullptr && *tied;
 }
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_breakable(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::ComponentDescription& target = build.agent(build.parameters.agent("agent"));
   bool bears = static_cast<bool>(switched_joint(build.description, target)) || is_tied_snap(target);
@@ -89,7 +89,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Breakable>(build, target.name);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kBreakableParameters[] = {
     {.name = "agent",
      .kind = ParameterKind::text,
      .summary = "what breaks: it is switched off, and stays off until the activity begins anew",
@@ -98,7 +98,7 @@ constexpr state::ParameterType kParameters[] = {
     {.name = "force", .unit = "N", .summary = "the real force that breaks it", .min = 0, .max = 1e9},
     {.name = "torque", .unit = "N m", .summary = "the real torque that breaks it", .min = 0, .max = 1e9},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kBreakableValues[] = {
     {"broken", "", "1 once it is broken"},
     {"force", "N", "what it bears: the real force"},
     {"torque", "N m", "what it bears: the real torque"},
@@ -108,7 +108,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& breakable_kind() {
   static const AgentKind kKind{
-      {"geometry.breakable", "Something lets go over a force or a torque", kParameters, kValues}, make};
+      {"geometry.breakable", "Something lets go over a force or a torque", kBreakableParameters, kBreakableValues},
+      make_breakable};
   return kKind;
 }
 

@@ -53,14 +53,14 @@ class Dwell final : public Agent {
   std::size_t time_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_dwell(const Build& build) {
   if (build.parameters.given("body") && build.parameters.body("body") == build.parameters.body("at"))
     return fail("the body is always at its own place", state::component_place(build.component),
                 "name another body in 'at', or none for the world");
   return std::make_unique<Dwell>(build);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kDwellParameters[] = {
     {.name = "at",
      .kind = ParameterKind::text,
      .summary = "the body in whose frame the place is; none: the world",
@@ -73,7 +73,7 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "what must stay there; none: any hand",
      .reference = state::Reference::body},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kDwellValues[] = {
     {"dwelt", "", "1 while it has stayed long enough"},
     {"inside", "", "1 while it is there"},
     {"time", "s", "for how long"},
@@ -83,7 +83,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& dwell_kind() {
   static const AgentKind kKind{
-      {"simulation.dwell", "A hand or a body stays at a place for a while", kParameters, kValues}, make};
+      {"simulation.dwell", "A hand or a body stays at a place for a while", kDwellParameters, kDwellValues},
+      make_dwell};
   return kKind;
 }
 

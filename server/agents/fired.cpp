@@ -32,7 +32,7 @@ class Fired final : public Agent {
   std::size_t fired_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_fired(const Build& build) {
   auto effort = HandEffort::create(build, Effort::pull);
   if (!effort) return tl::unexpected(effort.error());
   std::vector<AgentId> releases;
@@ -44,18 +44,19 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Fired>(build, *effort, std::move(releases));
 }
 
-constexpr state::ParameterType kParameters[] = {kEffortBody,
-                                                kEffortForce,
-                                                kEffortTravel,
-                                                kEffortAxis,
-                                                kEffortJoint,
-                                                kEffortReverse,
-                                                kEffortTime,
-                                                {.name = "releases",
-                                                 .kind = ParameterKind::texts,
-                                                 .summary = "agents that it switches off: a tie, a ratchet, a rope",
-                                                 .reference = state::Reference::agent}};
-constexpr state::ValueType kValues[] = {
+constexpr state::ParameterType kFiredParameters[] = {
+    kEffortBody,
+    kEffortForce,
+    kEffortTravel,
+    kEffortAxis,
+    kEffortJoint,
+    kEffortReverse,
+    kEffortTime,
+    {.name = "releases",
+     .kind = ParameterKind::texts,
+     .summary = "agents that it switches off: a tie, a ratchet, a rope",
+     .reference = state::Reference::agent}};
+constexpr state::ValueType kFiredValues[] = {
     {"fired", "", "1 once it has fired"},
     {"force", "N", "of the hand on the trigger, along the axis, as felt"},
     {"travel", "m", "how far the trigger went with the hand; rad where the joint is a hinge"},
@@ -65,7 +66,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& fired_kind() {
   static const AgentKind kKind{
-      {"simulation.fired", "A trigger lets go of what it held when a hand pulls it", kParameters, kValues}, make};
+      {"simulation.fired", "A trigger lets go of what it held when a hand pulls it", kFiredParameters, kFiredValues},
+      make_fired};
   return kKind;
 }
 

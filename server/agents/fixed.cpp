@@ -50,7 +50,7 @@ class Fixed final : public Agent {
   PoseSlots X_B1B2_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_fixed(const Build& build) {
   const std::string where = state::component_place(build.component);
   const BodyId body = build.parameters.body("body"), to = build.parameters.body("to");
   if (body == to) return fail("the body is tied to itself", where, "name two bodies");
@@ -59,7 +59,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Fixed>(build);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kFixedParameters[] = {
     {.name = "body",
      .kind = ParameterKind::text,
      .summary = "the body that is tied",
@@ -70,7 +70,7 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "the body that it is tied to; none: the world",
      .reference = state::Reference::body},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kFixedValues[] = {
     {"on", "", "1 while it ties"},
     {"force", "N", "what the tie bears: the real force"},
     {"torque", "N m", "what it bears at the body's origin: the real torque"},
@@ -79,8 +79,9 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const AgentKind& fixed_kind() {
-  static const AgentKind kKind{
-      {"geometry.fixed", "Two bodies move as one, as they stand when it is switched on", kParameters, kValues}, make};
+  static const AgentKind kKind{{"geometry.fixed", "Two bodies move as one, as they stand when it is switched on",
+                                kFixedParameters, kFixedValues},
+                               make_fixed};
   return kKind;
 }
 

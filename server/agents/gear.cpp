@@ -149,7 +149,7 @@ constexpr state::ParameterType kWormParameters[] = {
      .min = 0.01,
      .max = 0.49},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kGearValues[] = {
     {"engaged", "", "1 while the teeth mesh: it is on, and both joints are"},
     {"torque", "N m", "of the teeth on a joint2 that is a hinge: the real torque"},
     {"force", "N", "of the teeth on a joint2 that is a slider: the real force"},
@@ -158,15 +158,15 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const AgentKind& gear_kind() {
-  static const AgentKind kKind{
-      {"geometry.gear", "Two joints go together by a ratio: wheels, rack and pinion, drum", kGearParameters, kValues},
-      make_gear};
+  static const AgentKind kKind{{"geometry.gear", "Two joints go together by a ratio: wheels, rack and pinion, drum",
+                                kGearParameters, kGearValues},
+                               make_gear};
   return kKind;
 }
 
 const AgentKind& worm_kind() {
   static const AgentKind kKind{
-      {"geometry.worm", "A worm turns a wheel, which cannot turn the worm", kWormParameters, kValues}, make_worm};
+      {"geometry.worm", "A worm turns a wheel, which cannot turn the worm", kWormParameters, kGearValues}, make_worm};
   return kKind;
 }
 

@@ -181,7 +181,7 @@ class GraspAgent final : public Agent {
   std::array<std::size_t, state::kMaxUsers> open_s_{};    // how long the holding hand has been open
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_grasp(const Build& build) {
   std::vector<BodyId> bodies;
   for (const std::string& name : build.parameters.texts("bodies"))
     bodies.push_back(build.description.find_body(name));
@@ -196,7 +196,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<GraspAgent>(build, std::move(bodies));
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kGraspParameters[] = {
     {.name = "bodies",
      .kind = ParameterKind::texts,
      .summary = "what may be grasped, while it is graspable and movable; none named: every body",
@@ -231,7 +231,7 @@ constexpr state::ParameterType kParameters[] = {
      .min = 0.005,
      .max = 10},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kGraspValues[] = {
     {"active", "", "hands that hold one of the bodies"},
     {"body", "", "index of the body that the first of them holds; -1: none"},
 };
@@ -239,7 +239,8 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const AgentKind& grasp_kind() {
-  static const AgentKind kKind{{"simulation.grasp", "Lets hands take hold of bodies", kParameters, kValues}, make};
+  static const AgentKind kKind{{"simulation.grasp", "Lets hands take hold of bodies", kGraspParameters, kGraspValues},
+                               make_grasp};
   return kKind;
 }
 

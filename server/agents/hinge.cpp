@@ -25,7 +25,7 @@ class Hinge final : public Agent {
   std::size_t turns_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_hinge(const Build& build) {
   const state::Parameters& p = build.parameters;
   if (build.description.joints[p.joint("joint").index()].kind != state::JointKind::hinge)
     return fail("the joint '" + p.text("joint") + "' is not a hinge", state::component_place(build.component),
@@ -36,7 +36,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Hinge>(build, *joint);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kHingeParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the hinge that is on while this agent is",
@@ -59,7 +59,7 @@ constexpr state::ParameterType kParameters[] = {
      .max = 1e4},
     {.name = "maxAngle", .unit = "rad", .summary = "upper stop; with minAngle", .min = -1e4, .max = 1e4},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kHingeValues[] = {
     {"angle", "rad", "of body2 against body1; counts on over whole turns"},
     {"rate", "rad/s", "how fast it turns"},
     {"turns", "", "the angle in turns"},
@@ -68,8 +68,8 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const AgentKind& hinge_kind() {
-  static const AgentKind kKind{{"geometry.hinge", "Ties two bodies by a hinge while it is on", kParameters, kValues},
-                               make};
+  static const AgentKind kKind{
+      {"geometry.hinge", "Ties two bodies by a hinge while it is on", kHingeParameters, kHingeValues}, make_hinge};
   return kKind;
 }
 

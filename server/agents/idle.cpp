@@ -40,11 +40,11 @@ class Idle final : public Agent {
   std::size_t time_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_idle(const Build& build) {
   return std::make_unique<Idle>(build);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kIdleParameters[] = {
     {.name = "time", .unit = "s", .summary = "after how long", .required = true, .min = 0.1, .max = 3600},
     {.name = "speed",
      .unit = "m/s",
@@ -59,7 +59,7 @@ constexpr state::ParameterType kParameters[] = {
      .min = 0,
      .max = 50},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kIdleValues[] = {
     {"idle", "", "1 while nothing has happened for that long"},
     {"time", "s", "since something happened"},
 };
@@ -68,7 +68,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& idle_kind() {
   static const AgentKind kKind{
-      {"simulation.idle", "No hand has moved or touched anything for a while", kParameters, kValues}, make};
+      {"simulation.idle", "No hand has moved or touched anything for a while", kIdleParameters, kIdleValues},
+      make_idle};
   return kKind;
 }
 

@@ -53,7 +53,7 @@ class IntermittentGear final : public Agent {
   std::size_t started_;  // the wheel's position when the tooth was put in
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_intermittent_gear(const Build& build) {
   const std::string where = state::component_place(build.component);
   for (const char* name : {"joint1", "joint2"}) {
     if (build.description.joints[build.parameters.joint(name).index()].kind != state::JointKind::hinge)
@@ -64,7 +64,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<IntermittentGear>(build);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kIntermittentGearParameters[] = {
     {.name = "joint1",
      .kind = ParameterKind::text,
      .summary = "the hinge whose one tooth drives",
@@ -98,7 +98,7 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "the wheel is held while the tooth is elsewhere; false: only its bearing's friction holds it",
      .default_value = 1},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kIntermittentGearValues[] = {
     {"engaged", "", "1 while it is on, and both joints are"},
     {"steps", "", "teeth that the wheel has gone since then"},
 };
@@ -106,8 +106,9 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const AgentKind& intermittent_gear_kind() {
-  static const AgentKind kKind{
-      {"geometry.intermittent_gear", "One tooth moves a wheel by one of its teeth a turn", kParameters, kValues}, make};
+  static const AgentKind kKind{{"geometry.intermittent_gear", "One tooth moves a wheel by one of its teeth a turn",
+                                kIntermittentGearParameters, kIntermittentGearValues},
+                               make_intermittent_gear};
   return kKind;
 }
 

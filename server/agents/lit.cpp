@@ -67,7 +67,7 @@ class Lit final : public Agent {
   std::size_t burnt_s_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_lit(const Build& build) {
   const std::string where = state::component_place(build.component);
   if (build.parameters.body("body") == build.parameters.body("flame"))
     return fail("the body is to light itself", where, "name another body in 'flame'");
@@ -79,7 +79,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Lit>(build);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kLitParameters[] = {
     {.name = "body",
      .kind = ParameterKind::text,
      .summary = "what is lit: a hearth, a lamp, a torch",
@@ -113,7 +113,7 @@ constexpr state::ParameterType kParameters[] = {
      .summary = "the simulation.lit by which the flame itself must burn; none: it always does",
      .reference = state::Reference::agent},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kLitValues[] = {
     {"lit", "", "1 while it burns"},
     {"distance", "m", "from the flame to where it catches fire"},
     {"burnt_s", "s", "how long it has burned"},
@@ -123,7 +123,7 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& lit_kind() {
   static const AgentKind kKind{
-      {"simulation.lit", "A flame that is near for a while lights a fire", kParameters, kValues}, make};
+      {"simulation.lit", "A flame that is near for a while lights a fire", kLitParameters, kLitValues}, make_lit};
   return kKind;
 }
 

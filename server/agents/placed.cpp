@@ -31,7 +31,7 @@ class Placed final : public Agent {
   std::size_t placed_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_placed(const Build& build) {
   const state::ComponentDescription& snap = build.description.agents[build.parameters.agent("snap").index()];
   if (snap.type != "geometry.snap")
     return fail("'" + snap.name + "' is a " + snap.type, state::component_place(build.component),
@@ -46,20 +46,20 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Placed>(build, snap.name, object);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kPlacedParameters[] = {
     {.name = "snap",
      .kind = state::ParameterKind::text,
      .summary = "the geometry.snap that is watched",
      .required = true,
      .reference = state::Reference::agent},
 };
-constexpr state::ValueType kValues[] = {{"placed", "", "1 while the snap has its object"}};
+constexpr state::ValueType kPlacedValues[] = {{"placed", "", "1 while the snap has its object"}};
 
 }  // namespace
 
 const AgentKind& placed_kind() {
-  static const AgentKind kKind{{"simulation.placed", "Says when a body has come to its place", kParameters, kValues},
-                               make};
+  static const AgentKind kKind{
+      {"simulation.placed", "Says when a body has come to its place", kPlacedParameters, kPlacedValues}, make_placed};
   return kKind;
 }
 

@@ -88,11 +88,11 @@ class Point final : public Agent {
   std::size_t time_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_point(const Build& build) {
   return std::make_unique<Point>(build);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kPointParameters[] = {
     {.name = "body",
      .kind = ParameterKind::text,
      .summary = "the sign; a hidden one is not pointed at",
@@ -113,7 +113,7 @@ constexpr state::ParameterType kParameters[] = {
     {.name = "reach", .unit = "m", .summary = "how far pointing reaches", .default_value = 3, .min = 0.01, .max = 100},
     {.name = "time", .unit = "s", .summary = "for how long", .default_value = 0.3, .min = 0, .max = 60},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kPointValues[] = {
     {"pointed", "", "1 while a finger has been on it for long enough"},
     {"distance", "m", "from the nearest fingertip"},
     {"angle", "rad", "between the sign and where the best finger points"},
@@ -124,7 +124,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& point_kind() {
   static const AgentKind kKind{
-      {"simulation.point", "An index finger is at a sign, or points at it", kParameters, kValues}, make};
+      {"simulation.point", "An index finger is at a sign, or points at it", kPointParameters, kPointValues},
+      make_point};
   return kKind;
 }
 

@@ -24,15 +24,15 @@ class Pulled final : public Agent {
   std::size_t pulled_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_pulled(const Build& build) {
   auto effort = HandEffort::create(build, Effort::pull);
   if (!effort) return tl::unexpected(effort.error());
   return std::make_unique<Pulled>(build, *effort);
 }
 
-constexpr state::ParameterType kParameters[] = {kEffortBody,  kEffortForce,   kEffortTravel, kEffortAxis,
-                                                kEffortJoint, kEffortReverse, kEffortTime};
-constexpr state::ValueType kValues[] = {
+constexpr state::ParameterType kPulledParameters[] = {kEffortBody,  kEffortForce,   kEffortTravel, kEffortAxis,
+                                                      kEffortJoint, kEffortReverse, kEffortTime};
+constexpr state::ValueType kPulledValues[] = {
     {"pulled", "", "1 while a hand pulls it hard or far enough"},
     {"force", "N", "of the hand on the body, along the axis, as felt"},
     {"travel", "m", "how far the body went with the hand; rad where the joint is a hinge"},
@@ -42,7 +42,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& pulled_kind() {
   static const AgentKind kKind{
-      {"simulation.pulled", "Says when a hand pulls a body hard or far enough", kParameters, kValues}, make};
+      {"simulation.pulled", "Says when a hand pulls a body hard or far enough", kPulledParameters, kPulledValues},
+      make_pulled};
   return kKind;
 }
 

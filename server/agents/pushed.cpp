@@ -24,15 +24,15 @@ class Pushed final : public Agent {
   std::size_t pushed_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_pushed(const Build& build) {
   auto effort = HandEffort::create(build, Effort::push);
   if (!effort) return tl::unexpected(effort.error());
   return std::make_unique<Pushed>(build, *effort);
 }
 
-constexpr state::ParameterType kParameters[] = {kEffortBody,  kEffortForce,   kEffortTravel, kEffortAxis,
-                                                kEffortJoint, kEffortReverse, kEffortTime};
-constexpr state::ValueType kValues[] = {
+constexpr state::ParameterType kPushedParameters[] = {kEffortBody,  kEffortForce,   kEffortTravel, kEffortAxis,
+                                                      kEffortJoint, kEffortReverse, kEffortTime};
+constexpr state::ValueType kPushedValues[] = {
     {"pushed", "", "1 while a hand pushes it hard or far enough"},
     {"force", "N", "of the hand on the body, along the axis, as felt"},
     {"travel", "m", "how far the body went with the hand; rad where the joint is a hinge"},
@@ -42,7 +42,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& pushed_kind() {
   static const AgentKind kKind{
-      {"simulation.pushed", "Says when a hand pushes a body hard or far enough", kParameters, kValues}, make};
+      {"simulation.pushed", "Says when a hand pushes a body hard or far enough", kPushedParameters, kPushedValues},
+      make_pushed};
   return kKind;
 }
 

@@ -65,7 +65,7 @@ class Ratchet final : public Agent {
   std::size_t force_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_ratchet(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   const JointKind kind = build.description.joints[p.joint("joint").index()].kind;
@@ -79,7 +79,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Ratchet>(build, p.given("teeth") ? 2 * kPi / p.number("teeth") : p.number("pitch"));
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kRatchetParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the hinge or slider that is held",
@@ -102,7 +102,7 @@ constexpr state::ParameterType kParameters[] = {
      .min = 0,
      .max = 10},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kRatchetValues[] = {
     {"engaged", "", "1 while the pawl is on the teeth"},
     {"tooth", "", "the last tooth passed"},
     {"holding", "", "1 while the pawl bears a load"},
@@ -114,7 +114,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& ratchet_kind() {
   static const AgentKind kKind{
-      {"geometry.ratchet", "A joint goes one way; teeth hold it from going back", kParameters, kValues}, make};
+      {"geometry.ratchet", "A joint goes one way; teeth hold it from going back", kRatchetParameters, kRatchetValues},
+      make_ratchet};
   return kKind;
 }
 

@@ -128,7 +128,7 @@ double measure_at_start(const state::WorldDescription& world, Coupling& rope) {
   return path.length_m;
 }
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_rope(const Build& build) {
   auto rope = read_rope(build);
   if (!rope) return tl::unexpected(rope.error());
   const double way = measure_at_start(build.description, *rope);
@@ -136,7 +136,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Rope>(build, *rope, rope->length_m);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kRopeParameters[] = {
     {.name = "bodies",
      .kind = ParameterKind::texts,
      .summary = "where it begins (without a drum), what it runs over, where it ends; a body for each",
@@ -195,7 +195,7 @@ constexpr state::ParameterType kParameters[] = {
      .kind = ParameterKind::boolean,
      .summary = "turning the drum to lower angles winds; otherwise to higher ones"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kRopeValues[] = {
     {"tension_n", "N", "of its first part, at the drum: the real tension"},
     {"end_tension_n", "N", "of its last part: the real tension"},
     {"length_m", "m", "off the drum"},
@@ -206,7 +206,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& rope_kind() {
   static const AgentKind kKind{
-      {"geometry.rope", "A rope over sheaves, from a drum or a point; off: it is cut", kParameters, kValues}, make};
+      {"geometry.rope", "A rope over sheaves, from a drum or a point; off: it is cut", kRopeParameters, kRopeValues},
+      make_rope};
   return kKind;
 }
 

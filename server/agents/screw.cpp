@@ -34,14 +34,14 @@ class Screw final : public Agent {
   std::size_t travel_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_screw(const Build& build) {
   auto joint = JointSwitch::create(build, state::JointKind::hinge, "SingleAxisHingeJoint",
                                    {"frictionTorque", "viscous", "minAngle", "maxAngle"});
   if (!joint) return tl::unexpected(joint.error());
   return std::make_unique<Screw>(build, *joint);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kScrewParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the hinge that is on, and a screw, while this agent is on",
@@ -70,7 +70,7 @@ constexpr state::ParameterType kParameters[] = {
      .max = 1e4},
     {.name = "maxAngle", .unit = "rad", .summary = "upper stop; with minAngle", .min = -1e4, .max = 1e4},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kScrewValues[] = {
     {"angle", "rad", "of body2 against body1; counts on over whole turns"},
     {"rate", "rad/s", "how fast it turns"},
     {"turns", "", "the angle in turns"},
@@ -81,7 +81,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& screw_kind() {
   static const AgentKind kKind{
-      {"geometry.screw", "Ties two bodies by a screw thread while it is on", kParameters, kValues}, make};
+      {"geometry.screw", "Ties two bodies by a screw thread while it is on", kScrewParameters, kScrewValues},
+      make_screw};
   return kKind;
 }
 

@@ -23,14 +23,14 @@ class Slider final : public Agent {
   std::size_t speed_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_slider(const Build& build) {
   auto joint = JointSwitch::create(build, state::JointKind::slider, "SliderJoint",
                                    {"friction", "viscous", "minPosition", "maxPosition"});
   if (!joint) return tl::unexpected(joint.error());
   return std::make_unique<Slider>(build, *joint);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kSliderParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the slider that is on while this agent is",
@@ -53,7 +53,7 @@ constexpr state::ParameterType kParameters[] = {
      .max = 1e4},
     {.name = "maxPosition", .unit = "m", .summary = "upper stop; with minPosition", .min = -1e4, .max = 1e4},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kSliderValues[] = {
     {"position", "m", "of body2 against body1, along the axis; 0 at the start"},
     {"speed", "m/s", "how fast it slides"},
 };
@@ -62,7 +62,8 @@ constexpr state::ValueType kValues[] = {
 
 const AgentKind& slider_kind() {
   static const AgentKind kKind{
-      {"geometry.slider", "Ties two bodies by a straight guide while it is on", kParameters, kValues}, make};
+      {"geometry.slider", "Ties two bodies by a straight guide while it is on", kSliderParameters, kSliderValues},
+      make_slider};
   return kKind;
 }
 

@@ -118,7 +118,7 @@ class Snap final : public Agent {
   PoseSlots X_ITo_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_snap(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (build.description.bodies[p.body("object").index()].fixed)
@@ -138,7 +138,7 @@ Expected<std::unique_ptr<Agent>> make(const Build& build) {
   return std::make_unique<Snap>(build, X_IT, p.given("axis") ? Vec3(axis_B.normalized()) : Vec3(Vec3::Zero()));
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kSnapParameters[] = {
     {.name = "object",
      .kind = ParameterKind::text,
      .summary = "the body that goes to its place",
@@ -180,7 +180,7 @@ constexpr state::ParameterType kParameters[] = {
      .kind = ParameterKind::boolean,
      .summary = "held in its place by a tie, which bears forces and can break, instead of standing still"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kSnapValues[] = {
     {"placed", "", "1 once the object is in its place"},
     {"distance", "m", "from the object to its place"},
     {"angle", "rad", "between the object's attitude and the place's"},
@@ -189,8 +189,9 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const AgentKind& snap_kind() {
-  static const AgentKind kKind{
-      {"geometry.snap", "Leads a body that is close to its place home and holds it there", kParameters, kValues}, make};
+  static const AgentKind kKind{{"geometry.snap", "Leads a body that is close to its place home and holds it there",
+                                kSnapParameters, kSnapValues},
+                               make_snap};
   return kKind;
 }
 

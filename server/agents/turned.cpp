@@ -44,14 +44,14 @@ class Turned final : public Agent {
   std::size_t on_;
 };
 
-Expected<std::unique_ptr<Agent>> make(const Build& build) {
+Expected<std::unique_ptr<Agent>> make_turned(const Build& build) {
   if (build.description.joints[build.parameters.joint("joint").index()].kind != state::JointKind::hinge)
     return fail("the joint '" + build.parameters.text("joint") + "' does not turn",
                 state::component_place(build.component), "name a SingleAxisHingeJoint");
   return std::make_unique<Turned>(build);
 }
 
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kTurnedParameters[] = {
     {.name = "joint",
      .kind = state::ParameterKind::text,
      .summary = "the hinge whose turns are counted",
@@ -63,12 +63,13 @@ constexpr state::ParameterType kParameters[] = {
      .min = 0.01,
      .max = 1e6},
 };
-constexpr state::ValueType kValues[] = {{"turns", "", "turned since the agent was switched on, signed"}};
+constexpr state::ValueType kTurnedValues[] = {{"turns", "", "turned since the agent was switched on, signed"}};
 
 }  // namespace
 
 const AgentKind& turned_kind() {
-  static const AgentKind kKind{{"simulation.turned", "Counts the turns of a hinge", kParameters, kValues}, make};
+  static const AgentKind kKind{{"simulation.turned", "Counts the turns of a hinge", kTurnedParameters, kTurnedValues},
+                               make_turned};
   return kKind;
 }
 

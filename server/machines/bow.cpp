@@ -55,7 +55,7 @@ class DrawCurve {
   double step_m_;
 };
 
-struct Settings {
+struct BowSettings {
   JointId joint;
   double direction = 1;
   double home_m = 0;
@@ -65,7 +65,7 @@ struct Settings {
 
 class Bow final : public Machine {
  public:
-  Bow(const Build& build, const Settings& settings, DrawCurve curve, QuantityId release)
+  Bow(const Build& build, const BowSettings& settings, DrawCurve curve, QuantityId release)
       : s_(settings),
         curve_(std::move(curve)),
         caught_(build.slot("caught")),
@@ -107,7 +107,7 @@ class Bow final : public Machine {
     joint.load -= s_.effort_scale * s_.direction * force_n;
   }
 
-  Settings s_;
+  BowSettings s_;
   DrawCurve curve_;
   std::size_t caught_;
   std::size_t string_m_;
@@ -130,10 +130,10 @@ Expected<DrawCurve> read_curve(const state::Parameters& p, const std::string& wh
   return DrawCurve(std::move(points), p.number("drawLength"));
 }
 
-Expected<std::unique_ptr<Machine>> make(const Build& build) {
+Expected<std::unique_ptr<Machine>> make_bow(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  Settings s;
+  BowSettings s;
   const auto joint = read_joint(build, "joint", state::JointKind::slider);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
@@ -148,7 +148,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
 }
 
 using state::ParameterKind;
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kBowParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the slider that draws the string back",
@@ -187,7 +187,7 @@ constexpr state::ParameterType kParameters[] = {
      .max = 1},
     {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the slider draws to negative positions"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kBowValues[] = {
     {"caught", "", "1 while the claw holds the string"},       {"string_m", "m", "how far the string is drawn"},
     {"force_n", "N", "of the string on the slider, unscaled"}, {"energy_j", "J", "held by the bow, unscaled"},
     {"shot_j", "J", "what the last projectile took"},
@@ -197,7 +197,7 @@ constexpr state::ValueType kValues[] = {
 
 const MachineKind& bow_kind() {
   static const MachineKind kKind{
-      {"machine.bow", "A bow that a slider draws, and a claw that lets go", kParameters, kValues}, make};
+      {"machine.bow", "A bow that a slider draws, and a claw that lets go", kBowParameters, kBowValues}, make_bow};
   return kKind;
 }
 

@@ -26,7 +26,7 @@ constexpr std::size_t kMostCylinders = 2;
 constexpr double kTight_m_s = 0.02;
 constexpr double kTurn = 0.25;  // share of the stroke after which a piston counts as turned round
 
-struct Settings {
+struct ForcePumpSettings {
   std::array<JointId, kMostCylinders> pistons;  // sliders; none where a beam drives
   JointId beam;
   std::size_t cylinders = 2;
@@ -45,7 +45,7 @@ struct Settings {
 
 class ForcePump final : public Machine {
  public:
-  ForcePump(const Build& build, const Settings& settings)
+  ForcePump(const Build& build, const ForcePumpSettings& settings)
       : s_(settings),
         flow_(build.slot("flow_l_per_s")),
         jet_(build.slot("jet_l_per_s")),
@@ -143,7 +143,7 @@ class ForcePump final : public Machine {
     state.memory[strokes_] += 1;
   }
 
-  Settings s_;
+  ForcePumpSettings s_;
   std::size_t flow_;
   std::size_t jet_;
   std::size_t lifted_l_;
@@ -161,7 +161,7 @@ class ForcePump final : public Machine {
 };
 
 Expected<void> read_valves(const state::Parameters& p, std::string_view name, Valve PumpCylinder::*valve,
-                           const std::string& where, Settings& s) {
+                           const std::string& where, ForcePumpSettings& s) {
   if (!p.given(name)) return {};
   const std::vector<std::string> words = p.texts(name);
   if (words.size() != 1 && words.size() != s.cylinders)
@@ -183,7 +183,7 @@ Expected<void> read_valves(const state::Parameters& p, std::string_view name, Va
 }
 
 /// Who moves the pistons: sliders, or a beam.
-Expected<void> read_drive(const Build& build, const std::string& where, Settings& s) {
+Expected<void> read_drive(const Build& build, const std::string& where, ForcePumpSettings& s) {
   const state::Parameters& p = build.parameters;
   if (p.given("pistons") == p.given("beam"))
     return fail("both or neither of 'pistons' and 'beam' are given", where,
@@ -213,10 +213,10 @@ Expected<void> read_drive(const Build& build, const std::string& where, Settings
   return {};
 }
 
-Expected<std::unique_ptr<Machine>> make(const Build& build) {
+Expected<std::unique_ptr<Machine>> make_force_pump(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  Settings s;
+  ForcePumpSettings s;
   if (auto good = read_drive(build, where, s); !good) return tl::unexpected(good.error());
   const double radius_m = p.number("bore") / 2;
   for (PumpCylinder& cylinder : s.cylinder) {
@@ -239,7 +239,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
 }
 
 using state::ParameterKind;
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kForcePumpParameters[] = {
     {.name = "pistons",
      .kind = ParameterKind::texts,
      .summary = "one slider or two that move the pistons, upwards to positive positions; or see beam",
@@ -301,7 +301,7 @@ constexpr state::ParameterType kParameters[] = {
      .kind = ParameterKind::boolean,
      .summary = "true: the (first) piston rises when its joint goes to negative positions"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kForcePumpValues[] = {
     {"flow_l_per_s", "l/s", "what comes into the vessel now; negative where it runs back"},
     {"jet_l_per_s", "l/s", "what leaves the trumpet now"},
     {"lifted_l", "l", "out of the trumpet so far"},
@@ -316,7 +316,8 @@ constexpr state::ValueType kValues[] = {
 
 const MachineKind& force_pump_kind() {
   static const MachineKind kKind{
-      {"machine.force_pump", "Ktesibios' pump: pistons and valves lift water", kParameters, kValues}, make};
+      {"machine.force_pump", "Ktesibios' pump: pistons and valves lift water", kForcePumpParameters, kForcePumpValues},
+      make_force_pump};
   return kKind;
 }
 

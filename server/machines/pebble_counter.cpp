@@ -15,7 +15,7 @@
 namespace mechane::machines {
 namespace {
 
-struct Settings {
+struct PebbleCounterSettings {
   JointId joint;
   double direction = 1;
   double first_rad = 0;
@@ -32,7 +32,7 @@ struct Pebble {
 
 class PebbleCounter final : public Machine {
  public:
-  PebbleCounter(const Build& build, const Settings& settings, std::vector<Pebble> pebbles)
+  PebbleCounter(const Build& build, const PebbleCounterSettings& settings, std::vector<Pebble> pebbles)
       : s_(settings),
         drum_(build.description.joints[settings.joint.index()].body2),
         stones_(std::move(pebbles)),
@@ -67,7 +67,7 @@ class PebbleCounter final : public Machine {
     }
   }
 
-  Settings s_;
+  PebbleCounterSettings s_;
   BodyId drum_;
   std::vector<Pebble> stones_;  // in the order in which they fall
   std::size_t pebbles_;
@@ -91,10 +91,10 @@ Expected<std::vector<Pebble>> read_pebbles(const Build& build, const std::string
   return pebbles;
 }
 
-Expected<std::unique_ptr<Machine>> make(const Build& build) {
+Expected<std::unique_ptr<Machine>> make_pebble_counter(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  Settings s;
+  PebbleCounterSettings s;
   const auto joint = read_joint(build, "joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
@@ -110,7 +110,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
 }
 
 using state::ParameterKind;
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kPebbleCounterParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the hinge of the drum with the pebbles; its second body is the drum",
@@ -136,7 +136,7 @@ constexpr state::ParameterType kParameters[] = {
      .kind = ParameterKind::boolean,
      .summary = "true: the drum counts when it turns to negative angles"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kPebbleCounterValues[] = {
     {"pebbles", "", "fallen so far"},
     {"distance_m", "m", "that the pebbles stand for"},
     {"left", "", "pebbles still in the drum"},
@@ -145,8 +145,9 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const MachineKind& pebble_counter_kind() {
-  static const MachineKind kKind{
-      {"machine.pebble_counter", "Drops a pebble as each hole of a drum passes", kParameters, kValues}, make};
+  static const MachineKind kKind{{"machine.pebble_counter", "Drops a pebble as each hole of a drum passes",
+                                  kPebbleCounterParameters, kPebbleCounterValues},
+                                 make_pebble_counter};
   return kKind;
 }
 

@@ -35,7 +35,7 @@ struct Target {
   double stop_n = 0;
 };
 
-struct Settings {
+struct ProjectileSettings {
   BodyId body;
   BodyId stock;
   JointId holder;
@@ -76,7 +76,7 @@ class VectorSlots {
 
 class Projectile final : public Machine {
  public:
-  Projectile(const Build& build, const Settings& settings, const EnergyOffer& offer)
+  Projectile(const Build& build, const ProjectileSettings& settings, const EnergyOffer& offer)
       : s_(settings),
         offer_(offer),
         flying_(build.slot("flying")),
@@ -253,7 +253,7 @@ class Projectile final : public Machine {
     state.memory[speed_] = speed - stop_n * dt_s / s_.mass_kg;
   }
 
-  Settings s_;
+  ProjectileSettings s_;
   EnergyOffer offer_;
   std::size_t flying_;
   std::size_t speed_;
@@ -301,10 +301,10 @@ Expected<Target> read_target(const state::Parameters& p, const std::string& wher
   return target;
 }
 
-Expected<std::unique_ptr<Machine>> make(const Build& build) {
+Expected<std::unique_ptr<Machine>> make_projectile(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  Settings s;
+  ProjectileSettings s;
   s.body = p.body("body");
   const state::BodyDescription& body = build.description.bodies[s.body.index()];
   if (body.fixed) return fail("the body '" + body.name + "' is fixed", where, "name a body that can fly");
@@ -337,7 +337,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
 }
 
 using state::ParameterKind;
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kProjectileParameters[] = {
     {.name = "body",
      .kind = ParameterKind::text,
      .summary = "the missile",
@@ -432,7 +432,7 @@ constexpr state::ParameterType kParameters[] = {
      .min = 1,
      .max = 1e7},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kProjectileValues[] = {
     {"flying", "", "1 from the shot to the blow"},
     {"speed_m_s", "m/s", "of the flight, the last one where it has ended"},
     {"range_m", "m", "over ground, from the shot to here or to where the flight ended"},
@@ -450,7 +450,8 @@ constexpr state::ValueType kValues[] = {
 
 const MachineKind& projectile_kind() {
   static const MachineKind kKind{
-      {"machine.projectile", "A stone or an arrow that a spring throws", kParameters, kValues}, make};
+      {"machine.projectile", "A stone or an arrow that a spring throws", kProjectileParameters, kProjectileValues},
+      make_projectile};
   return kKind;
 }
 

@@ -28,7 +28,7 @@ constexpr double kEventPeriod_s = 0.5;
 constexpr double kEventLeast_m3 = 1e-5;  // a cup's drop is no event
 constexpr std::size_t kMostBuckets = 256;
 
-struct Settings {
+struct ScrewPumpSettings {
   JointId joint;
   double direction = 1;
   double volume_per_turn_m3 = 0;
@@ -46,7 +46,7 @@ struct Settings {
 
 class ScrewPump final : public Machine {
  public:
-  ScrewPump(const Build& build, const Settings& settings)
+  ScrewPump(const Build& build, const ScrewPumpSettings& settings)
       : s_(settings),
         id_(build.id),
         basin_l_(build.slot("basin_l", 1000 * settings.basin_start_m3)),
@@ -118,7 +118,7 @@ class ScrewPump final : public Machine {
     since_s = 0;
   }
 
-  Settings s_;
+  ScrewPumpSettings s_;
   MachineId id_;
   std::size_t basin_l_;
   std::size_t level_m_;
@@ -150,12 +150,12 @@ Expected<ScrewShape> read_shape(const state::Parameters& p, const std::string& w
   return shape;
 }
 
-Expected<std::unique_ptr<Machine>> make(const Build& build) {
+Expected<std::unique_ptr<Machine>> make_screw_pump(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   const auto shape = read_shape(p, where);
   if (!shape) return tl::unexpected(shape.error());
-  Settings s;
+  ScrewPumpSettings s;
   const auto joint = read_joint(build, "joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
@@ -182,7 +182,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
 }
 
 using state::ParameterKind;
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kScrewPumpParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the hinge that turns the screw",
@@ -237,7 +237,7 @@ constexpr state::ParameterType kParameters[] = {
     {.name = "basinCapacity", .unit = "l", .summary = "up to the rim", .required = true, .min = 0.001, .max = 1e9},
     {.name = "basinStart", .unit = "l", .summary = "in the basin at the start", .min = 0, .max = 1e9},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kScrewPumpValues[] = {
     {"basin_l", "l", "water in the basin"},
     {"level_m", "m", "of the basin's water over its floor"},
     {"flow_l_per_s", "l/s", "what comes into the basin now"},
@@ -251,7 +251,8 @@ constexpr state::ValueType kValues[] = {
 
 const MachineKind& screw_pump_kind() {
   static const MachineKind kKind{
-      {"machine.screw_pump", "Archimedes' screw: lifts water as a hinge turns", kParameters, kValues}, make};
+      {"machine.screw_pump", "Archimedes' screw: lifts water as a hinge turns", kScrewPumpParameters, kScrewPumpValues},
+      make_screw_pump};
   return kKind;
 }
 

@@ -24,7 +24,7 @@ constexpr double kFastest_m_s = 250;      // beyond, the pressure in the sphere 
 constexpr double kLeastWater_kg = 0.005;  // what warms with the last drops: the cauldron's floor
 constexpr std::size_t kMostNozzles = 8;
 
-struct Settings {
+struct SteamSphereSettings {
   JointId joint;
   QuantityId fire;
   double direction = 1;
@@ -45,7 +45,7 @@ struct Settings {
 
 class SteamSphere final : public Machine {
  public:
-  SteamSphere(const Build& build, const Settings& settings)
+  SteamSphere(const Build& build, const SteamSphereSettings& settings)
       : s_(settings),
         temperature_(build.slot("temperature_c", settings.ambient_c)),
         steam_(build.slot("steam_kg_s")),
@@ -93,7 +93,7 @@ class SteamSphere final : public Machine {
     joint.resistance += s_.effort_scale * (s_.bearing_nm + s_.air_nm_s2 * rate * rate);
   }
 
-  Settings s_;
+  SteamSphereSettings s_;
   std::size_t temperature_;
   std::size_t steam_;
   std::size_t water_;
@@ -103,7 +103,7 @@ class SteamSphere final : public Machine {
   std::size_t boils_;
 };
 
-Expected<void> read_nozzles(const state::Parameters& p, const std::string& where, Settings& s) {
+Expected<void> read_nozzles(const state::Parameters& p, const std::string& where, SteamSphereSettings& s) {
   const std::vector<double> angles = p.given("nozzleAngles") ? p.numbers("nozzleAngles") : std::vector<double>{0, 0};
   if (angles.empty() || angles.size() > kMostNozzles)
     return fail(fmt::format("there are {} nozzles", angles.size()), where,
@@ -124,10 +124,10 @@ Expected<void> read_nozzles(const state::Parameters& p, const std::string& where
   return {};
 }
 
-Expected<std::unique_ptr<Machine>> make(const Build& build) {
+Expected<std::unique_ptr<Machine>> make_steam_sphere(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  Settings s;
+  SteamSphereSettings s;
   const auto joint = read_joint(build, "joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
@@ -152,7 +152,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
 }
 
 using state::ParameterKind;
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kSteamSphereParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the hinge that the sphere turns on",
@@ -220,7 +220,7 @@ constexpr state::ParameterType kParameters[] = {
      .kind = ParameterKind::boolean,
      .summary = "true: the nozzles drive the hinge to negative angles"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kSteamSphereValues[] = {
     {"temperature_c", "deg C", "of the water"},    {"steam_kg_s", "kg/s", "that comes off the water, in real time"},
     {"water_l", "l", "left in the cauldron"},      {"rate", "rad/s", "of the sphere; the unit rpm converts"},
     {"torque_nm", "N m", "of the jets, unscaled"}, {"exit_m_s", "m/s", "of the steam out of the nozzles"},
@@ -230,8 +230,9 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const MachineKind& steam_sphere_kind() {
-  static const MachineKind kKind{
-      {"machine.steam_sphere", "A fire boils water, and jets of steam turn a sphere", kParameters, kValues}, make};
+  static const MachineKind kKind{{"machine.steam_sphere", "A fire boils water, and jets of steam turn a sphere",
+                                  kSteamSphereParameters, kSteamSphereValues},
+                                 make_steam_sphere};
   return kKind;
 }
 

@@ -26,7 +26,7 @@ namespace {
 constexpr double kHeel_rad = 0.02;
 constexpr double kCalibration = 0.1;  // how far a spring may be from Philon's rule
 
-struct Settings {
+struct TorsionSpringSettings {
   JointId joint;
   double direction = 1;
   double springs = 2;
@@ -38,7 +38,7 @@ struct Settings {
 
 class TorsionSpring final : public Machine {
  public:
-  TorsionSpring(const Build& build, const Settings& settings, QuantityId release)
+  TorsionSpring(const Build& build, const TorsionSpringSettings& settings, QuantityId release)
       : s_(settings),
         torque_nm_(build.slot("torque_nm")),
         energy_j_(build.slot("energy_j")),
@@ -94,7 +94,7 @@ class TorsionSpring final : public Machine {
     state.memory[before_j_] = 0;
   }
 
-  Settings s_;
+  TorsionSpringSettings s_;
   std::size_t torque_nm_;
   std::size_t energy_j_;
   std::size_t angle_;
@@ -122,10 +122,10 @@ Expected<double> read_calibre(const state::Parameters& p, const std::string& whe
   return calibre;
 }
 
-Expected<std::unique_ptr<Machine>> make(const Build& build) {
+Expected<std::unique_ptr<Machine>> make_torsion_spring(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  Settings s;
+  TorsionSpringSettings s;
   const auto joint = read_joint(build, "joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
@@ -143,7 +143,7 @@ Expected<std::unique_ptr<Machine>> make(const Build& build) {
 }
 
 using state::ParameterKind;
-constexpr state::ParameterType kParameters[] = {
+constexpr state::ParameterType kTorsionSpringParameters[] = {
     {.name = "joint",
      .kind = ParameterKind::text,
      .summary = "the hinge of the arm, at 0 when the arm is at rest",
@@ -187,7 +187,7 @@ constexpr state::ParameterType kParameters[] = {
      .max = 1},
     {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the arm is drawn to negative angles"},
 };
-constexpr state::ValueType kValues[] = {
+constexpr state::ValueType kTorsionSpringValues[] = {
     {"torque_nm", "N m", "of all springs on the arm, unscaled"},
     {"energy_j", "J", "held by the springs, unscaled"},
     {"angle", "rad", "how far the arm is drawn, from rest"},
@@ -198,8 +198,9 @@ constexpr state::ValueType kValues[] = {
 }  // namespace
 
 const MachineKind& torsion_spring_kind() {
-  static const MachineKind kKind{
-      {"machine.torsion_spring", "Twisted sinew that drives a catapult's arm", kParameters, kValues}, make};
+  static const MachineKind kKind{{"machine.torsion_spring", "Twisted sinew that drives a catapult's arm",
+                                  kTorsionSpringParameters, kTorsionSpringValues},
+                                 make_torsion_spring};
   return kKind;
 }
 
