@@ -154,7 +154,8 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
   return sources;
 }
 
-Expected<geometry::FitResult> fit_bound(const PartSource& source, const Ground& ground) {
+/// Round the mesh where all of it is the part, else round the part's points.
+Expected<geometry::FitResult> fit_bound(const PartSource& source, const geometry::Mesh* mesh, const Ground& ground) {
   if (ground.config.bounds == Bounds::boxes) {
     std::vector<Vec3> surface_points_O;
     for (const SurfacePlace& place : source.places)
@@ -163,12 +164,12 @@ Expected<geometry::FitResult> fit_bound(const PartSource& source, const Ground& 
   }
   geometry::FitConfig config;
   config.seed = ground.config.seed;
-  return source.is_whole_node() ? geometry::fit_superquadric(ground.nodes[source.node], config)
-                                : geometry::fit_superquadric(source.bound_points_O, config);
+  return mesh != nullptr ? geometry::fit_superquadric(*mesh, config)
+                         : geometry::fit_superquadric(source.bound_points_O, config);
 }
 
 Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground& ground) {
-  auto fit = fit_bound(source, ground);
+  auto fit = fit_bound(source, source.is_whole_node() ? &ground.nodes[source.node] : nullptr, ground);
   if (!fit) return fail(fit.error().what, where_of(source.name), fit.error().remedy);
   return fit;
 }
@@ -388,9 +389,7 @@ std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> pa
   geometry::Mesh mesh;
   for (const geometry::Mesh& node : ground.nodes)
     mesh.append(node);
-  geometry::FitConfig config;
-  config.seed = ground.config.seed;
-  const auto fit = geometry::fit_superquadric(mesh, config);
+  const auto fit = fit_bound(whole, &mesh, ground);
   if (!fit) return std::nullopt;
   std::vector<Probe> probes;
   for (const Made& one : made)

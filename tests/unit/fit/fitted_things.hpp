@@ -27,9 +27,17 @@ inline FittedObject fitted(std::vector<geometry::NamedMesh> meshes, bool bricks 
   return out;
 }
 
+// Made once in a program, for a sanitizer makes it slow.
+
 /// With a radial map, which has a box exactly.
-inline FittedObject fitted_box() {
-  return fitted({{"block", test::box({0.05, 0.04, 0.03})}}, false);
+inline const FittedObject& fitted_box() {
+  static const FittedObject kBox = fitted({{"block", test::box({0.05, 0.04, 0.03})}}, false);
+  return kBox;
+}
+
+inline const FittedObject& fitted_crank() {
+  static const FittedObject kCrank = fitted(test::crank());
+  return kCrank;
 }
 
 }  // namespace mechane::fit

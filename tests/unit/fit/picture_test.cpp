@@ -25,7 +25,7 @@ double share_of(const Image& image, const Colour& colour) {
 }
 
 TEST(Pictures, EachPartIsSeenInItsColourOnTransparentGround) {
-  const FittedObject crank = fitted(test::crank());
+  const FittedObject& crank = fitted_crank();
   const Surface surface(crank);
   const Row row = Pictures(surface, crank.object, 600, 200).parts();
   int width = 0;
@@ -56,7 +56,7 @@ TEST(Pictures, ErrorsShowPaleWhereTrueAndInTheirOwnColourWhereNothingIsFelt) {
 }
 
 TEST(Pictures, TheMapOfABoxUnderItsSuperquadricIsFlatInTheMiddleOfItsFaces) {
-  const FittedObject box = fitted_box();
+  const FittedObject& box = fitted_box();
   const MapPicture map = draw_map(box.object, 0, 16);
   EXPECT_EQ(map.image.width, 64);
   EXPECT_EQ(map.image.height, 48);

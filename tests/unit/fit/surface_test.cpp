@@ -29,7 +29,7 @@ void at_inner_places(const Surface& surface, const Check& check) {
 }
 
 TEST(Surface, ATrueMapIsFeltWhereTheMeshIs) {
-  const FittedObject box = fitted_box();
+  const FittedObject& box = fitted_box();
   at_inner_places(Surface(box), [](const Vec3&, const SurfaceError& error) {
     EXPECT_TRUE(error.felt);
     EXPECT_LT(error.error_m, 1e-5);
@@ -59,7 +59,7 @@ TEST(Surface, WhatNoMapHoldsIsNotFeltAndTheVerdictSaysSo) {
 }
 
 TEST(Surface, SeamsBetweenPartsAreNoSurface) {
-  const FittedObject crank = fitted(test::crank());
+  const FittedObject& crank = fitted_crank();
   const Surface surface(crank);
   EXPECT_EQ(surface.triangles_of_parts(), (std::vector<std::size_t>{96, 12, 96}));
   // The shaft's upper end lies inside the arm.

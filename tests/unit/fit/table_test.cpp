@@ -80,7 +80,7 @@ TEST(Progress, LinesSayHowFarItIs) {
 }
 
 TEST(Report, AHostileNameIsTextAndThePageNeedsNothingFromOutside) {
-  FittedObject crank = fitted(test::crank());
+  FittedObject crank = fitted_crank();
   crank.object.parts[1].name = "<script>alert('part')</script>";
   crank.mesh_file = "<img src=x onerror=1>.glb";
   const Surface surface(crank);
