@@ -36,9 +36,15 @@ struct BrickKernels : KernelMath<Lanes> {
     F d00, d10, d01, d11;  // their slopes
     F base;                // of all values
   };
+  /// Where a point's cell stands, and its values' bytes.
+  struct Place {
+    F fx, fy, fz;  // in the cell
+    F base;
+    I entry, at, cells, layer_step;
+    I sheets;
+  };
   /// Of a point in blocks. What lies outside the box gets the cell next to it. Indices are exact in floats: below 2^24.
-  // A cell fills 13 registers: not worth a call.
-  [[gnu::always_inline]] static Cell cell_of(const BrickView& map, const Point& u) {
+  [[gnu::always_inline]] static Place place_of(const BrickView& map, const Point& u) {
     const auto floor_below = [](F t, F most) { return to_float(to_int(lesser(greater(t, all(0)), most))); };
     const auto block_at = [&](F t, int count) { return floor_below(t, all(static_cast<float>(count - 1))); };
     const F bx = block_at(u.x, map.blocks[0]);
@@ -46,41 +52,83 @@ struct BrickKernels : KernelMath<Lanes> {
     const F bz = block_at(u.z, map.blocks[2]);
     const auto row = static_cast<float>(map.blocks[0]);
     const auto layer = static_cast<float>(map.blocks[0] * map.blocks[1]);
+    Place place;
     const I entry = Lanes::template gather<sizeof(std::uint32_t)>(map.index, to_int(bz * layer + by * row + bx));
     // See DistanceBrick::Entry: 2 bits of level, 20 of place, 1 each for outer, inner and three, 7 of base.
     const I level = entry & 3;
-    const I sheets = level == 3;
-    const I cells = (I{} + 1) << (level & ~sheets);
-    const F along = to_float(cells);
+    place.entry = entry;
+    place.sheets = level == 3;
+    place.cells = (I{} + 1) << (level & ~place.sheets);
+    const F along = to_float(place.cells);
     const F last = along - 1.0F;
     const F stride = along + 1.0F;
     const Point v{(u.x - bx) * along, (u.y - by) * along, (u.z - bz) * along};
     const F ix = floor_below(v.x, last);
     const F iy = floor_below(v.y, last);
     const F iz = floor_below(v.z, last);
-    const I at = (entry & 0x3ffffc) + to_int((iz * stride + iy) * stride + ix);
-    const I layer_step = to_int(stride * stride);
+    place.at = (entry & 0x3ffffc) + to_int((iz * stride + iy) * stride + ix);
+    place.layer_step = to_int(stride * stride);
+    place.fx = v.x - ix;
+    place.fy = v.y - iy;
+    place.fz = v.z - iz;
+    place.base = to_float((entry >> 25) << 5);
+    return place;
+  }
+  // A cell fills 13 registers: not worth a call.
+  [[gnu::always_inline]] static Cell first_cell(const BrickView& map, const Place& place) {
     Cell c;
-    c.fx = v.x - ix;
-    c.fy = v.y - iy;
-    c.fz = v.z - iz;
-    c.base = to_float((entry >> 25) << 5);
-    read_values(map, at, cells + 1, layer_step, c);
-    if (Lanes::mask_of(sheets) == 0) return c;
+    c.fx = place.fx;
+    c.fy = place.fy;
+    c.fz = place.fz;
+    c.base = place.base;
+    if (Lanes::mask_of(place.cells > 1) == 0) {
+      read_sheet(map, place.at, c);  // one cell: half the gathers, and the same values
+    } else {
+      read_values(map, place.at, place.cells + 1, place.layer_step, c);
+    }
+    return c;
+  }
+  /// Of a block with sheets, the cell of the one that holds at the point; see DistanceBrick.
+  [[gnu::always_inline]] static Cell cell_of(const BrickView& map, const Point& u) {
+    const Place place = place_of(map, u);
+    Cell c = first_cell(map, place);
+    if (Lanes::mask_of(place.sheets) == 0) return c;
     Cell rest = c;
-    read_sheet(map, at + (sheets & 8), rest);
-    const I three = sheets & ((entry << 7) < 0);
+    read_sheet(map, place.at + (place.sheets & 8), rest);
+    const I three = three_of(place);
     if (Lanes::mask_of(three) != 0) {
       Cell third = rest;
-      read_sheet(map, at + (sheets & 8) + (three & 8), third);
-      take(three & (((entry << 8) < 0) ^ (steps(third) < steps(rest))), third, rest);
+      read_sheet(map, place.at + (place.sheets & 8) + (three & 8), third);
+      take(three & inner_takes(place, steps(third), steps(rest)), third, rest);
     }
-    take(sheets & (((entry << 9) < 0) ^ (steps(rest) < steps(c))), rest, c);
-    const F unit = select(sheets, all(2), all(1));
+    take(place.sheets & outer_takes(place, steps(rest), steps(c)), rest, c);
+    const F unit = unit_of(place);
     for (F Cell::*value : kValues)
       c.*value *= unit;
     return c;
   }
+  /// The distance alone, to the bits that distance(map, cell_of(map, u)) has: twice a float is exact.
+  [[gnu::always_inline]] static F distance_at(const BrickView& map, const Point& u) {
+    const Place place = place_of(map, u);
+    Cell c = first_cell(map, place);
+    F value = steps(c);
+    if (Lanes::mask_of(place.sheets) != 0) {
+      read_sheet(map, place.at + (place.sheets & 8), c);
+      F rest = steps(c);
+      const I three = three_of(place);
+      if (Lanes::mask_of(three) != 0) {
+        read_sheet(map, place.at + (place.sheets & 8) + (three & 8), c);
+        const F third = steps(c);
+        rest = select(three & inner_takes(place, third, rest), third, rest);
+      }
+      value = select(place.sheets & outer_takes(place, rest, value), rest, value) * unit_of(place);
+    }
+    return (value + place.base) * map.step_m;
+  }
+  static I three_of(const Place& place) { return place.sheets & ((place.entry << 7) < 0); }
+  static I inner_takes(const Place& place, F third, F second) { return ((place.entry << 8) < 0) ^ (third < second); }
+  static I outer_takes(const Place& place, F rest, F first) { return ((place.entry << 9) < 0) ^ (rest < first); }
+  static F unit_of(const Place& place) { return select(place.sheets, all(2), all(1)); }
   static constexpr F Cell::*kValues[] = {&Cell::x00, &Cell::x10, &Cell::x01, &Cell::x11,
                                          &Cell::d00, &Cell::d10, &Cell::d01, &Cell::d11};
   /// Where `holds`, the values of `other` in place of those of `c`.
@@ -107,7 +155,7 @@ struct BrickKernels : KernelMath<Lanes> {
     c.x01 = byte_of<0>(g01) + c.d01 * c.fx;
     c.x11 = byte_of<0>(g11) + c.d11 * c.fx;
   }
-  /// A sheet's eight values lie side by side.
+  /// A sheet's eight values lie side by side, as those of a block of one cell do.
   [[gnu::always_inline]] static void read_sheet(const BrickView& map, I at, Cell& c) {
     const I low = Lanes::template gather<1>(map.values, at);
     const I high = Lanes::template gather<1>(map.values, at + 4);
@@ -144,7 +192,7 @@ struct BrickKernels : KernelMath<Lanes> {
       const I at_box = dot(way, way) <= radius * radius;
       if (Lanes::mask_of(at_box) == 0) continue;
       // Seen from the box's nearest point, everything in the box lies ahead or to the side.
-      const F ahead = greater(distance(map, cell_of(map, inner)) - map.slack_m, all(0)) * map.inverse_block;
+      const F ahead = greater(distance_at(map, inner) - map.slack_m, all(0)) * map.inverse_block;
       near |= Lanes::mask_of(at_box & (dot(way, way) + ahead * ahead <= radius * radius)) << at;
     }
     return near & first(count);
@@ -161,7 +209,7 @@ struct BrickKernels : KernelMath<Lanes> {
       store_points(p, out.p_Q, at);
       store(all(0), out.m, at);  // exact wherever it reaches: it goes before every radial map
       if (Lanes::mask_of(in_box) == 0) continue;
-      inside |= Lanes::mask_of(in_box & (distance(map, cell_of(map, u)) < 0.0F)) << at;
+      inside |= Lanes::mask_of(in_box & (distance_at(map, u) < 0.0F)) << at;
     }
     return inside;
   }

@@ -1,5 +1,5 @@
-// The kernels' one source, for lanes of any width: compiled once for each instruction set by kernels_*.cpp, which bring the three
-// things that C++ cannot say in vectors (see PortableLanes). Includes nothing that is compiled elsewhere too: an inline function
+// The kernels' one source, for lanes of any width: compiled once for each instruction set by kernels_*.cpp, which bring what
+// C++ cannot say in vectors, or not so well (see PortableLanes). Includes nothing that is compiled elsewhere too: an inline function
 // with this file's instructions must not be what a machine without them runs.
 #pragma once
 

@@ -29,7 +29,7 @@ struct VectorsOf<16> {
   typedef int I __attribute__((vector_size(64)));
 };
 
-/// Lanes of `Width` floats. A class that derives from it may bring better root(), gather() and mask_of().
+/// Lanes of `Width` floats. A class that derives from it may bring what its instruction set does better, to the same bits.
 template <int Width>
 struct PortableLanes {
   static constexpr int kWidth = Width;
@@ -41,6 +41,13 @@ struct PortableLanes {
       x[i] = __builtin_sqrtf(x[i]);
     return x;
   }
+  /// `condition` has all bits or none in each lane.
+  static F select(I condition, F a, F b) {
+    return reinterpret_cast<F>((condition & reinterpret_cast<I>(a)) | (~condition & reinterpret_cast<I>(b)));
+  }
+  // Both give b where one of them is NaN, and where both are zeros.
+  static F lesser(F a, F b) { return select(a < b, a, b); }
+  static F greater(F a, F b) { return select(a > b, a, b); }
   /// For each lane the four bytes from table + Scale * index on, the first the lowest.
   template <int Scale>
   static I gather(const void* table, I index) {
@@ -74,12 +81,9 @@ struct KernelMath {
   };
 
   static F all(float value) { return F{} + value; }
-  static F select(I condition, F a, F b) {
-    return reinterpret_cast<F>((condition & reinterpret_cast<I>(a)) | (~condition & reinterpret_cast<I>(b)));
-  }
-  // Both give b where a is NaN.
-  static F lesser(F a, F b) { return select(a < b, a, b); }
-  static F greater(F a, F b) { return select(a > b, a, b); }
+  static F select(I condition, F a, F b) { return Lanes::select(condition, a, b); }
+  static F lesser(F a, F b) { return Lanes::lesser(a, b); }
+  static F greater(F a, F b) { return Lanes::greater(a, b); }
   static F magnitude(F x) { return reinterpret_cast<F>(reinterpret_cast<I>(x) & 0x7fffffff); }
   static F sign_of(F x) { return select(x < 0.0F, all(-1), all(1)); }
   static I to_int(F x) { return __builtin_convertvector(x, I); }

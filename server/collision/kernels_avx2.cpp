@@ -12,6 +12,9 @@ namespace {
 
 struct Avx2Lanes : PortableLanes<8> {
   static F root(F x) { return _mm256_sqrt_ps(x); }
+  static F select(I condition, F a, F b) { return _mm256_blendv_ps(b, a, reinterpret_cast<__m256>(condition)); }
+  static F lesser(F a, F b) { return _mm256_min_ps(a, b); }
+  static F greater(F a, F b) { return _mm256_max_ps(a, b); }
   template <int Scale>
   static I gather(const void* table, I index) {
     return reinterpret_cast<I>(

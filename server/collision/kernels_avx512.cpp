@@ -15,6 +15,11 @@ struct Avx512Lanes : PortableLanes<16> {
   static constexpr __mmask16 kEvery = 0xffff;
 
   static F root(F x) { return _mm512_mask_sqrt_ps(x, kEvery, x); }
+  static F select(I condition, F a, F b) {
+    return _mm512_mask_blend_ps(_mm512_movepi32_mask(reinterpret_cast<__m512i>(condition)), b, a);
+  }
+  static F lesser(F a, F b) { return _mm512_mask_min_ps(a, kEvery, a, b); }
+  static F greater(F a, F b) { return _mm512_mask_max_ps(a, kEvery, a, b); }
   template <int Scale>
   static I gather(const void* table, I index) {
     const auto lanes = reinterpret_cast<__m512i>(index);
