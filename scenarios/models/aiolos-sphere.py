@@ -327,7 +327,7 @@ def make_place(model, scene):
     block(pillar, (x - 0.16, -0.02, 0.13), (x + 0.16, 0.09, 0.44), 0.014, 27, 0.004)
     model.add("visual_pillar", pillar, ["limestone"], ledge, 42)
     floor = model.group("FLOOR")
-    model.add("part_floor", block(Shape(), (-1.6, -0.30, -1.1), (1.7, 0.0, 1.7), 0.01, 28, 0.0, 1.0), ["limestone"], floor, 42)
+    model.add("part_floor", block(Shape(), (-1.54, -0.30, -1.24), (1.72, 0.0, 1.6), 0.01, 28, 0.0, 1.0), ["earth"], floor, 42)
     rng = np.random.default_rng(131)
     shape = Shape()
     z, row = -1.25, 0
@@ -336,7 +336,7 @@ def make_place(model, scene):
         left = -1.55 + 0.18 * (row % 2)
         while left < 1.65:
             width = min(rng.uniform(0.36, 0.64), 1.74 - left)
-            block(shape, (left, -0.10, z), (left + width - 0.008, rng.uniform(-0.004, 0.001), z + depth - 0.008), 0.010, int(rng.integers(1000)), 0.0025)
+            block(shape, (left, -0.10, z), (left + width - 0.008, rng.uniform(0.002, 0.007), z + depth - 0.008), 0.010, int(rng.integers(1000)), 0.0025)
             left += width
         z += depth
         row += 1
@@ -354,7 +354,7 @@ def put(moved, hidden):
     """Puts the bodies where they are at the start, but for those moved; hides some: for pictures."""
     for name, place in {**PLACES, **moved}.items():
         bpy.data.objects[name].location = to_blender(place)
-    for name in ("FLAMES", "TORCH_FLAME", "FLOOR"):
+    for name in ("FLAMES", "TORCH_FLAME"):
         for child in bpy.data.objects[name].children:
             child.hide_render = name in hidden
 
@@ -373,10 +373,10 @@ def main():
         if len(arguments) > 1:
             at_wood = (0.0, 0.58, 0.64)
             for name, moved, hidden, eye, look_at in (
-                    ("cold", {}, ("FLAMES", "FLOOR"), (1.15, 1.75, 2.05), (0.28, 0.80, 0.0)),
-                    ("lit", {"TORCH": at_wood, "TORCH_FLAME": at_wood}, ("FLOOR",), (0.50, 1.20, 1.55), (0.02, 0.82, 0.05)),
-                    ("near", {}, ("FLOOR",), (0.35, 1.50, 0.75), (0.0, 1.25, 0)),
-                    ("shut", {"SHUTTER": (0, 0.56, SHUTTER_Z)}, ("FLAMES", "FLOOR"), (-0.75, 1.15, 1.45), (0.05, 0.70, 0.1))):
+                    ("cold", {}, ("FLAMES",), (1.15, 1.75, 2.05), (0.28, 0.80, 0.0)),
+                    ("lit", {"TORCH": at_wood, "TORCH_FLAME": at_wood}, (), (0.50, 1.20, 1.55), (0.02, 0.82, 0.05)),
+                    ("near", {}, (), (0.35, 1.50, 0.75), (0.0, 1.25, 0)),
+                    ("shut", {"SHUTTER": (0, 0.56, SHUTTER_Z)}, ("FLAMES",), (-0.75, 1.15, 1.45), (0.05, 0.70, 0.1))):
                 put(moved, hidden)
                 picture(os.path.abspath(arguments[1]) + f"-{name}.png", eye, look_at, samples=24)
 
