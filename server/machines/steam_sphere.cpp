@@ -26,7 +26,7 @@ constexpr std::size_t kMostNozzles = 8;
 
 struct SteamSphereSettings {
   JointId joint;
-  QuantityId fire;    // none where an agent lights it
+  QuantityId fire;  // none where an agent lights it
   std::string lit_by;
   double direction = 1;
   double fire_w = 0;
