@@ -24,7 +24,7 @@ import numpy as np
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from modelling import (TEXTURE, Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials, noise,  # noqa: E402
-                       normal_map, picture, step, strip_uv, surface, timber, tint, to_blender, tube)
+                       picture, step, surface, timber, tint, to_blender, tube)
 
 HEARTH_X, HEARTH_Z, BED_Y, MOUTH_TOP, HOB_Y = 0.62, 0.42, 0.40, 0.72, 0.84
 MOUTH = 0.18  # half the mouth's width, and half the opening under the cauldron
