@@ -1,4 +1,5 @@
-// simulation.lit: a flame that is near for a while sets something on fire.
+// simulation.lit: a flame that is near for a while sets something on fire. A fire behind a door lives on the air that comes in by it:
+// with the door shut none can be lit, and one that burns goes out after a while.
 #include "server/agents/agent.hpp"
 
 namespace mechane::agents {
@@ -23,10 +24,15 @@ class Lit final : public Agent {
         time_s_(build.parameters.number("time")),
         burn_s_(build.parameters.number("burnTime")),
         needs_(build.parameters.text("needs")),
+        shows_(build.parameters.body("shows")),
+        door_(build.parameters.joint("door")),
+        shut_at_(build.parameters.number("shutAt")),
+        smother_s_(build.parameters.number("smotherTime")),
         lit_(build.slot("lit")),
         near_(build.slot("distance")),
         near_s_(build.slot("own.near_s")),
-        burnt_s_(build.slot("burnt_s")) {}
+        burnt_s_(build.slot("burnt_s")),
+        shut_s_(build.slot("own.shut_s")) {}
 
   Expected<void> link(const state::MemoryLayout& layout) override {
     if (!needs_.empty()) needed_ = layout.find(needs_ + ".lit")->index;
@@ -37,17 +43,22 @@ class Lit final : public Agent {
     const Vec3 gap = state[flame_].X_WB * p_FQ_ - state[body_].X_WB * p_BQ_;
     state.memory[near_] = gap.norm();
     const bool burns = needs_.empty() || state.memory[needed_] != 0;
-    const bool close = enabled && burns && state[flame_].visible && state.memory[near_] <= distance_m_;
+    const bool shut = door_ && state[door_].position >= shut_at_;
+    state.memory[shut_s_] = shut ? state.memory[shut_s_] + dt_s : 0;
+    const bool close = enabled && burns && !shut && state[flame_].visible && state.memory[near_] <= distance_m_;
     state.memory[near_s_] = close ? state.memory[near_s_] + dt_s : 0;
     if (state.memory[lit_] != 0) {
       state.memory[burnt_s_] += dt_s;
-      if (burn_s_ > 0 && state.memory[burnt_s_] >= burn_s_) state.memory[lit_] = 0;
+      const bool burnt_down = burn_s_ > 0 && state.memory[burnt_s_] >= burn_s_;
+      const bool smothered = shut && state.memory[shut_s_] + 0.5 * dt_s >= smother_s_;
+      if (burnt_down || smothered) state.memory[lit_] = 0;
     } else if (close && state.memory[near_s_] + 0.5 * dt_s >= time_s_) {
       state.memory[lit_] = 1;
       state.memory[burnt_s_] = 0;
       state.emit(state::EventKind::lit, static_cast<std::uint32_t>(id_.index()),
                  static_cast<std::uint32_t>(body_.index()));
     }
+    if (shows_) state[shows_].visible = state.memory[lit_] != 0;
   }
 
  private:
@@ -61,10 +72,15 @@ class Lit final : public Agent {
   double burn_s_;
   std::string needs_;
   std::size_t needed_ = 0;
+  BodyId shows_;
+  JointId door_;
+  double shut_at_;
+  double smother_s_;
   std::size_t lit_;
   std::size_t near_;
   std::size_t near_s_;
   std::size_t burnt_s_;
+  std::size_t shut_s_;
 };
 
 Expected<std::unique_ptr<Agent>> make_lit(const Build& build) {
@@ -76,6 +92,11 @@ Expected<std::unique_ptr<Agent>> make_lit(const Build& build) {
     if (other.type != "simulation.lit" || &other == &build.component)
       return fail("'" + other.name + "' says of no flame whether it burns", where, "name another simulation.lit");
   }
+  const bool door = build.parameters.given("door");
+  if (!door && (build.parameters.given("shutAt") || build.parameters.given("smotherTime")))
+    return fail("it says when a door is shut, and names no door", where, "name a joint in 'door'");
+  if (door && !build.parameters.given("shutAt"))
+    return fail("it does not say when the door is shut", where, "write the joint's position in 'shutAt'");
   return std::make_unique<Lit>(build);
 }
 
@@ -112,6 +133,25 @@ constexpr state::ParameterType kLitParameters[] = {
      .kind = ParameterKind::text,
      .summary = "the simulation.lit by which the flame itself must burn; none: it always does",
      .reference = state::Reference::agent},
+    {.name = "shows",
+     .kind = ParameterKind::text,
+     .summary = "a body that is seen while it burns, and only then: its flames",
+     .reference = state::Reference::body},
+    {.name = "door",
+     .kind = ParameterKind::text,
+     .summary = "the hinge or slider of a door that lets air to the fire; none: it always has air",
+     .reference = state::Reference::joint},
+    {.name = "shutAt",
+     .unit = "m or rad",
+     .summary = "with door: from this position of the joint on no air comes in",
+     .min = -10000,
+     .max = 10000},
+    {.name = "smotherTime",
+     .unit = "s",
+     .summary = "with door: how long a fire burns without air",
+     .default_value = 1,
+     .min = 0,
+     .max = 3600},
 };
 constexpr state::ValueType kLitValues[] = {
     {"lit", "", "1 while it burns"},

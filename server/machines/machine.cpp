@@ -4,6 +4,10 @@
 
 namespace mechane::machines {
 
+Expected<void> Machine::link(const state::MemoryLayout& /*layout*/) {
+  return {};
+}
+
 Expected<JointId> read_joint(const Build& build, const std::string& parameter, state::JointKind kind) {
   MECHANE_ASSERT(kind == state::JointKind::hinge || kind == state::JointKind::slider);
   const JointId joint = build.parameters.joint(parameter);

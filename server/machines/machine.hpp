@@ -9,10 +9,14 @@
 
 namespace mechane::machines {
 
-/// One machine. Immutable: what it remembers lies in slots of WorldState::memory.
+/// One machine. Immutable once linked: what it remembers lies in slots of WorldState::memory.
 class Machine {
  public:
   virtual ~Machine() = default;
+
+  /// Called once, when every agent and machine has its slots: for those that read another's value.
+  [[nodiscard]] virtual Expected<void> link(const state::MemoryLayout& layout);
+
   /// One tick. Allocates nothing.
   virtual void run(state::WorldState& state, double dt_s) const noexcept = 0;
 };
@@ -31,6 +35,9 @@ struct Build {
   /// The parameter effortScale, or the world's where the author wrote none.
   [[nodiscard]] double effort_scale() const {
     return parameters.given("effortScale") ? parameters.number("effortScale") : description.effort_scale;
+  }
+  [[nodiscard]] const state::ComponentDescription& agent(AgentId other) const {
+    return description.agents[other.index()];
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/assert.hpp"
 #include "server/machines/machine.hpp"
 #include "server/machines/registry.hpp"
 
@@ -9,9 +10,10 @@ namespace mechane::machines {
 
 struct MachineSet::Impl {
   std::vector<std::unique_ptr<Machine>> machines;
+  bool linked = false;
 };
 
-MachineSet::MachineSet(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+MachineSet::MachineSet(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 MachineSet::~MachineSet() = default;
 
 Expected<std::unique_ptr<MachineSet>> MachineSet::create(const state::WorldDescription& description,
@@ -36,7 +38,17 @@ Expected<std::unique_ptr<MachineSet>> MachineSet::create(const state::WorldDescr
   return std::unique_ptr<MachineSet>(new MachineSet(std::move(impl)));
 }
 
+Expected<void> MachineSet::link(const state::MemoryLayout& layout) {
+  MECHANE_ASSERT(!impl_->linked);
+  for (const auto& machine : impl_->machines) {
+    if (auto linked = machine->link(layout); !linked) return linked;
+  }
+  impl_->linked = true;
+  return {};
+}
+
 void MachineSet::run(state::WorldState& state, double dt_s) const noexcept {
+  MECHANE_ASSERT(impl_->linked);
   for (const auto& machine : impl_->machines)
     machine->run(state, dt_s);
 }

@@ -8,13 +8,16 @@
 
 namespace mechane::machines {
 
-/// Made once for a world, never changed: all that machines remember lies in WorldState::memory.
+/// Made once for a world, linked once, never changed then: all that machines remember lies in WorldState::memory.
 class MachineSet {
  public:
   /// Takes memory slots. Errors name the machine, its line, what is wrong and what to write: unknown type, bad parameters, a
   /// geometry that cannot be.
   [[nodiscard]] static Expected<std::unique_ptr<MachineSet>> create(const state::WorldDescription& description,
                                                                     state::MemoryLayout& layout);
+  /// Lets machines find the values of agents that they read. Once, when the agents have their slots too, and before run().
+  /// Errors: as create().
+  [[nodiscard]] Expected<void> link(const state::MemoryLayout& layout);
   ~MachineSet();
   MachineSet(const MachineSet&) = delete;
   MachineSet& operator=(const MachineSet&) = delete;
@@ -25,8 +28,8 @@ class MachineSet {
 
  private:
   struct Impl;
-  explicit MachineSet(std::unique_ptr<const Impl> impl);
-  std::unique_ptr<const Impl> impl_;
+  explicit MachineSet(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace mechane::machines

@@ -26,7 +26,8 @@ constexpr std::size_t kMostNozzles = 8;
 
 struct SteamSphereSettings {
   JointId joint;
-  QuantityId fire;
+  QuantityId fire;  // none where an agent lights it
+  std::string lit_by;
   double direction = 1;
   double fire_w = 0;
   double loss_w_per_k = 0;
@@ -47,6 +48,7 @@ class SteamSphere final : public Machine {
  public:
   SteamSphere(const Build& build, const SteamSphereSettings& settings)
       : s_(settings),
+        where_(state::component_place(build.component)),
         temperature_(build.slot("temperature_c", settings.ambient_c)),
         steam_(build.slot("steam_kg_s")),
         water_(build.slot("water_l", settings.water_kg)),
@@ -54,6 +56,15 @@ class SteamSphere final : public Machine {
         torque_(build.slot("torque_nm")),
         exit_(build.slot("exit_m_s")),
         boils_(build.slot("boils")) {}
+
+  Expected<void> link(const state::MemoryLayout& layout) override {
+    if (s_.fire) return {};
+    const state::MemorySlot* slot = layout.find(s_.lit_by + ".lit");
+    if (slot == nullptr)
+      return fail("the agent '" + s_.lit_by + "' has no value 'lit'", where_, "name a simulation.lit in 'litBy'");
+    lit_ = slot->index;
+    return {};
+  }
 
   void run(state::WorldState& state, double dt_s) const noexcept override {
     const double boiled_kg_s = heat(state, dt_s * s_.time_scale);
@@ -64,11 +75,15 @@ class SteamSphere final : public Machine {
   }
 
  private:
+  [[nodiscard]] bool lit(const state::WorldState& state) const noexcept {
+    return (s_.fire ? state.quantities[s_.fire.index()] : state.memory[lit_]) > 0.5;
+  }
+
   /// A while of the cauldron's own time; returns the steam that comes off, kg/s.
   double heat(state::WorldState& state, double time_s) const noexcept {
     double& temperature_c = state.memory[temperature_];
     double& water_kg = state.memory[water_];  // a litre to the kilogram
-    const bool burns = state.quantities[s_.fire.index()] > 0.5 && water_kg > 0;
+    const bool burns = lit(state) && water_kg > 0;
     const double power_w = (burns ? s_.fire_w : 0) - s_.loss_w_per_k * (temperature_c - s_.ambient_c);
     const double capacity_j_per_k = std::max(water_kg, kLeastWater_kg) * kWaterHeat_j_per_kg_k;
     const double wanted_c = temperature_c + power_w * time_s / capacity_j_per_k;
@@ -94,6 +109,8 @@ class SteamSphere final : public Machine {
   }
 
   SteamSphereSettings s_;
+  std::string where_;
+  std::size_t lit_ = 0;
   std::size_t temperature_;
   std::size_t steam_;
   std::size_t water_;
@@ -124,6 +141,24 @@ Expected<void> read_nozzles(const state::Parameters& p, const std::string& where
   return {};
 }
 
+/// What lights the fire: a quantity, or an agent.
+Expected<void> read_fire(const Build& build, SteamSphereSettings& s) {
+  const std::string where = state::component_place(build.component);
+  const state::Parameters& p = build.parameters;
+  if (p.given("fire") == p.given("litBy")) {
+    return fail(p.given("fire") ? "the fire is lit by a quantity and by an agent" : "nothing lights the fire", where,
+                "name a quantity in 'fire', or a simulation.lit in 'litBy', not both");
+  }
+  if (p.given("fire")) {
+    s.fire = build.description.find_quantity(p.text("fire"));
+    return {};
+  }
+  s.lit_by = p.text("litBy");
+  if (build.agent(p.agent("litBy")).type != "simulation.lit")
+    return fail("'" + s.lit_by + "' says of no fire whether it burns", where, "name a simulation.lit in 'litBy'");
+  return {};
+}
+
 Expected<std::unique_ptr<Machine>> make_steam_sphere(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
@@ -131,7 +166,7 @@ Expected<std::unique_ptr<Machine>> make_steam_sphere(const Build& build) {
   const auto joint = read_joint(build, "joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
-  s.fire = build.description.find_quantity(p.text("fire"));
+  if (auto good = read_fire(build, s); !good) return tl::unexpected(good.error());
   s.direction = p.boolean("reversed") ? -1 : 1;
   s.fire_w = p.number("firePower");
   s.loss_w_per_k = p.number("loss");
@@ -160,9 +195,12 @@ constexpr state::ParameterType kSteamSphereParameters[] = {
      .reference = state::Reference::joint},
     {.name = "fire",
      .kind = ParameterKind::text,
-     .summary = "the quantity that is above 0.5 while the fire burns",
-     .required = true,
+     .summary = "the quantity that is above 0.5 while the fire burns; or write litBy",
      .reference = state::Reference::quantity},
+    {.name = "litBy",
+     .kind = ParameterKind::text,
+     .summary = "the simulation.lit that says whether the fire burns; or write fire",
+     .reference = state::Reference::agent},
     {.name = "firePower", .unit = "W", .summary = "of the fire into the water", .required = true, .min = 1, .max = 1e6},
     {.name = "water",
      .unit = "l",

@@ -24,6 +24,7 @@ Expected<std::unique_ptr<World>> World::create(const std::shared_ptr<const state
   if (!machines) return tl::unexpected(machines.error());
   auto agents = agents::AgentSet::create(*description, layout);
   if (!agents) return tl::unexpected(agents.error());
+  if (auto linked = (*machines)->link(layout); !linked) return tl::unexpected(linked.error());
   MECHANE_ASSERT(config.hand != nullptr);
   auto forces = haptics::ForceRenderer::create(config.force);
   if (!forces) return tl::unexpected(forces.error());

@@ -54,6 +54,57 @@ TEST(Lit, NeedsABurningFlameNearForItsTime) {
   EXPECT_EQ(stage.count(EventKind::lit), 2);
 }
 
+/// HEARTH as above, lit by PART at once, behind a door on the stage's joint; its flames are FRAME.
+state::WorldDescription with_door() {
+  return with_agents({{"HEARTH",
+                       "simulation.lit",
+                       {{"body", text({"CRANK"})},
+                        {"flame", text({"PART"})},
+                        {"distance", number({10})},
+                        {"time", number({0})},
+                        {"shows", text({"FRAME"})},
+                        {"door", text({"AXLE"})},
+                        {"shutAt", number({0.4})},
+                        {"smotherTime", number({0.5})}},
+                       2}});
+}
+
+TEST(Lit, AFireBehindAShutDoorGoesOutAndIsNotLitAgain) {
+  Stage stage(with_door());
+  double& door = stage.state->joints[0].position;
+  const std::size_t flames = stage.world.find_body("FRAME").index();
+  stage.run(0.01);
+  EXPECT_EQ(stage.value("HEARTH.lit"), 1);
+  EXPECT_TRUE(stage.state->bodies[flames].visible);
+  door = 0.39;
+  stage.run(2);
+  EXPECT_EQ(stage.value("HEARTH.lit"), 1) << "a gap is air enough";
+  door = 0.41;
+  stage.run(0.3);
+  door = 0.2;
+  stage.run(0.3);
+  door = 0.41;
+  stage.run(0.4);
+  EXPECT_EQ(stage.value("HEARTH.lit"), 1) << "it had air in between";
+  stage.run(0.2);
+  EXPECT_EQ(stage.value("HEARTH.lit"), 0);
+  EXPECT_FALSE(stage.state->bodies[flames].visible);
+  stage.run(1);
+  EXPECT_EQ(stage.count(EventKind::lit), 1) << "no flame is lit without air";
+  door = 0;
+  stage.run(0.01);
+  EXPECT_EQ(stage.value("HEARTH.lit"), 1);
+}
+
+TEST(Lit, ADoorSaysWhenItIsShut) {
+  state::WorldDescription world = with_door();
+  world.agents[0].parameters.erase("shutAt");
+  EXPECT_THAT(error_of(world), HasSubstr("in 'shutAt'"));
+  world = with_door();
+  world.agents[0].parameters.erase("door");
+  EXPECT_THAT(error_of(world), HasSubstr("name a joint in 'door'"));
+}
+
 TEST(Lit, RefusesWhatCannotBe) {
   state::WorldDescription world = with_fire();
   world.agents[0].parameters["flame"] = text({"PART"});

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "server/dynamics/dynamics_world.hpp"
 #include "server/machines/machine_set.hpp"
@@ -53,21 +54,29 @@ inline void add_quantity(state::WorldDescription& world, const std::string& name
   world.quantities.push_back({name, name, ""});
 }
 
-/// The error of making the machines of a world; empty where they can be made.
+/// The error of making and linking the machines of a world without agents' slots; empty where there is none.
 inline std::string error_of(const state::WorldDescription& world) {
   state::MemoryLayout layout;
   auto made = MachineSet::create(world, layout);
-  return made ? std::string() : made.error().to_string();
+  if (!made) return made.error().to_string();
+  auto linked = (*made)->link(layout);
+  return linked ? std::string() : linked.error().to_string();
 }
 
 class Bench {
  public:
   enum class Moved { by_hand, by_dynamics };
 
-  explicit Bench(state::WorldDescription from, Moved moved = Moved::by_hand) : world(std::move(from)) {
+  /// `slots_of_agents`, as "FIRE.lit", are given out after the machines', as a world does it.
+  explicit Bench(state::WorldDescription from, Moved moved = Moved::by_hand,
+                 const std::vector<std::string>& slots_of_agents = {})
+      : world(std::move(from)) {
     auto made = MachineSet::create(world, layout_);
     if (!made) throw std::runtime_error(made.error().to_string());
     machines_ = std::move(*made);
+    for (const std::string& slot : slots_of_agents)
+      layout_.add(slot.substr(0, slot.find('.')), slot.substr(slot.find('.') + 1));
+    if (auto linked = machines_->link(layout_); !linked) throw std::runtime_error(linked.error().to_string());
     state = std::make_unique<state::WorldState>(world);
     state->memory = layout_.initial();
     for (state::JointState& joint : state->joints)
@@ -79,6 +88,7 @@ class Bench {
   }
 
   [[nodiscard]] double value(const std::string& name) const { return state->memory.at(layout_.find(name)->index); }
+  [[nodiscard]] double& value_of_agent(const std::string& name) { return state->memory.at(layout_.find(name)->index); }
   [[nodiscard]] double& quantity(const std::string& name) {
     return state->quantities.at(world.find_quantity(name).index());
   }

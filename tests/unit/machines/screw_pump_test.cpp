@@ -54,6 +54,7 @@ struct Pump {
     auto made = MachineSet::create(world, layout);
     if (!made) throw std::runtime_error(made.error().to_string());
     machines = std::move(*made);
+    if (auto linked = machines->link(layout); !linked) throw std::runtime_error(linked.error().to_string());
     state = std::make_unique<state::WorldState>(world);
     state->memory = layout.initial();
     state->joints[0].enabled = true;

@@ -158,6 +158,40 @@ RC_GTEST_PROP(SteamSphere, TheHeatOfTheFireIsAllAccountedFor, ()) {
   RC_ASSERT(std::abs(fire_j - warmed_j - boiled_j) <= 1e-6 * fire_j + 1e-3);
 }
 
+/// FIRE, a simulation.lit, lights the fire in the place of a quantity.
+state::WorldDescription sphere_lit_by(const std::string& agent_type) {
+  state::WorldDescription world = sphere_world(60);
+  world.machines[0].parameters.erase("fire");
+  world.machines[0].parameters["litBy"] = text("FIRE");
+  world.agents = {{"FIRE", agent_type, {}, 7}};
+  return world;
+}
+
+TEST(SteamSphere, TheAgentThatIsNamedLightsTheFireAndPutsItOut) {
+  Bench bench(sphere_lit_by("simulation.lit"), Bench::Moved::by_hand, {"OTHER.lit", "FIRE.lit"});
+  bench.value_of_agent("OTHER.lit") = 1;
+  bench.run(0.5);
+  EXPECT_EQ(bench.value("STEAM.temperature_c"), 20) << "another agent's fire warms nothing";
+  bench.value_of_agent("FIRE.lit") = 1;
+  bench.run(0.5);
+  const double warm_c = bench.value("STEAM.temperature_c");
+  EXPECT_NEAR(warm_c, 20 + kFire * 0.5 * 60 / 4186, 0.01);
+  bench.value_of_agent("FIRE.lit") = 0;
+  bench.run(0.5);
+  EXPECT_EQ(bench.value("STEAM.temperature_c"), warm_c) << "no loss, no fire";
+}
+
+TEST(SteamSphere, SaysWhatTheFireIsLitBy) {
+  EXPECT_THAT(error_of(sphere_lit_by("simulation.dwell")), HasSubstr("name a simulation.lit in 'litBy'"));
+  state::WorldDescription both = sphere_lit_by("simulation.lit");
+  both.machines[0].parameters["fire"] = text("lit");
+  EXPECT_THAT(error_of(both), HasSubstr("not both"));
+  state::WorldDescription none = sphere_world();
+  none.machines[0].parameters.erase("fire");
+  EXPECT_THAT(error_of(none), HasSubstr("line 5, machine.steam_sphere STEAM: nothing lights the fire"));
+  EXPECT_THAT(error_of(sphere_lit_by("simulation.lit")), HasSubstr("'FIRE' has no value 'lit'"));
+}
+
 TEST(SteamSphere, ATickAllocatesNothing) {
   Bench bench(sphere_world());
   bench.quantity("lit") = 1;

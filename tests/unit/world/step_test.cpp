@@ -181,6 +181,43 @@ TEST(Step, AUserWhoLeavesLetsGo) {
   EXPECT_EQ(stage.watch.count(EventKind::user_left), 1);
 }
 
+TEST(World, AMachineReadsWhatAnAgentSays) {
+  const auto text = [](const char* value) { return std::vector<std::string>{value}; };
+  const auto number = [](double value) { return std::vector<double>{value}; };
+  state::WorldDescription world = *test::make_crank_description();
+  world.agents.push_back({"FIRE", "simulation.lit", {{"body", text("CRANK")}, {"flame", text("FRAME")}}, 3});
+  world.machines = {{"STEAM",
+                     "machine.steam_sphere",
+                     {{"joint", text("AXLE")},
+                      {"litBy", text("FIRE")},
+                      {"firePower", number(1000)},
+                      {"timeScale", number(60)},
+                      {"nozzleRadius", number(0.1)},
+                      {"nozzleDiameter", number(0.003)}},
+                     5}};
+  world.quantities.push_back({"warmth", "STEAM.temperature_c", ""});
+  WorldConfig config;
+  config.hand = test::shared_hand();
+  auto made = World::create(std::make_shared<state::WorldDescription>(world), config);
+  ASSERT_TRUE(made) << made.error().to_string();
+  NoPublisher nobody;
+  SystemClock clock;
+  PhaseTimer timer(clock);
+  const auto warmth_after = [&](int ticks) {
+    for (int n = 0; n < ticks; ++n)
+      step(**made, TickInputs{}, nobody, timer);
+    return (*made)->state.quantities.back();
+  };
+  EXPECT_EQ(warmth_after(450), 20) << "the flame is there for half a second before it lights";
+  EXPECT_GT(warmth_after(100), 20.5);
+
+  world.agents.back().type = "simulation.idle";
+  world.agents.back().parameters.clear();
+  const auto wrong = World::create(std::make_shared<state::WorldDescription>(world), config);
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().to_string().find("line 5, machine.steam_sphere STEAM"), std::string::npos);
+}
+
 TEST(World, ResumesFromASnapshotWhereItWas) {
   Stage stage;
   const test::ScriptedHand hand(kGrip, kAxis, 5);
