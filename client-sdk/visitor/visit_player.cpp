@@ -24,6 +24,8 @@ std::string name_of(const state::WorldDescription& description, const VisitMove&
       return "carry " + description.bodies[move.body.index()].name;
     case VisitMove::Kind::turn:
       return "turn " + description.joints[move.joint.index()].name;
+    case VisitMove::Kind::swing:
+      return "swing " + description.joints[move.joint.index()].name;
     case VisitMove::Kind::release:
       return "release";
     case VisitMove::Kind::wait:
@@ -107,6 +109,9 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double
     case VisitMove::Kind::turn:
       ok_ = ok_ && holding;
       return turn(move);
+    case VisitMove::Kind::swing:
+      ok_ = ok_ && holding;
+      return swing(move);
     case VisitMove::Kind::release:
     case VisitMove::Kind::wait:
       break;
@@ -120,20 +125,33 @@ void VisitPlayer::move_hand_towards_goal(double duration_s) {
   intent_.X_WH.R = X_WH_start_.R.slerp(s, X_WH_goal_.R);
 }
 
-/// The hand goes round the joint's axis, speeding up and slowing down; the wrist keeps its direction, the handle turns in the hand.
 bool VisitPlayer::turn(const VisitMove& move) {
-  const state::JointDescription& joint = description_.joints[move.joint.index()];
-  const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
   const double whole_rad = 2 * kPi * std::abs(move.turns);
-  const double rate = 2 * kPi / 60 * std::abs(move.rate_rpm);
+  go_round(move.joint, std::copysign(go_through(whole_rad, 2 * kPi / 60 * std::abs(move.rate_rpm)), move.turns));
+  return turned_rad_ >= whole_rad;
+}
+
+/// To and fro as a sine of a phase that runs through all cycles.
+bool VisitPlayer::swing(const VisitMove& move) {
+  const double whole_rad = 2 * kPi * move.cycles;
+  go_round(move.joint, move.amplitude_rad * std::sin(go_through(whole_rad, 2 * kPi / 60 * move.cycles_per_min)));
+  return turned_rad_ >= whole_rad;
+}
+
+double VisitPlayer::go_through(double whole_rad, double rate_rad_per_s) {
   const double left = whole_rad - turned_rad_;
   const double speed =
-      std::min({rate, kTurnRampRadPerS2 * time_s_, std::sqrt(2 * kTurnRampRadPerS2 * std::max(left, 0.0))});
+      std::min({rate_rad_per_s, kTurnRampRadPerS2 * time_s_, std::sqrt(2 * kTurnRampRadPerS2 * std::max(left, 0.0))});
   turned_rad_ += std::max(speed, 0.01) * last_dt_s_;
-  const double angle = std::copysign(std::min(turned_rad_, whole_rad), move.turns);
+  return std::min(turned_rad_, whole_rad);
+}
+
+/// The hand goes round the joint's axis; the wrist keeps its direction, the handle turns in the hand.
+void VisitPlayer::go_round(JointId id, double angle_rad) {
+  const state::JointDescription& joint = description_.joints[id.index()];
+  const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
   const Vec3 arm_J = X_WJ.inverse() * X_WH_start_.p;
-  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle, Vec3::UnitZ()) * arm_J);
-  return turned_rad_ >= whole_rad;
+  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J);
 }
 
 void VisitPlayer::end_move(bool ok) {

@@ -49,6 +49,10 @@ class VisitPlayer {
   void follow_grip(std::span<const Pose> X_WB);
   void move_hand_towards_goal(double duration_s);
   bool turn(const state::VisitMove& move);
+  bool swing(const state::VisitMove& move);
+  /// Goes on by a tick of a motion of `whole` radians at up to `rate`, speeding up and slowing down; returns how far it is.
+  double go_through(double whole_rad, double rate_rad_per_s);
+  void go_round(JointId joint, double angle_rad);
   void end_move(bool ok);
 
   const state::WorldDescription& description_;
@@ -63,7 +67,7 @@ class VisitPlayer {
   double last_dt_s_ = 0;
   Pose X_WH_start_;
   Pose X_WH_goal_;
-  double turned_rad_ = 0;
+  double turned_rad_ = 0;     // of a turn, or of a swing's phase
   Vec3 p_BG_ = Vec3::Zero();  // the grip that the last reach was for
 };
 
