@@ -34,6 +34,12 @@ std::string name_of(const state::WorldDescription& description, const VisitMove&
   return "wait";
 }
 
+/// Of a hinge within half a turn, from where its bodies are seen.
+double joint_angle(const state::JointDescription& joint, std::span<const Pose> X_WB) {
+  const Pose X_J1J2 = (X_WB[joint.body1.index()] * joint.X_B1J).inverse() * (X_WB[joint.body2.index()] * joint.X_B2J);
+  return rotation_vector(X_J1J2.R).z();
+}
+
 }  // namespace
 
 double minimum_jerk(double s) {
@@ -72,6 +78,8 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
     // The hand goes with the body as it holds it now.
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
     X_WH_goal_ = move.X_WB * X_BH;
+  } else if (move.kind == VisitMove::Kind::swing) {
+    swing_from_rad_ = joint_angle(description_.joints[move.joint.index()], X_WB);
   } else if (move.kind == VisitMove::Kind::grasp) {
     intent_.grasp_intent = 1;
   } else if (move.kind == VisitMove::Kind::release) {
@@ -131,10 +139,12 @@ bool VisitPlayer::turn(const VisitMove& move) {
   return turned_rad_ >= whole_rad;
 }
 
-/// To and fro as a sine of a phase that runs through all cycles.
+/// To and fro as a sine of a phase that runs through all cycles, from where the lever stands on its way.
 bool VisitPlayer::swing(const VisitMove& move) {
   const double whole_rad = 2 * kPi * move.cycles;
-  go_round(move.joint, move.amplitude_rad * std::sin(go_through(whole_rad, 2 * kPi / 60 * move.cycles_per_min)));
+  const double phase = std::asin(std::clamp(swing_from_rad_ / move.amplitude_rad, -1.0, 1.0));
+  const double gone = go_through(whole_rad, 2 * kPi / 60 * move.cycles_per_min);
+  go_round(move.joint, move.amplitude_rad * (std::sin(phase + gone) - std::sin(phase)));
   return turned_rad_ >= whole_rad;
 }
 

@@ -67,8 +67,9 @@ class VisitPlayer {
   double last_dt_s_ = 0;
   Pose X_WH_start_;
   Pose X_WH_goal_;
-  double turned_rad_ = 0;     // of a turn, or of a swing's phase
-  Vec3 p_BG_ = Vec3::Zero();  // the grip that the last reach was for
+  double turned_rad_ = 0;      // of a turn, or of a swing's phase
+  double swing_from_rad_ = 0;  // where the joint stood when the swing began
+  Vec3 p_BG_ = Vec3::Zero();   // the grip that the last reach was for
 };
 
 /// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).

@@ -88,6 +88,10 @@ state::VisitMove compile_move(Compilation& c, const Metadata& set, const std::st
       move.joint = read_hinge(c, fields, kind);
       need(c, fields, kind, "angle");
       move.amplitude_rad = fields.number("angle");
+      if (fields.given("angle") && move.amplitude_rad == 0) {
+        c.problems.error(fields.line("angle"), fields.where(), "a swing of no angle",
+                         "write how far it goes, in radians");
+      }
       move.cycles = fields.number("cycles");
       move.cycles_per_min = fields.number("perMinute");
       break;

@@ -171,7 +171,7 @@ struct VisitMove {
   JointId joint;              ///< turn, swing
   double turns = 0;           ///< turn: how far, in turns of the joint
   double rate_rpm = 0;        ///< turn: how fast
-  double amplitude_rad = 0;   ///< swing: how far to either side of where it begins; above 0: to positive angles first
+  double amplitude_rad = 0;   ///< swing: how far to either side of the joint's 0; above 0: to positive angles first
   double cycles = 0;          ///< swing: how often to and fro
   double cycles_per_min = 0;  ///< swing: how fast
   double duration_s = 1;      ///< reach, grasp, move_to, release, wait
