@@ -56,12 +56,12 @@ PLACES = {
     "HANDLE": (HANDLE_X, PIVOT_Y + 0.032, 0),
 }
 BUILT = [name for name in PLACES if name.startswith(("CYLINDER", "VALVE", "PIPE", "VESSEL"))]
-RACK_Y, RACK_Z, BENCH_TOP, BOARD_TOP = 1.22, 0.34, 0.42, 0.22  # the pistons' rack; the bench of cowl and trumpet; the low board in front
+RACK_Y, RACK_Z, BENCH_TOP, TABLE_TOP = 1.22, 0.34, 0.42, 0.66  # the pistons' rack; the bench of cowl and trumpet; the table behind it
 EYE = PIVOT_Y - PISTON_MID  # from a piston's lower face to its rod's eye
 LOOSE = {
     "PISTON_L": (-0.96, RACK_Y - 0.12 - EYE, RACK_Z), "PISTON_R": (-0.74, RACK_Y - 0.12 - EYE, RACK_Z),
     "COWL": (0.76, BENCH_TOP, 0.36), "TRUMPET": (1.06, BENCH_TOP, 0.40),
-    "BEAM": (-0.12, BOARD_TOP + 0.036, 0.76), "HANDLE": (0.45, BOARD_TOP + 0.022, 0.78),
+    "BEAM": (0.80, TABLE_TOP + 0.036, -0.30), "HANDLE": (0.62, TABLE_TOP + 0.022, -0.55),
 }
 
 
@@ -83,7 +83,7 @@ def cast_bronze(seed, bright, dull, green, patina_from):
     salt = np.array(green)[None, None, :] * (0.7 + 0.6 * fine)[..., None]
     colour = mix(colour, salt, (0.80 * patina)[..., None])
     roughness = np.clip(0.24 + 0.14 * tarnish + 0.10 * (filing - 0.5) + 0.42 * patina, 0, 1)
-    metal = 1 - 0.75 * patina
+    metal = 0.86 - 0.66 * patina  # not all mirror: where it faces dark ground it still reads as bronze
     height = 0.55 * filing + 0.9 * fine + 1.6 * middle - 1.6 * pits + 0.5 * patina * fine
     return np.clip(colour, 0, 1), height, np.dstack([np.ones(shape), roughness, metal])
 
@@ -413,7 +413,7 @@ def make_frame(model, scene):
 
 
 def make_stands(model, scene):
-    """Where the loose parts wait: a rack with hooks for the pistons, a bench, and a low board."""
+    """Where the loose parts wait: a rack with hooks for the pistons, a bench, and a table behind it."""
     shape, bronze = Shape(), Shape()
     left, right = LOOSE["PISTON_L"][0] - 0.13, LOOSE["PISTON_R"][0] + 0.13
     for k, x in enumerate((left, right)):
@@ -424,7 +424,7 @@ def make_stands(model, scene):
         x, y = LOOSE[name][0], LOOSE[name][1] + EYE
         arc = [np.array([x, y + 0.005 - 0.010 * math.cos(a), RACK_Z - 0.010 * math.sin(a)]) for a in np.linspace(-1.9, 0.6, 9)]
         tube(bronze, [np.array([x, RACK_Y, RACK_Z + 0.012])] + [np.array([x, y + 0.04, RACK_Z + 0.012])] + arc, 0.0035, 10, v_scale=5)
-    for k, (x0, x1, z0, z1, top) in enumerate(((0.60, 1.22, 0.16, 0.60, BENCH_TOP), (-0.52, 1.24, 0.60, 0.96, BOARD_TOP))):
+    for k, (x0, x1, z0, z1, top) in enumerate(((0.60, 1.22, 0.16, 0.60, BENCH_TOP), (0.46, 1.36, -0.66, -0.14, TABLE_TOP))):
         count = 3
         for j in range(count):
             z = mix(z0, z1, (j + 0.5) / count)
@@ -530,7 +530,7 @@ def main():
         export(os.path.abspath(arguments[0]))
         if len(arguments) > 1:
             for name, apart, eye, look_at in (("together", False, (1.45, 1.45, 2.1), (0.10, 0.58, -0.12)), ("near", False, (0.55, 0.78, 0.95), (0.0, 0.48, 0)),
-                                              ("apart", True, (0.50, 1.55, 3.0), (0.10, 0.50, 0.20))):
+                                              ("apart", True, (0.60, 1.55, 3.0), (0.20, 0.55, 0.0))):
                 put(apart)
                 picture(os.path.abspath(arguments[1]) + f"-{name}.png", eye, look_at)
 

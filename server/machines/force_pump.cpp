@@ -93,7 +93,7 @@ class ForcePump final : public Machine {
     state.memory[level_m_] = s_.basin_m2 > 0 ? 1e-3 * state.memory[lifted_l_] / s_.basin_m2 : 0;
     state.memory[head_m_] = s_.lift_m * full;
     state.memory[force_n_] = force_n;
-    state.memory[handle_n_] = handle_force_n(force_n);
+    state.memory[handle_n_] = handle_force_n(state, force_n);
     count_strokes(state);
   }
 
@@ -128,8 +128,10 @@ class ForcePump final : public Machine {
     joint.resistance += s_.effort_scale * lever_m * (force_n + s_.friction_n);
   }
 
-  [[nodiscard]] double handle_force_n(double water_n) const noexcept {
-    const double pistons_n = water_n + static_cast<double>(s_.cylinders) * s_.friction_n;
+  [[nodiscard]] double handle_force_n(const state::WorldState& state, double water_n) const noexcept {
+    double pistons_n = water_n;
+    for (std::size_t i = 0; i < s_.cylinders; ++i)
+      pistons_n += state[joint_of(i)].enabled ? s_.friction_n : 0;
     return pistons_n * s_.arm_m / s_.handle_m;
   }
 

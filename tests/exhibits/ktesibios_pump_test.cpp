@@ -26,6 +26,10 @@ test::PlayedVisit play_with_valves(const std::string& parameter, const Texts& va
                       [&](state::WorldDescription& world) { test::set_parameter(world, "WATER", parameter, valves); });
 }
 
+bool went_wrong(const visitor::MoveResult& move) {
+  return !move.ok;
+}
+
 /// A part that is neither there nor held by anything.
 void lose(state::WorldDescription& world, const std::string& part, const Texts& joints_and_ties) {
   test::take_away(world, part);
@@ -39,6 +43,7 @@ TEST(KtesibiosPumpVisits, AllPartsComeToTheirPlaces) {
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
   EXPECT_EQ(visit.quantities.at("parts"), 6) << visit;
   EXPECT_EQ(visit.quantities.at("too_early"), 0) << visit;
+  EXPECT_TRUE(std::ranges::none_of(visit.moves, went_wrong)) << visit;
   EXPECT_EQ(pump().play("assembling").state_hash, visit.state_hash);
 }
 
@@ -53,6 +58,7 @@ TEST(KtesibiosPumpVisits, PumpingFillsTheTubByAreaStrokeAndRate) {
   const test::PlayedVisit visit = pump().play("pumping", options);
   EXPECT_TRUE(visit.done) << visit;
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
+  EXPECT_TRUE(std::ranges::none_of(visit.moves, went_wrong)) << visit;
   for (const test::PlayedStep& step : visit.steps)
     EXPECT_LT(step.seconds, 20) << visit;
   EXPECT_EQ(pump().play("pumping").state_hash, visit.state_hash);
@@ -65,11 +71,10 @@ TEST(KtesibiosPumpVisits, MistakesEndWellToo) {
   const test::PlayedVisit assembling = pump().play("mistakes-assembling");
   EXPECT_TRUE(assembling.done) << assembling;
   EXPECT_GE(assembling.quantities.at("too_early"), 1) << assembling;
-  const auto wrong = [](const auto& move) { return !move.ok; };
-  EXPECT_TRUE(std::ranges::any_of(assembling.moves, wrong)) << assembling;
+  EXPECT_TRUE(std::ranges::any_of(assembling.moves, went_wrong)) << assembling;
   const test::PlayedVisit pumping = pump().play("mistakes-using");
   EXPECT_TRUE(pumping.done) << pumping;
-  EXPECT_TRUE(std::ranges::any_of(pumping.moves, wrong)) << pumping;
+  EXPECT_TRUE(std::ranges::any_of(pumping.moves, went_wrong)) << pumping;
 }
 
 TEST(KtesibiosPumpVisits, OutletFlapsTheWrongWayRoundLockThePistons) {
