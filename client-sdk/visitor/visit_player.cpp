@@ -13,6 +13,8 @@ constexpr double kTurnRampRadPerS2 = 6.0;
 // A fingertip feels less than this; it is over the noise of a resting hand.
 constexpr double kTouchN = 0.1;
 constexpr double kFollowMPerS = 0.15;
+// Farther than this from where it was carried, a thing has been left behind.
+constexpr double kSlippedM = 0.1;
 
 std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
   switch (move.kind) {
@@ -60,7 +62,10 @@ void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding,
   if (!begun_) begin_move(X_WB);
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
-  if (continue_move(X_WB, holding, felt_n)) end_move(ok_);
+  if (!continue_move(X_WB, holding, felt_n)) return;
+  const bool again = slipped(X_WB, holding) && fetched_again_ < config_.fetch_again;
+  end_move(ok_);
+  if (again) fetch_again();
 }
 
 void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
@@ -72,6 +77,8 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   if (move.kind == VisitMove::Kind::reach) {
+    if (index_ != last_reach_) fetched_again_ = 0;
+    last_reach_ = index_;
     p_BG_ = move.p_BG;
     X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W;
   } else if (move.kind == VisitMove::Kind::move_to) {
@@ -162,6 +169,21 @@ void VisitPlayer::go_round(JointId id, double angle_rad) {
   const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
   const Vec3 arm_J = X_WJ.inverse() * X_WH_start_.p;
   intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J);
+}
+
+/// Not what a snap took out of the hand: that is where it was to go.
+bool VisitPlayer::slipped(std::span<const Pose> X_WB, bool holding) const {
+  const VisitMove& move = visit_.moves[index_];
+  if (move.kind != VisitMove::Kind::move_to || holding) return false;
+  const VisitMove& reach = visit_.moves[last_reach_];
+  if (reach.kind != VisitMove::Kind::reach || reach.body != move.body) return false;
+  return (X_WB[move.body.index()].p - move.X_WB.p).norm() > kSlippedM;
+}
+
+void VisitPlayer::fetch_again() {
+  ++fetched_again_;
+  index_ = last_reach_;
+  intent_.grasp_intent = 0;
 }
 
 void VisitPlayer::end_move(bool ok) {

@@ -100,5 +100,45 @@ TEST(VisitPlayerSwing, AHandThatHoldsNothingSaysSo) {
   EXPECT_EQ(player.results()[0].name, "swing PIVOT");
 }
 
+/// A visit that carries the lever's body a metre to the right.
+state::VisitDescription carrying() {
+  VisitMove reach, grasp, carry;
+  reach.kind = VisitMove::Kind::reach;
+  grasp.kind = VisitMove::Kind::grasp;
+  carry.kind = VisitMove::Kind::move_to;
+  for (VisitMove* move : {&reach, &grasp, &carry}) {
+    move->body = BodyId(1);
+    move->duration_s = 0.2;
+  }
+  carry.X_WB.p = Vec3(1, 1, 0);
+  return {"", {}, {reach, grasp, carry}};
+}
+
+std::vector<MoveResult> carry_to(const Vec3& p_WB_at_the_end, bool holding) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = carrying();
+  VisitPlayer player(world, visit, PlayerConfig{});
+  for (int i = 0; i < 20000 && !player.finished(); ++i) {
+    const bool carries = player.results().size() % 3 == 2;
+    const Pose X_WB{carries ? p_WB_at_the_end : Vec3(0, 1, 0), Quat::Identity()};
+    player.advance(0.001, std::vector<Pose>{Pose{}, X_WB}, holding || !carries, 0);
+  }
+  return {player.results().begin(), player.results().end()};
+}
+
+TEST(VisitPlayerCarry, WhatSlippedIsFetchedAgainTwice) {
+  const auto results = carry_to(Vec3(0.3, 1, 0), false);
+  ASSERT_EQ(results.size(), 9u);
+  for (const std::size_t i : {0u, 3u, 6u}) {
+    EXPECT_EQ(results[i].name, "reach LEVER");
+    EXPECT_FALSE(results[i + 2].ok);
+  }
+}
+
+TEST(VisitPlayerCarry, WhatASnapTookOrTheHandHoldsIsNotFetchedAgain) {
+  EXPECT_EQ(carry_to(Vec3(0.95, 1, 0), false).size(), 3u);
+  EXPECT_EQ(carry_to(Vec3(0.3, 1, 0), true).size(), 3u);
+}
+
 }  // namespace
 }  // namespace mechane::visitor
