@@ -13,6 +13,8 @@ constexpr double kTurnRampRadPerS2 = 6.0;
 // A fingertip feels less than this; it is over the noise of a resting hand.
 constexpr double kTouchN = 0.1;
 constexpr double kFollowMPerS = 0.15;
+// Farther than this from where it was carried, a thing has been left behind.
+constexpr double kSlippedM = 0.1;
 
 std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
   switch (move.kind) {
@@ -24,12 +26,20 @@ std::string name_of(const state::WorldDescription& description, const VisitMove&
       return "carry " + description.bodies[move.body.index()].name;
     case VisitMove::Kind::turn:
       return "turn " + description.joints[move.joint.index()].name;
+    case VisitMove::Kind::swing:
+      return "swing " + description.joints[move.joint.index()].name;
     case VisitMove::Kind::release:
       return "release";
     case VisitMove::Kind::wait:
       break;
   }
   return "wait";
+}
+
+/// Of a hinge within half a turn, from where its bodies are seen.
+double joint_angle(const state::JointDescription& joint, std::span<const Pose> X_WB) {
+  const Pose X_J1J2 = (X_WB[joint.body1.index()] * joint.X_B1J).inverse() * (X_WB[joint.body2.index()] * joint.X_B2J);
+  return rotation_vector(X_J1J2.R).z();
 }
 
 }  // namespace
@@ -52,7 +62,10 @@ void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding,
   if (!begun_) begin_move(X_WB);
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
-  if (continue_move(X_WB, holding, felt_n)) end_move(ok_);
+  if (!continue_move(X_WB, holding, felt_n)) return;
+  const bool again = slipped(X_WB, holding) && fetched_again_ < config_.fetch_again;
+  end_move(ok_);
+  if (again) fetch_again();
 }
 
 void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
@@ -64,12 +77,16 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   if (move.kind == VisitMove::Kind::reach) {
+    if (index_ != last_reach_) fetched_again_ = 0;
+    last_reach_ = index_;
     p_BG_ = move.p_BG;
     X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W;
   } else if (move.kind == VisitMove::Kind::move_to) {
     // The hand goes with the body as it holds it now.
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
     X_WH_goal_ = move.X_WB * X_BH;
+  } else if (move.kind == VisitMove::Kind::swing) {
+    swing_from_rad_ = joint_angle(description_.joints[move.joint.index()], X_WB);
   } else if (move.kind == VisitMove::Kind::grasp) {
     intent_.grasp_intent = 1;
   } else if (move.kind == VisitMove::Kind::release) {
@@ -107,6 +124,9 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double
     case VisitMove::Kind::turn:
       ok_ = ok_ && holding;
       return turn(move);
+    case VisitMove::Kind::swing:
+      ok_ = ok_ && holding;
+      return swing(move);
     case VisitMove::Kind::release:
     case VisitMove::Kind::wait:
       break;
@@ -120,20 +140,50 @@ void VisitPlayer::move_hand_towards_goal(double duration_s) {
   intent_.X_WH.R = X_WH_start_.R.slerp(s, X_WH_goal_.R);
 }
 
-/// The hand goes round the joint's axis, speeding up and slowing down; the wrist keeps its direction, the handle turns in the hand.
 bool VisitPlayer::turn(const VisitMove& move) {
-  const state::JointDescription& joint = description_.joints[move.joint.index()];
-  const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
   const double whole_rad = 2 * kPi * std::abs(move.turns);
-  const double rate = 2 * kPi / 60 * std::abs(move.rate_rpm);
+  go_round(move.joint, std::copysign(go_through(whole_rad, 2 * kPi / 60 * std::abs(move.rate_rpm)), move.turns));
+  return turned_rad_ >= whole_rad;
+}
+
+/// To and fro as a sine of a phase that runs through all cycles, from where the lever stands on its way.
+bool VisitPlayer::swing(const VisitMove& move) {
+  const double whole_rad = 2 * kPi * move.cycles;
+  const double phase = std::asin(std::clamp(swing_from_rad_ / move.amplitude_rad, -1.0, 1.0));
+  const double gone = go_through(whole_rad, 2 * kPi / 60 * move.cycles_per_min);
+  go_round(move.joint, move.amplitude_rad * (std::sin(phase + gone) - std::sin(phase)));
+  return turned_rad_ >= whole_rad;
+}
+
+double VisitPlayer::go_through(double whole_rad, double rate_rad_per_s) {
   const double left = whole_rad - turned_rad_;
   const double speed =
-      std::min({rate, kTurnRampRadPerS2 * time_s_, std::sqrt(2 * kTurnRampRadPerS2 * std::max(left, 0.0))});
+      std::min({rate_rad_per_s, kTurnRampRadPerS2 * time_s_, std::sqrt(2 * kTurnRampRadPerS2 * std::max(left, 0.0))});
   turned_rad_ += std::max(speed, 0.01) * last_dt_s_;
-  const double angle = std::copysign(std::min(turned_rad_, whole_rad), move.turns);
+  return std::min(turned_rad_, whole_rad);
+}
+
+/// The hand goes round the joint's axis; the wrist keeps its direction, the handle turns in the hand.
+void VisitPlayer::go_round(JointId id, double angle_rad) {
+  const state::JointDescription& joint = description_.joints[id.index()];
+  const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
   const Vec3 arm_J = X_WJ.inverse() * X_WH_start_.p;
-  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle, Vec3::UnitZ()) * arm_J);
-  return turned_rad_ >= whole_rad;
+  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J);
+}
+
+/// Not what a snap took out of the hand: that is where it was to go.
+bool VisitPlayer::slipped(std::span<const Pose> X_WB, bool holding) const {
+  const VisitMove& move = visit_.moves[index_];
+  if (move.kind != VisitMove::Kind::move_to || holding) return false;
+  const VisitMove& reach = visit_.moves[last_reach_];
+  if (reach.kind != VisitMove::Kind::reach || reach.body != move.body) return false;
+  return (X_WB[move.body.index()].p - move.X_WB.p).norm() > kSlippedM;
+}
+
+void VisitPlayer::fetch_again() {
+  ++fetched_again_;
+  index_ = last_reach_;
+  intent_.grasp_intent = 0;
 }
 
 void VisitPlayer::end_move(bool ok) {

@@ -23,6 +23,7 @@ struct PlayerConfig {
   Vec3 offset_W = Vec3::Zero();  ///< added to every place that the hand reaches for: a visitor who misses
   client::HandKind kind = client::HandKind::one_point;
   double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit goes on without it
+  int fetch_again = 2;          ///< how often a thing that slipped out of the hand on its way is fetched again
 };
 
 /// One visit, from rest to rest. Deterministic in what it is told. One thread; advance() allocates only when a move ends.
@@ -49,7 +50,13 @@ class VisitPlayer {
   void follow_grip(std::span<const Pose> X_WB);
   void move_hand_towards_goal(double duration_s);
   bool turn(const state::VisitMove& move);
+  bool swing(const state::VisitMove& move);
+  /// Goes on by a tick of a motion of `whole` radians at up to `rate`, speeding up and slowing down; returns how far it is.
+  double go_through(double whole_rad, double rate_rad_per_s);
+  void go_round(JointId joint, double angle_rad);
   void end_move(bool ok);
+  [[nodiscard]] bool slipped(std::span<const Pose> X_WB, bool holding) const;
+  void fetch_again();
 
   const state::WorldDescription& description_;
   const state::VisitDescription& visit_;
@@ -57,14 +64,17 @@ class VisitPlayer {
   haptic::HandIntent intent_;
   std::vector<MoveResult> results_;
   std::size_t index_ = 0;
+  std::size_t last_reach_ = 0;  // the move that the hand went for what it carries
+  int fetched_again_ = 0;       // since the visit first came to that reach
   bool begun_ = false;
   bool ok_ = true;
   double time_s_ = 0;  // in this move
   double last_dt_s_ = 0;
   Pose X_WH_start_;
   Pose X_WH_goal_;
-  double turned_rad_ = 0;
-  Vec3 p_BG_ = Vec3::Zero();  // the grip that the last reach was for
+  double turned_rad_ = 0;      // of a turn, or of a swing's phase
+  double swing_from_rad_ = 0;  // where the joint stood when the swing began
+  Vec3 p_BG_ = Vec3::Zero();   // the grip that the last reach was for
 };
 
 /// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).

@@ -5,14 +5,14 @@
 With PICTURES, the beginning of a path, it also renders the pump put together and taken apart. Form: Vitruvius, De architectura X.7;
 Heron, Pneumatica I.28. Metres, glTF's axes (y up); the visitor looks along -z.
 
-Nodes at the root, all with identity transforms, each part in its own frame; where that frame is when the pump is put together, with the
-beam level, is in PLACES:
-  CYLINDER_L, CYLINDER_R   origin at the foot of the bore's axis          VALVE_IN_L, _R    a flap over the hole in a cylinder's bottom
-  PIPE_L, PIPE_R           origin where the pipe leaves its cylinder      VALVE_OUT_L, _R   a flap over a pipe's upper end
-  VESSEL, COWL, TRUMPET    origin at the middle of the lower rim          PISTON_L, _R      origin at the middle of the lower face
-  ROD_L, ROD_R             origin at the eye that the beam's pin holds    BEAM              origin at its hinge, which is along z
-  HANDLE                   origin at its seat on the beam's top
-  SCENE                    what never moves; WATER_WELL and WATER_BASIN are the water's surfaces
+Nodes at the root, all with identity transforms, each loose part in its own frame; where that frame is when the pump is put together, with
+the beam level, is in PLACES, and where it waits to be put in, in LOOSE:
+  PUMP            what is built already, in place: CYLINDER_*, PIPE_*, VALVE_IN_*, VALVE_OUT_* and VESSEL are groups in it
+  PISTON_L, _R    with its rod; origin at the middle of the lower face
+  COWL, TRUMPET   origin at the middle of the lower rim
+  BEAM            origin at its hinge, which is along z
+  HANDLE          origin at its seat on the beam's top
+  SCENE           what never moves; WATER_WELL and WATER_BASIN are the water's surfaces
 Children named part_* are touched as well as drawn, and are closed; children named visual_* are drawn only.
 """
 import math
@@ -49,12 +49,19 @@ PLACES = {
     **{f"PIPE_{n}": (s * (CYLINDER_X - BORE - WALL), CYLINDER_Y + PIPE_Y, 0) for n, s in SIDES},
     **{f"VALVE_OUT_{n}": (s * SEAT_X, VESSEL_Y + 0.022, 0) for n, s in SIDES},
     **{f"PISTON_{n}": (s * CYLINDER_X, PISTON_MID, 0) for n, s in SIDES},
-    **{f"ROD_{n}": (s * ARM, PIVOT_Y, 0) for n, s in SIDES},
     "VESSEL": (0, VESSEL_Y, 0),
     "COWL": (0, VESSEL_Y + VESSEL_HEIGHT, 0),
     "TRUMPET": (0, VESSEL_Y + VESSEL_HEIGHT + COWL_HEIGHT, 0),
     "BEAM": (0, PIVOT_Y, 0),
     "HANDLE": (HANDLE_X, PIVOT_Y + 0.032, 0),
+}
+BUILT = [name for name in PLACES if name.startswith(("CYLINDER", "VALVE", "PIPE", "VESSEL"))]
+RACK_Y, RACK_Z, BENCH_TOP, TABLE_TOP = 1.22, 0.34, 0.42, 0.66  # the pistons' rack; the bench of cowl and trumpet; the table behind it
+EYE = PIVOT_Y - PISTON_MID  # from a piston's lower face to its rod's eye
+LOOSE = {
+    "PISTON_L": (-0.96, RACK_Y - 0.12 - EYE, RACK_Z), "PISTON_R": (-0.74, RACK_Y - 0.12 - EYE, RACK_Z),
+    "COWL": (0.76, BENCH_TOP, 0.36), "TRUMPET": (1.06, BENCH_TOP, 0.40),
+    "BEAM": (0.80, TABLE_TOP + 0.036, -0.30), "HANDLE": (0.62, TABLE_TOP + 0.022, -0.55),
 }
 
 
@@ -76,7 +83,7 @@ def cast_bronze(seed, bright, dull, green, patina_from):
     salt = np.array(green)[None, None, :] * (0.7 + 0.6 * fine)[..., None]
     colour = mix(colour, salt, (0.80 * patina)[..., None])
     roughness = np.clip(0.24 + 0.14 * tarnish + 0.10 * (filing - 0.5) + 0.42 * patina, 0, 1)
-    metal = 1 - 0.75 * patina
+    metal = 0.86 - 0.66 * patina  # not all mirror: where it faces dark ground it still reads as bronze
     height = 0.55 * filing + 0.9 * fine + 1.6 * middle - 1.6 * pits + 0.5 * patina * fine
     return np.clip(colour, 0, 1), height, np.dstack([np.ones(shape), roughness, metal])
 
@@ -115,16 +122,15 @@ def rounded(outline, bevel=0.0018):
 
 
 def add_shell(model, parent, name, outline, tiles=(2, 5.0), origin=(0, 0, 0), bevel=0.0018):
-    """A hollow turned body as closed sectors that together look like one."""
-    sectors(model, parent, name, rounded(outline, bevel), tiles, origin)
-
-
-def sectors(model, parent, name, outline, tiles=(2, 5.0), origin=(0, 0, 0), offset=0.0):
-    """The outline's normals are those of `outline` alone: where two meet smoothly, their last edges should be in line."""
+    """A hollow turned body that is touched: as closed sectors that together look like one."""
     for k in range(SECTORS):
-        shape = shell(Shape(), outline, 2 * math.pi * k / SECTORS, 2 * math.pi * (k + 1) / SECTORS, 48 // SECTORS, origin, uv=tiles)
-        shape.uvs = [tuple((u, v + offset) for u, v in face) for face in shape.uvs]
+        shape = shell(Shape(), rounded(outline, bevel), 2 * math.pi * k / SECTORS, 2 * math.pi * (k + 1) / SECTORS, 48 // SECTORS, origin, uv=tiles)
         model.add(f"part_{name}_{k:02d}", shape, ["bronze"], parent, 180)
+
+
+def add_ring(model, parent, name, outline, tiles=(2, 5.0), origin=(0, 0, 0), bevel=0.0018):
+    """A turned ring that is drawn only."""
+    model.add(f"visual_{name}", shell(Shape(), rounded(outline, bevel), 0, 2 * math.pi, 48, origin, uv=tiles, caps=False), ["bronze"], parent, 180)
 
 
 def add_disc(model, parent, name, radius, low, high, tiles=5.0, origin=(0, 0, 0), material_name="bronze", segments=40, bevel=0.002, kind="part"):
@@ -145,10 +151,9 @@ def make_cylinders(model):
     r, o, h = BORE, BORE + WALL, CYLINDER_HEIGHT
     for name, side in SIDES:
         group = model.group(f"CYLINDER_{name}")
-        # Each ring is close to convex by itself: that is how they are felt.
         add_shell(model, group, "barrel", [(r, 0.010), (o, 0.010), (o, h - 0.004), (o - 0.003, h), (r + 0.002, h), (r, h - 0.004)])
-        add_shell(model, group, "flange", [(o - 0.002, 0.010), (o + 0.020, 0.010), (o + 0.020, 0.022), (o + 0.004, 0.026), (o - 0.002, 0.034)])
-        add_shell(model, group, "lip", [(o - 0.002, h - 0.032), (o + 0.013, h - 0.020), (o + 0.015, h - 0.003), (o + 0.012, h), (o - 0.003, h)])
+        add_ring(model, group, "flange", [(o - 0.002, 0.010), (o + 0.020, 0.010), (o + 0.020, 0.022), (o + 0.004, 0.026), (o - 0.002, 0.034)])
+        add_ring(model, group, "lip", [(o - 0.002, h - 0.032), (o + 0.013, h - 0.020), (o + 0.015, h - 0.003), (o + 0.012, h), (o - 0.003, h)])
         shape = Shape()
         for y in (0.120, 0.225):
             band = rounded([(o - 0.002, y), (o, y), (o + 0.0045, y + 0.004), (o + 0.0045, y + 0.014), (o, y + 0.018), (o - 0.002, y + 0.018)], 0.0012)
@@ -157,7 +162,7 @@ def make_cylinders(model):
         # The bottom: a ring round the inlet's hole, on three feet that let the water in.
         floor = rounded([(0.024, 0.0), (o + 0.018, 0.0), (o + 0.018, 0.010), (0.028, 0.010)], 0.0015)
         for k in range(4):
-            model.add(f"part_floor_{k}", shell(Shape(), floor, math.pi / 2 * k, math.pi / 2 * (k + 1), 12, uv=(2, 5)), ["verdigris"], group, 180)
+            model.add(f"visual_floor_{k}", shell(Shape(), floor, math.pi / 2 * k, math.pi / 2 * (k + 1), 12, uv=(2, 5)), ["verdigris"], group, 180)
         for k in range(3):
             a = 2 * math.pi * (k + 0.25 + 0.5 * (side > 0)) / 3
             foot = [(0.0, -0.060), (0.021, -0.060), (0.022, -0.054), (0.014, -0.040), (0.011, -0.020), (0.014, 0.0), (0.0, 0.001)]
@@ -174,9 +179,9 @@ def make_valves(model):
     for name, _ in SIDES:
         for kind, radius in (("IN", 0.034), ("OUT", 0.029)):
             group = model.group(f"VALVE_{kind}_{name}")
-            add_disc(model, group, "flap", radius, 0.0, 0.006)
+            add_disc(model, group, "flap", radius, 0.0, 0.006, kind="visual")
             shape = block(Shape(), (-0.007, 0.004, -radius - 0.006), (0.007, 0.010, radius * 0.55), 0.0012, 3, 0.0, 0.2)
-            model.add("part_strap", shape, ["verdigris"], group)
+            model.add("visual_strap", shape, ["verdigris"], group)
             pin = lathe(Shape(), [(0, -0.014), (0.0045, -0.014), (0.0045, 0.014), (0, 0.014)], 14, (0, 0.006, -radius - 0.006), (1, 0, 0), uv_scale=(0.2, 4))
             leather_disc = lathe(Shape(), [(0, -0.003), (radius - 0.004, -0.003), (radius - 0.004, 0.0005), (0, 0.0005)], 32, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(1, 6))
             model.add("visual_pin", pin, ["bronze"], group)
@@ -202,7 +207,7 @@ def make_pipes(model):
         group = model.group(f"PIPE_{name}")
         first, arc, last = pipe_path(side)
         for k, path in enumerate((first + arc[:1], arc, arc[-1:] + last)):
-            model.add(f"part_pipe_{k}", tube(Shape(), path, PIPE_RADIUS, 28, v_scale=5), ["bronze"], group, 50)
+            model.add(f"visual_pipe_{k}", tube(Shape(), path, PIPE_RADIUS, 28, v_scale=5), ["bronze"], group, 50)
         shape = Shape()
         for centre, axis in ((arc[0], (1, 0, 0)), (arc[-1], (0, 1, 0))):
             collar(shape, centre, axis, PIPE_RADIUS)
@@ -220,7 +225,7 @@ def make_vessel(model):
         seat = rounded([(0.017, 0.010), (0.034, 0.010), (0.031, 0.021), (0.017, 0.021)], 0.0015)
         for k in range(4):
             shape = shell(Shape(), seat, math.pi / 2 * k, math.pi / 2 * (k + 1), 9, (side * SEAT_X, 0, 0), uv=(1, 5))
-            model.add(f"part_seat_{name.lower()}_{k}", shape, ["bronze"], vessel, 180)
+            model.add(f"visual_seat_{name.lower()}_{k}", shape, ["bronze"], vessel, 180)
     shape = Shape()
     for _, side in SIDES:
         collar(shape, (side * SEAT_X, -0.006, 0), (0, 1, 0), PIPE_RADIUS, 0.007, 0.010)
@@ -239,13 +244,15 @@ def make_vessel(model):
 
 def make_cowl(model):
     cowl = model.group("COWL")
-    o, h, t = VESSEL_RADIUS, COWL_HEIGHT, 0.007
-    curve = [(0.0975, 0.012), (0.092, 0.020), (0.088, 0.040), (0.076, 0.064), (0.058, 0.088), (0.042, 0.112), (0.032, 0.138), (0.028, h - 0.010)]
-    add_shell(model, cowl, "flange", [(o - 0.014, 0.0), (o + 0.020, 0.0), (o + 0.020, 0.012), (0.096, 0.014)], bevel=0.0016)
-    for k, piece in enumerate((curve[0:3], curve[2:5], curve[4:8])):
-        inside = [(max(r - t, TRUMPET_RADIUS), y - 0.004) for r, y in reversed(piece)]
-        sectors(model, cowl, f"funnel_{k}", piece + inside, tiles=(2, 5.0), offset=0.06 * k)
-    add_shell(model, cowl, "neck", [(TRUMPET_RADIUS, h - 0.012), (0.036, h - 0.012), (0.037, h - 0.010), (0.037, h), (TRUMPET_RADIUS, h)], bevel=0.0012)
+    o, h = VESSEL_RADIUS, COWL_HEIGHT
+    curve = [(0.0975, 0.012), (0.092, 0.020), (0.088, 0.040), (0.076, 0.064), (0.058, 0.088), (0.042, 0.112), (0.032, 0.138), (0.028, h - 0.014)]
+    # Felt as a few solids, each close to convex; that it is hollow is seen from below alone.
+    solids = [("flange", [(o + 0.0185, 0.0), (o + 0.020, 0.0015), (o + 0.020, 0.0105), (o + 0.0185, 0.012), (0.096, 0.014)])]
+    solids += [(f"funnel_{k}", piece) for k, piece in enumerate((curve[0:3], curve[2:5], curve[4:8]))]
+    for k, (name, profile) in enumerate(solids):
+        outline = [(0.0, profile[0][1]), *profile, (0.0, profile[-1][1])]
+        model.add(f"part_{name}", lathe(Shape(), outline, 48, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(2, 5.0), uv_offset=(0, 0.06 * k)), ["bronze"], cowl, 40)
+    add_ring(model, cowl, "neck", [(TRUMPET_RADIUS, h - 0.018), (0.034, h - 0.018), (0.0345, h - 0.012), (0.0345, h), (TRUMPET_RADIUS, h)], bevel=0.0012)
     shape = Shape()
     for k in range(4):  # wedges of oak, driven through the staples
         a = math.pi / 4 + math.pi / 2 * k
@@ -285,9 +292,9 @@ def make_trumpet(model):
             (0.040, 0.095), (0.031, 0.083), (0.020, 0.058), (0.016, 0.030), (0.015, -0.004)]
     for k in range(6):
         shape = shell(Shape(), bell, 2 * math.pi * k / 6, 2 * math.pi * (k + 1) / 6, 8, at(down[-1:])[0], direction, (1, 0, 0), uv=(1, 5), smooth_degrees=50)
-        model.add(f"part_bell_{k}", shape, ["bronze"], trumpet, 180)
+        model.add(f"visual_bell_{k}", shape, ["bronze"], trumpet, 180)
     shape = Shape()
-    outline = rounded([(TRUMPET_RADIUS - 0.001, 0.0), (0.037, 0.0), (0.037, 0.010), (TRUMPET_RADIUS + 0.004, 0.014), (TRUMPET_RADIUS - 0.001, 0.030)], 0.0015)
+    outline = rounded([(TRUMPET_RADIUS - 0.001, 0.0), (0.0335, 0.0), (0.0335, 0.010), (TRUMPET_RADIUS + 0.004, 0.014), (TRUMPET_RADIUS - 0.001, 0.030)], 0.0015)
     shell(shape, outline, 0, 2 * math.pi, 36, uv=(1, 5), caps=False)
     for place, axis in ((bend[0], (0, 1, 0)), (bend[-1], (0, 0, -1)), (down[0], (0, 0, -1))):
         collar(shape, at([place])[0], axis, TRUMPET_RADIUS, 0.008, 0.006)
@@ -304,18 +311,16 @@ def make_pistons(model):
         cup = rounded([(r - 0.008, 0.0125), (r, 0.0125), (r + 0.0004, 0.033), (r - 0.008, 0.0335)], 0.002)
         model.add("visual_leather", shell(Shape(), cup, 0, 2 * math.pi, 48, uv=(3, 8), caps=False), ["leather"], group, 180)
 
-        rod = model.group(f"ROD_{name}")
-        low = PISTON_MID + h + 0.010 - PIVOT_Y
+        eye_at = np.array([0, EYE, 0])
+        low = h + 0.010
         for k in range(4):  # short pieces: their maps are finer
-            bottom, top = mix(low, -0.020, k / 4), mix(low, -0.020, (k + 1) / 4)
+            bottom, top = mix(low, EYE - 0.020, k / 4), mix(low, EYE - 0.020, (k + 1) / 4)
             outline = [(0.0, bottom), (0.0095, bottom), (0.0095, top), (0.0, top)]
-            model.add(f"part_rod_{k}", lathe(Shape(), outline, 24, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 5), uv_offset=(0, 5 * bottom)), ["bronze"], rod, 35)
-        neck = lathe(Shape(), [(0.0095, -0.046), (0.013, -0.036), (0.0135, -0.024), (0.0, -0.020)], 24, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 5))
-        model.add("visual_neck", neck, ["bronze"], rod, 35)
+            model.add(f"part_rod_{k}", lathe(Shape(), outline, 24, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 5), uv_offset=(0, 5 * bottom)), ["bronze"], group, 35)
+        neck = lathe(Shape(), [(0.0095, -0.046), (0.013, -0.036), (0.0135, -0.024), (0.0, -0.020)], 24, eye_at, (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 5))
+        model.add("visual_neck", neck, ["bronze"], group, 35)
         eye = rounded([(0.0105, -0.010), (0.025, -0.010), (0.025, 0.010), (0.0105, 0.010)], 0.002)
-        for k in range(6):
-            shape = shell(Shape(), eye, 2 * math.pi * k / 6, 2 * math.pi * (k + 1) / 6, 6, (0, 0, 0), (0, 0, 1), (0, 1, 0), uv=(1, 5))
-            model.add(f"part_eye_{k}", shape, ["bronze"], rod, 180)
+        model.add("visual_eye", shell(Shape(), eye, 0, 2 * math.pi, 36, eye_at, (0, 0, 1), (0, 1, 0), uv=(1, 5), caps=False), ["bronze"], group, 180)
 
 
 def make_beam(model):
@@ -380,26 +385,56 @@ def make_trough(model, scene):
 
 
 def make_frame(model, scene):
-    """Two trestles on the trough's rim carry the beam's stub axles; the pump is seen between their legs."""
+    """Two trestles on the trough's rim carry the beam's stub axles in bearings that are open above; the pump is seen between their legs."""
     shape = Shape()
     for k, s in enumerate((-1, 1)):
         z = s * 0.165
-        timber(shape, (0, PIVOT_Y - 0.13, z), (0, PIVOT_Y + 0.075, z), 0.105, 0.056, up=(0, 0, 1), bevel=0.008, seed=41 + k, rough=0.0015)
+        timber(shape, (0, PIVOT_Y - 0.17, z), (0, PIVOT_Y - 0.012, z), 0.105, 0.056, up=(0, 0, 1), bevel=0.008, seed=41 + k, rough=0.0015)
         for m, side in enumerate((-1, 1)):
-            timber(shape, (side * 0.345, TROUGH_TOP - 0.005, s * 0.250), (side * 0.022, PIVOT_Y + 0.01, s * 0.172), 0.052, 0.046, up=(0, 0, 1), bevel=0.006,
+            timber(shape, (side * 0.345, TROUGH_TOP - 0.005, s * 0.250), (side * 0.026, PIVOT_Y - 0.05, s * 0.172), 0.052, 0.046, up=(0, 0, 1), bevel=0.006,
                    seed=45 + 2 * k + m, rough=0.0015)
         timber(shape, (-0.44, TROUGH_TOP + 0.020, s * 0.250), (0.44, TROUGH_TOP + 0.020, s * 0.250), 0.070, 0.046, bevel=0.006, seed=51 + k, rough=0.002)
     model.add("visual_frame", shape, ["planks"], scene)
     shape = Shape()
     for s in (-1, 1):
-        for out in (0.0, 1.0):  # bronze plates round the bearing, on both sides of a post
-            z = s * (0.165 + (0.035 if out else -0.029))
-            d = 0.003
-            lathe(shape, [(0.013, z - d), (0.032, z - d), (0.034, z), (0.032, z + d), (0.013, z + d)], 36, (0, PIVOT_Y, 0), (0, 0, 1), uv_scale=(1, 5))
+        for out in (-0.029, 0.035):  # half rings of bronze round the bearing, on both sides of a post, and a bush between them
+            z, d = s * (0.165 + out), 0.003
+            half = rounded([(0.013, z - d), (0.034, z - d), (0.034, z + d), (0.013, z + d)], 0.001)
+            shell(shape, half, 0, math.pi, 20, (0, PIVOT_Y, 0), (0, 0, 1), (0, -1, 0), uv=(1, 5))
+        bush = rounded([(0.0128, s * 0.165 - 0.028), (0.018, s * 0.165 - 0.028), (0.018, s * 0.165 + 0.028), (0.0128, s * 0.165 + 0.028)], 0.001)
+        shell(shape, bush, 0, math.pi, 20, (0, PIVOT_Y, 0), (0, 0, 1), (0, -1, 0), uv=(1, 5))
+    model.add("visual_bearings", shape, ["bronze"], scene, 180)
+    shape = Shape()
+    for s in (-1, 1):
         for side in (-1, 1):
             peg = [(0.0, -0.002), (0.010, -0.002), (0.010, 0.012), (0.007, 0.015), (0.0, 0.016)]
             lathe(shape, peg, 14, (side * 0.034, PIVOT_Y - 0.075, s * 0.2015), (0, 0, s), uv_scale=(0.2, 3))
-    model.add("visual_bearings", shape, ["bronze"], scene, 40)
+    model.add("visual_pegs", shape, ["bronze"], scene, 40)
+
+
+def make_stands(model, scene):
+    """Where the loose parts wait: a rack with hooks for the pistons, a bench, and a table behind it."""
+    shape, bronze = Shape(), Shape()
+    left, right = LOOSE["PISTON_L"][0] - 0.13, LOOSE["PISTON_R"][0] + 0.13
+    for k, x in enumerate((left, right)):
+        timber(shape, (x, -0.02, RACK_Z), (x, RACK_Y + 0.03, RACK_Z), 0.055, 0.055, up=(0, 0, 1), bevel=0.006, seed=151 + k, rough=0.0015)
+        timber(shape, (x, 0.012, RACK_Z - 0.20), (x, 0.012, RACK_Z + 0.20), 0.060, 0.060, bevel=0.006, seed=153 + k, rough=0.002)
+    timber(shape, (left - 0.07, RACK_Y, RACK_Z), (right + 0.07, RACK_Y, RACK_Z), 0.045, 0.060, bevel=0.006, seed=157, rough=0.0015)
+    for name in ("PISTON_L", "PISTON_R"):
+        x, y = LOOSE[name][0], LOOSE[name][1] + EYE
+        arc = [np.array([x, y + 0.005 - 0.010 * math.cos(a), RACK_Z - 0.010 * math.sin(a)]) for a in np.linspace(-1.9, 0.6, 9)]
+        tube(bronze, [np.array([x, RACK_Y, RACK_Z + 0.012])] + [np.array([x, y + 0.04, RACK_Z + 0.012])] + arc, 0.0035, 10, v_scale=5)
+    for k, (x0, x1, z0, z1, top) in enumerate(((0.60, 1.22, 0.16, 0.60, BENCH_TOP), (0.46, 1.36, -0.66, -0.14, TABLE_TOP))):
+        count = 3
+        for j in range(count):
+            z = mix(z0, z1, (j + 0.5) / count)
+            timber(shape, (x0, top - 0.018, z), (x1, top - 0.018, z), (z1 - z0) / count - 0.004, 0.036, bevel=0.004, seed=161 + 10 * k + j, rough=0.0015)
+        for x in (x0 + 0.09, x1 - 0.09):
+            for z in (z0 + 0.05, z1 - 0.05):
+                timber(shape, (x, -0.02, z), (x, top - 0.034, z), 0.055, 0.055, up=(0, 0, 1), bevel=0.005, seed=171 + 10 * k + int(90 * z), rough=0.0015)
+            timber(shape, (x, top - 0.062, z0 + 0.01), (x, top - 0.062, z1 - 0.01), 0.050, 0.052, bevel=0.005, seed=181 + 10 * k, rough=0.0015)
+    model.add("visual_stands", shape, ["timber"], scene)
+    model.add("visual_hooks", bronze, ["bronze"], scene, 40)
 
 
 def make_tub(model, scene):
@@ -471,17 +506,10 @@ def make_water(model):
 # The file ------------------------------------------------------------------------------------------------------------------------
 
 
-LAID_OUT = {
-    "CYLINDER_L": (-0.58, 0.06, 0.52), "CYLINDER_R": (-0.34, 0.06, 0.52), "VESSEL": (-0.02, 0.02, 0.52), "COWL": (0.30, 0.0, 0.52), "PIPE_L": (0.48, 0.02, 0.60),
-    "PIPE_R": (0.82, 0.02, 0.60), "TRUMPET": (-0.80, 0.0, 0.75), "ROD_L": (0.62, 0.68, 0.30), "ROD_R": (0.72, 0.68, 0.30), "PISTON_L": (-0.50, 0.0, 0.80),
-    "PISTON_R": (-0.34, 0.0, 0.80), "VALVE_IN_L": (-0.19, 0.0, 0.80), "VALVE_IN_R": (-0.09, 0.0, 0.80), "VALVE_OUT_L": (0.01, 0.0, 0.80), "VALVE_OUT_R": (0.10, 0.0, 0.80),
-    "HANDLE": (0.34, 0.02, 0.84)}
-
-
 def put(apart):
-    """Puts the parts where they are in the pump, or lays them out before it: for pictures."""
-    for name, place in {**PLACES, **(LAID_OUT if apart else {})}.items():
-        bpy.data.objects[name].location = to_blender(place)
+    """Puts the parts where they are in the pump, or where they wait for it: for pictures."""
+    for name in LOOSE:
+        bpy.data.objects[name].location = to_blender((LOOSE if apart else PLACES)[name])
 
 
 def main():
@@ -491,14 +519,18 @@ def main():
         model = Model(make_materials(Textures(folder)))
         for make in (make_cylinders, make_valves, make_pipes, make_vessel, make_cowl, make_trumpet, make_pistons, make_beam, make_handle):
             make(model)
+        pump = model.group("PUMP")
+        for name in BUILT:
+            bpy.data.objects[name].parent = pump
+            bpy.data.objects[name].location = to_blender(PLACES[name])
         scene = model.group("SCENE")
-        for make in (make_trough, make_frame, make_tub, make_floor):
+        for make in (make_trough, make_frame, make_stands, make_tub, make_floor):
             make(model, scene)
         make_water(model)
         export(os.path.abspath(arguments[0]))
         if len(arguments) > 1:
-            for name, apart, eye, look_at in (("together", False, (1.45, 1.25, 1.85), (0.10, 0.58, -0.12)), ("near", False, (0.55, 0.78, 0.95), (0.0, 0.48, 0)),
-                                              ("apart", True, (0.55, 1.25, 2.35), (0.02, 0.42, 0.35))):
+            for name, apart, eye, look_at in (("together", False, (1.45, 1.45, 2.1), (0.10, 0.58, -0.12)), ("near", False, (0.55, 0.78, 0.95), (0.0, 0.48, 0)),
+                                              ("apart", True, (0.60, 1.55, 3.0), (0.20, 0.55, 0.0))):
                 put(apart)
                 picture(os.path.abspath(arguments[1]) + f"-{name}.png", eye, look_at)
 

@@ -32,8 +32,9 @@ struct ForcePumpSettings {
   std::size_t cylinders = 2;
   std::array<PumpCylinder, kMostCylinders> cylinder;
   double direction = 1;
-  double arm_m = 0;
-  double handle_m = 0;
+  double arm_m = 1;
+  double handle_m = 1;
+  double basin_m2 = 0;
   double bottom_m = 0;  // position of a slider whose piston is at the bottom
   double stroke_m = 0;
   double lift_m = 0;
@@ -51,6 +52,7 @@ class ForcePump final : public Machine {
         jet_(build.slot("jet_l_per_s")),
         lifted_l_(build.slot("lifted_l")),
         leaked_l_(build.slot("leaked_l")),
+        level_m_(build.slot("level_m")),
         head_m_(build.slot("head_m")),
         force_n_(build.slot("force_n")),
         handle_n_(build.slot("handle_n")),
@@ -88,9 +90,10 @@ class ForcePump final : public Machine {
     state.memory[jet_] = 1000 * out_m3 / dt_s;
     state.memory[lifted_l_] += 1000 * out_m3;
     state.memory[leaked_l_] += 1000 * leaked_m3;
+    state.memory[level_m_] = s_.basin_m2 > 0 ? 1e-3 * state.memory[lifted_l_] / s_.basin_m2 : 0;
     state.memory[head_m_] = s_.lift_m * full;
     state.memory[force_n_] = force_n;
-    state.memory[handle_n_] = handle_force_n(force_n);
+    state.memory[handle_n_] = handle_force_n(state, force_n);
     count_strokes(state);
   }
 
@@ -125,9 +128,11 @@ class ForcePump final : public Machine {
     joint.resistance += s_.effort_scale * lever_m * (force_n + s_.friction_n);
   }
 
-  [[nodiscard]] double handle_force_n(double water_n) const noexcept {
-    const double pistons_n = water_n + static_cast<double>(s_.cylinders) * s_.friction_n;
-    return s_.beam ? pistons_n * s_.arm_m / s_.handle_m : pistons_n;
+  [[nodiscard]] double handle_force_n(const state::WorldState& state, double water_n) const noexcept {
+    double pistons_n = water_n;
+    for (std::size_t i = 0; i < s_.cylinders; ++i)
+      pistons_n += state[joint_of(i)].enabled ? s_.friction_n : 0;
+    return pistons_n * s_.arm_m / s_.handle_m;
   }
 
   /// Counts how often the first piston turns round.
@@ -148,6 +153,7 @@ class ForcePump final : public Machine {
   std::size_t jet_;
   std::size_t lifted_l_;
   std::size_t leaked_l_;
+  std::size_t level_m_;
   std::size_t head_m_;
   std::size_t force_n_;
   std::size_t handle_n_;
@@ -188,14 +194,14 @@ Expected<void> read_drive(const Build& build, const std::string& where, ForcePum
   if (p.given("pistons") == p.given("beam"))
     return fail("both or neither of 'pistons' and 'beam' are given", where,
                 "name the pistons' sliders, or the hinge of the beam that moves them");
+  if (p.given("arm")) s.arm_m = s.handle_m = p.number("arm");
+  if (p.given("handleArm")) s.handle_m = p.number("handleArm");
   if (p.given("beam")) {
     const auto beam = read_joint(build, "beam", state::JointKind::hinge);
     if (!beam) return tl::unexpected(beam.error());
     s.beam = *beam;
     if (!p.given("arm"))
       return fail("the beam has no 'arm'", where, "write its length from the hinge to a piston's rod");
-    s.arm_m = p.number("arm");
-    s.handle_m = p.given("handleArm") ? p.number("handleArm") : s.arm_m;
     if (p.number("cylinders") != std::floor(p.number("cylinders")))
       return fail("cylinders is not a whole number", where, "write 1 or 2");
     s.cylinders = static_cast<std::size_t>(p.number("cylinders"));
@@ -233,6 +239,7 @@ Expected<std::unique_ptr<Machine>> make_force_pump(const Build& build) {
   s.lift_m = p.number("lift");
   s.friction_n = p.number("friction");
   s.riser_m3 = p.number("riser") / 1000;
+  if (p.given("basinArea")) s.basin_m2 = p.number("basinArea");
   s.cushion_s = p.number("cushion");
   s.effort_scale = build.effort_scale();
   return std::make_unique<ForcePump>(build, s);
@@ -251,7 +258,7 @@ constexpr state::ParameterType kForcePumpParameters[] = {
     {.name = "arm", .unit = "m", .summary = "of the beam, from its hinge to a piston's rod", .min = 0.01, .max = 10},
     {.name = "handleArm",
      .unit = "m",
-     .summary = "of the beam, from its hinge to the hand; not given: as arm",
+     .summary = "of the beam, from its hinge to the hand; not given: as arm. With sliders both only tell handle_n",
      .min = 0.01,
      .max = 10},
     {.name = "cylinders", .summary = "under a beam: 1 or 2", .default_value = 2, .min = 1, .max = 2},
@@ -292,6 +299,11 @@ constexpr state::ParameterType kForcePumpParameters[] = {
      .default_value = 0.3,
      .min = 0,
      .max = 100},
+    {.name = "basinArea",
+     .unit = "m2",
+     .summary = "of the water in the tub that the jet falls into",
+     .min = 1e-4,
+     .max = 1e6},
     {.name = "effortScale",
      .summary = "share of the load that the hand feels; not given: the world's effort_scale",
      .default_value = 1,
@@ -306,6 +318,7 @@ constexpr state::ValueType kForcePumpValues[] = {
     {"jet_l_per_s", "l/s", "what leaves the trumpet now"},
     {"lifted_l", "l", "out of the trumpet so far"},
     {"leaked_l", "l", "past the pistons so far"},
+    {"level_m", "m", "of the water in the tub over its floor; 0 where no basinArea is given"},
     {"head_m", "m", "of the water over the well"},
     {"force_n", "N", "of the water on the pressing pistons, unscaled"},
     {"handle_n", "N", "what pistons and friction ask of the hand, unscaled"},

@@ -11,10 +11,11 @@ namespace {
 using Kind = state::VisitMove::Kind;
 
 Kind kind_of(const std::string& word) {
-  constexpr std::array<std::pair<std::string_view, Kind>, 6> kKinds{{{"reach", Kind::reach},
+  constexpr std::array<std::pair<std::string_view, Kind>, 7> kKinds{{{"reach", Kind::reach},
                                                                      {"grasp", Kind::grasp},
                                                                      {"move_to", Kind::move_to},
                                                                      {"turn", Kind::turn},
+                                                                     {"swing", Kind::swing},
                                                                      {"release", Kind::release},
                                                                      {"wait", Kind::wait}}};
   for (const auto& [name, kind] : kKinds) {
@@ -40,21 +41,19 @@ BodyId read_body(Compilation& c, const Fields& fields, std::string_view kind) {
   return body;
 }
 
-void read_turn(Compilation& c, const Fields& fields, state::VisitMove& move) {
-  need(c, fields, "turn", "joint");
-  need(c, fields, "turn", "turns");
+JointId read_hinge(Compilation& c, const Fields& fields, std::string_view kind) {
+  need(c, fields, kind, "joint");
+  if (!fields.given("joint")) return JointId::none();
   const std::string name = fields.string("joint");
-  move.joint = c.world.find_joint(name);
-  move.turns = fields.number("turns");
-  move.rate_rpm = fields.number("rpm");
-  if (!fields.given("joint")) return;
-  if (!move.joint) {
+  const JointId joint = c.world.find_joint(name);
+  if (!joint) {
     c.problems.error(fields.line("joint"), fields.where(), fmt::format("no joint is called '{}'", name),
                      suggest(name, names_of(c.world.joints), "add a SingleAxisHingeJoint of that DEF"));
-  } else if (c.world.joints[move.joint.index()].kind != state::JointKind::hinge) {
+  } else if (c.world.joints[joint.index()].kind != state::JointKind::hinge) {
     c.problems.error(fields.line("joint"), fields.where(), fmt::format("the joint '{}' does not turn", name),
                      "name a hinge");
   }
+  return joint;
 }
 
 state::VisitMove compile_move(Compilation& c, const Metadata& set, const std::string& visit) {
@@ -80,7 +79,21 @@ state::VisitMove compile_move(Compilation& c, const Metadata& set, const std::st
       if (fields.given("orientation")) move.X_WB.R = fields.rotation("orientation");
       break;
     case Kind::turn:
-      read_turn(c, fields, move);
+      move.joint = read_hinge(c, fields, kind);
+      need(c, fields, kind, "turns");
+      move.turns = fields.number("turns");
+      move.rate_rpm = fields.number("rpm");
+      break;
+    case Kind::swing:
+      move.joint = read_hinge(c, fields, kind);
+      need(c, fields, kind, "angle");
+      move.amplitude_rad = fields.number("angle");
+      if (fields.given("angle") && move.amplitude_rad == 0) {
+        c.problems.error(fields.line("angle"), fields.where(), "a swing of no angle",
+                         "write how far it goes, in radians");
+      }
+      move.cycles = fields.number("cycles");
+      move.cycles_per_min = fields.number("perMinute");
       break;
     case Kind::release:
     case Kind::wait:

@@ -163,15 +163,18 @@ struct ActivityDescription {
 
 /// One move of a scripted visit: what a person would do with one hand.
 struct VisitMove {
-  enum class Kind { reach, grasp, move_to, turn, release, wait };
+  enum class Kind { reach, grasp, move_to, turn, swing, release, wait };
   Kind kind = Kind::wait;
-  BodyId body;               ///< reach, grasp, move_to
-  Vec3 p_BG = Vec3::Zero();  ///< reach: the grip's centre in the body's frame
-  Pose X_WB;                 ///< move_to: where the body goes
-  JointId joint;             ///< turn
-  double turns = 0;          ///< turn: how far, in turns of the joint
-  double rate_rpm = 0;       ///< turn: how fast
-  double duration_s = 1;     ///< reach, grasp, move_to, release, wait
+  BodyId body;                ///< reach, grasp, move_to
+  Vec3 p_BG = Vec3::Zero();   ///< reach: the grip's centre in the body's frame
+  Pose X_WB;                  ///< move_to: where the body goes
+  JointId joint;              ///< turn, swing
+  double turns = 0;           ///< turn: how far, in turns of the joint
+  double rate_rpm = 0;        ///< turn: how fast
+  double amplitude_rad = 0;   ///< swing: how far to either side of the joint's 0; above 0: to positive angles first
+  double cycles = 0;          ///< swing: how often to and fro
+  double cycles_per_min = 0;  ///< swing: how fast
+  double duration_s = 1;      ///< reach, grasp, move_to, release, wait
 };
 
 struct VisitDescription {

@@ -16,6 +16,8 @@ namespace {
 constexpr std::uint64_t kTicksPerFrame = 16;
 // A person's reaction time before the hand sets out.
 constexpr std::uint64_t kReactionTicks = 200;
+// Where a part is that was taken away: out of any snap's reach.
+constexpr double kUnderTheFloorM = 3;
 
 template <class T>
 T value_or_throw(Expected<T> result) {
@@ -198,13 +200,14 @@ void take_away(state::WorldDescription& world, const std::string& body) {
   const BodyId id = world.find_body(body);
   if (!id) throw std::runtime_error(world.id + " has no body '" + body + "'");
   state::BodyDescription& gone = world.bodies[id.index()];
+  const Pose X_WGone{gone.X_WB.p - Vec3(0, kUnderTheFloorM, 0), gone.X_WB.R};
   gone.object = nullptr;
   gone.visible = false;
   gone.graspable = false;
   gone.collides = false;
   for (state::StepDescription& step : world.steps) {
     std::erase_if(step.bodies, [&](const auto& change) { return change.body == id; });
-    step.bodies.push_back({id, false, false, false, std::nullopt});
+    step.bodies.push_back({id, false, false, false, X_WGone});
   }
 }
 

@@ -68,7 +68,8 @@ void switch_off(state::WorldDescription& world, const std::string& agent);
 /// Gives an agent or a machine another value of a parameter. One that its type does not know fails when the world is made.
 void set_parameter(state::WorldDescription& world, const std::string& component, const std::string& parameter,
                    const state::Parameter& value);
-/// Cannot be seen, grasped or touched, and nothing moves it: as if it were not there.
+/// Cannot be seen, grasped or touched, nothing moves it, and it lies under the floor: as if it were not there. A joint or tie of its
+/// own is switched off apart.
 void take_away(state::WorldDescription& world, const std::string& body);
 
 }  // namespace mechane::test

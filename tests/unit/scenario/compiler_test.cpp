@@ -149,6 +149,11 @@ const Fault kFaults[] = {
     {"mass='42'", "mass='0'", "mass='0'", "the mass is 0 kg"},
     {"mass='42'", "mass='1 2'", "mass='1 2'", "it has 2 numbers"},
     {"inertia='20.4 0 0 0 20.3", "inertia='20.4 0 0 0 200", "inertia=", "no solid body"},
+    {"value='\"turn\"'/>\n              <MetadataString containerField='value' name='joint' value='\"AXLE\"'/>\n"
+     "              <MetadataDouble containerField='value' name='turns' value='9'",
+     "value='\"swing\"'/>\n              <MetadataString containerField='value' name='joint' value='\"AXLE\"'/>\n"
+     "              <MetadataDouble containerField='value' name='angle' value='0'",
+     "name='angle' value='0'", "a swing of no angle"},
     {"axis='-0.79", "axis='0 0 0' class='", "<SingleAxisHingeJoint", "has no length"},
     {"containerField='body2' USE='INNER'", "containerField='body2' USE='INER'", "USE='INER'", "did you mean 'INNER'?"},
     {"containerField='body2' USE='INNER'", "containerField='body2' USE='OUTER'", "<SingleAxisHingeJoint", "to itself"},

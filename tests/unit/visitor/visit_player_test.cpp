@@ -1,0 +1,144 @@
+// The scripted hand by itself: where it goes, without a world.
+#include "client-sdk/visitor/visit_player.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::visitor {
+namespace {
+
+using state::VisitMove;
+
+constexpr double kArmM = 0.9;
+
+/// A lever on a hinge along z through (0, 1, 0); its grip is `kArmM` out along x.
+state::WorldDescription lever_world() {
+  state::WorldDescription world;
+  state::BodyDescription frame, lever;
+  frame.name = "FRAME";
+  frame.fixed = true;
+  lever.name = "LEVER";
+  lever.X_WB.p = Vec3(0, 1, 0);
+  world.bodies = {frame, lever};
+  state::JointDescription hinge;
+  hinge.name = "PIVOT";
+  hinge.body1 = BodyId(0);
+  hinge.body2 = BodyId(1);
+  hinge.X_B1J.p = Vec3(0, 1, 0);
+  world.joints = {hinge};
+  return world;
+}
+
+Pose lever_at(double angle_rad) {
+  return {Vec3(0, 1, 0), Quat(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()))};
+}
+
+VisitMove swing(double amplitude_rad, double cycles, double per_min) {
+  VisitMove move;
+  move.kind = VisitMove::Kind::swing;
+  move.joint = JointId(0);
+  move.amplitude_rad = amplitude_rad;
+  move.cycles = cycles;
+  move.cycles_per_min = per_min;
+  return move;
+}
+
+RC_GTEST_PROP(VisitPlayerSwing, GoesToAndFroOnItsArcFromWhereTheLeverStands, ()) {
+  const double amplitude = *rc::gen::element(0.1, 0.25, -0.25, 0.6);
+  const double start = 0.01 * *rc::gen::inRange(-80, 81) * std::abs(amplitude);
+  const int cycles = *rc::gen::inRange(1, 6);
+  const double per_min = *rc::gen::inRange(5, 60);
+  const state::WorldDescription world = lever_world();
+  const Pose X_WL = lever_at(start);
+  const state::VisitDescription visit{"", {}, {swing(amplitude, cycles, per_min)}};
+  PlayerConfig config;
+  config.X_WH_rest.p = X_WL * Vec3(kArmM, 0, 0);
+  VisitPlayer player(world, visit, config);
+  double least = start, most = start, last = start, fastest = 0, seconds = 0;
+  int turns = 0, direction = amplitude > 0 ? 1 : -1;
+  while (!player.finished()) {
+    player.advance(0.001, std::vector<Pose>{Pose{}, X_WL}, true, 0);
+    const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
+    RC_ASSERT(std::abs(arm.norm() - kArmM) < 1e-9);
+    RC_ASSERT(std::abs(arm.z()) < 1e-12);
+    const double angle = std::atan2(arm.y(), arm.x());
+    fastest = std::max(fastest, std::abs(angle - last) / 0.001);
+    if ((angle - last) * direction < 0) {
+      ++turns;
+      direction = -direction;
+    }
+    last = angle;
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+    seconds += 0.001;
+    RC_ASSERT(seconds < 200);
+  }
+  // It reaches both ends, turns round at each, and comes back to where it began.
+  RC_ASSERT(std::abs(most - std::abs(amplitude)) < 1e-4);
+  RC_ASSERT(std::abs(least + std::abs(amplitude)) < 1e-4);
+  RC_ASSERT(turns == 2 * cycles);
+  RC_ASSERT(std::abs(last - start) < 1e-6);
+  RC_ASSERT(fastest <= std::abs(amplitude) * 2 * kPi * per_min / 60 * 1.001);
+  RC_ASSERT(seconds >= cycles * 60 / per_min);
+  RC_ASSERT(player.results().size() == 1u);
+  RC_ASSERT(player.results()[0].ok);
+}
+
+TEST(VisitPlayerSwing, AHandThatHoldsNothingSaysSo) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit{"", {}, {swing(0.2, 1, 60)}};
+  PlayerConfig config;
+  config.X_WH_rest.p = Vec3(kArmM, 1, 0);
+  VisitPlayer player(world, visit, config);
+  for (int i = 0; i < 5000 && !player.finished(); ++i)
+    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, i < 300, 0);
+  ASSERT_EQ(player.results().size(), 1u);
+  EXPECT_FALSE(player.results()[0].ok);
+  EXPECT_EQ(player.results()[0].name, "swing PIVOT");
+}
+
+/// A visit that carries the lever's body a metre to the right.
+state::VisitDescription carrying() {
+  VisitMove reach, grasp, carry;
+  reach.kind = VisitMove::Kind::reach;
+  grasp.kind = VisitMove::Kind::grasp;
+  carry.kind = VisitMove::Kind::move_to;
+  for (VisitMove* move : {&reach, &grasp, &carry}) {
+    move->body = BodyId(1);
+    move->duration_s = 0.2;
+  }
+  carry.X_WB.p = Vec3(1, 1, 0);
+  return {"", {}, {reach, grasp, carry}};
+}
+
+std::vector<MoveResult> carry_to(const Vec3& p_WB_at_the_end, bool holding) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = carrying();
+  VisitPlayer player(world, visit, PlayerConfig{});
+  for (int i = 0; i < 20000 && !player.finished(); ++i) {
+    const bool carries = player.results().size() % 3 == 2;
+    const Pose X_WB{carries ? p_WB_at_the_end : Vec3(0, 1, 0), Quat::Identity()};
+    player.advance(0.001, std::vector<Pose>{Pose{}, X_WB}, holding || !carries, 0);
+  }
+  return {player.results().begin(), player.results().end()};
+}
+
+TEST(VisitPlayerCarry, WhatSlippedIsFetchedAgainTwice) {
+  const auto results = carry_to(Vec3(0.3, 1, 0), false);
+  ASSERT_EQ(results.size(), 9u);
+  for (const std::size_t i : {0u, 3u, 6u}) {
+    EXPECT_EQ(results[i].name, "reach LEVER");
+    EXPECT_FALSE(results[i + 2].ok);
+  }
+}
+
+TEST(VisitPlayerCarry, WhatASnapTookOrTheHandHoldsIsNotFetchedAgain) {
+  EXPECT_EQ(carry_to(Vec3(0.95, 1, 0), false).size(), 3u);
+  EXPECT_EQ(carry_to(Vec3(0.3, 1, 0), true).size(), 3u);
+}
+
+}  // namespace
+}  // namespace mechane::visitor
