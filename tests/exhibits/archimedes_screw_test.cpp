@@ -1,0 +1,44 @@
+// Archimedes' screw, played by its own visits; and what fails, and where, once something is broken.
+#include <gtest/gtest.h>
+
+#include "tests/support/exhibit_play.hpp"
+
+namespace mechane {
+namespace {
+
+const test::Exhibit& screw() {
+  static const test::Exhibit kExhibit("archimedes-screw");
+  return kExhibit;
+}
+
+TEST(ArchimedesScrewVisits, TheScrewIsPutIntoItsBarrel) {
+  const test::PlayedVisit visit = screw().play("assembling");
+  EXPECT_TRUE(visit.done) << visit;
+  EXPECT_EQ(visit.steps.size(), 2u) << visit;
+  EXPECT_EQ(visit.quantities.at("seated"), 1) << visit;
+}
+
+TEST(ArchimedesScrewVisits, TurningRaisesWaterAndGivesOneHash) {
+  const test::PlayedVisit visit = screw().play("turning");
+  EXPECT_TRUE(visit.done) << visit;
+  EXPECT_EQ(visit.steps.size(), 3u) << visit;
+  EXPECT_GT(visit.quantities.at("basin"), 15) << visit;
+  EXPECT_EQ(screw().play("turning").state_hash, visit.state_hash);
+}
+
+TEST(ArchimedesScrewVisits, WithoutItsAxleItIsHeldButDoesNotTurn) {
+  test::PlayOptions options;
+  options.change = [](state::WorldDescription& world) { test::switch_off(world, "AXLE"); };
+  const test::PlayedVisit visit = screw().play("turning", options);
+  EXPECT_EQ(visit.stopped_at, "turn") << visit;
+}
+
+TEST(ArchimedesScrewVisits, AScrewThatFitsNowhereIsNotSeated) {
+  test::PlayOptions options;
+  options.change = [](state::WorldDescription& world) { test::switch_off(world, "SEAT"); };
+  const test::PlayedVisit visit = screw().play("assembling", options);
+  EXPECT_EQ(visit.stopped_at, "seat") << visit;
+}
+
+}  // namespace
+}  // namespace mechane

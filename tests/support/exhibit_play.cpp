@@ -1,0 +1,222 @@
+#include "tests/support/exhibit_play.hpp"
+
+#include <algorithm>
+#include <ostream>
+#include <stdexcept>
+
+#include "client-sdk/haptic/virtual_device.hpp"
+#include "server/app/scenario_store.hpp"
+#include "server/realtime/histogram.hpp"
+#include "server/world/step.hpp"
+
+namespace mechane::test {
+namespace {
+
+// A visitor sees a frame of 60 Hz; the haptic answer is one tick old.
+constexpr std::uint64_t kTicksPerFrame = 16;
+// A person's reaction time before the hand sets out.
+constexpr std::uint64_t kReactionTicks = 200;
+
+template <class T>
+T value_or_throw(Expected<T> result) {
+  if (!result) throw std::runtime_error(result.error().to_string());
+  return std::move(*result);
+}
+
+state::HandSample to_sample(const client::HandInput& input, std::uint64_t sequence) {
+  state::HandSample sample;
+  sample.session = 7;
+  sample.sequence = sequence;
+  sample.kind = static_cast<state::HandKind>(input.kind);
+  sample.X_WH = input.X_WH;
+  sample.V_WH = input.V_WH;
+  sample.joints = input.joints;
+  sample.hand_scale = input.hand_scale;
+  sample.buttons = input.buttons;
+  sample.grasp_intent = input.grasp_intent;
+  return sample;
+}
+
+const state::VisitDescription& find_visit(const state::WorldDescription& world, const std::string& name) {
+  const auto it = std::ranges::find_if(world.visits, [&](const auto& visit) { return visit.name == name; });
+  if (it == world.visits.end()) throw std::runtime_error(world.id + " has no visit '" + name + "'");
+  return *it;
+}
+
+/// One visitor in one world.
+class Play {
+ public:
+  Play(std::shared_ptr<const state::WorldDescription> description, const world::WorldConfig& config,
+       const std::string& visit, const PlayOptions& options)
+      : description_(std::move(description)),
+        visit_(find_visit(*description_, visit)),
+        options_(options),
+        world_(value_or_throw(world::World::create(description_, config))),
+        governor_(value_or_throw(force::ForceGovernor::make(device_.limits()))),
+        player_(*description_, visit_, options.player),
+        X_WB_(description_->bodies.size()) {}
+
+  PlayedVisit run() {
+    device_.intend(player_.intent());
+    state::TickInputs start;
+    start.commands[0] = {1, state::CommandKind::start_activity, static_cast<std::uint32_t>(visit_.activity.index())};
+    start.command_count = 1;
+    tick(start);
+    for (std::uint64_t i = 0; i < kReactionTicks; ++i)
+      tick({});
+    std::uint64_t idle = 0;
+    while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
+      const state::HapticOutput& answer = world_->state.users[0].output;
+      if (player_.finished()) ++idle;
+      player_.advance(kTickSeconds, X_WB_, answer.holding, device_.felt_W().f.norm());
+      device_.intend(player_.intent());
+      tick({});
+    }
+    return report();
+  }
+
+ private:
+  [[nodiscard]] bool done() const { return world_->state.progress.done; }
+
+  void tick(state::TickInputs inputs) {
+    const state::WorldState& state = world_->state;
+    const client::HandInput hand = device_.read(kTickPeriod);
+    state::UserInput& user = inputs.users[0];
+    user.present = true;
+    user.fresh = true;
+    user.sample = to_sample(hand, ++sequence_);
+    const TimePoint began = clock_.now();
+    world::step(*world_, inputs, publisher_, timer_);
+    took_.record(clock_.now() - began);
+    feel(hand.V_WH, state.users[0].output);
+    if (sequence_ % kTicksPerFrame == 1) {
+      std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
+    }
+    note_steps();
+    if (options_.watch) options_.watch(state);
+  }
+
+  /// As the haptic loop does: the device's own governor has the last word.
+  void feel(const Twist& V_WH, const state::HapticOutput& answer) {
+    force::GovernorInput wanted;
+    wanted.wanted_W = answer.force_W;
+    wanted.finger_force_n = answer.finger_force_n;
+    wanted.V_WH = V_WH;
+    device_.write(governor_.apply(wanted, kTickPeriod));
+  }
+
+  void note_steps() {
+    for (const state::Event& event : world_->state.event_span()) {
+      if (event.kind != state::EventKind::step_started && event.kind != state::EventKind::activity_done) continue;
+      if (!report_.steps.empty()) end_step();
+      if (event.kind == state::EventKind::activity_done) continue;
+      report_.steps.push_back({description_->steps[event.subject].name, 0, false});
+      step_tick_ = event.tick;
+    }
+  }
+
+  void end_step() {
+    PlayedStep& step = report_.steps.back();
+    step.seconds = static_cast<double>(world_->state.tick - step_tick_) * kTickSeconds;
+    const state::StepDescription& described = description_->steps[description_->find_step(step.name).index()];
+    // Half a tick of slack, as the rules have.
+    step.done = described.timeout_s <= 0 || step.seconds + 0.5 * kTickSeconds < described.timeout_s;
+  }
+
+  PlayedVisit report() {
+    const state::WorldState& state = world_->state;
+    report_.done = done();
+    if (!report_.done && state.progress.step)
+      report_.stopped_at = description_->steps[state.progress.step.index()].name;
+    report_.moves.assign(player_.results().begin(), player_.results().end());
+    for (std::size_t i = 0; i < state.quantities.size(); ++i)
+      report_.quantities[description_->quantities[i].name] = state.quantities[i];
+    report_.seconds = static_cast<double>(state.tick) * kTickSeconds;
+    report_.state_hash = state::state_hash(state);
+    report_.tick_us_median = 1e6 * to_seconds(took_.quantile(0.5));
+    return report_;
+  }
+
+  std::shared_ptr<const state::WorldDescription> description_;
+  const state::VisitDescription& visit_;
+  const PlayOptions& options_;
+  std::unique_ptr<world::World> world_;
+  haptic::VirtualDevice device_;
+  force::ForceGovernor governor_;
+  visitor::VisitPlayer player_;
+  std::vector<Pose> X_WB_;  // as last seen
+  SystemClock clock_;
+  world::PhaseTimer timer_{clock_};
+  world::NoPublisher publisher_;
+  realtime::LatencyHistogram took_;
+  std::uint64_t sequence_ = 0;
+  std::uint64_t step_tick_ = 0;
+  PlayedVisit report_;
+};
+
+AgentId agent_or_throw(const state::WorldDescription& world, const std::string& name) {
+  const AgentId id = world.find_agent(name);
+  if (!id) throw std::runtime_error(world.id + " has no agent '" + name + "'");
+  return id;
+}
+
+}  // namespace
+
+Exhibit::Exhibit(const std::string& name) {
+  app::Settings settings;
+  settings.scenarios = {std::string(MECHANE_SOURCE_DIR) + "/scenarios/" + name + "/" + name + ".x3d"};
+  const auto store = value_or_throw(app::ScenarioStore::load(settings));
+  description_ = store.first();
+  config_ = store.world_config();
+}
+
+PlayedVisit Exhibit::play(const std::string& visit, const PlayOptions& options) const {
+  auto description = std::make_shared<state::WorldDescription>(*description_);
+  if (options.change) options.change(*description);
+  return Play(std::move(description), config_, visit, options).run();
+}
+
+void switch_off(state::WorldDescription& world, const std::string& agent) {
+  const AgentId id = agent_or_throw(world, agent);
+  for (state::StepDescription& step : world.steps)
+    step.disable.push_back(id);
+}
+
+void set_parameter(state::WorldDescription& world, const std::string& component, const std::string& parameter,
+                   const state::Parameter& value) {
+  for (auto* components : {&world.agents, &world.machines}) {
+    for (state::ComponentDescription& candidate : *components) {
+      if (candidate.name != component) continue;
+      candidate.parameters[parameter] = value;
+      return;
+    }
+  }
+  throw std::runtime_error(world.id + " has no agent or machine '" + component + "'");
+}
+
+void take_away(state::WorldDescription& world, const std::string& body) {
+  const BodyId id = world.find_body(body);
+  if (!id) throw std::runtime_error(world.id + " has no body '" + body + "'");
+  state::BodyDescription& gone = world.bodies[id.index()];
+  gone.object = nullptr;
+  gone.visible = false;
+  gone.graspable = false;
+  gone.collides = false;
+  for (state::StepDescription& step : world.steps) {
+    std::erase_if(step.bodies, [&](const auto& change) { return change.body == id; });
+    step.bodies.push_back({id, false, false, false, std::nullopt});
+  }
+}
+
+std::ostream& operator<<(std::ostream& out, const PlayedVisit& visit) {
+  out << (visit.done ? "done" : "stopped at '" + visit.stopped_at + "'") << " after " << visit.seconds << " s";
+  for (const PlayedStep& step : visit.steps)
+    out << "\n  step " << step.name << ": " << (step.done ? std::to_string(step.seconds) + " s" : "not done");
+  for (const auto& move : visit.moves)
+    out << "\n  " << move.name << ": " << move.seconds << " s" << (move.ok ? "" : ", went wrong");
+  for (const auto& [name, value] : visit.quantities)
+    out << "\n  " << name << " = " << value;
+  return out << "\n  median tick " << visit.tick_us_median << " us\n";
+}
+
+}  // namespace mechane::test

@@ -1,0 +1,74 @@
+// Plays an exhibit's own scripted visit in process: the visitor's player and virtual device against world::step, no network, as fast
+// as the machine can. The hand has what a networked one has: samples of one user, a command that starts the activity, and looks at
+// the scene at the rate of its frames. It has no other way to move things.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client-sdk/visitor/visit_player.hpp"
+#include "server/state/world_state.hpp"
+#include "server/world/world.hpp"
+
+namespace mechane::test {
+
+struct PlayOptions {
+  /// Changes a copy of the description before the world is made: a rope cut, a valve turned round, a gear taken away.
+  std::function<void(state::WorldDescription&)> change{};
+  /// Called after each tick, to look.
+  std::function<void(const state::WorldState&)> watch{};
+  double patience_s = 5;  ///< world seconds after the last move in which the activity may still be done
+  visitor::PlayerConfig player{};
+};
+
+struct PlayedStep {
+  std::string name;
+  double seconds = 0;  ///< of the world's time
+  bool done = false;   ///< left by one of its triggers
+};
+
+struct PlayedVisit {
+  bool done = false;              ///< the activity came to its end
+  std::string stopped_at;         ///< the step where it stands; empty when done
+  std::vector<PlayedStep> steps;  ///< in the order that they began
+  std::vector<visitor::MoveResult> moves;
+  std::map<std::string, double> quantities;  ///< at the end
+  double seconds = 0;                        ///< of the world's time, from the activity's start to the hand's last move
+  std::uint64_t state_hash = 0;
+  double tick_us_median = 0;  ///< of this machine's time; not in the hash
+};
+
+/// For a failed test's message: the steps with their times, the moves that went wrong, the quantities.
+std::ostream& operator<<(std::ostream& out, const PlayedVisit& visit);
+
+/// One shipped scenario, read once: its parts come from the cache after the first time.
+class Exhibit {
+ public:
+  /// `name` is its folder's and its file's. Throws std::runtime_error where it cannot be read.
+  explicit Exhibit(const std::string& name);
+
+  /// Plays one visit in a new world. Throws std::runtime_error where there is no such visit, or the world cannot be made.
+  [[nodiscard]] PlayedVisit play(const std::string& visit, const PlayOptions& options = {}) const;
+  [[nodiscard]] const state::WorldDescription& description() const { return *description_; }
+
+ private:
+  std::shared_ptr<const state::WorldDescription> description_;
+  world::WorldConfig config_;
+};
+
+/// Changes for PlayOptions::change. Each throws std::runtime_error where the name is not there, so that a test cannot break
+/// something that does not exist.
+
+/// The agent stays off in every step: a rope cut, a pawl lifted off, a joint undone.
+void switch_off(state::WorldDescription& world, const std::string& agent);
+/// Gives an agent or a machine another value of a parameter. One that its type does not know fails when the world is made.
+void set_parameter(state::WorldDescription& world, const std::string& component, const std::string& parameter,
+                   const state::Parameter& value);
+/// Cannot be seen, grasped or touched, and nothing moves it: as if it were not there.
+void take_away(state::WorldDescription& world, const std::string& body);
+
+}  // namespace mechane::test
