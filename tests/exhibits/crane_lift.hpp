@@ -54,7 +54,7 @@ inline CraneLift measure_lift(const Exhibit& crane, std::function<void(state::Wo
     const state::Grasp& grasp = state.users[0].grasp;
     if (!grasp.active || grasp.body != drum || joint.position < kPi || joint.position > 3 * kPi) return;
     const Vec3 p_AG_W = state[drum].X_WB * grasp.p_BG - p_WA;
-    const double felt_nm = -(p_AG_W.cross(grasp.reaction_W.f) + grasp.reaction_W.m).z();
+    const double felt_nm = -(p_AG_W.cross(grasp.reaction_W.f) + grasp.reaction_W.t).z();
     const double real_nm = felt_nm / world.effort_scale;
     if (lift.ticks++ == 0) {
       height_m = state[load].X_WB.p.y();
