@@ -50,9 +50,11 @@ def marble():
     warp = fractal(shape, (4, 4), rng, 5, 0.55)
     vein = np.exp(-np.abs(np.sin(math.pi * (4 * warp + np.arange(1024)[:, None] * 2 / 1024 + np.arange(1024)[None, :] / 1024))) / 0.07)
     fine, broad = fractal(shape, (60, 60), rng, 3, 0.6), fractal(shape, (3, 3), rng, 5)
-    colour = tint((0.70, 0.68, 0.63), (0.52, 0.49, 0.43), np.clip(1.5 * broad - 0.3, 0, 1)) * (0.88 + 0.2 * fine)[..., None]
-    colour = mix(colour, np.array([0.36, 0.36, 0.36])[None, None, :], (0.35 * vein * step(0.4, 0.7, broad))[..., None])
-    return np.clip(colour, 0, 1), 1.2 * fine + 0.8 * broad
+    stain = step(0.52, 0.72, fractal(shape, (5, 9), rng, 6, 0.6))
+    colour = tint((0.60, 0.555, 0.475), (0.44, 0.395, 0.32), np.clip(1.7 * broad - 0.35, 0, 1)) * (0.84 + 0.28 * fine)[..., None]
+    colour = mix(colour, np.array([0.27, 0.265, 0.26])[None, None, :], (0.55 * vein * step(0.35, 0.6, broad))[..., None])
+    colour = mix(colour, np.array([0.36, 0.265, 0.155])[None, None, :], (0.45 * stain)[..., None])
+    return np.clip(colour, 0, 1), 1.8 * fine + 1.0 * broad - 0.6 * vein
 
 
 def iron():
@@ -67,7 +69,7 @@ def iron():
 
 def make_materials(textures):
     made = museum_materials(textures)
-    made["marble"] = material("marble", *surface(textures, "marble", *marble(), 0.5), roughness=0.55)
+    made["marble"] = material("marble", *surface(textures, "marble", *marble(), 0.7), roughness=0.6)
     colour, height, orm = iron()
     made["iron"] = material("iron", *surface(textures, "iron", colour, height, 0.6), textures.image("iron_orm", orm, linear=True))
     made["blade"] = material("blade", base=(0.17, 0.20, 0.05, 1), roughness=0.75, two_sided=True)
@@ -141,7 +143,7 @@ def make_frame(model, kind):
             hoop(bronze, [(0.0185, -0.005), (0.031, -0.005), (0.031, 0.005), (0.0185, 0.005)], AXLE + (0, 0, z + d * 0.043))
             rod(bronze, AXLE + (-0.062, d * 0.055, z), AXLE + (0.085, d * 0.055, z), 0.009)
         for n, y in enumerate((0.30, 1.75)):
-            wrap(lashing, leg_at(y, s) + (0.030, 0, 0), HEAD * (1, 1, s) - FOOT * (1, 1, s), 0.105, 0.066, (1, 0, 0), 6, seed=10 * k + n)
+            wrap(lashing, leg_at(y, s) + (0.030, 0, 0), HEAD * (1, 1, s) - FOOT * (1, 1, s), 0.090, 0.060, (1, 0, 0), 6, seed=10 * k + n)
     direction = leg_at(3, 0) - leg_at(0, 0)
     for n in range(2):
         wrap(lashing, leg_at(2.76 + 0.36 * n, 0), direction, 0.066, leg_at(2.76 + 0.36 * n, 1)[2] + 0.064, (1, 0, 0), 6, seed=40 + n)
@@ -452,15 +454,15 @@ def make(kind, path, pictures):
         make_load(model, kind)
         scene = model.group("SCENE")
         make_wall(model, scene, kind)
-        for surroundings in (make_ground,):
-            surroundings(model, scene)
+        make_ground(model, scene)
         make_yard(model, scene, kind)
         make_grass(model, scene, kind)
         export(os.path.abspath(path))
         if not pictures:
             return
         bpy.data.objects["DRUM"].location = to_blender(AXLE)
-        for name, load, eye, look_at in (("whole", (kind["x"], BAULK + HALF_HEIGHT, 0), (1.2, 1.75, 4.3), (-0.1, 1.35, 0)),
+        for name, load, eye, look_at in (("whole", (kind["x"], BAULK + HALF_HEIGHT, 0), (1.2, 1.75, 5.6), (-0.1, 1.45, 0)),
+                                         ("head", (kind["x"], 0.96, 0), (0.55, 3.0, 1.35), (-0.35, 2.75, 0)),
                                          ("winch", (kind["x"], 0.96, 0), (1.15, 1.25, 1.45), (0.25, 0.75, 0.1)),
                                          ("load", (kind["seat"], WALL_TOP + HALF_HEIGHT, 0), (0.35, 1.45, 1.45), (-0.75, 0.85, 0))):
             bpy.data.objects["LOAD"].location = to_blender(load)
