@@ -143,7 +143,9 @@ def make_frame(model, kind):
             hoop(bronze, [(0.0185, -0.005), (0.031, -0.005), (0.031, 0.005), (0.0185, 0.005)], AXLE + (0, 0, z + d * 0.043))
             rod(bronze, AXLE + (-0.062, d * 0.055, z), AXLE + (0.085, d * 0.055, z), 0.009)
         for n, y in enumerate((0.30, 1.75)):
-            wrap(lashing, leg_at(y, s) + (0.030, 0, 0), HEAD * (1, 1, s) - FOOT * (1, 1, s), 0.090, 0.060, (1, 0, 0), 6, seed=10 * k + n)
+            along = (HEAD - FOOT) * (1, 1, s) / np.linalg.norm(HEAD - FOOT)
+            for slant in (-1, 1):  # both ways across leg and tie
+                wrap(lashing, leg_at(y, s) + (0.032, 0, 0), along + (0, 0, slant), 0.092, 0.078, (1, 0, 0), 4, seed=10 * k + n)
     direction = leg_at(3, 0) - leg_at(0, 0)
     for n in range(2):
         wrap(lashing, leg_at(2.76 + 0.36 * n, 0), direction, 0.066, leg_at(2.76 + 0.36 * n, 1)[2] + 0.064, (1, 0, 0), 6, seed=40 + n)
@@ -157,10 +159,10 @@ def make_frame(model, kind):
 
 def make_head(model, frame, kind, bronze):
     """The block at the head: two cheeks between the legs, a sheave; for two pulleys also the pin that the rope ends on."""
-    reach = -0.575 if kind["compound"] else -0.415
+    reach = -0.565 if kind["compound"] else -0.370
     shape = Shape()
     for k, z in enumerate((-0.034, 0.034)):
-        timber(shape, (-0.135, 2.985, z), (reach, 2.945 if kind["compound"] else 2.94, z), 0.026, 0.150, bevel=0.006, seed=23 + k, rough=0.0008)
+        timber(shape, (-0.135, 2.985, z), (reach, 2.925 if kind["compound"] else 2.945, z), 0.026, 0.112, bevel=0.006, seed=23 + k, rough=0.0008)
     model.add("visual_block", shape, ["timber"], frame)
     sheave(bronze, SHEAVE, SHEAVE_RADIUS)
     pins = [SHEAVE, (-0.195, 2.98, 0)] + ([(kind["x"] - LOWER_RADIUS, 2.90, 0)] if kind["compound"] else [])
@@ -462,7 +464,7 @@ def make(kind, path, pictures):
             return
         bpy.data.objects["DRUM"].location = to_blender(AXLE)
         for name, load, eye, look_at in (("whole", (kind["x"], BAULK + HALF_HEIGHT, 0), (1.2, 1.75, 5.6), (-0.1, 1.45, 0)),
-                                         ("head", (kind["x"], 0.96, 0), (0.55, 3.0, 1.35), (-0.35, 2.75, 0)),
+                                         ("head", (kind["x"], 0.96, 0), (-1.35, 2.75, 1.15), (-0.30, 2.85, 0)),
                                          ("winch", (kind["x"], 0.96, 0), (1.15, 1.25, 1.45), (0.25, 0.75, 0.1)),
                                          ("load", (kind["seat"], WALL_TOP + HALF_HEIGHT, 0), (0.35, 1.45, 1.45), (-0.75, 0.85, 0))):
             bpy.data.objects["LOAD"].location = to_blender(load)
