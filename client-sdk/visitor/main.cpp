@@ -1,11 +1,13 @@
 // mechane-visitor: an automated visitor that plays a scenario's visit over the network like a person.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
-#include "client-sdk/visitor/visit_session.hpp"
+#include "client-sdk/visitor/visit_tour.hpp"
 #include "server/log/log.hpp"
 
 namespace {
@@ -16,6 +18,8 @@ volatile std::sig_atomic_t g_stop = 0;  // the one thing that a signal handler m
 
 struct Arguments {
   visitor::VisitOptions options;
+  std::vector<std::filesystem::path> scenarios;
+  bool all = false;
   std::string report_file;
   std::vector<double> offset;
   bool glove = false;
@@ -27,9 +31,13 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--kiosk", a.options.client.kiosk, "name of the kiosk");
   app.add_option("--user", a.options.client.user, "which hand of the kiosk, 0..3");
   app.add_option("--join", a.options.client.join_kiosk, "share the world of this kiosk");
-  app.add_option("--scenario", a.options.scenario, "X3D file to read the visit from")->required();
-  app.add_option("--activity", a.options.activities,
-                 "play these activities, in this order; without: all that have a visit");
+  app.add_option("--scenario", a.scenarios, "X3D file to read the visit from; with --all, files and folders of them");
+  auto* activity = app.add_option("--activity", a.options.activities,
+                                  "play one visit of each of these activities, in this order; without: all visits");
+  auto* all = app.add_flag("--all", a.all,
+                           "all visits of all scenarios at once, each scenario at a kiosk of its own, "
+                           "named as its file; without --scenario, of the folder scenarios");
+  all->excludes(activity);
   app.add_option("--domain", a.options.client.domain, "DDS domain");
   app.add_option("--offset", a.offset, "metres by which the hand misses: x y z")->expected(3);
   app.add_option("--patience", a.patience_s, "seconds that an activity may take after the last move");
@@ -39,8 +47,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag("--endless", a.options.endless, "begin again when through");
 }
 
-int report(const visitor::VisitReport& result, const std::string& file) {
-  const std::string json = visitor::to_json(result);
+int report(const std::string& json, bool complete, const std::string& file) {
   if (!file.empty()) {
     std::ofstream out(file);
     out << json;
@@ -52,7 +59,36 @@ int report(const visitor::VisitReport& result, const std::string& file) {
   } else {
     std::fputs(json.c_str(), stdout);
   }
-  return result.complete() ? 0 : 1;
+  return complete ? 0 : 1;
+}
+
+int play_one(Arguments& a) {
+  if (a.scenarios.size() != 1) {
+    log::error(Error{fmt::format("{} scenarios were named", a.scenarios.size()), "--scenario",
+                     "name one, or say --all to play several at once"});
+    return 2;
+  }
+  a.options.scenario = a.scenarios.front();
+  const auto result = visitor::run_visit(a.options, g_stop);
+  if (!result) {
+    log::error(result.error());
+    return 2;
+  }
+  return report(visitor::to_json(*result), result->complete(), a.report_file);
+}
+
+int play_all(Arguments& a) {
+  if (a.scenarios.empty()) a.scenarios = {"scenarios"};
+  const auto found = visitor::find_scenarios(a.scenarios);
+  if (!found) {
+    log::error(found.error());
+    return 2;
+  }
+  const std::vector<visitor::TourStop> stops = visitor::run_tour(a.options, *found, g_stop);
+  std::fputs(visitor::tour_table(stops).c_str(), stdout);
+  const bool complete = std::ranges::all_of(stops, &visitor::TourStop::complete);
+  // The table says it to a person; the JSON is for who asks.
+  return a.report_file.empty() ? (complete ? 0 : 1) : report(visitor::to_json(stops), complete, a.report_file);
 }
 
 }  // namespace
@@ -71,10 +107,5 @@ int main(int argc, char** argv) {
   if (a.local) a.options.render = haptic::RenderMode::local;
   std::signal(SIGINT, [](int) { g_stop = 1; });
   std::signal(SIGTERM, [](int) { g_stop = 1; });
-  const auto result = visitor::run_visit(a.options, g_stop);
-  if (!result) {
-    log::error(result.error());
-    return 2;
-  }
-  return report(*result, a.report_file);
+  return a.all ? play_all(a) : play_one(a);
 }

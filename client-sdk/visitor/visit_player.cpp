@@ -13,6 +13,8 @@ constexpr double kTurnRampRadPerS2 = 6.0;
 // A fingertip feels less than this; it is over the noise of a resting hand.
 constexpr double kTouchN = 0.1;
 constexpr double kFollowMPerS = 0.15;
+// How long it takes a person to see that the hand is empty.
+constexpr double kNoticesLossS = 0.3;
 // Farther than this from where it was carried, a thing has been left behind.
 constexpr double kSlippedM = 0.1;
 
@@ -55,6 +57,7 @@ VisitPlayer::VisitPlayer(const state::WorldDescription& description, const state
   intent_.kind = config.kind;
   intent_.X_WH = config.X_WH_rest;
   results_.reserve(visit.moves.size());
+  done_rad_.resize(visit.moves.size());
 }
 
 void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n) {
@@ -62,8 +65,10 @@ void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding,
   if (!begun_) begin_move(X_WB);
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
-  if (!continue_move(X_WB, holding, felt_n)) return;
-  const bool again = slipped(X_WB, holding) && fetched_again_ < config_.fetch_again;
+  note_grip(holding);
+  const bool over = continue_move(X_WB, holding, felt_n);
+  const bool again = (lost_its_handle() || (over && slipped(X_WB, holding))) && fetched_again_ < config_.fetch_again;
+  if (!over && !again) return;
   end_move(ok_);
   if (again) fetch_again();
 }
@@ -74,6 +79,9 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   ok_ = true;
   time_s_ = 0;
   turned_rad_ = 0;
+  held_ = false;
+  held_rad_ = 0;
+  empty_s_ = 0;
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   if (move.kind == VisitMove::Kind::reach) {
@@ -141,14 +149,14 @@ void VisitPlayer::move_hand_towards_goal(double duration_s) {
 }
 
 bool VisitPlayer::turn(const VisitMove& move) {
-  const double whole_rad = 2 * kPi * std::abs(move.turns);
+  const double whole_rad = std::max(2 * kPi * std::abs(move.turns) - done_rad_[index_], 0.0);
   go_round(move.joint, std::copysign(go_through(whole_rad, 2 * kPi / 60 * std::abs(move.rate_rpm)), move.turns));
   return turned_rad_ >= whole_rad;
 }
 
 /// To and fro as a sine of a phase that runs through all cycles, from where the lever stands on its way.
 bool VisitPlayer::swing(const VisitMove& move) {
-  const double whole_rad = 2 * kPi * move.cycles;
+  const double whole_rad = std::max(2 * kPi * move.cycles - done_rad_[index_], 0.0);
   const double phase = std::asin(std::clamp(swing_from_rad_ / move.amplitude_rad, -1.0, 1.0));
   const double gone = go_through(whole_rad, 2 * kPi / 60 * move.cycles_per_min);
   go_round(move.joint, move.amplitude_rad * (std::sin(phase + gone) - std::sin(phase)));
@@ -171,6 +179,19 @@ void VisitPlayer::go_round(JointId id, double angle_rad) {
   intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J);
 }
 
+void VisitPlayer::note_grip(bool holding) {
+  held_ = held_ || holding;
+  if (holding) held_rad_ = turned_rad_;
+  empty_s_ = holding ? 0 : empty_s_ + last_dt_s_;
+}
+
+/// A handle that the hand had when this turn or swing began, or caught in it, and has no more.
+bool VisitPlayer::lost_its_handle() const {
+  const VisitMove::Kind kind = visit_.moves[index_].kind;
+  const bool works = kind == VisitMove::Kind::turn || kind == VisitMove::Kind::swing;
+  return works && held_ && empty_s_ > kNoticesLossS && visit_.moves[last_reach_].kind == VisitMove::Kind::reach;
+}
+
 /// Not what a snap took out of the hand: that is where it was to go.
 bool VisitPlayer::slipped(std::span<const Pose> X_WB, bool holding) const {
   const VisitMove& move = visit_.moves[index_];
@@ -187,6 +208,7 @@ void VisitPlayer::fetch_again() {
 }
 
 void VisitPlayer::end_move(bool ok) {
+  done_rad_[index_] += held_rad_;
   results_.push_back({name_of(description_, visit_.moves[index_]), time_s_, ok});
   ++index_;
   begun_ = false;

@@ -23,7 +23,7 @@ struct PlayerConfig {
   Vec3 offset_W = Vec3::Zero();  ///< added to every place that the hand reaches for: a visitor who misses
   client::HandKind kind = client::HandKind::one_point;
   double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit goes on without it
-  int fetch_again = 2;          ///< how often a thing that slipped out of the hand on its way is fetched again
+  int fetch_again = 2;  ///< how often the hand goes back for what it lost: on its way, or a handle that it worked
 };
 
 /// One visit, from rest to rest. Deterministic in what it is told. One thread; advance() allocates only when a move ends.
@@ -56,6 +56,8 @@ class VisitPlayer {
   void go_round(JointId joint, double angle_rad);
   void end_move(bool ok);
   [[nodiscard]] bool slipped(std::span<const Pose> X_WB, bool holding) const;
+  void note_grip(bool holding);
+  [[nodiscard]] bool lost_its_handle() const;
   void fetch_again();
 
   const state::WorldDescription& description_;
@@ -63,6 +65,8 @@ class VisitPlayer {
   PlayerConfig config_;
   haptic::HandIntent intent_;
   std::vector<MoveResult> results_;
+  std::vector<double>
+      done_rad_;  // of each turn and swing, with the handle in the hand, over all tries: what is left is done when the handle is caught again
   std::size_t index_ = 0;
   std::size_t last_reach_ = 0;  // the move that the hand went for what it carries
   int fetched_again_ = 0;       // since the visit first came to that reach
@@ -70,6 +74,9 @@ class VisitPlayer {
   bool ok_ = true;
   double time_s_ = 0;  // in this move
   double last_dt_s_ = 0;
+  bool held_ = false;    // at some moment of this move
+  double held_rad_ = 0;  // turned when the hand last held something in this move
+  double empty_s_ = 0;   // since the hand last held something in this move
   Pose X_WH_start_;
   Pose X_WH_goal_;
   double turned_rad_ = 0;      // of a turn, or of a swing's phase

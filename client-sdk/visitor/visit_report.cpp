@@ -17,11 +17,8 @@ nlohmann::json activity_json(const ActivityReport& activity, const std::string& 
   nlohmann::json moves = nlohmann::json::array();
   for (const MoveResult& move : activity.moves)
     moves.push_back({{"name", move.name}, {"seconds", move.seconds}, {"ok", move.ok}});
-  return {{"kiosk", kiosk},
-          {"name", activity.name},
-          {"done", activity.done},
-          {"seconds", activity.seconds},
-          {"steps", std::move(steps)},
+  return {{"kiosk", kiosk},           {"name", activity.name},       {"visit", activity.visit},
+          {"done", activity.done},    {"seconds", activity.seconds}, {"steps", std::move(steps)},
           {"moves", std::move(moves)}};
 }
 

@@ -99,13 +99,15 @@ void Session::note_step(ActivityReport& report) {
   if (!status_->done) report.steps.push_back({status_->step, 0, false});
   step_ = status_->done ? std::string() : status_->step;
   step_began_ = clock_.now();
-  std::printf("%s: %s\n", report.name.c_str(), status_->done ? "done" : status_->step.c_str());
+  const std::string kiosk = options_.names_kiosk ? options_.client.kiosk + "  " : "";
+  std::printf("%s%s: %s\n", kiosk.c_str(), report.name.c_str(), status_->done ? "done" : status_->step.c_str());
   std::fflush(stdout);
 }
 
 ActivityReport Session::play(const VisitDescription& visit) {
   ActivityReport report;
   report.name = world_.activities[visit.activity.index()].name;
+  report.visit = visit.name;
   (void)client_.start_activity(report.name);
   step_.clear();
   status_.reset();
@@ -208,7 +210,9 @@ Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std:
   if (!world) return tl::unexpected(world.error());
   const auto visits = choose_visits(options, *world);
   if (!visits) return tl::unexpected(visits.error());
-  auto client = client::Client::connect(options.client);
+  client::ClientConfig config = options.client;
+  if (config.scenario.empty()) config.scenario = world->id;
+  auto client = client::Client::connect(config);
   if (!client) return tl::unexpected(client.error());
   if (auto joined = join(**client, options, stop); !joined) return tl::unexpected(joined.error());
   Session session(options, *world, **client, stop);

@@ -22,6 +22,7 @@ struct VisitOptions {
   haptic::RenderMode render = haptic::RenderMode::server;
   Duration join_within = std::chrono::seconds(20);
   Duration done_within = std::chrono::seconds(60);  ///< how long after its last move an activity may take to be done
+  bool names_kiosk = false;                         ///< on stdout, where several play at once
   bool endless = false;                             ///< begins again when it is through: load and attract mode
 };
 
@@ -33,6 +34,7 @@ struct StepTime {
 
 struct ActivityReport {
   std::string name;
+  std::string visit;  ///< which of its visits
   bool done = false;
   double seconds = 0;
   std::vector<StepTime> steps;

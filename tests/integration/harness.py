@@ -87,7 +87,8 @@ class EndToEnd(unittest.TestCase):
 
     def server(self, *arguments, scenario=SCENARIO, records=True, prefix=()):
         record = ["--records", self.folder / "records"] if records else ["--records", ""]
-        process = self.start("server", "server", "--scenario", scenario, *record, "--report",
+        scenarios = scenario if isinstance(scenario, list) else [scenario]
+        process = self.start("server", "server", "--scenario", *scenarios, *record, "--report",
                              self.folder / "server.json", *arguments, prefix=prefix)
         wait_until(lambda: " ready: " in process.text() or not process.running(), 600,
                    "the server is ready (the first time it fits the exhibit's parts)")
@@ -107,8 +108,9 @@ class EndToEnd(unittest.TestCase):
     def journals(self):
         return sorted((self.folder / "records").glob("*.journal"))
 
-    def replay(self, journal, *arguments):
-        result = subprocess.run([str(BIN / "mechane"), "replay", str(journal), "--scenario", str(SCENARIO), *arguments],
+    def replay(self, journal, *arguments, scenario=SCENARIO):
+        scenarios = scenario if isinstance(scenario, list) else [scenario]
+        result = subprocess.run([str(BIN / "mechane"), "replay", str(journal), "--scenario", *map(str, scenarios), *arguments],
                                 capture_output=True, text=True, timeout=120 * PATIENCE, env=self.environment)
         return result.returncode, result.stdout + result.stderr
 

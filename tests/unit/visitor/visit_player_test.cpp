@@ -140,5 +140,40 @@ TEST(VisitPlayerCarry, WhatASnapTookOrTheHandHoldsIsNotFetchedAgain) {
   EXPECT_EQ(carry_to(Vec3(0.3, 1, 0), true).size(), 3u);
 }
 
+TEST(VisitPlayerTurn, AHandleThatIsLostIsCaughtAgainAndTurnedForTheRest) {
+  VisitMove reach, grasp, turn;
+  reach.kind = VisitMove::Kind::reach;
+  grasp.kind = VisitMove::Kind::grasp;
+  reach.body = grasp.body = BodyId(1);
+  reach.p_BG = Vec3(kArmM, 0, 0);
+  reach.duration_s = grasp.duration_s = 0.2;
+  turn.kind = VisitMove::Kind::turn;
+  turn.joint = JointId(0);
+  turn.turns = -3;
+  turn.rate_rpm = 60;
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit{"", {}, {reach, grasp, turn}};
+  VisitPlayer player(world, visit, PlayerConfig{});
+  double lever_rad = 0, last = 0;
+  bool was_held = false;
+  for (int t = 0; t < 20'000 && !player.finished(); ++t) {
+    // The handle goes with the hand, slips once in the middle of the first try, and stays where it is.
+    const std::size_t moves = player.results().size();
+    const bool held = ((moves == 1 || moves == 2) && t < 1500) || moves == 4 || moves == 5;
+    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(lever_rad)}, held, 0);
+    const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
+    const double angle = std::atan2(arm.y(), arm.x());
+    if (held && was_held) lever_rad += std::remainder(angle - last, 2 * kPi);
+    last = angle;
+    was_held = held;
+  }
+  std::vector<std::string> names;
+  for (const MoveResult& move : player.results())
+    names.push_back(move.name + (move.ok ? "" : " lost"));
+  EXPECT_EQ(names, (std::vector<std::string>{"reach LEVER", "grasp LEVER", "turn PIVOT lost", "reach LEVER",
+                                             "grasp LEVER", "turn PIVOT"}));
+  EXPECT_NEAR(lever_rad, -3 * 2 * kPi, 0.05);
+}
+
 }  // namespace
 }  // namespace mechane::visitor

@@ -1,0 +1,36 @@
+"""Every visit of every exhibit over the network, against one server: the good visits and those with a visitor's typical mistakes."""
+
+import json
+import unittest
+
+from harness import ROOT, EndToEnd
+
+
+class Exhibits(EndToEnd):
+    def test_every_visit_is_completed_and_replays(self):
+        scenarios = sorted((ROOT / "scenarios").glob("*/*.x3d"))
+        server = self.server("--worlds", len(scenarios), scenario=scenarios)
+        report = self.folder / "tour.json"
+        tour = self.run_command("visitor", "--all", "--scenario", ROOT / "scenarios", "--report", report, limit_s=500)
+        self.assertEqual(tour.returncode, 0, tour.stdout + tour.stderr)
+        stops = json.loads(report.read_text())
+        self.assertEqual(len(stops), len(scenarios))
+        for stop in stops:
+            self.assertTrue(stop["activities"], stop["scenario"])
+            for activity in stop["activities"]:
+                self.assertTrue(activity["steps"], activity["visit"])
+                self.assertTrue(all(step["done"] for step in activity["steps"]), activity["visit"])
+        self.assertEqual(server.stop(), 0, server.text())
+        journals = self.journals()
+        self.assertEqual(len(journals), len(scenarios))
+        for journal in journals:
+            hashes = set()
+            for _ in range(2):
+                status, text = self.replay(journal, scenario=scenarios)
+                self.assertEqual(status, 0, text)
+                hashes.add(self.hash_in(text))
+            self.assertEqual(len(hashes), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
