@@ -37,6 +37,7 @@ Expected<void> import_parts(const FitOptions& options, FittedObject& fitted) {
   if (!parts) return in_file(fitted.mesh_file, parts.error());
   fitted.meshes = options.whole ? one_piece(*parts, fitted.mesh_file.stem().string()) : std::move(*parts);
   for (geometry::NamedMesh& part : fitted.meshes) {
+    if (part.name.empty()) part.name = fitted.mesh_file.stem().string();  // STL and PLY know no names
     if (geometry::turn_outwards(part.mesh) > 0) fitted.turned.push_back(part.name);
   }
   return {};

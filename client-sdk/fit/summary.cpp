@@ -72,6 +72,19 @@ void note_size(Summary& summary) {
   }
 }
 
+/// A budget that was missed is no secret: what was asked for is not what one gets.
+void note_budget(const FittedObject& fitted, Summary& summary) {
+  std::vector<std::string> inexact;
+  for (const collision::PartReport& part : fitted.report.parts) {
+    if (!part.met) inexact.push_back(part.name);
+  }
+  summary.misses_budget = !inexact.empty();
+  if (inexact.empty()) return;
+  summary.notes.push_back(
+      fmt::format("{} of {} parts miss the error asked for, {} mm: {}; each has the least error found", inexact.size(),
+                  fitted.report.parts.size(), mm_text(1000 * fitted.report.budget.depth_p99_m), listed(inexact)));
+}
+
 void note_parts(const FittedObject& fitted, Summary& summary) {
   std::vector<std::string> hidden;
   std::vector<std::string> sparse;
@@ -133,11 +146,14 @@ Summary summarise(const FittedObject& fitted, const Surface& surface) {
   note_size(s);
   note_meshes(fitted, s);
   note_parts(fitted, s);
+  note_budget(fitted, s);
   return s;
 }
 
 std::string verdict(const Summary& summary) {
-  const char* remedy = "cut the parts where they are hollow, forked or hooked, or lower --error and --concavity.";
+  const char* remedy = summary.misses_budget
+                           ? "cut the parts where they are hollow, forked or hooked, or lower --concavity."
+                           : "cut the parts where they are hollow, forked or hooked, or lower --error and --concavity.";
   if (summary.not_felt_share > kMissedShare) {
     return fmt::format("{:.1f} % of this surface is not felt at all: a finger goes through it. To mend it, {}",
                        100 * summary.not_felt_share, remedy);

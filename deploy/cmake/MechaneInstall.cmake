@@ -10,6 +10,9 @@ foreach(room IN LISTS rooms)
           COMPONENT collision FILES_MATCHING PATTERN "*.hpp" PATTERN "kernel_body.hpp" EXCLUDE)
   set_target_properties(mechane_${room} PROPERTIES EXPORT_NAME ${room})
 endforeach()
+target_compile_features(mechane_base INTERFACE cxx_std_20)
+# Eigen aligns by the instruction set that it is compiled for. Whoever takes the library with -march=native must have its layout.
+target_compile_definitions(mechane_base INTERFACE $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>)
 install(TARGETS mechane_base mechane_geometry mechane_collision EXPORT mechane-collision
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT collision
         INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mechane")

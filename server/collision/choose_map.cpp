@@ -23,6 +23,8 @@ constexpr double kBlindShare = 0.02;
 constexpr double kStrayShare = 0.005;
 // Of a probe's depth, to find the inside of a thin wall: 4 mm become 0.06 mm.
 constexpr int kHalvings = 7;
+// Of a brick, where even the finest cannot meet the budget: then exactness is worth this much and no more.
+constexpr std::size_t kMostWithoutHope = 524'288;
 
 /// What the last map of one kind showed, to spare the making of those that cannot do.
 struct Trend {
@@ -59,7 +61,10 @@ class Trials {
     for (const int n : RadialMap::kResolutions) {
       const std::size_t bytes = static_cast<std::size_t>(6 * n * n) * sizeof(std::uint16_t);
       if (allowed_.only_resolution != 0 && allowed_.only_resolution != n) continue;
-      if (bytes <= allowed_.more_than || bytes > allowed_.at_most || trend.rules_out(n, budget_)) continue;
+      if (bytes <= allowed_.more_than || bytes > allowed_.at_most) continue;
+      // Where no radial map can do, a brick will; or else the finest is the best there is.
+      const bool hopeless = trend.rules_out(RadialMap::kResolutions.back(), budget_);
+      if (trend.rules_out(n, budget_) && (!hopeless || may_try_bricks())) continue;
       if (trend.fineness >= 16 && trend.is_blind()) return;
       trend = judge(cast_map(solid_, node_, frame_, n), n);
       if (is_done()) return;
@@ -72,10 +77,12 @@ class Trials {
     const BrickNeeds needs{budget_.probe_depth_m, kBlockTolerance * std::min(budget_.depth_p99_m, budget_.missed_m),
                            std::min(kDepthShare, budget_.depth_p99_m / budget_.probe_depth_m), budget_.missed_m};
     for (const int n : kBrickBlocks) {
-      if (trend.rules_out(n, budget_)) continue;
+      const bool hopeless = trend.rules_out(kBrickBlocks.back(), budget_);
+      if (trend.rules_out(n, budget_) && !hopeless) continue;
       const DistanceBrick::Grid grid = brick_grid(frame_, n);
       if (!DistanceBrick::is_valid(grid)) return;
-      const std::size_t limit = best_.met ? std::min(allowed_.at_most, best_.map.bytes() - 1) : allowed_.at_most;
+      const std::size_t most = hopeless ? std::min(allowed_.at_most, kMostWithoutHope) : allowed_.at_most;
+      const std::size_t limit = best_.met ? std::min(most, best_.map.bytes() - 1) : most;
       std::optional<DistanceBrick> brick = build_brick(solid_, skin_, frame_.X_OQ, grid, needs, allowed_.must, limit);
       if (!brick) return;  // a finer one is larger
       if (brick->bytes() <= allowed_.more_than) continue;
@@ -84,6 +91,8 @@ class Trials {
     }
   }
 
+  /// An open mesh has no inside.
+  [[nodiscard]] bool may_try_bricks() const { return allowed_.brick && solid_.is_closed(node_); }
   [[nodiscard]] MapChoice take() { return std::move(best_); }
   [[nodiscard]] bool is_done() const { return !best_.map.empty() && (best_.met || probes_.empty()); }
 
@@ -167,8 +176,7 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
   Trials trials(solid, skin, node, frame, probes, budget, candidates);
   if (candidates.radial) trials.try_radial_maps();
   const bool asked_once = probes.empty() && trials.is_done();
-  // An open mesh has no inside.
-  if (candidates.brick && solid.is_closed(node) && !asked_once) trials.try_bricks();
+  if (trials.may_try_bricks() && !asked_once) trials.try_bricks();
   return trials.take();
 }
 

@@ -17,7 +17,7 @@
 namespace mechane::content {
 
 /// Raised when the builder makes other objects from the same meshes: the cache then builds them again.
-inline constexpr int kObjectBuildVersion = 4;
+inline constexpr int kObjectBuildVersion = 5;
 
 /// $XDG_CACHE_HOME/mechane, or ~/.cache/mechane, or a folder under the system's temporary one when there is no home.
 [[nodiscard]] std::filesystem::path default_cache_folder();

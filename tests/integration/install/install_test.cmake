@@ -1,4 +1,5 @@
-# Installs the collision library into an empty folder, and builds and runs a project that uses it from there.
+# Installs the collision library into an empty folder, and builds and runs a project that uses it from there: as it is, and for this
+# machine's own instructions, with which Eigen would lay its types out in another way.
 #   cmake -DBUILD=<build folder> -DWORK=<folder to work in> -P install_test.cmake
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}/project")
@@ -8,7 +9,10 @@ foreach(step
     "${CMAKE_COMMAND};--install;${BUILD};--component;collision;--prefix;${WORK}/prefix"
     "${CMAKE_COMMAND};-S;${WORK}/project;-B;${WORK}/build;-DCMAKE_BUILD_TYPE=Release;-DCMAKE_PREFIX_PATH=${WORK}/prefix"
     "${CMAKE_COMMAND};--build;${WORK}/build"
-    "${WORK}/build/touch")
+    "${WORK}/build/touch"
+    "${CMAKE_COMMAND};-S;${WORK}/project;-B;${WORK}/native;-DCMAKE_BUILD_TYPE=Release;-DCMAKE_PREFIX_PATH=${WORK}/prefix;-DCMAKE_CXX_FLAGS=-march=native"
+    "${CMAKE_COMMAND};--build;${WORK}/native"
+    "${WORK}/native/touch")
   execute_process(COMMAND ${step} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "${step}\n${said}")

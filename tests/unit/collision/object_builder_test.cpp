@@ -8,6 +8,7 @@
 #include "server/collision/samples.hpp"
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/random.hpp"
+#include "server/geometry/superquadric_mesh.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 
@@ -185,6 +186,25 @@ TEST(BuildObject, AnOpenPartIsMappedAndReported) {
   const MapHit hit = ask(*object, {0.047, 0.01, 0.01});
   ASSERT_TRUE(hit.hit);
   EXPECT_NEAR(hit.depth_m, 0.003, 3e-4);
+}
+
+TEST(BuildObject, ABudgetOutOfReachGetsNoWorseMapThanOneWithinReach) {
+  geometry::Superquadric ball;
+  ball.a = Vec3(0.05, 0.04, 0.06);
+  const std::vector<NamedMesh> parts = {{"ball", geometry::tessellate(ball, 24)}};
+  for (const bool bricks : {true, false}) {
+    BuildConfig config;
+    config.bricks = bricks;
+    config.radial_maps = !bricks;
+    BuildReport within, beyond;
+    config.max_error_share = 0.003;
+    ASSERT_TRUE(build_object(parts, config, &within));
+    config.max_error_share = 1e-9;
+    ASSERT_TRUE(build_object(parts, config, &beyond));
+    EXPECT_TRUE(within.parts[0].met);
+    EXPECT_FALSE(beyond.parts[0].met);
+    EXPECT_LE(beyond.parts[0].error.p99_m, within.parts[0].error.p99_m) << (bricks ? "brick" : "radial map");
+  }
 }
 
 TEST(BuildObject, BadPartsAreNamedWithARemedy) {
