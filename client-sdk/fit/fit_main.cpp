@@ -25,19 +25,24 @@ struct Arguments {
   std::string report = "html";
   bool from_nodes = false;
   bool cut_all = false;
+  bool strict = false;
 };
 
 void add_options(CLI::App& app, Arguments& a) {
   collision::BuildConfig& config = a.options.config;
   app.add_option("MESH", a.meshes, "mesh files: .glb, .gltf, .obj, .stl, .ply; in metres")->required();
   app.add_option("-o,--output", a.folder, "folder for the results, made when missing; without: beside each mesh");
+  app.add_option("--scale", a.options.scale, "metres of one unit of the file: 0.001 for a model in millimetres")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->capture_default_str();
   app.add_option("--node", a.options.node, "only what is under this node of the file");
   auto* from_nodes =
       app.add_flag("--part-from-nodes", a.from_nodes,
                    "each node named part_... is a part, or each node with a mesh; without: so where there are "
                    "several, and a single mesh is cut into parts");
-  auto* cut_all =
-      app.add_flag("--cut", a.cut_all, "every mesh is cut into parts close to convex")->excludes(from_nodes);
+  auto* cut_all = app.add_flag("--cut", a.cut_all,
+                               "every mesh is cut into parts close to convex, or held by one map where that is smaller")
+                      ->excludes(from_nodes);
   app.add_flag("--whole", a.options.whole, "all meshes together are one part")->excludes(from_nodes)->excludes(cut_all);
   app.add_option("--concavity", config.max_concavity, "how hollow a part may be, as a share of its mesh's diagonal")
       ->check(CLI::Range(0.001, 1.0))
@@ -59,7 +64,7 @@ void add_options(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1e-4, 1.0))
       ->capture_default_str();
   app.add_option("--max-samples", config.max_samples_per_part,
-                 "samples of a part at most; a larger part gets a wider spacing")
+                 "samples of a piece at most; a larger one gets a wider spacing")
       ->check(CLI::Range(16, 1'000'000))
       ->capture_default_str();
   app.add_option("--seam-gap", config.seam_gap_m, "metres; gaps between parts up to this width are closed")
@@ -69,6 +74,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--report", a.report, "a page with pictures beside the object, or none")
       ->check(CLI::IsMember({"html", "none"}))
       ->capture_default_str();
+  app.add_flag("--json", a.options.json, "also the figures for programs, in MESH.json");
+  app.add_flag("--strict", a.strict, "exit with 3 where a part misses the error asked for; it is written all the same");
 }
 
 /// Two meshes of one name and one folder would overwrite each other's results.
@@ -81,7 +88,8 @@ std::string twin_of(const std::string& mesh, const fit::FitOptions& options, std
 void say(const fit::FitResult& result, const std::string& mesh) {
   fmt::print("\n{}\n{}", fit::printable(mesh), fit::summary_table(result.summary));
   fmt::print("{}{}\n", fit::wrapped_text(fit::verdict(result.summary), "", ""), result.part_file.string());
-  if (!result.report_file.empty()) fmt::print("{}\n", result.report_file.string());
+  for (const fs::path& file : {result.report_file, result.json_file})
+    if (!file.empty()) fmt::print("{}\n", file.string());
   std::fflush(stdout);
 }
 
@@ -90,6 +98,7 @@ int run(const Arguments& a) {
   fit::Progress progress(stderr);
   std::map<fs::path, std::string> taken;
   bool all_good = true;
+  bool all_exact = true;
   for (const std::string& mesh : a.meshes) {
     const std::string twin = twin_of(mesh, a.options, taken);
     Expected<fit::FitResult> result =
@@ -98,12 +107,14 @@ int run(const Arguments& a) {
     progress.end();
     if (result) {
       say(*result, mesh);
+      all_exact = all_exact && !result->summary.misses_budget;
     } else {
       fmt::print(stderr, "mechane fit: {}\n", fit::printable(result.error().to_string()));
       all_good = false;
     }
   }
-  return all_good ? 0 : 1;
+  if (!all_good) return 1;
+  return a.strict && !all_exact ? 3 : 0;
 }
 
 }  // namespace

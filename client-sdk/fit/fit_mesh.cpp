@@ -4,6 +4,7 @@
 
 #include "client-sdk/fit/output_file.hpp"
 #include "client-sdk/fit/report_html.hpp"
+#include "client-sdk/fit/summary_json.hpp"
 #include "server/collision/object_io.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
@@ -37,6 +38,8 @@ Expected<void> import_parts(const FitOptions& options, FittedObject& fitted) {
   if (!parts) return in_file(fitted.mesh_file, parts.error());
   fitted.meshes = options.whole ? one_piece(*parts, fitted.mesh_file.stem().string()) : std::move(*parts);
   for (geometry::NamedMesh& part : fitted.meshes) {
+    for (Vec3& vertex : part.mesh.vertices)
+      vertex *= options.scale;
     if (part.name.empty()) part.name = fitted.mesh_file.stem().string();  // STL and PLY know no names
     if (geometry::turn_outwards(part.mesh) > 0) fitted.turned.push_back(part.name);
   }
@@ -67,9 +70,13 @@ Expected<void> write_and_read_back(FittedObject& fitted, Interruption& interrupt
   return {};
 }
 
-fs::path report_file_of(const fs::path& part_file) {
-  fs::path report = part_file;
-  return report.replace_extension(".html");
+/// Writes a text beside the part file, under the same name with another ending.
+Expected<fs::path> write_beside(const fs::path& part_file, const char* ending, const std::string& text,
+                                Interruption& interruption) {
+  fs::path file = part_file;
+  file.replace_extension(ending);
+  if (auto ok = write_whole(file, std::as_bytes(std::span(text)), interruption); !ok) return tl::unexpected(ok.error());
+  return file;
 }
 
 }  // namespace
@@ -86,6 +93,7 @@ Expected<FitResult> fit_mesh(const fs::path& mesh_file, const FitOptions& option
   FittedObject fitted;
   fitted.mesh_file = mesh_file;
   fitted.node = options.node;
+  fitted.scale = options.scale;
   fitted.config = options.config;
   fitted.part_file = part_file_of(mesh_file, options);
   const std::string name = mesh_file.filename().string();
@@ -100,12 +108,17 @@ Expected<FitResult> fit_mesh(const fs::path& mesh_file, const FitOptions& option
 
   progress.begin({name, "drawing the report"});
   const Surface surface(fitted);
-  FitResult result{summarise(fitted, surface), fitted.part_file, {}};
-  if (!options.report) return result;
-  result.report_file = report_file_of(fitted.part_file);
-  const std::string page = html_page(make_report(fitted, surface, result.summary));
-  if (auto ok = write_whole(result.report_file, std::as_bytes(std::span(page)), interruption); !ok) {
-    return tl::unexpected(ok.error());
+  FitResult result{summarise(fitted, surface), fitted.part_file, {}, {}};
+  if (options.json) {
+    auto file = write_beside(fitted.part_file, ".json", summary_json(fitted, result.summary), interruption);
+    if (!file) return tl::unexpected(file.error());
+    result.json_file = std::move(*file);
+  }
+  if (options.report) {
+    const std::string page = html_page(make_report(fitted, surface, result.summary));
+    auto file = write_beside(fitted.part_file, ".html", page, interruption);
+    if (!file) return tl::unexpected(file.error());
+    result.report_file = std::move(*file);
   }
   return result;
 }

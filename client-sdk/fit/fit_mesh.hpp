@@ -17,13 +17,16 @@ struct FitOptions {
   std::filesystem::path folder;  ///< for the results; empty: beside the mesh
   std::string node;              ///< only what is under this node of the file; empty: all
   bool whole = false;            ///< all meshes are one piece, whatever the file's nodes say
+  double scale = 1;              ///< of the file's units: metres each
   bool report = true;            ///< also the page
+  bool json = false;             ///< also the summary for programs
 };
 
 struct FitResult {
   Summary summary;
   std::filesystem::path part_file;
   std::filesystem::path report_file;  ///< empty: none was wanted
+  std::filesystem::path json_file;    ///< the same
 };
 
 /// Where the object of a mesh is written: "screw.glb" to "screw.part", node HANDLE of it to "screw-HANDLE.part".

@@ -13,6 +13,7 @@ namespace mechane::fit {
 struct FittedObject {
   std::filesystem::path mesh_file;
   std::string node;  ///< of the file; empty: all of it
+  double scale = 1;  ///< of the file's units: metres each
   std::string mesh_hash;
   std::filesystem::path part_file;
   std::size_t part_file_bytes = 0;

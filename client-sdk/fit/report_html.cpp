@@ -71,9 +71,9 @@ std::string key_figures(const Summary& s) {
 
 std::string parts_section(const Report& report) {
   std::string out =
-      "<h2>Its parts</h2>\n<p class=\"lead\">A collision part is a piece close to convex. Each has a colour of its "
-      "own, "
-      "the same on the whole page.</p>\n";
+      "<h2>Its parts</h2>\n<p class=\"lead\">A collision part has one superquadric and one map: a piece close to "
+      "convex, or a whole mesh "
+      "where one map holds it. Parts that touch have different colours, the same on the whole page.</p>\n";
   out += row_of(report.parts, "the object in the colours of its parts") + "<ul class=\"legend\">";
   if (report.summary.parts.size() > kLegendParts) {
     return out + fmt::format("<li>{} parts: the table below has their names and colours</li></ul>\n",
@@ -198,7 +198,9 @@ std::string reading_section() {
   return "<h2>How to read the figures</h2>\n<div class=\"two\">"
          "<p><b>Depth error</b> is what a hand notices. The builder puts probes up to 4 mm under the surface of each "
          "part; p50 is the "
-         "error that half of them keep within, p99 all but one in a hundred. Up to about 1 mm a shape feels right.</p>"
+         "error that half of them keep within, p99 all but one in a hundred. Up to about 1 mm a shape feels right. "
+         "<b>Felt within</b> is asked of the whole object instead: how far from its surface a finger that comes from "
+         "outside meets it, where parts overlap the first of them.</p>"
          "<p><b>Fit error</b> is how far the superquadric alone is from the part, in % of the part's diagonal. It "
          "costs no "
          "truth, for the map holds the rest; a close fit makes queries quick and maps fine.</p>"
@@ -210,7 +212,8 @@ std::string reading_section() {
          "<p><b>Samples</b> are the points of this object that touch others. A fingertip must not fit between them.</p>"
          "<p><b>When a part is off:</b> cut it where it is hollow, forked or hooked, naming the pieces part_… in the "
          "model; "
-         "or lower --error and --concavity. Holes and threads always want several parts.</p></div>\n";
+         "or lower --error and --concavity. A hole or a thread is one part only where its "
+         "map is made of bricks.</p></div>\n";
 }
 
 std::string settings_section(const Report& report) {
@@ -233,7 +236,7 @@ Report make_report(const FittedObject& fitted, const Surface& surface, const Sum
   report.title = fitted.mesh_file.filename().string() + (fitted.node.empty() ? "" : ", " + fitted.node);
   report.mesh_hash = fitted.mesh_hash;
   report.part_file = fitted.part_file.filename().string();
-  report.settings = settings_of(fitted.config);
+  report.settings = settings_of(fitted);
   report.summary = summary;
   report.reach_mm = 1000 * surface.reach_m();
   report.part_colours = part_colours(fitted.object);

@@ -67,7 +67,8 @@ void note_meshes(const FittedObject& fitted, Summary& summary) {
 void note_size(Summary& summary) {
   if (summary.diagonal_mm > kLargeObject_mm || summary.diagonal_mm < kSmallObject_mm) {
     summary.notes.push_back(
-        fmt::format("the object measures {} mm from corner to corner; if that is not meant, export the model in metres",
+        fmt::format("the object measures {} mm from corner to corner; if that is not meant, export the model in "
+                    "metres, or give --scale",
                     mm_text(summary.diagonal_mm)));
   }
 }
@@ -98,7 +99,8 @@ void note_parts(const FittedObject& fitted, Summary& summary) {
     }
   }
   if (!hidden.empty()) {
-    summary.notes.push_back(listed(hidden) + ": wholly inside others, so nothing of it is felt; leave it out");
+    summary.notes.push_back(
+        listed(hidden) + ": wholly inside others, so nothing of it is felt; where it is a node of yours, leave it out");
   }
   if (!sparse.empty()) {
     summary.notes.push_back(
@@ -164,16 +166,18 @@ std::string verdict(const Summary& summary) {
   return felt + fmt::format(" Beyond {:.0f} mm edges feel rounded and flats wavy: {}", kFeltAsRight_mm, remedy);
 }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const collision::BuildConfig& config) {
+std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject& fitted) {
+  const collision::BuildConfig& config = fitted.config;
   const std::string resolution =
       config.map_resolution == 0 ? "the smallest that does" : fmt::format("{} texels an edge", config.map_resolution);
-  return {{"error allowed (--error)", fmt::format("{} mm", mm_text(1000 * config.max_error_m))},
+  return {{"metres of a unit (--scale)", fmt::format("{:g}", fitted.scale)},
+          {"error allowed (--error)", fmt::format("{} mm", mm_text(1000 * config.max_error_m))},
           {"error allowed (--error-share)", fmt::format("{:g} % of the diagonal", 100 * config.max_error_share)},
           {"hollowness of a part (--concavity)", fmt::format("{:g} % of the diagonal", 100 * config.max_concavity)},
           {"parts of a mesh at most (--max-parts)", fmt::format("{}", config.max_pieces)},
           {"map resolution (--resolution)", resolution},
           {"sample spacing (--spacing)", fmt::format("{} mm", mm_text(1000 * config.sample_spacing_m))},
-          {"samples a part at most (--max-samples)", fmt::format("{}", config.max_samples_per_part)},
+          {"samples a piece at most (--max-samples)", fmt::format("{}", config.max_samples_per_part)},
           {"seam gap (--seam-gap)", fmt::format("{} mm", mm_text(1000 * config.seam_gap_m))},
           {"seed (--seed)", fmt::format("{}", config.seed)}};
 }

@@ -53,7 +53,7 @@ struct Summary {
 [[nodiscard]] std::string verdict(const Summary& summary);
 
 /// The settings of the build as (what, value with unit).
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> settings_of(const collision::BuildConfig& config);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject& fitted);
 
 /// "512 B", "12.1 KB", "3.4 MB": thousands, as disks count.
 [[nodiscard]] std::string bytes_text(std::size_t bytes);

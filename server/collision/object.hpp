@@ -16,6 +16,9 @@
 
 namespace mechane::collision {
 
+// Eigen aligns by the instruction set that it is compiled for; all who share an Object must agree. mechane::collision's target says so.
+static_assert(alignof(Quat) == 16, "define EIGEN_MAX_ALIGN_BYTES=16, as the library was built");
+
 inline constexpr std::size_t kMaxParts = 1024;  ///< of one object
 
 /// A part close to convex: its superquadric bounds it (F <= 1 on every vertex), its map holds the surface.
@@ -66,7 +69,8 @@ struct PointContact {
   std::uint16_t part_b = 0;
 };
 
-/// A fixed buffer of contacts that keeps the deepest when it is full. The storage is the caller's.
+/// A fixed buffer of contacts that keeps the deepest when it is full. The storage is the caller's. The deepest lie close together:
+/// who wants the whole patch gives room for it (a fingertip on a face: some 100; a hand around a handle: some 1000).
 class ContactBuffer {
  public:
   explicit ContactBuffer(std::span<PointContact> storage) : storage_(storage) {}

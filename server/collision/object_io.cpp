@@ -1,8 +1,10 @@
 #include "server/collision/object_io.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 #include <type_traits>
 
@@ -281,7 +283,7 @@ void reseal(std::span<std::byte> bytes) {
 
 Expected<Object> read_object(std::span<const std::byte> bytes) {
   const char* where = "part file";
-  const char* remedy = "delete it, it is made again from the model";
+  const char* remedy = "make it again from its mesh: mechane fit, or build_object; the server's cache does so itself";
   if (bytes.size() < kMagic.size() + 4 + kChecksumBytes || bytes.size() > kMaxFileBytes ||
       std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
     return fail("this is not a part file", where, remedy);
@@ -307,6 +309,19 @@ Expected<Object> read_object(std::span<const std::byte> bytes) {
   if (r.ok()) get_clusters(r, object);
   if (!r.ok() || !r.at_end()) return fail("the part file holds values that cannot be", where, remedy);
   close_clusters(object);
+  return object;
+}
+
+Expected<Object> load_object(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+  if (size < 0) return fail("the part file cannot be read", file.string(), "check its name and rights");
+  std::vector<std::byte> bytes(std::min(static_cast<std::size_t>(size), kMaxFileBytes + 1));
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!in) return fail("the part file cannot be read whole", file.string(), "check the disk");
+  Expected<Object> object = read_object(bytes);
+  if (!object) object.error().where = file.string();
   return object;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,9 @@ inline constexpr std::uint32_t kPartFileVersion = 3;
 /// Reads what write_object wrote. Any other bytes are an Error: wrong magic or version, a checksum that does not match, counts or
 /// values out of their ranges. Never trusts a count beyond the bytes that are there.
 [[nodiscard]] Expected<Object> read_object(std::span<const std::byte> bytes);
+
+/// read_object of a whole file, with the file's name in the Error. Reads no more than a part file may have.
+[[nodiscard]] Expected<Object> load_object(const std::filesystem::path& file);
 
 /// Writes the checksum that belongs to the rest of the bytes into their end: for tests and fuzzers that damage a file on purpose and
 /// want to get past the checksum. Does nothing to fewer than 8 bytes.

@@ -1,5 +1,6 @@
 """`mechane fit`: a mesh into a .part file and a page of pictures; bad meshes, full disks, Ctrl-C."""
 
+import json
 import math
 import os
 import pty
@@ -84,6 +85,21 @@ class Fit(EndToEnd):
         other = self.run_command("fit", mesh, "-o", self.folder / "new", "--report", "none", "--resolution", "64", limit_s=120)
         self.assertEqual(other.returncode, 0, other.stderr)
         self.assertGreater((self.folder / "new/crank.part").stat().st_size, (self.folder / "crank.part").stat().st_size)
+
+    def test_figures_for_programs_and_units_of_the_file(self):
+        box = obj_of_boxes([("part_block", (0, 0, 0), (50, 40, 30))])  # millimetres, as many programs export
+        mesh = self.mesh("block.obj", box)
+        result = self.run_command("fit", mesh, "--scale", "0.001", "--json", "--report", "none", "--strict", limit_s=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        figures = json.loads((self.folder / "block.json").read_text())
+        self.assertAlmostEqual(figures["diagonal_mm"], 2 * math.hypot(50, 40, 30), places=3)
+        self.assertTrue(figures["met"])
+        self.assertEqual([part["name"] for part in figures["parts"]], ["part_block"])
+        # Nothing can be so exact; what there is, is written, and said to be less than asked for.
+        result = self.run_command("fit", mesh, "--scale", "0.001", "--json", "--report", "none", "--strict", "--error", "1e-6", limit_s=120)
+        self.assertEqual(result.returncode, 3, result.stderr + result.stdout)
+        self.assertFalse(json.loads((self.folder / "block.json").read_text())["met"])
+        self.assertIn("miss the error asked for", result.stdout)
 
     def test_a_bad_mesh_is_told_and_does_not_stop_the_others(self):
         bad = {

@@ -1,8 +1,10 @@
-// A ball of 5 cm, made ready from its mesh, and asked how deep a fingertip's points lie in it.
+// A ball of 5 cm, made ready from its mesh, written to ball.part, and asked how deep a fingertip's points lie in it.
 #include <array>
 #include <cstdio>
+#include <fstream>
 
 #include <server/collision/object_builder.hpp>
+#include <server/collision/object_io.hpp>
 #include <server/collision/point_query.hpp>
 #include <server/geometry/superquadric_mesh.hpp>
 
@@ -15,6 +17,10 @@ int main() {
   collision::BuildReport report;
   const auto object = collision::build_object(meshes, {}, &report);
   if (!object) return std::fprintf(stderr, "%s\n", object.error().to_string().c_str()), 1;
+
+  const std::vector<std::byte> bytes = collision::write_object(*object);
+  std::ofstream("ball.part", std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 
   collision::PointBlock points{};  // 16 points on a line through the ball's middle
   for (std::size_t i = 0; i < collision::kLanes; ++i)
