@@ -205,6 +205,40 @@ void print(const std::string& topic, const Json& j, bool as_json) {
   std::cout << std::flush;
 }
 
+/// Ends by count, by time, or when interrupted.
+class Watch {
+ public:
+  explicit Watch(const EchoOptions& options) : options_(options), begin_(std::chrono::steady_clock::now()) {
+    interrupted = 0;
+    previous_ = std::signal(SIGINT, [](int) { interrupted = 1; });
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+  ~Watch() { std::signal(SIGINT, previous_); }
+
+  /// One look later: whether to look again. Silence is told once, for it looks like a fault of the program's.
+  [[nodiscard]] bool goes_on(std::uint64_t seen, const std::string& waits_for) {
+    std::this_thread::sleep_for(kLookEvery);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin_;
+    if (seen == 0 && !told_ && passed.count() > kSilence_s) {
+      told_ = true;
+      std::cerr << "mechane echo: nothing yet: " << waits_for << " in DDS domain " << options_.domain
+                << "; is a server running, with the same domain and CYCLONEDDS_URI? (mechane doctor)" << std::endl;
+    }
+    const bool enough = options_.count > 0 && seen >= options_.count;
+    return interrupted == 0 && !enough && (options_.seconds <= 0 || passed.count() < options_.seconds);
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kLookEvery{
+      1};  // a reader keeps the newest only: slower, and samples are skipped
+  static constexpr double kSilence_s = 3;
+  const EchoOptions& options_;
+  std::chrono::steady_clock::time_point begin_;
+  void (*previous_)(int) = SIG_DFL;
+  bool told_ = false;
+};
+
 template <proto::TopicType T>
 std::string partition_of(const EchoOptions& options) {
   if (proto::TopicOf<T>::place == proto::Place::kiosk)
@@ -214,36 +248,46 @@ std::string partition_of(const EchoOptions& options) {
   return "";
 }
 
+/// The world that the kiosk is in, for topics that know worlds only. Empty: it is in none, and the watch has ended.
+std::string world_of(const proto::Participant& participant, const EchoOptions& options, Watch& watch) {
+  std::string world;
+  auto reader = proto::Reader<proto::WorldAssignment>::create(participant, "");
+  if (!reader) return world;
+  do {
+    reader->view().take_each([&](const proto::WorldAssignment& sample, const proto::SampleInfo& info) {
+      if (info.valid && text(sample.kiosk) == options.kiosk) world = text(sample.world);
+    });
+  } while (world.empty() && watch.goes_on(0, "no kiosk " + options.kiosk + " with a world"));
+  return world;
+}
+
 template <proto::TopicType T>
-int echo(const EchoOptions& options) {
+int echo(EchoOptions options) {
   auto participant = proto::Participant::create(options.domain);
   if (!participant) return std::cerr << "mechane echo: " << participant.error().to_string() << "\n", 1;
+  Watch watch(options);
+  if (proto::TopicOf<T>::place == proto::Place::world && options.world.empty() && !options.kiosk.empty()) {
+    options.world = world_of(*participant, options, watch);
+    if (options.world.empty()) return 1;
+  }
   auto reader = proto::Reader<T>::create(*participant, partition_of<T>(options));
   if (!reader) return std::cerr << "mechane echo: " << reader.error().to_string() << "\n", 1;
-  interrupted = 0;
-  const auto previous = std::signal(SIGINT, [](int) { interrupted = 1; });
-  const auto begin = std::chrono::steady_clock::now();
   std::uint64_t seen = 0;
-  const auto enough = [&] { return options.count > 0 && seen >= options.count; };
-  while (interrupted == 0 && !enough() &&
-         (options.seconds <= 0 ||
-          std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(options.seconds))) {
+  do {
     reader->view().take_each([&](const T& sample, const proto::SampleInfo& info) {
-      if (!info.valid || enough()) return;
+      if (!info.valid || (options.count > 0 && seen >= options.count)) return;
       const Json j = to_json(sample);
       if (!wanted(j, options)) return;
       ++seen;
       print(proto::TopicOf<T>::name, j, options.json);
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  std::signal(SIGINT, previous);
-  return 0;
+  } while (watch.goes_on(seen, std::string("no ") + proto::TopicOf<T>::name));
+  return seen == 0 && options.seconds > 0 ? 1 : 0;
 }
 
 struct Topic {
   const char* name;
-  int (*run)(const EchoOptions&);
+  int (*run)(EchoOptions);
 };
 
 template <proto::TopicType T>

@@ -8,15 +8,16 @@ namespace mechane::cli {
 
 struct EchoOptions {
   std::string topic;  ///< as in idl/mechane.idl; empty: the topics are listed
-  std::string kiosk;  ///< only this kiosk; needed for topics of a kiosk's partition, or all kiosks are shown
-  std::string world;  ///< only this world; likewise
+  std::string kiosk;  ///< only this kiosk, of a world's topics its world; empty: all
+  std::string world;  ///< only this world; empty: all
   std::uint32_t domain = 0;
   std::uint64_t count = 0;  ///< stop after so many samples; 0: go on
   double seconds = 0;       ///< stop after so long; 0: go on
   bool json = false;        ///< one JSON object a line
 };
 
-/// Runs until count, seconds, or SIGINT. Returns the exit status: 0; 1 where the network cannot be joined; 2 for an unknown topic.
+/// Runs until count, seconds, or SIGINT. Returns the exit status: 0; 1 where the network cannot be joined
+/// or nothing came in `seconds`; 2 for an unknown topic.
 [[nodiscard]] int run_echo(const EchoOptions& options);
 
 }  // namespace mechane::cli

@@ -45,11 +45,13 @@ int add_and_parse(int argc, char** argv) {
   cli::EchoOptions echo;
   auto* echo_command = app.add_subcommand("echo", "print what goes over the wire");
   echo_command->add_option("topic", echo.topic, "topic, e.g. SceneFrame; without one: the list");
-  echo_command->add_option("--kiosk", echo.kiosk, "only this kiosk");
+  echo_command->add_option("--kiosk", echo.kiosk,
+                           "only this kiosk; of the topics of a world: of the world that it is in");
   echo_command->add_option("--world", echo.world, "only this world");
   echo_command->add_option("--domain", echo.domain, "DDS domain");
   echo_command->add_option("--count", echo.count, "stop after so many samples; 0: until interrupted");
-  echo_command->add_option("--seconds", echo.seconds, "stop after so long; 0: until interrupted");
+  echo_command->add_option("--seconds", echo.seconds,
+                           "stop after so long, with status 1 where nothing came; 0: until interrupted");
   echo_command->add_flag("--json", echo.json, "one JSON object a line");
   std::vector<std::string> files;
   auto* check_command = app.add_subcommand("check", "check scenario files: errors with line, node and remedy");
@@ -71,7 +73,7 @@ int add_and_parse(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e);
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
   }
   if (*echo_command) return cli::run_echo(echo);
   if (*check_command)

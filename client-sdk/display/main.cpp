@@ -43,7 +43,11 @@ int main(int argc, char** argv) {
   std::string size = "1280x720";
   CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
   add_options(app, options, size);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+  }
   log::start("mechane-display", log::Level::info);
   const Expected<display::PixelSize> parsed = display::parse_size(size);
   if (!parsed) {

@@ -1,6 +1,7 @@
 // What the examples take on the command line: --kiosk NAME --seconds N --domain N.
 #pragma once
 
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -13,15 +14,24 @@ struct Arguments {
   double seconds = 5;
 };
 
+/// Prints what they are and ends the program where they are not understood.
 inline Arguments read_arguments(int argc, char** argv, const char* program, client::Role role) {
   Arguments arguments;
   arguments.config.program = program;
   arguments.config.role = role;
-  for (int i = 1; i + 1 < argc; i += 2) {
+  for (int i = 1; i < argc; i += 2) {
     const std::string name = argv[i];
-    if (name == "--kiosk") arguments.config.kiosk = argv[i + 1];
-    if (name == "--seconds") arguments.seconds = std::atof(argv[i + 1]);
-    if (name == "--domain") arguments.config.domain = static_cast<std::uint32_t>(std::atoi(argv[i + 1]));
+    const char* value = i + 1 < argc ? argv[i + 1] : nullptr;
+    if (value != nullptr && name == "--kiosk") {
+      arguments.config.kiosk = value;
+    } else if (value != nullptr && name == "--seconds") {
+      arguments.seconds = std::atof(value);
+    } else if (value != nullptr && name == "--domain") {
+      arguments.config.domain = static_cast<std::uint32_t>(std::atoi(value));
+    } else {
+      std::fprintf(stderr, "%s [--kiosk NAME] [--seconds N] [--domain N]\n", argv[0]);
+      std::exit(name == "--help" || name == "-h" ? 0 : 2);
+    }
   }
   return arguments;
 }

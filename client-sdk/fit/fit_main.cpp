@@ -127,7 +127,11 @@ int main(int argc, char** argv) {
       "mechane fit"};
   app.get_formatter()->column_width(34);
   add_options(app, a);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+  }
   a.options.folder = a.folder;
   a.options.report = a.report == "html";
   try {

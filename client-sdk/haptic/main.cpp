@@ -131,7 +131,11 @@ int main(int argc, char** argv) {
   Arguments a;
   CLI::App app{"Runs a haptic device at a kiosk: the hand goes to the server, the force comes back."};
   add_options(app, a);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+  }
   log::start("haptic", log::Level::info);
   a.client.role = client::Role::hand;
   a.client.program = "mechane-haptic";

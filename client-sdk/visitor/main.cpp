@@ -97,7 +97,11 @@ int main(int argc, char** argv) {
   Arguments a;
   CLI::App app{"Plays a scenario's scripted visit over the network like a person."};
   add_options(app, a);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+  }
   log::start("visitor", log::Level::info);
   a.options.client.role = client::Role::hand;
   a.options.client.program = "mechane-visitor";

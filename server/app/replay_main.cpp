@@ -76,7 +76,11 @@ int main(int argc, char** argv) {
   app.add_option("--cache", a.settings.cache, "folder of built collision parts");
   app.add_flag("--real-time", a.options.real_time, "at the pace of the visit");
   app.add_flag("--events", a.options.show_events, "print every event");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+  }
   log::start("replay", log::Level::info);
   return run(a);
 }

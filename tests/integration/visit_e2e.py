@@ -65,6 +65,22 @@ class Visit(EndToEnd):
         result = self.run_command("echo", "ServerStatus", "--count", "1", "--seconds", "10", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(json.loads(result.stdout.splitlines()[0])["server"], "server-1")
+        # Of a kiosk: that of its world, and nobody else's; where there is none, silence is told and is a failure.
+        wall = self.start("wall", "haptic", "--device", "virtual", "--kiosk", "wall")
+        result = self.run_command("echo", "WorldStatus", "--kiosk", "wall", "--count", "1", "--seconds", "10", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(json.loads(result.stdout)["scenario"], "archimedes-screw")
+        wall.stop()
+        result = self.run_command("echo", "WorldStatus", "--kiosk", "nobody", "--seconds", "4")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("nothing yet: no kiosk nobody", result.stderr)
+
+    def test_wrong_arguments_end_with_one_status(self):
+        for command in (("visitor", "--kios", "a"), ("fit",), ("echo", "--count", "x"), ("haptic", "--device"), ("replay", "--fast", "x"),
+                        ("display", "--what"), ("server", "--what"), ("check",)):
+            result = self.run_command(*command)
+            self.assertEqual(result.returncode, 2, (command, result.stdout + result.stderr))
+            self.assertNotEqual(result.stderr, "", command)
 
     def test_a_whole_hand_completes_the_use(self):
         report = self.use_only(visitor_arguments=("--glove",))
