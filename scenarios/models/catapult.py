@@ -33,8 +33,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from modelling import (Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials, noise, picture, step,  # noqa: E402
                        surface, timber, tint, to_blender, tube)
 
-SPRING_X, SPRING_Z, ARM_Y, ARM = 0.42, -1.4621, 1.10, 1.08
-REST, DRAWN, HALF_STRING = 0.35, -0.55, 1.56  # angle of the arms forward of sideways, at rest and drawn
+SPRING_X, SPRING_Z, ARM_Y, ARM = 0.42, -1.76, 1.10, 0.95
+REST, DRAWN, HALF_STRING = 0.12, -0.78, 1.48  # angle of the arms forward of sideways, at rest and drawn
 SLIDER_Y, STRING_OVER = 1.06, 0.04            # top of the slider; the string's height over it
 STOCK_Y = 1.00
 WINCH, SPIKE, GRIP_RADIUS = np.array([0.0, 0.985, 0.42]), 0.50, 0.018
@@ -166,7 +166,7 @@ def spring(model, frame, s):
 
 
 def make_spring_frame(model, frame):
-    plates, bronze = Shape(), Shape()
+    bronze = Shape()
     for k, s in enumerate((-1, 1)):
         x = s * SPRING_X
         for n, y in enumerate((LOW - THICK / 2, HIGH + THICK / 2)):
@@ -188,14 +188,13 @@ def make_spring_frame(model, frame):
         beam = timber(Shape(), (-0.74, y, SPRING_Z + 1.25 * z), (0.74, y, SPRING_Z + 1.25 * z), 0.085, 0.11 if n < 2 else 0.09, bevel=0.010, seed=51 + n, rough=0.0014)
         model.add(f"part_beam_{n}", beam, ["planks"], frame)
     model.add("visual_frame_bronze", bronze, ["bronze"], frame, 35)
-    del plates
 
 
 # Stock, stand, winch posts -------------------------------------------------------------------------------------------------------
 
 
 def make_stock(model, frame):
-    front, back = -2.35, 0.30
+    front, back = -2.55, 0.30
     core = timber(Shape(), (0, STOCK_Y - 0.08, front), (0, STOCK_Y - 0.08, back), 0.19, 0.16, bevel=0.010, seed=61, rough=0.0012)
     model.add("part_stock", core, ["planks"], frame)
     for k, s in enumerate((-1, 1)):  # the rails that the slider runs between
@@ -204,7 +203,7 @@ def make_stock(model, frame):
         cheek = timber(Shape(), (s * 0.130, 0.945, 0.06), (s * 0.130, 0.945, 0.60), 0.060, 0.185, bevel=0.012, seed=64 + k, rough=0.0010)
         model.add(f"part_cheek_{k}", cheek, ["timber"], frame)
     bronze, rope, iron_parts = Shape(), Shape(), Shape()
-    for z in (-2.28, -1.75, -0.95, -0.45, 0.02):
+    for z in (-2.48, -1.90, -1.30, -0.70, -0.10):
         for s in (-1, 1):
             timber(bronze, (s * 0.1135, STOCK_Y - 0.165, z), (s * 0.1135, STOCK_Y + 0.045, z), 0.004, 0.035, up=(s, 0, 0), bevel=0.001, seed=1, rough=0)
             for y in (STOCK_Y - 0.12, STOCK_Y):
@@ -217,7 +216,7 @@ def make_stock(model, frame):
     tail = nock_z(REST) + 0.30
     tube(rope, [(0, SLIDER_Y - 0.03, z) for z in np.linspace(tail, 0.20, 20)] + [(0, SLIDER_Y - 0.03, 0.30), (0, SLIDER_Y - 0.028, 0.42)], ROPE_RADIUS, 9, v_scale=9)
     model.add("visual_rope", rope, ["hemp"], frame, 60)
-    make_pawl(bronze, iron_parts)
+    make_pawl(iron_parts)
     # The lever's bracket, and the plate beside it that the pin goes through.
     timber(iron_parts, LEVER + (-0.045, 0, 0), LEVER + (-0.012, 0, 0), 0.06, 0.07, bevel=0.004, seed=4, rough=0)
     rod(iron_parts, LEVER + (-0.05, 0, 0), LEVER + (0.030, 0, 0), 0.010)
@@ -225,7 +224,7 @@ def make_stock(model, frame):
     model.add("visual_stock_iron", iron_parts, ["iron"], frame, 35)
 
 
-def make_pawl(bronze, iron_parts):
+def make_pawl(iron_parts):
     """It rests in a tooth; its pin is on the post."""
     a = math.radians(360 / TEETH * 19)  # from y towards z
     r = RATCHET_RADIUS - 0.010
@@ -233,7 +232,6 @@ def make_pawl(bronze, iron_parts):
     pivot = tooth + 0.115 * np.array([0, math.sin(a), -math.cos(a)])
     timber(iron_parts, pivot - (tooth - pivot) * 0.15, tooth, 0.022, 0.024, up=(1, 0, 0), bevel=0.003, seed=5, rough=0, taper=0.7)
     rod(iron_parts, (0.150, pivot[1], pivot[2]), (RATCHET_X + 0.022, pivot[1], pivot[2]), 0.009)
-    del bronze
 
 
 def make_stand(model, frame):
@@ -287,12 +285,12 @@ def make_slider(model):
 def make_arms(model):
     for name, s in (("ARM_R", 1), ("ARM_L", -1)):
         arm = model.group(name)
-        profile = [(0.0, -0.17), (0.036, -0.17), (0.043, -0.155), (0.046, 0.0), (0.045, 0.40), (0.039, 0.80), (0.031, 1.04), (0.031, ARM + 0.055), (0.026, ARM + 0.068), (0.0, ARM + 0.070)]
+        profile = [(0.0, -0.17), (0.036, -0.17), (0.043, -0.155), (0.046, 0.0), (0.045, 0.35), (0.039, 0.70), (0.031, ARM - 0.04), (0.031, ARM + 0.055), (0.026, ARM + 0.068), (0.0, ARM + 0.070)]
         wood_part = lathe(Shape(), profile, 24, (0, 0, 0), (s, 0, 0), (0, 1, 0), uv_scale=(0.5, 1 / 2.3), uv_offset=(0.02, 0.1 if s > 0 else 0.55), end_grain=(0, len(profile) - 2))
         model.add("part_arm_" + name[-1].lower(), wood_part, ["timber"], arm, 40)
         cord, bronze = Shape(), Shape()
-        for x in (0.30, 0.52, 0.74, 0.96):
-            coil(cord, (s * x, 0, 0), (s, 0, 0), 0.0455 - 0.013 * max(0.0, x - 0.4), 0.0455 - 0.013 * max(0.0, x - 0.4), 5, 0.0048, 0.0098, seed=int(100 * x))
+        for x in (0.26, 0.45, 0.64, 0.82):
+            coil(cord, (s * x, 0, 0), (s, 0, 0), 0.0455 - 0.020 * max(0.0, x - 0.35), 0.0455 - 0.020 * max(0.0, x - 0.35), 5, 0.0048, 0.0098, seed=int(100 * x))
         coil(cord, (s * ARM, 0, 0), (s, 0, 0), 0.036, 0.036, 3, 0.0095, 0.018, seed=7)
         for x in (ARM - 0.045, ARM + 0.045):
             hoop(bronze, [(0.029, -0.007), (0.037, -0.007), (0.037, 0.007), (0.029, 0.007)], (s * x, 0, 0), (1, 0, 0))
@@ -302,10 +300,9 @@ def make_arms(model):
         half = model.group(name)
         cord = Shape()
         # A flat girdle of cords in the middle that pushes the stone, a thick string with a serving, a loop at the tip.
-        for k, dy in enumerate((-0.024, -0.008, 0.008, 0.024)):
+        for dy in (-0.024, -0.008, 0.008, 0.024):
             path = [(s * x, dy * (1 if x < 0.10 else max(0.15, 1 - (x - 0.10) / 0.14)), 0) for x in np.linspace(-0.002, 0.26, 14)]
             tube(cord, path, 0.0085, 8, v_scale=9)
-            del k
         tube(cord, [(s * x, 0, 0) for x in np.linspace(0.24, HALF_STRING, 24)], 0.0115, 9, v_scale=7)
         coil(cord, (s * 0.27, 0, 0), (s, 0, 0), 0.0135, 0.0135, 9, 0.004, 0.0082, seed=11)
         coil(cord, (s * (HALF_STRING - 0.14), 0, 0), (s, 0, 0), 0.0135, 0.0135, 8, 0.004, 0.0082, seed=12)
@@ -426,8 +423,6 @@ def make_ground(model):
     ground = model.group("GROUND")
     near = block(Shape(), (-2.6, -0.30, -3.4), (2.6, 0.0, 1.6), 0.01, 211, 0.0, 1.5)
     far = block(Shape(), (-3.0, -0.30, -12.0), (3.0, 0.0, -3.4), 0.01, 212, 0.0, 1.5)
-    for shape in (near, far):  # one great face each way: what is drawn lies over it
-        shape.faces, shape.uvs, shape.slots, shape.normals = shape.faces, shape.uvs, shape.slots, shape.normals
     model.add("part_ground_near", near, ["earth"], ground, 30)
     model.add("part_ground_far", far, ["earth"], ground, 30)
     model.add("part_footing", block(Shape(), (-0.80, -0.05, WALL_Z - 0.15), (0.80, FOOTING, WALL_Z + 0.15), 0.010, 213, 0.0, 0.9), ["limestone"], ground, 30)
@@ -527,12 +522,10 @@ def pose(angle):
     """For pictures: everything as it stands with the arms at an angle, and the wall built."""
     z = nock_z(angle)
     place("SLIDER", (0, SLIDER_Y, z))
-    reach = SPRING_X + ARM * math.cos(angle)
     swing = math.asin((z - SPRING_Z + ARM * math.sin(angle)) / HALF_STRING)
     for side, s in (("R", 1), ("L", -1)):
         place("ARM_" + side, (s * SPRING_X, ARM_Y, SPRING_Z), s * angle)
         place("STRING_" + side, (0, SLIDER_Y + STRING_OVER, z), s * swing)
-    del reach
     place("WINCH", WINCH)
     place("LEVER", LEVER)
     place("STONE", (0, SLIDER_Y + 0.066, z - 0.10) if angle == DRAWN else STAND + (0, BALL, 0))
