@@ -186,7 +186,7 @@ def make_spring_frame(model, frame):
         spring(model, frame, s)
     for n, (y, z) in enumerate(((LOW - THICK - 0.055, 0.15), (LOW - THICK - 0.055, -0.15), (HIGH + THICK + 0.045, 0.16), (HIGH + THICK + 0.045, -0.16))):
         beam = timber(Shape(), (-0.74, y, SPRING_Z + 1.25 * z), (0.74, y, SPRING_Z + 1.25 * z), 0.085, 0.11 if n < 2 else 0.09, bevel=0.010, seed=51 + n, rough=0.0014)
-        model.add(f"part_beam_{n}", beam, ["planks"], frame)
+        model.add(f"visual_beam_{n}", beam, ["planks"], frame)
     model.add("visual_frame_bronze", bronze, ["bronze"], frame, 35)
 
 
@@ -237,12 +237,12 @@ def make_pawl(iron_parts):
 def make_stand(model, frame):
     """A post under the spring frame on a cross of sills with struts; a prop under the stock's end."""
     column = timber(Shape(), (0, 0.10, SPRING_Z), (0, LOW - THICK - 0.10, SPRING_Z), 0.24, 0.24, up=(0, 0, 1), bevel=0.016, seed=71, rough=0.002)
-    model.add("part_column", column, ["planks"], frame)
+    model.add("visual_column", column, ["planks"], frame)
     saddle = timber(Shape(), (0, 0.50, SPRING_Z), (0, STOCK_Y - 0.16, SPRING_Z), 0.17, 0.16, up=(0, 0, 1), bevel=0.010, seed=72, rough=0.0012)
-    model.add("part_saddle", saddle, ["planks"], frame)
+    model.add("visual_saddle", saddle, ["planks"], frame)
     sills = (((-0.85, 0.055, SPRING_Z), (0.85, 0.055, SPRING_Z)), ((0, 0.060, SPRING_Z - 0.85), (0, 0.060, 0.35)))
     for k, (a, b) in enumerate(sills):
-        model.add(f"part_sill_{k}", timber(Shape(), a, b, 0.16, 0.12, bevel=0.014, seed=73 + k, rough=0.002), ["planks"], frame)
+        model.add(f"visual_sill_{k}", timber(Shape(), a, b, 0.16, 0.12, bevel=0.014, seed=73 + k, rough=0.002), ["planks"], frame)
     struts = Shape()
     for k, (dx, dz) in enumerate(((0.70, 0), (-0.70, 0), (0, 0.62), (0, -0.62))):
         timber(struts, (dx, 0.11, SPRING_Z + dz), (0.10 * np.sign(dx), 0.47, SPRING_Z + 0.10 * np.sign(dz)), 0.075, 0.085, up=(0.1, 1, 0.1), bevel=0.008, seed=75 + k, rough=0.0014)
@@ -411,12 +411,49 @@ def make_stone(model):
 # Wall, ground, surroundings ------------------------------------------------------------------------------------------------------
 
 
+def dressed(half, seed, bevel=0.007, hollow=0.004, boss=0.007, tile=0.75):
+    """A building stone with anathyrosis: beds and joints are dressed at their margins and hollowed inside, so that stones meet along their
+    edges (and few points carry them); the faces are left a little bulging."""
+    rng = np.random.default_rng(2200 + seed)
+    shape, seen, offset = Shape(), {}, rng.uniform(0, 1, 2)
+    cuts = [[-1.0] + list(np.linspace(-1 + bevel / h, 1 - bevel / h, 9)) + [1.0] for h in half]
+
+    def vertex(p, axis):
+        key = tuple(np.round(p, 6))
+        if key not in seen:
+            q = np.array(p) * half
+            inner = np.clip(q, -half + bevel, half - bevel)
+            out = q - inner
+            length = np.linalg.norm(out)
+            place = inner + out / length * bevel if length > 0 else q
+            depth = math.prod(1 - min(1.0, abs(inner[k]) / (half[k] - bevel)) ** 2 for k in range(3) if k != axis)
+            way = -hollow if axis < 2 else boss * (1 + 0.5 * math.sin(31 * q[0] + seed) * math.sin(27 * q[1] + 2 * seed))
+            place[axis] += math.copysign(1, p[axis]) * way * depth
+            seen[key] = shape.points([place])[0]
+        return seen[key]
+
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for sign in (-1.0, 1.0):
+            for i in range(len(cuts[u]) - 1):
+                for j in range(len(cuts[v]) - 1):
+                    corners = []
+                    for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        p = [0.0, 0.0, 0.0]
+                        p[axis], p[u], p[v] = sign, cuts[u][a], cuts[v][b]
+                        corners.append(p)
+                    if sign < 0:
+                        corners.reverse()
+                    flat = [tuple(np.array([c[u] * half[u], c[v] * half[v]]) / tile + offset + 0.37 * axis) for c in corners]
+                    shape.face(tuple(vertex(c, axis) for c in corners), tuple(flat))
+    return shape
+
+
 def make_wall(model):
-    half = np.array([BLOCK[0] / 4 + 0.0, BLOCK[1] / 2, BLOCK[2] / 2])
-    gap = np.array([0.001, 0, 0])
-    for name, size, seed in (("BLOCK_A", BLOCK / 2 - gap, 201), ("BLOCK_B", BLOCK / 2 - gap, 202), ("HALF", half - gap, 203)):
+    gap = np.array([0.0015, 0, 0])
+    for name, size, seed in (("BLOCK_A", BLOCK / 2 - gap, 1), ("BLOCK_B", BLOCK / 2 - gap, 2), ("HALF", BLOCK * (0.25, 0.5, 0.5) - gap, 3)):
         group = model.group(name)
-        model.add("part_" + name.lower(), block(Shape(), -size, size, 0.007, seed, 0.0, 0.75), ["limestone"], group, 30)
+        model.add("part_" + name.lower(), dressed(size, seed), ["limestone"], group, 30)
 
 
 def make_ground(model):
