@@ -43,8 +43,8 @@ SPIKE_X, RATCHET_X, TEETH, RATCHET_RADIUS, TOOTH = 0.36, 0.205, 24, 0.105, 0.013
 LEVER = np.array([0.155, 0.93, -0.02])
 BALL = 0.074
 STAND = np.array([0.85, 0.62, 0.05])          # where the stone waits: the top of the stump
-WALL_Z, FOOTING = -7.09, 0.30
-BLOCK = np.array([0.36, 0.20, 0.18])
+WALL_Z, FOOTING = -7.08, 0.40
+BLOCK = np.array([0.36, 0.20, 0.16])
 
 
 def nock_z(angle):
@@ -571,9 +571,9 @@ def pose(angle):
 def build_wall(model):
     scene = bpy.context.scene
     count = 0
-    for course in range(5):
+    for course in range(4):
         y = FOOTING + BLOCK[1] * (course + 0.5)
-        row = [(-0.36, "BLOCK_A"), (0.0, "BLOCK_B"), (0.36, "BLOCK_A")] if course % 2 == 0 else [(-0.45, "HALF"), (-0.18, "BLOCK_B"), (0.18, "BLOCK_A"), (0.45, "HALF")]
+        row = [(-0.36, "BLOCK_A"), (0.0, "BLOCK_B"), (0.36, "BLOCK_A")] if course % 2 == 1 else [(-0.45, "HALF"), (-0.18, "BLOCK_B"), (0.18, "BLOCK_A"), (0.45, "HALF")]
         for x, node in row:
             source = bpy.data.objects["part_" + node.lower()]
             copy = bpy.data.objects.new(f"seen_{count}", source.data)
