@@ -354,6 +354,9 @@ def make_table(model):
     model.add("part_top", box(Shape(), (x - 0.10, top - 0.030, 0.14), (x + 0.10, top, 0.76), 0.004, 71, 0.0006), ["planks"], table)
     for k, z in enumerate((0.31, 0.59)):
         model.add(f"part_rest_{k}", box(Shape(), (x - 0.075, top - 0.004, z - 0.016), (x + 0.075, top + 0.030, z + 0.016), 0.003, 73 + k), ["timber"], table)
+        for n, s in enumerate((-1, 1)):  # so that it does not roll
+            low, high = sorted((s * 0.010, s * 0.022))
+            model.add(f"part_ridge_{k}_{n}", box(Shape(), (x + low, top + 0.024, z - 0.015), (x + high, top + 0.039, z + 0.015), 0.002, 72 + k), ["timber"], table)
     legs = Shape()
     for sx in (-1, 1):
         for k, z in enumerate((0.19, 0.71)):
