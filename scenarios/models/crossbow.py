@@ -391,15 +391,18 @@ def make_target(model):
 
 
 def height_at(x, z):
-    away = max(0.0, abs(x) - 1.2) * 0.05 + max(0.0, z - 1.4) * 0.02
-    level = step(0.0, 1.2, max(abs(x) - 1.4, abs(z - 0.05) - 1.5))  # trodden over the slab
-    return 0.005 + away + level * (0.02 * math.sin(1.3 * x + 1.1) * math.sin(0.9 * z) + 0.008 * math.sin(5.1 * x + 2) * math.sin(4.3 * z + 1))
+    """Trodden over the slab, uneven beyond it; at its borders, which wander, the meadow sinks under the plain."""
+    level = step(0.0, 1.2, max(abs(x) - 1.4, abs(z - 0.05) - 1.5))
+    uneven = 0.02 * math.sin(1.3 * x + 1.1) * math.sin(0.9 * z) + 0.008 * math.sin(5.1 * x + 2) * math.sin(4.3 * z + 1)
+    wander = 0.5 * math.sin(0.8 * z + 2) + 0.3 * math.sin(2.1 * z) + 0.4 * math.sin(1.1 * x + 1) + 0.15 * math.sin(3.7 * (x + z))
+    border = max(abs(x) - 5.2, z - 2.6, -17.6 - z) + wander
+    return 0.005 + level * uneven - 0.13 * step(0.0, 1.0, border)
 
 
 def make_ground(model, scene):
     slab = model.group("GROUND")
     model.add("part_slab", box(Shape(), (-1.3, -0.12, -1.4), (1.3, 0.0, 1.5), 0.01, 91), ["earth"], slab)
-    xs, zs = np.linspace(-3.4, 3.4, 60), np.concatenate([np.linspace(-18.6, -2.0, 90), np.linspace(-1.9, 1.9, 34)])
+    xs, zs = np.linspace(-7.2, 7.2, 90), np.concatenate([np.linspace(-20.2, -2.0, 90), np.linspace(-1.85, 4.6, 44)])
     rng = np.random.default_rng(191)
     shape = Shape()
     grid = [[(x, height_at(x, z) + abs(rng.normal(0, 0.002)), z) for z in zs] for x in xs]
@@ -453,9 +456,9 @@ def make_grass(model, scene):
     rng = np.random.default_rng(171)
     shape = Shape()
     made = 0
-    while made < 520:
-        x, z = rng.uniform(-3.3, 3.3), 1.8 - 20.0 * rng.random() ** 1.2
-        if (abs(x) < 0.9 and -0.8 < z < 1.5) or (abs(x) < 0.7 and rng.random() < 0.75) or z < -17.1:
+    while made < 800:
+        x, z = rng.normal(0, 2.4), 2.4 - 20.0 * rng.random() ** 1.2
+        if (abs(x) < 0.9 and -0.8 < z < 1.5) or (abs(x) < 0.7 and rng.random() < 0.75) or z < -17.1 or height_at(x, z) < -0.03:
             continue
         made += 1
         for _ in range(7):
