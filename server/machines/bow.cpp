@@ -5,10 +5,13 @@
 // force times length. Times effort_scale that goes to the slider as a load. When the release's quantity rises the claw lets go: the
 // string leaps home, the bow offers what it held to a projectile, and the slider stays, free. What no projectile takes, the bow's
 // limbs waste. The share that reaches the arrow is the projectile's efficiency (0.8 of a bow: reconstructions).
+//
+// Bodies of limbs and string, where the author names them, are put where the draw has them (see BowLimbs).
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "server/machines/bow_limbs.hpp"
 #include "server/machines/energy_store.hpp"
 #include "server/machines/machine.hpp"
 
@@ -65,9 +68,10 @@ struct BowSettings {
 
 class Bow final : public Machine {
  public:
-  Bow(const Build& build, const BowSettings& settings, DrawCurve curve, QuantityId release)
+  Bow(const Build& build, const BowSettings& settings, DrawCurve curve, const BowLimbs& limbs, QuantityId release)
       : s_(settings),
         curve_(std::move(curve)),
+        limbs_(limbs),
         caught_(build.slot("caught")),
         string_m_(build.slot("string_m")),
         force_n_(build.slot("force_n")),
@@ -91,7 +95,10 @@ class Bow final : public Machine {
     }
     (void)store_.wait(state, dt_s);
     if (store_.taken_j(state) > 0) state.memory[shot_j_] = store_.taken_j(state);
-    pull(state, joint, caught != 0 ? std::max(0.0, draw_m) : 0, dt_s);
+    const double string_m = caught != 0 ? std::max(0.0, draw_m) : 0;
+    pull(state, joint, string_m, dt_s);
+    limbs_.follow(state, string_m);
+    if (!s_.strung) limbs_.lose_string(state);
   }
 
  private:
@@ -109,6 +116,7 @@ class Bow final : public Machine {
 
   BowSettings s_;
   DrawCurve curve_;
+  BowLimbs limbs_;
   std::size_t caught_;
   std::size_t string_m_;
   std::size_t force_n_;
@@ -143,8 +151,10 @@ Expected<std::unique_ptr<Machine>> make_bow(const Build& build) {
   s.effort_scale = build.effort_scale();
   auto curve = read_curve(p, where);
   if (!curve) return tl::unexpected(curve.error());
+  const auto limbs = BowLimbs::make(build, s.joint, s.direction);
+  if (!limbs) return tl::unexpected(limbs.error());
   const QuantityId release = build.description.find_quantity(p.text("release"));
-  return std::make_unique<Bow>(build, s, std::move(*curve), release);
+  return std::make_unique<Bow>(build, s, std::move(*curve), *limbs, release);
 }
 
 using state::ParameterKind;
@@ -180,6 +190,14 @@ constexpr state::ParameterType kBowParameters[] = {
      .kind = ParameterKind::boolean,
      .summary = "false: there is no string, or it is cut",
      .default_value = 1},
+    {.name = "limbs",
+     .kind = ParameterKind::texts,
+     .summary = "the bodies of its two limbs, which the string bends; origins where they leave its middle",
+     .reference = state::Reference::body},
+    {.name = "strings",
+     .kind = ParameterKind::texts,
+     .summary = "the bodies of the string's two halves, in the same order; origins at the limbs' tips",
+     .reference = state::Reference::body},
     {.name = "effortScale",
      .summary = "share of the force that the hand feels; not given: the world's effort_scale",
      .default_value = 1,
