@@ -136,15 +136,15 @@ def hoop(shape, outline, axis=(0, 0, 1), tiles=(2, 5)):
     return lathe(shape, outline, 56, (0, 0, 0), axis, (0, 0, 1) if axis[1] else (0, 1, 0), uv_scale=tiles)
 
 
-def board(shape, low, high, along, seed, bevel=0.003):
-    """A sawn board that fills the box, grain along an axis."""
+def board(shape, low, high, along, seed, bevel=0.003, rough=0.0006):
+    """A sawn board that fills the box, grain along an axis. What is touched is not rough: it is fitted the sooner."""
     low, high = np.asarray(low, float), np.asarray(high, float)
     middle, size = (low + high) / 2, high - low
     start, end = middle.copy(), middle.copy()
     start[along], end[along] = low[along], high[along]
     up = 1 if along != 1 else 2
     side = 3 - along - up
-    return timber(shape, start, end, size[side], size[up], up=np.eye(3)[up], bevel=bevel, seed=seed, rough=0.0006)
+    return timber(shape, start, end, size[side], size[up], up=np.eye(3)[up], bevel=bevel, seed=seed, rough=rough)
 
 
 # Parts ---------------------------------------------------------------------------------------------------------------------------
@@ -166,7 +166,7 @@ def wheel_shapes(touched):
     for k in range(SPOKES):
         a = GRIP_ANGLE + k * sector
         out = np.array([math.cos(a), math.sin(a), 0])
-        spoke = timber(Shape(), out * 0.075, out * 0.524, 0.046, 0.038, up=(0, 0, 1), bevel=0.011, seed=20 + k, rough=0.0006, taper=0.80)
+        spoke = timber(Shape(), out * 0.075, out * 0.524, 0.046, 0.038, up=(0, 0, 1), bevel=0.011, seed=20 + k, rough=0.0, taper=0.80)
         yield f"{part}_spoke_{k}", spoke, ["planks"], 40
     hub = [(0.0, HUB_BACK), (0.066, HUB_BACK), (0.070, HUB_BACK + 0.006), (0.074, -0.07), (HUB_R, -0.035), (HUB_R, 0.035), (0.074, 0.07), (0.066, HUB_FRONT - 0.006),
            (0.062, HUB_FRONT), (0.0, HUB_FRONT)]
@@ -328,8 +328,8 @@ def make_pebble(model):
 def make_vessel(model):
     vessel = model.group("VESSEL")
     outline = [(0.072, 0.010), (0.080, 0.004), (0.094, 0.020), (0.107, 0.055), (0.112, 0.085), (0.119, 0.092), (0.119, 0.097), (0.108, 0.097), (0.104, 0.086), (0.097, 0.055), (0.085, 0.026)]
-    for k in range(12):
-        sector = shell(Shape(), outline, 2 * math.pi * k / 12, 2 * math.pi * (k + 1) / 12, 4, uv=(2, 5))
+    for k in range(8):
+        sector = shell(Shape(), outline, 2 * math.pi * k / 8, 2 * math.pi * (k + 1) / 8, 6, uv=(2, 5))
         model.add(f"part_wall_{k:02d}", sector, ["bronze"], vessel, 180)
     foot = [(0.0, 0.004), (0.084, 0.004), (0.088, 0.010), (0.088, 0.018), (0.0, 0.018)]
     model.add("part_foot", lathe(Shape(), foot, 40, (0, 0, 0), (0, 1, 0), (0, 0, 1), uv_scale=(1, 5)), ["bronze"], vessel, 40)
@@ -345,7 +345,7 @@ def make_pane(model):
     w, h = CASE_X + 0.020, 0.5 * (CASE_TOP - CASE_LOW)
     for name, low, high, along, seed in (("top", (-w, h - 0.036, -0.010), (w, h, 0.010), 0, 3), ("bottom", (-w, -h, -0.010), (w, -h + 0.036, 0.010), 0, 5),
                                          ("left", (-w, -h + 0.036, -0.010), (-w + 0.036, h - 0.036, 0.010), 1, 7), ("right", (w - 0.036, -h + 0.036, -0.010), (w, h - 0.036, 0.010), 1, 9)):
-        model.add(f"part_{name}", board(Shape(), low, high, along, seed), ["timber"], pane, 40)
+        model.add(f"part_{name}", board(Shape(), low, high, along, seed, rough=0.0), ["timber"], pane, 40)
     glass = Shape()
     corners = glass.points([(-w + 0.030, -h + 0.030, 0), (w - 0.030, -h + 0.030, 0), (w - 0.030, h - 0.030, 0), (-w + 0.030, h - 0.030, 0)])
     glass.face(tuple(corners), ((0, 0), (1, 0), (1, 1), (0, 1)))
@@ -384,17 +384,17 @@ def make_channel(model):
 
     def plank(name, across, up, thick, high, seed, before=0.0, after=0.0):
         shift = np.array([0, 0, across]) + normal * up
-        model.add(f"part_{name}", timber(Shape(), start + shift - slope * before, end + shift + slope * after, thick, high, up=normal, bevel=0.0015, seed=seed, rough=0.0003), ["timber"], channel, 40)
+        model.add(f"part_{name}", timber(Shape(), start + shift - slope * before, end + shift + slope * after, thick, high, up=normal, bevel=0.0015, seed=seed, rough=0.0), ["timber"], channel, 40)
 
     plank("floor", 0, -0.006, 0.058, 0.012, 61)
     plank("back", -0.026, 0.010, 0.006, 0.030, 62, 0.006)
     plank("front", 0.026, 0.010, 0.006, 0.030, 63, 0.006)
-    model.add("part_head", board(Shape(), (x0 - 0.010, y0 - 0.014, FLAT_Z - 0.029), (x0 - 0.002, y0 + 0.022, FLAT_Z + 0.029), 2, 64, 0.001), ["timber"], channel, 40)
+    model.add("part_head", board(Shape(), (x0 - 0.010, y0 - 0.014, FLAT_Z - 0.029), (x0 - 0.002, y0 + 0.022, FLAT_Z + 0.029), 2, 64, 0.001, 0.0), ["timber"], channel, 40)
     # A board across its end, with two cheeks: what comes down the gutter falls into the vessel.
-    model.add("part_stop", board(Shape(), (SPOUT_X, y1 - 0.042, FLAT_Z - 0.035), (SPOUT_X + 0.010, y1 + 0.050, FLAT_Z + 0.035), 1, 65, 0.0015), ["timber"], channel, 40)
+    model.add("part_stop", board(Shape(), (SPOUT_X, y1 - 0.042, FLAT_Z - 0.035), (SPOUT_X + 0.010, y1 + 0.050, FLAT_Z + 0.035), 1, 65, 0.0015, 0.0), ["timber"], channel, 40)
     for s, name in ((-1, "back"), (1, "front")):
         z = FLAT_Z + s * 0.032
-        model.add(f"part_cheek_{name}", board(Shape(), (x1 - 0.035, y1 - 0.040, z - 0.003), (SPOUT_X + 0.001, y1 + 0.048, z + 0.003), 0, 66, 0.001), ["timber"], channel, 40)
+        model.add(f"part_cheek_{name}", board(Shape(), (x1 - 0.035, y1 - 0.040, z - 0.003), (SPOUT_X + 0.001, y1 + 0.048, z + 0.003), 0, 66, 0.001, 0.0), ["timber"], channel, 40)
 
 
 def make_cart(model):
@@ -402,26 +402,27 @@ def make_cart(model):
     cart = model.group("CART")
 
     def beam(name, low, high, along, seed, material_name="planks", bevel=0.006):
-        model.add(name, board(Shape(), low, high, along, seed, bevel), [material_name], cart, 40)
+        model.add(name, board(Shape(), low, high, along, seed, bevel, 0.0), [material_name], cart, 40)
 
-    arm = [(0.0, 0.0), (0.040, 0.0), (0.040, 0.10), (ARM_R, 0.16), (ARM_R - 0.003, 0.640), (0.0, 0.645)]
+    arm = [(0.0, 0.0), (ARM_R + 0.001, 0.0), (ARM_R - 0.002, 0.640), (ARM_R - 0.004, 0.642), (0.0, 0.642)]
     model.add("part_arm", lathe(Shape(), arm, 32, (0, WHEEL_Y, -0.42), (0, 0, 1), uv_scale=(0.3, 0.6)), ["planks"], cart, 30)
     beam("part_axle", (-0.05, WHEEL_Y - 0.05, -1.30), (0.05, WHEEL_Y + 0.045, -0.34), 2, 31)
     for k, z in enumerate((-0.42, -1.22)):
-        beam(f"part_sill_{k}", (-0.78, 0.705, z - 0.04), (0.92, 0.775, z + 0.04), 0, 33 + k)
+        beam(f"{('part', 'visual')[k]}_sill_{k}", (-0.78, 0.705, z - 0.04), (0.92, 0.775, z + 0.04), 0, 33 + k)
     for s, name in ((-1, "left"), (1, "right")):
         x = s * CASE_X
         beam(f"part_bearer_{name}", (x - 0.030, 0.725, -0.40), (x + 0.030, CASE_LOW - 0.010, 0.020), 2, 35 + s)
         for z, where in ((-0.30, "back"), (0.0, "front")):
-            beam(f"part_post_{name}_{where}", (x - 0.020, CASE_LOW - 0.012, z - 0.020), (x + 0.020, CASE_TOP, z + 0.020), 1, 37 + s, "timber", 0.003)
+            beam(f"{'part' if z == 0 else 'visual'}_post_{name}_{where}", (x - 0.020, CASE_LOW - 0.012, z - 0.020), (x + 0.020, CASE_TOP, z + 0.020), 1, 37 + s, "timber", 0.003)
     # Boards: left, back, and the right side below the channel.
     beam("part_side_left", (-CASE_X - 0.008, CASE_LOW, -0.28), (-CASE_X + 0.008, CASE_TOP - 0.01, -0.02), 1, 41, "timber", 0.002)
     beam("part_side_right", (CASE_X - 0.008, CASE_LOW, -0.28), (CASE_X + 0.008, 1.205, -0.02), 1, 43, "timber", 0.002)
     for k in range(5):
         low, high = (mix(CASE_LOW, CASE_TOP, (k + e) / 5) for e in (0.004, 0.996))
-        beam(f"part_back_{k}", (-CASE_X - 0.02, low, -0.334), (CASE_X + 0.02, high, -0.321), 0, 45 + k, "timber", 0.002)
-    beam("part_bridge", (-CASE_X + 0.01, DRUM_Y - 0.035, -0.320), (CASE_X - 0.01, DRUM_Y + 0.035, -0.245), 0, 51, "timber", 0.004)
-    beam("part_bracket", (-0.024, 1.320, -0.330), (0.024, 1.358, -0.138), 2, 53, "timber", 0.003)
+        beam(f"visual_back_{k}", (-CASE_X - 0.02, low, -0.334), (CASE_X + 0.02, high, -0.321), 0, 45 + k, "timber", 0.002)
+    beam("part_back", (-CASE_X - 0.019, CASE_LOW + 0.004, -0.333), (CASE_X + 0.019, CASE_TOP - 0.004, -0.322), 0, 45, "timber", 0.002)
+    beam("visual_bridge", (-CASE_X + 0.01, DRUM_Y - 0.035, -0.320), (CASE_X - 0.01, DRUM_Y + 0.035, -0.245), 0, 51, "timber", 0.004)
+    beam("visual_bracket", (-0.024, 1.320, -0.330), (0.024, 1.358, -0.138), 2, 53, "timber", 0.003)
     beam("part_shelf", (CASE_X + 0.02, SHELF_Y - 0.020, -0.300), (0.680, SHELF_Y, -0.030), 0, 55, "timber", 0.003)
     shape = Shape()
     for z in (-0.27, -0.06):
