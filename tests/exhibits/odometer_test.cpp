@@ -126,8 +126,9 @@ TEST(OdometerVisits, BackwardsTooFastAndAWalkStillEndWell) {
 }
 
 TEST(OdometerVisits, WithoutTheOneToothTheGreatDrumStands) {
-  const test::PlayedVisit visit = play_odometer(
-      "pushing", [](state::WorldDescription& world) { lose_part(world, "TOOTH", {"HUB", "DOWELS"}); });
+  const test::PlayedVisit visit = play_odometer("pushing", [](state::WorldDescription& world) {
+    lose_part(world, "TOOTH", {"HUB", "DOWELS"});
+  });
   EXPECT_EQ(visit.stopped_at, "one_tooth") << visit;
   EXPECT_GT(visit.quantities.at("turns"), 10) << visit;
   EXPECT_EQ(visit.quantities.at("drum_angle"), 0) << visit;
