@@ -68,8 +68,7 @@ def make_materials(textures):
     made["pane"] = material("pane", base=(0.80, 0.88, 0.90, 0.14), roughness=0.05, two_sided=True)
     made["dark"] = material("dark", base=(0.030, 0.022, 0.016, 1), roughness=0.95)
     made["iron"] = material("iron", base=(0.115, 0.098, 0.088, 1), roughness=0.55, metallic=0.75)
-    made["pebble"] = material("pebble", base=(0.70, 0.66, 0.58, 1), roughness=0.6)
-    made["sand"] = material("sand", base=(0.25, 0.17, 0.10, 1), roughness=0.9)
+    made["pebble"] = material("pebble", base=(0.50, 0.46, 0.39, 1), roughness=0.6)
     return made
 
 
@@ -436,7 +435,7 @@ def make_cart(model):
     # The floor under the flat drum, a ring of boards with one opening, on two ledgers.
     plate, gap = Shape(), math.radians(13)
     outline = [(0.062, PLATE_Y - 0.010), (0.172, PLATE_Y - 0.010), (0.172, PLATE_Y), (0.062, PLATE_Y)]
-    shell(plate, outline, math.pi / 2 + gap, math.pi / 2 + 2 * math.pi - gap, 60, (0, 0, FLAT_Z), uv=(2, 0.8))
+    shell(plate, outline, math.pi + gap, 3 * math.pi - gap, 60, (0, 0, FLAT_Z), uv=(2, 0.8))
     model.add("visual_plate", plate, ["timber"], cart, 30)
     ledgers = Shape()
     for z in (-0.285, -0.318):
@@ -573,7 +572,7 @@ def main():
             make(model, scene)
         export(os.path.abspath(arguments[0]))
         if len(arguments) > 1:
-            views = (("together", False, (1.05, 1.85, 2.35), (0.10, 0.85, -0.15)), ("near", False, (0.55, 1.62, 0.95), (0.08, 1.22, -0.12)), ("apart", True, (0.35, 1.85, 3.0), (0.0, 0.75, 0.0)),
+            views = (("together", False, (1.05, 1.85, 2.35), (0.10, 0.85, -0.15)), ("near", False, (0.62, 1.95, 0.75), (0.18, 1.28, -0.14)), ("apart", True, (0.35, 1.85, 3.0), (0.0, 0.75, 0.0)),
                      ("gear", False, (0.26, 0.98, 0.62), (0.0, 0.80, -0.08)))
             for name, apart, eye, look_at in views:
                 if len(arguments) > 2 and name not in arguments[2:]:
