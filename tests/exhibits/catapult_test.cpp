@@ -29,7 +29,7 @@ double quantity_of(const state::WorldState& state, const char* name) {
   return state.quantities[catapult().description().find_quantity(name).index()];
 }
 
-test::PlayedVisit shoot_with(std::function<void(state::WorldDescription&)> change) {
+test::PlayedVisit shoot_catapult(std::function<void(state::WorldDescription&)> change) {
   test::PlayOptions options;
   options.change = std::move(change);
   return catapult().play("shooting", options);
@@ -152,35 +152,35 @@ TEST(CatapultVisits, TheStoneGetsItsShareAndFliesAsBallisticsSay) {
 }
 
 TEST(CatapultVisits, WithoutItsPawlTheWinchRunsBack) {
-  const auto visit = shoot_with([](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); });
+  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); });
   EXPECT_EQ(visit.stopped_at, "wind") << visit;
   EXPECT_LT(visit.quantities.at("drawn"), 0.3) << visit;
 }
 
 TEST(CatapultVisits, WithItsRopeCutNothingIsWound) {
-  const auto visit = shoot_with([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
+  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
   EXPECT_EQ(visit.stopped_at, "wind") << visit;
   EXPECT_GT(visit.quantities.at("turns"), 3) << "the drum turns, for nothing";
 }
 
 TEST(CatapultVisits, AHandWithoutStrengthWindsNothing) {
   const auto visit =
-      shoot_with([](state::WorldDescription& world) { body_of(world, "WINCH").haptic.stiffness_n_per_m = 0; });
+      shoot_catapult([](state::WorldDescription& world) { body_of(world, "WINCH").haptic.stiffness_n_per_m = 0; });
   EXPECT_EQ(visit.stopped_at, "wind") << visit;
   EXPECT_LT(visit.quantities.at("drawn"), 0.01) << visit;
 }
 
 TEST(CatapultVisits, WithoutItsStringNothingIsThrown) {
-  const auto visit = shoot_with([](state::WorldDescription& world) { test::switch_off(world, "CLAW"); });
+  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::switch_off(world, "CLAW"); });
   EXPECT_EQ(visit.stopped_at, "wall") << visit;
   EXPECT_LT(visit.quantities.at("shot_energy"), 1e-3) << "the slider goes back alone, and the springs hold nothing";
 }
 
 TEST(CatapultVisits, SlackSpringsThrowNothingAndWeakOnesTooShort) {
-  const auto slack = shoot_with([](state::WorldDescription& world) { weaken_springs(world, 0); });
+  const auto slack = shoot_catapult([](state::WorldDescription& world) { weaken_springs(world, 0); });
   EXPECT_EQ(slack.stopped_at, "wall") << slack;
   EXPECT_EQ(slack.quantities.at("shots"), 0) << slack;
-  const auto weak = shoot_with([](state::WorldDescription& world) { weaken_springs(world, 0.01); });
+  const auto weak = shoot_catapult([](state::WorldDescription& world) { weaken_springs(world, 0.01); });
   EXPECT_EQ(weak.stopped_at, "wall") << weak;
   EXPECT_EQ(weak.quantities.at("shots"), 1) << weak;
   EXPECT_LT(weak.quantities.at("range"), 5) << "it falls before the wall";
@@ -188,12 +188,12 @@ TEST(CatapultVisits, SlackSpringsThrowNothingAndWeakOnesTooShort) {
 }
 
 TEST(CatapultVisits, WithoutAStoneThereIsNothingToLayIn) {
-  const auto visit = shoot_with([](state::WorldDescription& world) { test::take_away(world, "STONE"); });
+  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::take_away(world, "STONE"); });
   EXPECT_EQ(visit.stopped_at, "load") << visit;
 }
 
 TEST(CatapultVisits, AShotWithoutAStoneLeavesTheWallStanding) {
-  const auto visit = shoot_with([](state::WorldDescription& world) {
+  const auto visit = shoot_catapult([](state::WorldDescription& world) {
     test::take_away(world, "STONE");
     state::StepDescription& load = world.steps[world.find_step("load").index()];
     load.triggers.at(0).value = 0;  // whoever skips the step: seated or not, it goes on

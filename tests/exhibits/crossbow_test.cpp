@@ -26,7 +26,7 @@ double crossbow_value(const state::WorldState& state, const std::string& name) {
   return state.quantities.at(crossbow().description().find_quantity(name).index());
 }
 
-test::PlayedVisit shoot_with(std::function<void(state::WorldDescription&)> change) {
+test::PlayedVisit shoot_crossbow(std::function<void(state::WorldDescription&)> change) {
   test::PlayOptions options;
   options.change = std::move(change);
   return crossbow().play("shooting", options);
@@ -171,7 +171,7 @@ TEST(CrossbowVisits, TheArrowSlowsByDragDropsByItsWeightAndGoesInByItsEnergy) {
 
 TEST(CrossbowVisits, ABowOfAQuarterOfTheForceShootsHalfAsFast) {
   const test::PlayedVisit full = crossbow().play("shooting");
-  const test::PlayedVisit quarter = shoot_with([](state::WorldDescription& world) {
+  const test::PlayedVisit quarter = shoot_crossbow([](state::WorldDescription& world) {
     test::set_parameter(world, "BOW", "fullForce", std::vector<double>{kBowFull_n / 4});
   });
   EXPECT_NEAR(full.quantities.at("shot") / quarter.quantities.at("shot"), 4, 0.1);
@@ -194,42 +194,45 @@ TEST(CrossbowVisits, WithThePawlsOffTheSliderRunsForwardAgain) {
 
 TEST(CrossbowVisits, WithTheStringCutTheClawFindsNothing) {
   const test::PlayedVisit visit =
-      shoot_with([](state::WorldDescription& world) { test::set_parameter(world, "BOW", "strung", false); });
+      shoot_crossbow([](state::WorldDescription& world) { test::set_parameter(world, "BOW", "strung", false); });
   EXPECT_EQ(failed_at(visit), "home") << visit;
   EXPECT_EQ(visit.quantities.at("shots"), 0);
 }
 
 TEST(CrossbowVisits, ABowWithoutForceLetsTheArrowFallAtItsFeet) {
-  const test::PlayedVisit visit = shoot_with(
+  const test::PlayedVisit visit = shoot_crossbow(
       [](state::WorldDescription& world) { test::set_parameter(world, "BOW", "fullForce", std::vector<double>{1}); });
   EXPECT_EQ(failed_at(visit), "fly") << visit;
   EXPECT_LT(visit.quantities.at("range"), 2);
 }
 
 TEST(CrossbowVisits, WithTheRopeOfTheWinchCutNothingIsDrawn) {
-  const test::PlayedVisit visit = shoot_with([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
+  const test::PlayedVisit visit =
+      shoot_crossbow([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
   EXPECT_EQ(failed_at(visit), "wind") << visit;
   EXPECT_GT(visit.quantities.at("turns"), 2) << "the drum turns, for nothing";
 }
 
 TEST(CrossbowVisits, WithoutAnArrowThereIsNothingToLayIn) {
-  const test::PlayedVisit visit = shoot_with([](state::WorldDescription& world) { test::take_away(world, "ARROW"); });
+  const test::PlayedVisit visit =
+      shoot_crossbow([](state::WorldDescription& world) { test::take_away(world, "ARROW"); });
   EXPECT_EQ(failed_at(visit), "lay") << visit;
   EXPECT_EQ(visit.quantities.at("shots"), 0);
 }
 
 TEST(CrossbowVisits, ATriggerThatHoldsOnShootsNothing) {
-  const test::PlayedVisit visit = shoot_with([](state::WorldDescription& world) { test::switch_off(world, "FIRE"); });
+  const test::PlayedVisit visit =
+      shoot_crossbow([](state::WorldDescription& world) { test::switch_off(world, "FIRE"); });
   EXPECT_EQ(visit.stopped_at, "shoot") << visit;
 }
 
 TEST(CrossbowVisits, AHandWithoutStrengthPushesAndWindsNothing) {
-  const test::PlayedVisit soft = shoot_with([](state::WorldDescription& world) {
+  const test::PlayedVisit soft = shoot_crossbow([](state::WorldDescription& world) {
     for (state::BodyDescription& body : world.bodies)
       body.haptic.stiffness_n_per_m = 0;
   });
   EXPECT_EQ(soft.stopped_at, "home") << soft;
-  const test::PlayedVisit weak = shoot_with(
+  const test::PlayedVisit weak = shoot_crossbow(
       [](state::WorldDescription& world) { test::set_parameter(world, "HOLD", "forceLimit", std::vector<double>{1}); });
   EXPECT_EQ(failed_at(weak), "wind") << weak;
 }
