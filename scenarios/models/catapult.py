@@ -44,6 +44,7 @@ LEVER = np.array([0.155, 0.93, -0.02])
 BALL = 0.074
 STAND = np.array([0.85, 0.62, 0.05])          # where the stone waits: the top of the stump
 WALL_Z, FOOTING = -7.08, 0.40
+SLAB = (2.8, 1.6, -11.0)                      # what things fall on: half its width, its near and its far end
 BLOCK = np.array([0.36, 0.20, 0.16])
 
 
@@ -458,8 +459,8 @@ def make_wall(model):
 
 def make_ground(model):
     ground = model.group("GROUND")
-    near = block(Shape(), (-2.6, -0.30, -3.4), (2.6, 0.0, 1.6), 0.01, 211, 0.0, 1.5)
-    far = block(Shape(), (-3.0, -0.30, -12.0), (3.0, 0.0, -3.4), 0.01, 212, 0.0, 1.5)
+    near = block(Shape(), (-SLAB[0], -0.30, -4.4), (SLAB[0], 0.0, SLAB[1]), 0.01, 211, 0.0, 1.5)
+    far = block(Shape(), (-SLAB[0], -0.30, SLAB[2]), (SLAB[0], 0.0, -4.4), 0.01, 212, 0.0, 1.5)
     model.add("part_ground_near", near, ["earth"], ground, 30)
     model.add("part_ground_far", far, ["earth"], ground, 30)
     model.add("part_footing", block(Shape(), (-0.80, -0.05, WALL_Z - 0.15), (0.80, FOOTING, WALL_Z + 0.15), 0.010, 213, 0.0, 0.9), ["limestone"], ground, 30)
@@ -472,16 +473,18 @@ def make_ground(model):
 
 
 def height_at(x, z):
-    """A little over the slab that things fall on, and never above what lies on it."""
-    away = max(0.0, abs(x) - 1.7) * 0.05
-    return away + 0.004 + 0.004 * math.sin(2.3 * x + 1.1) * math.sin(1.9 * z) + 0.003 * math.sin(7.1 * x + 2) * math.sin(6.3 * z + 1)
+    """A little over the slab that things fall on; beyond its edges it comes down to the plain that displays draw."""
+    wave = math.sin(1.7 * x + 0.6 * z) + math.sin(0.9 * z - 1.3 * x + 2)
+    beyond = max(0.0, math.hypot(max(0.0, abs(x) - SLAB[0]), max(0.0, z - SLAB[1], SLAB[2] - z)) - 0.05)
+    fall = min(1.0, beyond / (0.85 + 0.15 * wave))
+    return 0.005 + 0.003 * math.sin(2.3 * x + 1.1) * math.sin(1.9 * z) + 0.002 * math.sin(7.1 * x + 2) * math.sin(6.3 * z + 1) - 0.16 * fall * fall * (3 - 2 * fall)
 
 
 def make_earth(model, scene):
-    xs, zs = np.linspace(-2.9, 2.9, 48), np.linspace(-10.6, 1.9, 96)
+    xs, zs = np.linspace(-4.1, 4.1, 66), np.linspace(-12.2, 2.8, 116)
     rng = np.random.default_rng(191)
     shape = Shape()
-    grid = [[(x + 0.12 * math.sin(3 * z) * (abs(x) > 2.8), height_at(x, z) + rng.normal(0, 0.0015), z) for z in zs] for x in xs]
+    grid = [[(x, height_at(x, z) + rng.normal(0, 0.001), z) for z in zs] for x in xs]
     index = [shape.points(row) for row in grid]
 
     def uv(i, j):
@@ -528,8 +531,8 @@ def make_grass(model, scene):
     rng = np.random.default_rng(171)
     shape = Shape()
     made = 0
-    while made < 330:
-        x, z = rng.uniform(-2.8, 2.8), rng.uniform(-10.5, 1.8)
+    while made < 420:
+        x, z = rng.uniform(-3.9, 3.9), rng.uniform(-12.0, 2.6)
         if abs(x) < 1.15 and rng.random() < 0.93:
             continue
         made += 1
