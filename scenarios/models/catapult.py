@@ -9,8 +9,7 @@ Nodes at the root, all with identity transforms, each in the frame of its own bo
   FRAME      spring frame, springs, stock, stand, winch posts; origin at the world's
   SLIDER     it runs on the stock; origin on its top, where its claw holds the string
   ARM_R, _L  origin in the spring's middle, x outwards along the arm (the left one along -x)
-  STRING_R,  half of the bowstring; origin in its middle, x (or -x) towards the arm's tip
-  STRING_L
+  STRING_R, _L   half of the bowstring; origin in its middle, x (or -x) towards the arm's tip
   WINCH      drum, ratchet wheel, handspikes; origin in the axle's middle, axis x
   LEVER      the trigger; origin in its pivot, axis x
   PIN        keeps the lever from being pulled; origin at the world's
@@ -44,6 +43,7 @@ LEVER = np.array([0.155, 0.93, -0.02])
 BALL = 0.074
 STAND = np.array([0.85, 0.62, 0.05])          # where the stone waits: the top of the stump
 WALL_Z, FOOTING = -7.08, 0.40
+SLAB = (2.8, 1.6, -11.0)                      # what things fall on: half its width, its near and its far end
 BLOCK = np.array([0.36, 0.20, 0.16])
 
 
@@ -160,9 +160,8 @@ def spring(model, frame, s):
             arc = [(x + d, end + sign * (0.060 + 0.062 * math.sin(b)), SPRING_Z + 0.052 * math.cos(b)) for b in np.linspace(0, math.pi, 11)]
             tube(cords, arc, 0.0150, 8, v_scale=5)
     name = "rl"[s < 0]
-    model.add(f"visual_cords_{name}", cords, ["sinew"], frame, 60)
-    model.add(f"visual_washers_{name}", bronze, ["bronze"], frame, 40)
-    model.add(f"visual_bars_{name}", bars, ["iron"], frame, 35)
+    for what, part, used in (("cords", cords, "sinew"), ("washers", bronze, "bronze"), ("bars", bars, "iron")):
+        model.add(f"visual_{what}_{name}", part, [used], frame, 45)
 
 
 def make_spring_frame(model, frame):
@@ -172,11 +171,10 @@ def make_spring_frame(model, frame):
         for n, y in enumerate((LOW - THICK / 2, HIGH + THICK / 2)):
             plate = timber(Shape(), (x - s * 0.25, y, SPRING_Z), (x + s * 0.27, y, SPRING_Z), 0.44, THICK, bevel=0.012, seed=31 + 2 * k + n, rough=0.0008)
             model.add(f"part_carrier_{k}{n}", plate, ["timber"], frame)
-            edge = y + (0.5 if n else -0.5) * 0.001
             for z in (-0.223, 0.223):  # bronze bands on the edges
-                timber(bronze, (x - 0.235, edge, SPRING_Z + z), (x + 0.235, edge, SPRING_Z + z), 0.006, 0.055, bevel=0.002, seed=1, rough=0)
+                timber(bronze, (x - 0.235, y, SPRING_Z + z), (x + 0.235, y, SPRING_Z + z), 0.006, 0.055, bevel=0.002, seed=1, rough=0)
                 for d in (-0.20, -0.10, 0, 0.10, 0.20):
-                    nail(bronze, (x + d, edge, SPRING_Z + z * 1.014), (0, 0, math.copysign(1, z)), 0.009)
+                    nail(bronze, (x + d, y, SPRING_Z + z * 1.014), (0, 0, math.copysign(1, z)), 0.009)
         for n, (dx, dz, size) in enumerate(((-0.165, 0.155, 0.085), (0.185, -0.165, 0.075))):  # inner and behind; outer and before: the arm swings between
             post = timber(Shape(), (x + s * dx, LOW - 0.004, SPRING_Z + dz), (x + s * dx, HIGH + 0.004, SPRING_Z + dz), size, 0.115, up=(0, 0, 1), bevel=0.010, seed=41 + 2 * k + n,
                           rough=0.0010)
@@ -195,14 +193,14 @@ def make_spring_frame(model, frame):
 
 def make_stock(model, frame):
     front, back = -2.55, 0.30
+    rails, bronze, rope, iron_parts = Shape(), Shape(), Shape(), Shape()
     core = timber(Shape(), (0, STOCK_Y - 0.08, front), (0, STOCK_Y - 0.08, back), 0.19, 0.16, bevel=0.010, seed=61, rough=0.0012)
     model.add("part_stock", core, ["planks"], frame)
     for k, s in enumerate((-1, 1)):  # the rails that the slider runs between
-        rail = timber(Shape(), (s * 0.098, STOCK_Y + 0.005, front), (s * 0.098, STOCK_Y + 0.005, back - 0.03), 0.028, 0.085, bevel=0.006, seed=62 + k, rough=0.0006)
-        model.add(f"visual_rail_{k}", rail, ["timber"], frame)
+        timber(rails, (s * 0.098, STOCK_Y + 0.005, front), (s * 0.098, STOCK_Y + 0.005, back - 0.03), 0.028, 0.085, bevel=0.006, seed=62 + k, rough=0.0006)
         cheek = timber(Shape(), (s * 0.130, 0.945, 0.06), (s * 0.130, 0.945, 0.60), 0.060, 0.185, bevel=0.012, seed=64 + k, rough=0.0010)
         model.add(f"part_cheek_{k}", cheek, ["timber"], frame)
-    bronze, rope, iron_parts = Shape(), Shape(), Shape()
+    model.add("visual_rails", rails, ["timber"], frame)
     for z in (-2.48, -1.90, -1.30, -0.70, -0.10):
         for s in (-1, 1):
             timber(bronze, (s * 0.1135, STOCK_Y - 0.165, z), (s * 0.1135, STOCK_Y + 0.045, z), 0.004, 0.035, up=(s, 0, 0), bevel=0.001, seed=1, rough=0)
@@ -237,21 +235,17 @@ def make_pawl(iron_parts):
 def make_stand(model, frame):
     """A post under the spring frame on a cross of sills with struts; a prop under the stock's end."""
     column = timber(Shape(), (0, 0.10, SPRING_Z), (0, LOW - THICK - 0.10, SPRING_Z), 0.24, 0.24, up=(0, 0, 1), bevel=0.016, seed=71, rough=0.002)
+    timber(column, (0, 0.50, SPRING_Z), (0, STOCK_Y - 0.16, SPRING_Z), 0.17, 0.16, up=(0, 0, 1), bevel=0.010, seed=72, rough=0.0012)
     model.add("visual_column", column, ["planks"], frame)
-    saddle = timber(Shape(), (0, 0.50, SPRING_Z), (0, STOCK_Y - 0.16, SPRING_Z), 0.17, 0.16, up=(0, 0, 1), bevel=0.010, seed=72, rough=0.0012)
-    model.add("visual_saddle", saddle, ["planks"], frame)
-    sills = (((-0.85, 0.055, SPRING_Z), (0.85, 0.055, SPRING_Z)), ((0, 0.060, SPRING_Z - 0.85), (0, 0.060, 0.35)))
-    for k, (a, b) in enumerate(sills):
-        model.add(f"visual_sill_{k}", timber(Shape(), a, b, 0.16, 0.12, bevel=0.014, seed=73 + k, rough=0.002), ["planks"], frame)
-    struts = Shape()
+    struts = timber(Shape(), (-0.85, 0.055, SPRING_Z), (0.85, 0.055, SPRING_Z), 0.16, 0.12, bevel=0.014, seed=73, rough=0.002)
+    timber(struts, (0, 0.060, SPRING_Z - 0.85), (0, 0.060, 0.35), 0.16, 0.12, bevel=0.014, seed=74, rough=0.002)
     for k, (dx, dz) in enumerate(((0.70, 0), (-0.70, 0), (0, 0.62), (0, -0.62))):
         timber(struts, (dx, 0.11, SPRING_Z + dz), (0.10 * np.sign(dx), 0.47, SPRING_Z + 0.10 * np.sign(dz)), 0.075, 0.085, up=(0.1, 1, 0.1), bevel=0.008, seed=75 + k, rough=0.0014)
-    model.add("visual_struts", struts, ["planks"], frame)
     for k, s in enumerate((-1, 1)):  # two legs under the stock's end, spread
         leg = timber(Shape(), (s * 0.34, 0.0, 0.22), (s * 0.075, STOCK_Y - 0.15, 0.16), 0.085, 0.085, up=(0, 0, 1), bevel=0.010, seed=81 + k, rough=0.0016)
         model.add(f"part_leg_{k}", leg, ["planks"], frame)
-    rung = timber(Shape(), (-0.30, 0.28, 0.205), (0.30, 0.28, 0.205), 0.055, 0.055, bevel=0.007, seed=83, rough=0.001)
-    model.add("visual_rung", rung, ["planks"], frame)
+    timber(struts, (-0.30, 0.28, 0.205), (0.30, 0.28, 0.205), 0.055, 0.055, bevel=0.007, seed=83, rough=0.001)  # a rung between them
+    model.add("visual_struts", struts, ["planks"], frame)
     lashing = Shape()
     for s in (-1, 1):
         coil(lashing, (s * 0.262, 0.28, 0.205), (-0.265 * s, 0.85, -0.06), 0.062, 0.062, 6, seed=s + 3)
@@ -277,9 +271,8 @@ def make_slider(model):
     tube(iron_parts, ring, 0.0065, 9, closed=True)
     timber(bronze, (-0.077, -0.030, -1.40), (0.077, -0.030, -1.40), 0.036, 0.054, bevel=0.003, seed=1, rough=0)
     timber(bronze, (-0.077, -0.030, 0.275), (0.077, -0.030, 0.275), 0.036, 0.054, bevel=0.003, seed=2, rough=0)
-    model.add("visual_lips", lips, ["timber"], slider)
-    model.add("visual_claw", iron_parts, ["iron"], slider, 35)
-    model.add("visual_slider_bronze", bronze, ["bronze"], slider, 35)
+    for what, part, used in (("lips", lips, "timber"), ("claw", iron_parts, "iron"), ("slider_bronze", bronze, "bronze")):
+        model.add("visual_" + what, part, [used], slider)
 
 
 def make_arms(model):
@@ -328,7 +321,8 @@ def make_winch(model):
                      (GRIP_RADIUS - 0.006, SPIKE), (0.0, SPIKE + 0.001)]
             shape = lathe(Shape(), spike, 20, (x, 0, 0), out, (1, 0, 0), uv_scale=(0.115, 1.2), uv_offset=(0.13 * (k + 4 * (s > 0)) % 1, 0.1 * k))
             model.add(f"{'part' if s > 0 else 'visual'}_spike_{k}_{'rl'[s < 0]}", shape, ["grip"], winch, 45)
-    model.add("part_hub", hubs_of(1), ["timber"], winch, 35)
+    core = lathe(Shape(), [(0.0, -0.053), (0.076, -0.053), (0.076, 0.053), (0.0, 0.053)], 20, (SPIKE_X, 0, 0), (1, 0, 0))  # what a hand may touch of a hub
+    model.add("part_hub", core, ["timber"], winch, 35)
     model.add("visual_hubs", hubs, ["timber"], winch, 35)
     pitch = 2 * ROPE_RADIUS * 1.03
     path = [(-0.05 + pitch * a / (2 * math.pi), (DRUM_RADIUS + ROPE_RADIUS) * math.cos(a), (DRUM_RADIUS + ROPE_RADIUS) * math.sin(a)) for a in np.arange(0, 6 * 28 + 1) * 2 * math.pi / 28]
@@ -336,14 +330,8 @@ def make_winch(model):
     for x in (-0.088, 0.088):
         hoop(bronze, [(DRUM_RADIUS - 0.001, -0.006), (0.062, -0.006), (0.062, 0.006), (DRUM_RADIUS - 0.001, 0.006)], (x, 0, 0), (1, 0, 0), 2)
     make_ratchet_wheel(iron_parts)
-    model.add("visual_turns", rope, ["hemp"], winch, 60)
-    model.add("visual_winch_bronze", bronze, ["bronze"], winch, 35)
-    model.add("visual_winch_iron", iron_parts, ["iron"], winch, 35)
-
-
-def hubs_of(s):
-    """What a hand may touch of a hub, a little inside what is seen."""
-    return lathe(Shape(), [(0.0, -0.053), (0.076, -0.053), (0.076, 0.053), (0.0, 0.053)], 20, (s * SPIKE_X, 0, 0), (1, 0, 0), uv_scale=(0.5, 1), uv_offset=(0.3, 0.4))
+    for what, part, used in (("turns", rope, "hemp"), ("winch_bronze", bronze, "bronze"), ("winch_iron", iron_parts, "iron")):
+        model.add("visual_" + what, part, [used], winch, 40)
 
 
 def make_ratchet_wheel(shape):
@@ -376,8 +364,8 @@ def make_lever(model):
     ring = [at + (0.046, 0.018 * math.sin(a), 0.018 * math.cos(a)) for a in np.arange(20) * 2 * math.pi / 20]
     tube(shape, ring, 0.004, 8, closed=True)
     tube(cord, [at + (0.048, -0.018, 0.0), at + (0.055, -0.06, 0.01), at + (0.040, -0.12, 0.02), at + (0.010, -0.14, 0.03), at + (-0.04, -0.11, 0.03)], 0.004, 7, v_scale=9)
-    model.add("visual_pin", shape, ["iron"], pin, 35)
-    model.add("visual_pin_cord", cord, ["hemp"], pin, 60)
+    for name, part, used in (("visual_pin", shape, "iron"), ("visual_pin_cord", cord, "hemp")):
+        model.add(name, part, [used], pin, 50)
 
 
 def ball(radius, segments=36, rings=20, seed=0, rough=0.0):
@@ -458,10 +446,9 @@ def make_wall(model):
 
 def make_ground(model):
     ground = model.group("GROUND")
-    near = block(Shape(), (-2.6, -0.30, -3.4), (2.6, 0.0, 1.6), 0.01, 211, 0.0, 1.5)
-    far = block(Shape(), (-3.0, -0.30, -12.0), (3.0, 0.0, -3.4), 0.01, 212, 0.0, 1.5)
-    model.add("part_ground_near", near, ["earth"], ground, 30)
-    model.add("part_ground_far", far, ["earth"], ground, 30)
+    for name, low, high in (("near", -4.4, SLAB[1]), ("far", SLAB[2], -4.4)):
+        slab = block(Shape(), (-SLAB[0], -0.30, low), (SLAB[0], 0.0, high), 0.01, 211, 0.0, 1.5)
+        model.add("part_ground_" + name, slab, ["earth"], ground, 30)
     model.add("part_footing", block(Shape(), (-0.80, -0.05, WALL_Z - 0.15), (0.80, FOOTING, WALL_Z + 0.15), 0.010, 213, 0.0, 0.9), ["limestone"], ground, 30)
     stump = [(0.0, -0.02), (0.20, -0.02), (0.175, 0.05), (0.160, 0.20), (0.156, 0.45), (0.158, STAND[1] - 0.006), (0.152, STAND[1]), (0.0, STAND[1])]
     model.add("part_stump", lathe(Shape(), stump, 28, (STAND[0], 0, STAND[2]), (0, 1, 0), (0, 0, 1), uv_scale=(1, 0.9), uv_offset=(0.02, 0.3), end_grain=(6,)), ["planks"], ground, 40)
@@ -472,16 +459,18 @@ def make_ground(model):
 
 
 def height_at(x, z):
-    """A little over the slab that things fall on, and never above what lies on it."""
-    away = max(0.0, abs(x) - 1.7) * 0.05
-    return away + 0.004 + 0.004 * math.sin(2.3 * x + 1.1) * math.sin(1.9 * z) + 0.003 * math.sin(7.1 * x + 2) * math.sin(6.3 * z + 1)
+    """A little over the slab that things fall on; beyond its edges it comes down to the plain that displays draw."""
+    wave = math.sin(1.7 * x + 0.6 * z) + math.sin(0.9 * z - 1.3 * x + 2)
+    beyond = max(0.0, math.hypot(max(0.0, abs(x) - SLAB[0]), max(0.0, z - SLAB[1], SLAB[2] - z)) - 0.05)
+    fall = min(1.0, beyond / (0.85 + 0.15 * wave))
+    return 0.005 + 0.003 * math.sin(2.3 * x + 1.1) * math.sin(1.9 * z) + 0.002 * math.sin(7.1 * x + 2) * math.sin(6.3 * z + 1) - 0.16 * fall * fall * (3 - 2 * fall)
 
 
 def make_earth(model, scene):
-    xs, zs = np.linspace(-2.9, 2.9, 48), np.linspace(-10.6, 1.9, 96)
+    xs, zs = np.linspace(-4.1, 4.1, 66), np.linspace(-12.2, 2.8, 116)
     rng = np.random.default_rng(191)
     shape = Shape()
-    grid = [[(x + 0.12 * math.sin(3 * z) * (abs(x) > 2.8), height_at(x, z) + rng.normal(0, 0.0015), z) for z in zs] for x in xs]
+    grid = [[(x, height_at(x, z) + rng.normal(0, 0.001), z) for z in zs] for x in xs]
     index = [shape.points(row) for row in grid]
 
     def uv(i, j):
@@ -494,13 +483,11 @@ def make_earth(model, scene):
 
 
 def make_yard(model, scene):
-    """Spare shot, chips of stone about the wall, a bucket of oil for the springs."""
+    """Spare shot, chips of stone about the wall, a jar of oil for the springs."""
     shot, rng = Shape(), np.random.default_rng(161)
     places = [(1.28, -0.30), (1.44, -0.32), (1.36, -0.17), (1.52, -0.18), (1.35, -0.255), (1.46, -0.24)]
     for k, (x, z) in enumerate(places):
-        y = height_at(x, z) + BALL - 0.004 + (0.118 if k > 3 else 0)
-        piece = ball(BALL, 28, 16, 10 + k, 0.005)
-        first = len(shot.vertices)
+        y, first, piece = height_at(x, z) + BALL - 0.004 + (0.118 if k > 3 else 0), len(shot.vertices), ball(BALL, 28, 16, 10 + k, 0.005)
         shot.vertices += [(a + x, b + y, c + z) for a, b, c in piece.vertices]
         for face, uvs in zip(piece.faces, piece.uvs):
             shot.face(tuple(i + first for i in face), tuple((u + 0.17 * k, v + 0.23 * k) for u, v in uvs))
@@ -528,8 +515,8 @@ def make_grass(model, scene):
     rng = np.random.default_rng(171)
     shape = Shape()
     made = 0
-    while made < 330:
-        x, z = rng.uniform(-2.8, 2.8), rng.uniform(-10.5, 1.8)
+    while made < 420:
+        x, z = rng.uniform(-3.9, 3.9), rng.uniform(-12.0, 2.6)
         if abs(x) < 1.15 and rng.random() < 0.93:
             continue
         made += 1
@@ -549,10 +536,8 @@ def make_grass(model, scene):
 # The file ------------------------------------------------------------------------------------------------------------------------
 
 
-def place(name, p, turn_y=0.0, turn_x=0.0):
-    made = bpy.data.objects[name]
-    made.location = to_blender(p)
-    made.rotation_euler = (turn_x, 0, turn_y)
+def place(name, p, turn=0.0):
+    bpy.data.objects[name].location, bpy.data.objects[name].rotation_euler = to_blender(p), (0, 0, turn)
 
 
 def pose(angle):
@@ -569,19 +554,15 @@ def pose(angle):
 
 
 def build_wall(model):
-    scene = bpy.context.scene
-    count = 0
     for course in range(4):
         y = FOOTING + BLOCK[1] * (course + 0.5)
         row = [(-0.36, "BLOCK_A"), (0.0, "BLOCK_B"), (0.36, "BLOCK_A")] if course % 2 == 1 else [(-0.45, "HALF"), (-0.18, "BLOCK_B"), (0.18, "BLOCK_A"), (0.45, "HALF")]
         for x, node in row:
-            source = bpy.data.objects["part_" + node.lower()]
-            copy = bpy.data.objects.new(f"seen_{count}", source.data)
+            copy = bpy.data.objects.new("seen", bpy.data.objects["part_" + node.lower()].data)
             copy.location = to_blender((x, y, WALL_Z))
-            scene.collection.objects.link(copy)
-            count += 1
-    for node in ("BLOCK_A", "BLOCK_B", "HALF"):
-        bpy.data.objects["part_" + node.lower()].hide_render = True
+            model.collection.objects.link(copy)
+    for node in ("block_a", "block_b", "half"):
+        bpy.data.objects["part_" + node].hide_render = True
 
 
 def main():
