@@ -331,6 +331,9 @@ def make_arrow(model):
     half = ARROW_LENGTH / 2
     shaft = [(0.0, -half), (SHAFT - 0.0015, -half), (SHAFT, -half + 0.0015), (SHAFT, half - 0.040), (SHAFT - 0.001, half - 0.036), (0.0, half - 0.036)]
     model.add("part_shaft", lathe(Shape(), shaft, 18, (0, 0, 0), (0, 0, -1), uv_scale=(0.115, 0.8), uv_offset=(0.5, 0.1)), ["grip"], arrow, 45)
+    # Whipped with cord where a hand takes it: thicker to the touch, too.
+    sleeve = [(0.0, -0.052), (0.0062, -0.052), (0.0082, -0.049), (0.0082, 0.049), (0.0062, 0.052), (0.0, 0.052)]
+    model.add("part_grip", lathe(Shape(), sleeve, 20, uv_scale=(1, 34)), ["hemp"], arrow, 45)
     head = Shape()
     lathe(head, [(SHAFT - 0.001, half - 0.070), (SHAFT + 0.0016, half - 0.068), (SHAFT + 0.0016, half - 0.040), (0.0085, half - 0.034), (0.0050, half - 0.014), (0.0, half)], 4,
           (0, 0, 0), (0, 0, -1), uv_scale=(1, 8))

@@ -2,7 +2,6 @@
 // is broken.
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +79,13 @@ TEST(CrossbowVisits, ShotsTooSoonCranksLetGoAndArrowsDroppedEndWell) {
   EXPECT_LT(lost_m, kBarPitch_m) << "the bars hold what was let go: it loses less than a tooth";
   EXPECT_EQ(visit.quantities.at("shots"), 1);
   EXPECT_EQ(crossbow().play("mistakes-use").state_hash, visit.state_hash);
+}
+
+TEST(CrossbowVisits, AHandThatMissesEverythingByTheSameLittleGetsThere) {
+  test::PlayOptions options;
+  options.player.offset_W = Vec3(0.012, 0.008, -0.010);
+  const test::PlayedVisit visit = crossbow().play("shooting", options);
+  EXPECT_TRUE(visit.done) << visit;
 }
 
 /// What the hand does on the crank, in real units, while the string is drawn from 0.15 to 0.42 m.
