@@ -10,7 +10,7 @@ namespace mechane {
 namespace {
 
 constexpr double kDrumTooth_rad = 2 * kPi / 400;
-constexpr double kWindow_rad = 0.5;  // of the wheel, in which its tooth drives
+constexpr double kWindow_rad = 0.04;  // of the wheel, in which its tooth drives
 
 const test::Exhibit& odometer() {
   static const test::Exhibit kExhibit("odometer");
