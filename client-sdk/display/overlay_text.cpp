@@ -45,6 +45,7 @@ double round_up(double value) {
 }
 
 std::string number(double value, int decimals, bool greek) {
+  if (std::abs(value) >= 100) decimals = 0;  // nobody reads tenths there, and they do not fit into the gauge
   // No minus before a zero that is only a rounding.
   if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0;
   std::string text = fmt::format("{:.{}f}", value, decimals);
