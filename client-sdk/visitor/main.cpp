@@ -20,6 +20,7 @@ struct Arguments {
   visitor::VisitOptions options;
   std::vector<std::filesystem::path> scenarios;
   bool all = false;
+  std::size_t at_once = 4;
   std::string report_file;
   std::vector<double> offset;
   bool glove = false;
@@ -38,6 +39,11 @@ void add_options(CLI::App& app, Arguments& a) {
                            "all visits of all scenarios at once, each scenario at a kiosk of its own, "
                            "named as its file; without --scenario, of the folder scenarios");
   all->excludes(activity);
+  app.add_option("--at-once", a.at_once,
+                 "with --all: kiosks at a time; each wants a share of a processor here and at the server")
+      ->needs(all)
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   app.add_option("--domain", a.options.client.domain, "DDS domain");
   app.add_option("--offset", a.offset, "metres by which the hand misses: x y z")->expected(3);
   app.add_option("--patience", a.patience_s, "seconds that an activity may take after the last move");
@@ -84,7 +90,7 @@ int play_all(Arguments& a) {
     log::error(found.error());
     return 2;
   }
-  const std::vector<visitor::TourStop> stops = visitor::run_tour(a.options, *found, g_stop);
+  const std::vector<visitor::TourStop> stops = visitor::run_tour(a.options, *found, a.at_once, g_stop);
   std::fputs(visitor::tour_table(stops).c_str(), stdout);
   const bool complete = std::ranges::all_of(stops, &visitor::TourStop::complete);
   // The table says it to a person; the JSON is for who asks.

@@ -1,6 +1,7 @@
 #include "client-sdk/visitor/visit_tour.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <system_error>
 #include <thread>
 
@@ -34,6 +35,14 @@ std::string outcome_of(const ActivityReport& activity) {
   return activity.steps.empty() ? "not begun" : "stopped at " + activity.steps.back().name;
 }
 
+void play(const VisitOptions& common, TourStop& one, const volatile std::sig_atomic_t& stop) {
+  VisitOptions options = common;
+  options.scenario = one.scenario;
+  options.client.kiosk = one.scenario.stem().string();
+  options.names_kiosk = true;
+  one.report = run_visit(options, stop);
+}
+
 }  // namespace
 
 Expected<std::vector<fs::path>> find_scenarios(std::span<const fs::path> places) {
@@ -61,20 +70,18 @@ Expected<std::vector<fs::path>> find_scenarios(std::span<const fs::path> places)
   return found;
 }
 
-std::vector<TourStop> run_tour(const VisitOptions& common, std::span<const fs::path> scenarios,
+std::vector<TourStop> run_tour(const VisitOptions& common, std::span<const fs::path> scenarios, std::size_t at_once,
                                const volatile std::sig_atomic_t& stop) {
   std::vector<TourStop> stops;
   for (const fs::path& scenario : scenarios)
     stops.push_back({scenario, VisitReport{}});
   {
+    std::atomic<std::size_t> next = 0;
     std::vector<std::jthread> visitors;
-    for (TourStop& one : stops) {
-      visitors.emplace_back([&common, &one, &stop] {
-        VisitOptions options = common;
-        options.scenario = one.scenario;
-        options.client.kiosk = one.scenario.stem().string();
-        options.names_kiosk = true;
-        one.report = run_visit(options, stop);
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, std::min(at_once, stops.size())); ++i) {
+      visitors.emplace_back([&] {
+        for (std::size_t mine = next++; mine < stops.size(); mine = next++)
+          play(common, stops[mine], stop);
       });
     }
   }

@@ -1,4 +1,4 @@
-// Every visit of several scenarios: each scenario at a kiosk of its own, all at once.
+// Every visit of several scenarios: each scenario at a kiosk of its own, some or all at once.
 #pragma once
 
 #include <csignal>
@@ -23,10 +23,10 @@ struct TourStop {
 [[nodiscard]] Expected<std::vector<std::filesystem::path>> find_scenarios(
     std::span<const std::filesystem::path> places);
 
-/// Plays all visits of each scenario, in a thread for each, at kiosks that are named as the files. `common` holds all but scenario and
-/// kiosk. Returns when all are through, in the order of the scenarios. Any thread.
+/// Plays all visits of each scenario at kiosks that are named as the files, `at_once` kiosks at a time (at least one), in a thread
+/// for each. `common` holds all but scenario and kiosk. Returns when all are through, in the order of the scenarios. Any thread.
 [[nodiscard]] std::vector<TourStop> run_tour(const VisitOptions& common,
-                                             std::span<const std::filesystem::path> scenarios,
+                                             std::span<const std::filesystem::path> scenarios, std::size_t at_once,
                                              const volatile std::sig_atomic_t& stop);
 
 /// A line for each visit: scenario, visit, how many steps were done, seconds, and where it stopped if it did.
