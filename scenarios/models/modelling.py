@@ -157,6 +157,17 @@ def bronze():
     return np.clip(colour, 0, 1), np.dstack([np.ones(shape), rough, metal])
 
 
+def iron():
+    """Forged, dark, rusty in blots; with its occlusion, roughness and metal."""
+    rng = np.random.default_rng(47)
+    shape = (256, 256)
+    broad, fine = fractal(shape, (5, 5), rng, 5, 0.6), fractal(shape, (40, 40), rng, 3, 0.6)
+    rust = step(0.48, 0.66, 0.6 * broad + 0.4 * fine)
+    colour = mix(tint((0.13, 0.125, 0.12), (0.065, 0.06, 0.058), fine), np.array([0.17, 0.075, 0.032])[None, None, :], (0.75 * rust)[..., None])
+    orm = np.dstack([np.ones(shape), np.clip(0.42 + 0.4 * rust + 0.1 * fine, 0, 1), 0.85 - 0.7 * rust])
+    return np.clip(colour, 0, 1), 1.2 * fine + broad, orm
+
+
 def rope():
     shape = (256, 256)
     rng = np.random.default_rng(71)
@@ -249,6 +260,11 @@ def museum_materials(textures):
         "terracotta": material("terracotta", base=(0.46, 0.17, 0.075, 1), roughness=0.72),
         "water": material("water", base=(0.045, 0.10, 0.095, 0.72), roughness=0.06, two_sided=True),
     }
+
+
+def iron_material(textures):
+    colour, height, orm = iron()
+    return material("iron", *surface(textures, "iron", colour, height, 0.6), textures.image("iron_orm", orm, linear=True))
 
 
 # Shapes --------------------------------------------------------------------------------------------------------------------------
@@ -455,27 +471,9 @@ def tube(shape, path, radius, sides=7, slot=0, closed=False, v_scale=6.0):
     return shape
 
 
-def block(shape, low, high, bevel=0.012, seed=0, rough=0.004, tile=1.4, slot=0):
-    """A dressed stone: a box with worn edges, uv by the direction that each face looks to."""
-    rng = np.random.default_rng(2000 + seed)
-    low, high = np.asarray(low, float), np.asarray(high, float)
-    centre, half = (low + high) / 2, (high - low) / 2
-    cuts = [[-1.0, -1 + bevel / h] + list(np.linspace(-1, 1, max(3, int(h * 2 / 0.14)))[1:-1]) + [1 - bevel / h, 1.0] for h in half]
-    offset = rng.uniform(0, 1, 2)
-    seen = {}
-
-    def vertex(p):
-        key = tuple(np.round(p, 6))
-        if key not in seen:
-            q = np.array(p) * half
-            inner = np.clip(q, -half + bevel, half - bevel)
-            out = q - inner
-            length = np.linalg.norm(out)
-            place = inner + out / length * bevel if length > 0 else q
-            place = place + np.sin(place * 9.1 + seed) * rough + rng.normal(0, rough * 0.35, 3)
-            seen[key] = shape.points([centre + place])[0]
-        return seen[key]
-
+def cut_cube(shape, cuts, vertex, uv, slot=0):
+    """A cube from -1 to 1 whose faces are cut along each axis; vertex(corner, axis of the face) places a corner and gives its index,
+    uv(corner, axis, the face's own two axes) its place in the texture."""
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
         for sign in (-1.0, 1.0):
@@ -488,9 +486,108 @@ def block(shape, low, high, bevel=0.012, seed=0, rough=0.004, tile=1.4, slot=0):
                         corners.append(p)
                     if sign < 0:
                         corners.reverse()
-                    flat = [tuple((np.array([c[u] * half[u], c[v] * half[v]]) + centre[[u, v]]) / tile + offset) for c in corners]
-                    shape.face(tuple(vertex(c) for c in corners), tuple(flat), slot)
+                    shape.face(tuple(vertex(c, axis) for c in corners), tuple(uv(c, axis, u, v) for c in corners), slot)
     return shape
+
+
+def block(shape, low, high, bevel=0.012, seed=0, rough=0.004, tile=1.4, slot=0):
+    """A dressed stone: a box with worn edges, uv by the direction that each face looks to."""
+    rng = np.random.default_rng(2000 + seed)
+    low, high = np.asarray(low, float), np.asarray(high, float)
+    centre, half = (low + high) / 2, (high - low) / 2
+    cuts = [[-1.0, -1 + bevel / h] + list(np.linspace(-1, 1, max(3, int(h * 2 / 0.14)))[1:-1]) + [1 - bevel / h, 1.0] for h in half]
+    offset = rng.uniform(0, 1, 2)
+    seen = {}
+
+    def vertex(p, _axis):
+        key = tuple(np.round(p, 6))
+        if key not in seen:
+            q = np.array(p) * half
+            inner = np.clip(q, -half + bevel, half - bevel)
+            out = q - inner
+            length = np.linalg.norm(out)
+            place = inner + out / length * bevel if length > 0 else q
+            place = place + np.sin(place * 9.1 + seed) * rough + rng.normal(0, rough * 0.35, 3)
+            seen[key] = shape.points([centre + place])[0]
+        return seen[key]
+
+    def uv(c, axis, u, v):
+        return tuple((np.array([c[u] * half[u], c[v] * half[v]]) + centre[[u, v]]) / tile + offset)
+
+    return cut_cube(shape, cuts, vertex, uv, slot)
+
+
+def paving(x_range, z_range, edge, depths, widths, tops, level=0.0):
+    """Flagstones, no two alike, in rows along x that begin within z_range; none ends beyond the edge. Tops are about the level."""
+    rng = np.random.default_rng(131)
+    shape = Shape()
+    z, row = z_range[0], 0
+    while z < z_range[1]:
+        depth = rng.uniform(*depths)
+        left = x_range[0] + 0.18 * (row % 2)
+        while left < x_range[1]:
+            width = min(rng.uniform(*widths), edge - left)
+            block(shape, (left, -0.10, z), (left + width - 0.008, level + rng.uniform(*tops), z + depth - 0.008), 0.010, int(rng.integers(1000)), 0.0025)
+            left += width
+        z += depth
+        row += 1
+    return shape
+
+
+def rod(shape, start, end, radius, segments=16, tiles=3.0, least_u=0.0):
+    """A round bar with worn ends; a thin one may ask for the least width of texture round it."""
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    length = np.linalg.norm(end - start)
+    b = min(0.002, radius / 3)
+    up = (0, 1, 0) if abs(end[1] - start[1]) < 0.9 * length else (0, 0, 1)
+    return lathe(shape, [(0, 0), (radius - b, 0), (radius, b), (radius, length - b), (radius - b, length), (0, length)], segments, start, end - start, up,
+                 uv_scale=(max(least_u, radius * 30), tiles))
+
+
+def earth(grid, tile=1.5, lean=0.0):
+    """Ground through a grid of points, rows along x of points along z; with the grid's vertices. On a slope `lean` of its height goes into v."""
+    shape = Shape()
+    index = [shape.points(row) for row in grid]
+
+    def uv(i, j):
+        return (grid[i][j][0] / tile + 0.05 * math.sin(grid[i][j][2] * 2), (grid[i][j][2] + lean * grid[i][j][1]) / tile)
+
+    for i in range(len(grid) - 1):
+        for j in range(len(grid[0]) - 1):
+            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)))
+    return shape, index
+
+
+def rim(grid):
+    """The indices round the grid's edge."""
+    rows, columns = len(grid), len(grid[0])
+    return [(i, 0) for i in range(rows)] + [(rows - 1, j) for j in range(1, columns)] + [(i, columns - 1) for i in range(rows - 2, -1, -1)] + \
+           [(0, j) for j in range(columns - 2, 0, -1)]
+
+
+def skirt(shape, grid, index, foot):
+    """The cut sides of earth, down to `foot`."""
+    edge = rim(grid)
+    top = [index[i][j] for i, j in edge]
+    low = shape.points([(grid[i][j][0], foot, grid[i][j][2]) for i, j in edge])
+    for k in range(len(edge)):
+        n = (k + 1) % len(edge)
+        a, b = k * 0.05, (k + 1) * 0.05
+        shape.face((top[k], top[n], low[n], low[k]), ((a, 0.15), (b, 0.15), (b, 0), (a, 0)))
+
+
+def tuft(shape, rng, x, z, height_at, blades=7, spread=0.03, tallest=0.16, dry=0.6):
+    """Blades of grass about a place; that share of them has the second material."""
+    for _ in range(blades):
+        a, lean, h = rng.uniform(0, 2 * math.pi), rng.uniform(0.05, 0.5), rng.uniform(0.05, tallest)
+        base = np.array([x + rng.normal(0, spread), 0, z + rng.normal(0, spread)])
+        base[1] = height_at(base[0], base[2]) - 0.01
+        out, across = np.array([math.cos(a), 0, math.sin(a)]), np.array([-math.sin(a), 0, math.cos(a)])
+        spine = [base + np.array([0, h * t * (1 - 0.25 * lean * t), 0]) + out * (h * lean * t * t) for t in (0, 0.5, 1.0)]
+        i = shape.points([spine[0] - across * 0.003, spine[0] + across * 0.003, spine[1] - across * 0.0022, spine[1] + across * 0.0022, spine[2]])
+        slot, u = int(rng.random() < dry), (0.5, 0.5)
+        shape.face((i[0], i[1], i[3], i[2]), (u,) * 4, slot)
+        shape.face((i[2], i[3], i[4]), (u,) * 3, slot)
 
 
 class Model:
