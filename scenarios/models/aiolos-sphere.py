@@ -23,8 +23,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (TEXTURE, Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials, noise,  # noqa: E402
-                       paving, picture, step, surface, timber, tint, to_blender, tube)
+from modelling import Model, Shape, block, export, lathe, paving, picture, timber, to_blender, tube  # noqa: E402
+from surfaces import TEXTURE, Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 HEARTH_X, HEARTH_Z, BED_Y, MOUTH_TOP, HOB_Y = 0.62, 0.42, 0.40, 0.72, 0.84
 MOUTH = 0.18  # half the mouth's width, and half the opening under the cauldron
@@ -225,7 +225,6 @@ def make_shutter(model):
     shape = Shape()
     for s in (-1, 1):
         y = s * 0.085
-        arc = bend((0.12, y - s * 0.004, 0.050), -math.pi / 2, 0, 0.012, ((0, s, 0), (0, 0, 1)), 6)
         tube(shape, [np.array([0.12, y + s * 0.008, 0.0]), np.array([0.12, y + s * 0.008, 0.045])] + [np.array([0.12, y + s * 0.004, 0.057]), np.array([0.12, y - s * 0.014, 0.062])], 0.007, 12)
         lathe(shape, [(0.0, 0.004), (0.020, 0.004), (0.018, 0.009), (0.0, 0.010)], 18, (0.12, y + s * 0.008, 0), (0, 0, 1), uv_scale=(0.5, 5))
         block(shape, (-w + 0.02, s * 0.13 - 0.014, 0.004), (w - 0.02, s * 0.13 + 0.014, 0.009), 0.0015, 23 + s, 0.0, 0.3)

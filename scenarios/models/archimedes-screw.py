@@ -23,8 +23,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (TEXTURE, WOOD_STRIPS, Model, Shape, Textures, block, earth, export, fractal, frame_of, lathe, material,  # noqa: E402
-                       mix, museum_materials, noise, rim, step, strip_uv, surface, timber, tint, tube)
+from modelling import Model, Shape, block, earth, export, frame_of, lathe, rim, strip_uv, timber, tube  # noqa: E402
+from surfaces import TEXTURE, WOOD_STRIPS, Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 SLOPE = math.radians(37.0)
 BARREL_MIDDLE = np.array([0.0, 0.55, 0.0])
@@ -114,7 +114,7 @@ def make_barrel(model, outer):
         ends = [BARREL_HALF + rng.uniform(-0.004, 0.0), BARREL_HALF + rng.uniform(-0.004, 0.0)]
         strip, flip, shift = int(rng.integers(WOOD_STRIPS)) if s % 2 else (s // 2) % WOOD_STRIPS, s % 3 == 1, rng.uniform(0, 0.3)
         along = [-ends[0], -ends[0] + 0.004] + list(np.linspace(-1.0, 1.0, 9)) + [ends[1] - 0.004, ends[1]]
-        rings, us = [], None
+        rings = []
         for i, z in enumerate(along):
             end = i in (0, len(along) - 1)
             wear = 0.0 if end else rng.normal(0, 0.0005)
@@ -237,7 +237,7 @@ def hull_outline(r0, r1, length, steps=14):
 
 def make_crank(model, inner):
     half, bevel = 0.020, 0.005
-    rings, us = [], None
+    rings = []
     for z, inset in ((-half, bevel), (-half + bevel * 0.35, bevel * 0.3), (-half + bevel, 0), (half - bevel, 0), (half - bevel * 0.35, bevel * 0.3),
                      (half, bevel)):
         rings.append([(x, y, CRANK_Z + z) for x, y in hull_outline(0.052 - inset, 0.032 - inset, CRANK_RADIUS)])

@@ -29,8 +29,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, cut_cube, earth, export, fractal, iron_material, lathe, material, mix,  # noqa: E402
-                       museum_materials, noise, picture, rod, step, surface, timber, tint, to_blender, tube, tuft)
+from modelling import Model, Shape, block, cut_cube, earth, export, lathe, picture, rod, timber, to_blender, tube, tuft  # noqa: E402
+from surfaces import Textures, fractal, iron_material, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 SPRING_X, SPRING_Z, ARM_Y, ARM = 0.42, -1.76, 1.10, 0.95
 REST, DRAWN, HALF_STRING = 0.12, -0.78, 1.48  # angle of the arms forward of sideways, at rest and drawn

@@ -29,8 +29,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, earth, export, fractal, lathe, material, mix, museum_materials, noise, picture,  # noqa: E402
-                       rod, skirt, step, surface, timber, tint, to_blender, tube, tuft)
+from modelling import Model, Shape, block, earth, export, lathe, picture, rod, skirt, timber, to_blender, tube, tuft  # noqa: E402
+from surfaces import Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 ARROW_Y, CLAW_START, CLAW_HOME, CLAW_DRAWN = 1.03, 0.10, -0.15, 0.30
 FLOOR, RAIL_TOP, HALF_WIDTH = 0.962, 0.983, 0.052  # of the groove; of its rails; of the stock
@@ -159,7 +159,7 @@ def make_frame(model):
         low, high = sorted((s * (HALF_WIDTH + 0.003), s * (HALF_WIDTH + 0.031)))
         model.add(f"part_cheek_{k}", box(Shape(), (low, 0.845, 0.47), (high, 0.972, 0.865), 0.008, 15 + k, 0.001), ["planks"], frame)
     model.add("part_post", box(Shape(), (-0.06, 0.05, 0.10), (0.06, 0.835, 0.22), 0.010, 21, 0.002), ["planks"], frame)
-    floor, inlay, bronze, cord, rope, wood = Shape(), Shape(), Shape(), Shape(), Shape(), Shape()
+    floor, bronze, cord, rope, wood = Shape(), Shape(), Shape(), Shape(), Shape()
     for k, s in enumerate((-1, 1)):
         low, high = sorted((s * 0.011, s * 0.032))
         box(floor, (low, 0.918, -0.255), (high, FLOOR, 0.62), 0.002, 17 + k)

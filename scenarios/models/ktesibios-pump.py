@@ -25,8 +25,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (TEXTURE, WOOD_STRIPS, Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials,  # noqa: E402
-                       noise, paving, picture, shell, step, strip_uv, surface, timber, tint, to_blender, tube)
+from modelling import Model, Shape, block, export, lathe, paving, picture, shell, strip_uv, timber, to_blender, tube  # noqa: E402
+from surfaces import TEXTURE, WOOD_STRIPS, Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 BORE, WALL = 0.050, 0.009  # radius of the bore; thickness of the bronze
 CYLINDER_X, CYLINDER_Y, CYLINDER_HEIGHT = 0.22, 0.12, 0.36

@@ -27,8 +27,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, export, lathe, material, mix, museum_materials, paving, picture, shell, strip_uv,  # noqa: E402
-                       timber, to_blender, tube)
+from modelling import Model, Shape, block, export, lathe, paving, picture, shell, strip_uv, timber, to_blender, tube  # noqa: E402
+from surfaces import Textures, material, mix, museum_materials  # noqa: E402
 
 WHEEL_R, WHEEL_Y, WHEEL_Z = 0.592, 0.66, 0.10  # four feet across
 SPOKES, GRIP_R, GRIP_ANGLE, GRIP_Z = 10, 0.30, math.radians(54), 0.11  # the grip stands on a spoke; GRIP_Z: its middle

@@ -24,8 +24,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, earth, export, fractal, iron_material, lathe, material, mix, museum_materials,  # noqa: E402
-                       picture, rod, skirt, step, surface, timber, tint, to_blender, tube, tuft)
+from modelling import Model, Shape, block, earth, export, lathe, picture, rod, skirt, timber, to_blender, tube, tuft  # noqa: E402
+from surfaces import Textures, fractal, iron_material, material, mix, museum_materials, step, surface, tint  # noqa: E402
 
 AXLE = np.array([0.30, 0.80, 0.0])
 DRUM_RADIUS, ROPE_RADIUS = 0.052, 0.008  # the rope's middle is 0.060 m from the axle
