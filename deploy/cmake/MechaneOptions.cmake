@@ -23,6 +23,10 @@ add_link_options(-fuse-ld=lld)
 if(MECHANE_SANITIZE)
   add_compile_options(-fsanitize=${MECHANE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${MECHANE_SANITIZE})
+  if(MECHANE_SANITIZE MATCHES "undefined")
+    # What the address sanitizer stops at anyway; with them a seventh more is compiled.
+    add_compile_options(-fno-sanitize=null,object-size)
+  endif()
   if(MECHANE_SANITIZE MATCHES "thread")
     # std::atomic_thread_fence is not modelled by the thread sanitizer; our structures use ordered atomics instead.
     add_compile_options(-Wno-tsan)

@@ -88,6 +88,35 @@ def _end_group(process: subprocess.Popen) -> None:
     process.wait()
 
 
+def _leave_time_to_others() -> None:
+    """In the new process: it runs when nobody else wants to. Each session is a scheduling group of its own where the kernel groups them."""
+    os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
+    try:
+        Path("/proc/self/autogroup").write_text("19")
+    except OSError:
+        pass
+
+
+class Beside:
+    """A command that runs beside others, on the time that they leave, until it is ended."""
+
+    def __init__(self, command: list[str], log: Path):
+        with log.open("a") as out:
+            out.write(f"$ {' '.join(command)}\n")
+            out.flush()
+            self._process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                             start_new_session=True, preexec_fn=_leave_time_to_others)
+
+    def end(self) -> None:
+        """As an interrupt by hand: a build ends its compilers and removes what they had half written."""
+        if self._process.poll() is None:
+            os.killpg(self._process.pid, signal.SIGTERM)
+        try:
+            self._process.wait(timeout=60)
+        except subprocess.TimeoutExpired:
+            _end_group(self._process)
+
+
 def run(command: list[str], log: Path, limit_s: float, env: dict[str, str] | None = None) -> int:
     """Returns the exit status; 124 where the command ran past its limit and was ended. Appends to the log."""
     with log.open("a") as out:

@@ -47,21 +47,36 @@ THREADED = ("unit_realtime", "unit_record", "unit_transport", "unit_client", "un
 class Phase:
     title: str
     run: Callable[[Path], Tally]  # gets its log, returns its cases
+    beside: Callable[[], processes.Beside] | None = None  # what is begun with it, and ended with it
+
+
+def _build_commands(preset: str, targets: tuple[str, ...]) -> tuple[list[str], list[str]]:
+    chosen = ["--target", *targets] if targets else []
+    return ["cmake", "--preset", preset], ["cmake", "--build", f"build/{preset}", "-j", JOBS, *chosen]
 
 
 def build(preset: str, *targets: str) -> Phase:
     def run(log: Path) -> Tally:
         name = f"build {preset}"
-        configured = processes.run(["cmake", "--preset", preset], log, limit_s=300)
-        chosen = ["--target", *targets] if targets else []
-        if configured or processes.run(["cmake", "--build", f"build/{preset}", "-j", JOBS, *chosen], log, limit_s=3600):
+        configure, make = _build_commands(preset, targets)
+        if processes.run(configure, log, limit_s=300) or processes.run(make, log, limit_s=3600):
             return Tally([Case(name, "failed", tail(log))])
         return Tally([Case(name, "passed")])
 
     return Phase(f"build {preset}", run)
 
 
-def ctest(preset: str, only: str = "", leave_out: str = "", named: str = "", unnamed: str = "") -> Phase:
+def begin_build(preset: str, *targets: str) -> Callable[[], processes.Beside]:
+    """Builds beside a phase that leaves the processors time; the phase that builds the preset itself then finds most of it there."""
+    def begin() -> processes.Beside:
+        commands = [" ".join(command) for command in _build_commands(preset, targets)]
+        return processes.Beside(["sh", "-c", " && ".join(commands)], OUT / f"beside-build-{preset}.log")
+
+    return begin
+
+
+def ctest(preset: str, only: str = "", leave_out: str = "", named: str = "", unnamed: str = "",
+          beside: Callable[[], processes.Beside] | None = None) -> Phase:
     """Runs the tests of a build. Those without DDS run side by side, the others alone (see tests/CMakeLists.txt)."""
     def run(log: Path) -> Tally:
         junit = log.with_suffix(".xml")
@@ -78,7 +93,7 @@ def ctest(preset: str, only: str = "", leave_out: str = "", named: str = "", unn
             tally.cases.append(Case(f"ctest {preset}", "failed", tail(log)))
         return tally
 
-    return Phase(f"test {preset}", run)
+    return Phase(f"test {preset}", run, beside)
 
 
 def _gtest_programs(preset: str, log: Path) -> dict[str, list[dict]]:
@@ -177,7 +192,8 @@ def phases(quick: bool) -> list[Phase]:
         return [build("quick", "in_process_tests"), ctest("quick", only="in-process", leave_out="slow")]
     too_slow = "|".join(TOO_SLOW_SANITIZED)
     return [
-        build("release"), ctest("release"),
+        build("release"), ctest("release", only="in-process"),
+        ctest("release", leave_out="in-process", beside=begin_build("asan-ubsan")),
         build("asan-ubsan"), programs("asan-ubsan", unnamed=too_slow),
         ctest("asan-ubsan", leave_out="architecture|in-process", unnamed=too_slow), fuzz(),
         build("tsan", *(f"test_{program}" for program in THREADED)),
@@ -193,7 +209,12 @@ def clock(seconds: float) -> str:
 def run_phase(phase: Phase, log: Path) -> Tally:
     log.unlink(missing_ok=True)
     log.touch()
-    tally = phase.run(log)
+    beside = phase.beside() if phase.beside else None
+    try:
+        tally = phase.run(log)
+    finally:
+        if beside:
+            beside.end()
     left = processes.end_leftovers()
     if left:
         tally.cases.append(Case(f"{phase.title} ends its processes", "failed", "left running: " + ", ".join(sorted(set(left)))))
