@@ -5,10 +5,10 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
-#include <thread>
 
 #include <nlohmann/json.hpp>
 
+#include "server/realtime/wakeup.hpp"
 #include <mechane/proto/convert.hpp>
 #include <mechane/proto/entity.hpp>
 
@@ -174,7 +174,7 @@ Json to_json(const proto::ServerStatus& s) {
   j.update({{"preemptions", s.preemptions}, {"samples_rejected", s.samples_rejected}});
   j.update({{"tick_us_median", s.tick_us_median}, {"tick_us_p99", s.tick_us_p99}, {"tick_us_p999", s.tick_us_p999}});
   j.update({{"tick_us_max", s.tick_us_max}, {"wake_us_p99", s.wake_us_p99}, {"wake_us_max", s.wake_us_max}});
-  j.update({{"realtime", s.realtime}, {"records_ok", s.records_ok}});
+  j.update({{"realtime", s.realtime}, {"records_ok", s.records_ok}, {"scenarios", strings(s.scenarios)}});
   return j;
 }
 
@@ -216,9 +216,12 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
   ~Watch() { std::signal(SIGINT, previous_); }
 
-  /// One look later: whether to look again. Silence is told once, for it looks like a fault of the program's.
+  /// The reader's listener: something came. Any thread.
+  void wake() { news_.signal(); }
+
+  /// Waits for news; whether to look again. Silence is told once, for it looks like a fault of the program's.
   [[nodiscard]] bool goes_on(std::uint64_t seen, const std::string& waits_for) {
-    std::this_thread::sleep_for(kLookEvery);
+    news_.wait(kLookEvery);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin_;
     if (seen == 0 && !told_ && passed.count() > kSilence_s) {
       told_ = true;
@@ -230,13 +233,13 @@ class Watch {
   }
 
  private:
-  static constexpr std::chrono::milliseconds kLookEvery{
-      1};  // a reader keeps the newest only: slower, and samples are skipped
+  static constexpr Duration kLookEvery = std::chrono::milliseconds(100);  // at the clock, and for an interrupt
   static constexpr double kSilence_s = 3;
   const EchoOptions& options_;
   std::chrono::steady_clock::time_point begin_;
   void (*previous_)(int) = SIG_DFL;
   bool told_ = false;
+  realtime::Wakeup news_;
 };
 
 template <proto::TopicType T>
@@ -251,7 +254,7 @@ std::string partition_of(const EchoOptions& options) {
 /// The world that the kiosk is in, for topics that know worlds only. Empty: it is in none, and the watch has ended.
 std::string world_of(const proto::Participant& participant, const EchoOptions& options, Watch& watch) {
   std::string world;
-  auto reader = proto::Reader<proto::WorldAssignment>::create(participant, "");
+  auto reader = proto::Reader<proto::WorldAssignment>::create(participant, "", [&watch](auto) { watch.wake(); });
   if (!reader) return world;
   do {
     reader->view().take_each([&](const proto::WorldAssignment& sample, const proto::SampleInfo& info) {
@@ -270,7 +273,7 @@ int echo(EchoOptions options) {
     options.world = world_of(*participant, options, watch);
     if (options.world.empty()) return 1;
   }
-  auto reader = proto::Reader<T>::create(*participant, partition_of<T>(options));
+  auto reader = proto::Reader<T>::create(*participant, partition_of<T>(options), [&watch](auto) { watch.wake(); });
   if (!reader) return std::cerr << "mechane echo: " << reader.error().to_string() << "\n", 1;
   std::uint64_t seen = 0;
   do {

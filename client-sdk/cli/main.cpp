@@ -10,6 +10,7 @@
 
 #include "client-sdk/cli/doctor.hpp"
 #include "client-sdk/cli/echo.hpp"
+#include "client-sdk/cli/open.hpp"
 #include "client-sdk/cli/sibling.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/checker.hpp"
@@ -35,6 +36,27 @@ constexpr std::array<Program, 6> kPrograms{{
     {"replay", "run a journal again and compare its state hashes"},
 }};
 
+CLI::App* add_echo(CLI::App& app, cli::EchoOptions& echo) {
+  CLI::App* command = app.add_subcommand("echo", "print what goes over the wire");
+  command->add_option("topic", echo.topic, "topic, e.g. SceneFrame; without one: the list");
+  command->add_option("--kiosk", echo.kiosk, "only this kiosk; of the topics of a world: of the world that it is in");
+  command->add_option("--world", echo.world, "only this world");
+  command->add_option("--domain", echo.domain, "DDS domain");
+  command->add_option("--count", echo.count, "stop after so many samples; 0: until interrupted");
+  command->add_option("--seconds", echo.seconds,
+                      "stop after so long, with status 1 where nothing came; 0: until interrupted");
+  command->add_flag("--json", echo.json, "one JSON object a line");
+  return command;
+}
+
+CLI::App* add_open(CLI::App& app, cli::OpenOptions& open) {
+  CLI::App* command = app.add_subcommand("open", "let a kiosk go on to another exhibit, or home");
+  command->add_option("scenario", open.scenario, "id of the scenario; without: home, the server's first");
+  command->add_option("--kiosk", open.kiosk, "name of the kiosk")->capture_default_str();
+  command->add_option("--domain", open.domain, "DDS domain");
+  return command;
+}
+
 int add_and_parse(int argc, char** argv) {
   CLI::App app{"Mechane: touch, assemble and work the machines of ancient Greek engineers."};
   app.set_version_flag("--version", std::string("mechane ") + MECHANE_VERSION);
@@ -43,16 +65,9 @@ int add_and_parse(int argc, char** argv) {
     app.add_subcommand(std::string(program.command), std::string(program.summary) + " (--help tells more)");
   }
   cli::EchoOptions echo;
-  auto* echo_command = app.add_subcommand("echo", "print what goes over the wire");
-  echo_command->add_option("topic", echo.topic, "topic, e.g. SceneFrame; without one: the list");
-  echo_command->add_option("--kiosk", echo.kiosk,
-                           "only this kiosk; of the topics of a world: of the world that it is in");
-  echo_command->add_option("--world", echo.world, "only this world");
-  echo_command->add_option("--domain", echo.domain, "DDS domain");
-  echo_command->add_option("--count", echo.count, "stop after so many samples; 0: until interrupted");
-  echo_command->add_option("--seconds", echo.seconds,
-                           "stop after so long, with status 1 where nothing came; 0: until interrupted");
-  echo_command->add_flag("--json", echo.json, "one JSON object a line");
+  auto* echo_command = add_echo(app, echo);
+  cli::OpenOptions open;
+  auto* open_command = add_open(app, open);
   std::vector<std::string> files;
   auto* check_command = app.add_subcommand("check", "check scenario files: errors with line, node and remedy");
   check_command->add_option("files", files, "X3D files")->required();
@@ -76,6 +91,7 @@ int add_and_parse(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
   }
   if (*echo_command) return cli::run_echo(echo);
+  if (*open_command) return cli::run_open(open);
   if (*check_command)
     return scenario::run_check(files, std::cout,
                                check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);

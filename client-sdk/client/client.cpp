@@ -39,7 +39,10 @@ TimePoint now() {
 class ClientImpl final : public Client {
  public:
   ClientImpl(ClientConfig config, proto::Participant participant)
-      : config_(std::move(config)), session_(random_session()), participant_(std::move(participant)) {}
+      : config_(std::move(config)),
+        session_(random_session()),
+        participant_(std::move(participant)),
+        scenario_(config_.scenario) {}
   ~ClientImpl() override;
 
   [[nodiscard]] Expected<void> open();
@@ -67,6 +70,8 @@ class ClientImpl final : public Client {
   std::uint64_t start_activity(const std::string& activity) override { return send_command(1, activity); }
   std::uint64_t restart_activity() override { return send_command(2, ""); }
   std::uint64_t next_step() override { return send_command(3, ""); }
+  std::uint64_t click(const std::string& object) override { return send_command(4, object); }
+  std::uint64_t open_exhibit(const std::string& scenario) override { return send_command(5, scenario); }
 
  private:
   struct Server {
@@ -109,6 +114,7 @@ class ClientImpl final : public Client {
   std::uint64_t world_incarnation_ = 0;
   TimePoint next_report_{};
   std::uint64_t report_sequence_ = 0;
+  std::string scenario_;  // that the kiosk was in last
   proto::Writer<proto::KioskStatus> kiosk_status_;
 
   realtime::Wakeup news_;
@@ -175,7 +181,10 @@ void ClientImpl::report(TimePoint at) {
   proto::set_text(wire.program, config_.program);
   proto::set_text(wire.host, host_);
   wire.process_id = static_cast<std::uint32_t>(::getpid());
-  proto::set_text(wire.scenario, config_.scenario);
+  // A server that starts anew shall put the kiosk back where it went to, not where it began.
+  const std::optional<WorldStatus> world = world_status();
+  proto::set_text(wire.scenario, world ? world->scenario : scenario_);
+  if (world) scenario_ = world->scenario;
   proto::set_text(wire.join_kiosk, config_.join_kiosk);
   if (!kiosk_status_.write(wire)) log::warning("client: the network did not take this process' status");
 }

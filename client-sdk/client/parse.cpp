@@ -202,7 +202,7 @@ bool parse(const proto::ServerStatus& wire, ServerStatus& out) {
   out.wake_us_max = wire.wake_us_max;
   out.realtime = wire.realtime;
   out.records_ok = wire.records_ok;
-  return true;
+  return parse_strings(wire.scenarios, out.scenarios);
 }
 
 bool parse(const proto::WorldAssignment& wire, Assignment& out) {

@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include "client-sdk/display/image_file.hpp"
+#include "client-sdk/display/picking.hpp"
 #include "server/base/assert.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/log/log.hpp"
@@ -58,6 +59,8 @@ class DisplayLoop {
   void take_news(TimePoint now);
   void open_scenario();
   Expected<void> draw(TimePoint now);
+  [[nodiscard]] RenderScene build() const;
+  void take_wishes();
   Expected<void> write_picture(const std::string& name);
   void wait_for_next(TimePoint began);
 
@@ -106,6 +109,7 @@ void DisplayLoop::open_scenario() {
       [folder = folder_](const std::string& uri) { return content::import_mesh(std::filesystem::path(folder) / uri); });
   builder_ = std::make_unique<SceneBuilder>(*library_, options_.language);
   objects_known_ = 0;
+  have_frame_ = false;  // of the world before
 }
 
 /// Status, manifest and frame as they are now.
@@ -131,15 +135,30 @@ void DisplayLoop::take_news(TimePoint now) {
   }
 }
 
-Expected<void> DisplayLoop::draw(TimePoint now) {
+RenderScene DisplayLoop::build() const {
+  if (builder_ != nullptr)
+    return builder_->build(have_frame_ ? &frame_ : nullptr, status_ ? &*status_ : nullptr, client_.state());
   RenderScene scene;
-  if (builder_ != nullptr) {
-    scene = builder_->build(have_frame_ ? &frame_ : nullptr, status_ ? &*status_ : nullptr, client_.state());
-  } else {
-    scene.ground_height_m = 0.0F;
-    scene.camera.p_WT = Vec3(0, 1.2, 0);
-    scene.overlay.note = link_note(client_.state(), false, options_.language);
+  scene.ground_height_m = 0.0F;
+  scene.camera.p_WT = Vec3(0, 1.2, 0);
+  scene.overlay.note = link_note(client_.state(), false, options_.language);
+  return scene;
+}
+
+/// A click on a sign is as good as a finger; Home leads back to where the exhibits are chosen.
+void DisplayLoop::take_wishes() {
+  if (context_.take_home_wanted()) (void)client_.open_exhibit("");
+  const auto place = context_.take_click();
+  if (!place || builder_ == nullptr) return;
+  const auto clicked = object_at(build(), library_->assets(), *place, options_.stereo, context_.size());
+  if (!clicked) return;
+  for (const client::SceneObject& object : client_.objects()) {
+    if (object.index == *clicked) (void)client_.click(object.name);
   }
+}
+
+Expected<void> DisplayLoop::draw(TimePoint now) {
+  const RenderScene scene = build();
   const PixelSize size = context_.size();
   // A window that is minimised has no pixels.
   if (size.width < 2 || size.height == 0) return {};
@@ -183,6 +202,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
   while (!stop_wanted(clock_.now())) {
     const TimePoint now = clock_.now();
     take_news(now);
+    take_wishes();
     const bool requested = requests_.picture.exchange(false) || context_.take_picture_wanted();
     const bool only_pictures = options_.offscreen && options_.every_step;
     if (!only_pictures || due_ || requested) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/base/error.hpp"
@@ -13,6 +14,12 @@ struct PixelSize {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   friend bool operator==(const PixelSize&, const PixelSize&) = default;
+};
+
+/// A place in the picture, in pixels; (0, 0) is the upper left corner.
+struct PixelPlace {
+  double x = 0;
+  double y = 0;
 };
 
 class GlContext {
@@ -28,6 +35,10 @@ class GlContext {
   [[nodiscard]] virtual bool close_wanted() const = 0;
   /// A picture was asked for (key P) since the last call.
   [[nodiscard]] virtual bool take_picture_wanted() = 0;
+  /// Where the left button was pressed since the last call.
+  [[nodiscard]] virtual std::optional<PixelPlace> take_click() { return {}; }
+  /// Home was asked for (key Home) since the last call.
+  [[nodiscard]] virtual bool take_home_wanted() { return false; }
 };
 
 /// EGL on Mesa's surfaceless platform: no screen, no X server. Errors: no EGL, no such platform, no OpenGL 3.3.

@@ -14,6 +14,10 @@ class WindowContext final : public GlContext {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
       if (action == GLFW_PRESS) static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_key(key);
     });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+      if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
+        static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_click();
+    });
   }
   WindowContext(const WindowContext&) = delete;
   WindowContext& operator=(const WindowContext&) = delete;
@@ -37,12 +41,23 @@ class WindowContext final : public GlContext {
   }
   [[nodiscard]] bool close_wanted() const override { return glfwWindowShouldClose(window_) != 0; }
   [[nodiscard]] bool take_picture_wanted() override { return std::exchange(picture_wanted_, false); }
+  [[nodiscard]] std::optional<PixelPlace> take_click() override { return std::exchange(click_, std::nullopt); }
+  [[nodiscard]] bool take_home_wanted() override { return std::exchange(home_wanted_, false); }
 
  private:
   void on_key(int key) {
     if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
     if (key == GLFW_KEY_P) picture_wanted_ = true;
+    if (key == GLFW_KEY_HOME) home_wanted_ = true;
     if (key == GLFW_KEY_F11) toggle_full_screen();
+  }
+  /// The cursor is told in the window's units; a picture may have more pixels than those.
+  void on_click() {
+    double x = 0, y = 0;
+    int width = 0, height = 0;
+    glfwGetCursorPos(window_, &x, &y);
+    glfwGetWindowSize(window_, &width, &height);
+    if (width > 0 && height > 0) click_ = PixelPlace{x * size().width / width, y * size().height / height};
   }
   void toggle_full_screen() {
     if (glfwGetWindowMonitor(window_) != nullptr) {
@@ -56,6 +71,8 @@ class WindowContext final : public GlContext {
 
   GLFWwindow* window_;
   bool picture_wanted_ = false;
+  bool home_wanted_ = false;
+  std::optional<PixelPlace> click_;
 };
 
 std::string last_glfw_error() {

@@ -56,6 +56,7 @@ struct Instance {
   std::uint32_t material = 0;  ///< into SceneAssets::materials
   Eigen::Affine3f X_WM = Eigen::Affine3f::Identity();
   bool casts_shadow = true;
+  std::optional<std::uint32_t> object{};  ///< of the manifest, where somebody may click on it
 };
 
 /// A surface of water: drawn after all that is opaque, with ripples of its own normals.

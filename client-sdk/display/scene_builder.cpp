@@ -88,7 +88,7 @@ void SceneBuilder::set_manifest(const std::vector<client::SceneObject>& objects)
   spout_object_.reset();
   for (const client::SceneObject& object : objects) {
     if (object.mesh_uri.empty()) continue;
-    objects_.push_back({object, &library_.model(object.mesh_uri, object.mesh_node)});
+    objects_.push_back({object, &library_.model(object.mesh_uri, object.mesh_node), object.index});
     if (object.mesh_node != kBarrel) continue;
     const content::ImportedScene* file = library_.file(object.mesh_uri);
     if (file == nullptr) continue;
@@ -200,7 +200,7 @@ void SceneBuilder::add_object(const Placed& placed, const Pose& X_WB, double lev
       if (basin && level_m < 0.002) continue;
       out.waters.push_back({part.mesh, X, basin ? 0.55F : 0.12F, basin ? 0.6F : 1.0F});
     } else {
-      out.instances.push_back({part.mesh, part.material, X, true});
+      out.instances.push_back({part.mesh, part.material, X, true, placed.index});
     }
   }
 }

@@ -42,6 +42,7 @@ class SceneBuilder {
   struct Placed {
     client::SceneObject object;
     const ObjectModel* model = nullptr;
+    std::optional<std::uint32_t> index{};  ///< of the manifest; scenery has none
   };
   void add_scenery(const std::vector<client::SceneObject>& objects);
   void find_place();

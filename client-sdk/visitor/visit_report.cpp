@@ -17,9 +17,14 @@ nlohmann::json activity_json(const ActivityReport& activity, const std::string& 
   nlohmann::json moves = nlohmann::json::array();
   for (const MoveResult& move : activity.moves)
     moves.push_back({{"name", move.name}, {"seconds", move.seconds}, {"ok", move.ok}});
-  return {{"kiosk", kiosk},           {"name", activity.name},       {"visit", activity.visit},
-          {"done", activity.done},    {"seconds", activity.seconds}, {"steps", std::move(steps)},
-          {"moves", std::move(moves)}};
+  return {{"kiosk", kiosk},
+          {"name", activity.name},
+          {"visit", activity.visit},
+          {"done", activity.done},
+          {"seconds", activity.seconds},
+          {"steps", std::move(steps)},
+          {"moves", std::move(moves)},
+          {"gone_on_to", activity.gone_on_to}};
 }
 
 }  // namespace

@@ -60,6 +60,11 @@ class Session {
   }
   void look();
   void note_step(ActivityReport& report);
+  /// Whether a step's sign has sent the kiosk on to another scenario.
+  [[nodiscard]] bool gone_on() const { return status_ && status_->scenario != world_.id; }
+  void note_going_on(ActivityReport& report);
+  void come_back();
+  void say(const std::string& activity, const std::string& what) const;
   [[nodiscard]] double seconds_since(TimePoint start) {
     return std::chrono::duration<double>(clock_.now() - start).count();
   }
@@ -82,7 +87,7 @@ class Session {
 
 /// Poses and progress as a visitor sees them: by looking at the scene, at some 120 Hz.
 void Session::look() {
-  if (client_.newest_frame(frame_)) {
+  if (client_.newest_frame(frame_) && !gone_on()) {
     for (const client::BodyPose& body : frame_.bodies) {
       if (body.object < X_WB_.size()) X_WB_[body.object] = body.X_WB;
     }
@@ -90,7 +95,14 @@ void Session::look() {
   if (ticks_ % 40 == 0) status_ = client_.world_status();
 }
 
+void Session::say(const std::string& activity, const std::string& what) const {
+  const std::string kiosk = options_.names_kiosk ? options_.client.kiosk + "  " : "";
+  std::printf("%s%s: %s\n", kiosk.c_str(), activity.c_str(), what.c_str());
+  std::fflush(stdout);
+}
+
 void Session::note_step(ActivityReport& report) {
+  if (gone_on()) return note_going_on(report);
   if (!status_ || status_->activity != report.name || (status_->step == step_ && !status_->done)) return;
   if (!step_.empty() && !report.steps.empty() && !report.steps.back().done) {
     report.steps.back().seconds = seconds_since(step_began_);
@@ -99,15 +111,41 @@ void Session::note_step(ActivityReport& report) {
   if (!status_->done) report.steps.push_back({status_->step, 0, false});
   step_ = status_->done ? std::string() : status_->step;
   step_began_ = clock_.now();
-  const std::string kiosk = options_.names_kiosk ? options_.client.kiosk + "  " : "";
-  std::printf("%s%s: %s\n", kiosk.c_str(), report.name.c_str(), status_->done ? "done" : status_->step.c_str());
-  std::fflush(stdout);
+  say(report.name, status_->done ? "done" : status_->step);
+}
+
+/// The step that sends on is over as it begins: its world may be gone before anybody has seen it.
+void Session::note_going_on(ActivityReport& report) {
+  const auto sends = std::find_if(world_.steps.begin(), world_.steps.end(),
+                                  [&](const auto& step) { return step.opens == status_->scenario; });
+  if (!report.steps.empty() && !report.steps.back().done) {
+    report.steps.back().seconds = seconds_since(step_began_);
+    report.steps.back().done = true;
+  }
+  report.gone_on_to = status_->scenario;
+  report.done = sends != world_.steps.end();  // else somebody else opened another exhibit
+  if (report.done && (report.steps.empty() || report.steps.back().name != sends->name))
+    report.steps.push_back({sends->name, 0, true});
+  say(report.name, "gone on to " + status_->scenario);
+}
+
+/// Home, for the next visit: the way that `mechane open` goes.
+void Session::come_back() {
+  status_ = client_.world_status();
+  if (!gone_on()) return;
+  (void)client_.open_exhibit(world_.id);
+  const TimePoint began = clock_.now();
+  while (stop_ == 0 && gone_on() && seconds_since(began) < 5)
+    tick();
+  for (std::size_t i = 0; i < X_WB_.size(); ++i)
+    X_WB_[i] = world_.bodies[i].X_WB;
 }
 
 ActivityReport Session::play(const VisitDescription& visit) {
   ActivityReport report;
   report.name = world_.activities[visit.activity.index()].name;
   report.visit = visit.name;
+  come_back();
   (void)client_.start_activity(report.name);
   step_.clear();
   status_.reset();
@@ -127,12 +165,13 @@ ActivityReport Session::play(const VisitDescription& visit) {
     device_.intend(player.intent());
     tick();
     note_step(report);
+    if (gone_on()) break;
     report.done = status_ && status_->activity == report.name && status_->done;
     if (player.finished() && finished == TimePoint{}) finished = clock_.now();
     if (finished != TimePoint{} && clock_.now() - finished > options_.done_within) break;
   }
   // The script goes on to its end, so that the hand lets go and comes to rest.
-  while (stop_ == 0 && report.done && !player.finished()) {
+  while (stop_ == 0 && report.done && !gone_on() && !player.finished()) {
     player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
     device_.intend(player.intent());
     tick();

@@ -37,6 +37,7 @@ struct ActivityReport {
   std::string visit;  ///< which of its visits
   bool done = false;
   double seconds = 0;
+  std::string gone_on_to;  ///< the scenario that a sign of the visit opened; empty: none
   std::vector<StepTime> steps;
   std::vector<MoveResult> moves;
 };

@@ -23,8 +23,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (TEXTURE, Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials, noise,  # noqa: E402
-                       picture, step, surface, timber, tint, to_blender, tube)
+from modelling import Model, Shape, block, export, lathe, paving, picture, timber, to_blender, tube  # noqa: E402
+from surfaces import TEXTURE, Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 HEARTH_X, HEARTH_Z, BED_Y, MOUTH_TOP, HOB_Y = 0.62, 0.42, 0.40, 0.72, 0.84
 MOUTH = 0.18  # half the mouth's width, and half the opening under the cauldron
@@ -225,7 +225,6 @@ def make_shutter(model):
     shape = Shape()
     for s in (-1, 1):
         y = s * 0.085
-        arc = bend((0.12, y - s * 0.004, 0.050), -math.pi / 2, 0, 0.012, ((0, s, 0), (0, 0, 1)), 6)
         tube(shape, [np.array([0.12, y + s * 0.008, 0.0]), np.array([0.12, y + s * 0.008, 0.045])] + [np.array([0.12, y + s * 0.004, 0.057]), np.array([0.12, y - s * 0.014, 0.062])], 0.007, 12)
         lathe(shape, [(0.0, 0.004), (0.020, 0.004), (0.018, 0.009), (0.0, 0.010)], 18, (0.12, y + s * 0.008, 0), (0, 0, 1), uv_scale=(0.5, 5))
         block(shape, (-w + 0.02, s * 0.13 - 0.014, 0.004), (w - 0.02, s * 0.13 + 0.014, 0.009), 0.0015, 23 + s, 0.0, 0.3)
@@ -328,19 +327,7 @@ def make_place(model, scene):
     model.add("visual_pillar", pillar, ["limestone"], ledge, 42)
     floor = model.group("FLOOR")
     model.add("part_floor", block(Shape(), (-1.54, -0.30, -1.24), (1.72, 0.0, 1.6), 0.01, 28, 0.0, 1.0), ["earth"], floor, 42)
-    rng = np.random.default_rng(131)
-    shape = Shape()
-    z, row = -1.25, 0
-    while z < 1.6:
-        depth = rng.uniform(0.30, 0.44)
-        left = -1.55 + 0.18 * (row % 2)
-        while left < 1.65:
-            width = min(rng.uniform(0.36, 0.64), 1.74 - left)
-            block(shape, (left, -0.10, z), (left + width - 0.008, rng.uniform(0.002, 0.007), z + depth - 0.008), 0.010, int(rng.integers(1000)), 0.0025)
-            left += width
-        z += depth
-        row += 1
-    model.add("visual_flags", shape, ["limestone"], scene, 42)
+    model.add("visual_flags", paving((-1.55, 1.65), (-1.25, 1.6), 1.74, (0.30, 0.44), (0.36, 0.64), (0.002, 0.007)), ["limestone"], scene, 42)
     bed = Shape()
     corners = bed.points([(-1.65, -0.03, -1.32), (-1.65, -0.03, 1.85), (1.80, -0.03, 1.85), (1.80, -0.03, -1.32)])
     bed.face(tuple(corners), ((0, 0), (0, 1.8), (2, 1.8), (2, 0)))

@@ -23,8 +23,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (TEXTURE, WOOD_STRIPS, Model, Shape, Textures, block, export, fractal, frame_of, lathe, material, mix,  # noqa: E402
-                       museum_materials, noise, step, strip_uv, surface, timber, tint, tube)
+from modelling import Model, Shape, block, earth, export, frame_of, lathe, rim, strip_uv, timber, tube  # noqa: E402
+from surfaces import TEXTURE, WOOD_STRIPS, Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 SLOPE = math.radians(37.0)
 BARREL_MIDDLE = np.array([0.0, 0.55, 0.0])
@@ -114,7 +114,7 @@ def make_barrel(model, outer):
         ends = [BARREL_HALF + rng.uniform(-0.004, 0.0), BARREL_HALF + rng.uniform(-0.004, 0.0)]
         strip, flip, shift = int(rng.integers(WOOD_STRIPS)) if s % 2 else (s // 2) % WOOD_STRIPS, s % 3 == 1, rng.uniform(0, 0.3)
         along = [-ends[0], -ends[0] + 0.004] + list(np.linspace(-1.0, 1.0, 9)) + [ends[1] - 0.004, ends[1]]
-        rings, us = [], None
+        rings = []
         for i, z in enumerate(along):
             end = i in (0, len(along) - 1)
             wear = 0.0 if end else rng.normal(0, 0.0005)
@@ -237,7 +237,7 @@ def hull_outline(r0, r1, length, steps=14):
 
 def make_crank(model, inner):
     half, bevel = 0.020, 0.005
-    rings, us = [], None
+    rings = []
     for z, inset in ((-half, bevel), (-half + bevel * 0.35, bevel * 0.3), (-half + bevel, 0), (half - bevel, 0), (half - bevel * 0.35, bevel * 0.3),
                      (half, bevel)):
         rings.append([(x, y, CRANK_Z + z) for x, y in hull_outline(0.052 - inset, 0.032 - inset, CRANK_RADIUS)])
@@ -381,21 +381,12 @@ def make_ground(model, scene):
     xs = np.concatenate([np.linspace(GROUND_X[0], -1.0, 34)[:-1], np.linspace(-1.0, -0.3, 24)[:-1], np.linspace(-0.3, GROUND_X[1], 46)])
     zs = np.linspace(GROUND_Z[0], GROUND_Z[1], 64)
     rng = np.random.default_rng(91)
-    shape = Shape()
     grid = [[(x, bank_height(x, z) + rng.normal(0, 0.0025), z) for z in zs] for x in xs]
-    index = [shape.points(row) for row in grid]
     tile = 1.5
-
-    def uv(i, j):
-        return (grid[i][j][0] / tile + 0.05 * math.sin(grid[i][j][2] * 2), (grid[i][j][2] + 0.6 * grid[i][j][1]) / tile)
-
-    for i in range(len(xs) - 1):
-        for j in range(len(zs) - 1):
-            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)))
+    shape, index = earth(grid, tile, 0.6)
     # The cut sides of the model's base.
     bottom = -0.62
-    edge = [(i, 0) for i in range(len(xs))] + [(len(xs) - 1, j) for j in range(1, len(zs))] + \
-           [(i, len(zs) - 1) for i in range(len(xs) - 2, -1, -1)] + [(0, j) for j in range(len(zs) - 2, 0, -1)]
+    edge = rim(grid)
     top = [index[i][j] for i, j in edge]
     low = shape.points([(grid[i][j][0], bottom, grid[i][j][2]) for i, j in edge])
     run = 0.0

@@ -29,8 +29,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials, noise, picture, step,  # noqa: E402
-                       surface, timber, tint, to_blender, tube)
+from modelling import Model, Shape, block, cut_cube, earth, export, lathe, picture, rod, timber, to_blender, tube, tuft  # noqa: E402
+from surfaces import Textures, fractal, iron_material, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 SPRING_X, SPRING_Z, ARM_Y, ARM = 0.42, -1.76, 1.10, 0.95
 REST, DRAWN, HALF_STRING = 0.12, -0.78, 1.48  # angle of the arms forward of sideways, at rest and drawn
@@ -70,37 +70,16 @@ def sinew():
     return np.clip(colour, 0, 1), 3.0 * cords + 0.8 * fibre
 
 
-def iron():
-    rng = np.random.default_rng(47)
-    shape = (256, 256)
-    broad, fine = fractal(shape, (5, 5), rng, 5, 0.6), fractal(shape, (40, 40), rng, 3, 0.6)
-    rust = step(0.48, 0.66, 0.6 * broad + 0.4 * fine)
-    colour = mix(tint((0.13, 0.125, 0.12), (0.065, 0.06, 0.058), fine), np.array([0.17, 0.075, 0.032])[None, None, :], (0.75 * rust)[..., None])
-    orm = np.dstack([np.ones(shape), np.clip(0.42 + 0.4 * rust + 0.1 * fine, 0, 1), 0.85 - 0.7 * rust])
-    return np.clip(colour, 0, 1), 1.2 * fine + broad, orm
-
-
 def make_materials(textures):
     made = museum_materials(textures)
     made["sinew"] = material("sinew", *surface(textures, "sinew", *sinew(), 0.6), roughness=0.6)
-    colour, height, orm = iron()
-    made["iron"] = material("iron", *surface(textures, "iron", colour, height, 0.6), textures.image("iron_orm", orm, linear=True))
+    made["iron"] = iron_material(textures)
     made["blade"] = material("blade", base=(0.17, 0.20, 0.05, 1), roughness=0.75, two_sided=True)
     made["straw"] = material("straw", base=(0.38, 0.31, 0.13, 1), roughness=0.8, two_sided=True)
     return made
 
 
 # Small shapes --------------------------------------------------------------------------------------------------------------------
-
-
-def rod(shape, start, end, radius, segments=16, tiles=3.0):
-    """A round bar with worn ends."""
-    start, end = np.asarray(start, float), np.asarray(end, float)
-    length = np.linalg.norm(end - start)
-    b = min(0.002, radius / 3)
-    up = (0, 1, 0) if abs(end[1] - start[1]) < 0.9 * length else (0, 0, 1)
-    return lathe(shape, [(0, 0), (radius - b, 0), (radius, b), (radius, length - b), (radius - b, length), (0, length)], segments, start, end - start, up,
-                 uv_scale=(radius * 30, tiles))
 
 
 def hoop(shape, outline, centre, axis, tiles=1):
@@ -420,21 +399,10 @@ def dressed(half, seed, bevel=0.007, hollow=0.004, boss=0.007, tile=0.75):
             seen[key] = shape.points([place])[0]
         return seen[key]
 
-    for axis in range(3):
-        u, v = (axis + 1) % 3, (axis + 2) % 3
-        for sign in (-1.0, 1.0):
-            for i in range(len(cuts[u]) - 1):
-                for j in range(len(cuts[v]) - 1):
-                    corners = []
-                    for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
-                        p = [0.0, 0.0, 0.0]
-                        p[axis], p[u], p[v] = sign, cuts[u][a], cuts[v][b]
-                        corners.append(p)
-                    if sign < 0:
-                        corners.reverse()
-                    flat = [tuple(np.array([c[u] * half[u], c[v] * half[v]]) / tile + offset + 0.37 * axis) for c in corners]
-                    shape.face(tuple(vertex(c, axis) for c in corners), tuple(flat))
-    return shape
+    def uv(c, axis, u, v):
+        return tuple(np.array([c[u] * half[u], c[v] * half[v]]) / tile + offset + 0.37 * axis)
+
+    return cut_cube(shape, cuts, vertex, uv)
 
 
 def make_wall(model):
@@ -469,16 +437,8 @@ def height_at(x, z):
 def make_earth(model, scene):
     xs, zs = np.linspace(-4.1, 4.1, 66), np.linspace(-12.2, 2.8, 116)
     rng = np.random.default_rng(191)
-    shape = Shape()
     grid = [[(x, height_at(x, z) + rng.normal(0, 0.001), z) for z in zs] for x in xs]
-    index = [shape.points(row) for row in grid]
-
-    def uv(i, j):
-        return (grid[i][j][0] / 1.5 + 0.05 * math.sin(grid[i][j][2] * 2), grid[i][j][2] / 1.5)
-
-    for i in range(len(xs) - 1):
-        for j in range(len(zs) - 1):
-            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)))
+    shape, _ = earth(grid)
     model.add("visual_earth", shape, ["earth"], scene, 40)
 
 
@@ -520,16 +480,7 @@ def make_grass(model, scene):
         if abs(x) < 1.15 and rng.random() < 0.93:
             continue
         made += 1
-        for _ in range(7):
-            a, lean, h = rng.uniform(0, 2 * math.pi), rng.uniform(0.05, 0.5), rng.uniform(0.05, 0.16)
-            base = np.array([x + rng.normal(0, 0.03), 0, z + rng.normal(0, 0.03)])
-            base[1] = height_at(base[0], base[2]) - 0.01
-            out, across = np.array([math.cos(a), 0, math.sin(a)]), np.array([-math.sin(a), 0, math.cos(a)])
-            spine = [base + np.array([0, h * t * (1 - 0.25 * lean * t), 0]) + out * (h * lean * t * t) for t in (0, 0.5, 1.0)]
-            i = shape.points([spine[0] - across * 0.003, spine[0] + across * 0.003, spine[1] - across * 0.0022, spine[1] + across * 0.0022, spine[2]])
-            slot, u = int(rng.random() < 0.6), (0.5, 0.5)
-            shape.face((i[0], i[1], i[3], i[2]), (u,) * 4, slot)
-            shape.face((i[2], i[3], i[4]), (u,) * 3, slot)
+        tuft(shape, rng, x, z, height_at)
     model.add("visual_grass", shape, ["blade", "straw"], scene, 60)
 
 

@@ -29,8 +29,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials, noise, picture, step,  # noqa: E402
-                       surface, timber, tint, to_blender, tube)
+from modelling import Model, Shape, block, earth, export, lathe, picture, rod, skirt, timber, to_blender, tube, tuft  # noqa: E402
+from surfaces import Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 ARROW_Y, CLAW_START, CLAW_HOME, CLAW_DRAWN = 1.03, 0.10, -0.15, 0.30
 FLOOR, RAIL_TOP, HALF_WIDTH = 0.962, 0.983, 0.052  # of the groove; of its rails; of the stock
@@ -89,16 +89,6 @@ def make_materials(textures):
 
 
 # Small shapes --------------------------------------------------------------------------------------------------------------------
-
-
-def rod(shape, start, end, radius, segments=16, tiles=3.0):
-    """A round bar with worn ends."""
-    start, end = np.asarray(start, float), np.asarray(end, float)
-    length = np.linalg.norm(end - start)
-    b = min(0.002, radius / 3)
-    up = (0, 1, 0) if abs(end[1] - start[1]) < 0.9 * length else (0, 0, 1)
-    return lathe(shape, [(0, 0), (radius - b, 0), (radius, b), (radius, length - b), (radius - b, length), (0, length)], segments, start, end - start, up,
-                 uv_scale=(max(0.3, radius * 30), tiles))
 
 
 def binding(shape, centre, direction, half_u, half_v, u, turns, pitch=0.0085, radius=0.0042, seed=0):
@@ -169,19 +159,19 @@ def make_frame(model):
         low, high = sorted((s * (HALF_WIDTH + 0.003), s * (HALF_WIDTH + 0.031)))
         model.add(f"part_cheek_{k}", box(Shape(), (low, 0.845, 0.47), (high, 0.972, 0.865), 0.008, 15 + k, 0.001), ["planks"], frame)
     model.add("part_post", box(Shape(), (-0.06, 0.05, 0.10), (0.06, 0.835, 0.22), 0.010, 21, 0.002), ["planks"], frame)
-    floor, inlay, bronze, cord, rope, wood = Shape(), Shape(), Shape(), Shape(), Shape(), Shape()
+    floor, bronze, cord, rope, wood = Shape(), Shape(), Shape(), Shape(), Shape()
     for k, s in enumerate((-1, 1)):
         low, high = sorted((s * 0.011, s * 0.032))
         box(floor, (low, 0.918, -0.255), (high, FLOOR, 0.62), 0.002, 17 + k)
         make_rack(bronze, s)
         for z in (0.52, 0.60):  # bolts through cheeks and stock, bushes of the axle
-            rod(bronze, (s * 0.020, 0.876, z), (s * (HALF_WIDTH + 0.038), 0.876, z), 0.008)
+            rod(bronze, (s * 0.020, 0.876, z), (s * (HALF_WIDTH + 0.038), 0.876, z), 0.008, least_u=0.3)
         x = s * (HALF_WIDTH + 0.033)
         lathe(bronze, [(0.0135, -0.004), (0.026, -0.004), (0.027, 0), (0.026, 0.004), (0.0135, 0.004), (0.0135, -0.004)], 32, (x, AXLE[1], AXLE[2]), (1, 0, 0), uv_scale=(1, 5))
     rod(wood, (-0.088, 0.885, 0.835), (0.088, 0.885, 0.835), 0.013)
     model.add("visual_floor", floor, ["timber"], frame)
     # The rope of the winch, as far as it is always the same: the rest lies under the slider.
-    rod(rope, (0, 0.950, CLAW_DRAWN - 0.36), (0, 0.950, AXLE[2]), ROPE_RADIUS, 10, 9)
+    rod(rope, (0, 0.950, CLAW_DRAWN - 0.36), (0, 0.950, AXLE[2]), ROPE_RADIUS, 10, 9, least_u=0.3)
     model.add("visual_rope", rope, ["hemp"], frame, 60)
     make_middle(model, frame, cord, bronze)
     make_base(model, frame, cord, bronze)
@@ -259,9 +249,9 @@ def make_slider(model):
               lambda t: (mix(0.0060, 0.0032, t), 0.0035), 10)
         pin, tip = np.array([s * 0.0415, -0.012, 0.034]), np.array([s * 0.0415, RAIL_TOP + 0.006 - ARROW_Y, PAWL_TIP + 0.002])
         timber(bronze, pin + (pin - tip) * 0.12, tip, 0.011, 0.011, bevel=0.002, seed=7, rough=0, taper=0.7)
-    rod(bronze, (-0.047, -0.012, 0.034), (0.047, -0.012, 0.034), 0.0055)
-    rod(bronze, (-0.021, 0.015, 0.045), (0.021, 0.015, 0.045), 0.0045)
-    rod(bronze, (0.020, PIVOT[1] - ARROW_Y, 0.035), (0.096, PIVOT[1] - ARROW_Y, 0.035), 0.0055)
+    rod(bronze, (-0.047, -0.012, 0.034), (0.047, -0.012, 0.034), 0.0055, least_u=0.3)
+    rod(bronze, (-0.021, 0.015, 0.045), (0.021, 0.015, 0.045), 0.0045, least_u=0.3)
+    rod(bronze, (0.020, PIVOT[1] - ARROW_Y, 0.035), (0.096, PIVOT[1] - ARROW_Y, 0.035), 0.0055, least_u=0.3)
     lathe(bronze, [(0.0165, -0.0005), (0.026, -0.0005), (0.026, 0.0035), (0.0165, 0.0035)], 28, (0, -0.008, 0.20), (0, 1, 0), (0, 0, 1), uv_scale=(1, 5))
     for z in (-0.40, 0.275):
         box(bronze, (-0.0305, -0.0100, z - 0.009), (0.0305, -0.0055, z + 0.009), 0.0015, 3)
@@ -298,7 +288,7 @@ def make_drum(model):
              (0.0150, 0.6), (0.0141, 0.85), (0.0143, 0.92), (0.0130, 0.97), (0.0100, 1.0), (0.0, 1.0)]
     grip = lathe(Shape(), [(r, GRIP_X + t * GRIP_LENGTH / 2) for r, t in swell], 36, (0, 0, CRANK_RADIUS), **x_axis, uv_scale=(0.115, 1.2), uv_offset=(0.13, 0.3))
     model.add("part_grip", grip, ["grip"], drum, 45)
-    rod(fittings, (ARM_X - 0.022, 0, CRANK_RADIUS), (GRIP_X + GRIP_LENGTH / 2 + 0.006, 0, CRANK_RADIUS), 0.0065)
+    rod(fittings, (ARM_X - 0.022, 0, CRANK_RADIUS), (GRIP_X + GRIP_LENGTH / 2 + 0.006, 0, CRANK_RADIUS), 0.0065, least_u=0.3)
     for z, r in ((0.0, 0.026), (CRANK_RADIUS, 0.019)):
         for x in (ARM_X - 0.021, ARM_X + 0.017):
             lathe(fittings, [(0.006, x), (r, x), (r + 0.001, x + 0.001), (r, x + 0.004), (0.006, x + 0.004)], 28, (0, 0, z), **x_axis, uv_scale=(1, 5))
@@ -407,24 +397,9 @@ def make_ground(model, scene):
     model.add("part_slab", box(Shape(), (-1.3, -0.12, -1.4), (1.3, 0.0, 1.5), 0.01, 91), ["earth"], slab)
     xs, zs = np.linspace(-7.2, 7.2, 90), np.concatenate([np.linspace(-20.2, -2.0, 90), np.linspace(-1.85, 4.6, 44)])
     rng = np.random.default_rng(191)
-    shape = Shape()
     grid = [[(x, height_at(x, z) + abs(rng.normal(0, 0.002)), z) for z in zs] for x in xs]
-    index = [shape.points(row) for row in grid]
-
-    def uv(i, j):
-        return (grid[i][j][0] / 1.6 + 0.05 * math.sin(grid[i][j][2] * 2), grid[i][j][2] / 1.6)
-
-    for i in range(len(xs) - 1):
-        for j in range(len(zs) - 1):
-            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)))
-    edge = [(i, 0) for i in range(len(xs))] + [(len(xs) - 1, j) for j in range(1, len(zs))] + [(i, len(zs) - 1) for i in range(len(xs) - 2, -1, -1)] + \
-           [(0, j) for j in range(len(zs) - 2, 0, -1)]
-    top = [index[i][j] for i, j in edge]
-    low = shape.points([(grid[i][j][0], -0.30, grid[i][j][2]) for i, j in edge])
-    for k in range(len(edge)):
-        n = (k + 1) % len(edge)
-        a, b = k * 0.05, (k + 1) * 0.05
-        shape.face((top[k], top[n], low[n], low[k]), ((a, 0.15), (b, 0.15), (b, 0), (a, 0)))
+    shape, index = earth(grid, 1.6)
+    skirt(shape, grid, index, -0.30)
     model.add("visual_ground", shape, ["earth"], scene, 40)
 
 
@@ -464,16 +439,7 @@ def make_grass(model, scene):
         if (abs(x) < 0.9 and -0.8 < z < 1.5) or (abs(x) < 0.7 and rng.random() < 0.75) or z < -17.1 or height_at(x, z) < -0.03:
             continue
         made += 1
-        for _ in range(7):
-            a, lean, h = rng.uniform(0, 2 * math.pi), rng.uniform(0.05, 0.5), rng.uniform(0.05, 0.16)
-            base = np.array([x + rng.normal(0, 0.04), 0, z + rng.normal(0, 0.04)])
-            base[1] = height_at(base[0], base[2]) - 0.01
-            out, across = np.array([math.cos(a), 0, math.sin(a)]), np.array([-math.sin(a), 0, math.cos(a)])
-            spine = [base + np.array([0, h * t * (1 - 0.25 * lean * t), 0]) + out * (h * lean * t * t) for t in (0, 0.5, 1.0)]
-            i = shape.points([spine[0] - across * 0.003, spine[0] + across * 0.003, spine[1] - across * 0.0022, spine[1] + across * 0.0022, spine[2]])
-            slot, u = int(rng.random() < 0.55), (0.5, 0.5)
-            shape.face((i[0], i[1], i[3], i[2]), (u,) * 4, slot)
-            shape.face((i[2], i[3], i[4]), (u,) * 3, slot)
+        tuft(shape, rng, x, z, height_at, spread=0.04, dry=0.55)
     model.add("visual_grass", shape, ["blade", "hay"], scene, 60)
 
 

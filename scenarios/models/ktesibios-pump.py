@@ -25,8 +25,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (TEXTURE, WOOD_STRIPS, Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials,  # noqa: E402
-                       noise, normal_map, picture, shell, step, strip_uv, surface, timber, tint, to_blender, tube)
+from modelling import Model, Shape, block, export, lathe, paving, picture, shell, strip_uv, timber, to_blender, tube  # noqa: E402
+from surfaces import TEXTURE, WOOD_STRIPS, Textures, fractal, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 
 BORE, WALL = 0.050, 0.009  # radius of the bore; thickness of the bronze
 CYLINDER_X, CYLINDER_Y, CYLINDER_HEIGHT = 0.22, 0.12, 0.36
@@ -473,19 +473,7 @@ def make_tub(model, scene):
 
 def make_floor(model, scene):
     """Flagstones, no two alike."""
-    rng = np.random.default_rng(131)
-    shape = Shape()
-    z, row = -1.25, 0
-    while z < 1.0:
-        depth = rng.uniform(0.30, 0.42)
-        x = -1.35 + 0.18 * (row % 2)
-        while x < 1.35:
-            width = min(rng.uniform(0.34, 0.62), 1.42 - x)
-            block(shape, (x, -0.10, z), (x + width - 0.008, -0.018 + rng.uniform(-0.003, 0.003), z + depth - 0.008), 0.010, int(rng.integers(1000)), 0.0025)
-            x += width
-        z += depth
-        row += 1
-    model.add("visual_flags", shape, ["limestone"], scene, 42)
+    model.add("visual_flags", paving((-1.35, 1.35), (-1.25, 1.0), 1.42, (0.30, 0.42), (0.34, 0.62), (-0.003, 0.003), -0.018), ["limestone"], scene, 42)
     bed = Shape()
     corners = bed.points([(-1.45, -0.045, -1.30), (-1.45, -0.045, 1.12), (1.50, -0.045, 1.12), (1.50, -0.045, -1.30)])
     bed.face(tuple(corners), ((0, 0), (0, 1.6), (2, 1.6), (2, 0)))

@@ -1,4 +1,4 @@
-"""What the models of the museum share: textures that numpy makes, materials, and shapes with uvs, in metres and glTF's axes (y up).
+"""What the models of the museum share beside their surfaces: shapes with uvs, a model and its export, in metres and glTF's axes (y up).
 
 A model's script lies beside this file; Blender does not look there of itself, so it begins with
 
@@ -12,246 +12,11 @@ import os
 import bpy
 import numpy as np
 
-TEXTURE = 1024
+from surfaces import WOOD_STRIPS, mix
 
 
 def to_blender(p):
     return (p[0], -p[2], p[1])
-
-
-# Textures ------------------------------------------------------------------------------------------------------------------------
-
-
-def noise(shape, cells, rng):
-    """Smooth random values in 0..1 on a grid of `cells`, periodic both ways."""
-    lattice = rng.random(cells)
-    result = np.zeros(shape)
-    places = []
-    for size, count in zip(shape, cells):
-        at = np.arange(size) * count / size
-        low = np.floor(at).astype(int)
-        f = at - low
-        places.append((low % count, (low + 1) % count, f * f * (3 - 2 * f)))
-    (y0, y1, fy), (x0, x1, fx) = places
-    fy = fy[:, None]
-    result = (lattice[np.ix_(y0, x0)] * (1 - fx) + lattice[np.ix_(y0, x1)] * fx) * (1 - fy)
-    result += (lattice[np.ix_(y1, x0)] * (1 - fx) + lattice[np.ix_(y1, x1)] * fx) * fy
-    return result
-
-
-def fractal(shape, cells, rng, octaves=5, gain=0.5):
-    total, weight, amplitude = np.zeros(shape), 0.0, 1.0
-    for octave in range(octaves):
-        count = tuple(min(c * 2**octave, s) for c, s in zip(cells, shape))
-        total += amplitude * noise(shape, count, rng)
-        weight += amplitude
-        amplitude *= gain
-    return total / weight
-
-
-def mix(a, b, t):
-    return a + (b - a) * t
-
-
-def step(low, high, x):
-    t = np.clip((x - low) / (high - low), 0, 1)
-    return t * t * (3 - 2 * t)
-
-
-def tint(a, b, t):
-    return mix(np.array(a)[None, None, :], np.array(b)[None, None, :], t[..., None])
-
-
-def normal_map(height, strength):
-    """Tangent-space normals of a periodic height, green towards larger v."""
-    du = (np.roll(height, -1, 1) - np.roll(height, 1, 1)) * strength
-    dv = (np.roll(height, -1, 0) - np.roll(height, 1, 0)) * strength
-    n = np.dstack([-du, -dv, np.ones_like(height)])
-    n /= np.linalg.norm(n, axis=2, keepdims=True)
-    return n * 0.5 + 0.5
-
-
-WOOD_STRIPS = 8
-
-
-def wood_strip(shape, rng, width_m, length_m, ring_m):
-    """One plank: (ring darkness, fibre, crack and knot darkness), each 0..1. Rings of a log cut off its middle."""
-    rows, columns = shape
-    x = (np.arange(columns) / columns - 0.5)[None, :] * width_m
-    y = (np.arange(rows) / rows)[:, None] * length_m
-    wander = (fractal(shape, (5, 1), rng, 4) - 0.5) * 0.022 + (fractal(shape, (24, 3), rng, 3) - 0.5) * 0.003
-    centre, depth = rng.uniform(-0.05, 0.05), rng.uniform(0.012, 0.06)
-    radius = np.sqrt((x - centre + wander) ** 2 + depth**2)
-    knots = np.zeros(shape)
-    for _ in range(rng.integers(1, 4)):
-        kx, ky, size = rng.uniform(-0.4, 0.4) * width_m, rng.uniform(0.05, 0.95) * length_m, rng.uniform(0.004, 0.010)
-        d2 = ((x - kx) / size) ** 2 + ((y - ky) / (1.8 * size)) ** 2
-        radius = radius + 0.012 * np.exp(-d2 / 6)
-        knots = np.maximum(knots, np.exp(-d2))
-    rings = np.mod(radius / ring_m + (fractal(shape, (30, 2), rng, 2) - 0.5) * 0.4, 1.0)
-    late = step(0.25, 0.92, rings) * (1 - step(0.92, 1.0, rings))
-    fibre = 0.6 * noise(shape, (14, columns // 2), rng) + 0.4 * noise(shape, (50, columns // 3), rng)
-    crack_line = noise(shape, (3, columns // 5), rng) * noise(shape, (7, columns // 3), rng)
-    cracks = step(0.74, 0.84, crack_line)
-    return late, fibre, np.maximum(cracks, 0.9 * knots)
-
-
-def wood(seed, light, dark, weathered, weathering, ring_m=0.0042):
-    """An atlas of planks side by side, grain along v. Returns colour and height."""
-    rng = np.random.default_rng(seed)
-    colours, heights = [], []
-    columns = TEXTURE // WOOD_STRIPS
-    for _ in range(WOOD_STRIPS):
-        shape = (TEXTURE, columns)
-        late, fibre, marks = wood_strip(shape, rng, 0.075, 2.3, ring_m)
-        tone = np.clip(0.62 * late + 0.35 * (fibre - 0.5) + 0.12, 0, 1)
-        colour = tint(light, dark, tone)
-        grey = weathering * step(0.35, 0.75, fractal(shape, (6, 2), rng, 4)) * (0.65 + 0.35 * fibre)
-        colour = mix(colour, np.array(weathered)[None, None, :] * (0.75 + 0.5 * fibre[..., None]), grey[..., None])
-        colour *= rng.uniform(0.84, 1.12) * (1 - 0.72 * marks[..., None])
-        u = (np.arange(columns) + 0.5) / columns
-        edge = 1 - 0.35 * np.maximum(np.exp(-u / 0.05), np.exp(-(1 - u) / 0.05))
-        colours.append(colour * edge[None, :, None])
-        heights.append(-0.30 * late - 0.45 * (1 - fibre) - 1.3 * marks)
-    return np.clip(np.concatenate(colours, 1), 0, 1), np.concatenate(heights, 1)
-
-
-def stone():
-    rng = np.random.default_rng(41)
-    shape = (TEXTURE, TEXTURE)
-    broad, fine = fractal(shape, (3, 3), rng, 6, 0.55), fractal(shape, (48, 48), rng, 4, 0.6)
-    pits = step(0.63, 0.78, fractal(shape, (40, 40), rng, 3)) * step(0.4, 0.6, broad)
-    bedding = noise(shape, (26, 2), rng)
-    colour = tint((0.50, 0.44, 0.345), (0.33, 0.28, 0.205), np.clip(1.6 * broad - 0.4 + 0.25 * (bedding - 0.5), 0, 1))
-    colour *= (0.82 + 0.32 * fine)[..., None] * (1 - 0.5 * pits)[..., None]
-    lichen = step(0.60, 0.70, fractal(shape, (9, 9), rng, 5, 0.6)) * 0.45
-    colour = mix(colour, np.array([0.30, 0.29, 0.19])[None, None, :], lichen[..., None])
-    chisel = np.sin((np.arange(TEXTURE)[:, None] + np.arange(TEXTURE)[None, :]) * 2 * math.pi * 24 / TEXTURE + 6 * broad)
-    height = 1.6 * fine + 2.0 * broad - 2.2 * pits + 0.10 * chisel
-    return np.clip(colour, 0, 1), height
-
-
-def ground():
-    rng = np.random.default_rng(51)
-    shape = (TEXTURE, TEXTURE)
-    broad, grit = fractal(shape, (4, 4), rng, 6, 0.55), fractal(shape, (90, 90), rng, 3, 0.7)
-    crumbs = fractal(shape, (28, 28), rng, 4, 0.6)
-    colour = tint((0.315, 0.235, 0.145), (0.185, 0.13, 0.078), np.clip(1.8 * broad - 0.4, 0, 1))
-    colour *= (0.62 + 0.5 * grit + 0.3 * crumbs)[..., None]
-    grass = step(0.50, 0.66, fractal(shape, (6, 6), rng, 6, 0.62)) * (0.35 + 0.65 * grit)
-    colour = mix(colour, np.array([0.165, 0.185, 0.055])[None, None, :] * (0.6 + 0.9 * grit[..., None]), 0.8 * grass[..., None])
-    lie = fractal(shape, (5, 5), rng, 2) > 0.5
-    straw = np.where(lie, step(0.78, 0.86, noise(shape, (50, 300), rng)), step(0.78, 0.86, noise(shape, (300, 50), rng)))
-    colour = mix(colour, np.array([0.52, 0.43, 0.25])[None, None, :], np.clip(0.35 * straw, 0, 0.5)[..., None])
-    return np.clip(colour, 0, 1), 2.4 * crumbs + 1.6 * grit + 0.8 * grass
-
-
-def bronze():
-    rng = np.random.default_rng(61)
-    shape = (512, 512)
-    broad, fine = fractal(shape, (4, 4), rng, 6, 0.6), fractal(shape, (40, 40), rng, 4, 0.6)
-    patina = step(0.54, 0.68, 0.7 * broad + 0.3 * fine)
-    colour = tint((0.80, 0.52, 0.24), (0.42, 0.245, 0.115), np.clip(1.7 * broad - 0.4, 0, 1))
-    colour = mix(colour, np.array([0.21, 0.27, 0.20])[None, None, :], (0.55 * patina)[..., None])
-    rough, metal = np.clip(0.30 + 0.20 * fine + 0.35 * patina, 0, 1), 1 - 0.45 * patina
-    return np.clip(colour, 0, 1), np.dstack([np.ones(shape), rough, metal])
-
-
-def rope():
-    shape = (256, 256)
-    rng = np.random.default_rng(71)
-    v, u = np.mgrid[0:256, 0:256] / 256
-    strand = np.abs(np.sin(math.pi * (3 * u + 8 * v)))
-    fibre = noise(shape, (100, 60), rng)
-    colour = tint((0.20, 0.14, 0.075), (0.56, 0.44, 0.27), np.clip(strand * (0.7 + 0.5 * fibre), 0, 1))
-    return np.clip(colour, 0, 1), 3.0 * strand + 0.6 * fibre
-
-
-class Textures:
-    """Writes arrays to JPEG files of a temporary folder and gives them to Blender, which copies their bytes into the glb."""
-
-    def __init__(self, folder):
-        self.folder = folder
-
-    def image(self, name, rgb, linear=False, quality=86):
-        """`rgb` is what the file shall hold for data, and linear light for colour."""
-        value = rgb if linear else np.where(rgb <= 0.0031308, 12.92 * rgb, 1.055 * np.power(np.maximum(rgb, 1e-9), 1 / 2.4) - 0.055)
-        height, width, _ = rgb.shape
-        made = bpy.data.images.new(name, width, height)
-        made.colorspace_settings.name = "Non-Color"  # the numbers go to the file as they are
-        made.pixels.foreach_set(np.dstack([value, np.ones((height, width))]).astype(np.float32).ravel())
-        scene = bpy.context.scene
-        scene.view_settings.view_transform = "Raw"
-        scene.render.image_settings.file_format = "JPEG"
-        scene.render.image_settings.quality = quality
-        path = os.path.join(self.folder, name + ".jpg")
-        made.save_render(path, scene=scene)
-        bpy.data.images.remove(made)
-        loaded = bpy.data.images.load(path)
-        loaded.name = name
-        loaded.colorspace_settings.name = "Non-Color" if linear else "sRGB"
-        return loaded
-
-
-def material(name, colour=None, normal=None, orm=None, base=(1, 1, 1, 1), roughness=0.7, metallic=0.0, two_sided=False):
-    made = bpy.data.materials.new(name)
-    made.use_nodes = True
-    made.use_backface_culling = not two_sided
-    nodes, links = made.node_tree.nodes, made.node_tree.links
-    shader = nodes["Principled BSDF"]
-    shader.inputs["Base Color"].default_value = base
-    shader.inputs["Roughness"].default_value = roughness
-    shader.inputs["Metallic"].default_value = metallic
-    if base[3] < 1:
-        shader.inputs["Alpha"].default_value = base[3]
-        made.blend_method = "BLEND"
-
-    def texture(image):
-        node = nodes.new("ShaderNodeTexImage")
-        node.image = image
-        return node.outputs["Color"]
-
-    if colour:
-        links.new(texture(colour), shader.inputs["Base Color"])
-    if normal:
-        node = nodes.new("ShaderNodeNormalMap")
-        links.new(texture(normal), node.inputs["Color"])
-        links.new(node.outputs["Normal"], shader.inputs["Normal"])
-    if orm:
-        node = nodes.new("ShaderNodeSeparateColor")
-        links.new(texture(orm), node.inputs["Color"])
-        links.new(node.outputs["Green"], shader.inputs["Roughness"])
-        links.new(node.outputs["Blue"], shader.inputs["Metallic"])
-    return made
-
-
-def surface(textures, name, colour, height, strength):
-    """Colour and normals as two images."""
-    return textures.image(name, colour), textures.image(name + "_normal", normal_map(height, strength), linear=True, quality=82)
-
-
-def museum_materials(textures):
-    """Those that any of the models may use. Blender leaves out of the file what none of its meshes has."""
-    barrel = surface(textures, "planks", *wood(11, (0.40, 0.255, 0.135), (0.19, 0.105, 0.048), (0.33, 0.285, 0.235), 0.75), 0.55)
-    core = surface(textures, "timber", *wood(21, (0.52, 0.325, 0.155), (0.27, 0.145, 0.060), (0.45, 0.34, 0.22), 0.25, 0.0055), 0.40)
-    limestone = surface(textures, "limestone", *stone(), 0.9)
-    earth = surface(textures, "earth", *ground(), 0.8)
-    bronze_colour, bronze_orm = bronze()
-    hemp = surface(textures, "hemp", *rope(), 0.5)
-    return {
-        "planks": material("planks", *barrel, roughness=0.78),
-        "timber": material("timber", *core, roughness=0.62),
-        "grip": material("grip", core[0], roughness=0.38),
-        "bronze": material("bronze", textures.image("bronze", bronze_colour), None, textures.image("bronze_orm", bronze_orm, linear=True)),
-        "limestone": material("limestone", *limestone, roughness=0.85),
-        "earth": material("earth", *earth, roughness=0.95),
-        "hemp": material("hemp", *hemp, roughness=0.9),
-        "terracotta": material("terracotta", base=(0.46, 0.17, 0.075, 1), roughness=0.72),
-        "water": material("water", base=(0.045, 0.10, 0.095, 0.72), roughness=0.06, two_sided=True),
-    }
-
-
-# Shapes --------------------------------------------------------------------------------------------------------------------------
 
 
 class Shape:
@@ -455,27 +220,9 @@ def tube(shape, path, radius, sides=7, slot=0, closed=False, v_scale=6.0):
     return shape
 
 
-def block(shape, low, high, bevel=0.012, seed=0, rough=0.004, tile=1.4, slot=0):
-    """A dressed stone: a box with worn edges, uv by the direction that each face looks to."""
-    rng = np.random.default_rng(2000 + seed)
-    low, high = np.asarray(low, float), np.asarray(high, float)
-    centre, half = (low + high) / 2, (high - low) / 2
-    cuts = [[-1.0, -1 + bevel / h] + list(np.linspace(-1, 1, max(3, int(h * 2 / 0.14)))[1:-1]) + [1 - bevel / h, 1.0] for h in half]
-    offset = rng.uniform(0, 1, 2)
-    seen = {}
-
-    def vertex(p):
-        key = tuple(np.round(p, 6))
-        if key not in seen:
-            q = np.array(p) * half
-            inner = np.clip(q, -half + bevel, half - bevel)
-            out = q - inner
-            length = np.linalg.norm(out)
-            place = inner + out / length * bevel if length > 0 else q
-            place = place + np.sin(place * 9.1 + seed) * rough + rng.normal(0, rough * 0.35, 3)
-            seen[key] = shape.points([centre + place])[0]
-        return seen[key]
-
+def cut_cube(shape, cuts, vertex, uv, slot=0):
+    """A cube from -1 to 1 whose faces are cut along each axis; vertex(corner, axis of the face) places a corner and gives its index,
+    uv(corner, axis, the face's own two axes) its place in the texture."""
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
         for sign in (-1.0, 1.0):
@@ -488,9 +235,108 @@ def block(shape, low, high, bevel=0.012, seed=0, rough=0.004, tile=1.4, slot=0):
                         corners.append(p)
                     if sign < 0:
                         corners.reverse()
-                    flat = [tuple((np.array([c[u] * half[u], c[v] * half[v]]) + centre[[u, v]]) / tile + offset) for c in corners]
-                    shape.face(tuple(vertex(c) for c in corners), tuple(flat), slot)
+                    shape.face(tuple(vertex(c, axis) for c in corners), tuple(uv(c, axis, u, v) for c in corners), slot)
     return shape
+
+
+def block(shape, low, high, bevel=0.012, seed=0, rough=0.004, tile=1.4, slot=0):
+    """A dressed stone: a box with worn edges, uv by the direction that each face looks to."""
+    rng = np.random.default_rng(2000 + seed)
+    low, high = np.asarray(low, float), np.asarray(high, float)
+    centre, half = (low + high) / 2, (high - low) / 2
+    cuts = [[-1.0, -1 + bevel / h] + list(np.linspace(-1, 1, max(3, int(h * 2 / 0.14)))[1:-1]) + [1 - bevel / h, 1.0] for h in half]
+    offset = rng.uniform(0, 1, 2)
+    seen = {}
+
+    def vertex(p, _axis):
+        key = tuple(np.round(p, 6))
+        if key not in seen:
+            q = np.array(p) * half
+            inner = np.clip(q, -half + bevel, half - bevel)
+            out = q - inner
+            length = np.linalg.norm(out)
+            place = inner + out / length * bevel if length > 0 else q
+            place = place + np.sin(place * 9.1 + seed) * rough + rng.normal(0, rough * 0.35, 3)
+            seen[key] = shape.points([centre + place])[0]
+        return seen[key]
+
+    def uv(c, axis, u, v):
+        return tuple((np.array([c[u] * half[u], c[v] * half[v]]) + centre[[u, v]]) / tile + offset)
+
+    return cut_cube(shape, cuts, vertex, uv, slot)
+
+
+def paving(x_range, z_range, edge, depths, widths, tops, level=0.0):
+    """Flagstones, no two alike, in rows along x that begin within z_range; none ends beyond the edge. Tops are about the level."""
+    rng = np.random.default_rng(131)
+    shape = Shape()
+    z, row = z_range[0], 0
+    while z < z_range[1]:
+        depth = rng.uniform(*depths)
+        left = x_range[0] + 0.18 * (row % 2)
+        while left < x_range[1]:
+            width = min(rng.uniform(*widths), edge - left)
+            block(shape, (left, -0.10, z), (left + width - 0.008, level + rng.uniform(*tops), z + depth - 0.008), 0.010, int(rng.integers(1000)), 0.0025)
+            left += width
+        z += depth
+        row += 1
+    return shape
+
+
+def rod(shape, start, end, radius, segments=16, tiles=3.0, least_u=0.0):
+    """A round bar with worn ends; a thin one may ask for the least width of texture round it."""
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    length = np.linalg.norm(end - start)
+    b = min(0.002, radius / 3)
+    up = (0, 1, 0) if abs(end[1] - start[1]) < 0.9 * length else (0, 0, 1)
+    return lathe(shape, [(0, 0), (radius - b, 0), (radius, b), (radius, length - b), (radius - b, length), (0, length)], segments, start, end - start, up,
+                 uv_scale=(max(least_u, radius * 30), tiles))
+
+
+def earth(grid, tile=1.5, lean=0.0):
+    """Ground through a grid of points, rows along x of points along z; with the grid's vertices. On a slope `lean` of its height goes into v."""
+    shape = Shape()
+    index = [shape.points(row) for row in grid]
+
+    def uv(i, j):
+        return (grid[i][j][0] / tile + 0.05 * math.sin(grid[i][j][2] * 2), (grid[i][j][2] + lean * grid[i][j][1]) / tile)
+
+    for i in range(len(grid) - 1):
+        for j in range(len(grid[0]) - 1):
+            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)))
+    return shape, index
+
+
+def rim(grid):
+    """The indices round the grid's edge."""
+    rows, columns = len(grid), len(grid[0])
+    return [(i, 0) for i in range(rows)] + [(rows - 1, j) for j in range(1, columns)] + [(i, columns - 1) for i in range(rows - 2, -1, -1)] + \
+           [(0, j) for j in range(columns - 2, 0, -1)]
+
+
+def skirt(shape, grid, index, foot):
+    """The cut sides of earth, down to `foot`."""
+    edge = rim(grid)
+    top = [index[i][j] for i, j in edge]
+    low = shape.points([(grid[i][j][0], foot, grid[i][j][2]) for i, j in edge])
+    for k in range(len(edge)):
+        n = (k + 1) % len(edge)
+        a, b = k * 0.05, (k + 1) * 0.05
+        shape.face((top[k], top[n], low[n], low[k]), ((a, 0.15), (b, 0.15), (b, 0), (a, 0)))
+
+
+def tuft(shape, rng, x, z, height_at, blades=7, spread=0.03, tallest=0.16, dry=0.6):
+    """Blades of grass about a place; that share of them has the second material."""
+    for _ in range(blades):
+        a, lean, h = rng.uniform(0, 2 * math.pi), rng.uniform(0.05, 0.5), rng.uniform(0.05, tallest)
+        base = np.array([x + rng.normal(0, spread), 0, z + rng.normal(0, spread)])
+        base[1] = height_at(base[0], base[2]) - 0.01
+        out, across = np.array([math.cos(a), 0, math.sin(a)]), np.array([-math.sin(a), 0, math.cos(a)])
+        spine = [base + np.array([0, h * t * (1 - 0.25 * lean * t), 0]) + out * (h * lean * t * t) for t in (0, 0.5, 1.0)]
+        i = shape.points([spine[0] - across * 0.003, spine[0] + across * 0.003, spine[1] - across * 0.0022, spine[1] + across * 0.0022, spine[2]])
+        slot, u = int(rng.random() < dry), (0.5, 0.5)
+        shape.face((i[0], i[1], i[3], i[2]), (u,) * 4, slot)
+        shape.face((i[2], i[3], i[4]), (u,) * 3, slot)
 
 
 class Model:

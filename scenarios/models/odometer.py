@@ -27,8 +27,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, export, lathe, material, mix, museum_materials, picture, shell, strip_uv,  # noqa: E402
-                       timber, to_blender, tube)
+from modelling import Model, Shape, block, export, lathe, paving, picture, shell, strip_uv, timber, to_blender, tube  # noqa: E402
+from surfaces import Textures, material, mix, museum_materials  # noqa: E402
 
 WHEEL_R, WHEEL_Y, WHEEL_Z = 0.592, 0.66, 0.10  # four feet across
 SPOKES, GRIP_R, GRIP_ANGLE, GRIP_Z = 10, 0.30, math.radians(54), 0.11  # the grip stands on a spoke; GRIP_Z: its middle
@@ -522,19 +522,7 @@ def make_place(model, scene):
     """Flagstones, no two alike, and what things fall on."""
     floor = model.group("FLOOR")
     model.add("part_floor", block(Shape(), (-1.66, -0.30, -1.8), (2.2, 0.0, 1.5), 0.01, 28, 0.0, 1.0), ["earth"], floor, 42)
-    rng = np.random.default_rng(131)
-    shape = Shape()
-    z, row = -1.80, 0
-    while z < 1.45:
-        depth = rng.uniform(0.32, 0.46)
-        left = -1.68 + 0.18 * (row % 2)
-        while left < 2.12:
-            width = min(rng.uniform(0.40, 0.70), 2.22 - left)
-            block(shape, (left, -0.10, z), (left + width - 0.008, rng.uniform(0.002, 0.007), z + depth - 0.008), 0.010, int(rng.integers(1000)), 0.0025)
-            left += width
-        z += depth
-        row += 1
-    model.add("visual_flags", shape, ["limestone"], scene, 42)
+    model.add("visual_flags", paving((-1.68, 2.12), (-1.80, 1.45), 2.22, (0.32, 0.46), (0.40, 0.70), (0.002, 0.007)), ["limestone"], scene, 42)
     bed = Shape()
     corners = bed.points([(-1.82, -0.03, -1.95), (-1.82, -0.03, 1.75), (2.35, -0.03, 1.75), (2.35, -0.03, -1.95)])
     bed.face(tuple(corners), ((0, 0), (0, 2.2), (2.4, 2.2), (2.4, 0)))

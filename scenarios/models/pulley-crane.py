@@ -24,8 +24,8 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from modelling import (Model, Shape, Textures, block, export, fractal, lathe, material, mix, museum_materials, picture, step,  # noqa: E402
-                       stone, surface, timber, tint, to_blender, tube)
+from modelling import Model, Shape, block, earth, export, lathe, picture, rod, skirt, timber, to_blender, tube, tuft  # noqa: E402
+from surfaces import Textures, fractal, iron_material, material, mix, museum_materials, step, surface, tint  # noqa: E402
 
 AXLE = np.array([0.30, 0.80, 0.0])
 DRUM_RADIUS, ROPE_RADIUS = 0.052, 0.008  # the rope's middle is 0.060 m from the axle
@@ -57,21 +57,10 @@ def marble():
     return np.clip(colour, 0, 1), 1.8 * fine + 1.0 * broad - 0.6 * vein
 
 
-def iron():
-    rng = np.random.default_rng(47)
-    shape = (256, 256)
-    broad, fine = fractal(shape, (5, 5), rng, 5, 0.6), fractal(shape, (40, 40), rng, 3, 0.6)
-    rust = step(0.48, 0.66, 0.6 * broad + 0.4 * fine)
-    colour = mix(tint((0.13, 0.125, 0.12), (0.065, 0.06, 0.058), fine), np.array([0.17, 0.075, 0.032])[None, None, :], (0.75 * rust)[..., None])
-    orm = np.dstack([np.ones(shape), np.clip(0.42 + 0.4 * rust + 0.1 * fine, 0, 1), 0.85 - 0.7 * rust])
-    return np.clip(colour, 0, 1), 1.2 * fine + broad, orm
-
-
 def make_materials(textures):
     made = museum_materials(textures)
     made["marble"] = material("marble", *surface(textures, "marble", *marble(), 0.7), roughness=0.6)
-    colour, height, orm = iron()
-    made["iron"] = material("iron", *surface(textures, "iron", colour, height, 0.6), textures.image("iron_orm", orm, linear=True))
+    made["iron"] = iron_material(textures)
     made["blade"] = material("blade", base=(0.17, 0.20, 0.05, 1), roughness=0.75, two_sided=True)
     made["straw"] = material("straw", base=(0.38, 0.31, 0.13, 1), roughness=0.8, two_sided=True)
     return made
@@ -84,16 +73,6 @@ def leg_at(y, side):
     """The middle of a leg at a height."""
     p = mix(FOOT, HEAD, y / HEAD[1])
     return np.array([p[0], p[1], side * p[2]])
-
-
-def rod(shape, start, end, radius, segments=16, tiles=3.0):
-    """A round bar with worn ends."""
-    start, end = np.asarray(start, float), np.asarray(end, float)
-    length = np.linalg.norm(end - start)
-    b = min(0.002, radius / 3)
-    up = (0, 1, 0) if abs(end[1] - start[1]) < 0.9 * length else (0, 0, 1)
-    return lathe(shape, [(0, 0), (radius - b, 0), (radius, b), (radius, length - b), (radius - b, length), (0, length)], segments, start, end - start, up,
-                 uv_scale=(radius * 30, tiles))
 
 
 def hoop(shape, outline, centre, tiles=1):
@@ -365,24 +344,9 @@ def height_at(x, z):
 def make_ground(model, scene):
     xs, zs = np.linspace(-2.6, 2.6, 70), np.linspace(-1.7, 1.6, 46)
     rng = np.random.default_rng(191)
-    shape = Shape()
     grid = [[(x, height_at(x, z) + rng.normal(0, 0.002), z) for z in zs] for x in xs]
-    index = [shape.points(row) for row in grid]
-
-    def uv(i, j):
-        return (grid[i][j][0] / 1.5 + 0.05 * math.sin(grid[i][j][2] * 2), grid[i][j][2] / 1.5)
-
-    for i in range(len(xs) - 1):
-        for j in range(len(zs) - 1):
-            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)))
-    edge = [(i, 0) for i in range(len(xs))] + [(len(xs) - 1, j) for j in range(1, len(zs))] + [(i, len(zs) - 1) for i in range(len(xs) - 2, -1, -1)] + \
-           [(0, j) for j in range(len(zs) - 2, 0, -1)]
-    top = [index[i][j] for i, j in edge]
-    low = shape.points([(grid[i][j][0], -0.22, grid[i][j][2]) for i, j in edge])
-    for k in range(len(edge)):
-        n = (k + 1) % len(edge)
-        a, b = k * 0.05, (k + 1) * 0.05
-        shape.face((top[k], top[n], low[n], low[k]), ((a, 0.15), (b, 0.15), (b, 0), (a, 0)))
+    shape, index = earth(grid)
+    skirt(shape, grid, index, -0.22)
     model.add("visual_ground", shape, ["earth"], scene, 40)
 
 
@@ -431,16 +395,7 @@ def make_grass(model, scene, kind):
         if (abs(z) < 0.75 and -2.3 < x < 1.2) or (kind["compound"] and x < 0 and -0.7 < z < 0.55) or (abs(z) < 1.2 and rng.random() < 0.7):
             continue
         made += 1
-        for _ in range(8):
-            a, lean, h = rng.uniform(0, 2 * math.pi), rng.uniform(0.05, 0.5), rng.uniform(0.05, 0.15)
-            base = np.array([x + rng.normal(0, 0.03), 0, z + rng.normal(0, 0.03)])
-            base[1] = height_at(base[0], base[2]) - 0.01
-            out, across = np.array([math.cos(a), 0, math.sin(a)]), np.array([-math.sin(a), 0, math.cos(a)])
-            spine = [base + np.array([0, h * t * (1 - 0.25 * lean * t), 0]) + out * (h * lean * t * t) for t in (0, 0.5, 1.0)]
-            i = shape.points([spine[0] - across * 0.003, spine[0] + across * 0.003, spine[1] - across * 0.0022, spine[1] + across * 0.0022, spine[2]])
-            slot, u = int(rng.random() < 0.6), (0.5, 0.5)
-            shape.face((i[0], i[1], i[3], i[2]), (u,) * 4, slot)
-            shape.face((i[2], i[3], i[4]), (u,) * 3, slot)
+        tuft(shape, rng, x, z, height_at, 8, tallest=0.15)
     model.add("visual_grass", shape, ["blade", "straw"], scene, 60)
 
 

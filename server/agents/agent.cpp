@@ -6,6 +6,10 @@ Expected<void> Agent::link(const state::MemoryLayout& /*layout*/) {
   return {};
 }
 
+bool Agent::click(state::WorldState& /*state*/, BodyId /*body*/) const noexcept {
+  return false;
+}
+
 void let_go(state::WorldState& state, std::size_t user) noexcept {
   state::Grasp& grasp = state.users[user].grasp;
   if (!grasp.active) return;

@@ -18,6 +18,9 @@ class Agent {
   /// Called once, when every agent and machine has its slots: for those that read another's value.
   [[nodiscard]] virtual Expected<void> link(const state::MemoryLayout& layout);
 
+  /// Somebody clicked on a body, before this tick's run(). True when the agent took it. Allocates nothing.
+  virtual bool click(state::WorldState& state, BodyId body) const noexcept;
+
   /// One tick, whether the agent is switched on or off. Allocates nothing.
   virtual void run(state::WorldState& state, bool enabled, double dt_s) const noexcept = 0;
 

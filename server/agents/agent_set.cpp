@@ -17,6 +17,15 @@ struct AgentSet::Impl {
   Touches touches;
   ProgressRules progress;
   Quantities quantities;
+
+  /// True when an agent that is on took it.
+  [[nodiscard]] bool click(state::WorldState& state, std::size_t body) const noexcept {
+    if (body >= state.bodies.size()) return false;
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+      if (state.agent_enabled[i] != 0 && agents[i]->click(state, BodyId(body))) return true;
+    }
+    return false;
+  }
 };
 
 namespace {
@@ -80,8 +89,12 @@ void AgentSet::start(state::WorldState& state) const noexcept {
 }
 
 void AgentSet::run(state::WorldState& state, std::span<const state::Command> commands, double dt_s) const noexcept {
-  for (const state::Command& command : commands)
-    impl_->progress.run_command(state, command);
+  for (const state::Command& command : commands) {
+    const bool done = command.kind == state::CommandKind::click ? impl_->click(state, command.argument)
+                                                                : impl_->progress.run_command(state, command);
+    state.emit(done ? state::EventKind::command_done : state::EventKind::command_refused, 0xffffffffu, 0xffffffffu,
+               static_cast<double>(command.id));
+  }
   // An activity that has just begun knows nothing of what the couplings bore before it.
   if (!commands.empty() && state.progress.activity_tick == state.tick) {
     for (state::Coupling& coupling : state.couplings)

@@ -16,7 +16,7 @@ namespace mechane::agents {
 /// Activities. Starting one (a command, or start()) puts bodies, joints and memory back to where the description has them, lets go
 /// of every grasp, sets the agents' switches and runs the activity's first step. An agent that some step enables is off until a
 /// step does; all others are on. Steps add up: each changes only what it names.
-/// Commands are answered in the same tick by an event, command_done or command_refused. `next_step` takes the way of the step's
+/// Commands are answered in the same tick by an event, command_done or command_refused; a click goes to the agents of its body. `next_step` takes the way of the step's
 /// first trigger; without triggers it ends the activity.
 ///
 /// Quantities are read at the end of run(), so a machine's values are those of the tick before. Sources: "<AGENT or

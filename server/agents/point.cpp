@@ -1,4 +1,4 @@
-// simulation.point: an index finger, or a one-point device, at a sign or pointing at it.
+// simulation.point: an index finger, or a one-point device, at a sign or pointing at it; or a click on it.
 #include <algorithm>
 #include <cmath>
 
@@ -39,9 +39,16 @@ class Point final : public Agent {
         pointed_(build.slot("pointed")),
         distance_(build.slot("distance")),
         angle_(build.slot("angle")),
-        time_(build.slot("time")) {
+        time_(build.slot("time")),
+        clicked_(build.slot("clicked")) {
     const std::vector<double> p = build.parameters.numbers("position");
     p_BQ_ = Vec3(p[0], p[1], p[2]);
+  }
+
+  bool click(state::WorldState& state, BodyId body) const noexcept override {
+    if (body != body_ || !state[body_].visible) return false;
+    state.memory[clicked_] = kClickLasts_s;
+    return true;
   }
 
   void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
@@ -64,7 +71,9 @@ class Point final : public Agent {
     state.memory[distance_] = nearest;
     state.memory[angle_] = best_angle;
     state.memory[time_] = points ? state.memory[time_] + dt_s : 0;
-    const bool long_enough = points && state.memory[time_] + 0.5 * dt_s >= time_s_;
+    const bool clicked = enabled && state[body_].visible && state.memory[clicked_] > 0;
+    state.memory[clicked_] = clicked ? state.memory[clicked_] - dt_s : 0;
+    const bool long_enough = clicked || (points && state.memory[time_] + 0.5 * dt_s >= time_s_);
     if (long_enough && state.memory[pointed_] == 0) {
       state.emit(state::EventKind::pointed, static_cast<std::uint32_t>(id_.index()),
                  static_cast<std::uint32_t>(body_.index()), who);
@@ -74,6 +83,8 @@ class Point final : public Agent {
 
  private:
   static constexpr double kFar = 1e6;  // m: no hand is there
+  static constexpr double kClickLasts_s =
+      1.0;  // a mouse says no more than one click: it stands for a finger that stays
 
   AgentId id_;
   BodyId body_;
@@ -86,6 +97,7 @@ class Point final : public Agent {
   std::size_t distance_;
   std::size_t angle_;
   std::size_t time_;
+  std::size_t clicked_;
 };
 
 Expected<std::unique_ptr<Agent>> make_point(const Build& build) {
@@ -118,13 +130,15 @@ constexpr state::ValueType kPointValues[] = {
     {"distance", "m", "from the nearest fingertip"},
     {"angle", "rad", "between the sign and where the best finger points"},
     {"time", "s", "for how long"},
+    {"clicked", "s", "how long a click on the sign still counts as a finger"},
 };
 
 }  // namespace
 
 const AgentKind& point_kind() {
   static const AgentKind kKind{
-      {"simulation.point", "An index finger is at a sign, or points at it", kPointParameters, kPointValues},
+      {"simulation.point", "An index finger is at a sign, or points at it; or somebody clicks on it", kPointParameters,
+       kPointValues},
       make_point};
   return kKind;
 }

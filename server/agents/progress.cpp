@@ -162,30 +162,28 @@ void ProgressRules::leave_step(state::WorldState& state, StepId next) const noex
              seconds_since(state, state.progress.activity_tick));
 }
 
-void ProgressRules::run_command(state::WorldState& state, const state::Command& command) const noexcept {
+bool ProgressRules::run_command(state::WorldState& state, const state::Command& command) const noexcept {
   const state::Progress& at = state.progress;
-  bool done = false;
   switch (command.kind) {
-    case state::CommandKind::none:
-      break;
     case state::CommandKind::start_activity:
-      done = command.argument < description_->activities.size();
-      if (done) start_activity(state, ActivityId(command.argument));
-      break;
+      if (command.argument >= description_->activities.size()) return false;
+      start_activity(state, ActivityId(command.argument));
+      return true;
     case state::CommandKind::restart_activity:
-      done = static_cast<bool>(at.activity);
-      if (done) start_activity(state, at.activity);
-      break;
-    case state::CommandKind::next_step:
-      done = at.step && !at.done;
-      if (done) {
-        const state::StepDescription& step = description_->steps[at.step.index()];
-        leave_step(state, step.triggers.empty() ? step.timeout_next : step.triggers.front().next);
-      }
+      if (!at.activity) return false;
+      start_activity(state, at.activity);
+      return true;
+    case state::CommandKind::next_step: {
+      if (!at.step || at.done) return false;
+      const state::StepDescription& step = description_->steps[at.step.index()];
+      leave_step(state, step.triggers.empty() ? step.timeout_next : step.triggers.front().next);
+      return true;
+    }
+    case state::CommandKind::none:
+    case state::CommandKind::click:
       break;
   }
-  state.emit(done ? EventKind::command_done : EventKind::command_refused, 0xffffffffu, 0xffffffffu,
-             static_cast<double>(command.id));
+  return false;
 }
 
 void ProgressRules::run_triggers(state::WorldState& state, double dt_s) const noexcept {

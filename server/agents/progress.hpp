@@ -20,7 +20,8 @@ class ProgressRules {
   void remember_start(const state::MemoryLayout& layout) { memory_ = layout.initial(); }
 
   void start(state::WorldState& state) const noexcept;
-  void run_command(state::WorldState& state, const state::Command& command) const noexcept;
+  /// False when it cannot be done now, or is not about activities and steps.
+  [[nodiscard]] bool run_command(state::WorldState& state, const state::Command& command) const noexcept;
   /// Tests the step's triggers on the quantities; the first that has held long enough fires. Leaves the step when its time is out.
   /// Notes when it is time for a hint.
   void run_triggers(state::WorldState& state, double dt_s) const noexcept;

@@ -109,7 +109,7 @@ void Lobby::kiosk_appeared(const Session& session, TimePoint) {
     log::info(fmt::format("{} shares world {}", session.kiosk, entry->name));
   }
   if (entry == nullptr) {
-    auto opened = open(session);
+    auto opened = open_for(session);
     if (!opened) {
       log::error(opened.error());
       return transport_.refuse_kiosk(session.kiosk, opened.error().what + "; " + opened.error().remedy);
@@ -120,26 +120,34 @@ void Lobby::kiosk_appeared(const Session& session, TimePoint) {
   transport_.assign_kiosk(session.kiosk, *entry->running.port);
 }
 
-Expected<Lobby::Entry*> Lobby::open(const Session& session) {
+Expected<Lobby::Entry*> Lobby::open_for(const Session& session) {
   if (worlds_.size() >= settings_.worlds) {
     return fail(fmt::format("all {} worlds of this server are in use", settings_.worlds), session.kiosk,
                 "wait for one to be free, or start the server with more --worlds");
   }
-  auto entry = std::make_unique<Entry>();
-  entry->name = fmt::format("world-{}", next_number_);
-  entry->description = session.scenario.empty() ? scenarios_.first() : scenarios_.find(session.scenario);
-  if (entry->description == nullptr) {
+  auto description = session.scenario.empty() ? scenarios_.first() : scenarios_.find(session.scenario);
+  if (description == nullptr) {
     return fail(fmt::format("this server has no scenario '{}'", session.scenario), session.kiosk,
                 "start the server with its file, or ask for another");
   }
-  entry->kiosks = {session.kiosk};
+  return open({session.kiosk}, std::move(description));
+}
+
+Expected<Lobby::Entry*> Lobby::open(std::vector<std::string> kiosks,
+                                    std::shared_ptr<const state::WorldDescription> description) {
+  auto entry = std::make_unique<Entry>();
+  entry->name = fmt::format("world-{}", next_number_);
+  entry->description = std::move(description);
+  entry->kiosks = std::move(kiosks);
   record::JournalHeader header;
-  auto world = make_world(session, *entry, header);
+  auto world = make_world(*entry, header);
   if (!world) return tl::unexpected(world.error());
   auto port = transport_.open_world(entry->name, entry->description);
   if (!port) return tl::unexpected(port.error());
+  entry->step_seen = (*world)->state.progress.step;
   entry->running.world = std::move(*world);
   entry->running.port = *port;
+  entry->running.step = entry->step_seen;
   start_records(*entry, std::move(header));
   const auto least = std::min_element(loops_.begin(), loops_.end(),
                                       [](const auto& a, const auto& b) { return a->size() < b->size(); });
@@ -151,17 +159,62 @@ Expected<Lobby::Entry*> Lobby::open(const Session& session) {
   ++next_number_;
   Entry* result = entry.get();
   worlds_.emplace(entry->name, std::move(entry));
-  log::info(fmt::format("world {} opened for {}: {}", result->name, session.kiosk, result->description->id));
+  log::info(fmt::format("world {} opened for {}: {}", result->name, fmt::join(result->kiosks, ", "),
+                        result->description->id));
   return result;
 }
 
+void Lobby::follow_signs() {
+  std::vector<Entry*> entries;  // going on opens and closes worlds
+  for (auto& [name, entry] : worlds_)
+    entries.push_back(entry.get());
+  for (Entry* entry : entries) {
+    auto description = next_of(*entry);
+    if (description == nullptr) continue;
+    if (auto gone = go_on(*entry, std::move(description)); !gone) log::error(gone.error());
+  }
+}
+
+std::shared_ptr<const state::WorldDescription> Lobby::next_of(Entry& entry) const {
+  std::shared_ptr<const state::WorldDescription> next;
+  const StepId step = entry.running.step.load(std::memory_order_relaxed);
+  if (const StepId before = std::exchange(entry.step_seen, step); step && step != before) {
+    const std::string& opens = entry.description->steps[step.index()].opens;
+    if (!opens.empty()) next = scenarios_.find(opens);
+    if (!opens.empty() && next == nullptr) {
+      log::warning(fmt::format("{}: step {} opens '{}', which this server was not started with; the visitors stay",
+                               entry.description->id, entry.description->steps[step.index()].name, opens));
+    }
+  }
+  if (const auto wish = entry.running.port->take_wish()) next = scenarios_.all()[*wish];
+  return next;
+}
+
+Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDescription> description) {
+  auto opened = open(entry.kiosks, std::move(description));
+  if (!opened) return tl::unexpected(opened.error());
+  Entry& next = **opened;
+  next.idle_since = entry.idle_since;
+  for (const std::string& kiosk : std::exchange(entry.kiosks, {}))
+    transport_.assign_kiosk(kiosk, *next.running.port);
+  for (const Session& session : transport_.sessions().sessions()) {
+    const std::size_t slot = entry.running.port->slot_of(session.id);
+    if (slot >= state::kMaxUsers) continue;
+    entry.running.port->unbind_user(slot);
+    bind_hand(session, next);
+  }
+  close(entry, record::WorldRecorder::Snapshot::remove);
+  worlds_.erase(worlds_.find(entry.name));
+  return {};
+}
+
 /// Where the kiosk was before a restart, or the scenario's beginning.
-Expected<std::unique_ptr<world::World>> Lobby::make_world(const Session& session, Entry& entry,
-                                                          record::JournalHeader& header) {
-  if (auto snapshot = take_snapshot_of(session.kiosk, *entry.description)) {
+Expected<std::unique_ptr<world::World>> Lobby::make_world(Entry& entry, record::JournalHeader& header) {
+  const std::string& kiosk = entry.kiosks.front();
+  if (auto snapshot = take_snapshot_of(kiosk, *entry.description)) {
     auto resumed = world::World::resume(entry.description, scenarios_.world_config(), snapshot->state);
     if (resumed) {
-      log::info(fmt::format("resumed {} where it was: step {}, tick {}", session.kiosk,
+      log::info(fmt::format("resumed {} where it was: step {}, tick {}", kiosk,
                             step_name(*entry.description, (*resumed)->state), (*resumed)->state.tick));
       header.snapshot = std::move(snapshot->state);
       header.first_tick = (*resumed)->state.tick + 1;
@@ -205,15 +258,18 @@ void Lobby::start_records(Entry& entry, record::JournalHeader header) {
 
 void Lobby::hand_granted(const Session& session) {
   Entry* entry = world_of(session.kiosk);
-  if (entry == nullptr) return;  // it was told why it has no world
-  transport::WorldPort& port = *entry->running.port;
+  if (entry != nullptr) bind_hand(session, *entry);  // without a world, it was told why
+}
+
+void Lobby::bind_hand(const Session& session, Entry& entry) {
+  transport::WorldPort& port = *entry.running.port;
   const std::size_t slot = port.free_slot();
   if (slot >= state::kMaxUsers || !port.bind_user(slot, session.kiosk, session.user, session.id)) {
-    log::warning(fmt::format("{}: no place for this hand in world {}, which has {} at most", who(session), entry->name,
+    log::warning(fmt::format("{}: no place for this hand in world {}, which has {} at most", who(session), entry.name,
                              state::kMaxUsers));
     return;
   }
-  log::info(fmt::format("{} is in world {}", who(session), entry->name));
+  log::info(fmt::format("{} is in world {}", who(session), entry.name));
 }
 
 void Lobby::hand_freed(const Session& session) {

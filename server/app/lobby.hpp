@@ -1,5 +1,6 @@
 // Who gets which world: the main thread's policy. A kiosk that appears gets its world; one that asks to join another's shares it; a
-// world without clients is closed after a while; after a restart a kiosk is put back where it was.
+// world without clients is closed after a while; a visitor who touches a sign goes on to another scenario; after a restart a kiosk is
+// put back where it was.
 #pragma once
 
 #include <map>
@@ -26,6 +27,8 @@ class Lobby {
   ~Lobby();
 
   void take(const transport::News& news, TimePoint now);
+  /// Lets kiosks go on to another scenario: where a step says so, or somebody wishes it. After the news of a poll.
+  void follow_signs();
   /// Closes what has been idle long enough, takes apart what its loop has given back.
   void tidy(TimePoint now);
   /// Takes all worlds off their loops and closes their journals. Snapshots stay, for a restart.
@@ -42,16 +45,24 @@ class Lobby {
     WorldLoop* loop = nullptr;
     std::vector<std::string> kiosks;
     std::optional<TimePoint> idle_since;
+    StepId step_seen;  // a step sends on once, when it begins
   };
 
   void kiosk_appeared(const transport::Session& session, TimePoint now);
   void kiosk_left(const std::string& kiosk, TimePoint now);
   void hand_granted(const transport::Session& session);
   void hand_freed(const transport::Session& session);
+  void bind_hand(const transport::Session& session, Entry& entry);
   [[nodiscard]] Entry* world_of(const std::string& kiosk);
-  [[nodiscard]] Expected<Entry*> open(const transport::Session& session);
-  [[nodiscard]] Expected<std::unique_ptr<world::World>> make_world(const transport::Session& session, Entry& entry,
-                                                                   record::JournalHeader& header);
+  [[nodiscard]] Expected<Entry*> open_for(const transport::Session& session);
+  /// Where an entry's visitors are to go now; null: nowhere.
+  [[nodiscard]] std::shared_ptr<const state::WorldDescription> next_of(Entry& entry) const;
+  /// A new world for the entry's kiosks and hands; then the entry is closed. Errors: as open().
+  [[nodiscard]] Expected<void> go_on(Entry& entry, std::shared_ptr<const state::WorldDescription> description);
+  /// Makes a world and hands it to a loop.
+  [[nodiscard]] Expected<Entry*> open(std::vector<std::string> kiosks,
+                                      std::shared_ptr<const state::WorldDescription> description);
+  [[nodiscard]] Expected<std::unique_ptr<world::World>> make_world(Entry& entry, record::JournalHeader& header);
   [[nodiscard]] std::optional<record::SnapshotFile> take_snapshot_of(const std::string& kiosk,
                                                                      const state::WorldDescription& description);
   void start_records(Entry& entry, record::JournalHeader header);

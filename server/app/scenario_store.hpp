@@ -24,6 +24,8 @@ class ScenarioStore {
   [[nodiscard]] std::shared_ptr<const state::WorldDescription> find(const std::string& id) const;
   /// What a kiosk gets that asks for none: the first that was given.
   [[nodiscard]] std::shared_ptr<const state::WorldDescription> first() const { return scenarios_.front(); }
+  /// In the order given; at least one.
+  [[nodiscard]] const std::vector<std::shared_ptr<const state::WorldDescription>>& all() const { return scenarios_; }
   [[nodiscard]] const world::WorldConfig& world_config() const { return config_; }
 
  private:

@@ -28,14 +28,16 @@ LoopConfig loop_config(const Settings& settings, std::size_t index) {
   config.thread.fifo_priority = settings.fifo_priority;
   config.thread.lock_memory = settings.fifo_priority > 0;
   if (settings.first_cpu) config.thread.cpu = *settings.first_cpu + static_cast<int>(index);
-  config.max_worlds = settings.worlds;
+  config.max_worlds = settings.worlds + 1;  // one more while a kiosk goes on from one to the next
   return config;
 }
 
-transport::TransportConfig transport_config(const Settings& settings) {
+transport::TransportConfig transport_config(const Settings& settings, const ScenarioStore& scenarios) {
   transport::TransportConfig config;
   config.server = settings.name;
   config.version = kVersion;
+  for (const auto& scenario : scenarios.all())
+    config.scenarios.push_back(scenario->id);
   config.domain = settings.domain;
   // Above the loop: a force that is ready goes out before the next tick is made.
   config.fifo_priority = settings.fifo_priority > 0 ? settings.fifo_priority + 1 : 0;
@@ -81,7 +83,7 @@ Expected<void> Server::Impl::start() {
     if (!recorder) return tl::unexpected(recorder.error());
     recorder_ = std::move(*recorder);
   }
-  auto transport = transport::ServerTransport::start(transport_config(settings_));
+  auto transport = transport::ServerTransport::start(transport_config(settings_, *scenarios_));
   if (!transport) return tl::unexpected(transport.error());
   transport_ = std::move(*transport);
   for (std::size_t i = 0; i < settings_.loop_threads; ++i) {
@@ -123,6 +125,7 @@ int Server::Impl::run(StopSignals& signals) {
 void Server::Impl::look(TimePoint now) {
   for (const transport::News& news : transport_->poll(now))
     lobby_->take(news, now);
+  lobby_->follow_signs();
   lobby_->tidy(now);
 }
 

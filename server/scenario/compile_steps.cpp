@@ -218,6 +218,7 @@ void compile_step(Compilation& c, const Written& activity, const Metadata& set) 
   for (const Metadata* trigger : fields.sets_like("trigger:*"))
     read_trigger(c, activity, *trigger, where, step, activity.find(set.name));
   read_timeout(c, activity, fields, step);
+  step.opens = fields.string("opens");
   step.texts = read_texts(c, fields.set("text"), where + ", text", "caption narration hint audio");
   check_audio(c, fields, step);
   step.hint_after_s = fields.number("hintSeconds");

@@ -135,6 +135,10 @@ constexpr Key kStepKeys[] = {
      .example = "\"show\"",
      .default_text = "end",
      .names = Names::step},
+    {.name = "opens",
+     .summary = "the id of the scenario that the visitors go on to as this step begins; where the server has none of "
+                "that id, they stay",
+     .example = "\"archimedes-screw\""},
     {.name = "hintSeconds",
      .kind = number,
      .unit = "s",

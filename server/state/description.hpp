@@ -134,6 +134,7 @@ struct StepDescription {
   double hint_after_s = 20;
   double timeout_s = 0;   ///< the step is left after so long, whatever holds; 0: never
   StepId timeout_next{};  ///< the step that follows then; none: the activity is done
+  std::string opens{};    ///< id of the scenario that the visitors go on to as this step begins; empty: they stay
 };
 
 /// A question to a visitor after an activity.

@@ -29,7 +29,7 @@ enum class EventKind : std::uint8_t {
   assembled = 20,         ///< subject: agent; every part is in its place
   part_refused = 21,      ///< subject: agent, object: body that came to its place before its turn
   dwelt = 22,             ///< subject: agent; value: seconds
-  pointed = 23,           ///< subject: agent, object: body; value: user
+  pointed = 23,           ///< subject: agent, object: body; value: user, -1: by a click
   idled = 24,             ///< subject: agent; value: seconds
   broke = 25,             ///< subject: agent; value: the force, N, or where that is whole, the torque, N m
 };

@@ -35,13 +35,13 @@ struct UserInput {
   HandSample sample;
 };
 
-enum class CommandKind : std::uint8_t { none = 0, start_activity = 1, restart_activity = 2, next_step = 3 };
+enum class CommandKind : std::uint8_t { none = 0, start_activity = 1, restart_activity = 2, next_step = 3, click = 4 };
 
 /// A wish of a person or a program, answered by id with an event.
 struct Command {
   std::uint64_t id = 0;
   CommandKind kind = CommandKind::none;
-  std::uint32_t argument = 0;  ///< ActivityId's index for start_activity
+  std::uint32_t argument = 0;  ///< start_activity: ActivityId's index; click: BodyId's
 };
 
 struct TickInputs {

@@ -44,6 +44,7 @@ class ServerTransport::Impl {
   Impl(const TransportConfig& config, proto::Participant participant)
       : server(config.server),
         version(config.version),
+        scenarios(config.scenarios),
         host(host_name()),
         incarnation(random_nonzero()),
         epoch(epoch_now()),
@@ -62,6 +63,7 @@ class ServerTransport::Impl {
 
   const std::string server;
   const std::string version;
+  const std::vector<std::string> scenarios;
   const std::string host;
   const std::uint64_t incarnation;
   const std::uint32_t epoch;
@@ -71,6 +73,8 @@ class ServerTransport::Impl {
   [[nodiscard]] MuseumPublisher& museum() { return *museum_; }
 
  private:
+  std::vector<char*> scenario_names_ = proto::pointers_to(scenarios);  // for the wire
+
   struct Kiosk {
     std::shared_ptr<KioskLink> link;
     Assignment assignment;
@@ -279,7 +283,7 @@ Expected<WorldPort*> ServerTransport::Impl::open_world(const std::string& world,
         return open_lane(kiosk, user, session);
       },
       [this](const std::shared_ptr<Lane>& lane) { close_lane(lane); });
-  auto writer = WorldWriter::create(participant_, *port, rejects);
+  auto writer = WorldWriter::create(participant_, *port, rejects, scenarios);
   if (!writer) return tl::unexpected<Error>(writer.error());
   museum_->add(std::move(*writer));
   ports_.push_back(std::move(port));
@@ -309,6 +313,7 @@ proto::ServerStatus ServerTransport::Impl::wire_status(const ServerStatusData& d
   wire.incarnation = incarnation;
   wire.version = proto::look_into(version);
   wire.host = proto::look_into(host);
+  proto::look_into(wire.scenarios, scenario_names_);
   wire.worlds = data.worlds;
   wire.worlds_limit = data.worlds_limit;
   wire.users = data.users;

@@ -16,9 +16,10 @@
 namespace mechane::transport {
 
 struct TransportConfig {
-  std::string server = "server-1";  ///< name on the wire: 1 to 31 characters of A-Z a-z 0-9 - _
-  std::string version{};            ///< of the program
-  std::uint32_t domain = 0;         ///< DDS domain, 0 .. 230; the network is set up by CYCLONEDDS_URI
+  std::string server = "server-1";       ///< name on the wire: 1 to 31 characters of A-Z a-z 0-9 - _
+  std::string version{};                 ///< of the program
+  std::vector<std::string> scenarios{};  ///< ids of what a kiosk may ask for, home first
+  std::uint32_t domain = 0;              ///< DDS domain, 0 .. 230; the network is set up by CYCLONEDDS_URI
   int fifo_priority =
       0;  ///< SCHED_FIFO of the threads that receive hands and write forces, 0 .. 98; 0: ordinary threads
   std::optional<int> cpu{};  ///< pins that thread

@@ -96,6 +96,13 @@ std::size_t WorldPort::free_slot() const {
   return static_cast<std::size_t>(std::find(lanes_.begin(), lanes_.end(), nullptr) - lanes_.begin());
 }
 
+std::optional<std::uint32_t> WorldPort::take_wish() {
+  std::optional<std::uint32_t> newest;
+  for (std::uint32_t scenario = 0; wishes_.pop(scenario);)
+    newest = scenario;
+  return newest;
+}
+
 void WorldPort::collect() {
   const std::uint64_t in_use = generation_in_use_.load(std::memory_order_acquire);
   std::erase_if(retired_, [&](const Retired& r) { return r.generation <= in_use; });

@@ -82,6 +82,8 @@ class WorldPort {
   [[nodiscard]] std::size_t slot_of(std::uint64_t session) const;
   /// A slot that nobody has; kMaxUsers when all are taken.
   [[nodiscard]] std::size_t free_slot() const;
+  /// The newest wish of somebody at a kiosk of this world: the scenario to go on to, by its place in TransportConfig::scenarios.
+  [[nodiscard]] std::optional<std::uint32_t> take_wish();
   /// Lets go of lanes that the loop has stopped using. ServerTransport::poll() calls it.
   void collect();
 
@@ -97,6 +99,7 @@ class WorldPort {
 
   // The other sides, each for one thread of the transport's.
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
+  bool offer_wish(std::uint32_t scenario) noexcept { return wishes_.push(scenario); }             ///< command listener
   [[nodiscard]] const SceneSnapshot* take_snapshot() noexcept { return snapshots_.take(); }       ///< scene publisher
   bool take_event(state::Event& out) noexcept { return events_.pop(out); }                        ///< scene publisher
   [[nodiscard]] std::uint64_t events_lost() const noexcept { return events_lost_.load(std::memory_order_relaxed); }
@@ -133,6 +136,7 @@ class WorldPort {
   realtime::Mailbox<SceneSnapshot> snapshots_;
   realtime::Ring<state::Event> events_{kEventCapacity};
   realtime::Ring<state::Command> commands_{kCommandCapacity};
+  realtime::Ring<std::uint32_t> wishes_{8};
   std::atomic<std::uint64_t> events_lost_{0};
 
   // Loop thread's.

@@ -9,6 +9,8 @@
 namespace mechane::transport {
 namespace {
 
+constexpr std::uint32_t kOpen = 5;  // the kind of a command that is the main thread's, not the tick's
+
 std::uint64_t now_ns() {
   return to_ns(std::chrono::steady_clock::now());
 }
@@ -49,7 +51,8 @@ bool same_pose(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-WorldWriter::WorldWriter(WorldPort& port, RejectCounters& rejects) : port_(port), rejects_(rejects) {
+WorldWriter::WorldWriter(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios)
+    : port_(port), rejects_(rejects), scenarios_(scenarios) {
   const auto& bodies = port.description().bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].fixed) movable_.push_back(static_cast<std::uint32_t>(i));
@@ -59,8 +62,9 @@ WorldWriter::WorldWriter(WorldPort& port, RejectCounters& rejects) : port_(port)
 }
 
 Expected<std::unique_ptr<WorldWriter>> WorldWriter::create(const proto::Participant& participant, WorldPort& port,
-                                                           RejectCounters& rejects) {
-  std::unique_ptr<WorldWriter> made(new WorldWriter(port, rejects));
+                                                           RejectCounters& rejects,
+                                                           const std::vector<std::string>& scenarios) {
+  std::unique_ptr<WorldWriter> made(new WorldWriter(port, rejects, scenarios));
   const std::string partition = proto::world_partition(port.world());
   const auto open = [&](auto& endpoint, auto created) -> std::optional<Error> {
     if (!created) return created.error();
@@ -88,15 +92,26 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
     if (!is_new(wire.session, wire.id)) return;
     state::Command command;
     command.id = wire.id;
-    if (wire.kind < 1 || wire.kind > 3) return refuse(wire.id);
+    if (wire.kind == kOpen) return take_wish(proto::string_of(wire.argument), wire.id);
+    if (wire.kind < 1 || wire.kind > 4) return refuse(wire.id);
     command.kind = static_cast<state::CommandKind>(wire.kind);
     if (command.kind == state::CommandKind::start_activity) {
       const ActivityId activity = port_.description().find_activity(proto::string_of(wire.argument));
       if (!activity) return refuse(wire.id);
       command.argument = static_cast<std::uint32_t>(activity.index());
+    } else if (command.kind == state::CommandKind::click) {
+      const BodyId body = port_.description().find_body(proto::string_of(wire.argument));
+      if (!body) return refuse(wire.id);
+      command.argument = static_cast<std::uint32_t>(body.index());
     }
     if (!port_.offer_command(command)) refuse(wire.id);
   });
+}
+
+void WorldWriter::take_wish(const std::string& scenario, std::uint64_t id) {
+  const auto found = scenario.empty() ? scenarios_.begin() : std::find(scenarios_.begin(), scenarios_.end(), scenario);
+  if (found == scenarios_.end() || !port_.offer_wish(static_cast<std::uint32_t>(found - scenarios_.begin())))
+    refuse(id);
 }
 
 bool WorldWriter::is_new(std::uint64_t session, std::uint64_t id) {

@@ -17,8 +17,10 @@ namespace mechane::transport {
 /// Made by the main thread; write() is the museum publisher's; commands are checked on a thread of Cyclone's.
 class WorldWriter {
  public:
+  /// `scenarios`: ids of what a kiosk may ask for, home first. The references outlive the writer.
   [[nodiscard]] static Expected<std::unique_ptr<WorldWriter>> create(const proto::Participant& participant,
-                                                                     WorldPort& port, RejectCounters& rejects);
+                                                                     WorldPort& port, RejectCounters& rejects,
+                                                                     const std::vector<std::string>& scenarios);
   WorldWriter(const WorldWriter&) = delete;
   WorldWriter& operator=(const WorldWriter&) = delete;
 
@@ -30,7 +32,8 @@ class WorldWriter {
   [[nodiscard]] std::uint64_t writes_failed() const { return failed_; }
 
  private:
-  WorldWriter(WorldPort& port, RejectCounters& rejects);
+  WorldWriter(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios);
+  void take_wish(const std::string& scenario, std::uint64_t id);
   void take_commands(proto::ReaderView<proto::Command> view);
   /// Whether a command was not heard before: a link that was cut and found again brings those of the last seconds twice.
   [[nodiscard]] bool is_new(std::uint64_t session, std::uint64_t id);
@@ -43,6 +46,7 @@ class WorldWriter {
 
   WorldPort& port_;
   RejectCounters& rejects_;
+  const std::vector<std::string>& scenarios_;
   realtime::Ring<std::uint64_t> refused_{64};  // command listener to publisher
 
   struct Heard {

@@ -177,6 +177,40 @@ TEST(Point, TakesAFingertipAtTheSignOrAFingerThatPointsAtIt) {
   EXPECT_EQ(stage.value("NEAR.pointed"), 0) << "a sign that is not there";
 }
 
+TEST(Point, TakesAClickForAFingerThatStaysForASecond) {
+  const state::WorldDescription world =
+      with_agents({{"SIGN", "simulation.point", {{"body", text({"PART"})}, {"time", number({0.3})}}, 1}});
+  const state::Command on_part{7, state::CommandKind::click, 1};
+  Stage stage(world);
+  stage.tick({on_part});
+  EXPECT_EQ(stage.value("SIGN.pointed"), 1);
+  state::Event event;
+  ASSERT_EQ(stage.count(EventKind::pointed, &event), 1);
+  EXPECT_EQ(event.value, -1) << "nobody's hand";
+  ASSERT_EQ(stage.count(EventKind::command_done, &event), 1);
+  EXPECT_EQ(event.value, 7);
+  stage.run(0.9);
+  EXPECT_EQ(stage.value("SIGN.pointed"), 1);
+  stage.run(0.2);
+  EXPECT_EQ(stage.value("SIGN.pointed"), 0);
+}
+
+TEST(Point, AClickBesideASignIsRefused) {
+  Stage stage(with_agents({{"SIGN", "simulation.point", {{"body", text({"PART"})}}, 1}}));
+  const auto refused = [&](std::uint32_t body) {
+    const int before = stage.count(EventKind::command_refused);
+    stage.tick({{1, state::CommandKind::click, body}});
+    return stage.value("SIGN.pointed") == 0 && stage.count(EventKind::command_refused) == before + 1;
+  };
+  EXPECT_TRUE(refused(0)) << "another body";
+  EXPECT_TRUE(refused(1'000'000)) << "no body";
+  stage.state->bodies[1].visible = false;
+  EXPECT_TRUE(refused(1)) << "a sign that is not there";
+  stage.state->bodies[1].visible = true;
+  stage.state->agent_enabled[0] = 0;
+  EXPECT_TRUE(refused(1)) << "a sign that is off";
+}
+
 TEST(Point, TakesAOnePointDeviceToo) {
   Stage stage(with_agents(
       {{"AIM", "simulation.point", {{"body", text({"PART"})}, {"cone", number({0.1})}, {"time", number({0})}}, 2}}));

@@ -68,6 +68,13 @@ TEST(Steps, ATimeOutLeadsOn) {
   EXPECT_EQ(fill_of(compile_text(text_of(shipped_file()))).timeout_s, 0);
 }
 
+TEST(Steps, AStepMayOpenAnotherScenario) {
+  const Outcome outcome = with_fill(text_key("opens", "catapult"));
+  ASSERT_TRUE(outcome.world) << outcome.world.error().to_string();
+  EXPECT_EQ(fill_of(outcome).opens, "catapult");
+  EXPECT_EQ(fill_of(compile_text(text_of(shipped_file()))).opens, "");
+}
+
 TEST(Steps, SoundsAreNamedByLanguage) {
   const Outcome outcome =
       compile_text(edited("<MetadataString containerField='value' name='hint.el' value='\"Το νερό βγαίνει",

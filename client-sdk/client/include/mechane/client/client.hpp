@@ -19,10 +19,10 @@ struct ClientConfig {
   std::uint32_t user = 0;         ///< which hand of the kiosk, 0..3
   Role role = Role::watcher;
   std::string program = "client";  ///< for logs and status: "mechane-display"
-  std::string scenario{};          ///< wish: id of the scenario; empty: the server's first
-  std::string join_kiosk{};        ///< wish: share the world of this kiosk; empty: a world of one's own
-  int fifo_priority = 0;           ///< SCHED_FIFO of the thread that receives forces; 0, or refused: an ordinary thread
-  std::uint32_t domain = 0;        ///< DDS domain; the network is set up by CYCLONEDDS_URI
+  std::string scenario{};  ///< what the kiosk gets where it has no world: id of the scenario; empty: the server's first
+  std::string join_kiosk{};  ///< wish: share the world of this kiosk; empty: a world of one's own
+  int fifo_priority = 0;     ///< SCHED_FIFO of the thread that receives forces; 0, or refused: an ordinary thread
+  std::uint32_t domain = 0;  ///< DDS domain; the network is set up by CYCLONEDDS_URI
 };
 
 enum class LinkState {
@@ -78,6 +78,11 @@ class Client {
   virtual std::uint64_t start_activity(const std::string& activity) = 0;
   virtual std::uint64_t restart_activity() = 0;
   virtual std::uint64_t next_step() = 0;
+  /// A click on an object of the manifest: a sign that is touched with a mouse.
+  virtual std::uint64_t click(const std::string& object) = 0;
+  /// The kiosks of this world go on to another scenario; empty: home, the server's first. ServerStatus::scenarios has the ids. What
+  /// answers is the new world (see world_status()), or command_refused.
+  virtual std::uint64_t open_exhibit(const std::string& scenario) = 0;
 };
 
 }  // namespace mechane::client

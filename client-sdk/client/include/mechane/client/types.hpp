@@ -144,6 +144,7 @@ struct ServerStatus {
   double wake_us_p99 = 0, wake_us_max = 0;
   bool realtime = false;  ///< SCHED_FIFO was granted
   bool records_ok = true;
+  std::vector<std::string> scenarios{};  ///< ids of what it can open, home first
 };
 
 }  // namespace mechane::client

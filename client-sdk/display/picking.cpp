@@ -1,0 +1,72 @@
+#include "client-sdk/display/picking.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace mechane::display {
+namespace {
+
+struct Ray {
+  Vec3f p = Vec3f::Zero();
+  Vec3f d = Vec3f::UnitZ();
+};
+
+Ray ray_through(const RenderScene& scene, PixelPlace place, Stereo stereo, PixelSize pictured) {
+  const bool mono = stereo == Stereo::mono;
+  const double width = mono ? pictured.width : pictured.width / 2;  // NOLINT(bugprone-integer-division): whole pixels
+  const bool right = !mono && place.x >= width;
+  const Eye eye = mono ? Eye::middle : right ? Eye::right : Eye::left;
+  const EyeView view = eye_view(scene.camera, eye, width / pictured.height);
+  const auto x = static_cast<float>(2 * (place.x - (right ? width : 0)) / width - 1);
+  const auto y = static_cast<float>(1 - 2 * place.y / pictured.height);
+  const Eigen::Matrix4f X_WC = (view.P * view.V_CW).inverse();
+  const Vec3f near = (X_WC * Eigen::Vector4f(x, y, -1, 1)).hnormalized();
+  return {view.p_WE, (near - view.p_WE).normalized()};
+}
+
+/// How far along the ray the triangle is, either side of it (Moller and Trumbore 1997); infinite: it is missed.
+float distance_to(const Ray& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  constexpr float kMissed = std::numeric_limits<float>::infinity();
+  const Vec3f u = b - a;
+  const Vec3f v = c - a;
+  const Vec3f n = ray.d.cross(v);
+  const float det = u.dot(n);
+  if (std::abs(det) < 1e-12F) return kMissed;
+  const Vec3f from_a = ray.p - a;
+  const float s = from_a.dot(n) / det;
+  const Vec3f m = from_a.cross(u);
+  const float t = ray.d.dot(m) / det;
+  const float distance = v.dot(m) / det;
+  return s >= 0 && t >= 0 && s + t <= 1 && distance > 0 ? distance : kMissed;
+}
+
+/// X_WM is rigid and may scale: distances are of the ray in W, whose direction is not made unit again in M.
+float distance_to(const Ray& ray_W, const Instance& instance, const MeshData& mesh) {
+  const Eigen::Affine3f X_MW = instance.X_WM.inverse();
+  const Ray ray{X_MW * ray_W.p, X_MW.linear() * ray_W.d};
+  float nearest = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    nearest = std::min(nearest, distance_to(ray, mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                                            mesh.positions[mesh.indices[i + 2]]));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> object_at(const RenderScene& scene, const SceneAssets& assets, PixelPlace place,
+                                       Stereo stereo, PixelSize pictured) {
+  if (pictured.width < 2 || pictured.height == 0) return {};
+  const Ray ray = ray_through(scene, place, stereo, pictured);
+  float nearest = std::numeric_limits<float>::infinity();
+  std::optional<std::uint32_t> object;
+  for (const Instance& instance : scene.instances) {
+    const float distance = distance_to(ray, instance, assets.meshes[instance.mesh]);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    object = instance.object;
+  }
+  return object;
+}
+
+}  // namespace mechane::display
