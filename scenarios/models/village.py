@@ -20,14 +20,14 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import modelling  # noqa: E402
-from modelling import (Model, Textures, export, fractal, iron_material, material, mix, museum_materials, noise, picture, step, surface,  # noqa: E402
-                       tint, to_blender)
+import surfaces  # noqa: E402
+from modelling import Model, export, picture, to_blender  # noqa: E402
+from surfaces import Textures, fractal, iron_material, material, mix, museum_materials, noise, step, surface, tint  # noqa: E402
 from village_machines import make_machines  # noqa: E402
 from village_place import make_agora, make_bank, make_ground, make_house, make_masonry, make_range, make_smithy, make_temple, make_trees  # noqa: E402
 from village_signs import SIGNS, make_sign, make_stand, place_of  # noqa: E402
 
-modelling.TEXTURE = 640  # for all but the signs this is far off; the file is to stay small
+surfaces.TEXTURE = 640  # for all but the signs this is far off; the file is to stay small
 
 PLACES = {"SIGN_" + name: place_of(column, row) for name, column, row in SIGNS}
 SMALL = (384, 384)
@@ -76,7 +76,7 @@ def fields():
     """Hills from afar: dry grass, scrub, bare limestone."""
     rng = np.random.default_rng(87)
     broad, fine, spots = fractal(SMALL, (4, 4), rng, 6, 0.6), fractal(SMALL, (40, 40), rng, 3, 0.6), fractal(SMALL, (26, 26), rng, 3, 0.5)
-    colour = tint((0.36, 0.31, 0.155), (0.24, 0.22, 0.10), np.clip(1.8 * broad - 0.4, 0, 1))
+    colour = tint((0.31, 0.285, 0.135), (0.19, 0.195, 0.08), np.clip(1.8 * broad - 0.4, 0, 1))
     colour = mix(colour, np.array([0.105, 0.125, 0.05])[None, None, :], (0.85 * step(0.50, 0.60, spots) * step(0.30, 0.62, broad))[..., None])
     colour = mix(colour, np.array([0.46, 0.42, 0.34])[None, None, :], (0.7 * step(0.62, 0.74, 0.5 * fine + 0.5 * noise(SMALL, (11, 11), rng)))[..., None])
     return np.clip(colour * (0.78 + 0.4 * fine)[..., None], 0, 1)
@@ -88,9 +88,15 @@ def gravel():
     return np.clip(tint((0.46, 0.385, 0.27), (0.33, 0.265, 0.175), broad) * (0.62 + 0.7 * grit)[..., None], 0, 1)
 
 
-def glowing(made, colour, strength):
-    shader = made.node_tree.nodes["Principled BSDF"]
-    shader.inputs["Emission"].default_value, shader.inputs["Emission Strength"].default_value = (*colour, 1), strength
+def fire(textures):
+    """Light of flames, from their foot at v 0 to their tips at v 1."""
+    v = np.mgrid[0:64, 0:8][0] / 63
+    light = mix(tint((1.0, 0.60, 0.15), (1.0, 0.20, 0.02), step(0.05, 0.5, v)), np.array([0.50, 0.045, 0.004])[None, None, :], step(0.45, 1.0, v)[..., None])
+    made = material("fire", base=(0.02, 0.01, 0.005, 1), roughness=1.0)
+    node, shader = made.node_tree.nodes.new("ShaderNodeTexImage"), made.node_tree.nodes["Principled BSDF"]
+    node.image = textures.image("fire", light)
+    made.node_tree.links.new(node.outputs["Color"], shader.inputs["Emission"])
+    shader.inputs["Emission Strength"].default_value = 1.0
     return made
 
 
@@ -102,15 +108,16 @@ def make_materials(textures):
     made["rooftiles"] = material("rooftiles", textures.image("rooftiles", rooftiles()[0]), roughness=0.85, two_sided=True)
     made["fields"] = material("fields", textures.image("fields", fields()), roughness=1.0)
     made["gravel"] = material("gravel", textures.image("gravel", gravel()), roughness=1.0)
-    pale = modelling.stone()[0][::2, ::2]
-    made["pale_stone"] = material("pale_stone", textures.image("pale_stone", np.clip(0.30 + 0.85 * pale, 0, 1)), roughness=0.8)
+    grain = surfaces.stone()[0][::2, ::2]
+    made["pale_stone"] = material("pale_stone", textures.image("pale_stone", np.clip(0.07 + 1.12 * grain, 0, 1)), roughness=0.8)
+    made["flagstone"] = material("flagstone", textures.image("flagstone", 0.66 * grain * np.array([1.0, 0.94, 0.86])), roughness=0.9)
     # Pigments that were had: red ochre, Egyptian blue, lime, soot.
     for name, colour in (("paint_red", (0.36, 0.052, 0.024)), ("paint_blue", (0.030, 0.115, 0.30)), ("paint_white", (0.78, 0.73, 0.62)), ("paint_black", (0.030, 0.026, 0.023)),
                          ("paint_water", (0.10, 0.17, 0.17)), ("bark", (0.135, 0.105, 0.075)), ("straw_bale", (0.46, 0.36, 0.16)), ("cloth", (0.50, 0.42, 0.28))):
         made[name] = material(name, base=(*colour, 1), roughness=0.75 if name.startswith("paint") else 0.95)
     for name, colour in (("leaf_pale", (0.205, 0.235, 0.120)), ("leaf_dark", (0.088, 0.112, 0.050)), ("leaf_cypress", (0.035, 0.058, 0.026)), ("blade", (0.20, 0.23, 0.07)), ("straw", (0.42, 0.35, 0.16))):
         made[name] = material(name, base=(*colour, 1), roughness=0.8, two_sided=True)
-    made["fire"] = glowing(material("fire", base=(0.02, 0.01, 0.005, 1), roughness=1.0), (1.0, 0.33, 0.045), 1.0)
+    made["fire"] = fire(textures)
     return made
 
 

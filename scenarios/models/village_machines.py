@@ -3,9 +3,10 @@ import math
 
 import numpy as np
 
-from modelling import Shape, lathe, mix, tube
+from modelling import Shape, lathe, tube
+from surfaces import mix
 from village_place import RIVER_Y, TEMPLE, height_at, river_x, road_x
-from village_shapes import beam, box, pole, put
+from village_shapes import beam, box, flames, pole, put
 
 
 def add(model, scene, name, shapes, smooth=40):
@@ -16,8 +17,8 @@ def add(model, scene, name, shapes, smooth=40):
 
 def make_screw(model, scene):
     """From the river up to a gutter that waters the field."""
-    z = -6.3
-    foot = np.array([river_x(z) + 1.25, RIVER_Y - 0.05, z])
+    z = -7.4
+    foot = np.array([river_x(z) + 1.35, RIVER_Y - 0.05, z])
     along = np.array([math.cos(math.radians(33)), math.sin(math.radians(33)), 0.0])
     head = foot + 2.7 * along
     wood, hoops, blades, stone, water = Shape(), Shape(), Shape(), Shape(), Shape()
@@ -37,18 +38,18 @@ def make_screw(model, scene):
         beam(wood, tuple(foot + 1.75 * along + out), tuple(foot + 2.15 * along + out), 0.05, 0.05, up=tuple(out), seed=k)
     g = head + (0.05, -0.52, 0)
     for s in (-1, 1):
-        beam(wood, (g[0] - 0.1, g[1], z + s * 0.20), (g[0] + 2.3, g[1] - 0.14, z + s * 0.20), 0.04, 0.20, seed=3)
-    beam(wood, (g[0] - 0.1, g[1] - 0.09, z), (g[0] + 2.3, g[1] - 0.23, z), 0.40, 0.03, seed=4)
-    beam(water, (g[0], g[1] - 0.02, z), (g[0] + 2.31, g[1] - 0.16, z), 0.34, 0.04)
-    for x in (0.5, 1.4, 2.2):
+        beam(wood, (g[0] - 0.1, g[1], z + s * 0.20), (g[0] + 1.25, g[1] - 0.14, z + s * 0.20), 0.04, 0.20, seed=3)
+    beam(wood, (g[0] - 0.1, g[1] - 0.09, z), (g[0] + 1.25, g[1] - 0.23, z), 0.40, 0.03, seed=4)
+    beam(water, (g[0], g[1] - 0.02, z), (g[0] + 1.26, g[1] - 0.16, z), 0.34, 0.04)
+    for x in (0.3, 1.1):
         pole(wood, (g[0] + x, -0.1, z), (g[0] + x, g[1] - 0.08 - 0.06 * x, z), 0.05, sides=7)
-    box(stone, (g[0] + 1.9, -0.15, z - 0.55), (g[0] + 3.0, 0.42, z + 0.55), 1.2)
+    box(stone, (g[0] + 0.85, -0.15, z - 0.55), (g[0] + 1.95, 0.36, z + 0.55), 1.2)
     add(model, scene, "screw", {"planks": wood, "bronze": hoops, "limestone": stone, "paint_water": water})
 
 
 def make_pump(model, scene):
     """Over the cistern before the house: two cylinders in a frame, the beam, the jet's pipe."""
-    x, z = 3.95, -5.5
+    x, z = 4.1, -5.9
     stone, wood, bronze, iron = Shape(), Shape(), Shape(), Shape()
     lathe(stone, [(0.50, 0.0), (0.72, 0.0), (0.70, 0.66), (0.74, 0.70), (0.74, 0.80), (0.52, 0.80), (0.50, 0.74), (0.50, 0.1), (0.0, 0.1)], 22, (x, 0, z), (0, 1, 0), (0, 0, 1), uv_scale=(3, 0.8))
     for s in (-1, 1):
@@ -101,9 +102,9 @@ def make_crane(model, scene):
     """Vitruvius' two legs with one pulley, by the wall that is being built: a stone hangs over its place."""
     wood, rope, stone, bronze, iron = Shape(), Shape(), Shape(), Shape(), Shape()
     z = -12.6
-    head = np.array([4.05, 5.0, z + 0.25])
-    foot = (3.75, 0.0, z + 2.0)
-    winch = shears(wood, rope, foot, head, 0.95, [(2.2, 0.0, z + 6.0), (6.9, 0.1, z + 5.2), (1.6, 0.05, z - 5.0)])
+    head = np.array([5.05, 5.0, z + 0.25])
+    foot = (4.75, 0.0, z + 2.0)
+    winch = shears(wood, rope, foot, head, 0.95, [(3.4, 0.0, z + 5.6), (4.9, 0.0, z + 6.2), (2.6, 0.05, z - 5.0)])
     block_y = 4.45
     tube(rope, [tuple(head), (head[0], block_y, head[2])], 0.02, 5)
     sheave(wood, (head[0], block_y - 0.1, head[2]), 0.15)
@@ -125,7 +126,7 @@ def make_compound_crane(model, scene):
     wood, rope, stone, iron = Shape(), Shape(), Shape(), Shape()
     x, z = TEMPLE[0] - 3.3, TEMPLE[1] - 0.45
     head = np.array([x - 0.1, 8.2, z + 0.05])
-    winch = shears(wood, rope, (x - 1.5, height_at(x - 1.5, z + 3.0), z + 3.0), head, 1.25, [(x - 6.5, 0.1, z + 7.5), (x + 2.6, 0.1, z + 9.0), (x - 8.5, 0.2, z - 5.0)])
+    winch = shears(wood, rope, (x - 1.5, height_at(x - 1.5, z + 3.0), z + 3.0), head, 1.25, [(x - 3.9, 0.1, z + 6.5), (x + 1.5, 0.1, z + 7.0), (x - 5.0, 0.2, z - 6.0)])
     low = 4.9
     for p in (7.55, low):
         for dx in (-0.11, 0.11):
@@ -174,7 +175,7 @@ def make_catapult(model, scene):
         lathe(stone, [(0, -0.09), (0.064, -0.064), (0.09, 0), (0.064, 0.064), (0, 0.09)], 12, (dx, 0.09 + (0.14 if k == 3 else 0), dz), (0, 1, 0), (0, 0, 1), uv_scale=(0.5, 1))
     turned = {}
     for name, shape in (("planks", wood), ("straw_bale", sinew), ("hemp", rope), ("limestone", stone), ("iron", iron)):
-        turned[name] = put(Shape(), shape, (-0.75, 0.0, -9.3), 0.11)
+        turned[name] = put(Shape(), shape, (-0.35, 0.0, -9.3), 0.0)
     add(model, scene, "catapult", turned)
 
 
@@ -198,13 +199,13 @@ def make_crossbow(model, scene):
         pole(iron, (0.72 + 0.06 * math.cos(a), 0.2, 0.35 + 0.06 * math.sin(a)), (0.72 + 0.13 * math.cos(a), 0.78, 0.35 + 0.13 * math.sin(a)), 0.011, sides=5)
     turned = {}
     for name, shape in (("planks", wood), ("paint_black", horn), ("hemp", rope), ("iron", iron)):
-        turned[name] = put(Shape(), shape, (-2.75, 0.0, -8.0), 0.10)
+        turned[name] = put(Shape(), shape, (-1.95, 0.0, -7.0), 0.03)
     add(model, scene, "crossbow", turned)
 
 
 def make_sphere(model, scene):
     """By the smithy: a cauldron over a fire, and over it the sphere."""
-    x, z = -3.75, -10.3
+    x, z = -3.55, -11.0
     bronze, iron, fire, stone, wood = Shape(), Shape(), Shape(), Shape(), Shape()
     lathe(bronze, [(0.0, 0.46), (0.20, 0.48), (0.33, 0.60), (0.37, 0.76), (0.36, 0.88), (0.30, 0.96), (0.12, 1.02), (0.0, 1.03)], 20, (x, 0, z), (0, 1, 0), (0, 0, 1), uv_scale=(1.5, 1.5))
     for s in (-1, 1):
@@ -216,10 +217,7 @@ def make_sphere(model, scene):
     for k in range(3):
         a = 0.5 + 2 * math.pi * k / 3
         pole(iron, (x + 0.46 * math.cos(a), 0, z + 0.46 * math.sin(a)), (x + 0.32 * math.cos(a), 0.68, z + 0.32 * math.sin(a)), 0.026, sides=6)
-    rng = np.random.default_rng(471)
-    for _ in range(14):
-        fx, fz, h = x + rng.normal(0, 0.13), z + rng.normal(0, 0.13), rng.uniform(0.24, 0.46)
-        lathe(fire, [(0, 0), (0.055, 0.04), (0.06, 0.3 * h), (0.03, 0.7 * h), (0, h)], 7, (fx, 0.04, fz), (rng.normal(0, 0.12), 1, rng.normal(0, 0.12)), (0, 0, 1))
+    flames(fire, np.random.default_rng(471), (x, 0.05, z), 22, 0.14, 0.55)
     for k in range(6):
         a = math.pi * k / 3
         pole(wood, (x + 0.50 * math.cos(a), 0.04, z + 0.50 * math.sin(a)), (x - 0.05 * math.cos(a), 0.10, z - 0.05 * math.sin(a)), 0.045, sides=6, seed=k)
@@ -267,10 +265,10 @@ def make_cart(model, scene):
     lathe(bronze, [(0, 0), (0.10, 0), (0.14, 0.10), (0.12, 0.16), (0.10, 0.16), (0, 0.10)], 14, (0.54, 0.80, 0.38), (0, 1, 0), (0, 0, 1), uv_scale=(1, 2))
     for k, (px, pz) in enumerate(((-0.8, -0.2), (-0.75, 0.25), (-0.3, -0.3), (0.6, -0.3))):
         lathe(sacks, [(0, 0), (0.19, 0.02), (0.24, 0.22), (0.18, 0.42), (0.07, 0.50), (0.09, 0.56), (0, 0.55)], 12, (px, 0.78, pz), (0.1 * (-1) ** k, 1, 0.05), (0, 0, 1), uv_scale=(1, 1))
-    z = -7.6
+    z = -8.2
     turned = {}
     for name, shape in (("planks", wood), ("iron", iron), ("bronze", bronze), ("cloth", sacks)):
-        turned[name] = put(Shape(), shape, (road_x(z), 0.03, z), -0.42)
+        turned[name] = put(Shape(), shape, (road_x(z) - 0.1, 0.03, z), -0.98)
     add(model, scene, "cart", turned)
 
 

@@ -7,15 +7,16 @@ import math
 import bpy
 import numpy as np
 
-from modelling import Shape, block, earth, lathe, mix, noise, paving, step, to_blender, tube, tuft
-from village_shapes import beam, box, circle, gable, pole, prism, put, sheet
+from modelling import Shape, earth, lathe, paving, to_blender, tube, tuft
+from surfaces import mix, step
+from village_shapes import beam, box, flames, gable, pole, prism, put, sheet
 
 RIVER_Y, HALF_RIVER = -0.42, 2.0
-TEMPLE = (5.2, -21.5)  # the middle of its front's lowest step
+TEMPLE = (6.3, -21.5)  # the middle of its front's lowest step
 
 
 def river_x(z):
-    return -4.9 + 0.20 * (z + 2) + 0.9 * math.sin(0.21 * z + 0.4)
+    return -5.3 + 0.27 * (z + 2) + 0.7 * math.sin(0.21 * z + 0.4)
 
 
 def road_x(z):
@@ -30,13 +31,12 @@ def hills(x, z):
 
 
 def height_at(x, z):
-    """Level about the agora, down to the river's bed, up to the temple's terrace and the hills."""
+    """Level about the agora, down to the river's bed, up to the hills."""
     off = abs(x - river_x(z))
     bed = -0.95 * (1 - float(step(HALF_RIVER - 0.7, HALF_RIVER + 0.75, off)))
-    terrace = 0.55 * float(step(9.5, 7.0, math.hypot((x - TEMPLE[0]) * 0.9, (z - TEMPLE[1] + 5.5) * 0.72))) if False else 0.0
     rough = 0.02 * math.sin(1.3 * x + 0.7 * z) + 0.015 * math.sin(2.1 * z - 1.7 * x + 1)
     level = min(1.0, max(0.0, math.hypot(x, z) - 5) / 10)
-    return bed + terrace + (rough * level if off > HALF_RIVER else 0.0) + hills(x, z)
+    return bed + (rough * level if off > HALF_RIVER else 0.0) + hills(x, z)
 
 
 def make_ground(model, scene):
@@ -89,8 +89,8 @@ def make_bank(model, scene):
 
 
 def make_agora(model, scene):
-    """A paved place by the wall of the signs, an altar, benches."""
-    model.add("visual_flags", paving((-1.75, 1.70), (-1.75, 1.3), 1.80, (0.40, 0.56), (0.48, 0.80), (0.004, 0.010)), ["limestone"], scene, 42)
+    """A paved place by the wall of the signs; the altar before the temple."""
+    model.add("visual_flags", paving((-1.75, 1.70), (-1.75, 1.3), 1.80, (0.40, 0.56), (0.48, 0.80), (0.004, 0.010)), ["flagstone"], scene, 42)
     flags, rng = Shape(), np.random.default_rng(411)
     for row in range(11):
         z, left = -1.84 - 0.58 * row, -3.1 + 0.25 * (row % 2) + 0.12 * row
@@ -99,13 +99,13 @@ def make_agora(model, scene):
             if rng.random() < 0.93:
                 box(flags, (left, -0.06, z - 0.56), (left + width - 0.025, rng.uniform(0.012, 0.022), z), 1.4, 0, int(rng.integers(1000)))
             left += width
-    model.add("visual_square", flags, ["limestone"], scene, 42)
-    altar = Shape()
+    model.add("visual_square", flags, ["flagstone"], scene, 42)
+    altar, (x, z) = Shape(), (3.3, -15.8)
     for low, high, half in ((0.0, 0.16, 0.62), (0.16, 0.30, 0.52), (0.30, 0.98, 0.40), (0.98, 1.10, 0.50)):
-        box(altar, (-1.9 - half, low, -5.9 - 0.75 * half), (-1.9 + half, high, -5.9 + 0.75 * half), 1.2, 0, int(100 * low))
+        box(altar, (x - 1.6 * half, low, z - half), (x + 1.6 * half, high, z + half), 1.2, 0, int(100 * low))
     for s in (-1, 1):
-        pole(altar, (-1.9 + s * 0.40, 1.15, -6.24), (-1.9 + s * 0.40, 1.15, -5.56), 0.07, sides=10)
-    model.add("visual_altar", altar, ["limestone"], scene, 30)
+        pole(altar, (x + s * 0.66, 1.15, z - 0.44), (x + s * 0.66, 1.15, z + 0.44), 0.07, sides=10)
+    model.add("visual_altar", altar, ["pale_stone"], scene, 30)
     pots(model, scene)
 
 
@@ -114,7 +114,7 @@ def pots(model, scene):
     jar = [(0.0, 0.0), (0.05, 0.0), (0.17, 0.26), (0.19, 0.42), (0.13, 0.56), (0.06, 0.62), (0.055, 0.74), (0.085, 0.77), (0.075, 0.78), (0.04, 0.74), (0.0, 0.73)]
     bowl = [(0.0, 0.0), (0.11, 0.0), (0.21, 0.22), (0.23, 0.40), (0.20, 0.43), (0.18, 0.40), (0.0, 0.34)]
     shape, rng = Shape(), np.random.default_rng(421)
-    for x, z, what in ((3.35, -4.15, jar), (3.62, -4.02, jar), (3.50, -4.42, bowl), (6.3, -6.4, jar), (-3.1, -8.4, jar), (-3.35, -8.7, bowl), (-2.75, -5.3, jar), (4.75, -4.3, jar)):
+    for x, z, what in ((3.25, -4.9, jar), (3.45, -4.55, jar), (3.02, -5.2, bowl), (4.95, -7.4, jar), (-2.3, -12.5, jar), (-2.55, -12.2, bowl), (-3.3, -5.2, jar), (-3.05, -5.4, bowl), (5.0, -4.6, jar)):
         lathe(shape, [(r, h * rng.uniform(0.95, 1.05)) for r, h in what], 14, (x, height_at(x, z) - 0.01, z), (rng.normal(0, 0.03), 1, rng.normal(0, 0.03)), (0, 0, 1), uv_scale=(1, 1))
     model.add("visual_pots", shape, ["terracotta"], scene, 60)
 
@@ -136,24 +136,24 @@ def tiles(model, parent, name, x, low, high, z, thick=0.10, over=0.3):
 
 def make_house(model, scene):
     """Stone below, plastered mud brick above; small high windows with shutters of wood; a door of planks; a yard wall."""
-    x0, x1, z0, z1 = 4.7, 9.2, -9.6, -5.2
+    x0, x1, z0, z1 = 5.2, 9.7, -9.8, -5.4
     socle, walls, wood = Shape(), Shape(), Shape()
     box(socle, (x0 - 0.05, -0.3, z0 - 0.05), (x1 + 0.05, 0.62, z1 + 0.05), 1.4)
     box(walls, (x0, 0.6, z0), (x1, 3.05, z1), 3.0)
     prism(walls, [(x0, 3.0), (x1, 3.0), ((x0 + x1) / 2, 4.25)], z0, z1, 0, False, 3.0)
-    for x, y, w, h in ((5.35, 2.05, 0.50, 0.55), (8.2, 2.05, 0.50, 0.55)):  # windows of the front
+    for x, y, w, h in ((5.95, 2.05, 0.50, 0.55), (8.8, 2.05, 0.50, 0.55)):  # windows of the front
         for s in (-1, 1):
             box(wood, (x + s * w / 4 - w / 4 + 0.008, y, z1 - 0.02), (x + s * w / 4 + w / 4 - 0.008, y + h, z1 + 0.035), 0.6, 0, int(10 * x) + s)
         beam(wood, (x - w / 2 - 0.12, y + h + 0.05, z1 + 0.01), (x + w / 2 + 0.12, y + h + 0.05, z1 + 0.01), 0.10, 0.09, seed=3)
         beam(wood, (x - w / 2 - 0.08, y - 0.03, z1 + 0.02), (x + w / 2 + 0.08, y - 0.03, z1 + 0.02), 0.10, 0.06, seed=4)
-    for y, z in ((2.1, -7.2),):  # and of the side that looks to the agora
+    for y, z in ((2.1, -6.6), (2.1, -8.7)):  # and of the side that looks to the agora
         box(wood, (x0 - 0.035, y, z - 0.25), (x0 + 0.02, y + 0.5, z + 0.25), 0.6)
         beam(wood, (x0 - 0.01, y + 0.55, z - 0.4), (x0 - 0.01, y + 0.55, z + 0.4), 0.10, 0.09, seed=5)
     for k in range(4):
-        box(wood, (6.5 + 0.23 * k, 0.02, z1 - 0.02), (6.72 + 0.23 * k, 2.05, z1 + 0.065), 0.9, 0, k)
+        box(wood, (7.0 + 0.23 * k, 0.02, z1 - 0.02), (7.22 + 0.23 * k, 2.05, z1 + 0.065), 0.9, 0, k)
     for s in (-1, 1):
-        beam(wood, (6.95 + s * 0.55, 0, z1 + 0.03), (6.95 + s * 0.55, 2.15, z1 + 0.03), 0.15, 0.14, up=(0, 0, 1), seed=6 + s)
-    beam(wood, (6.2, 2.17, z1 + 0.03), (7.7, 2.17, z1 + 0.03), 0.16, 0.16, seed=8)
+        beam(wood, (7.45 + s * 0.55, 0, z1 + 0.03), (7.45 + s * 0.55, 2.15, z1 + 0.03), 0.15, 0.14, up=(0, 0, 1), seed=6 + s)
+    beam(wood, (6.7, 2.17, z1 + 0.03), (8.2, 2.17, z1 + 0.03), 0.16, 0.16, seed=8)
     for z in np.linspace(z0 + 0.2, z1 - 0.2, 8):  # rafters
         beam(wood, (x0 - 0.28, 2.93, z), (x0 + 0.3, 3.10, z), 0.09, 0.10, seed=int(-10 * z))
     model.add("visual_house_socle", socle, ["rubble"], scene, 20)
@@ -161,8 +161,6 @@ def make_house(model, scene):
     model.add("visual_house_wood", wood, ["planks"], scene, 30)
     tiles(model, scene, "house", (x0, x1), 3.03, 4.28, (z0 - 0.3, z1 + 0.3))
     yard, cap = Shape(), Shape()
-    for low, high in (((8.2, -0.2, -5.2), (8.5, 1.5, -2.2)), ((5.6, -0.2, -2.5), (8.5, 1.5, -2.2))):
-        pass
     box(yard, (9.0, -0.3, -5.2), (9.3, 1.45, -1.2), 1.4)
     box(cap, (8.92, 1.45, -5.2), (9.38, 1.55, -1.15), 1.0)
     model.add("visual_yard", yard, ["rubble"], scene, 20)
@@ -221,31 +219,30 @@ def make_temple(model, scene):
 def make_masonry(model, scene):
     """A wall of squared stones, one end of it still in steps, with a scaffold and stones that wait."""
     rng, wall, wood = np.random.default_rng(431), Shape(), Shape()
-    x0, z = 2.7, -12.6
+    x0, z = 3.8, -12.6
     for course in range(6):
-        left, right = x0 + (0.62 * course + 0.1 if course else 0), 8.2
+        left, right = x0 + (0.62 * course + 0.1 if course else 0), 9.2
         y = 0.40 * course - 0.02
         at = left - (0.35 if course % 2 else 0) * (course > 0)
         while at < right:
             width = rng.uniform(0.68, 0.92)
-            block(wall, (at, y, z - 0.38 + 0.01 * rng.random()), (min(at + width, right) - 0.008, y + 0.392, z + 0.01 * rng.random()), 0.02, int(rng.integers(1000)), 0.004) if width < 0 else \
-                box(wall, (at, y, z - 0.38), (min(at + width, right) - 0.012, y + 0.390, z + 0.03 * rng.random()), 1.4, 0, int(rng.integers(1000)))
+            box(wall, (at, y, z - 0.38), (min(at + width, right) - 0.012, y + 0.390, z + 0.03 * rng.random()), 1.4, 0, int(rng.integers(1000)))
             at += width
-    for k, (x, dz, turn) in enumerate(((3.2, 1.6, 0.2), (4.2, 2.1, -0.3), (3.75, 1.75, 0.1))):
+    for k, (x, dz, turn) in enumerate(((3.5, 1.5, 0.2), (4.4, 2.0, -0.3), (3.95, 1.7, 0.1))):
         put(wall, box(Shape(), (-0.38, 0, -0.2), (0.38, 0.39, 0.2), 1.4, 0, k), (x, height_at(x, z + dz) + (0.39 if k == 2 else 0), z + dz), turn)
-    for x in (6.0, 7.2, 8.3):
+    for x in (6.7, 7.8, 8.9):
         pole(wood, (x, 0, z + 0.75), (x, 3.0, z + 0.75), 0.05, 0.04, 7, seed=int(x))
         beam(wood, (x, 1.55, z + 0.9), (x, 1.55, z + 0.0), 0.07, seed=int(x))
     for k in range(3):
-        beam(wood, (5.8, 1.61, z + 0.72 - 0.2 * k), (8.5, 1.61, z + 0.72 - 0.2 * k), 0.19, 0.04, seed=k)
-    beam(wood, (5.9, 0.05, z + 0.75), (7.3, 2.5, z + 0.75), 0.06, seed=5)
+        beam(wood, (6.5, 1.61, z + 0.72 - 0.2 * k), (9.1, 1.61, z + 0.72 - 0.2 * k), 0.19, 0.04, seed=k)
+    beam(wood, (6.6, 0.05, z + 0.75), (7.9, 2.5, z + 0.75), 0.06, seed=5)
     model.add("visual_masonry", wall, ["limestone"], scene, 30)
     model.add("visual_scaffold", wood, ["planks"], scene, 40)
 
 
 def make_smithy(model, scene):
     """Three walls of rubble, a tiled lean-to roof on posts, a hearth with its fire, an anvil on a stump."""
-    x, z = -4.45, -12.2
+    x, z = -6.3, -12.8
     walls, wood, fire, stone, iron = Shape(), Shape(), Shape(), Shape(), Shape()
     box(walls, (x - 0.1, -0.2, z - 3.0), (x + 3.9, 2.5, z - 2.65), 1.4)
     box(walls, (x - 0.1, -0.2, z - 3.0), (x + 0.25, 2.1, z - 0.6), 1.4, 0, 1)
@@ -265,10 +262,7 @@ def make_smithy(model, scene):
     box(stone, (x + 0.7, 0, z - 2.1), (x + 2.0, 0.78, z - 0.95), 1.2)
     for low, high in (((x + 0.7, 0.78, z - 2.1), (x + 2.0, 1.15, z - 1.9)), ((x + 0.7, 0.78, z - 2.1), (x + 0.9, 1.15, z - 0.95))):
         box(stone, low, high, 1.2)
-    rng = np.random.default_rng(441)
-    for _ in range(16):
-        fx, fz, h = x + 1.4 + rng.normal(0, 0.17), z - 1.5 + rng.normal(0, 0.14), rng.uniform(0.25, 0.62)
-        lathe(fire, [(0, 0), (0.075, 0.04), (0.085, 0.3 * h), (0.04, 0.7 * h), (0, h)], 7, (fx, 0.76, fz), (rng.normal(0, 0.12), 1, rng.normal(0, 0.12)), (0, 0, 1))
+    flames(fire, np.random.default_rng(441), (x + 1.4, 0.76, z - 1.5), 26, 0.17, 0.75)
     pole(wood, (x + 2.85, 0, z - 0.9), (x + 2.85, 0.55, z - 0.9), 0.22, 0.20, 10, seed=4)
     box(iron, (x + 2.66, 0.55, z - 1.0), (x + 3.04, 0.72, z - 0.8), 1.0)
     for name, shape, what, smooth in (("walls", walls, "rubble", 20), ("wood", wood, "planks", 40), ("roof", roof_top, "rooftiles", 20), ("boards", under, "planks", 20), ("covers", covers, "rooftiles", 50),
@@ -290,7 +284,7 @@ def make_range(model, scene):
     for _ in range(12):
         px, pz, r = x + 2.6 + rng.normal(0, 0.8), z + 0.6 + abs(rng.normal(0, 0.5)), rng.uniform(0.10, 0.24)
         put(wall, box(Shape(), (-r, -0.6 * r, -r), (r, 0.6 * r, r), 1.3, 0, int(rng.integers(100))), (px, height_at(px, pz) + 0.3 * r, pz), rng.uniform(0, 3))
-    bx, bz = -3.3, -21.5
+    bx, bz = -2.5, -21.5
     lathe(straw, [(0, 0), (0.66, 0), (0.72, 0.06), (0.72, 0.28), (0.66, 0.34), (0, 0.34)], 20, (bx, 1.25, bz - 0.3), (0, 0.10, 1), uv_scale=(4, 3))
     for r, y, slot in ((0.48, 0.346, 0), (0.33, 0.352, 1), (0.15, 0.358, 0)):
         lathe(mark, [(r, 0), (0, 0.003)], 20, (bx, 1.25 + 0.1 * y, bz - 0.3 + y), (0, 0.10, 1), slots=[slot])
@@ -323,7 +317,7 @@ def crown(shape, centre, radius, seed, leaves, size):
         shape.face(tuple(i), ((0.5, 0.5),) * 4, 1 if bright > 0.62 else 2)
 
 
-def olive(seed, leaves=170, size=0.17):
+def olive(seed, leaves=420, size=0.13):
     """Trunk and crown; materials: bark, pale leaf, dark leaf."""
     rng, shape = np.random.default_rng(500 + seed), Shape()
     fork = np.array([rng.normal(0, 0.12), 1.0 + 0.15 * rng.random(), rng.normal(0, 0.12)])
@@ -359,13 +353,13 @@ def plant(model, parent, mesh, name, x, z, turn):
 
 def make_trees(model, scene):
     kinds = [model.add(f"visual_olive_{k}", olive(k), ["bark", "leaf_pale", "leaf_dark"], None, 60) for k in range(3)]
-    kinds += [model.add(f"visual_grove_{k}", olive(7 + k, 60, 0.30), ["bark", "leaf_pale", "leaf_dark"], None, 60) for k in range(2)]
+    kinds += [model.add(f"visual_grove_{k}", olive(7 + k, 110, 0.26), ["bark", "leaf_pale", "leaf_dark"], None, 60) for k in range(2)]
     kinds.append(model.add("visual_cypress", cypress(1), ["bark", "leaf_pale", "leaf_cypress"], None, 60))
     meshes = [k.data for k in kinds]
     for made in kinds:
         bpy.data.objects.remove(made)
     rng = np.random.default_rng(461)
-    near = [(-7.8, -17.5), (-6.4, -20.5), (-9.3, -13.8), (0.6, -25.5), (11.4, -12.5), (10.8, -16.5), (-1.2, -31), (10.3, -7.6), (-12.6, -9.5), (-11.4, -16), (13.5, -20), (3.0, -36), (-9.6, -26)]
+    near = [(-6.6, -18.0), (-4.6, -22.5), (-11.6, -12.4), (-12.6, -8.0), (12.4, -14.5), (12.9, -18.5), (-3.6, -31), (-14.2, -16), (-15.5, -11), (14.5, -22), (3.0, -36), (-7.6, -27), (-10.5, -5.0), (-6.9, -15.8)]
     for k, (x, z) in enumerate(near):
         plant(model, scene, meshes[k % 3], f"visual_tree_{k}", x, z, 1.3 * k)
     made = 0

@@ -136,4 +136,18 @@ def sheet(shape, rows, tile=1.0, slot=0):
     return shape
 
 
-__all__ = ["arc", "beam", "box", "circle", "gable", "pole", "prism", "put", "sheet", "stroke", "Shape"]
+def flames(shape, rng, foot, count, spread, tallest):
+    """Tongues of fire about a place, v from foot to tip."""
+    for _ in range(count):
+        at = np.asarray(foot, float) + (rng.normal(0, spread), 0, rng.normal(0, spread))
+        h = tallest * rng.uniform(0.45, 1.0) * math.exp(-((at[0] - foot[0]) ** 2 + (at[2] - foot[2]) ** 2) / (4 * spread**2))
+        sway, r = rng.uniform(0, 6.28), 0.10 * tallest * rng.uniform(0.7, 1.2)
+        rings = []
+        for t in np.linspace(0, 1, 7):
+            middle = at + (0.5 * r * t * math.sin(4 * t + sway), h * t, 0.5 * r * t * math.cos(5 * t + sway))
+            rings.append([middle + r * (math.sin(math.pi * (0.18 + 0.81 * t)) * (1 - 0.5 * t)) * np.array([math.cos(a), 0, -math.sin(a)]) for a in np.arange(6) * math.pi / 3])
+        shape.loft(rings, lambda i, j: (j / 6, min(0.98, i / 6)), cap_scale=0.0, cap_uv=(0.5, 0.9))
+    return shape
+
+
+__all__ = ["arc", "beam", "box", "circle", "flames", "gable", "pole", "prism", "put", "sheet", "stroke", "Shape"]

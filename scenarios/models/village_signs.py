@@ -210,9 +210,9 @@ def make_stand(model):
     for k, (_, column, row) in enumerate(SIGNS):
         x, y, z = place_of(column, row)
         back, foot = z - 0.105, WALL_TOP - 0.12
-        model.add(f"part_post_{k}", timber(Shape(), (x, foot, back), (x, y + 0.052, back), 0.044, 0.044, up=(0, 0, 1), bevel=0.004, seed=40 + k, rough=0.0004), ["timber"], stand, 40)
-        timber(posts, (x, y + 0.016, back - 0.032), (x, y + 0.016, z + 0.020), 0.026, 0.030, bevel=0.003, seed=50 + k, rough=0.0003)
-        timber(posts, (x, y - 0.060, back + 0.018), (x, y + 0.004, z - 0.028), 0.018, 0.018, bevel=0.002, seed=60 + k, rough=0.0003)
+        model.add(f"part_post_{k}", timber(Shape(), (x, foot, back), (x, y + 0.052, back), 0.038, 0.038, up=(0, 0, 1), bevel=0.005, seed=40 + k, rough=0.0004), ["timber"], stand, 40)
+        timber(posts, (x, y + 0.016, back - 0.032), (x, y + 0.016, z + 0.020), 0.022, 0.028, bevel=0.003, seed=50 + k, rough=0.0003)
+        timber(posts, (x, y - 0.060, back + 0.018), (x, y + 0.004, z - 0.028), 0.016, 0.016, bevel=0.002, seed=60 + k, rough=0.0003)
     model.add("visual_arms", posts, ["timber"], stand, 40)
     bars = Shape()
     for _, column, row in SIGNS:
@@ -227,11 +227,11 @@ def make_stand(model):
             right = 0.66 if 0.66 - right < 0.14 else right
             block(course, (left, low, -0.10 + 0.008 * rng.random()), (right - 0.003, high - 0.003, 0.40 - 0.010 * rng.random()), 0.008, int(rng.integers(1000)), 0.0025)
             left = right
-    model.add("visual_wall", course, ["limestone"], stand, 42)
+    model.add("visual_wall", course, ["rubble"], stand, 42)
     cap = Shape()
     for k, (a, b) in enumerate(((-0.72, -0.25), (-0.247, 0.22), (0.223, 0.70))):
         block(cap, (a, WALL_TOP - 0.077, -0.125), (b, WALL_TOP, 0.425), 0.010, 330 + k, 0.002)
-    model.add("visual_cap", cap, ["limestone"], stand, 42)
+    model.add("visual_cap", cap, ["pale_stone"], stand, 42)
     core = Shape()
     block(core, (-0.645, 0.0, -0.085), (0.645, WALL_TOP - 0.006, 0.38), 0.010, 77, 0.0, 1.0)
     model.add("part_wall", core, ["limestone"], stand, 42)
