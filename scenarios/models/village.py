@@ -111,8 +111,8 @@ def make_materials(textures):
     grain = surfaces.stone()[0][::2, ::2]
     made["pale_stone"] = material("pale_stone", textures.image("pale_stone", np.clip(0.07 + 1.12 * grain, 0, 1)), roughness=0.8)
     made["flagstone"] = material("flagstone", textures.image("flagstone", 0.66 * grain * np.array([1.0, 0.94, 0.86])), roughness=0.9)
-    # Pigments that were had: red ochre, Egyptian blue, lime, soot.
-    for name, colour in (("paint_red", (0.36, 0.052, 0.024)), ("paint_blue", (0.030, 0.115, 0.30)), ("paint_white", (0.78, 0.73, 0.62)), ("paint_black", (0.030, 0.026, 0.023)),
+    # Pigments that were had: red and yellow ochre, Egyptian blue, lime, soot.
+    for name, colour in (("paint_red", (0.36, 0.052, 0.024)), ("paint_blue", (0.030, 0.115, 0.30)), ("paint_white", (0.78, 0.73, 0.62)), ("paint_black", (0.030, 0.026, 0.023)), ("paint_ochre", (0.62, 0.34, 0.06)),
                          ("paint_water", (0.10, 0.17, 0.17)), ("bark", (0.135, 0.105, 0.075)), ("straw_bale", (0.46, 0.36, 0.16)), ("cloth", (0.50, 0.42, 0.28))):
         made[name] = material(name, base=(*colour, 1), roughness=0.75 if name.startswith("paint") else 0.95)
     for name, colour in (("leaf_pale", (0.205, 0.235, 0.120)), ("leaf_dark", (0.088, 0.112, 0.050)), ("leaf_cypress", (0.035, 0.058, 0.026)), ("blade", (0.20, 0.23, 0.07)), ("straw", (0.42, 0.35, 0.16))):
@@ -121,7 +121,7 @@ def make_materials(textures):
     return made
 
 
-VIEWS = {"visitor": ((0, 1.5, 1.1), (0, 1.10, -0.1), 24), "signs": ((0, 1.42, 1.25), (0, 0.98, 0.2), 40), "far": ((0, 1.6, 1.1), (0, 1.25, -4), 26),
+VIEWS = {"visitor": ((0, 1.5, 1.1), (0, 1.10, -0.1), 24), "front": ((0, 1.6, 1.7), (0, 1.34, 0.7), 27), "signs": ((0, 1.42, 1.25), (0, 0.98, 0.2), 40), "far": ((0, 1.6, 1.1), (0, 1.25, -4), 26),
          "left": ((0, 1.8, 1.0), (-3.4, 0.9, -6), 38), "right": ((0, 1.8, 1.0), (3.6, 1.2, -6), 38), "bird": ((-3, 13, 10), (0.5, 0, -12), 24)}
 
 

@@ -10,11 +10,11 @@ import numpy as np
 from modelling import Shape, block, rod, timber, tube
 from village_shapes import arc, circle, prism, stroke
 
-COLUMNS, ROWS = (-0.339, -0.113, 0.113, 0.339), ((1.180, 0.10), (0.985, 0.37))  # x; height of the bar and its z
+COLUMNS, ROWS = (-0.339, -0.113, 0.113, 0.339), ((1.180, 0.10), (1.020, 0.37))  # x; height of the bar and its z
 THICK, TOP, MIDDLE = 0.020, -0.022, -0.100  # of a board: its thickness, its upper edge, its middle below the bar
 WALL_TOP = 0.70
-RED, BLUE, WHITE, BLACK, BRONZE, WOOD = range(6)
-PAINTS = ["paint_red", "paint_blue", "paint_white", "paint_black", "bronze", "planks"]
+RED, BLUE, WHITE, BLACK, OCHRE = range(5)
+PAINTS = ["paint_red", "paint_blue", "paint_white", "paint_black", "paint_ochre"]
 
 # In the order of the places behind them, from the river on the left to the house on the right; the upper row first.
 SIGNS = (("SCREW", 0, 0), ("CATAPULT", 1, 0), ("COMPOUND_CRANE", 2, 0), ("CRANE", 3, 0),
@@ -77,10 +77,12 @@ def draw_screw(shape, z):
 
 def draw_pump(shape, z):
     for s in (-1, 1):
-        prism(shape, [(s * 0.030 - 0.013, -0.052), (s * 0.030 + 0.013, -0.052), (s * 0.030 + 0.013, 0.004), (s * 0.030 - 0.013, 0.004)], *z, BRONZE, False)
+        for out, front, slot in ((0.0165, z[1] - 0.001, BLACK), (0.013, z[1], OCHRE)):
+            low, top = -0.052 + 0.013 - out, 0.004 - 0.013 + out
+            prism(shape, [(s * 0.030 - out, low), (s * 0.030 + out, low), (s * 0.030 + out, top), (s * 0.030 - out, top)], z[0], front, slot, False)
         bar(shape, (s * 0.030, 0.0), (s * 0.030, 0.030 + 0.011 * s), 0.006, z, BLACK)
-        bar(shape, (s * 0.018, -0.044), (0.0, -0.044), 0.008, z, BRONZE)
-    bar(shape, (0, -0.048), (0, 0.052), 0.009, z, BRONZE)
+        bar(shape, (s * 0.018, -0.044), (0.0, -0.044), 0.008, z, BLACK)
+    bar(shape, (0, -0.048), (0, 0.052), 0.009, z, BLACK)
     high = (z[0], z[1] + 0.0015)
     bar(shape, (-0.050, 0.012), (0.050, 0.050), 0.010, high, RED)
     for s in (-1, 1):
@@ -98,7 +100,7 @@ def draw_frame_of_crane(shape, z, head):
 def draw_crane(shape, z):
     draw_frame_of_crane(shape, z, 0.048)
     high = (z[0], z[1] + 0.0015)
-    stroke(shape, circle((0, 0.046), 0.012, 18), 0.006, *high, BRONZE, True)
+    stroke(shape, circle((0, 0.046), 0.012, 18), 0.006, *high, OCHRE, True)
     bar(shape, (0.0, 0.036), (0.0, 0.012), 0.0035, high, BLACK)
     prism(shape, [(-0.016, -0.012), (0.016, -0.012), (0.016, 0.012), (-0.016, 0.012)], *high, WHITE, False)
 
@@ -108,7 +110,7 @@ def draw_compound_crane(shape, z):
     bar(shape, (0.056, -0.062), (0.000, 0.052), 0.005, z, BLACK)
     high = (z[0], z[1] + 0.0015)
     for p in ((0.002, 0.043), (0.002, 0.013)):
-        stroke(shape, circle(p, 0.010, 18), 0.006, *high, BRONZE, True)
+        stroke(shape, circle(p, 0.010, 18), 0.006, *high, OCHRE, True)
     for x in (-0.008, 0.012):
         bar(shape, (x, 0.043), (x, 0.013), 0.003, high, BLACK)
     bar(shape, (0.002, 0.003), (0.002, -0.016), 0.0035, high, BLACK)
@@ -137,15 +139,16 @@ def draw_crossbow(shape, z):
     for s in (-1, 1):
         bar(shape, (s * 0.0635, 0.016), (0, -0.022), 0.003, high, WHITE)
     bar(shape, (0, -0.022), (0, 0.056), 0.0045, (z[0], z[1] + 0.003), WHITE)
-    prism(shape, [(-0.008, 0.054), (0.008, 0.054), (0, 0.070)], z[0], z[1] + 0.003, BRONZE, False)
+    prism(shape, [(-0.008, 0.054), (0.008, 0.054), (0, 0.070)], z[0], z[1] + 0.003, OCHRE, False)
     stroke(shape, arc((0, -0.074), 0.020, 0.15 * math.pi, 0.85 * math.pi, 9), 0.006, *high, RED)  # the yoke for the belly
 
 
 def draw_sphere(shape, z):
     high = (z[0], z[1] + 0.002)
-    prism(shape, circle((0, 0.022), 0.025, 28), *high, BRONZE, False)
-    stroke(shape, [(0.014, 0.042), (0.030, 0.052), (0.040, 0.046)], 0.006, *high, BRONZE)
-    stroke(shape, [(-0.014, 0.002), (-0.030, -0.008), (-0.040, -0.002)], 0.006, *high, BRONZE)
+    prism(shape, circle((0, 0.022), 0.029, 28), *z, BLACK, False)
+    prism(shape, circle((0, 0.022), 0.025, 28), *high, OCHRE, False)
+    stroke(shape, [(0.014, 0.042), (0.030, 0.052), (0.040, 0.046)], 0.006, *high, OCHRE)
+    stroke(shape, [(-0.014, 0.002), (-0.030, -0.008), (-0.040, -0.002)], 0.006, *high, OCHRE)
     for s in (-1, 1):
         bar(shape, (s * 0.033, -0.022), (s * 0.033, 0.022), 0.005, z, BLACK)
         bar(shape, (s * 0.033, 0.022), (s * 0.020, 0.022), 0.005, z, BLACK)
@@ -168,7 +171,7 @@ def draw_odometer(shape, z):
         for r, d in ((0.0165, -0.16), (0.0165, 0.05), (0.0215, 0.10), (0.0215, 0.30)):
             a = 2 * math.pi * k / 14 + d
             cog.append((r * math.cos(a), 0.042 + r * math.sin(a)))
-    prism(shape, cog, *high, BRONZE, False)
+    prism(shape, cog, *high, OCHRE, False)
     prism(shape, circle((0, 0.042), 0.005, 10), z[0], z[1] + 0.003, BLACK, False)
 
 
