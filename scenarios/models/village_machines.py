@@ -126,7 +126,7 @@ def make_compound_crane(model, scene):
     wood, rope, stone, iron = Shape(), Shape(), Shape(), Shape()
     x, z = TEMPLE[0] - 3.3, TEMPLE[1] - 0.45
     head = np.array([x - 0.1, 8.2, z + 0.05])
-    winch = shears(wood, rope, (x - 1.5, height_at(x - 1.5, z + 3.0), z + 3.0), head, 1.25, [(x - 3.9, 0.1, z + 6.5), (x + 1.5, 0.1, z + 7.0), (x - 5.0, 0.2, z - 6.0)])
+    winch = shears(wood, rope, (x - 2.7, height_at(x - 2.7, z + 2.8), z + 2.8), head, 1.2, [(x - 4.9, 0.1, z + 5.5), (x + 2.2, 0.1, z + 7.0), (x - 5.0, 0.2, z - 6.0)])
     low = 4.9
     for p in (7.55, low):
         for dx in (-0.11, 0.11):
@@ -193,6 +193,11 @@ def make_crossbow(model, scene):
     for x, z in ((0, 0.62),):
         pole(wood, (x, 0, z), (0, 0.98, 0.55), 0.03, sides=7)
     pole(iron, (0, 1.19, -0.95), (0, 1.10, 0.02), 0.010, sides=6)
+    pole(wood, (-0.20, 1.02, 0.55), (0.20, 1.02, 0.55), 0.045, sides=9)  # the winch and its handspikes
+    for s in (-1, 1):
+        for a in (0.4, 0.4 + math.pi / 2):
+            reach = (0, 0.19 * math.cos(a), 0.19 * math.sin(a))
+            pole(wood, (s * 0.19, 1.02 - reach[1], 0.55 - reach[2]), (s * 0.19, 1.02 + reach[1], 0.55 + reach[2]), 0.016, sides=6)
     lathe(wood, [(0, 0), (0.14, 0), (0.18, 0.45), (0.16, 0.45), (0, 0.40)], 14, (0.72, 0, 0.35), (0, 1, 0), (0, 0, 1), uv_scale=(2, 1))
     for k in range(7):
         a = 0.9 * k
@@ -265,10 +270,10 @@ def make_cart(model, scene):
     lathe(bronze, [(0, 0), (0.10, 0), (0.14, 0.10), (0.12, 0.16), (0.10, 0.16), (0, 0.10)], 14, (0.54, 0.80, 0.38), (0, 1, 0), (0, 0, 1), uv_scale=(1, 2))
     for k, (px, pz) in enumerate(((-0.8, -0.2), (-0.75, 0.25), (-0.3, -0.3), (0.6, -0.3))):
         lathe(sacks, [(0, 0), (0.19, 0.02), (0.24, 0.22), (0.18, 0.42), (0.07, 0.50), (0.09, 0.56), (0, 0.55)], 12, (px, 0.78, pz), (0.1 * (-1) ** k, 1, 0.05), (0, 0, 1), uv_scale=(1, 1))
-    z = -8.2
+    z = -7.9
     turned = {}
     for name, shape in (("planks", wood), ("iron", iron), ("bronze", bronze), ("cloth", sacks)):
-        turned[name] = put(Shape(), shape, (road_x(z) - 0.1, 0.03, z), -0.98)
+        turned[name] = put(Shape(), shape, (road_x(z) + 0.1, 0.03, z), -0.98)
     add(model, scene, "cart", turned)
 
 

@@ -20,7 +20,7 @@ def river_x(z):
 
 
 def road_x(z):
-    return 1.75 + 0.045 * (z + 4) - 0.9 * math.sin(0.10 * z) - 0.0016 * (z + 5) ** 2
+    return 2.15 + 0.045 * (z + 4) - 0.9 * math.sin(0.10 * z) - 0.0016 * (z + 5) ** 2
 
 
 def hills(x, z):
@@ -52,10 +52,10 @@ def make_ground(model, scene):
             shape.uvs[k] = tuple((shape.vertices[i][0] / 26, shape.vertices[i][2] / 26) for i in face)
     model.add("visual_ground", shape, ["earth", "fields"], scene, 60)
     rows = []
-    for z in np.linspace(3.5, -46, 60):
+    for z in np.linspace(-1.7, -46, 60):
         out = 0.03 * math.sin(2.1 * z)
         rows.append([(road_x(z) + w + out, height_at(road_x(z) + w, z) + h, z) for w, h in ((1.35, -0.02), (1.1, 0.025), (0.75, 0.012), (0, 0.04), (-0.75, 0.012), (-1.1, 0.025), (-1.35, -0.02))])
-    model.add("visual_road", sheet(Shape(), rows, 3.0), ["gravel"], scene, 60)
+    model.add("visual_road", sheet(Shape(), [r[::-1] for r in rows], 2.2, level=True), ["gravel"], scene, 60)
     water = model.group("WATER_RIVER")
     rows = [[(river_x(z) - 3.2, RIVER_Y, z), (river_x(z) + 3.2, RIVER_Y, z)] for z in np.linspace(12, -44, 40)]
     model.add("visual_river", sheet(Shape(), [r[::-1] for r in rows]), ["water"], water, 60)
@@ -94,7 +94,7 @@ def make_agora(model, scene):
     flags, rng = Shape(), np.random.default_rng(411)
     for row in range(11):
         z, left = -1.84 - 0.58 * row, -3.1 + 0.25 * (row % 2) + 0.12 * row
-        while left < 2.4 - 0.05 * row:
+        while left < 0.35 - 0.03 * row:
             width = rng.uniform(0.55, 0.95)
             if rng.random() < 0.93:
                 box(flags, (left, -0.06, z - 0.56), (left + width - 0.025, rng.uniform(0.012, 0.022), z), 1.4, 0, int(rng.integers(1000)))

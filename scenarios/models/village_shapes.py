@@ -126,13 +126,16 @@ def gable(shape, x, low, high, z, thick, slots=(0, 0), over=0.25):
     return shape
 
 
-def sheet(shape, rows, tile=1.0, slot=0):
-    """A cloth or a strip through rows of points."""
+def sheet(shape, rows, tile=1.0, slot=0, level=False):
+    """A cloth or a strip through rows of points; uv by their order, or (`level`) by x and z."""
     index = [shape.points(r) for r in rows]
+
+    def uv(i, j):
+        return (rows[i][j][0] / tile, rows[i][j][2] / tile) if level else (i / tile, j / tile)
+
     for i in range(len(rows) - 1):
         for j in range(len(rows[0]) - 1):
-            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]),
-                       ((i / tile, j / tile), (i / tile, (j + 1) / tile), ((i + 1) / tile, (j + 1) / tile), ((i + 1) / tile, j / tile)), slot)
+            shape.face((index[i][j], index[i][j + 1], index[i + 1][j + 1], index[i + 1][j]), (uv(i, j), uv(i, j + 1), uv(i + 1, j + 1), uv(i + 1, j)), slot)
     return shape
 
 

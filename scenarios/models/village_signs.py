@@ -10,8 +10,8 @@ import numpy as np
 from modelling import Shape, block, rod, timber, tube
 from village_shapes import arc, circle, prism, stroke
 
-COLUMNS, ROWS = (-0.339, -0.113, 0.113, 0.339), ((1.180, 0.10), (1.020, 0.37))  # x; height of the bar and its z
-THICK, TOP, MIDDLE = 0.020, -0.022, -0.100  # of a board: its thickness, its upper edge, its middle below the bar
+COLUMNS, ROWS = (-0.366, -0.122, 0.122, 0.366), ((1.180, 0.10), (0.995, 0.37))  # x; height of the bar and its z
+THICK, MIDDLE, SIZE = 0.020, -0.106, 1.12  # of a board: its thickness, its middle below the bar, its size over that of the drawings below
 WALL_TOP = 0.70
 RED, BLUE, WHITE, BLACK, OCHRE = range(5)
 PAINTS = ["paint_red", "paint_blue", "paint_white", "paint_black", "paint_ochre"]
@@ -29,7 +29,7 @@ def place_of(column, row):
 
 
 def outline_of(name):
-    """All are 0.15 m high and 0.14 to 0.16 m wide."""
+    """All are 0.15 m high and 0.14 to 0.16 m wide before SIZE."""
     h = 0.075
     if name == "SCREW":  # a leaning board, as the barrel leans
         return [(-0.080, -h), (0.052, -h), (0.080, h), (-0.052, h)]
@@ -184,7 +184,7 @@ EMBLEMS = {"SCREW": draw_screw, "PUMP": draw_pump, "CRANE": draw_crane, "COMPOUN
 
 def make_sign(model, name):
     group = model.group("SIGN_" + name)
-    outline = [(x, y + MIDDLE) for x, y in outline_of(name)]
+    outline = [(SIZE * x, SIZE * y + MIDDLE) for x, y in outline_of(name)]
     half = THICK / 2
     model.add("part_" + name.lower(), prism(Shape(), outline, -half, half), ["timber"], group, 20)
     middle = np.array([0, MIDDLE])
@@ -196,7 +196,7 @@ def make_sign(model, name):
     model.add("visual_rim_" + name.lower(), rim, ["planks"], group, 20)
     emblem = Shape()
     EMBLEMS[name](emblem, (half - 0.001, half + 0.0035))
-    emblem.vertices = [(x, y + MIDDLE, z) for x, y, z in emblem.vertices]
+    emblem.vertices = [(SIZE * x, SIZE * y + MIDDLE, z) for x, y, z in emblem.vertices]
     model.add("visual_emblem_" + name.lower(), emblem, PAINTS, group, 20)
     loops = Shape()
     for s in (-1, 1):
@@ -213,7 +213,7 @@ def make_stand(model):
     for k, (_, column, row) in enumerate(SIGNS):
         x, y, z = place_of(column, row)
         back, foot = z - 0.105, WALL_TOP - 0.12
-        model.add(f"part_post_{k}", timber(Shape(), (x, foot, back), (x, y + 0.052, back), 0.038, 0.038, up=(0, 0, 1), bevel=0.005, seed=40 + k, rough=0.0004), ["timber"], stand, 40)
+        model.add(f"part_post_{k}", timber(Shape(), (x, foot, back), (x, y + 0.044, back), 0.038, 0.038, up=(0, 0, 1), bevel=0.005, seed=40 + k, rough=0.0004), ["timber"], stand, 40)
         timber(posts, (x, y + 0.016, back - 0.032), (x, y + 0.016, z + 0.020), 0.022, 0.028, bevel=0.003, seed=50 + k, rough=0.0003)
         timber(posts, (x, y - 0.060, back + 0.018), (x, y + 0.004, z - 0.028), 0.016, 0.016, bevel=0.002, seed=60 + k, rough=0.0003)
     model.add("visual_arms", posts, ["timber"], stand, 40)

@@ -27,7 +27,7 @@ constexpr Sign kSigns[] = {{"SCREW", "archimedes-screw"},
                            {"ODOMETER", "odometer"},
                            {"PUMP", "ktesibios-pump"}};
 constexpr double kFace_m = 0.010;  // of a board, before its middle
-const Vec3 kMiddle_B(0, -0.1, 0);  // of a board, below its bar
+const Vec3 kMiddle_B(0, -0.106, 0);  // of a board, below its bar
 
 void PrintTo(const Sign& sign, std::ostream* out) {
   *out << sign.name;
