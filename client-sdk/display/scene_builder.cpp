@@ -165,7 +165,8 @@ void SceneBuilder::find_place() {
   camera_ = look_over(interest_W);
   ground_height_m_ = box_W_.min().y();  // under its rivers too
   const Vec3f middle = interest_W.center().cast<float>() - Vec3f(0, 0, 0.7F * kShadowReach_m);
-  shadow_box_W_ = box_W_.intersection({middle - Vec3f::Constant(kShadowReach_m), middle + Vec3f::Constant(kShadowReach_m)});
+  shadow_box_W_ =
+      box_W_.intersection({middle - Vec3f::Constant(kShadowReach_m), middle + Vec3f::Constant(kShadowReach_m)});
 }
 
 RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldStatus* status, client::LinkState link) {

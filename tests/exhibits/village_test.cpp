@@ -18,15 +18,11 @@ struct Sign {
   const char* opens;
 };
 
-constexpr Sign kSigns[] = {{"SCREW", "archimedes-screw"},
-                           {"CATAPULT", "catapult"},
-                           {"COMPOUND_CRANE", "compound-pulley-crane"},
-                           {"CRANE", "pulley-crane"},
-                           {"SPHERE", "aiolos-sphere"},
-                           {"CROSSBOW", "crossbow"},
-                           {"ODOMETER", "odometer"},
-                           {"PUMP", "ktesibios-pump"}};
-constexpr double kFace_m = 0.010;  // of a board, before its middle
+constexpr Sign kSigns[] = {
+    {"SCREW", "archimedes-screw"}, {"CATAPULT", "catapult"},    {"COMPOUND_CRANE", "compound-pulley-crane"},
+    {"CRANE", "pulley-crane"},     {"SPHERE", "aiolos-sphere"}, {"CROSSBOW", "crossbow"},
+    {"ODOMETER", "odometer"},      {"PUMP", "ktesibios-pump"}};
+constexpr double kFace_m = 0.010;    // of a board, before its middle
 const Vec3 kMiddle_B(0, -0.106, 0);  // of a board, below its bar
 
 void PrintTo(const Sign& sign, std::ostream* out) {
@@ -144,13 +140,27 @@ TEST_P(EachSign, LeadsToItsOwnStep) {
   EXPECT_TRUE(std::filesystem::exists(scenarios / GetParam().opens / (std::string(GetParam().opens) + ".x3d")));
 }
 
+TEST_P(EachSign, IsChosenOnMostOfItsBoardAndNotBesideIt) {
+  const auto stopped_at = [](const Vec3& beside) {
+    const Vec3 face_B = kMiddle_B + beside + Vec3(0, 0, kFace_m);
+    return play({reach(middle_of(GetParam()) + beside + Vec3(0, 0, 0.25), 1.5), reach(body_of(GetParam()), face_B, 0.6),
+                 wait(1)})
+        .stopped_at;
+  };
+  for (const Vec3& beside : {Vec3(0.05, 0, 0), Vec3(-0.05, 0, 0), Vec3(0, 0.05, 0), Vec3(0, -0.05, 0)}) {
+    EXPECT_EQ(stopped_at(beside), step_of(GetParam())) << beside.transpose();
+    EXPECT_EQ(stopped_at(2 * beside), "choose") << 2 * beside.transpose();
+  }
+}
+
 TEST_P(EachSign, ThatIsTakenAwayOrIsNotAskedLeadsNowhere) {
   const std::string name = GetParam().name;
   test::PlayOptions options;
   options.change = [&](state::WorldDescription& world) { test::take_away(world, "SIGN_" + name); };
   // The hand goes where the sign was.
   const Vec3 middle_W = middle_of(GetParam());
-  expect_nothing_chosen(play({reach(middle_W + Vec3(0, 0, 0.25), 1.5), reach(middle_W + Vec3(0, 0, kFace_m), 0.6), wait(1)}, options));
+  expect_nothing_chosen(
+      play({reach(middle_W + Vec3(0, 0, 0.25), 1.5), reach(middle_W + Vec3(0, 0, kFace_m), 0.6), wait(1)}, options));
   options.change = [&](state::WorldDescription& world) { test::switch_off(world, "POINT_" + name); };
   expect_nothing_chosen(play(finger_on(GetParam()), options));
 }
@@ -192,8 +202,7 @@ INSTANTIATE_TEST_SUITE_P(Village, EachSign, testing::ValuesIn(kSigns),
 TEST(VillageSigns, AFingerBetweenTwoChoosesNothing) {
   for (int row = 0; row < 2; ++row) {
     for (int column = 0; column < 3; ++column) {
-      const Vec3 between_W =
-          0.5 * (middle_of(kSigns[4 * row + column]) + middle_of(kSigns[4 * row + column + 1]));
+      const Vec3 between_W = 0.5 * (middle_of(kSigns[4 * row + column]) + middle_of(kSigns[4 * row + column + 1]));
       // At the boards' faces, and poked through between them.
       expect_nothing_chosen(play({reach(between_W + Vec3(0, 0, 0.2), 1.5), reach(between_W + Vec3(0, 0, 0.015), 0.5),
                                   wait(0.6), reach(between_W - Vec3(0, 0, 0.05), 0.5), wait(0.6)}));
