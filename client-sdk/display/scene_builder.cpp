@@ -11,6 +11,10 @@ constexpr const char* kBasin = "WATER_BASIN";
 constexpr const char* kBarrel = "OUTER";
 /// How fast water leaves the barrel's end, along its axis: a guess by eye, it only shapes the picture.
 constexpr float kSpoutSpeed_m_per_s = 0.55F;
+/// Scenery larger than this is a landscape about what is to be touched, not a machine's stand.
+constexpr float kLandscape_m = 40;
+/// How far about the eye's foreground things throw shadows: one map covers them, farther off nobody misses them.
+constexpr float kShadowReach_m = 13;
 
 /// The value of the first quantity whose name contains `word`, in SI; 0 when there is none.
 double quantity(const client::Frame& frame, const client::WorldStatus& status, std::string_view word) {
@@ -39,6 +43,16 @@ Eigen::AlignedBox3f moved(const Eigen::AlignedBox3f& box_B, const Pose& X_WB) {
     box_W.extend(X * box_B.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
   }
   return box_W;
+}
+
+/// Stands before what is to be touched, at a grown person's height, and sees the land beyond over it.
+Camera look_over(const Eigen::AlignedBox3d& interest_W) {
+  Camera camera;
+  camera.p_WC = Vec3(interest_W.center().x(), 1.6, interest_W.max().z() + 1.2);
+  camera.p_WT = camera.p_WC + Vec3(0, -0.26, -1);
+  camera.field_of_view_rad = 54 * kPi / 180;
+  camera.least_horizontal_rad = 60 * kPi / 180;
+  return camera;
 }
 
 }  // namespace
@@ -144,15 +158,22 @@ void SceneBuilder::find_place() {
   // A hand's breadth of air around what moves.
   interest_W.extend(interest_W.max() + Vec3(0, 0.10, 0.15));
   camera_ = frame_box(interest_W, Vec3(0.20, 0.27, 1.0), 40.0 * kPi / 180);
+  shadow_box_W_ = box_W_;
   // The plain lies under the modelled ground, which is never quite level.
   if (!box_W_.isEmpty()) ground_height_m_ = scenery_.empty() ? std::min(box_W_.min().y(), 0.0F) : -0.06F;
+  if (box_W_.isEmpty() || box_W_.sizes().maxCoeff() < kLandscape_m) return;
+  camera_ = look_over(interest_W);
+  ground_height_m_ = box_W_.min().y();  // under its rivers too
+  const Vec3f middle = interest_W.center().cast<float>() - Vec3f(0, 0, 0.7F * kShadowReach_m);
+  shadow_box_W_ =
+      box_W_.intersection({middle - Vec3f::Constant(kShadowReach_m), middle + Vec3f::Constant(kShadowReach_m)});
 }
 
 RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldStatus* status, client::LinkState link) {
   RenderScene scene;
   scene.camera = camera_;
   scene.ground_height_m = ground_height_m_;
-  scene.shadow_box_W = box_W_;
+  scene.shadow_box_W = shadow_box_W_;
   const bool known = frame != nullptr && status != nullptr;
   const double level_m = known ? std::clamp(quantity(*frame, *status, "level"), 0.0, 5.0) : 0;
   for (const Placed& placed : objects_) {

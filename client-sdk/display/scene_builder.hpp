@@ -60,6 +60,7 @@ class SceneBuilder {
   std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
   Camera camera_;
   Eigen::AlignedBox3f box_W_;
+  Eigen::AlignedBox3f shadow_box_W_;
   std::optional<float> ground_height_m_;
   std::optional<std::size_t> spout_object_;
   Spout spout_;

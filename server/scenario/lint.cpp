@@ -155,7 +155,10 @@ void check_world(Compilation& c) {
   if (c.world.viewpoints.empty())
     c.problems.warning(line, "Scene", "there is no Viewpoint", "add one that shows the whole machine");
   const auto graspable = [](const state::BodyDescription& body) { return body.graspable; };
-  if (!c.world.bodies.empty() && std::none_of(c.world.bodies.begin(), c.world.bodies.end(), graspable)) {
+  // Signs are touched, not held.
+  const auto points = [](const state::ComponentDescription& agent) { return agent.type == "simulation.point"; };
+  if (!c.world.bodies.empty() && std::none_of(c.world.bodies.begin(), c.world.bodies.end(), graspable) &&
+      std::none_of(c.world.agents.begin(), c.world.agents.end(), points)) {
     c.problems.warning(line, "Scene", "no body is graspable",
                        "add graspable true to the mechane:haptic of what is to be held");
   }

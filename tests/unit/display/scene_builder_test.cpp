@@ -125,6 +125,25 @@ TEST(SceneBuilder, the_stream_carries_the_flow) {
   EXPECT_LT(slow.streams[0].p_WS.y(), static_cast<float>(end.y()));
 }
 
+TEST(SceneBuilder, a_landscape_is_seen_over_what_is_touched) {
+  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> {
+    content::ImportedScene land = machine_file();
+    land.meshes[1] = imported(box_mesh(Vec3(80, 1.5, 80)));
+    return land;
+  });
+  SceneBuilder builder(library, "en");
+  client::SceneObject sign = object(0, "land.glb", "OUTER");
+  sign.X_WB.p = Vec3(0, 1, 0);
+  builder.set_manifest({sign});
+  const RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
+  EXPECT_NEAR(scene.camera.p_WC.y(), 1.6, 0.1) << "from a person's height";
+  const Vec3 look = (scene.camera.p_WT - scene.camera.p_WC).normalized();
+  EXPECT_LT(std::asin(-look.y()), scene.camera.field_of_view_rad / 2) << "the horizon is in the picture";
+  EXPECT_LT(scene.shadow_box_W.sizes().maxCoeff(), 30) << "one shadow map is to be fine enough";
+  EXPECT_TRUE(scene.shadow_box_W.contains(Vec3f(0, 1, 0)));
+  EXPECT_LE(*scene.ground_height_m, -0.75F) << "the plain hides nothing of the modelled land";
+}
+
 TEST(SceneBuilder, nothing_moves_but_what_the_frame_says) {
   int loads = 0;
   AssetLibrary library = library_of(loads);
