@@ -26,6 +26,7 @@ struct Arguments {
   bool glove = false;
   bool local = false;
   double patience_s = 60;
+  double linger_s = 1;
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -47,6 +48,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--domain", a.options.client.domain, "DDS domain");
   app.add_option("--offset", a.offset, "metres by which the hand misses: x y z")->expected(3);
   app.add_option("--patience", a.patience_s, "seconds that an activity may take after the last move");
+  app.add_option("--linger", a.linger_s, "seconds to stay at an exhibit that a sign opened")->check(CLI::Range(0.0, 600.0));
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_flag("--glove", a.glove, "a whole hand instead of one point");
   app.add_flag("--local", a.local, "render forces from the local contact model");
@@ -112,6 +114,7 @@ int main(int argc, char** argv) {
   a.options.client.role = client::Role::hand;
   a.options.client.program = "mechane-visitor";
   a.options.done_within = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.patience_s));
+  a.options.linger = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.linger_s));
   if (a.offset.size() == 3) a.options.player.offset_W = Vec3(a.offset[0], a.offset[1], a.offset[2]);
   if (a.glove) a.options.player.kind = client::HandKind::glove;
   if (a.local) a.options.render = haptic::RenderMode::local;

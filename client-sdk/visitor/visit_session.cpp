@@ -127,6 +127,9 @@ void Session::note_going_on(ActivityReport& report) {
   if (report.done && (report.steps.empty() || report.steps.back().name != sends->name))
     report.steps.push_back({sends->name, 0, true});
   say(report.name, "gone on to " + status_->scenario);
+  const TimePoint arrived = clock_.now();
+  while (stop_ == 0 && clock_.now() - arrived < options_.linger)
+    tick();
 }
 
 /// Home, for the next visit: the way that `mechane open` goes.

@@ -21,7 +21,7 @@ def make_screw(model, scene):
     foot = np.array([river_x(z) + 1.35, RIVER_Y - 0.05, z])
     along = np.array([math.cos(math.radians(33)), math.sin(math.radians(33)), 0.0])
     head = foot + 2.7 * along
-    wood, hoops, blades, stone, water = Shape(), Shape(), Shape(), Shape(), Shape()
+    wood, hoops, stone, water = Shape(), Shape(), Shape(), Shape()
     lathe(wood, [(0.0, 0.06), (0.22, 0.06), (0.25, 0.0), (0.27, 0.0), (0.27, 2.62), (0.25, 2.62), (0.22, 2.5), (0.0, 2.5)], 20, foot, along, (0, 0, 1), uv_scale=(3, 1 / 2.3))
     for t in (0.12, 0.9, 1.7, 2.5):
         lathe(hoops, [(0.272, t - 0.03), (0.285, t - 0.025), (0.285, t + 0.025), (0.272, t + 0.03)], 20, foot, along, (0, 0, 1), uv_scale=(2, 4))

@@ -258,8 +258,10 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
   status.activity = proto::look_into(activity != nullptr ? activity->name : none);
   status.step = proto::look_into(step != nullptr ? step->name : none);
   status.steps_done = progress.steps_done;
-  status.steps_total = static_cast<std::uint32_t>(std::count_if(
-      world.steps.begin(), world.steps.end(), [&](const auto& s) { return s.activity == progress.activity; }));
+  // Of the steps that lead elsewhere a visitor takes one, and leaves.
+  status.steps_total = static_cast<std::uint32_t>(
+      std::count_if(world.steps.begin(), world.steps.end(),
+                    [&](const auto& s) { return s.activity == progress.activity && s.opens.empty(); }));
   status.done = progress.done;
   status.hint = progress.hint_shown;
   proto::look_into(status.enabled_agents, agents);

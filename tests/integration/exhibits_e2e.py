@@ -21,9 +21,13 @@ class Exhibits(EndToEnd):
             for activity in stop["activities"]:
                 self.assertTrue(activity["steps"], activity["visit"])
                 self.assertTrue(all(step["done"] for step in activity["steps"]), activity["visit"])
+        chosen = [activity["gone_on_to"] for stop in stops for activity in stop["activities"] if activity["gone_on_to"]]
+        self.assertEqual(len(chosen), len(set(chosen)), "each visit of the village chooses another sign")
+        self.assertGreater(len(chosen), 1)
         self.assertEqual(server.stop(), 0, server.text())
         journals = self.journals()
-        self.assertEqual(len(journals), len(scenarios))
+        # Who is sent on gets a world there, and one more at home where the next visit begins.
+        self.assertEqual(len(journals), len(scenarios) + len(chosen) + len(chosen) - 1)
         for journal in journals:
             status, text = self.replay(journal, scenario=scenarios)  # compares its states with the live ones
             self.assertEqual(status, 0, text)

@@ -4,7 +4,7 @@ import json
 import subprocess
 import unittest
 
-from harness import BIN, PATIENCE, EndToEnd
+from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, wait_until
 
 
 class Visit(EndToEnd):
@@ -74,6 +74,39 @@ class Visit(EndToEnd):
         result = self.run_command("echo", "WorldStatus", "--kiosk", "nobody", "--seconds", "4")
         self.assertEqual((result.returncode, result.stdout), (1, ""))
         self.assertIn("nothing yet: no kiosk nobody", result.stderr)
+
+    def scenario_of(self, kiosk):
+        result = self.run_command("echo", "WorldStatus", "--kiosk", kiosk, "--count", "1", "--seconds", "10", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)["scenario"]
+
+    def test_a_sign_opens_another_exhibit_and_home_brings_back(self):
+        scenarios = [ROOT / "scenarios/village/village.x3d", SCENARIO]
+        server = self.server(scenario=scenarios)
+        # A second hand at the kiosk goes along with the one that touches the sign.
+        beside = self.start("beside", "haptic", "--device", "virtual", "--kiosk", "kiosk-1", "--user", "1")
+        wait_until(lambda: "world-1" in server.text(), 20, "the kiosk has a world")
+        report = self.folder / "choose.json"
+        visit = self.run_command("visitor", "--kiosk", "kiosk-1", "--scenario", scenarios[0], "--activity", "choose", "--report", report)
+        self.assertEqual(visit.returncode, 0, visit.stdout + visit.stderr)
+        (choice,) = json.loads(report.read_text())["activities"]
+        self.assertEqual((choice["done"], choice["gone_on_to"]), (True, "archimedes-screw"))
+        self.assertEqual(choice["steps"][-1]["name"], "to-archimedes-screw")
+        self.assertEqual(self.scenario_of("kiosk-1"), "archimedes-screw")
+        self.assertTrue(beside.running(), beside.text())
+        # A server that starts anew puts the kiosk where it was, not where it began.
+        wait_until(lambda: list((self.folder / "records").glob("world-2*.snapshot")), 10, "a snapshot of the new world was taken")
+        server.kill()
+        server = self.server(scenario=scenarios)
+        wait_until(lambda: "resumed kiosk-1" in server.text(), 20, "the visit is taken up again")
+        self.assertEqual(self.scenario_of("kiosk-1"), "archimedes-screw")
+        for wish, status, answer in (((), 0, "kiosk-1 is at village"), (("archimedes-screw",), 0, "kiosk-1 is at archimedes-screw"),
+                                     (("archimedes",), 1, "it has village, archimedes-screw"),
+                                     (("--kiosk", "kiosk-2"), 1, "name one of: kiosk-1")):
+            result = self.run_command("open", "--kiosk", "kiosk-1", *wish)
+            self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+            self.assertIn(answer, result.stdout + result.stderr)
+        self.assertEqual(server.stop(), 0, server.text())
 
     def test_wrong_arguments_end_with_one_status(self):
         for command in (("visitor", "--kios", "a"), ("fit",), ("echo", "--count", "x"), ("haptic", "--device"), ("replay", "--fast", "x"),
