@@ -84,7 +84,6 @@ def make_bank(model, scene):
             continue
         made += 1
         tuft(grass, rng, x, z, height_at, 5, 0.09, 0.22, 0.7)
-    grass.vertices = [tuple(v) for v in grass.vertices]
     model.add("visual_grass", grass, ["blade", "straw"], scene, 60)
 
 

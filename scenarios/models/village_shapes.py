@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 
-from modelling import Shape, cut_cube, frame_of, lathe, strip_uv
+from modelling import cut_cube, frame_of, lathe, strip_uv
 
 
 def box(shape, low, high, tile=1.4, slot=0, seed=0):
@@ -151,6 +151,3 @@ def flames(shape, rng, foot, count, spread, tallest):
             rings.append([middle + r * (math.sin(math.pi * (0.18 + 0.81 * t)) * (1 - 0.5 * t)) * np.array([math.cos(a), 0, -math.sin(a)]) for a in np.arange(6) * math.pi / 3])
         shape.loft(rings, lambda i, j: (j / 6, min(0.98, i / 6)), cap_scale=0.0, cap_uv=(0.5, 0.9))
     return shape
-
-
-__all__ = ["arc", "beam", "box", "circle", "flames", "gable", "pole", "prism", "put", "sheet", "stroke", "Shape"]
