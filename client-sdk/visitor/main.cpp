@@ -48,7 +48,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--domain", a.options.client.domain, "DDS domain");
   app.add_option("--offset", a.offset, "metres by which the hand misses: x y z")->expected(3);
   app.add_option("--patience", a.patience_s, "seconds that an activity may take after the last move");
-  app.add_option("--linger", a.linger_s, "seconds to stay at an exhibit that a sign opened")->check(CLI::Range(0.0, 600.0));
+  app.add_option("--linger", a.linger_s, "seconds to stay at an exhibit that a sign opened")
+      ->check(CLI::Range(0.0, 600.0));
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_flag("--glove", a.glove, "a whole hand instead of one point");
   app.add_flag("--local", a.local, "render forces from the local contact model");

@@ -22,9 +22,9 @@ struct VisitOptions {
   haptic::RenderMode render = haptic::RenderMode::server;
   Duration join_within = std::chrono::seconds(20);
   Duration done_within = std::chrono::seconds(60);  ///< how long after its last move an activity may take to be done
-  Duration linger = std::chrono::seconds(1);        ///< how long a visitor stays where a sign sent it, before it goes home
-  bool names_kiosk = false;                         ///< on stdout, where several play at once
-  bool endless = false;                             ///< begins again when it is through: load and attract mode
+  Duration linger = std::chrono::seconds(1);  ///< how long a visitor stays where a sign sent it, before it goes home
+  bool names_kiosk = false;                   ///< on stdout, where several play at once
+  bool endless = false;                       ///< begins again when it is through: load and attract mode
 };
 
 struct StepTime {

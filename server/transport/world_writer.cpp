@@ -259,9 +259,10 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
   status.step = proto::look_into(step != nullptr ? step->name : none);
   status.steps_done = progress.steps_done;
   // Of the steps that lead elsewhere a visitor takes one, and leaves.
-  status.steps_total = static_cast<std::uint32_t>(
-      std::count_if(world.steps.begin(), world.steps.end(),
-                    [&](const auto& s) { return s.activity == progress.activity && s.opens.empty(); }));
+  status.steps_total =
+      static_cast<std::uint32_t>(std::count_if(world.steps.begin(), world.steps.end(), [&](const auto& s) {
+        return s.activity == progress.activity && s.opens.empty();
+      }));
   status.done = progress.done;
   status.hint = progress.hint_shown;
   proto::look_into(status.enabled_agents, agents);

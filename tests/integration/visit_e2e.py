@@ -100,10 +100,11 @@ class Visit(EndToEnd):
         server = self.server(scenario=scenarios)
         wait_until(lambda: "resumed kiosk-1" in server.text(), 20, "the visit is taken up again")
         self.assertEqual(self.scenario_of("kiosk-1"), "archimedes-screw")
-        for wish, status, answer in (((), 0, "kiosk-1 is at village"), (("archimedes-screw",), 0, "kiosk-1 is at archimedes-screw"),
-                                     (("archimedes",), 1, "it has village, archimedes-screw"),
-                                     (("--kiosk", "kiosk-2"), 1, "name one of: kiosk-1")):
-            result = self.run_command("open", "--kiosk", "kiosk-1", *wish)
+        for kiosk, wish, status, answer in (("kiosk-1", (), 0, "kiosk-1 is at village"),
+                                            ("kiosk-1", ("archimedes-screw",), 0, "kiosk-1 is at archimedes-screw"),
+                                            ("kiosk-1", ("archimedes",), 1, "it has village, archimedes-screw"),
+                                            ("kiosk-2", (), 1, "name one of: kiosk-1")):
+            result = self.run_command("open", "--kiosk", kiosk, *wish)
             self.assertEqual(result.returncode, status, result.stdout + result.stderr)
             self.assertIn(answer, result.stdout + result.stderr)
         self.assertEqual(server.stop(), 0, server.text())
