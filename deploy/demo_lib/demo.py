@@ -11,10 +11,13 @@ import subprocess
 import sys
 import time
 
-SCENARIO = "scenarios/archimedes-screw/archimedes-screw.x3d"
-KIOSKS = ["kiosk-1", "kiosk-2"]
+VILLAGE, SCREW, ODOMETER = (f"scenarios/{name}/{name}.x3d" for name in ("village", "archimedes-screw", "odometer"))
+# Two visitors work the screw; a third goes through the village, whose two visits touch the screw's sign and the odometer's.
+KIOSKS = {"kiosk-1": SCREW, "kiosk-2": SCREW, "village": VILLAGE}
+LINGER_S = 8  # at the exhibit that a sign opened: a display that draws on the processor needs some seconds to load it
 VISIT_LIMIT_S = 240
-START_LIMIT_S = 900
+START_LIMIT_S = 1200
+TOUR_LIMIT_S = 1200
 
 
 class Programs:
@@ -92,28 +95,34 @@ def watch_visitors(programs, names):
     return True
 
 
-def replay_journals(programs, records, out):
-    """Replays every journal twice; returns (replays that ended with the live hash, replays run)."""
+def replay_journals(programs, scenarios, records, times):
+    """Replays every journal so many times; returns (replays that ended with the live hash, replays run)."""
     good = asked = 0
     for journal in sorted(glob.glob(str(records / "*.journal"))):
-        for again in range(2):
+        for again in range(times):
             name = f"replay-{pathlib.Path(journal).stem}-{again}"
-            programs.start(name, "replay", journal, "--scenario", SCENARIO)
+            programs.start(name, "replay", journal, "--scenario", *scenarios)
             asked += 1
             good += programs.wait(name, 120) == 0
     return good, asked
 
 
-def start_server(programs, options, out):
+def scenarios_of(options):
+    """Home first: where a kiosk begins that asks for nothing."""
+    others = sorted(glob.glob("scenarios/*/*.x3d")) if options.all else [SCREW, ODOMETER]
+    return [VILLAGE, *(file for file in others if file != VILLAGE)]
+
+
+def start_server(programs, options, scenarios, out):
     """Starts the server and waits until it is ready: the first time it builds the collision parts, which takes minutes."""
-    server = programs.start("server", "server", "--scenario", SCENARIO, "--worlds", "4", "--records", str(out / "records"),
+    server = programs.start("server", "server", "--scenario", *scenarios, "--worlds", "8", "--records", str(out / "records"),
                             "--report", str(out / "server.json"), "--domain", str(options.domain))
     started = time.monotonic()
     while " ready: " not in (out / "server.log").read_text(errors="replace"):
         if server.poll() is not None or time.monotonic() - started > START_LIMIT_S:
             sys.exit(f"demo: the server did not start: see {out / 'server.log'}\n" + (out / "server.log").read_text()[-2000:])
         if sys.stdout.isatty():
-            print(f"\r  {time.monotonic() - started:5.1f} s  the server reads the exhibit (the first time it fits its parts)", end="")
+            print(f"\r  {time.monotonic() - started:5.1f} s  the server reads the exhibits (the first time it fits their parts)", end="")
         time.sleep(0.2)
     if sys.stdout.isatty():
         print()
@@ -121,23 +130,32 @@ def start_server(programs, options, out):
 
 def start_clients(programs, options, out):
     domain = ["--domain", str(options.domain)]
-    for i, kiosk in enumerate(KIOSKS):
+    for kiosk in KIOSKS:
         show = ["display", "--kiosk", kiosk, *domain]
         if options.headless or not has_screen():
-            show += ["--offscreen", "--size", "1280x720", "--stereo", "mono" if i == 0 else "sbs", "--out",
+            show += ["--offscreen", "--size", "1280x720", "--stereo", "sbs" if kiosk == "kiosk-2" else "mono", "--out",
                      str(out / "pictures" / kiosk), "--every-step", "--fps", "4"]
-        elif i > 0:
+        elif kiosk == "kiosk-2":
             continue
         programs.start(f"display-{kiosk}", *show)
     visitors = []
-    for kiosk in KIOSKS:
+    for kiosk, scenario in KIOSKS.items():
         name = f"visitor-{kiosk}"
-        programs.start(name, "visitor", "--kiosk", kiosk, "--scenario", SCENARIO, "--report",
+        programs.start(name, "visitor", "--kiosk", kiosk, "--scenario", scenario, "--linger", str(LINGER_S), "--report",
                        str(out / f"{name}.json"), *domain)
         visitors.append(name)
-    programs.start("haptic", "haptic", "--device", "virtual", "--kiosk", KIOSKS[0], "--user", "1", "--report",
+    programs.start("haptic", "haptic", "--device", "virtual", "--kiosk", "kiosk-1", "--user", "1", "--report",
                    str(out / "haptic.json"), *domain)
     return visitors
+
+
+def tour(programs, options, out):
+    """Every visit of every exhibit, some at a time; the table that the visitor prints. None where one was not completed."""
+    print("  every visit of every exhibit: some minutes", flush=True)
+    programs.start("tour", "visitor", "--all", "--at-once", "2", "--report", str(out / "tour.json"), "--domain", str(options.domain))
+    if programs.wait("tour", TOUR_LIMIT_S) != 0:
+        return None
+    return [line for line in (out / "tour.log").read_text().splitlines() if " steps " in line]
 
 
 def gather(out, visitors, replays):
@@ -173,15 +191,20 @@ def gather(out, visitors, replays):
 
 def pictures_wanted(activities):
     """A picture of every step that was reached, and of each activity's end, by kiosk."""
-    return {(a["kiosk"], f"{a['name']}-{step}") for a in activities
-            for step in [s["name"] for s in a.get("steps", [])] + (["done"] if a.get("done") else [])}
+    def steps_of(activity):
+        steps = [step["name"] for step in activity.get("steps", [])]
+        if activity.get("gone_on_to"):
+            return steps[:-1]  # the last one is over as it begins
+        return steps + (["done"] if activity.get("done") else [])
+
+    return {(a["kiosk"], f"{a['name']}-{step}") for a in activities for step in steps_of(a)}
 
 
 def print_summary(metrics, activities, missed, out):
-    print("\nArchimedes' screw, two kiosks")
+    print("\nArchimedes' screw at two kiosks, the village at a third")
     for activity in activities:
-        mark = "done" if activity.get("done") else "NOT DONE"
-        print(f"  {activity.get('kiosk', ''):<9} {activity.get('name', '?'):<10} {mark:<9} {activity.get('seconds', 0):6.1f} s")
+        mark = f"on to {activity['gone_on_to']}" if activity.get("gone_on_to") else "done" if activity.get("done") else "NOT DONE"
+        print(f"  {activity.get('kiosk', ''):<9} {activity.get('name', '?'):<10} {mark:<25} {activity.get('seconds', 0):6.1f} s")
         for step in activity.get("steps", []):
             print(f"            {step['name']:<16} {step['seconds']:6.1f} s")
     get = lambda key: metrics.get(key, float("nan"))
@@ -222,10 +245,11 @@ def cpu_model():
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Runs the demo of Archimedes' screw.")
+    parser = argparse.ArgumentParser(description="Runs the demo: Archimedes' screw at two kiosks, the village at a third.")
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--headless", action="store_true", help="pictures, no window")
+    parser.add_argument("--all", action="store_true", help="afterwards every visit of every exhibit")
     parser.add_argument("--domain", type=int, default=42)
     options = parser.parse_args()
     root, out = pathlib.Path.cwd(), options.out.resolve()
@@ -238,17 +262,21 @@ def main():
     programs = Programs(options.bin.resolve(), out, environment_of(root))
     problems = []
     try:
-        print("demo: a server, two kiosks with a visitor and a display each, a second hand at the first kiosk")
-        start_server(programs, options, out)
+        print("demo: a server, three kiosks with a visitor and a display each, a second hand at the first kiosk")
+        scenarios = scenarios_of(options)
+        start_server(programs, options, scenarios, out)
         visitors = start_clients(programs, options, out)
         if not watch_visitors(programs, visitors):
             problems.append(f"the visitors were not done after {VISIT_LIMIT_S} s")
         for name in [n for n in programs.running if n.startswith("display") or n == "haptic"]:
             if programs.stop(name, 30) != 0:
                 problems.append(f"{name} ended badly: see {out / (name + '.log')}")
+        table = tour(programs, options, out) if options.all else []
+        if table is None:
+            problems.append(f"not every visit of the tour was completed: see {out / 'tour.log'}")
         if programs.stop("server", 20) != 0:
             problems.append(f"the server ended badly: see {out / 'server.log'}")
-        replays = replay_journals(programs, out / "records", out)
+        replays = replay_journals(programs, scenarios, out / "records", 1 if options.all else 2)
     finally:
         programs.stop_all()
     metrics, activities, missed = gather(out, visitors, replays)
@@ -266,6 +294,8 @@ def main():
               "notes": problems}
     (out / "report.json").write_text(json.dumps(report, indent=2) + "\n")
     print_summary(metrics, activities, missed if options.headless or not has_screen() else [], out)
+    for line in table or []:
+        print(f"  {line}")
     for problem in problems:
         print(f"demo: {problem}", file=sys.stderr)
     if not problems:
