@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kSecondsBetweenLines = 5;
-constexpr std::uintmax_t kLongestPartFile = 1ULL << 30U;
 
 /// What the file of the object is called: whatever can change the object is in the name.
 std::string cache_name(const std::string& file_hash, const std::string& node, const collision::BuildConfig& config) {
@@ -41,16 +40,8 @@ std::string cache_name(const std::string& file_hash, const std::string& node, co
 /// The object in a cache file; nothing when there is none or it is damaged.
 std::shared_ptr<const collision::Object> read_cached(const fs::path& file) {
   std::error_code code;
-  const std::uintmax_t size = fs::file_size(file, code);
-  if (code) return nullptr;
-  std::vector<std::byte> bytes;
-  if (size <= kLongestPartFile) {
-    bytes.resize(size);
-    std::ifstream in(file, std::ios::binary);
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!in) bytes.clear();
-  }
-  Expected<collision::Object> object = collision::read_object(bytes);
+  if (!fs::exists(file, code)) return nullptr;
+  Expected<collision::Object> object = collision::load_object(file);
   if (object) return std::make_shared<const collision::Object>(std::move(*object));
   log::warning(fmt::format("{}: {}; it is built again", file.string(), object.error().what));
   return nullptr;

@@ -13,15 +13,9 @@ const test::Exhibit& sphere() {
   return kExhibit;
 }
 
-double quantity_of(const state::WorldState& state, const std::string& name) {
-  return state.quantities.at(sphere().description().find_quantity(name).index());
-}
-
 /// Where 'lighting' stops once the description is changed so.
 std::string stopped_at(std::function<void(state::WorldDescription&)> change) {
-  test::PlayOptions options;
-  options.change = std::move(change);
-  return sphere().play("lighting", options).stopped_at;
+  return sphere().play_changed("lighting", std::move(change)).stopped_at;
 }
 
 std::string stopped_with(const std::string& component, const std::string& parameter, std::vector<double> value) {
@@ -33,13 +27,13 @@ TEST(AiolosSphereVisits, FireBoilsTheWaterSteamTurnsTheSphereWithoutFireItDiesDo
   double fastest = 0, hottest = 0, speed_when_out = 0;
   bool faster_without_fire = false;
   options.watch = [&, before = 0.0](const state::WorldState& state) mutable {
-    const double speed = quantity_of(state, "speed");
+    const double speed = sphere().value(state, "speed");
     fastest = std::max(fastest, speed);
-    hottest = std::max(hottest, quantity_of(state, "temperature"));
-    const bool out = fastest > 0 && quantity_of(state, "fire") < 0.5;
+    hottest = std::max(hottest, sphere().value(state, "temperature"));
+    const bool out = fastest > 0 && sphere().value(state, "fire") < 0.5;
     if (out && speed_when_out == 0) speed_when_out = speed;
     // What steam there was when the fire went out is gone after a few times steamDelay.
-    if (out && quantity_of(state, "steam") < 1e-6 && speed > before) faster_without_fire = true;
+    if (out && sphere().value(state, "steam") < 1e-6 && speed > before) faster_without_fire = true;
     before = speed;
   };
   const test::PlayedVisit visit = sphere().play("lighting", options);
@@ -94,7 +88,7 @@ TEST(AiolosSphereVisits, AFireThatDiesTooSoonLetsTheSphereSlowDown) {
     test::set_parameter(world, "FIRE", "burnTime", std::vector<double>{7.5});
   };
   double fastest = 0;
-  options.watch = [&](const state::WorldState& state) { fastest = std::max(fastest, quantity_of(state, "speed")); };
+  options.watch = [&](const state::WorldState& state) { fastest = std::max(fastest, sphere().value(state, "speed")); };
   const test::PlayedVisit visit = sphere().play("lighting", options);
   EXPECT_EQ(visit.stopped_at, "spin") << visit;
   EXPECT_GT(fastest, 50) << visit;

@@ -27,16 +27,14 @@ TEST(ArchimedesScrewVisits, TurningRaisesWaterAndGivesOneHash) {
 }
 
 TEST(ArchimedesScrewVisits, WithoutItsAxleItIsHeldButDoesNotTurn) {
-  test::PlayOptions options;
-  options.change = [](state::WorldDescription& world) { test::switch_off(world, "AXLE"); };
-  const test::PlayedVisit visit = screw().play("turning", options);
+  const test::PlayedVisit visit =
+      screw().play_changed("turning", [](state::WorldDescription& world) { test::switch_off(world, "AXLE"); });
   EXPECT_EQ(visit.stopped_at, "turn") << visit;
 }
 
 TEST(ArchimedesScrewVisits, AScrewThatFitsNowhereIsNotSeated) {
-  test::PlayOptions options;
-  options.change = [](state::WorldDescription& world) { test::switch_off(world, "SEAT"); };
-  const test::PlayedVisit visit = screw().play("assembling", options);
+  const test::PlayedVisit visit =
+      screw().play_changed("assembling", [](state::WorldDescription& world) { test::switch_off(world, "SEAT"); });
   EXPECT_EQ(visit.stopped_at, "seat") << visit;
 }
 

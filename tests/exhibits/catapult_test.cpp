@@ -25,16 +25,6 @@ const test::Exhibit& catapult() {
   return kExhibit;
 }
 
-double quantity_of(const state::WorldState& state, const char* name) {
-  return state.quantities[catapult().description().find_quantity(name).index()];
-}
-
-test::PlayedVisit shoot_catapult(std::function<void(state::WorldDescription&)> change) {
-  test::PlayOptions options;
-  options.change = std::move(change);
-  return catapult().play("shooting", options);
-}
-
 state::BodyDescription& body_of(state::WorldDescription& world, const char* name) {
   const BodyId id = world.find_body(name);
   if (!id) throw std::runtime_error(std::string("there is no body ") + name);
@@ -76,14 +66,14 @@ TEST(CatapultVisits, ATriggerTooSoonAWinchLetGoAndADroppedStoneStillEndWell) {
   int stone_taken = 0;
   const BodyId stone = catapult().description().find_body("STONE");
   options.watch = [&](const state::WorldState& state) {
-    const double drawn_m = quantity_of(state, "drawn");
+    const double drawn_m = catapult().value(state, "drawn");
     furthest_m = std::max(furthest_m, drawn_m);
     lost_m = std::max(lost_m, furthest_m - drawn_m);
     for (const state::Event& event : state.event_span()) {
       const bool took = event.kind == state::EventKind::grasped && event.object == stone.index();
       stone_taken += took ? 1 : 0;
     }
-    if (quantity_of(state, "shots") < 0.5) lowest_stone_m = std::min(lowest_stone_m, state[stone].X_WB.p.y());
+    if (catapult().value(state, "shots") < 0.5) lowest_stone_m = std::min(lowest_stone_m, state[stone].X_WB.p.y());
   };
   const test::PlayedVisit visit = catapult().play("mistakes-use", options);
   EXPECT_TRUE(visit.done) << visit;
@@ -106,8 +96,8 @@ TEST(CatapultVisits, TheHandsWorkIsInTheSpringsAndFrictionTakesTheRest) {
     const Vec3 p_AG_W = state[winch].X_WB * grasp.p_BG - p_WA;
     const double felt_nm = -(p_AG_W.cross(grasp.reaction_W.f) + grasp.reaction_W.t).x();
     work_j += felt_nm / world.effort_scale * state[axle].velocity * kTickSeconds;
-    held_j = quantity_of(state, "energy");
-    angle = quantity_of(state, "angle");
+    held_j = catapult().value(state, "energy");
+    angle = catapult().value(state, "angle");
   };
   const test::PlayedVisit visit = catapult().play("shooting", options);
   const double expected_j = CatapultFigures::energy_j(angle);
@@ -124,16 +114,16 @@ TEST(CatapultVisits, TheStoneGetsItsShareAndFliesAsBallisticsSay) {
   Vec3 from = Vec3::Zero(), blow = Vec3::Zero();
   test::PlayOptions options;
   options.watch = [&](const state::WorldState& state) {
-    const bool shot = quantity_of(state, "shots") > 0.5;
+    const bool shot = catapult().value(state, "shots") > 0.5;
     if (!shot) {
-      held_j = quantity_of(state, "energy");
+      held_j = catapult().value(state, "energy");
       from = state[stone].X_WB.p;
       return;
     }
     fastest = std::max(fastest, state[stone].V_WB.v.norm());
-    if (quantity_of(state, "struck") > 0.5) return;
+    if (catapult().value(state, "struck") > 0.5) return;
     blow = state[stone].X_WB.p;
-    flight_s = quantity_of(state, "flight");
+    flight_s = catapult().value(state, "flight");
   };
   const test::PlayedVisit visit = catapult().play("shooting", options);
   ASSERT_EQ(visit.quantities.at("shots"), 1) << visit;
@@ -152,35 +142,40 @@ TEST(CatapultVisits, TheStoneGetsItsShareAndFliesAsBallisticsSay) {
 }
 
 TEST(CatapultVisits, WithoutItsPawlTheWinchRunsBack) {
-  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); });
+  const auto visit =
+      catapult().play_changed("shooting", [](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); });
   EXPECT_EQ(visit.stopped_at, "wind") << visit;
   EXPECT_LT(visit.quantities.at("drawn"), 0.3) << visit;
 }
 
 TEST(CatapultVisits, WithItsRopeCutNothingIsWound) {
-  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
+  const auto visit =
+      catapult().play_changed("shooting", [](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
   EXPECT_EQ(visit.stopped_at, "wind") << visit;
   EXPECT_GT(visit.quantities.at("turns"), 3) << "the drum turns, for nothing";
 }
 
 TEST(CatapultVisits, AHandWithoutStrengthWindsNothing) {
-  const auto visit =
-      shoot_catapult([](state::WorldDescription& world) { body_of(world, "WINCH").haptic.stiffness_n_per_m = 0; });
+  const auto visit = catapult().play_changed(
+      "shooting", [](state::WorldDescription& world) { body_of(world, "WINCH").haptic.stiffness_n_per_m = 0; });
   EXPECT_EQ(visit.stopped_at, "wind") << visit;
   EXPECT_LT(visit.quantities.at("drawn"), 0.01) << visit;
 }
 
 TEST(CatapultVisits, WithoutItsStringNothingIsThrown) {
-  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::switch_off(world, "CLAW"); });
+  const auto visit =
+      catapult().play_changed("shooting", [](state::WorldDescription& world) { test::switch_off(world, "CLAW"); });
   EXPECT_EQ(visit.stopped_at, "wall") << visit;
   EXPECT_LT(visit.quantities.at("shot_energy"), 1e-3) << "the slider goes back alone, and the springs hold nothing";
 }
 
 TEST(CatapultVisits, SlackSpringsThrowNothingAndWeakOnesTooShort) {
-  const auto slack = shoot_catapult([](state::WorldDescription& world) { weaken_springs(world, 0); });
+  const auto slack =
+      catapult().play_changed("shooting", [](state::WorldDescription& world) { weaken_springs(world, 0); });
   EXPECT_EQ(slack.stopped_at, "wall") << slack;
   EXPECT_EQ(slack.quantities.at("shots"), 0) << slack;
-  const auto weak = shoot_catapult([](state::WorldDescription& world) { weaken_springs(world, 0.01); });
+  const auto weak =
+      catapult().play_changed("shooting", [](state::WorldDescription& world) { weaken_springs(world, 0.01); });
   EXPECT_EQ(weak.stopped_at, "wall") << weak;
   EXPECT_EQ(weak.quantities.at("shots"), 1) << weak;
   EXPECT_LT(weak.quantities.at("range"), 5) << "it falls before the wall";
@@ -188,12 +183,13 @@ TEST(CatapultVisits, SlackSpringsThrowNothingAndWeakOnesTooShort) {
 }
 
 TEST(CatapultVisits, WithoutAStoneThereIsNothingToLayIn) {
-  const auto visit = shoot_catapult([](state::WorldDescription& world) { test::take_away(world, "STONE"); });
+  const auto visit =
+      catapult().play_changed("shooting", [](state::WorldDescription& world) { test::take_away(world, "STONE"); });
   EXPECT_EQ(visit.stopped_at, "load") << visit;
 }
 
 TEST(CatapultVisits, AShotWithoutAStoneLeavesTheWallStanding) {
-  const auto visit = shoot_catapult([](state::WorldDescription& world) {
+  const auto visit = catapult().play_changed("shooting", [](state::WorldDescription& world) {
     test::take_away(world, "STONE");
     state::StepDescription& load = world.steps[world.find_step("load").index()];
     load.triggers.at(0).value = 0;  // whoever skips the step: seated or not, it goes on

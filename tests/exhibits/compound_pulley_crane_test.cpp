@@ -13,12 +13,6 @@ const test::Exhibit& double_crane() {
   return kExhibit;
 }
 
-test::PlayOptions double_with(std::function<void(state::WorldDescription&)> change) {
-  test::PlayOptions options;
-  options.change = std::move(change);
-  return options;
-}
-
 TEST(CompoundPulleyCraneVisits, TheDrumComesOntoTheColumnAndTwiceTheSame) {
   const test::PlayedVisit visit = double_crane().play("lifting");
   EXPECT_TRUE(visit.done) << visit;
@@ -61,19 +55,19 @@ TEST(CompoundPulleyCraneVisits, WithoutFrictionItTakesHalfTheForceOfTheSinglePul
 }
 
 TEST(CompoundPulleyCraneVisits, WithTheRopeCutNothingIsLifted) {
-  const auto cut = double_with([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
-  const test::PlayedVisit visit = double_crane().play("lifting", cut);
+  const auto cut = [](state::WorldDescription& world) { test::switch_off(world, "ROPE"); };
+  const test::PlayedVisit visit = double_crane().play_changed("lifting", cut);
   EXPECT_EQ(visit.stopped_at, "lift") << visit;
 }
 
 TEST(CompoundPulleyCraneVisits, WithTheRopeOffTheDrumNothingIsLifted) {
-  const test::PlayedVisit visit = double_crane().play("lifting", double_with(test::take_rope_off_drum));
+  const test::PlayedVisit visit = double_crane().play_changed("lifting", test::take_rope_off_drum);
   EXPECT_EQ(visit.stopped_at, "lift") << visit;
 }
 
 TEST(CompoundPulleyCraneVisits, WithoutItsPawlTheDrumComesDownAgain) {
-  const auto off = double_with([](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); });
-  const test::PlayedVisit visit = double_crane().play("lifting", off);
+  const auto off = [](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); };
+  const test::PlayedVisit visit = double_crane().play_changed("lifting", off);
   EXPECT_EQ(visit.stopped_at, "guide") << visit;
 }
 

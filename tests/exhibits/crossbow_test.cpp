@@ -21,16 +21,6 @@ const test::Exhibit& crossbow() {
   return kExhibit;
 }
 
-double crossbow_value(const state::WorldState& state, const std::string& name) {
-  return state.quantities.at(crossbow().description().find_quantity(name).index());
-}
-
-test::PlayedVisit shoot_crossbow(std::function<void(state::WorldDescription&)> change) {
-  test::PlayOptions options;
-  options.change = std::move(change);
-  return crossbow().play("shooting", options);
-}
-
 /// The step that the visit came to and did not get over. A visitor who pulls the trigger too early is sent back to the first step, so
 /// that where he stands in the end does not tell.
 std::string failed_at(const test::PlayedVisit& visit) {
@@ -61,12 +51,12 @@ TEST(CrossbowVisits, ShotsTooSoonCranksLetGoAndArrowsDroppedEndWell) {
   test::PlayOptions options;
   const BodyId arrow = crossbow().description().find_body("ARROW");
   options.watch = [&](const state::WorldState& state) {
-    const double now_m = crossbow_value(state, "drawn");
-    if (crossbow_value(state, "caught") > 0.5) lost_m = std::max(lost_m, drawn_m - now_m);
-    drawn_m = crossbow_value(state, "caught") > 0.5 ? std::max(drawn_m, now_m) : 0;
-    if (crossbow_value(state, "shots") < 0.5) lowest_m = std::min(lowest_m, state[arrow].X_WB.p.y());
+    const double now_m = crossbow().value(state, "drawn");
+    if (crossbow().value(state, "caught") > 0.5) lost_m = std::max(lost_m, drawn_m - now_m);
+    drawn_m = crossbow().value(state, "caught") > 0.5 ? std::max(drawn_m, now_m) : 0;
+    if (crossbow().value(state, "shots") < 0.5) lowest_m = std::min(lowest_m, state[arrow].X_WB.p.y());
     for (const state::Event& event : state.event_span()) {
-      if (event.kind == state::EventKind::fired && crossbow_value(state, "laid") < 0.5) ++shots_without_arrow;
+      if (event.kind == state::EventKind::fired && crossbow().value(state, "laid") < 0.5) ++shots_without_arrow;
       if (event.kind == state::EventKind::grasped && event.object == arrow.index()) ++arrows_taken;
     }
   };
@@ -106,14 +96,14 @@ Winding measure_winding() {
   Winding winding;
   test::PlayOptions options;
   options.watch = [&](const state::WorldState& state) {
-    winding.stored_j = std::max(winding.stored_j, crossbow_value(state, "energy"));
-    winding.shot_j = std::max(winding.shot_j, crossbow_value(state, "shot"));
+    winding.stored_j = std::max(winding.stored_j, crossbow().value(state, "energy"));
+    winding.shot_j = std::max(winding.shot_j, crossbow().value(state, "shot"));
     const state::Grasp& grasp = state.users[0].grasp;
     if (!grasp.active || grasp.body != drum) return;
     const Vec3 p_AG_W = state[drum].X_WB * grasp.p_BG - p_WA;
     const double felt_nm = -(p_AG_W.cross(grasp.reaction_W.f) + grasp.reaction_W.t).x();
     winding.work_j += felt_nm / world.effort_scale * state[axle].velocity * kTickSeconds;
-    const double drawn_m = crossbow_value(state, "drawn");
+    const double drawn_m = crossbow().value(state, "drawn");
     if (drawn_m < 0.15 || drawn_m > 0.42) return;
     ++winding.ticks;
     winding.handle_n += felt_nm / world.effort_scale / kWinchCrank_m;
@@ -146,11 +136,11 @@ TEST(CrossbowVisits, TheArrowSlowsByDragDropsByItsWeightAndGoesInByItsEnergy) {
                target = crossbow().description().find_body("TARGET");
   test::PlayOptions options;
   options.watch = [&](const state::WorldState& state) {
-    if (crossbow_value(state, "flying") < 0.5) {
+    if (crossbow().value(state, "flying") < 0.5) {
       if (first_m_s == 0) p_WSeat = state[arrow].X_WB.p;
       return;
     }
-    energy_j = crossbow_value(state, "shot");
+    energy_j = crossbow().value(state, "shot");
     const double now_m_s = state[arrow].V_WB.v.norm();
     if (first_m_s == 0) first_m_s = now_m_s;
     const double way_m = (state[arrow].X_WB.p - p_WSeat).norm();
@@ -177,7 +167,7 @@ TEST(CrossbowVisits, TheArrowSlowsByDragDropsByItsWeightAndGoesInByItsEnergy) {
 
 TEST(CrossbowVisits, ABowOfAQuarterOfTheForceShootsHalfAsFast) {
   const test::PlayedVisit full = crossbow().play("shooting");
-  const test::PlayedVisit quarter = shoot_crossbow([](state::WorldDescription& world) {
+  const test::PlayedVisit quarter = crossbow().play_changed("shooting", [](state::WorldDescription& world) {
     test::set_parameter(world, "BOW", "fullForce", std::vector<double>{kBowFull_n / 4});
   });
   EXPECT_NEAR(full.quantities.at("shot") / quarter.quantities.at("shot"), 4, 0.1);
@@ -189,8 +179,8 @@ TEST(CrossbowVisits, WithThePawlsOffTheSliderRunsForwardAgain) {
   test::PlayOptions options;
   options.change = [](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); };
   options.watch = [&](const state::WorldState& state) {
-    drawn_m = std::max(drawn_m, crossbow_value(state, "drawn"));
-    if (drawn_m > 0.4 && crossbow_value(state, "caught") > 0.5) released_m = crossbow_value(state, "drawn");
+    drawn_m = std::max(drawn_m, crossbow().value(state, "drawn"));
+    if (drawn_m > 0.4 && crossbow().value(state, "caught") > 0.5) released_m = crossbow().value(state, "drawn");
   };
   const test::PlayedVisit visit = crossbow().play("shooting", options);
   EXPECT_EQ(failed_at(visit), "wind") << visit;
@@ -199,47 +189,49 @@ TEST(CrossbowVisits, WithThePawlsOffTheSliderRunsForwardAgain) {
 }
 
 TEST(CrossbowVisits, WithTheStringCutTheClawFindsNothing) {
-  const test::PlayedVisit visit =
-      shoot_crossbow([](state::WorldDescription& world) { test::set_parameter(world, "BOW", "strung", false); });
+  const test::PlayedVisit visit = crossbow().play_changed(
+      "shooting", [](state::WorldDescription& world) { test::set_parameter(world, "BOW", "strung", false); });
   EXPECT_EQ(failed_at(visit), "home") << visit;
   EXPECT_EQ(visit.quantities.at("shots"), 0);
 }
 
 TEST(CrossbowVisits, ABowWithoutForceLetsTheArrowFallAtItsFeet) {
-  const test::PlayedVisit visit = shoot_crossbow(
-      [](state::WorldDescription& world) { test::set_parameter(world, "BOW", "fullForce", std::vector<double>{1}); });
+  const test::PlayedVisit visit = crossbow().play_changed("shooting", [](state::WorldDescription& world) {
+    test::set_parameter(world, "BOW", "fullForce", std::vector<double>{1});
+  });
   EXPECT_EQ(failed_at(visit), "fly") << visit;
   EXPECT_LT(visit.quantities.at("range"), 2);
 }
 
 TEST(CrossbowVisits, WithTheRopeOfTheWinchCutNothingIsDrawn) {
   const test::PlayedVisit visit =
-      shoot_crossbow([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
+      crossbow().play_changed("shooting", [](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
   EXPECT_EQ(failed_at(visit), "wind") << visit;
   EXPECT_GT(visit.quantities.at("turns"), 2) << "the drum turns, for nothing";
 }
 
 TEST(CrossbowVisits, WithoutAnArrowThereIsNothingToLayIn) {
   const test::PlayedVisit visit =
-      shoot_crossbow([](state::WorldDescription& world) { test::take_away(world, "ARROW"); });
+      crossbow().play_changed("shooting", [](state::WorldDescription& world) { test::take_away(world, "ARROW"); });
   EXPECT_EQ(failed_at(visit), "lay") << visit;
   EXPECT_EQ(visit.quantities.at("shots"), 0);
 }
 
 TEST(CrossbowVisits, ATriggerThatHoldsOnShootsNothing) {
   const test::PlayedVisit visit =
-      shoot_crossbow([](state::WorldDescription& world) { test::switch_off(world, "FIRE"); });
+      crossbow().play_changed("shooting", [](state::WorldDescription& world) { test::switch_off(world, "FIRE"); });
   EXPECT_EQ(visit.stopped_at, "shoot") << visit;
 }
 
 TEST(CrossbowVisits, AHandWithoutStrengthPushesAndWindsNothing) {
-  const test::PlayedVisit soft = shoot_crossbow([](state::WorldDescription& world) {
+  const test::PlayedVisit soft = crossbow().play_changed("shooting", [](state::WorldDescription& world) {
     for (state::BodyDescription& body : world.bodies)
       body.haptic.stiffness_n_per_m = 0;
   });
   EXPECT_EQ(soft.stopped_at, "home") << soft;
-  const test::PlayedVisit weak = shoot_crossbow(
-      [](state::WorldDescription& world) { test::set_parameter(world, "HOLD", "forceLimit", std::vector<double>{1}); });
+  const test::PlayedVisit weak = crossbow().play_changed("shooting", [](state::WorldDescription& world) {
+    test::set_parameter(world, "HOLD", "forceLimit", std::vector<double>{1});
+  });
   EXPECT_EQ(failed_at(weak), "wind") << weak;
 }
 

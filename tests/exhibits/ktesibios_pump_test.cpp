@@ -15,26 +15,9 @@ const test::Exhibit& pump() {
   return kExhibit;
 }
 
-test::PlayedVisit play_changed(const std::string& visit, std::function<void(state::WorldDescription&)> change) {
-  test::PlayOptions options;
-  options.change = std::move(change);
-  return pump().play(visit, options);
-}
-
 test::PlayedVisit play_with_valves(const std::string& parameter, const Texts& valves) {
-  return play_changed("pumping",
-                      [&](state::WorldDescription& world) { test::set_parameter(world, "WATER", parameter, valves); });
-}
-
-bool went_wrong(const visitor::MoveResult& move) {
-  return !move.ok;
-}
-
-/// A part that is neither there nor held by anything.
-void lose(state::WorldDescription& world, const std::string& part, const Texts& joints_and_ties) {
-  test::take_away(world, part);
-  for (const std::string& agent : joints_and_ties)
-    test::switch_off(world, agent);
+  return pump().play_changed(
+      "pumping", [&](state::WorldDescription& world) { test::set_parameter(world, "WATER", parameter, valves); });
 }
 
 TEST(KtesibiosPumpVisits, AllPartsComeToTheirPlaces) {
@@ -43,7 +26,7 @@ TEST(KtesibiosPumpVisits, AllPartsComeToTheirPlaces) {
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
   EXPECT_EQ(visit.quantities.at("parts"), 6) << visit;
   EXPECT_EQ(visit.quantities.at("too_early"), 0) << visit;
-  EXPECT_TRUE(std::ranges::none_of(visit.moves, went_wrong)) << visit;
+  EXPECT_TRUE(std::ranges::none_of(visit.moves, test::went_wrong)) << visit;
   EXPECT_EQ(pump().play("assembling").state_hash, visit.state_hash);
 }
 
@@ -58,7 +41,7 @@ TEST(KtesibiosPumpVisits, PumpingFillsTheTubByAreaStrokeAndRate) {
   const test::PlayedVisit visit = pump().play("pumping", options);
   EXPECT_TRUE(visit.done) << visit;
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
-  EXPECT_TRUE(std::ranges::none_of(visit.moves, went_wrong)) << visit;
+  EXPECT_TRUE(std::ranges::none_of(visit.moves, test::went_wrong)) << visit;
   for (const test::PlayedStep& step : visit.steps)
     EXPECT_LT(step.seconds, 20) << visit;
   EXPECT_EQ(pump().play("pumping").state_hash, visit.state_hash);
@@ -71,10 +54,10 @@ TEST(KtesibiosPumpVisits, MistakesEndWellToo) {
   const test::PlayedVisit assembling = pump().play("mistakes-assembling");
   EXPECT_TRUE(assembling.done) << assembling;
   EXPECT_GE(assembling.quantities.at("too_early"), 1) << assembling;
-  EXPECT_TRUE(std::ranges::any_of(assembling.moves, went_wrong)) << assembling;
+  EXPECT_TRUE(std::ranges::any_of(assembling.moves, test::went_wrong)) << assembling;
   const test::PlayedVisit pumping = pump().play("mistakes-using");
   EXPECT_TRUE(pumping.done) << pumping;
-  EXPECT_TRUE(std::ranges::any_of(pumping.moves, went_wrong)) << pumping;
+  EXPECT_TRUE(std::ranges::any_of(pumping.moves, test::went_wrong)) << pumping;
 }
 
 TEST(KtesibiosPumpVisits, OutletFlapsTheWrongWayRoundLockThePistons) {
@@ -95,26 +78,26 @@ TEST(KtesibiosPumpVisits, OneInletFlapTheWrongWayRoundMakesTheJetPulse) {
 
 TEST(KtesibiosPumpVisits, APistonThatIsMissingIsMissedAtOnce) {
   const test::PlayedVisit assembling =
-      play_changed("assembling", [](state::WorldDescription& world) { lose(world, "PISTON_L", {}); });
+      pump().play_changed("assembling", [](state::WorldDescription& world) { test::lose(world, "PISTON_L", {}); });
   EXPECT_EQ(assembling.stopped_at, "pistons") << assembling;
-  const test::PlayedVisit pumping = play_changed("pumping", [](state::WorldDescription& world) {
-    lose(world, "PISTON_R", {"GUIDE_R", "ROD_R"});
+  const test::PlayedVisit pumping = pump().play_changed("pumping", [](state::WorldDescription& world) {
+    test::lose(world, "PISTON_R", {"GUIDE_R", "ROD_R"});
   });
   EXPECT_EQ(pumping.stopped_at, "steady") << pumping;
 }
 
 TEST(KtesibiosPumpVisits, WithoutItsHandleItCanBeNeitherFinishedNorHeld) {
   const test::PlayedVisit assembling =
-      play_changed("assembling", [](state::WorldDescription& world) { lose(world, "HANDLE", {}); });
+      pump().play_changed("assembling", [](state::WorldDescription& world) { test::lose(world, "HANDLE", {}); });
   EXPECT_EQ(assembling.stopped_at, "handle") << assembling;
   const test::PlayedVisit pumping =
-      play_changed("pumping", [](state::WorldDescription& world) { lose(world, "HANDLE", {"TIE"}); });
+      pump().play_changed("pumping", [](state::WorldDescription& world) { test::lose(world, "HANDLE", {"TIE"}); });
   EXPECT_EQ(pumping.stopped_at, "grasp") << pumping;
 }
 
 TEST(KtesibiosPumpVisits, AHandleThatIsNotStrappedOnMovesNoPiston) {
   const test::PlayedVisit visit =
-      play_changed("pumping", [](state::WorldDescription& world) { test::switch_off(world, "TIE"); });
+      pump().play_changed("pumping", [](state::WorldDescription& world) { test::switch_off(world, "TIE"); });
   EXPECT_EQ(visit.stopped_at, "stroke") << visit;
 }
 

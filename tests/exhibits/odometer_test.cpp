@@ -17,12 +17,6 @@ const test::Exhibit& odometer() {
   return kExhibit;
 }
 
-test::PlayedVisit play_odometer(const std::string& visit, std::function<void(state::WorldDescription&)> change) {
-  test::PlayOptions options;
-  options.change = std::move(change);
-  return odometer().play(visit, options);
-}
-
 double joint_position(const state::WorldState& state, const char* joint) {
   return state[odometer().description().find_joint(joint)].position;
 }
@@ -31,24 +25,13 @@ Vec3 place_of(const state::WorldState& state, const char* body) {
   return state[odometer().description().find_body(body)].X_WB.p;
 }
 
-bool failed(const visitor::MoveResult& move) {
-  return !move.ok;
-}
-
-/// A drum that is not there, nor its axle.
-void lose_part(state::WorldDescription& world, const std::string& part, const std::vector<std::string>& ties = {}) {
-  test::take_away(world, part);
-  for (const std::string& agent : ties)
-    test::switch_off(world, agent);
-}
-
 TEST(OdometerVisits, AllPartsComeToTheirPlacesInTheirOrder) {
   const test::PlayedVisit visit = odometer().play("constructing");
   EXPECT_TRUE(visit.done) << visit;
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
   EXPECT_EQ(visit.quantities.at("parts"), 5) << visit;
   EXPECT_EQ(visit.quantities.at("too_early"), 0) << visit;
-  EXPECT_TRUE(std::ranges::none_of(visit.moves, failed)) << visit;
+  EXPECT_TRUE(std::ranges::none_of(visit.moves, test::went_wrong)) << visit;
   for (const test::PlayedStep& step : visit.steps)
     EXPECT_LT(step.seconds, 20) << visit;
   EXPECT_EQ(odometer().play("constructing").state_hash, visit.state_hash);
@@ -70,7 +53,7 @@ TEST(OdometerVisits, EveryFiveTurnsAPebbleComesToLieInTheVessel) {
   const test::PlayedVisit visit = odometer().play("pushing", options);
   EXPECT_TRUE(visit.done) << visit;
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
-  EXPECT_TRUE(std::ranges::none_of(visit.moves, failed)) << visit;
+  EXPECT_TRUE(std::ranges::none_of(visit.moves, test::went_wrong)) << visit;
   for (const test::PlayedStep& step : visit.steps)
     EXPECT_LT(step.seconds, 20) << visit;
   // In the middle of the fifth and the tenth jerk, which are half a turn of the wheel before its turn is full.
@@ -126,20 +109,20 @@ TEST(OdometerVisits, BackwardsTooFastAndAWalkStillEndWell) {
 }
 
 TEST(OdometerVisits, WithoutTheOneToothTheGreatDrumStands) {
-  const test::PlayedVisit visit = play_odometer("pushing", [](state::WorldDescription& world) {
-    lose_part(world, "TOOTH", {"HUB", "DOWELS"});
+  const test::PlayedVisit visit = odometer().play_changed("pushing", [](state::WorldDescription& world) {
+    test::lose(world, "TOOTH", {"HUB", "DOWELS"});
   });
   EXPECT_EQ(visit.stopped_at, "one_tooth") << visit;
   EXPECT_GT(visit.quantities.at("turns"), 10) << visit;
   EXPECT_EQ(visit.quantities.at("drum_angle"), 0) << visit;
   const test::PlayedVisit loose =
-      play_odometer("pushing", [](state::WorldDescription& world) { test::switch_off(world, "DOWELS"); });
+      odometer().play_changed("pushing", [](state::WorldDescription& world) { test::switch_off(world, "DOWELS"); });
   EXPECT_EQ(loose.stopped_at, "one_tooth") << "the drum with the tooth does not turn with the hub\n" << loose;
 }
 
 TEST(OdometerVisits, WithoutTheSidePegsNoPebbleFalls) {
   const test::PlayedVisit visit =
-      play_odometer("pushing", [](state::WorldDescription& world) { test::switch_off(world, "SIDE_PEGS"); });
+      odometer().play_changed("pushing", [](state::WorldDescription& world) { test::switch_off(world, "SIDE_PEGS"); });
   EXPECT_EQ(visit.stopped_at, "mile") << visit;
   EXPECT_GE(visit.quantities.at("teeth"), 10) << visit;
   EXPECT_EQ(visit.quantities.at("pebbles"), 0) << visit;
@@ -148,14 +131,14 @@ TEST(OdometerVisits, WithoutTheSidePegsNoPebbleFalls) {
 TEST(OdometerVisits, WithoutGutterOrVesselAPebbleFallsForNothing) {
   for (const char* part : {"CHANNEL", "VESSEL"}) {
     const test::PlayedVisit visit =
-        play_odometer("pushing", [&](state::WorldDescription& world) { lose_part(world, part); });
+        odometer().play_changed("pushing", [&](state::WorldDescription& world) { test::lose(world, part); });
     EXPECT_EQ(visit.stopped_at, "mile") << part << "\n" << visit;
     EXPECT_EQ(visit.quantities.at("pebbles"), 2) << part << "\n" << visit;
   }
 }
 
 TEST(OdometerVisits, AHandWithoutForceMovesNoCart) {
-  const test::PlayedVisit visit = play_odometer("pushing", [](state::WorldDescription& world) {
+  const test::PlayedVisit visit = odometer().play_changed("pushing", [](state::WorldDescription& world) {
     test::set_parameter(world, "HOLD", "forceLimit", std::vector<double>{0});
   });
   EXPECT_EQ(visit.stopped_at, "push") << visit;
@@ -165,12 +148,12 @@ TEST(OdometerVisits, AHandWithoutForceMovesNoCart) {
 TEST(OdometerVisits, APartThatIsMissingIsMissedAtItsStep) {
   // The visit goes on to the great drum, which is refused: no other part takes the first one's place.
   const test::PlayedVisit first =
-      play_odometer("constructing", [](state::WorldDescription& world) { lose_part(world, "TOOTH"); });
+      odometer().play_changed("constructing", [](state::WorldDescription& world) { test::lose(world, "TOOTH"); });
   EXPECT_EQ(first.stopped_at, "not_yet") << first;
   EXPECT_EQ(first.quantities.at("parts"), 0) << first;
   EXPECT_GE(first.quantities.at("too_early"), 1) << first;
   const test::PlayedVisit flat =
-      play_odometer("constructing", [](state::WorldDescription& world) { lose_part(world, "FLAT"); });
+      odometer().play_changed("constructing", [](state::WorldDescription& world) { test::lose(world, "FLAT"); });
   EXPECT_EQ(flat.stopped_at, "flat") << flat;
   EXPECT_EQ(flat.quantities.at("parts"), 2) << flat;
 }

@@ -13,12 +13,6 @@ const test::Exhibit& single_crane() {
   return kExhibit;
 }
 
-test::PlayOptions single_with(std::function<void(state::WorldDescription&)> change) {
-  test::PlayOptions options;
-  options.change = std::move(change);
-  return options;
-}
-
 TEST(PulleyCraneVisits, TheStoneComesOntoTheWallAndTwiceTheSame) {
   const test::PlayedVisit visit = single_crane().play("lifting");
   EXPECT_TRUE(visit.done) << visit;
@@ -67,21 +61,21 @@ TEST(PulleyCraneVisits, ADrumTwiceAsThickAsksTwiceTheForce) {
 }
 
 TEST(PulleyCraneVisits, WithTheRopeCutNothingIsLifted) {
-  const auto cut = single_with([](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
-  const test::PlayedVisit visit = single_crane().play("lifting", cut);
+  const auto cut = [](state::WorldDescription& world) { test::switch_off(world, "ROPE"); };
+  const test::PlayedVisit visit = single_crane().play_changed("lifting", cut);
   EXPECT_EQ(visit.stopped_at, "lift") << visit;
   EXPECT_NEAR(visit.quantities.at("height"), 0.185, 0.01) << "the stone lies where it lay";
 }
 
 TEST(PulleyCraneVisits, WithTheRopeOffTheDrumNothingIsLifted) {
-  const test::PlayedVisit visit = single_crane().play("lifting", single_with(test::take_rope_off_drum));
+  const test::PlayedVisit visit = single_crane().play_changed("lifting", test::take_rope_off_drum);
   EXPECT_EQ(visit.stopped_at, "lift") << visit;
   EXPECT_GT(visit.quantities.at("turns"), 2) << "the drum turns, for nothing";
 }
 
 TEST(PulleyCraneVisits, WithoutItsPawlTheStoneComesDownAgain) {
-  const auto off = single_with([](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); });
-  const test::PlayedVisit visit = single_crane().play("lifting", off);
+  const auto off = [](state::WorldDescription& world) { test::switch_off(world, "RATCHET"); };
+  const test::PlayedVisit visit = single_crane().play_changed("lifting", off);
   EXPECT_EQ(visit.stopped_at, "guide") << visit;
   EXPECT_LT(visit.quantities.at("height"), 0.3) << visit;
 }

@@ -101,7 +101,7 @@ TEST(VillageVisits, AFingerOnASignLeadsToItsMachineAndWhoIsNotSentOnIsBackAtTheS
   test::PlayOptions options;
   options.patience_s = 8;
   options.watch = [&](const state::WorldState& state) {
-    at_last_deg = state.quantities.at(village().description().find_quantity("swing_screw").index());
+    at_last_deg = village().value(state, "swing_screw");
     farthest_deg = std::max(farthest_deg, at_last_deg);
     if (std::abs(at_last_deg) > 1) swung_until_s = static_cast<double>(state.tick) * kTickSeconds;
   };
@@ -177,7 +177,7 @@ TEST_P(EachSign, IsNotChosenByAPalm) {
   std::string swing = std::string("swing_") + GetParam().name;
   std::ranges::transform(swing, swing.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   options.watch = [&](const state::WorldState& state) {
-    farthest_deg = std::max(farthest_deg, state.quantities.at(village().description().find_quantity(swing).index()));
+    farthest_deg = std::max(farthest_deg, village().value(state, swing));
   };
   const Vec3 wrist_W = middle_of(GetParam()) + Vec3(0, -0.05, 0);  // the palm's middle is 5 cm before the wrist
   expect_nothing_chosen(play({reach(wrist_W + Vec3(0, 0, 0.3), 1.5), reach(wrist_W, 0.8), wait(1.5)}, options));

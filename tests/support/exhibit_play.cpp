@@ -178,6 +178,17 @@ PlayedVisit Exhibit::play(const std::string& visit, const PlayOptions& options) 
   return Play(std::move(description), config_, visit, options).run();
 }
 
+PlayedVisit Exhibit::play_changed(const std::string& visit,
+                                  std::function<void(state::WorldDescription&)> change) const {
+  PlayOptions options;
+  options.change = std::move(change);
+  return play(visit, options);
+}
+
+double Exhibit::value(const state::WorldState& state, const std::string& quantity) const {
+  return state.quantities.at(description_->find_quantity(quantity).index());
+}
+
 void switch_off(state::WorldDescription& world, const std::string& agent) {
   const AgentId id = agent_or_throw(world, agent);
   for (state::StepDescription& step : world.steps)
@@ -209,6 +220,12 @@ void take_away(state::WorldDescription& world, const std::string& body) {
     std::erase_if(step.bodies, [&](const auto& change) { return change.body == id; });
     step.bodies.push_back({id, false, false, false, X_WGone});
   }
+}
+
+void lose(state::WorldDescription& world, const std::string& part, const std::vector<std::string>& joints_and_ties) {
+  take_away(world, part);
+  for (const std::string& agent : joints_and_ties)
+    switch_off(world, agent);
 }
 
 std::ostream& operator<<(std::ostream& out, const PlayedVisit& visit) {

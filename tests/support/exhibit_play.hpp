@@ -53,7 +53,12 @@ class Exhibit {
 
   /// Plays one visit in a new world. Throws std::runtime_error where there is no such visit, or the world cannot be made.
   [[nodiscard]] PlayedVisit play(const std::string& visit, const PlayOptions& options = {}) const;
+  /// The same in a world that was changed: see PlayOptions::change.
+  [[nodiscard]] PlayedVisit play_changed(const std::string& visit,
+                                         std::function<void(state::WorldDescription&)> change) const;
   [[nodiscard]] const state::WorldDescription& description() const { return *description_; }
+  /// A quantity's value. Throws std::out_of_range where there is none of this name.
+  [[nodiscard]] double value(const state::WorldState& state, const std::string& quantity) const;
 
  private:
   std::shared_ptr<const state::WorldDescription> description_;
@@ -71,5 +76,13 @@ void set_parameter(state::WorldDescription& world, const std::string& component,
 /// Cannot be seen, grasped or touched, nothing moves it, and it lies under the floor: as if it were not there. A joint or tie of its
 /// own is switched off apart.
 void take_away(state::WorldDescription& world, const std::string& body);
+/// take_away, and nothing of what held the part: those agents are switched off.
+void lose(state::WorldDescription& world, const std::string& part,
+          const std::vector<std::string>& joints_and_ties = {});
+
+/// A grasp that caught nothing, a carry with an empty hand.
+[[nodiscard]] inline bool went_wrong(const visitor::MoveResult& move) {
+  return !move.ok;
+}
 
 }  // namespace mechane::test
