@@ -18,6 +18,37 @@ constexpr double kNoticesLossS = 0.3;
 // Farther than this from where it was carried, a thing has been left behind.
 constexpr double kSlippedM = 0.1;
 
+// In a whole hand: where it has a handle, under the roots of the fingers; and the tip of a stretched index finger.
+const Vec3 kGrip_H(0.095, -0.030, 0);
+const Vec3 kIndexTip_H(0.1965, 0, -0.031);
+
+/// Thumb first; of each finger abduction, then three flexions.
+HandJoints bent(double thumb_rad, double index_rad, double others_rad) {
+  HandJoints joints{};
+  for (std::size_t finger = 0; finger < joints.size() / 4; ++finger) {
+    const double angle = finger == 0 ? thumb_rad : finger == 1 ? index_rad : others_rad;
+    for (std::size_t k = 1; k < 4; ++k)
+      joints[4 * finger + k] = angle;
+  }
+  return joints;
+}
+
+const HandJoints kOpen = bent(0.1, 0.15, 0.15);
+const HandJoints kClosed = bent(0.5, 0.9, 0.9);
+const HandJoints kPointing = bent(0.6, 0, 1.3);
+constexpr double kClosesInS = 0.3;
+
+/// The palm down, the fingers across the axis: away from the visitor, who looks along -z, or to his right.
+Quat across(const Vec3& axis_W) {
+  Vec3 x = Vec3::UnitY().cross(axis_W);
+  if (x.norm() < 0.1) x = -Vec3::UnitZ();
+  if (x.z() > 1e-9 || (std::abs(x.z()) <= 1e-9 && x.x() < 0)) x = -x;
+  x.normalize();
+  Mat3 R_WH;
+  R_WH << x, Vec3::UnitY(), x.cross(Vec3::UnitY());
+  return Quat(R_WH);
+}
+
 std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
   switch (move.kind) {
     case VisitMove::Kind::reach:
@@ -66,6 +97,7 @@ void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding,
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
   note_grip(holding);
+  bend_fingers(holding);
   const bool over = continue_move(X_WB, holding, felt_n);
   const bool again = (lost_its_handle() || (over && slipped(X_WB, holding))) && fetched_again_ < config_.fetch_again;
   if (!over && !again) return;
@@ -85,10 +117,11 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   if (move.kind == VisitMove::Kind::reach) {
+    if (config_.kind == client::HandKind::glove && config_.shapes_hand) shape_hand();
     if (index_ != last_reach_) fetched_again_ = 0;
     last_reach_ = index_;
     p_BG_ = move.p_BG;
-    X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W;
+    X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W - X_WH_goal_.R * p_HG_;
   } else if (move.kind == VisitMove::Kind::move_to) {
     // The hand goes with the body as it holds it now.
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
@@ -102,6 +135,40 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   }
 }
 
+/// For what comes after this reach: a handle that is to be worked lies across the palm, a sign is touched with the index finger. What is
+/// to be carried is taken as the hand is, at the wrist, where its weight turns it least.
+void VisitPlayer::shape_hand() {
+  const auto move_at = [&](std::size_t i) { return i < visit_.moves.size() ? &visit_.moves[i] : nullptr; };
+  const VisitMove* next = move_at(index_ + 1);
+  const VisitMove* after = move_at(index_ + 2);
+  const bool grasps = next != nullptr && next->kind == VisitMove::Kind::grasp;
+  if (!grasps) {
+    p_HG_ = kIndexTip_H;
+    X_WH_goal_.R = across(Vec3::UnitX());
+    joints_goal_ = kPointing;
+  } else if (after != nullptr && after->joint) {
+    const state::JointDescription& joint = description_.joints[after->joint.index()];
+    p_HG_ = kGrip_H;
+    X_WH_goal_.R = across((description_.bodies[joint.body1.index()].X_WB * joint.X_B1J).rotate(Vec3::UnitZ()));
+    joints_goal_ = kOpen;
+  } else {
+    p_HG_.setZero();
+    X_WH_goal_.R.setIdentity();
+    joints_goal_ = kOpen;
+  }
+}
+
+/// Round what it holds; nothing that it holds is pushed by a finger.
+void VisitPlayer::bend_fingers(bool holding) {
+  if (config_.kind != client::HandKind::glove || !config_.shapes_hand) return;
+  const HandJoints& goal = intent_.grasp_intent > 0 && holding ? kClosed
+                           : intent_.grasp_intent > 0          ? intent_.joints
+                                                               : joints_goal_;
+  const double share = std::min(last_dt_s_ / kClosesInS, 1.0);
+  for (std::size_t i = 0; i < goal.size(); ++i)
+    intent_.joints[i] += share * (goal[i] - intent_.joints[i]);
+}
+
 bool VisitPlayer::touched_what_it_reaches_for(double felt_n) const {
   const bool grasps_next = index_ + 1 < visit_.moves.size() && visit_.moves[index_ + 1].kind == VisitMove::Kind::grasp;
   return grasps_next && felt_n > kTouchN;
@@ -110,7 +177,7 @@ bool VisitPlayer::touched_what_it_reaches_for(double felt_n) const {
 /// An unheld thing gives way when it is touched: the hand goes after its grip, slowly.
 void VisitPlayer::follow_grip(std::span<const Pose> X_WB) {
   const Vec3 p_WG = X_WB[visit_.moves[index_].body.index()] * p_BG_ + config_.offset_W;
-  const Vec3 way = p_WG - intent_.X_WH.p;
+  const Vec3 way = p_WG - intent_.X_WH * p_HG_;
   const double step_m = kFollowMPerS * last_dt_s_;
   intent_.X_WH.p += way.norm() > step_m ? Vec3(way.normalized() * step_m) : way;
 }
@@ -175,8 +242,8 @@ double VisitPlayer::go_through(double whole_rad, double rate_rad_per_s) {
 void VisitPlayer::go_round(JointId id, double angle_rad) {
   const state::JointDescription& joint = description_.joints[id.index()];
   const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
-  const Vec3 arm_J = X_WJ.inverse() * X_WH_start_.p;
-  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J);
+  const Vec3 arm_J = X_WJ.inverse() * (X_WH_start_ * p_HG_);
+  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J) - X_WH_start_.R * p_HG_;
 }
 
 void VisitPlayer::note_grip(bool holding) {

@@ -11,6 +11,8 @@
 
 namespace mechane::visitor {
 
+using HandJoints = std::array<double, client::kHandJoints>;
+
 /// What came of one move.
 struct MoveResult {
   std::string name;  ///< "reach INNER"
@@ -22,6 +24,8 @@ struct PlayerConfig {
   Pose X_WH_rest{Vec3(0, 1.2, 1.5), Quat::Identity()};  ///< where the hand waits
   Vec3 offset_W = Vec3::Zero();  ///< added to every place that the hand reaches for: a visitor who misses
   client::HandKind kind = client::HandKind::one_point;
+  bool shapes_hand =
+      true;  ///< a whole hand turns to what it reaches for, and bends its fingers; else the wrist goes there as it is
   double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit goes on without it
   int fetch_again = 2;  ///< how often the hand goes back for what it lost: on its way, or a handle that it worked
 };
@@ -44,6 +48,8 @@ class VisitPlayer {
 
  private:
   void begin_move(std::span<const Pose> X_WB);
+  void shape_hand();
+  void bend_fingers(bool holding);
   /// True when the move is over.
   bool continue_move(std::span<const Pose> X_WB, bool holding, double felt_n);
   [[nodiscard]] bool touched_what_it_reaches_for(double felt_n) const;
@@ -82,6 +88,8 @@ class VisitPlayer {
   double turned_rad_ = 0;      // of a turn, or of a swing's phase
   double swing_from_rad_ = 0;  // where the joint stood when the swing began
   Vec3 p_BG_ = Vec3::Zero();   // the grip that the last reach was for
+  Vec3 p_HG_ = Vec3::Zero();   // where the hand has it
+  HandJoints joints_goal_{};
 };
 
 /// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).

@@ -4,6 +4,7 @@ import argparse
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -23,6 +24,8 @@ JOBS = str(os.cpu_count() or 2)
 FUZZ_SECONDS = 10
 FUZZ_INPUT_S = 10  # on one input, before it counts as a hang; a mesh is cut, fitted and mapped, under the sanitizers
 SLOW_INPUT_S = {"mesh": 90}
+
+TIDY = [sys.executable, "-B", "tests/architecture/tidy.py"]
 
 # A sanitizer says all it knows and stops the program; and it makes everything slower, so that tests wait longer.
 SANITIZER_ENV = {
@@ -66,13 +69,10 @@ def build(preset: str, *targets: str) -> Phase:
     return Phase(f"build {preset}", run)
 
 
-def begin_build(preset: str, *targets: str) -> Callable[[], processes.Beside]:
-    """Builds beside a phase that leaves the processors time; the phase that builds the preset itself then finds most of it there."""
-    def begin() -> processes.Beside:
-        commands = [" ".join(command) for command in _build_commands(preset, targets)]
-        return processes.Beside(["sh", "-c", " && ".join(commands)], OUT / f"beside-build-{preset}.log")
-
-    return begin
+def begin(*commands: list[str]) -> Callable[[], processes.Beside]:
+    """Commands for the time that a phase leaves to others, one after another, as far as they come. The phases whose work it is find done
+    what was done, and take up the rest."""
+    return lambda: processes.Beside(["sh", "-c", " && ".join(map(shlex.join, commands))], OUT / "beside.log")
 
 
 def ctest(preset: str, only: str = "", leave_out: str = "", named: str = "", unnamed: str = "",
@@ -176,8 +176,7 @@ def tidy() -> Phase:
     def run(log: Path) -> Tally:
         junit = log.with_suffix(".xml")
         junit.unlink(missing_ok=True)
-        processes.run([sys.executable, "-B", "tests/architecture/tidy.py", "--junit", str(junit)],
-                      log, limit_s=3600)
+        processes.run([*TIDY, "--junit", str(junit)], log, limit_s=3600)
         return read_junit(junit)
 
     return Phase("clang-tidy", run)
@@ -193,7 +192,7 @@ def phases(quick: bool) -> list[Phase]:
     too_slow = "|".join(TOO_SLOW_SANITIZED)
     return [
         build("release"), ctest("release", only="in-process"),
-        ctest("release", leave_out="in-process", beside=begin_build("asan-ubsan")),
+        ctest("release", leave_out="in-process", beside=begin(*_build_commands("asan-ubsan", ()), TIDY)),
         build("asan-ubsan"), programs("asan-ubsan", unnamed=too_slow),
         ctest("asan-ubsan", leave_out="architecture|in-process", unnamed=too_slow), fuzz(),
         build("tsan", *(f"test_{program}" for program in THREADED)),

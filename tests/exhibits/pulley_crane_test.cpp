@@ -1,4 +1,6 @@
 // The crane of one pulley, played by its own visits; the law of the winch; and what fails, and where, once something is broken.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/exhibits/crane_lift.hpp"
@@ -58,6 +60,11 @@ TEST(PulleyCraneVisits, ADrumTwiceAsThickAsksTwiceTheForce) {
   ASSERT_GT(thick.ticks, 500u) << thick.visit;
   const double friction_n = test::handle_force_n(0, thin.rate);
   EXPECT_NEAR((thick.handle_n - friction_n) / (thin.handle_n - friction_n), 2, 0.06);
+}
+
+TEST(PulleyCraneVisits, AWholeHandTurnsTheCrankToo) {
+  const test::PlayedVisit visit = single_crane().play_with_glove("lifting");
+  EXPECT_TRUE(visit.done) << visit;
 }
 
 TEST(PulleyCraneVisits, WithTheRopeCutNothingIsLifted) {

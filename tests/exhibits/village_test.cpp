@@ -96,6 +96,12 @@ std::vector<std::string> names_of(const std::vector<test::PlayedStep>& steps) {
   return names;
 }
 
+TEST(VillageVisits, TheIndexOfAWholeHandDoesToo) {
+  const test::PlayedVisit visit = village().play_with_glove("pointing");
+  ASSERT_GE(visit.steps.size(), 2u) << visit;
+  EXPECT_EQ(visit.steps[1].name, "to-archimedes-screw") << visit;
+}
+
 TEST(VillageVisits, AFingerOnASignLeadsToItsMachineAndWhoIsNotSentOnIsBackAtTheSigns) {
   double farthest_deg = 0, at_last_deg = 0, swung_until_s = 0;
   test::PlayOptions options;
@@ -172,6 +178,7 @@ TEST_P(EachSign, IsNotChosenByAPalm) {
   Mat3 R_WH;
   R_WH << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   options.player.kind = client::HandKind::glove;
+  options.player.shapes_hand = false;  // the test does
   options.player.X_WH_rest.R = Quat(R_WH);
   double farthest_deg = 0;
   std::string swing = std::string("swing_") + GetParam().name;
@@ -190,6 +197,7 @@ TEST_P(EachSign, IsChosenByTheIndexOfAGlove) {
   Mat3 R_WH;
   R_WH << 0, 0, 1, 0, 1, 0, -1, 0, 0;
   options.player.kind = client::HandKind::glove;
+  options.player.shapes_hand = false;  // the test does
   options.player.X_WH_rest.R = Quat(R_WH);
   const Vec3 wrist_W = middle_of(GetParam()) + Vec3(0.031, 0, 0.2);  // the index is 31 mm to the left of the wrist
   const test::PlayedVisit visit = play({reach(wrist_W + Vec3(0, 0, 0.2), 1.5), reach(wrist_W, 0.8), wait(1)}, options);

@@ -185,6 +185,12 @@ PlayedVisit Exhibit::play_changed(const std::string& visit,
   return play(visit, options);
 }
 
+PlayedVisit Exhibit::play_with_glove(const std::string& visit) const {
+  PlayOptions options;
+  options.player.kind = client::HandKind::glove;
+  return play(visit, options);
+}
+
 double Exhibit::value(const state::WorldState& state, const std::string& quantity) const {
   return state.quantities.at(description_->find_quantity(quantity).index());
 }

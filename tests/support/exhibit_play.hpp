@@ -56,6 +56,8 @@ class Exhibit {
   /// The same in a world that was changed: see PlayOptions::change.
   [[nodiscard]] PlayedVisit play_changed(const std::string& visit,
                                          std::function<void(state::WorldDescription&)> change) const;
+  /// The same by a whole hand, where play() has one point.
+  [[nodiscard]] PlayedVisit play_with_glove(const std::string& visit) const;
   [[nodiscard]] const state::WorldDescription& description() const { return *description_; }
   /// A quantity's value. Throws std::out_of_range where there is none of this name.
   [[nodiscard]] double value(const state::WorldState& state, const std::string& quantity) const;
