@@ -132,14 +132,19 @@ void Session::note_going_on(ActivityReport& report) {
     tick();
 }
 
-/// Home, for the next visit: the way that `mechane open` goes.
+/// To the visit's own scenario, where the kiosk is at another: a sign of the visit before led there, or a display asked for none and
+/// was first. The way that `mechane open` goes.
 void Session::come_back() {
-  status_ = client_.world_status();
+  const auto wait_while = [&](auto&& condition) {
+    const TimePoint began = clock_.now();
+    while (stop_ == 0 && condition() && seconds_since(began) < 5)
+      tick();
+  };
+  status_.reset();
+  wait_while([&] { return !status_; });
   if (!gone_on()) return;
   (void)client_.open_exhibit(world_.id);
-  const TimePoint began = clock_.now();
-  while (stop_ == 0 && gone_on() && seconds_since(began) < 5)
-    tick();
+  wait_while([&] { return gone_on(); });
   for (std::size_t i = 0; i < X_WB_.size(); ++i)
     X_WB_[i] = world_.bodies[i].X_WB;
 }
