@@ -59,7 +59,7 @@ void add_text(Page& page, float x, float baseline, Face face, float design, cons
 /// Steps as dots, the present one long; the right end at `right`. Returns the width.
 float add_dots(Page& page, float right, float middle, const OverlayContent& content) {
   const std::uint32_t total = std::min(content.steps_total, 16U);
-  if (total == 0) return 0;
+  if (total < 2) return 0;  // one step is no way to be shown
   const float dot = page.px(kDot);
   const float gap = page.px(kDotGap);
   const float here = 2.4F * dot;
