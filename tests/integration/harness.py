@@ -28,6 +28,18 @@ def wait_until(condition, limit_s, what):
     raise AssertionError(f"not within {limit_s * PATIENCE:.0f} s: {what}")
 
 
+def repeat_until(action, condition, limit_s, what, again_s=5):
+    """For what a program may not have been ready to hear: acts, looks for a while, and acts again."""
+    end = time.monotonic() + limit_s * PATIENCE
+    while time.monotonic() < end:
+        action()
+        try:
+            return wait_until(condition, again_s, what)
+        except AssertionError:
+            continue
+    raise AssertionError(f"not within {limit_s * PATIENCE:.0f} s: {what}")
+
+
 class Process:
     def __init__(self, name, command, folder, environment):
         self.name, self.log = name, folder / f"{name}.log"

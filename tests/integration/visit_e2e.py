@@ -1,10 +1,11 @@
 """Whole visits over the network: what must turn the crank, what must not, and that a journal replays to the live hash."""
 
 import json
+import os
 import subprocess
 import unittest
 
-from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, wait_until
+from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, repeat_until, wait_until
 
 
 class Visit(EndToEnd):
@@ -108,6 +109,30 @@ class Visit(EndToEnd):
             self.assertEqual(result.returncode, status, result.stdout + result.stderr)
             self.assertIn(answer, result.stdout + result.stderr)
         self.assertEqual(server.stop(), 0, server.text())
+
+    def test_a_click_on_a_sign_opens_its_exhibit_and_the_key_home_leads_back(self):
+        server = self.server(scenario=[ROOT / "scenarios/village/village.x3d", SCENARIO], records=False)
+        read, write = os.pipe()
+        screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "640x360x24"], pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        try:
+            with os.fdopen(read) as said:
+                environment = {**self.environment, "DISPLAY": f":{said.readline().strip()}"}
+            window = self.start("window", "display", "--kiosk", "wall", "--size", "640x360", environment=environment)
+
+            def opened(scenario, *action):
+                """Clicks, or presses, until the last world that was opened is of this scenario."""
+                last = lambda: [line for line in server.text().splitlines() if "opened for wall" in line][-1].endswith(scenario)
+                repeat_until(lambda: subprocess.run(["xdotool", *action], env=environment, stderr=subprocess.DEVNULL), last, 60,
+                             f"{action} opens {scenario}")
+
+            wait_until(lambda: "opened for wall: village" in server.text(), 20, "the display has its world")
+            opened("archimedes-screw", "mousemove", "244", "200", "click", "1")  # the screw's sign, from where the display looks
+            opened("village", "key", "Home")
+            self.assertEqual(window.stop(), 0, window.text())
+        finally:
+            screen.kill()
+            screen.wait()
 
     def test_wrong_arguments_end_with_one_status(self):
         for command in (("visitor", "--kios", "a"), ("fit",), ("echo", "--count", "x"), ("haptic", "--device"), ("replay", "--fast", "x"),
