@@ -122,7 +122,7 @@ class CatalogueCheck {
       const std::string path = file.lexically_relative(folder_).generic_string();
       if (!by_path_.contains(path))
         add(Fault::Kind::unknown, path, "the catalogue does not know this file",
-            "mechane content add it, or remove it");
+            "mechane content add " + path + ", or take the file away");
     }
     return {};
   }
