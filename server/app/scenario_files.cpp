@@ -32,7 +32,7 @@ Expected<fs::path> file_of(const fs::path& name, const std::vector<CatalogueEntr
 }
 
 /// One line a file that is not what the catalogue says.
-void compare(const CatalogueEntry& entry, const content::Catalogue& catalogue) {
+void warn_if_changed(const CatalogueEntry& entry, const content::Catalogue& catalogue) {
   const fs::path file = catalogue.folder() / entry.path;
   const auto hash = content::content_hash(file);
   if (!hash) {
@@ -68,7 +68,7 @@ Expected<std::vector<fs::path>> find_scenarios(std::span<const fs::path> names, 
     }
   }
   for (const CatalogueEntry& entry : content::with_all_referred(*entries, std::move(used)))
-    compare(entry, *catalogue);
+    warn_if_changed(entry, *catalogue);
   return files;
 }
 

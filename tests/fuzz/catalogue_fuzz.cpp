@@ -3,27 +3,46 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <string>
+#include <fstream>
 
-#include <sys/mman.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "server/content/catalogue.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using mechane::content::Catalogue;
-  const int fd = memfd_create("catalogue", MFD_CLOEXEC);
-  if (fd < 0) std::abort();
-  if (write(fd, data, size) != static_cast<ssize_t>(size)) std::abort();
-  const auto catalogue = Catalogue::open("/proc/self/fd/" + std::to_string(fd), Catalogue::Access::read);
-  if (catalogue) {
-    if (const auto entries = catalogue->entries()) {
-      for (const auto& entry : *entries) {
-        if (!mechane::content::is_inside(entry.path) || entry.hash.size() != 32) std::abort();
-        if (!catalogue->files_of(entry.hash)) std::abort();
-      }
-    }
+namespace {
+
+using mechane::content::Catalogue;
+
+/// One file for all inputs of a run, in memory where there is a place for that; it goes with the program.
+struct CatalogueFile {
+  CatalogueFile() {
+    const bool memory = access("/dev/shm", W_OK) == 0;
+    const std::filesystem::path folder = memory ? "/dev/shm" : std::filesystem::temp_directory_path();
+    path = folder / fmt::format("mechane-catalogue-fuzz-{}.db", getpid());
   }
-  close(fd);
+  CatalogueFile(const CatalogueFile&) = delete;
+  CatalogueFile& operator=(const CatalogueFile&) = delete;
+  ~CatalogueFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+  std::filesystem::path path;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const CatalogueFile file;
+  std::ofstream(file.path, std::ios::binary | std::ios::trunc)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  const auto catalogue = Catalogue::open(file.path, Catalogue::Access::read);
+  if (!catalogue) return 0;
+  const auto entries = catalogue->entries();
+  if (!entries) return 0;
+  for (const auto& entry : *entries) {
+    if (!mechane::content::is_inside(entry.path) || entry.hash.size() != 32) std::abort();
+    if (!catalogue->files_of(entry.hash)) std::abort();
+  }
   return 0;
 }
