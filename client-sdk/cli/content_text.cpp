@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,14 +42,14 @@ std::string total(std::span<const CatalogueEntry> entries) {
   return fmt::format("{}, {}", count(entries.size(), "file", "files"), size_text(bytes));
 }
 
-/// "in de: title, step take, caption", a line a language in which not all is said.
+/// What is not said in a language of the entry: a line each, the language before the first.
 void write_lacking(const CatalogueEntry& entry, std::string& page) {
   for (const std::string& language : entry.languages) {
-    std::vector<std::string> lacking;
+    std::string head = "lacks in " + shown(language);
     for (const auto& [words, said] : entry.wordings) {
-      if (std::ranges::find(said, language) == said.end()) lacking.push_back(shown(words));
+      if (std::ranges::find(said, language) == said.end())
+        page += fmt::format("  {:<11} {}\n", std::exchange(head, ""), shown(words));
     }
-    if (!lacking.empty()) page += fmt::format("  {:<11} {}\n", "lacks in " + shown(language), fmt::join(lacking, "; "));
   }
 }
 

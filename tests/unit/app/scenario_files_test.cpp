@@ -31,7 +31,7 @@ class ScenarioFilesTest : public testing::Test {
     entries_[0].refers_to = {"crane.glb"};
     EXPECT_TRUE(catalogue->put(entries_));
   }
-  ~ScenarioFilesTest() override {
+  void TearDown() override {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }

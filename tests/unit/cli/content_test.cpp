@@ -32,7 +32,7 @@ class ContentTest : public testing::Test {
       fs::copy_file(fs::path(MECHANE_SOURCE_DIR) / "scenarios" / path, folder_ / "scenarios" / path);
     }
   }
-  ~ContentTest() override {
+  void TearDown() override {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
@@ -140,6 +140,8 @@ TEST_F(ContentTest, VerifyNamesAChangedFileALackingLanguageAndAnOrphan) {
   EXPECT_EQ(run("verify"), 1);
   EXPECT_THAT(out_, AllOf(HasSubstr("archimedes-screw.x3d: language: in 'de' it lacks"),
                           HasSubstr("models/archimedes-screw.glb: orphan"), HasSubstr("2 faults")));
+  ASSERT_EQ(run("show", {"archimedes-screw/archimedes-screw.x3d"}), 0);
+  EXPECT_THAT(out_, AllOf(HasSubstr("  lacks in de activity "), HasSubstr("\n              title\n")));
   ASSERT_EQ(run("remove", {"models/archimedes-screw.glb"}), 0);
   EXPECT_EQ(run("verify"), 1);
   EXPECT_THAT(out_, HasSubstr("models/archimedes-screw.glb: unknown"));

@@ -33,7 +33,7 @@ class MeshFilesTest : public testing::Test {
     entry.hash = hash_;
     EXPECT_TRUE(catalogue_->put(std::vector{entry}));
   }
-  ~MeshFilesTest() override {
+  void TearDown() override {
     std::error_code ignored;
     fs::remove_all(top_, ignored);
   }
