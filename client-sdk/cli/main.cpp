@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "client-sdk/cli/content.hpp"
 #include "client-sdk/cli/doctor.hpp"
 #include "client-sdk/cli/echo.hpp"
 #include "client-sdk/cli/open.hpp"
@@ -57,6 +58,46 @@ CLI::App* add_open(CLI::App& app, cli::OpenOptions& open) {
   return command;
 }
 
+void add_content_add(CLI::App& content, cli::ContentOptions& o) {
+  CLI::App* add = content.add_subcommand(
+      "add", "take files into the catalogue, or take them anew; of scenarios also what they need");
+  add->add_option("files", o.words, "files and folders, in the catalogue's folder")->required();
+  add->add_option("--licence", o.credits.licence,
+                  "e.g. Apache-2.0; wins over what a file says of itself, as all of these do");
+  add->add_option("--author", o.credits.author, "who made it");
+  add->add_option("--source", o.credits.source, "where it comes from, or what it follows");
+  add->add_option("--version", o.credits.version, "of the file");
+  add->add_option("--tag", o.tags, "a word to find it by; may be given several times");
+  add->add_option("--language", o.languages, "a language that it is in; may be given several times");
+}
+
+CLI::App* add_content(CLI::App& app, cli::ContentOptions& o) {
+  CLI::App* content = app.add_subcommand("content", "keep the catalogue of scenarios, models, sounds and texts");
+  content->require_subcommand(1);
+  content->add_option("--catalogue", o.catalogue, "the catalogue's file, beside what it describes")
+      ->capture_default_str();
+  add_content_add(*content, o);
+  CLI::App* list = content->add_subcommand("list", "print what the catalogue has");
+  list->add_option("--kind", o.kind, "only scenario, model, part, texture, sound or text");
+  list->add_option("--tag", o.tag, "only what has this tag");
+  list->add_option("--language", o.language, "only what is in this language");
+  CLI::App* show = content->add_subcommand("show", "print all that is known of a file");
+  show->add_option("names", o.words, "name, path, or hash (its first six digits will do)")->required();
+  CLI::App* verify = content->add_subcommand(
+      "verify", "report changed and missing files, missing languages, orphans; status 1 where there are any");
+  content->add_subcommand("remove", "forget files; they stay where they are")
+      ->add_option("names", o.words, "name, path, or hash")
+      ->required();
+  CLI::App* out = content->add_subcommand("export", "copy content, and a catalogue of it, for a kiosk");
+  out->add_option("folder", o.folder, "a new or empty folder, or that of an older export")->required();
+  out->add_option("names", o.words, "only these, and what they need; without: all");
+  for (CLI::App* command : {list, show, verify})
+    command->add_flag("--json", o.json, "as JSON");
+  for (CLI::App* command : content->get_subcommands({}))
+    command->fallthrough();  // --catalogue may stand behind the verb
+  return content;
+}
+
 int add_and_parse(int argc, char** argv) {
   CLI::App app{"Mechane: touch, assemble and work the machines of ancient Greek engineers."};
   app.set_version_flag("--version", std::string("mechane ") + MECHANE_VERSION);
@@ -68,6 +109,8 @@ int add_and_parse(int argc, char** argv) {
   auto* echo_command = add_echo(app, echo);
   cli::OpenOptions open;
   auto* open_command = add_open(app, open);
+  cli::ContentOptions content;
+  auto* content_command = add_content(app, content);
   std::vector<std::string> files;
   auto* check_command = app.add_subcommand("check", "check scenario files: errors with line, node and remedy");
   check_command->add_option("files", files, "X3D files")->required();
@@ -92,6 +135,8 @@ int add_and_parse(int argc, char** argv) {
   }
   if (*echo_command) return cli::run_echo(echo);
   if (*open_command) return cli::run_open(open);
+  if (*content_command)
+    return cli::run_content(content_command->get_subcommands().front()->get_name(), content, std::cout, std::cerr);
   if (*check_command)
     return scenario::run_check(files, std::cout,
                                check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);

@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include "client-sdk/display/image_file.hpp"
+#include "client-sdk/display/mesh_files.hpp"
 #include "client-sdk/display/picking.hpp"
 #include "server/base/assert.hpp"
 #include "server/content/mesh_import.hpp"
@@ -48,8 +49,13 @@ std::string scenario_key(const client::WorldStatus& status) {
 class DisplayLoop {
  public:
   DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
-              client::Client& client)
-      : options_(options), requests_(requests), context_(context), renderer_(renderer), client_(client) {}
+              client::Client& client, const content::Catalogue* catalogue)
+      : options_(options),
+        requests_(requests),
+        context_(context),
+        renderer_(renderer),
+        client_(client),
+        catalogue_(catalogue) {}
 
   Expected<DisplaySummary> run();
 
@@ -70,6 +76,8 @@ class DisplayLoop {
   Renderer& renderer_;
   client::Client& client_;
   SystemClock clock_;
+  const content::Catalogue* catalogue_;
+  std::unique_ptr<MeshFiles> mesh_files_;  ///< of the library
   std::unique_ptr<AssetLibrary> library_;
   std::unique_ptr<SceneBuilder> builder_;
   std::optional<client::WorldStatus> status_;
@@ -105,8 +113,12 @@ void DisplayLoop::open_scenario() {
   scenario_ = scenario_key(*status_);
   folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
   renderer_.forget_assets();
-  library_ = std::make_unique<AssetLibrary>(
-      [folder = folder_](const std::string& uri) { return content::import_mesh(std::filesystem::path(folder) / uri); });
+  mesh_files_ = std::make_unique<MeshFiles>(folder_, catalogue_);
+  library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {
+    const auto file = mesh_files_->find(uri);
+    if (!file) return tl::unexpected(file.error());
+    return content::import_mesh(*file);
+  });
   builder_ = std::make_unique<SceneBuilder>(*library_, options_.language);
   objects_known_ = 0;
   have_frame_ = false;  // of the world before
@@ -123,6 +135,8 @@ void DisplayLoop::take_news(TimePoint now) {
     const std::vector<client::SceneObject> objects = client_.objects();
     if (objects.size() != objects_known_) {
       objects_known_ = objects.size();
+      for (const client::SceneObject& object : objects)
+        mesh_files_->expect(object.mesh_uri, object.mesh_hash);
       builder_->set_manifest(objects);
       renderer_.upload(library_->assets());
     }
@@ -222,6 +236,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
   summary_.frame_ms_median = percentile(frame_ms_, 0.5);
   summary_.frame_ms_p99 = percentile(frame_ms_, 0.99);
   summary_.steps_missed.assign(schedule_.missed().begin(), schedule_.missed().end());
+  if (mesh_files_) summary_.differing_assets.assign(mesh_files_->differing().begin(), mesh_files_->differing().end());
   if (library_) summary_.missing_assets.assign(library_->missing().begin(), library_->missing().end());
   summary_.renderer = context_.renderer_name();
   return std::move(summary_);
@@ -234,6 +249,7 @@ std::string DisplaySummary::to_json() const {
                                     {"frames", frames},
                                     {"frame_ms", {{"median", frame_ms_median}, {"p99", frame_ms_p99}}},
                                     {"missing_assets", missing_assets},
+                                    {"differing_assets", differing_assets},
                                     {"steps_missed", steps_missed},
                                     {"done", done},
                                     {"renderer", renderer}};
@@ -257,6 +273,12 @@ Expected<PixelSize> parse_size(const std::string& text) {
 Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests) {
   MECHANE_ASSERT(options.fps > 0);
   if (auto ok = make_folder(options.out); !ok) return tl::unexpected(ok.error());
+  std::optional<content::Catalogue> catalogue;
+  if (!options.catalogue.empty()) {
+    auto opened = content::Catalogue::open(options.catalogue, content::Catalogue::Access::read);
+    if (!opened) return tl::unexpected(opened.error());
+    catalogue.emplace(std::move(*opened));
+  }
   // Before the context: the driver's own threads inherit it. A refusal does no harm.
   if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
   auto context =
@@ -270,7 +292,7 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   config.domain = options.domain;
   auto client = client::Client::connect(config);
   if (!client) return tl::unexpected(client.error());
-  return DisplayLoop(options, requests, **context, **renderer, **client).run();
+  return DisplayLoop(options, requests, **context, **renderer, **client, catalogue ? &*catalogue : nullptr).run();
 }
 
 }  // namespace mechane::display

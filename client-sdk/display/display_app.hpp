@@ -24,7 +24,8 @@ struct DisplayOptions {
   Stereo stereo = Stereo::mono;
   std::string language = "el";
   std::string assets;  ///< folder that mesh files are relative to; empty: the scenario's folder, as the server sees it
-  std::string out;     ///< folder for pictures; made when it is not there
+  std::string catalogue;     ///< file; mesh files are found in it first, by their content; empty: none
+  std::string out;           ///< folder for pictures; made when it is not there
   bool every_step = false;   ///< a picture of each step and each finished activity; offscreen, nothing else is drawn
   std::uint32_t frames = 0;  ///< stop after so many frames, the last of them a picture; 0: no limit
   double seconds = 0;        ///< stop after so long; 0: no limit
@@ -38,6 +39,7 @@ struct DisplaySummary {
   std::vector<std::string> pictures;      ///< paths
   std::vector<std::string> steps_missed;  ///< too short for a picture
   std::vector<std::string> missing_assets;
+  std::vector<std::string> differing_assets;  ///< other bytes than the server's
   std::uint64_t frames = 0;
   double frame_ms_median = 0;
   double frame_ms_p99 = 0;
@@ -55,7 +57,7 @@ struct DisplayRequests {
 };
 
 /// Draws until an option or a request says stop. The caller's thread is the display's. Errors: no context, no fonts, a bad kiosk name,
-/// a folder that cannot be written.
+/// a folder that cannot be written, a catalogue that cannot be read.
 [[nodiscard]] Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests);
 
 /// Reads "1280x720". Errors: not two numbers, or not within 16..8192.

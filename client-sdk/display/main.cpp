@@ -27,6 +27,8 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();
   app.add_option("--assets", o.assets, "folder that mesh files are relative to; without: the scenario's folder");
+  app.add_option("--catalogue", o.catalogue,
+                 "catalogue (mechane content) in which mesh files are looked for first, by their content");
   app.add_option("--fonts", o.renderer.font_folder, "folder of the DejaVu fonts")->capture_default_str();
   app.add_option("--out", o.out, "folder for pictures (PNG); SIGUSR1, or P in the window, asks for one");
   app.add_flag("--every-step", o.every_step, "a picture of each step; offscreen, draw nothing else");

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "server/app/scenario_files.hpp"
 #include "server/content/object_store.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/compiler.hpp"
@@ -57,7 +58,9 @@ Expected<ScenarioStore> ScenarioStore::load(const Settings& settings) {
   ScenarioStore result;
   content::ObjectStore objects(settings.cache);
   StoreLoader loader(objects);
-  for (const std::filesystem::path& file : settings.scenarios) {
+  const auto files = find_scenarios(settings.scenarios, settings.catalogue);
+  if (!files) return tl::unexpected(files.error());
+  for (const std::filesystem::path& file : *files) {
     auto description = load_one(file, loader, settings.stiffness_scale);
     if (!description) return tl::unexpected(description.error());
     if (result.find((*description)->id) != nullptr) {

@@ -31,6 +31,7 @@ class TomlReader {
     take_path("records", settings.records);
     take("records_limit_mb", settings.records_limit_mb);
     take_path("cache", settings.cache);
+    take_path("catalogue", settings.catalogue);
     take("fifo_priority", settings.fifo_priority);
     take("world_idle_s", settings.world_idle_s);
     take("resume_within_s", settings.resume_within_s);
@@ -159,8 +160,11 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
   int cpu = -1;
   bool paper = false;
   app.add_option("--settings", settings_file, "TOML file; flags win over it");
-  app.add_option("--scenario", scenarios,
-                 "X3D file of an exhibit; may be given several times, the first is the default");
+  app.add_option(
+      "--scenario", scenarios,
+      "X3D file of an exhibit, or its id in the catalogue; may be given several times, the first is the default");
+  app.add_option("--catalogue", s.catalogue,
+                 "catalogue (mechane content) that files are held against, and ids are found in");
   app.add_option("--name", s.name, "name on the wire and in logs");
   app.add_option("--worlds", s.worlds, "how many worlds may run at once");
   app.add_option("--loop-threads", s.loop_threads, "threads that the worlds are spread over");
@@ -200,10 +204,12 @@ std::string to_string(const Settings& s) {
     scenarios += (scenarios.empty() ? "" : ", ") + path.string();
   return fmt::format(
       "name = {}\nscenarios = {}\nworlds = {}\nloop_threads = {}\ndomain = {}\nrecords = {}\nrecords_limit_mb = {}\n"
-      "cache = {}\nfifo_priority = {}\nfirst_cpu = {}\nworld_idle_s = {}\nresume_within_s = {}\nforce.mode = {}\n"
+      "cache = {}\ncatalogue = {}\nfifo_priority = {}\nfirst_cpu = {}\nworld_idle_s = {}\nresume_within_s = "
+      "{}\nforce.mode = {}\n"
       "force.max_force_n = {}\nforce.stiffness_scale = {}",
       s.name, scenarios, s.worlds, s.loop_threads, s.domain, s.records.empty() ? "none" : s.records.string(),
-      s.records_limit_mb, s.cache.empty() ? "the user's cache folder" : s.cache.string(), s.fifo_priority,
+      s.records_limit_mb, s.cache.empty() ? "the user's cache folder" : s.cache.string(),
+      s.catalogue.empty() ? "none" : s.catalogue.string(), s.fifo_priority,
       s.first_cpu ? std::to_string(*s.first_cpu) : "any", s.world_idle_s, s.resume_within_s,
       s.force.mode == haptics::ForceMode::paper ? "paper" : "continuous", s.force.governor.max_force_n,
       s.stiffness_scale);

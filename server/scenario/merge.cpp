@@ -7,10 +7,10 @@
 
 #include "server/scenario/checker.hpp"
 #include "server/scenario/editor.hpp"
+#include "server/scenario/file_references.hpp"
 #include "server/scenario/key_scope.hpp"
 #include "server/scenario/rename.hpp"
 #include "server/scenario/values.hpp"
-#include "server/scenario/x3d_schema.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -34,22 +34,10 @@ std::string rebased(const std::string& url, const fs::path& from, const fs::path
 void rebase_paths(const Document& document, const fs::path& to, TextEdits& edits) {
   const fs::path from = document.path().parent_path();
   if (fs::absolute(from).lexically_normal() == fs::absolute(to).lexically_normal()) return;
-  for (std::size_t i = 0; i < document.size(); ++i) {
-    const NodeId id(i);
-    const Node& node = document[id];
-    if (node.kind != NodeKind::element) continue;
-    const X3dType* type = X3dSchema::standard().find(node.name);
-    const bool sound = node.name == "MetadataString" && name_of(document, id).starts_with("audio.");
-    for (const Attribute& attribute : node.attributes) {
-      const bool url = type != nullptr && type->field(attribute.name) != nullptr &&
-                       (attribute.name == "url" || attribute.name.ends_with("Url"));
-      if (!url && !(sound && attribute.name == "value")) continue;
-      auto urls = parse_strings(attribute.value);
-      if (!urls) continue;
-      for (std::string& one : *urls)
-        one = rebased(one, from, to);
-      set_attribute(document, id, attribute.name, quote_strings(*urls), edits);
-    }
+  for (FileReference& reference : file_references(document)) {
+    for (std::string& one : reference.urls)
+      one = rebased(one, from, to);
+    set_attribute(document, reference.node, reference.attribute, quote_strings(reference.urls), edits);
   }
 }
 

@@ -1,0 +1,417 @@
+#include "server/content/catalogue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+namespace mechane::content {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kApplicationId = 0x4d454348;  // "MECH", as PRAGMA application_id: `file` and sqlite3 show it
+constexpr int kSchemaVersion = 1;
+constexpr int kBusyTimeout_ms = 5000;
+constexpr std::size_t kFewestHashDigits = 6;
+
+/// What has several values an entry, each in a table of its own, is written and read by these.
+constexpr std::array<const char*, 6> kTables{
+    "CREATE TABLE entry (id INTEGER PRIMARY KEY, path TEXT NOT NULL UNIQUE, kind TEXT NOT NULL, name TEXT NOT NULL, "
+    "hash TEXT NOT NULL, bytes INTEGER NOT NULL, licence TEXT NOT NULL, source TEXT NOT NULL, author TEXT NOT NULL, "
+    "version TEXT NOT NULL) STRICT",
+    "CREATE TABLE title (entry INTEGER NOT NULL REFERENCES entry ON DELETE CASCADE, language TEXT NOT NULL, "
+    "words TEXT NOT NULL, PRIMARY KEY (entry, language)) STRICT, WITHOUT ROWID",
+    "CREATE TABLE language (entry INTEGER NOT NULL REFERENCES entry ON DELETE CASCADE, value TEXT NOT NULL, "
+    "PRIMARY KEY (entry, value)) STRICT, WITHOUT ROWID",
+    "CREATE TABLE tag (entry INTEGER NOT NULL REFERENCES entry ON DELETE CASCADE, value TEXT NOT NULL, "
+    "PRIMARY KEY (entry, value)) STRICT, WITHOUT ROWID",
+    "CREATE TABLE refers_to (entry INTEGER NOT NULL REFERENCES entry ON DELETE CASCADE, value TEXT NOT NULL, "
+    "PRIMARY KEY (entry, value)) STRICT, WITHOUT ROWID",
+    "CREATE TABLE wording (entry INTEGER NOT NULL REFERENCES entry ON DELETE CASCADE, words TEXT NOT NULL, "
+    "language TEXT NOT NULL, PRIMARY KEY (entry, words, language)) STRICT, WITHOUT ROWID",
+};
+constexpr const char* kHashIndex = "CREATE INDEX entry_hash ON entry (hash)";
+
+/// SQLite's reason in a person's words.
+Error explain(const SQLite::Exception& e, const fs::path& file, const std::string& doing) {
+  const std::string where = file.string();
+  const char* anew = "move it away and make it anew: mechane content add FOLDER";
+  switch (e.getErrorCode()) {
+    case SQLITE_NOTADB:
+      return {"this is no catalogue: SQLite does not know the file", where, "name another file with --catalogue"};
+    case SQLITE_CORRUPT:
+      return {fmt::format("the catalogue is damaged ({})", e.what()), where, anew};
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return {fmt::format("{}: the catalogue, or its folder, may not be written", doing), where, "check its rights"};
+    case SQLITE_CANTOPEN:
+      return {fmt::format("{}: the file cannot be opened", doing), where,
+              "check that its folder is there, and their rights"};
+    case SQLITE_FULL:
+      return {fmt::format("{}: the disk is full", doing), where, "make room; the catalogue is as it was"};
+    case SQLITE_IOERR:
+      return {fmt::format("{}: the disk failed ({})", doing, sqlite3_errstr(e.getExtendedErrorCode())), where,
+              "check the disk and its space; the catalogue is as it was"};
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return {fmt::format("{}: another program is writing it", doing), where, "try again when that is done"};
+    default:
+      return {fmt::format("{}: {}", doing, e.what()), where, anew};
+  }
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+struct KindWords {
+  std::string_view word;
+  std::string_view endings;  ///< with a blank around each
+};
+constexpr std::array<KindWords, kContentKinds> kKinds{{{"scenario", " .x3d "},
+                                                       {"model", " .glb .gltf .obj .stl .ply "},
+                                                       {"part", " .part "},
+                                                       {"texture", " .png .jpg .jpeg .ktx2 "},
+                                                       {"sound", " .ogg .opus .wav .flac .mp3 "},
+                                                       {"text", " .md .html .vtt "}}};
+
+void sort_once(std::vector<std::string>& values) {
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// As the tables give it back: each value once, in order.
+CatalogueEntry in_order(CatalogueEntry entry) {
+  sort_once(entry.languages);
+  sort_once(entry.tags);
+  sort_once(entry.refers_to);
+  for (auto& [words, languages] : entry.wordings) {
+    sort_once(languages);
+    std::erase(languages, "");
+  }
+  return entry;
+}
+
+bool is_hash(std::string_view text) {
+  return text.size() == 32 && std::ranges::all_of(text, [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+}  // namespace
+
+std::string_view word_of(ContentKind kind) {
+  return kKinds[static_cast<std::size_t>(kind)].word;
+}
+
+std::optional<ContentKind> kind_of_word(std::string_view word) {
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (kKinds[i].word == word) return static_cast<ContentKind>(i);
+  }
+  return {};
+}
+
+std::optional<ContentKind> kind_of_file(const fs::path& file) {
+  const std::string ending = lower(file.extension().string());
+  if (ending.empty()) return {};
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (kKinds[i].endings.find(" " + ending + " ") != std::string_view::npos) return static_cast<ContentKind>(i);
+  }
+  return {};
+}
+
+bool is_inside(std::string_view text) {
+  const fs::path path(text);
+  if (text.empty() || text.find('\0') != std::string_view::npos || path.is_absolute() || text.back() == '/')
+    return false;
+  return path.lexically_normal().native() == text && *path.begin() != ".." && *path.begin() != ".";
+}
+
+Expected<std::string> path_inside(const fs::path& folder, const fs::path& path) {
+  std::error_code code;
+  const fs::path from = fs::weakly_canonical(folder, code);
+  if (code) return fail(code.message(), folder.string(), "check the folder");
+  // The name itself may be a link; the folder that it stands in may not lead elsewhere.
+  const fs::path whole = fs::absolute(path, code).lexically_normal();
+  const fs::path parent = fs::weakly_canonical(whole.parent_path(), code);
+  if (code) return fail(code.message(), path.string(), "check the path");
+  std::string inside = (parent / whole.filename()).lexically_relative(from).generic_string();
+  if (!is_inside(inside)) {
+    return fail("the file is not in the catalogue's folder", path.string(),
+                fmt::format("move it into {}, or give a catalogue beside it with --catalogue", from.string()));
+  }
+  return inside;
+}
+
+/// The database. SQLite's exceptions end in the functions of Catalogue.
+struct Catalogue::Connection {
+  explicit Connection(const fs::path& file, Access access)
+      : db(file.string(),
+           access == Access::write ? SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE : SQLite::OPEN_READONLY,
+           kBusyTimeout_ms) {
+    // The file may come from anywhere: nothing in its schema is run, and a page that lies about its cells is seen.
+    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+    db.exec("PRAGMA foreign_keys = ON; PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
+  }
+
+  [[nodiscard]] int pragma(const char* name) const { return db.execAndGet(fmt::format("PRAGMA {}", name)).getInt(); }
+
+  /// In one transaction, so that of two programs that make the same file one finds it made.
+  void make_schema() {
+    SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+    if (pragma("user_version") != 0 || has_tables()) return;
+    for (const char* table : kTables)
+      db.exec(table);
+    db.exec(kHashIndex);
+    db.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kSchemaVersion));
+    transaction.commit();
+  }
+
+  [[nodiscard]] bool has_tables() const { return db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() != 0; }
+
+  /// Tables that are word for word ours: what else a file may declare is never met.
+  [[nodiscard]] bool has_our_tables() const {
+    std::vector<std::string> wanted(kTables.begin(), kTables.end());
+    wanted.emplace_back(kHashIndex);
+    std::vector<std::string> found;
+    SQLite::Statement rows(db, "SELECT coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite_autoindex_%'");
+    while (rows.executeStep() && found.size() <= wanted.size())
+      found.push_back(rows.getColumn(0).getString());
+    std::ranges::sort(wanted);
+    std::ranges::sort(found);
+    return wanted == found;
+  }
+
+  /// To be called in a transaction: all tables must be of one moment.
+  [[nodiscard]] std::vector<CatalogueEntry> read_now() const;
+  void write(const CatalogueEntry& entry);
+  void write_values(std::int64_t id, const char* table, const std::vector<std::string>& values);
+
+  mutable SQLite::Database db;
+};
+
+void Catalogue::Connection::write_values(std::int64_t id, const char* table, const std::vector<std::string>& values) {
+  SQLite::Statement insert(db, fmt::format("INSERT OR IGNORE INTO {} VALUES (?, ?)", table));
+  for (const std::string& value : values) {
+    insert.bind(1, id);
+    insert.bind(2, value);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void Catalogue::Connection::write(const CatalogueEntry& entry) {
+  SQLite::Statement forget(db, "DELETE FROM entry WHERE path = ?");
+  forget.bind(1, entry.path);
+  forget.exec();
+  SQLite::Statement insert(db,
+                           "INSERT INTO entry (path, kind, name, hash, bytes, licence, source, author, version) "
+                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  int column = 0;
+  for (const std::string& text : {entry.path, std::string(word_of(entry.kind)), entry.name, entry.hash})
+    insert.bind(++column, text);
+  insert.bind(++column, static_cast<std::int64_t>(entry.bytes));
+  const Credits& c = entry.credits;
+  for (const std::string& text : {c.licence, c.source, c.author, c.version})
+    insert.bind(++column, text);
+  insert.exec();
+  const std::int64_t id = db.getLastInsertRowid();
+  write_values(id, "language", entry.languages);
+  write_values(id, "tag", entry.tags);
+  write_values(id, "refers_to", entry.refers_to);
+  SQLite::Statement title(db, "INSERT INTO title VALUES (?, ?, ?)");
+  for (const auto& [language, words] : entry.titles) {
+    title.bind(1, id);
+    title.bind(2, language);
+    title.bind(3, words);
+    title.exec();
+    title.reset();
+  }
+  SQLite::Statement wording(db, "INSERT OR IGNORE INTO wording VALUES (?, ?, ?)");
+  for (const auto& [words, languages] : entry.wordings) {
+    for (const std::string& language : languages.empty() ? std::vector<std::string>{""} : languages) {
+      wording.bind(1, id);
+      wording.bind(2, words);
+      wording.bind(3, language);  // "": said in no language at all
+      wording.exec();
+      wording.reset();
+    }
+  }
+}
+
+std::vector<CatalogueEntry> Catalogue::Connection::read_now() const {
+  std::map<std::int64_t, CatalogueEntry> by_id;
+  SQLite::Statement rows(
+      db, "SELECT id, path, kind, name, hash, bytes, licence, source, author, version FROM entry ORDER BY path");
+  while (rows.executeStep()) {
+    CatalogueEntry entry;
+    entry.path = rows.getColumn(1).getString();
+    const auto kind = kind_of_word(rows.getColumn(2).getString());
+    entry.name = rows.getColumn(3).getString();
+    entry.hash = rows.getColumn(4).getString();
+    const std::int64_t bytes = rows.getColumn(5).getInt64();
+    // A path that leaves the folder would lead an export, or a display, to other files of the machine.
+    if (!kind || !is_inside(entry.path) || !is_hash(entry.hash) || bytes < 0)
+      throw SQLite::Exception("an entry is none: " + entry.path, SQLITE_CORRUPT);
+    entry.kind = *kind;
+    entry.bytes = static_cast<std::uint64_t>(bytes);
+    entry.credits = {rows.getColumn(6).getString(), rows.getColumn(7).getString(), rows.getColumn(8).getString(),
+                     rows.getColumn(9).getString()};
+    by_id.emplace(rows.getColumn(0).getInt64(), std::move(entry));
+  }
+  const auto each = [&](const char* query, const auto& use) {
+    SQLite::Statement values(db, query);
+    while (values.executeStep()) {
+      const auto entry = by_id.find(values.getColumn(0).getInt64());
+      if (entry != by_id.end()) use(entry->second, values);
+    }
+  };
+  each("SELECT entry, language, words FROM title",
+       [](CatalogueEntry& e, SQLite::Statement& s) { e.titles[s.getColumn(1)] = s.getColumn(2).getString(); });
+  each("SELECT entry, value FROM language ORDER BY value",
+       [](CatalogueEntry& e, SQLite::Statement& s) { e.languages.push_back(s.getColumn(1)); });
+  each("SELECT entry, value FROM tag ORDER BY value",
+       [](CatalogueEntry& e, SQLite::Statement& s) { e.tags.push_back(s.getColumn(1)); });
+  each("SELECT entry, value FROM refers_to ORDER BY value",
+       [](CatalogueEntry& e, SQLite::Statement& s) { e.refers_to.push_back(s.getColumn(1)); });
+  each("SELECT entry, words, language FROM wording ORDER BY language", [](CatalogueEntry& e, SQLite::Statement& s) {
+    std::vector<std::string>& languages = e.wordings[s.getColumn(1)];
+    if (!s.getColumn(2).getString().empty()) languages.push_back(s.getColumn(2));
+  });
+  std::vector<CatalogueEntry> all;
+  all.reserve(by_id.size());
+  for (auto& [id, entry] : by_id)
+    all.push_back(std::move(entry));
+  std::ranges::sort(all, {}, &CatalogueEntry::path);
+  return all;
+}
+
+Catalogue::Catalogue(fs::path file, std::unique_ptr<Connection> connection)
+    : file_(std::move(file)), connection_(std::move(connection)) {
+  std::error_code code;
+  folder_ = fs::weakly_canonical(fs::absolute(file_, code).parent_path(), code);
+}
+Catalogue::Catalogue(Catalogue&&) noexcept = default;
+Catalogue& Catalogue::operator=(Catalogue&&) noexcept = default;
+Catalogue::~Catalogue() = default;
+
+Expected<Catalogue> Catalogue::open(const fs::path& file, Access access) {
+  std::error_code code;
+  const bool there = fs::exists(file, code);
+  if (!there && access == Access::read) {
+    return fail("there is no catalogue", file.string(),
+                "make it with 'mechane content add FOLDER', or name another with --catalogue");
+  }
+  if (there && !fs::is_regular_file(file, code))
+    return fail("this is no catalogue but a folder or a device", file.string(), "name a file with --catalogue");
+  try {
+    auto connection = std::make_unique<Connection>(file, access);
+    if (access == Access::write) connection->make_schema();
+    const int version = connection->pragma("user_version");
+    if (connection->pragma("application_id") != kApplicationId) {
+      return fail("this is a database of another program, and no catalogue", file.string(),
+                  "name another file with --catalogue");
+    }
+    if (version > kSchemaVersion) {
+      return fail(fmt::format("a newer Mechane has made this catalogue (format {}; this one reads {})", version,
+                              kSchemaVersion),
+                  file.string(), "update Mechane on this machine");
+    }
+    if (version != kSchemaVersion || !connection->has_our_tables())
+      throw SQLite::Exception("its tables are not a catalogue's", SQLITE_CORRUPT);
+    const std::string check = connection->db.execAndGet("PRAGMA quick_check(1)").getString();
+    if (check != "ok") throw SQLite::Exception(check, SQLITE_CORRUPT);
+    return Catalogue(file, std::move(connection));
+  } catch (const SQLite::Exception& e) {
+    return tl::unexpected(explain(e, file, "opening it"));
+  }
+}
+
+Expected<Catalogue::Changes> Catalogue::put(std::span<const CatalogueEntry> entries) {
+  try {
+    SQLite::Transaction transaction(connection_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    std::map<std::string, CatalogueEntry> known;
+    for (CatalogueEntry& entry : connection_->read_now())
+      known.emplace(entry.path, std::move(entry));
+    Changes changes;
+    for (const CatalogueEntry& given : entries) {
+      const CatalogueEntry entry = in_order(given);
+      if (!is_inside(entry.path) || !is_hash(entry.hash))
+        return fail("this cannot be an entry", entry.path, "name a file inside the catalogue's folder");
+      const auto old = known.find(entry.path);
+      if (old != known.end() && old->second == entry) {
+        ++changes.same;
+        continue;
+      }
+      (old == known.end() ? changes.added : changes.changed).push_back(entry.path);
+      connection_->write(entry);
+      known[entry.path] = entry;
+    }
+    transaction.commit();
+    return changes;
+  } catch (const SQLite::Exception& e) {
+    return tl::unexpected(explain(e, file_, "writing it"));
+  }
+}
+
+Expected<std::size_t> Catalogue::remove(std::span<const std::string> paths) {
+  try {
+    SQLite::Transaction transaction(connection_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    std::size_t removed = 0;
+    SQLite::Statement forget(connection_->db, "DELETE FROM entry WHERE path = ?");
+    for (const std::string& path : paths) {
+      forget.bind(1, path);
+      removed += static_cast<std::size_t>(forget.exec());
+      forget.reset();
+    }
+    transaction.commit();
+    return removed;
+  } catch (const SQLite::Exception& e) {
+    return tl::unexpected(explain(e, file_, "writing it"));
+  }
+}
+
+Expected<std::vector<CatalogueEntry>> Catalogue::entries() const {
+  try {
+    SQLite::Transaction transaction(connection_->db);  // all tables as of one moment
+    return connection_->read_now();
+  } catch (const SQLite::Exception& e) {
+    return tl::unexpected(explain(e, file_, "reading it"));
+  }
+}
+
+Expected<std::vector<fs::path>> Catalogue::files_of(const std::string& hash) const {
+  try {
+    SQLite::Statement rows(connection_->db, "SELECT path FROM entry WHERE hash = ? ORDER BY path");
+    rows.bind(1, hash);
+    std::vector<fs::path> files;
+    while (rows.executeStep()) {
+      const std::string path = rows.getColumn(0).getString();
+      if (is_inside(path)) files.push_back(folder_ / path);
+    }
+    return files;
+  } catch (const SQLite::Exception& e) {
+    return tl::unexpected(explain(e, file_, "reading it"));
+  }
+}
+
+std::vector<CatalogueEntry> find_entries(std::span<const CatalogueEntry> entries, std::string_view word) {
+  std::vector<CatalogueEntry> found;
+  const auto take = [&](const auto& fits) {
+    if (found.empty()) std::ranges::copy_if(entries, std::back_inserter(found), fits);
+  };
+  take([&](const CatalogueEntry& e) { return e.path == word; });
+  take([&](const CatalogueEntry& e) { return e.name == word; });
+  const std::string digits = lower(std::string(word));
+  if (digits.size() >= kFewestHashDigits) take([&](const CatalogueEntry& e) { return e.hash.starts_with(digits); });
+  return found;
+}
+
+}  // namespace mechane::content

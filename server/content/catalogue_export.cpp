@@ -1,0 +1,143 @@
+#include "server/content/catalogue_export.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <set>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "server/content/content_hash.hpp"
+
+namespace mechane::content {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder under a name of its own that goes unless it is kept.
+class DraftFolder {
+ public:
+  explicit DraftFolder(const fs::path& beside) : path_(beside.string() + ".XXXXXX") {
+    if (mkdtemp(path_.data()) == nullptr) path_.clear();
+  }
+  DraftFolder(const DraftFolder&) = delete;
+  DraftFolder& operator=(const DraftFolder&) = delete;
+  ~DraftFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] bool made() const { return !path_.empty(); }
+  [[nodiscard]] fs::path path() const { return path_; }
+  void keep() { path_.clear(); }
+
+ private:
+  std::string path_;
+};
+
+/// To the disk itself: a kiosk that loses power after an export has the export.
+void sync_path(const fs::path& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+Expected<void> copy_one(const fs::path& from, const CatalogueEntry& entry, const fs::path& to) {
+  std::error_code code;
+  fs::create_directories(to.parent_path(), code);
+  if (!code) fs::copy_file(from, to, code);
+  if (code) {
+    return fail("it cannot be copied: " + code.message(), entry.path,
+                fs::exists(from, code) ? "check the disk and its space" : "mechane content verify says what is amiss");
+  }
+  const Expected<std::string> hash = content_hash(to);
+  if (!hash) return tl::unexpected(hash.error());
+  if (*hash != entry.hash) {
+    return fail("its content is not what the catalogue knows", entry.path,
+                "mechane content verify; then restore it, or add it again");
+  }
+  fs::permissions(to, fs::perms::owner_write | fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read,
+                  code);
+  sync_path(to);
+  return {};
+}
+
+/// Nothing but an older export may be replaced. Returns whether there is one.
+Expected<bool> may_replace(const fs::path& to) {
+  std::error_code code;
+  if (!fs::exists(fs::symlink_status(to, code))) return false;
+  if (!fs::is_directory(fs::symlink_status(to, code)))
+    return fail("this is there, and no folder", to.string(), "name another folder");
+  if (fs::is_empty(to, code)) return true;
+  const auto other = [&](const std::string& what) {
+    return fail(fmt::format("the folder holds {}", what), to.string(),
+                "name an empty folder, or that of an older export");
+  };
+  const auto old = Catalogue::open(to / kCatalogueFileName, Catalogue::Access::read);
+  if (!old) return other("something else than an older export");
+  const auto entries = old->entries();
+  if (!entries) return tl::unexpected(entries.error());
+  std::set<std::string> known{kCatalogueFileName};
+  for (const CatalogueEntry& entry : *entries)
+    known.insert(entry.path);
+  fs::recursive_directory_iterator at(to, code);
+  for (const fs::recursive_directory_iterator end; !code && at != end; at.increment(code)) {
+    const std::string path = at->path().lexically_relative(to).generic_string();
+    const fs::file_status status = at->symlink_status(code);
+    if (!fs::is_directory(status) && !(fs::is_regular_file(status) && known.contains(path)))
+      return other(path + ", which is of no export");
+  }
+  if (code) return fail(code.message(), to.string(), "check its rights");
+  return true;
+}
+
+/// The draft gets the name; what had it before goes with the draft's.
+Expected<void> take_name(DraftFolder& draft, const fs::path& to, bool replace) {
+  const unsigned flags = replace ? RENAME_EXCHANGE : RENAME_NOREPLACE;
+  if (renameat2(AT_FDCWD, draft.path().c_str(), AT_FDCWD, to.c_str(), flags) == 0) {
+    if (!replace) draft.keep();
+    sync_path(to.parent_path());
+    return {};
+  }
+  return fail(fmt::format("the folder cannot be given its name: {}", std::strerror(errno)), to.string(),
+              "remove it, or name another folder");
+}
+
+}  // namespace
+
+Expected<Exported> export_content(const Catalogue& catalogue, std::span<const CatalogueEntry> entries,
+                                  const fs::path& folder) {
+  std::error_code code;
+  fs::path to = fs::absolute(folder, code).lexically_normal();
+  if (to.filename().empty()) to = to.parent_path();
+  Expected<bool> replace = may_replace(to);
+  if (!replace) return tl::unexpected(replace.error());
+  fs::create_directories(to.parent_path(), code);
+  DraftFolder draft(to);
+  if (!draft.made())
+    return fail(fmt::format("the folder cannot be made: {}", std::strerror(errno)), to.string(),
+                "check the rights of the folder around it");
+  fs::permissions(draft.path(),
+                  fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
+                      fs::perms::others_exec,
+                  code);
+  Exported exported{.replaced = *replace};
+  for (const CatalogueEntry& entry : entries) {
+    if (auto ok = copy_one(catalogue.folder() / entry.path, entry, draft.path() / entry.path); !ok)
+      return tl::unexpected(ok.error());
+    ++exported.files;
+    exported.bytes += entry.bytes;
+  }
+  {
+    auto copy = Catalogue::open(draft.path() / kCatalogueFileName, Catalogue::Access::write);
+    if (!copy) return tl::unexpected(copy.error());
+    if (auto ok = copy->put(entries); !ok) return tl::unexpected(ok.error());
+  }
+  if (auto ok = take_name(draft, to, *replace); !ok) return tl::unexpected(ok.error());
+  return exported;
+}
+
+}  // namespace mechane::content

@@ -1,0 +1,131 @@
+#include "server/scenario/facts.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compiler.hpp"
+#include "server/scenario/document.hpp"
+#include "server/scenario/file_finder.hpp"
+#include "server/scenario/file_references.hpp"
+#include "server/scenario/key_scope.hpp"
+#include "server/scenario/values.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+using Wordings = std::map<std::string, std::vector<std::string>>;
+
+void add_wording(Wordings& wordings, const std::string& what, const state::Texts& texts) {
+  std::vector<std::string>& languages = wordings[what];
+  for (const auto& [language, words] : texts) {
+    if (!words.empty()) languages.push_back(language);
+  }
+}
+
+void add_questions(Wordings& wordings, const state::ActivityDescription& activity) {
+  for (const state::QuestionDescription& question : activity.questionnaire) {
+    const std::string where = fmt::format("activity {}, question {}", activity.name, question.name);
+    add_wording(wordings, where, question.question);
+    for (const auto& answer : question.answers)
+      add_wording(wordings, fmt::format("{}, answer {}", where, answer.name), answer.text);
+    if (question.kind != state::QuestionDescription::Kind::scale) continue;
+    add_wording(wordings, where + ", low", question.low);
+    add_wording(wordings, where + ", high", question.high);
+  }
+}
+
+/// What a visitor reads or hears. A step must have a caption; the rest may be absent, but not in one language only.
+Wordings wordings_of(const state::WorldDescription& world) {
+  Wordings wordings;
+  add_wording(wordings, "title", world.title);
+  for (const state::ActivityDescription& activity : world.activities) {
+    add_wording(wordings, fmt::format("activity {}, title", activity.name), activity.title);
+    if (!activity.goal.empty()) add_wording(wordings, fmt::format("activity {}, goal", activity.name), activity.goal);
+    add_questions(wordings, activity);
+  }
+  for (const state::StepDescription& step : world.steps) {
+    if (!step.texts.contains("caption")) add_wording(wordings, fmt::format("step {}, caption", step.name), {});
+    for (const auto& [what, texts] : step.texts)
+      add_wording(wordings, fmt::format("step {}, {}", step.name, what), texts);
+  }
+  return wordings;
+}
+
+/// X3D's own meta names, after Dublin Core. Where a name stands twice, both are said.
+void read_meta(const std::string& name, const std::string& content, ScenarioFacts& facts) {
+  struct Place {
+    std::string_view name;
+    std::string content::Credits::*into;
+  };
+  static constexpr std::array<Place, 8> kPlaces{{{"license", &content::Credits::licence},
+                                                 {"licence", &content::Credits::licence},
+                                                 {"rights", &content::Credits::licence},
+                                                 {"creator", &content::Credits::author},
+                                                 {"author", &content::Credits::author},
+                                                 {"reference", &content::Credits::source},
+                                                 {"source", &content::Credits::source},
+                                                 {"version", &content::Credits::version}}};
+  const auto place = std::ranges::find(kPlaces, name, &Place::name);
+  if (place != kPlaces.end()) {
+    std::string& into = facts.credits.*place->into;
+    if (into.find(content) == std::string::npos) into += (into.empty() ? "" : "; ") + content;
+  }
+  if (name != "keywords" && name != "subject") return;
+  for (std::size_t at = 0; at < content.size();) {
+    const std::size_t end = std::min(content.find(',', at), content.size());
+    const std::size_t first = content.find_first_not_of(' ', at);
+    if (first < end) facts.tags.push_back(content.substr(first, content.find_last_not_of(' ', end - 1) - first + 1));
+    at = end + 1;
+  }
+}
+
+void read_head(const Document& document, ScenarioFacts& facts) {
+  for (const NodeId head : document.child_elements(document.x3d())) {
+    if (document[head].name != "head") continue;
+    for (const NodeId meta : document.child_elements(head)) {
+      const std::string* name = document[meta].attribute("name");
+      const std::string* content = document[meta].attribute("content");
+      if (document[meta].name == "meta" && name != nullptr && content != nullptr && !content->empty())
+        read_meta(*name, *content, facts);
+    }
+  }
+}
+
+void read_files(const Document& document, ScenarioFacts& facts) {
+  for (const FileReference& reference : file_references(document)) {
+    const std::string name = name_of(document, reference.node);
+    const bool sound = document[reference.node].name == "MetadataString";
+    for (const std::string& url : reference.urls) {
+      const std::string path = url.substr(0, url.find('#'));
+      // A script may stand in its url: "ecmascript:...".
+      if (is_relative_path(path) && path.find(':') == std::string::npos)
+        facts.files.emplace(path, sound ? name.substr(name.find('.') + 1) : "");
+    }
+  }
+}
+
+}  // namespace
+
+Expected<ScenarioFacts> read_facts(const std::filesystem::path& file) {
+  Problems problems(file.string());
+  const Expected<Document> document = read_document(file, problems);
+  if (!document) return tl::unexpected(document.error());
+  FileFinder finder;
+  const auto world = compile(*document, finder, problems);
+  if (!world) return tl::unexpected(world.error());
+  ScenarioFacts facts;
+  facts.id = world->id;
+  facts.titles = world->title;
+  facts.languages = world->languages;
+  facts.wordings = wordings_of(*world);
+  for (const state::StepDescription& step : world->steps) {
+    if (!step.opens.empty()) facts.opens.insert(step.opens);
+  }
+  read_head(*document, facts);
+  read_files(*document, facts);
+  return facts;
+}
+
+}  // namespace mechane::scenario

@@ -1,0 +1,21 @@
+// Where a scenario names other files: urls of X3D's nodes, sounds of its steps.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "server/scenario/document.hpp"
+
+namespace mechane::scenario {
+
+/// An attribute that names files, with its value as strings.
+struct FileReference {
+  NodeId node;
+  std::string attribute;
+  std::vector<std::string> urls;  ///< as written: "../models/screw.glb", or what is no path at all
+};
+
+/// All of them, in the order written. What is no list of strings is left out.
+[[nodiscard]] std::vector<FileReference> file_references(const Document& document);
+
+}  // namespace mechane::scenario

@@ -1,0 +1,88 @@
+#include "server/app/scenario_files.hpp"
+
+#include <cstdlib>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/content/catalogue.hpp"
+#include "server/content/content_hash.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::app {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A folder with a scenario and its model, both in a catalogue; and what was said on stderr, where the log goes.
+class ScenarioFilesTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { log::start("test", log::Level::info); }
+  ScenarioFilesTest() {
+    std::string name = (fs::temp_directory_path() / "mechane-app-XXXXXX").string();
+    folder_ = fs::canonical(mkdtemp(name.data()));
+    auto catalogue = content::Catalogue::open(folder_ / "catalogue.db", content::Catalogue::Access::write);
+    entries_ = {entry("crane.x3d", content::ContentKind::scenario), entry("crane.glb", content::ContentKind::model)};
+    entries_[0].refers_to = {"crane.glb"};
+    EXPECT_TRUE(catalogue->put(entries_));
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  [[nodiscard]] content::CatalogueEntry entry(const std::string& path, content::ContentKind kind) const {
+    std::ofstream(folder_ / path) << path;
+    content::CatalogueEntry entry;
+    entry.path = path;
+    entry.kind = kind;
+    entry.name = "crane";
+    entry.hash = *content::content_hash(folder_ / path);
+    return entry;
+  }
+  Expected<std::vector<fs::path>> find(const fs::path& name) {
+    testing::internal::CaptureStderr();
+    auto files = find_scenarios(std::vector{name}, folder_ / "catalogue.db");
+    said_ = testing::internal::GetCapturedStderr();
+    return files;
+  }
+
+  fs::path folder_;
+  std::vector<content::CatalogueEntry> entries_;
+  std::string said_;
+};
+
+TEST_F(ScenarioFilesTest, AnIdIsFoundAndAPathStays) {
+  EXPECT_THAT(*find("crane"), ElementsAre(folder_ / "crane.x3d"));
+  EXPECT_THAT(*find(folder_ / "crane.x3d"), ElementsAre(folder_ / "crane.x3d"));
+  EXPECT_THAT(said_, Not(HasSubstr("catalogue")));
+}
+
+TEST_F(ScenarioFilesTest, AChangedFileThatTheScenarioNeedsIsSaid) {
+  std::ofstream(folder_ / "crane.glb") << "something else";
+  EXPECT_TRUE(find("crane"));
+  EXPECT_THAT(said_, AllOf(HasSubstr("crane.glb"), HasSubstr("mechane content verify"), Not(HasSubstr("crane.x3d"))));
+}
+
+TEST_F(ScenarioFilesTest, AScenarioThatTheCatalogueDoesNotKnowRuns) {
+  std::ofstream(folder_ / "new.x3d") << "a scenario";
+  EXPECT_THAT(*find(folder_ / "new.x3d"), ElementsAre(folder_ / "new.x3d"));
+  EXPECT_THAT(said_, HasSubstr("does not know"));
+}
+
+TEST_F(ScenarioFilesTest, WhatIsNeitherIsAnErrorWithTheIdsThatThereAre) {
+  EXPECT_THAT(find("cranes").error().to_string(), HasSubstr("name one of: crane"));
+  fs::remove(folder_ / "catalogue.db");
+  EXPECT_THAT(find("crane").error().to_string(), HasSubstr("there is no catalogue"));
+}
+
+TEST_F(ScenarioFilesTest, WithoutACatalogueNamesStayAsTheyAre) {
+  EXPECT_THAT(*find_scenarios(std::vector<fs::path>{"crane"}, ""), ElementsAre("crane"));
+}
+
+}  // namespace
+}  // namespace mechane::app

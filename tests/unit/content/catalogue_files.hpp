@@ -1,0 +1,41 @@
+// Catalogues that the tests of this folder make.
+#pragma once
+
+#include <set>
+#include <span>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "server/content/catalogue.hpp"
+#include "server/content/content_hash.hpp"
+#include "tests/unit/content/model_files.hpp"
+
+namespace mechane::content {
+
+/// An entry that says nothing of itself but what its path tells.
+inline CatalogueEntry plain_entry(const std::string& path) {
+  CatalogueEntry entry;
+  entry.path = path;
+  entry.kind = kind_of_file(path).value_or(ContentKind::model);
+  entry.name = std::filesystem::path(path).stem().string();
+  entry.hash = content_hash(std::as_bytes(std::span(path)));
+  entry.bytes = path.size();
+  return entry;
+}
+
+/// For properties, which would else wait for a disk some thousand times.
+inline std::filesystem::path folder_in_memory() {
+  const std::filesystem::path memory = "/dev/shm";
+  return access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+}
+
+inline std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream bytes;
+  bytes << in.rdbuf();
+  return bytes.str();
+}
+
+}  // namespace mechane::content
