@@ -119,7 +119,7 @@ def read_scenario(file: Path) -> Scenario:
         root = ElementTree.parse(file).getroot()
     except OSError as error:
         raise Trouble(f"cannot be read: {error.strerror}", file, "check the path") from None
-    except ElementTree.ParseError as error:
+    except (ElementTree.ParseError, ValueError, LookupError) as error:  # the latter two: encodings
         raise Trouble(f"not XML: {error}", file, "run: mechane check") from None
     settings = next((node for node in root.iter("MetadataSet") if node.get("name") == "mechane:scenario"), None)
     written = _child(settings, "id")

@@ -16,6 +16,8 @@ from scenario_texts import Line, Trouble
 
 PROGRAM = "espeak-ng"
 LIMIT_S = 60  # for one text
+MAX_FILE_BYTES, MAX_S = 64 << 20, 300  # of a recording
+RATES = range(8000, 192001)
 FULL = 32768
 SPEECH_DBFS = -25.0  # what is spoken, pauses left out: nearly every draft gets there before its peaks reach the limit
 PEAK_DBFS = -3.0  # never above: headroom for whatever plays it
@@ -74,11 +76,16 @@ def voices() -> dict[str, str]:
 
 
 def _read(path: Path) -> tuple[array, int]:
-    with wave.open(str(path), "rb") as file:
-        if file.getsampwidth() != 2:
-            raise Trouble(f"{8 * file.getsampwidth()} bits a sample", path, "save it with 16 bits")
-        rate, channels = file.getframerate(), file.getnchannels()
-        samples = array("h", file.readframes(file.getnframes()))
+    """The first channel, and its rate. Errors: Trouble."""
+    try:
+        with wave.open(str(path), "rb") as file:
+            rate, channels, width = file.getframerate(), file.getnchannels(), file.getsampwidth()
+            data = file.readframes(file.getnframes())
+    except (wave.Error, EOFError, RuntimeError, ValueError) as error:  # wave.py tells a damaged chunk by any of these
+        raise Trouble(f"not a wave file: {error or 'it ends too early'}", path, "export it once more, as PCM with 16 bits") from None
+    if width != 2 or rate not in RATES:
+        raise Trouble(f"{8 * width} bits a sample, {rate} samples a second", path, "export it once more, as PCM with 16 bits and some 8 to 192 kHz")
+    samples = array("h", data[:len(data) - len(data) % 2])
     if sys.byteorder == "big":
         samples.byteswap()
     return samples[::channels], rate
@@ -136,13 +143,16 @@ def _ogg_seconds(path: Path) -> float:
 
 
 def facts(path: Path) -> Facts:
-    """Length and levels. Errors: Trouble for a file that is not what its name says, is empty or silent."""
+    """Length and levels. Errors: Trouble for a file that is not what its name says, is silent or far too long."""
+    if path.stat().st_size > MAX_FILE_BYTES:
+        raise Trouble("too large for a step's narration", path, f"keep it under {MAX_FILE_BYTES >> 20} MB")
     if path.suffix == ".ogg":
-        return Facts(_ogg_seconds(path), None, None)
-    try:
+        found = Facts(_ogg_seconds(path), None, None)
+    else:
         samples, rate = _read(path)
-    except (wave.Error, EOFError) as error:
-        raise Trouble(f"not a wave file: {error or 'it ends too early'}", path, "export it once more, as PCM with 16 bits") from None
-    if _dbfs(_peak(samples)) < SILENT_DBFS:
-        raise Trouble("silent", path, "record it once more, or remove it: then the narration is spoken")
-    return Facts(len(samples) / rate, _dbfs(_peak(samples)), _dbfs(_speech_rms(samples, rate)))
+        if _dbfs(_peak(samples)) < SILENT_DBFS:
+            raise Trouble("silent", path, "record it once more, or remove it: then the narration is spoken")
+        found = Facts(len(samples) / rate, _dbfs(_peak(samples)), _dbfs(_speech_rms(samples, rate)))
+    if found.seconds > MAX_S:
+        raise Trouble(f"{found.seconds:.0f} s long", path, f"a step's narration is under {MAX_S} s")
+    return found

@@ -3,6 +3,7 @@ takes its draft's place; and what is wrong is said with a remedy. Needs espeak-n
 
 import json
 import os
+import random
 import shutil
 import subprocess
 import sys
@@ -16,6 +17,7 @@ SKIPPED = 77  # CTest's SKIP_RETURN_CODE
 sys.path.insert(0, str(ROOT / "deploy/narration_lib"))
 
 from scenario_texts import Trouble, read_scenario  # noqa: E402
+from sound import facts  # noqa: E402
 
 # A voice takes some 60 to 110 ms for a letter, its pauses included; short texts have relatively more silence around them.
 LEAST_S_PER_CHARACTER, MOST_S_PER_CHARACTER, SILENCE_S = 0.045, 0.13, 0.6
@@ -44,6 +46,18 @@ def tone(path: Path, amplitude: int = 9000, seconds: float = 0.5) -> None:
         file.setframerate(22050)
         half = 25  # samples of a square wave's half: 441 Hz
         file.writeframes(b"".join((amplitude if (i // half) % 2 else -amplitude).to_bytes(2, "little", signed=True) for i in range(int(22050 * seconds))))
+
+
+OGG = (b"OggS" + bytes(2) + (0).to_bytes(8, "little") + bytes(14) + b"\x01vorbis" + bytes(4) + b"\x01" + (44100).to_bytes(4, "little")
+       + b"OggS" + bytes(2) + (88200).to_bytes(8, "little") + bytes(14))  # the pages that tell a length
+
+
+def damaged(data: bytes, draw: random.Random) -> bytes:
+    """Some bytes changed, most of them near the start, where headers are; or cut short."""
+    changed = bytearray(data[:draw.randrange(len(data) + 1)] if draw.random() < 0.4 else data)
+    for _ in range(draw.randrange(1, 6) if changed else 0):
+        changed[draw.randrange(min(len(changed), draw.choice((48, len(changed)))))] = draw.randrange(256)
+    return bytes(changed)
 
 
 def run(*arguments: object, **environment: str) -> subprocess.CompletedProcess:
@@ -157,9 +171,7 @@ class Little(unittest.TestCase):
     def test_a_compressed_recording_takes_the_drafts_place_under_its_own_name(self):
         self.make()
         self.audio.mkdir()
-        page = b"OggS" + bytes(2) + (0).to_bytes(8, "little") + bytes(14) + b"\x01vorbis" + bytes(4) + b"\x01" + (44100).to_bytes(4, "little")
-        last = b"OggS" + bytes(2) + (88200).to_bytes(8, "little") + bytes(14)
-        (self.audio / "turn.en.ogg").write_bytes(page + last)
+        (self.audio / "turn.en.ogg").write_bytes(OGG)
         self.make()
         self.assertEqual(self.files(), {"turn.en.ogg"}, "the draft is gone")
         self.assertEqual(self.entry()["seconds"], 2)
@@ -229,6 +241,23 @@ class Little(unittest.TestCase):
         self.refuse("not XML", "mechane check")
         self.file.unlink()
         self.refuse("cannot be read")
+
+    def test_whatever_the_bytes_a_fault_is_told_and_nothing_else_is_raised(self):
+        draw = random.Random(20261121)
+        whole = {"a.x3d": scenario(step("turn", narration__en="Turn.", audio__en="audio/a.wav")).encode(), "a.ogg": OGG}
+        tone(self.folder / "a.wav", seconds=0.05)
+        whole["a.wav"] = (self.folder / "a.wav").read_bytes()
+        reads = {".x3d": read_scenario, ".wav": facts, ".ogg": facts}
+        told = 0
+        for _ in range(600):
+            for name, data in whole.items():
+                path = self.folder / name
+                path.write_bytes(damaged(data, draw))
+                try:
+                    reads[path.suffix](path)
+                except Trouble:
+                    told += 1
+        self.assertGreater(told, 600)
 
     def test_quotes_and_lists_of_strings_read_as_one_text(self):
         self.file.write_text(scenario(step("turn", narration__en="Q")).replace("""'"Q"'""", """'"Say \\"now\\"," "and\n turn."'"""))
