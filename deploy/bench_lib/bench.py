@@ -12,11 +12,12 @@ from pathlib import Path
 import collision
 import machine
 import path
+import worlds
 from peers import Measured
 from plots import number
 
 ROOT = Path(__file__).resolve().parents[2]
-BENCHMARKS = {"path": path, "collision": collision}
+BENCHMARKS = {"path": path, "collision": collision, "worlds": worlds}
 
 
 @dataclass

@@ -110,6 +110,37 @@ def bars(path: Path, title: str, subtitle: str, rows: list[tuple[str, float]], u
     _page(path, width, height, title, subtitle, parts)
 
 
+def ranges(path: Path, title: str, subtitle: str, rows: list[tuple[str, float, float, float]], unit: str,
+           limits: list[tuple[float, str]]) -> None:
+    """One row each: three values that rise, as a mark on a band that ends in a tick, over a logarithmic axis; `limits` are lines with
+    a name."""
+    width, left, right, top, step = 760, 190, 90, 108, 30
+    height = top + step * len(rows) + 44
+    low = min(row[1] for row in rows) / 1.3
+    high = max([row[3] for row in rows] + [value for value, _ in limits]) * 1.15
+
+    def x(value: float) -> float:
+        return left + (width - left - right) * math.log(max(value, low) / low) / math.log(high / low)
+
+    bottom = top + step * len(rows)
+    parts = []
+    for mark in _marks(low, high):
+        parts += [_line(x(mark), top - 6, x(mark), bottom), _text(x(mark), bottom + 18, f"{mark:g}", 11, QUIET, "middle")]
+    parts.append(_text(left - 10, bottom + 18, unit, 11, QUIET, "end"))
+    for value, name in limits:
+        parts += [_line(x(value), top - 14, x(value), bottom, COLOURS[1]), _text(x(value), top - 34, f"{value:g}", 11, COLOURS[1], "middle"),
+                  _text(x(value), top - 20, name, 11, COLOURS[1], "middle")]
+    for index, (name, middle, far, farther) in enumerate(rows):
+        y = top + step * index + step / 2
+        parts += [_text(left - 10, y + 4, name, 12, INK, "end"),
+                  f"<line x1='{x(middle):.1f}' y1='{y}' x2='{x(farther):.1f}' y2='{y}' stroke='{MUTED}' stroke-width='2'/>",
+                  f"<rect x='{x(middle):.1f}' y='{y - 4}' width='{max(x(far) - x(middle), 1):.1f}' height='8' fill='{MUTED}'/>",
+                  f"<line x1='{x(farther):.1f}' y1='{y - 6}' x2='{x(farther):.1f}' y2='{y + 6}' stroke='{COLOURS[0]}' stroke-width='2'/>",
+                  f"<circle cx='{x(middle):.1f}' cy='{y}' r='5' fill='{COLOURS[0]}'/>",
+                  _text(width - right + 8, y + 4, f"{number(middle)} – {number(farther)}", 11, QUIET)]
+    _page(path, width, height, title, subtitle, parts)
+
+
 def _pieces(curve: list[list[float | None]]) -> list[list[tuple[float, float]]]:
     """The stretches of a curve between its breaks."""
     pieces: list[list[tuple[float, float]]] = [[]]

@@ -87,6 +87,7 @@ class Play {
     user.present = true;
     user.fresh = true;
     user.sample = to_sample(hand, ++sequence_);
+    if (options_.record) options_.record(inputs);
     const TimePoint began = clock_.now();
     world::step(*world_, inputs, publisher_, timer_);
     took_.record(clock_.now() - began);
@@ -171,6 +172,9 @@ Exhibit::Exhibit(const std::string& name) {
   description_ = store.first();
   config_ = store.world_config();
 }
+
+Exhibit::Exhibit(std::shared_ptr<const state::WorldDescription> description, world::WorldConfig config)
+    : description_(std::move(description)), config_(std::move(config)) {}
 
 PlayedVisit Exhibit::play(const std::string& visit, const PlayOptions& options) const {
   auto description = std::make_shared<state::WorldDescription>(*description_);

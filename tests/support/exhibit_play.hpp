@@ -19,6 +19,8 @@ namespace mechane::test {
 struct PlayOptions {
   /// Changes a copy of the description before the world is made: a rope cut, a valve turned round, a gear taken away.
   std::function<void(state::WorldDescription&)> change{};
+  /// Called before each tick with what it takes in: fed to step() again, it gives the same visit.
+  std::function<void(const state::TickInputs&)> record{};
   /// Called after each tick, to look.
   std::function<void(const state::WorldState&)> watch{};
   double patience_s = 5;  ///< world seconds after the last move in which the activity may still be done
@@ -50,6 +52,8 @@ class Exhibit {
  public:
   /// `name` is its folder's and its file's. Throws std::runtime_error where it cannot be read.
   explicit Exhibit(const std::string& name);
+  /// One that was read elsewhere.
+  Exhibit(std::shared_ptr<const state::WorldDescription> description, world::WorldConfig config);
 
   /// Plays one visit in a new world. Throws std::runtime_error where there is no such visit, or the world cannot be made.
   [[nodiscard]] PlayedVisit play(const std::string& visit, const PlayOptions& options = {}) const;

@@ -1,0 +1,117 @@
+"""What the exhibits' worlds cost: a tick of each with one hand, loading from cached parts, the models' sizes, and how many worlds one
+core holds."""
+
+import re
+from pathlib import Path
+
+from peers import Measured, Missing, own
+from plots import lines, number, ranges
+
+PROGRAM_LIMIT_S = 1500  # before the program counts as hung; the first time, parts are fitted for minutes
+LOOP_PRIORITY = 80  # the server's loops' own
+COUNTS = 3  # of worlds that are tried in the time given for a part: a third of it each
+AIM_MEDIAN_US, AIM_P999_US, AIM_LOAD_S, AIM_MODEL_MB, AIM_MODELS_MB, AIM_WORLDS = 150, 500, 1, 8, 60, 6
+TICK_US = 1000
+PHASES = {"find_contacts": "contacts us", "run_agents": "agents us", "run_machines": "machines us", "step_dynamics": "dynamics us"}
+_MESH = re.compile(r'"([^"]+\.(?:glb|gltf|obj|stl|ply))(?:#[^"]*)?"')
+
+
+def _meshes(scenario: Path) -> set[Path]:
+    return {(scenario.parent / uri).resolve() for uri in _MESH.findall(scenario.read_text())}
+
+
+def _megabytes(files: set[Path]) -> float:
+    return sum(file.stat().st_size for file in files if file.is_file()) / 1e6
+
+
+def _exhibits(metrics: dict[str, float]) -> list[str]:
+    """The dearest first."""
+    names = [name.split(".")[1] for name in metrics if name.startswith("tick_us.") and name.endswith(".median")]
+    return sorted(names, key=lambda name: -metrics[f"tick_us.{name}.median"])
+
+
+def missed(metrics: dict[str, float]) -> list[str]:
+    """Each aim that was not reached, with its exhibit."""
+    found = []
+    for name in _exhibits(metrics):
+        for metric, aim, what, unit in ((f"tick_us.{name}.median", AIM_MEDIAN_US, "median tick", "us"), (f"tick_us.{name}.p999", AIM_P999_US, "p99.9 tick", "us"),
+                                        (f"load_s.{name}", AIM_LOAD_S, "loading", "s"), (f"model_mb.{name}", AIM_MODEL_MB, "model", "MB")):
+            if metrics.get(metric, 0) >= aim:
+                found.append(f"missed: {name}, {what}: {number(metrics[metric])} {unit}, the aim is under {aim}")
+    if metrics.get("models_mb", 0) >= AIM_MODELS_MB:
+        found.append(f"missed: all models: {number(metrics['models_mb'])} MB, the aim is under {AIM_MODELS_MB}")
+    if metrics.get("worlds_per_core", AIM_WORLDS) < AIM_WORLDS:
+        found.append(f"missed: one core holds {metrics['worlds_per_core']:.0f} worlds, the aim is {AIM_WORLDS}")
+    if metrics.get("state_hash.stable", 1) != 1:
+        found.append("missed: a visit that was played again did not end in the same state")
+    return found
+
+
+def measure(context) -> tuple[Measured, list[str]]:
+    scenarios = sorted(context.root.glob("scenarios/*/*.x3d"))
+    print(f"  bench_worlds, {len(scenarios)} scenarios ...", flush=True)
+    try:
+        result = own(context.bin, "bench_worlds", [*map(str, scenarios), "--seconds", str(context.seconds / COUNTS), "--priority", str(LOOP_PRIORITY)],
+                     PROGRAM_LIMIT_S)
+    except Missing as reason:
+        return Measured(), [f"worlds: {reason}"]
+    add_models(result, scenarios)
+    result.notes += missed(result.metrics)
+    return result, []
+
+
+def add_models(result: Measured, scenarios: list[Path]) -> None:
+    """The sizes of the mesh files, by scenario and of all together; a file that two scenarios share counts once there."""
+    meshes = {file.stem: _meshes(file) for file in scenarios}
+    result.metrics["models_mb"] = _megabytes(set().union(*meshes.values()))
+    result.metrics |= {f"model_mb.{name}": _megabytes(files) for name, files in meshes.items()}
+
+
+def _grid(rows: list[list[str]]) -> list[str]:
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return ["  " + "  ".join(cell.ljust(width) if index == 0 else cell.rjust(width)
+                             for index, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in rows]
+
+
+def _counts(metrics: dict[str, float]) -> list[int]:
+    return sorted(int(name.split(".")[1]) for name in metrics if name.startswith("worlds_over_pct."))
+
+
+def table(name: str, metrics: dict[str, float]) -> str:
+    """A row for each exhibit, the dearest first; then the worlds of one core."""
+    rows = [["", "tick us", "p99", "p99.9", "floor p99.9", "max", "of 1 ms %", *PHASES.values(), "load s", "model MB"]]
+    for exhibit in _exhibits(metrics):
+        shown = [f"tick_us.{exhibit}.median", f"tick_us.{exhibit}.p99", f"tick_us.{exhibit}.p999", f"tick_floor_us.{exhibit}.p999", f"tick_us.{exhibit}.max",
+                 f"budget_pct.{exhibit}.median", *(f"phase_us.{exhibit}.{phase}" for phase in PHASES), f"load_s.{exhibit}", f"model_mb.{exhibit}"]
+        rows.append([exhibit, *(number(metrics[metric]) if metric in metrics else "-" for metric in shown)])
+    rows.append(["aim: under", str(AIM_MEDIAN_US), "", str(AIM_P999_US), "", "", "", *("" for _ in PHASES), str(AIM_LOAD_S), str(AIM_MODEL_MB)])
+    text = [f"\n{name}", *_grid(rows), "  floor: of each tick the faster of two replays, so what the work takes; phases: means; CPU time, but loading by the wall clock"]
+    counts = _counts(metrics)
+    if counts:
+        text += ["", *_grid([["worlds stepped in each millisecond", *map(str, counts)],
+                             ["median, us", *(number(metrics[f"worlds_tick_us.{count}.median"]) for count in counts)],
+                             ["ticks over 1 ms, %", *(number(metrics[f"worlds_over_pct.{count}"]) for count in counts)]])]
+        text.append(f"  one core holds {metrics['worlds_per_core']:.0f} worlds with under 0.1 % of ticks over 1 ms (aim: {AIM_WORLDS}); computed from the mean "
+                    f"tick: {metrics['worlds_per_core.computed']:.1f}\n  the dearest exhibits first, each in another part of its visit; a wake-up's cold caches count here, "
+                    "and not above")
+    if "models_mb" in metrics:
+        text.append(f"  all models {number(metrics['models_mb'])} MB (aim: under {AIM_MODELS_MB}); a visit played again ends in the same state: "
+                    f"{'yes' if metrics.get('state_hash.stable') == 1 else 'NO'}")
+    return "\n".join(text)
+
+
+def plot(result: Measured, out: Path, machine: str) -> list[Path]:
+    made, metrics = [], result.metrics
+    rows = [(name, *(metrics[f"tick_us.{name}.{q}"] for q in ("median", "p99", "p999"))) for name in _exhibits(metrics)]
+    if rows:
+        made.append(out / "worlds-tick.svg")
+        ranges(made[-1], "A tick of each exhibit's world, with one hand at work", f"median, p99 and p99.9 of CPU time; lines: the aims, and a whole tick. {machine}", rows,
+               "µs", [(AIM_MEDIAN_US, "median"), (AIM_P999_US, "p99.9"), (TICK_US, "a tick")])
+    series = {label: result.curves[f"worlds.{q}"] for label, q in (("median", "median"), ("p99", "p99"), ("p99.9", "p999")) if f"worlds.{q}" in result.curves}
+    if series and len(series["median"]) > 1:
+        made.append(out / "worlds-per-core.svg")
+        last = series["median"][-1][0]
+        lines(made[-1], "Worlds of mixed exhibits on one core", f"CPU time of all their ticks, in each millisecond. {machine}",
+              {**series, "1 ms": [[1, TICK_US], [last, TICK_US]]}, "worlds", "µs",
+              [(count, count, "") for count, _ in series["median"]])
+    return made
