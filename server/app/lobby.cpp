@@ -144,10 +144,9 @@ Expected<Lobby::Entry*> Lobby::open(std::vector<std::string> kiosks,
   if (!world) return tl::unexpected(world.error());
   auto port = transport_.open_world(entry->name, entry->description);
   if (!port) return tl::unexpected(port.error());
-  entry->step_seen = (*world)->state.progress.step;
+  entry->running.step = (*world)->state.progress.step;
   entry->running.world = std::move(*world);
   entry->running.port = *port;
-  entry->running.step = entry->step_seen;
   start_records(*entry, std::move(header));
   const auto least = std::min_element(loops_.begin(), loops_.end(),
                                       [](const auto& a, const auto& b) { return a->size() < b->size(); });
@@ -177,13 +176,12 @@ void Lobby::follow_signs() {
 
 std::shared_ptr<const state::WorldDescription> Lobby::next_of(Entry& entry) const {
   std::shared_ptr<const state::WorldDescription> next;
-  const StepId step = entry.running.step.load(std::memory_order_relaxed);
-  if (const StepId before = std::exchange(entry.step_seen, step); step && step != before) {
-    const std::string& opens = entry.description->steps[step.index()].opens;
-    if (!opens.empty()) next = scenarios_.find(opens);
-    if (!opens.empty() && next == nullptr) {
+  if (const StepId id = entry.running.sends_on.exchange(StepId::none())) {
+    const state::StepDescription& step = entry.description->steps[id.index()];
+    next = scenarios_.find(step.opens);
+    if (next == nullptr) {
       log::warning(fmt::format("{}: step {} opens '{}', which this server was not started with; the visitors stay",
-                               entry.description->id, entry.description->steps[step.index()].name, opens));
+                               entry.description->id, step.name, step.opens));
     }
   }
   if (const auto wish = entry.running.port->take_wish()) next = scenarios_.all()[*wish];

@@ -45,7 +45,6 @@ class Lobby {
     WorldLoop* loop = nullptr;
     std::vector<std::string> kiosks;
     std::optional<TimePoint> idle_since;
-    StepId step_seen;  // a step sends on once, when it begins
   };
 
   void kiosk_appeared(const transport::Session& session, TimePoint now);

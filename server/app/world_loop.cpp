@@ -94,7 +94,10 @@ void WorldLoop::step(RunningWorld& running, TimePoint now) noexcept {
   running.port->gather(inputs, now);
   TickOutput output(running, inputs);
   world::step(*running.world, inputs, output, timer_);
-  running.step.store(running.world->state.progress.step, std::memory_order_relaxed);
+  if (const StepId step = running.world->state.progress.step; step != running.step) {
+    running.step = step;
+    if (step && !running.port->description().steps[step.index()].opens.empty()) running.sends_on.store(step);
+  }
   for (std::size_t i = 0; i < world::kPhases; ++i)
     phases_[i].record(timer_.took()[i]);
 }

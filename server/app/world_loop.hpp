@@ -24,7 +24,8 @@ struct RunningWorld {
   /// Hands the state to the recorder, which there must be. Whoever the world belongs to at the moment.
   void keep_snapshot() noexcept;
 
-  std::atomic<StepId> step{};      ///< where the visit is, for the main thread
+  StepId step;                     ///< where the visit was after the last tick; the loop's
+  std::atomic<StepId> sends_on{};  ///< a step that opens another scenario has begun; the main thread takes it
   std::atomic<bool> leave{false};  ///< the main thread asks the loop to give the world back
   std::atomic<bool> left{false};   ///< the loop has; the main thread may take it apart
 };

@@ -195,6 +195,16 @@ class Fit(EndToEnd):
         self.assertRegex(result.stderr, r"fence\.part: cannot be written: .*; make room on the disk")
         self.assertEqual(result.stdout.split("status ")[1].split(), ["1"], "no file is left")
 
+    def test_it_runs_on_idle_time_without_rights(self):
+        mesh = self.mesh("fence.obj", FENCE)
+        # In a namespace of its own even root may not raise a priority.
+        idle = ["chrt", "--idle", "0"]
+        if subprocess.run(["unshare", "--map-root-user", "true"], capture_output=True).returncode == 0:
+            idle += ["unshare", "--map-root-user"]
+        result = subprocess.run([*idle, str(BIN / "mechane"), "fit", str(mesh), "-o", str(self.folder), "--report", "none"],
+                                capture_output=True, text=True, timeout=300, env=self.environment)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_ctrl_c_ends_it_at_once_and_leaves_nothing(self):
         mesh = self.mesh("fence.obj", FENCE)
         (self.folder / "fence.part").write_text("the old one")
