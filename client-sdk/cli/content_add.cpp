@@ -82,6 +82,11 @@ class Gatherer {
   }
 
   void take_file(const Waiting& next) {
+    std::error_code code;
+    if (!fs::exists(next.file, code)) {
+      result_.errors.push_back({"there is no such file", next.file.string(), "check its name"});
+      return;
+    }
     const auto path = content::path_inside(folder_, next.file);
     if (!path) {
       result_.errors.push_back(path.error());

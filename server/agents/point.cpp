@@ -113,15 +113,21 @@ constexpr state::ParameterType kPointParameters[] = {
     {.name = "position",
      .kind = ParameterKind::numbers,
      .unit = "m",
-     .summary = "the point meant, in its frame",
+     .summary = "the point meant, in its frame; behind a board's face, so that the fingertip is near it only where it "
+                "touches the board",
      .count = 3},
     {.name = "distance",
      .unit = "m",
-     .summary = "the fingertip is at the sign within this; with cone: not given, only the cone counts",
+     .summary = "the fingertip is at the sign within this of the point. Where a cone is given and this is not, only "
+                "pointing counts",
      .default_value = 0.03,
      .min = 0.001,
      .max = 10},
-    {.name = "cone", .unit = "rad", .summary = "the finger points at the sign within this", .min = 0.01, .max = 1.5},
+    {.name = "cone",
+     .unit = "rad",
+     .summary = "from afar too: the finger points at the point within this angle, and is within reach",
+     .min = 0.01,
+     .max = 1.5},
     {.name = "reach", .unit = "m", .summary = "how far pointing reaches", .default_value = 3, .min = 0.01, .max = 100},
     {.name = "time", .unit = "s", .summary = "for how long", .default_value = 0.3, .min = 0, .max = 60},
 };
@@ -136,10 +142,12 @@ constexpr state::ValueType kPointValues[] = {
 }  // namespace
 
 const AgentKind& point_kind() {
-  static const AgentKind kKind{
-      {"simulation.point", "An index finger is at a sign, or points at it; or somebody clicks on it", kPointParameters,
-       kPointValues},
-      make_point};
+  static const AgentKind kKind{{"simulation.point",
+                                "An index finger is at a sign, or points at it; or somebody clicks on it. For a sign "
+                                "that opens an exhibit: a quantity "
+                                "NAME.pointed, a trigger on it, a step with opens; village/village.x3d has eight",
+                                kPointParameters, kPointValues},
+                               make_point};
   return kKind;
 }
 

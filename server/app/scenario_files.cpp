@@ -21,11 +21,16 @@ Expected<fs::path> file_of(const fs::path& name, const std::vector<CatalogueEntr
                            const content::Catalogue& catalogue) {
   std::error_code code;
   if (fs::exists(name, code) && !fs::is_directory(name, code)) return name;
-  std::vector<std::string> ids;
+  std::vector<std::string> ids, paths;
   for (const CatalogueEntry& entry : entries) {
     if (entry.kind != ContentKind::scenario) continue;
-    if (entry.name == name.string()) return catalogue.folder() / entry.path;
+    if (entry.name == name.string()) paths.push_back(entry.path);
     ids.push_back(entry.name);
+  }
+  if (paths.size() == 1) return catalogue.folder() / paths.front();
+  if (paths.size() > 1) {
+    return fail(fmt::format("the catalogue has {} scenarios of the id '{}'", paths.size(), name.string()),
+                catalogue.file().string(), fmt::format("name the file: one of {}", fmt::join(paths, ", ")));
   }
   return fail(fmt::format("'{}' is no file, and no scenario of the catalogue", name.string()),
               catalogue.file().string(), fmt::format("name one of: {}", fmt::join(ids, ", ")));

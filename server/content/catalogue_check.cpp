@@ -33,7 +33,10 @@ class CatalogueCheck {
     for (const CatalogueEntry& entry : entries_) {
       check_file(entry);
       check_references(entry);
-      if (entry.kind == ContentKind::scenario) check_languages(entry);
+      if (entry.kind == ContentKind::scenario) {
+        check_languages(entry);
+        check_id(entry);
+      }
       if (entry.credits.licence.empty())
         add(Fault::Kind::no_licence, entry.path, "it has no licence", "mechane content add FILE --licence LICENCE");
     }
@@ -65,6 +68,14 @@ class CatalogueCheck {
     }
   }
 
+  void check_id(const CatalogueEntry& scenario) {
+    for (const CatalogueEntry& other : entries_) {
+      if (other.kind != ContentKind::scenario || other.name != scenario.name || other.path >= scenario.path) continue;
+      add(Fault::Kind::twice, scenario.path, fmt::format("its id '{}' is that of {} too", scenario.name, other.path),
+          "give it an id of its own, and add it again");
+    }
+  }
+
   void check_references(const CatalogueEntry& entry) {
     for (const std::string& path : entry.refers_to) {
       if (by_path_.contains(path)) continue;
@@ -72,11 +83,12 @@ class CatalogueCheck {
       const bool there = is_inside(path) && fs::exists(folder_ / path, code);
       add(Fault::Kind::missing, entry.path,
           fmt::format("it needs {}, which {}", path, there ? "the catalogue does not know" : "is not there"),
-          there ? "mechane content add " + path : "make the file, or correct its name in " + entry.path);
+          there ? "mechane content add " + path
+                : fmt::format("make the file, or correct its name in {0} and: mechane content add {0}", entry.path));
     }
     if (entry.kind != ContentKind::scenario && !referred_.contains(entry.path)) {
       add(Fault::Kind::orphan, entry.path, "nothing refers to it",
-          "use it in a scenario and add that again, or forget it: mechane content remove " + entry.path);
+          "use it in a scenario and add that again, or take the file away and: mechane content remove " + entry.path);
     }
   }
 
@@ -146,8 +158,8 @@ bool has_scenario_beside(const fs::path& text) {
 }  // namespace
 
 std::string_view word_of(Fault::Kind kind) {
-  static constexpr std::array<std::string_view, 7> kWords{"changed", "gone",    "missing",   "language",
-                                                          "orphan",  "unknown", "no licence"};
+  static constexpr std::array<std::string_view, 8> kWords{"changed", "gone",    "missing", "language",
+                                                          "orphan",  "unknown", "twice",   "no licence"};
   return kWords[static_cast<std::size_t>(kind)];
 }
 

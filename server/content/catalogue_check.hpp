@@ -17,6 +17,7 @@ struct CatalogueFault {
     language,    ///< words that a scenario says in one of its languages and not in another
     orphan,      ///< nothing refers to it
     unknown,     ///< a file in the folder that is no entry
+    twice,       ///< two scenarios of one id
     no_licence,  ///< nobody may know whether it may be shown: a note
   };
   Kind kind = Kind::changed;

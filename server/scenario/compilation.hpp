@@ -25,6 +25,9 @@ struct WrittenRule {
 
 /// A world in the making. Each stage reads the document and adds to the world; a fault becomes a problem and the stage goes on, so that
 /// an author sees all faults at once.
+/// Small letters, digits and '-', 64 at most.
+[[nodiscard]] bool is_id(const std::string& text);
+
 struct Compilation {
   const Document& document;
   ObjectLoader& loader;

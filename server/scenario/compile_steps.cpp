@@ -219,6 +219,11 @@ void compile_step(Compilation& c, const Written& activity, const Metadata& set) 
     read_trigger(c, activity, *trigger, where, step, activity.find(set.name));
   read_timeout(c, activity, fields, step);
   step.opens = fields.string("opens");
+  if (fields.given("opens") && !is_id(step.opens)) {
+    c.problems.error(fields.line("opens"), where,
+                     fmt::format("'{}' cannot be a scenario's id", step.opens.substr(0, 80)),
+                     "write the id of the other scenario, as its key id has it, not its file: \"archimedes-screw\"");
+  }
   step.texts = read_texts(c, fields.set("text"), where + ", text", "caption narration hint audio");
   check_audio(c, fields, step);
   step.hint_after_s = fields.number("hintSeconds");
@@ -236,6 +241,16 @@ void compile_first(Compilation& c, const Written& activity) {
                      fmt::format("the activity has no step '{}'", first),
                      suggest(first, activity.names(), "name one of its steps"));
   }
+}
+
+/// Visitors go on as a step begins, and the first one has begun before anybody is there.
+void check_first(Compilation& c, const Written& activity) {
+  const StepId first = c.world.activities[activity.id.index()].first;
+  if (!first || c.world.steps[first.index()].opens.empty()) return;
+  const std::string& name = c.world.steps[first.index()].name;
+  c.problems.error(c.step_lines[first.index()], "step " + name,
+                   "the activity's first step cannot open another scenario",
+                   "let a later step do so, to which a trigger leads");
 }
 
 /// A joint that an agent switches, and that some step switches on, is off before: the world begins as the activity does.
@@ -283,6 +298,7 @@ void compile_activities(Compilation& c) {
     for (const Metadata* step : activity.steps)
       compile_step(c, activity, *step);
     compile_first(c, activity);
+    check_first(c, activity);
   }
   open_switched_joints(c.world);
 }

@@ -12,11 +12,6 @@
 namespace mechane::scenario {
 namespace {
 
-bool is_id(const std::string& text) {
-  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), allowed);
-}
-
 bool is_language(const std::string& text) {
   return text.size() >= 2 && text.size() <= 8 && std::all_of(text.begin(), text.end(), [](char c) {
            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
@@ -82,6 +77,11 @@ void take_plain_file(Compilation& c) {
 }
 
 }  // namespace
+
+bool is_id(const std::string& text) {
+  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), allowed);
+}
 
 const Metadata* tree_set(const Compilation& c, std::string_view name) {
   if (!c.scenario) return nullptr;

@@ -136,8 +136,10 @@ constexpr Key kStepKeys[] = {
      .default_text = "end",
      .names = Names::step},
     {.name = "opens",
-     .summary = "the id of the scenario that the visitors go on to as this step begins; where the server has none of "
-                "that id, they stay",
+     .summary =
+         "the id of the scenario that the visitors go on to as this step begins. Where the server has none of that id "
+         "they stay, and the step is as any other: give it a timeoutSeconds that leads back. Not for an activity's "
+         "first step",
      .example = "\"archimedes-screw\""},
     {.name = "hintSeconds",
      .kind = number,

@@ -111,6 +111,16 @@ TEST_F(CatalogueCheckTest, AnOrphanAndAFileThatNobodyAdded) {
   EXPECT_THAT(faults(), ElementsAre("left.glb: orphan", "new.ogg: unknown"));
 }
 
+TEST_F(CatalogueCheckTest, TwoScenariosOfOneId) {
+  add("copy.x3d");
+  for (CatalogueEntry& entry : entries_) {
+    if (entry.path == "crane.x3d") entry.name = "copy";
+  }
+  put();
+  EXPECT_THAT(faults(), ElementsAre("crane.x3d: twice"));
+  EXPECT_THAT(last_, HasSubstr("its id 'copy' is that of copy.x3d too"));
+}
+
 TEST_F(CatalogueCheckTest, AMissingLicenceIsANote) {
   entries_[1].credits.licence.clear();
   put();

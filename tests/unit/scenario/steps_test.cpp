@@ -135,6 +135,10 @@ TEST(Steps, FaultsSayWhatToDo) {
   expect(with_fill(number_key("timeoutSeconds", "45") + key("timeoutNext", "trun")), "did you mean 'turn'?",
          Severity::error);
   expect(with_fill(key("timeoutNext", "turn")), "no time-out that could lead there", Severity::warning);
+  expect(with_fill(text_key("opens", "../village/village.x3d")), "cannot be a scenario's id", Severity::error);
+  expect(with_fill(text_key("opens", "")), "cannot be a scenario's id", Severity::error);
+  const std::string first = "<MetadataSet containerField='value' name='grasp'>\n";
+  expect(compile_text(edited(first, first + text_key("opens", "catapult"))), "first step cannot open", Severity::error);
   expect(with_fill(number_key("timeoutSecond", "4")), "did you mean 'timeoutSeconds'?", Severity::error);
   expect(with_fill(set_key("trigger:2", set_key("rule:1", rule("trns", ">", "1")))), "did you mean 'turns'?",
          Severity::error);
