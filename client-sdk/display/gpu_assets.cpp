@@ -44,6 +44,36 @@ std::vector<float> interleave(const MeshData& mesh) {
   return out;
 }
 
+StreamedMesh StreamedMesh::create() {
+  StreamedMesh mesh;
+  mesh.vertex_array_ = make_vertex_array();
+  mesh.vertices_ = make_buffer();
+  mesh.indices_ = make_buffer();
+  glBindVertexArray(mesh.vertex_array_.get());
+  glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices_.get());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices_.get());
+  describe_vertices();
+  return mesh;
+}
+
+void StreamedMesh::upload(const MeshData& mesh) {
+  index_count_ = static_cast<std::int32_t>(mesh.indices.size());
+  if (mesh.indices.empty()) return;
+  const std::vector<float> vertices = interleave(mesh);
+  glBindVertexArray(vertex_array_.get());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
+               GL_STREAM_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
+               mesh.indices.data(), GL_STREAM_DRAW);
+}
+
+void StreamedMesh::draw() const {
+  if (empty()) return;
+  glBindVertexArray(vertex_array_.get());
+  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
 void GpuAssets::upload(const SceneAssets& assets) {
   while (images_.size() < assets.images.size())
     images_.push_back(upload_image(assets.images[images_.size()]));

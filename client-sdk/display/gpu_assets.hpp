@@ -19,6 +19,23 @@ void describe_vertices();
 /// Interleaved vertices of a mesh; what is missing is filled with defaults.
 [[nodiscard]] std::vector<float> interleave(const MeshData& mesh);
 
+/// A mesh that is made anew for each frame.
+class StreamedMesh {
+ public:
+  /// Needs a current context, as all here does.
+  [[nodiscard]] static StreamedMesh create();
+  void upload(const MeshData& mesh);
+  [[nodiscard]] bool empty() const { return index_count_ == 0; }
+  /// As GpuAssets::draw.
+  void draw() const;
+
+ private:
+  VertexArrayName vertex_array_;
+  BufferName vertices_;
+  BufferName indices_;
+  std::int32_t index_count_ = 0;
+};
+
 class GpuAssets {
  public:
   /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged.

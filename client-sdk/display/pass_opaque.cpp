@@ -8,13 +8,15 @@ namespace mechane::display {
 Expected<OpaquePass> OpaquePass::create() {
   Expected<Program> surface = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "surface.frag"});
   if (!surface) return tl::unexpected(surface.error());
+  Expected<Program> rope = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "rope.frag"});
+  if (!rope) return tl::unexpected(rope.error());
   Expected<Program> ground = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "ground.frag"});
   if (!ground) return tl::unexpected(ground.error());
   GpuAssets plain;
   SceneAssets assets;
   assets.meshes.push_back(disc_mesh(380, 64));
   plain.upload(assets);
-  return OpaquePass(std::move(*surface), std::move(*ground), std::move(plain));
+  return OpaquePass(std::move(*surface), std::move(*rope), std::move(*ground), std::move(plain));
 }
 
 void OpaquePass::draw(const PassInput& input) const {
@@ -32,6 +34,13 @@ void OpaquePass::draw(const PassInput& input) const {
     set_model(surface_, instance.X_WM);
     input.assets.use_material(instance.material, surface_);
     input.assets.draw(instance.mesh);
+  }
+  if (!input.ropes.empty()) {
+    glEnable(GL_CULL_FACE);
+    rope_.use();
+    set_lighting(rope_, input);
+    set_model(rope_, Eigen::Affine3f::Identity());
+    input.ropes.draw();
   }
   glDisable(GL_CULL_FACE);
   if (!input.scene.ground_height_m) return;

@@ -12,7 +12,7 @@ Expected<ShadowPass> ShadowPass::create(std::uint32_t map_size) {
   return ShadowPass(std::move(*program), std::move(*map));
 }
 
-Eigen::Matrix4f ShadowPass::draw(const RenderScene& scene, const GpuAssets& assets) const {
+Eigen::Matrix4f ShadowPass::draw(const RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes) const {
   const Eigen::Matrix4f PV_light = light_view(scene.shadow_box_W, scene.sun.to_sun_W);
   glBindFramebuffer(GL_FRAMEBUFFER, map_.framebuffer.get());
   glViewport(0, 0, static_cast<GLsizei>(map_.size), static_cast<GLsizei>(map_.size));
@@ -29,6 +29,11 @@ Eigen::Matrix4f ShadowPass::draw(const RenderScene& scene, const GpuAssets& asse
     if (!instance.casts_shadow) continue;
     program_.set("X_WM", instance.X_WM.matrix());
     assets.draw(instance.mesh);
+  }
+  if (!ropes.empty()) {
+    const Eigen::Matrix4f X_WM = Eigen::Matrix4f::Identity();
+    program_.set("X_WM", X_WM);
+    ropes.draw();
   }
   return PV_light;
 }

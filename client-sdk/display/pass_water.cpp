@@ -6,16 +6,7 @@
 namespace mechane::display {
 
 WaterPass::WaterPass(Program surface, Program stream)
-    : surface_(std::move(surface)),
-      stream_(std::move(stream)),
-      stream_array_(make_vertex_array()),
-      stream_vertices_(make_buffer()),
-      stream_indices_(make_buffer()) {
-  glBindVertexArray(stream_array_.get());
-  glBindBuffer(GL_ARRAY_BUFFER, stream_vertices_.get());
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, stream_indices_.get());
-  describe_vertices();
-}
+    : surface_(std::move(surface)), stream_(std::move(stream)), tube_(StreamedMesh::create()) {}
 
 Expected<WaterPass> WaterPass::create() {
   Expected<Program> surface = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "water.frag"});
@@ -25,7 +16,7 @@ Expected<WaterPass> WaterPass::create() {
   return WaterPass(std::move(*surface), std::move(*stream));
 }
 
-void WaterPass::draw(const PassInput& input) const {
+void WaterPass::draw(const PassInput& input) {
   const RenderScene& scene = input.scene;
   if (scene.waters.empty() && scene.streams.empty()) return;
   glEnable(GL_DEPTH_TEST);
@@ -54,17 +45,10 @@ void WaterPass::draw(const PassInput& input) const {
   glDepthMask(GL_TRUE);
 }
 
-void WaterPass::draw_stream(const WaterStream& stream) const {
+void WaterPass::draw_stream(const WaterStream& stream) {
   if (!(stream.width_m > 0)) return;
-  const MeshData mesh = stream_mesh(stream);
-  const std::vector<float> vertices = interleave(mesh);
-  glBindVertexArray(stream_array_.get());
-  glBindBuffer(GL_ARRAY_BUFFER, stream_vertices_.get());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
-               GL_STREAM_DRAW);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
-               mesh.indices.data(), GL_STREAM_DRAW);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.indices.size()), GL_UNSIGNED_INT, nullptr);
+  tube_.upload(stream_mesh(stream));
+  tube_.draw();
 }
 
 }  // namespace mechane::display

@@ -15,6 +15,7 @@ namespace mechane::display {
 struct PassInput {
   const RenderScene& scene;
   const GpuAssets& assets;
+  const StreamedMesh& ropes;
   const EyeView& view;
   const SkyHarmonics& sky;
   const ShadowTarget& shadow;
@@ -26,7 +27,7 @@ class ShadowPass {
  public:
   [[nodiscard]] static Expected<ShadowPass> create(std::uint32_t map_size);
   /// Returns world to clip space of the sun.
-  Eigen::Matrix4f draw(const RenderScene& scene, const GpuAssets& assets) const;
+  Eigen::Matrix4f draw(const RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes) const;
   [[nodiscard]] const ShadowTarget& map() const { return map_; }
 
  private:
@@ -35,7 +36,7 @@ class ShadowPass {
   ShadowTarget map_;
 };
 
-/// Everything solid, and the plain of earth. (A depth pass before it was tried: it costs more than it saves, here and with meshes of small
+/// Everything solid, ropes, and the plain of earth. (A depth pass before it was tried: it costs more than it saves, here and with meshes of small
 /// triangles on a software renderer.)
 class OpaquePass {
  public:
@@ -43,9 +44,10 @@ class OpaquePass {
   void draw(const PassInput& input) const;
 
  private:
-  OpaquePass(Program surface, Program ground, GpuAssets plain)
-      : surface_(std::move(surface)), ground_(std::move(ground)), plain_(std::move(plain)) {}
+  OpaquePass(Program surface, Program rope, Program ground, GpuAssets plain)
+      : surface_(std::move(surface)), rope_(std::move(rope)), ground_(std::move(ground)), plain_(std::move(plain)) {}
   Program surface_;
+  Program rope_;
   Program ground_;
   GpuAssets plain_;
 };
@@ -66,17 +68,15 @@ class SkyPass {
 class WaterPass {
  public:
   [[nodiscard]] static Expected<WaterPass> create();
-  void draw(const PassInput& input) const;
+  void draw(const PassInput& input);
 
  private:
   WaterPass(Program surface, Program stream);
-  void draw_stream(const WaterStream& stream) const;
+  void draw_stream(const WaterStream& stream);
 
   Program surface_;
   Program stream_;
-  VertexArrayName stream_array_;
-  BufferName stream_vertices_;
-  BufferName stream_indices_;
+  StreamedMesh tube_;
 };
 
 /// From linear light with several samples a pixel to what a screen shows, into the bound framebuffer's viewport.

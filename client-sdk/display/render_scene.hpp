@@ -75,6 +75,12 @@ struct WaterStream {
   float width_m = 0;           ///< 0: none
 };
 
+/// A rope where its points are, drawn as a tube of laid hemp that throws a shadow. Made for some eight of up to 200 points each.
+struct RenderRope {
+  std::vector<Vec3f> points_W;  ///< from end to end, taut between them
+  float radius_m = 0;           ///< 0: none
+};
+
 struct Sun {
   Vec3f to_sun_W = Vec3f(0.58F, 0.60F, 0.46F).normalized();
   Vec3f irradiance =
@@ -119,6 +125,7 @@ struct RenderScene {
   std::vector<Instance> instances;
   std::vector<WaterInstance> waters;
   std::vector<WaterStream> streams;
+  std::vector<RenderRope> ropes;
   std::vector<Occluder> occluders;   ///< the first kMaxOccluders count
   Eigen::AlignedBox3f shadow_box_W;  ///< what the shadow map has to cover
   Camera camera;

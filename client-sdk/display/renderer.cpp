@@ -4,6 +4,7 @@
 
 #include <epoxy/gl.h>
 
+#include "client-sdk/display/rope_mesh.hpp"
 #include "server/base/assert.hpp"
 
 namespace mechane::display {
@@ -71,7 +72,11 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   }
   if (auto ok = fit_targets(size, eye_size, scene.inset.has_value()); !ok) return ok;
   if (auto ok = fit_sky(scene.sun); !ok) return ok;
-  const Eigen::Matrix4f PV_light = passes_.shadow.draw(scene, assets_);
+  MeshData ropes;
+  for (const RenderRope& rope : scene.ropes)
+    append_rope(rope, ropes);
+  ropes_.upload(ropes);
+  const Eigen::Matrix4f PV_light = passes_.shadow.draw(scene, assets_, ropes_);
   if (scene.inset) {
     draw_view(scene, eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size)), PV_light, *inset_);
   }
@@ -86,7 +91,7 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
 
 void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
                          const HdrTarget& target) {
-  const PassInput input{scene, assets_, view, sky_, passes_.shadow.map(), PV_light};
+  const PassInput input{scene, assets_, ropes_, view, sky_, passes_.shadow.map(), PV_light};
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
   glViewport(0, 0, static_cast<GLsizei>(target.size.width), static_cast<GLsizei>(target.size.height));
   glDepthMask(GL_TRUE);

@@ -60,6 +60,7 @@ class Renderer {
   RendererSettings settings_;
   Passes passes_;
   GpuAssets assets_;
+  StreamedMesh ropes_ = StreamedMesh::create();
   SkyHarmonics sky_{};
   std::optional<Sun> baked_sun_;
   std::optional<HdrTarget> hdr_;
