@@ -79,8 +79,11 @@ RC_GTEST_PROP(RopeMesh, passes_by_each_point_within_a_radius_or_two, ()) {
   const std::vector<RopeRing> rings = rings_in(mesh);
   for (const Vec3f& p : rope.points_W) {
     float nearest = 1e9F;
-    for (const RopeRing& ring : rings)
-      nearest = std::min(nearest, (ring.middle - p).norm());
+    for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+      const Vec3f way = rings[i + 1].middle - rings[i].middle;
+      const float share = way.norm() > 0 ? (p - rings[i].middle).dot(way) / way.squaredNorm() : 0;
+      nearest = std::min(nearest, (rings[i].middle + std::clamp(share, 0.0F, 1.0F) * way - p).norm());
+    }
     RC_ASSERT(nearest < 2.1F * rope.radius_m);
   }
 }
