@@ -106,6 +106,12 @@ Json to_json(const proto::SceneFrame& s) {
   j["visible"] = std::vector<int>(visible.begin(), visible.end());
   j["quantities"] = std::vector<double>(quantities.begin(), quantities.end());
   j["hands"] = hands;
+  Json ropes = Json::array();
+  for (const auto& r : proto::elements(s.ropes)) {
+    const auto points = proto::elements(r.p_W);
+    ropes.push_back({{"diameter_m", r.diameter_m}, {"p_W", std::vector<float>(points.begin(), points.end())}});
+  }
+  j["ropes"] = ropes;
   return j;
 }
 
@@ -135,6 +141,58 @@ Json to_json(const proto::WorldStatus& s) {
   }
   j.update({{"enabled_agents", strings(s.enabled_agents)}, {"quantities", quantities}, {"title", texts(s.title)}});
   j.update({{"caption", texts(s.caption)}, {"hint_text", texts(s.hint_text)}, {"activities", strings(s.activities)}});
+  j.update({{"narration", texts(s.narration)}, {"audio", texts(s.audio)}, {"detail", proto::string_of(s.detail)}});
+  return j;
+}
+
+Json to_json(const proto::WireQuestion& q) {
+  Json answers = Json::array();
+  for (const auto& a : proto::elements(q.answers))
+    answers.push_back({{"name", proto::string_of(a.name)}, {"text", texts(a.text)}});
+  return {{"name", proto::string_of(q.name)},
+          {"kind", q.kind == 0 ? "choice" : "scale"},
+          {"text", texts(q.text)},
+          {"answers", answers},
+          {"marks", q.marks},
+          {"low", texts(q.low)},
+          {"high", texts(q.high)}};
+}
+
+Json to_json(const proto::WireEffect& e) {
+  return {{"name", proto::string_of(e.name)},
+          {"kind", proto::string_of(e.kind)},
+          {"object", e.object},
+          {"node", proto::string_of(e.node)},
+          {"p_BE", list(e.p_BE)},
+          {"direction_B", list(e.direction_B)},
+          {"quantity", e.quantity},
+          {"full", e.full},
+          {"size_m", e.size_m},
+          {"speed_m_per_s", e.speed_m_per_s}};
+}
+
+Json to_json(const proto::WorldPresentation& s) {
+  Json j = head(s);
+  j.update({{"world", text(s.world)}, {"languages", strings(s.languages)}});
+  Json activities = Json::array();
+  for (const auto& a : proto::elements(s.activities)) {
+    Json questions = Json::array();
+    for (const auto& q : proto::elements(a.questions))
+      questions.push_back(to_json(q));
+    activities.push_back({{"name", proto::string_of(a.name)},
+                          {"title", texts(a.title)},
+                          {"goal", texts(a.goal)},
+                          {"questions", questions}});
+  }
+  Json views = Json::array();
+  for (const auto& v : proto::elements(s.views)) {
+    views.push_back(
+        {{"name", proto::string_of(v.name)}, {"X_WV", pose(v.X_WV)}, {"field_of_view_rad", v.field_of_view_rad}});
+  }
+  Json effects = Json::array();
+  for (const auto& e : proto::elements(s.effects))
+    effects.push_back(to_json(e));
+  j.update({{"activities", activities}, {"views", views}, {"effects", effects}});
   return j;
 }
 
@@ -301,11 +359,11 @@ constexpr Topic topic() {
 }  // namespace
 
 int run_echo(const EchoOptions& options) {
-  static constexpr Topic kTopics[] = {topic<proto::HapticInput>(),  topic<proto::HapticOutput>(),
-                                      topic<proto::SceneFrame>(),   topic<proto::SceneObject>(),
-                                      topic<proto::WorldStatus>(),  topic<proto::Event>(),
-                                      topic<proto::Command>(),      topic<proto::WorldAssignment>(),
-                                      topic<proto::ServerStatus>(), topic<proto::KioskStatus>()};
+  static constexpr Topic kTopics[] = {
+      topic<proto::HapticInput>(), topic<proto::HapticOutput>(),     topic<proto::SceneFrame>(),
+      topic<proto::SceneObject>(), topic<proto::WorldStatus>(),      topic<proto::Event>(),
+      topic<proto::Command>(),     topic<proto::WorldAssignment>(),  topic<proto::ServerStatus>(),
+      topic<proto::KioskStatus>(), topic<proto::WorldPresentation>()};
   for (const Topic& t : kTopics) {
     if (options.topic == t.name) return t.run(options);
   }

@@ -65,6 +65,7 @@ class ClientImpl final : public Client {
   [[nodiscard]] bool interpolated_frame(TimePoint at, Duration delay, Frame& out) override;
   [[nodiscard]] std::vector<SceneObject> objects() const override;
   [[nodiscard]] std::optional<WorldStatus> world_status() const override;
+  [[nodiscard]] std::shared_ptr<const WorldPresentation> presentation() const override;
   [[nodiscard]] std::optional<ServerStatus> server_status() const override;
   [[nodiscard]] std::vector<WorldEvent> take_events() override;
   std::uint64_t start_activity(const std::string& activity) override { return send_command(1, activity); }
@@ -72,6 +73,11 @@ class ClientImpl final : public Client {
   std::uint64_t next_step() override { return send_command(3, ""); }
   std::uint64_t click(const std::string& object) override { return send_command(4, object); }
   std::uint64_t open_exhibit(const std::string& scenario) override { return send_command(5, scenario); }
+  std::uint64_t answer(AnswerTime when, const std::string& activity, const std::string& question,
+                       const std::string& answer) override {
+    const char* const time = when == AnswerTime::before ? "before" : "after";
+    return send_command(6, fmt::format("{}:{}/{}={}", time, activity, question, answer));
+  }
 
  private:
   struct Server {
@@ -182,9 +188,8 @@ void ClientImpl::report(TimePoint at) {
   proto::set_text(wire.host, host_);
   wire.process_id = static_cast<std::uint32_t>(::getpid());
   // A server that starts anew shall put the kiosk back where it went to, not where it began.
-  const std::optional<WorldStatus> world = world_status();
-  proto::set_text(wire.scenario, world ? world->scenario : scenario_);
-  if (world) scenario_ = world->scenario;
+  if (std::string now_in = store_.scenario(); !now_in.empty()) scenario_ = std::move(now_in);
+  proto::set_text(wire.scenario, scenario_);
   proto::set_text(wire.join_kiosk, config_.join_kiosk);
   if (!kiosk_status_.write(wire)) log::warning("client: the network did not take this process' status");
 }
@@ -314,6 +319,11 @@ std::vector<SceneObject> ClientImpl::objects() const {
 std::optional<WorldStatus> ClientImpl::world_status() const {
   const std::lock_guard lock(store_.mutex);
   return store_.status;
+}
+
+std::shared_ptr<const WorldPresentation> ClientImpl::presentation() const {
+  const std::lock_guard lock(store_.mutex);
+  return store_.presentation;
 }
 
 std::optional<ServerStatus> ClientImpl::server_status() const {

@@ -53,6 +53,12 @@ void interpolate(const Frame& a, const Frame& b, double t, Frame& out) {
   for (std::size_t i = 0; a.quantities.size() == b.quantities.size() && i < b.quantities.size(); ++i) {
     out.quantities[i] = a.quantities[i] + t * (b.quantities[i] - a.quantities[i]);
   }
+  for (std::size_t i = 0; a.ropes.size() == b.ropes.size() && i < b.ropes.size(); ++i) {
+    const std::vector<Vec3>& before = a.ropes[i].points_W;
+    std::vector<Vec3>& points = out.ropes[i].points_W;
+    for (std::size_t k = 0; before.size() == points.size() && k < points.size(); ++k)
+      points[k] = before[k] + t * (points[k] - before[k]);
+  }
   for (HandPose& hand : out.hands) {
     const HandPose* before = same_hand(a, hand);
     for (std::size_t s = 0; before != nullptr && s < kHandSegments; ++s) {

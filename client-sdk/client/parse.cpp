@@ -88,6 +88,76 @@ bool parse_strings(const Sequence& wire, std::vector<std::string>& out) {
   return true;
 }
 
+bool parse_rope(const proto::WireRope& wire, RopeShape& out) {
+  const auto numbers = proto::elements(wire.p_W);
+  if (numbers.size() % 3 != 0 || numbers.size() > 3 * kMaxRopePoints) return false;
+  if (!std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); })) return false;
+  if (!(wire.diameter_m > 0 && wire.diameter_m < 10)) return false;
+  out.diameter_m = wire.diameter_m;
+  out.points_W.resize(numbers.size() / 3);
+  for (std::size_t i = 0; i < out.points_W.size(); ++i)
+    out.points_W[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+  return true;
+}
+
+/// Each element by its own function; false where there are too many, or one is refused.
+template <class Sequence, class Out, class Parse>
+bool parse_each(const Sequence& wire, std::size_t most, std::vector<Out>& out, Parse&& parse_one) {
+  const auto items = proto::elements(wire);
+  if (items.size() > most) return false;
+  out.clear();
+  out.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!parse_one(items[i], out[i])) return false;
+  }
+  return true;
+}
+
+bool parse_answer(const proto::WireAnswer& wire, Question::Answer& out) {
+  out.name = clean_string(wire.name);
+  return parse_texts(wire.text, out.text);
+}
+
+bool parse_question(const proto::WireQuestion& wire, Question& out) {
+  if (wire.kind > 1 || wire.marks > 100) return false;
+  out.name = clean_string(wire.name);
+  out.kind = static_cast<Question::Kind>(wire.kind);
+  out.marks = wire.marks;
+  return parse_texts(wire.text, out.text) && parse_texts(wire.low, out.low) && parse_texts(wire.high, out.high) &&
+         parse_each(wire.answers, kMaxPresented, out.answers, parse_answer);
+}
+
+bool parse_activity(const proto::WireActivity& wire, Activity& out) {
+  out.name = clean_string(wire.name);
+  return parse_texts(wire.title, out.title) && parse_texts(wire.goal, out.goal) &&
+         parse_each(wire.questions, kMaxPresented, out.questions, parse_question);
+}
+
+bool parse_view(const proto::WireView& wire, View& out) {
+  out.name = clean_string(wire.name);
+  out.field_of_view_rad = wire.field_of_view_rad;
+  return parse_pose(wire.X_WV, out.X_WV) && wire.field_of_view_rad > 0 && wire.field_of_view_rad < 3.14f;
+}
+
+bool parse_effect(const proto::WireEffect& wire, Effect& out) {
+  for (const float v : {wire.full, wire.size_m, wire.speed_m_per_s}) {
+    if (!std::isfinite(v)) return false;
+  }
+  if (!proto::all_finite(wire.p_BE) || !proto::all_finite(wire.direction_B) || wire.full <= 0) return false;
+  out.name = clean_string(wire.name);
+  out.kind = clean_string(wire.kind);
+  if (wire.object >= 0) out.object = static_cast<std::uint32_t>(wire.object);
+  out.node = clean_string(wire.node);
+  out.p_BE = proto::to_vec3(wire.p_BE);
+  out.direction_B = proto::to_vec3(wire.direction_B);
+  out.quantity = wire.quantity;
+  out.full = wire.full;
+  out.size_m = wire.size_m;
+  out.speed_m_per_s = wire.speed_m_per_s;
+  const double length = out.direction_B.norm();
+  return length > 0.99 && length < 1.01;
+}
+
 }  // namespace
 
 bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
@@ -133,7 +203,7 @@ bool parse(const proto::SceneFrame& wire, Frame& out) {
   for (std::size_t i = 0; i < hands.size(); ++i) {
     if (!parse_hand(hands[i], out.hands[i])) return false;
   }
-  return true;
+  return parse_each(wire.ropes, kMaxRopes, out.ropes, parse_rope);
 }
 
 bool parse(const proto::SceneObject& wire, SceneObject& out) {
@@ -161,12 +231,23 @@ bool parse(const proto::WorldStatus& wire, WorldStatus& out) {
   out.steps_total = wire.steps_total;
   out.done = wire.done;
   out.hint = wire.hint;
+  out.detail = clean_string(wire.detail);
   out.quantities.clear();
   for (const proto::WireQuantity& q : quantities)
     out.quantities.push_back({clean_string(q.name), clean_string(q.unit)});
   return parse_strings(wire.enabled_agents, out.enabled_agents) && parse_texts(wire.title, out.title) &&
          parse_texts(wire.caption, out.caption) && parse_texts(wire.hint_text, out.hint_text) &&
-         parse_strings(wire.activities, out.activities);
+         parse_strings(wire.activities, out.activities) && parse_texts(wire.narration, out.narration) &&
+         parse_texts(wire.audio, out.audio);
+}
+
+bool parse(const proto::WorldPresentation& wire, WorldPresentation& out) {
+  if (wire.protocol != proto::kProtocol) return false;
+  out.world = clean(wire.world);
+  return parse_strings(wire.languages, out.languages) &&
+         parse_each(wire.activities, kMaxPresented, out.activities, parse_activity) &&
+         parse_each(wire.views, kMaxPresented, out.views, parse_view) &&
+         parse_each(wire.effects, kMaxPresented, out.effects, parse_effect);
 }
 
 bool parse(const proto::Event& wire, WorldEvent& out) {

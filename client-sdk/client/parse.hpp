@@ -12,6 +12,9 @@ inline constexpr std::size_t kMaxObjects = 100'000;
 inline constexpr std::size_t kMaxQuantities = 10'000;
 inline constexpr std::size_t kMaxHands = 16;
 inline constexpr std::size_t kMaxTexts = 64;
+inline constexpr std::size_t kMaxRopes = 64;
+inline constexpr std::size_t kMaxRopePoints = 1024;
+inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
 
 /// All of these return false, with `out` in no particular state, where the sample is of another protocol version, a number is not
 /// finite, a rotation is none, or a count is beyond its limit. Times of receipt and sequences of one's own are the caller's.
@@ -20,6 +23,7 @@ inline constexpr std::size_t kMaxTexts = 64;
 [[nodiscard]] bool parse(const proto::SceneFrame& wire, Frame& out);
 [[nodiscard]] bool parse(const proto::SceneObject& wire, SceneObject& out);
 [[nodiscard]] bool parse(const proto::WorldStatus& wire, WorldStatus& out);
+[[nodiscard]] bool parse(const proto::WorldPresentation& wire, WorldPresentation& out);
 [[nodiscard]] bool parse(const proto::Event& wire, WorldEvent& out);
 [[nodiscard]] bool parse(const proto::ServerStatus& wire, ServerStatus& out);
 

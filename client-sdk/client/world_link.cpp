@@ -12,6 +12,12 @@ void WorldStore::clear() {
   history.clear();
   objects.clear();
   status.reset();
+  presentation.reset();
+}
+
+std::string WorldStore::scenario() {
+  const std::lock_guard lock(mutex);
+  return status ? status->scenario : std::string();
 }
 
 WorldLink::WorldLink(std::string world, std::uint64_t number, WorldStore& store)
@@ -37,6 +43,8 @@ Expected<std::unique_ptr<WorldLink>> WorldLink::create(const proto::Participant&
        proto::Reader<proto::SceneObject>::create(participant, partition, [raw](auto v) { raw->take_objects(v); }));
   open(raw->status_,
        proto::Reader<proto::WorldStatus>::create(participant, partition, [raw](auto v) { raw->take_status(v); }));
+  open(raw->presentation_, proto::Reader<proto::WorldPresentation>::create(
+                               participant, partition, [raw](auto v) { raw->take_presentation(v); }));
   open(raw->events_,
        proto::Reader<proto::Event>::create(participant, partition, [raw](auto v) { raw->take_events(v); }));
   if (fault) return tl::unexpected<Error>(*fault);
@@ -45,7 +53,7 @@ Expected<std::unique_ptr<WorldLink>> WorldLink::create(const proto::Participant&
 
 bool WorldLink::matched() const {
   return commands_.matched() > 0 && frames_.matched() > 0 && objects_.matched() > 0 && status_.matched() > 0 &&
-         events_.matched() > 0;
+         presentation_.matched() > 0 && events_.matched() > 0;
 }
 
 bool WorldLink::send_command(std::uint64_t session, std::uint64_t id, std::uint32_t kind, const std::string& argument) {
@@ -86,6 +94,15 @@ void WorldLink::take_status(proto::ReaderView<proto::WorldStatus> view) {
     if (!info.valid || !parse(wire, status)) return;
     const std::lock_guard lock(store_.mutex);
     store_.status = std::move(status);
+  });
+}
+
+void WorldLink::take_presentation(proto::ReaderView<proto::WorldPresentation> view) {
+  view.take_each([this](const proto::WorldPresentation& wire, const proto::SampleInfo& info) {
+    auto presentation = std::make_shared<WorldPresentation>();
+    if (!info.valid || !parse(wire, *presentation)) return;
+    const std::lock_guard lock(store_.mutex);
+    store_.presentation = std::move(presentation);
   });
 }
 

@@ -30,10 +30,13 @@ struct WorldStore {
   FrameHistory history;
   std::map<std::uint32_t, SceneObject> objects;
   std::optional<WorldStatus> status;
+  std::shared_ptr<const WorldPresentation> presentation;
   std::deque<WorldEvent> events;
 
   /// Another world: what was known of the last one goes, but for events that nobody has taken.
   void clear();
+  /// Id of the scenario of this world; empty where it is not known yet.
+  [[nodiscard]] std::string scenario();
 };
 
 /// The link thread makes and destroys it; the end waits for listeners. A world's partition cannot change: another world, or the same
@@ -56,6 +59,7 @@ class WorldLink {
   void take_frames(proto::ReaderView<proto::SceneFrame> view);
   void take_objects(proto::ReaderView<proto::SceneObject> view);
   void take_status(proto::ReaderView<proto::WorldStatus> view);
+  void take_presentation(proto::ReaderView<proto::WorldPresentation> view);
   void take_events(proto::ReaderView<proto::Event> view);
 
   std::string world_;
@@ -67,6 +71,7 @@ class WorldLink {
   proto::Reader<proto::SceneFrame> frames_;
   proto::Reader<proto::SceneObject> objects_;
   proto::Reader<proto::WorldStatus> status_;
+  proto::Reader<proto::WorldPresentation> presentation_;
   proto::Reader<proto::Event> events_;
 };
 

@@ -132,6 +132,7 @@ Expected<std::unique_ptr<Agent>> make_rope(const Build& build) {
   auto rope = read_rope(build);
   if (!rope) return tl::unexpected(rope.error());
   const double way = measure_at_start(build.description, *rope);
+  rope->diameter_m = build.parameters.number("diameter");
   rope->length_m = build.parameters.given("length") ? build.parameters.number("length") : way;
   return std::make_unique<Rope>(build, *rope, rope->length_m);
 }
@@ -186,6 +187,7 @@ constexpr state::ParameterType kRopeParameters[] = {
      .summary = "unstretched, off the drum, at the start; none: as long as its way then",
      .min = 0.001,
      .max = 1e4},
+    {.name = "diameter", .unit = "m", .summary = "as it is drawn", .default_value = 0.02, .min = 1e-3, .max = 0.5},
     {.name = "drum",
      .kind = ParameterKind::text,
      .summary = "the hinge of a drum that it begins on and is wound on",

@@ -47,11 +47,12 @@ void compile_bodies(Compilation& c);      // RigidBodyCollection, RigidBody, mec
 void compile_joints(Compilation& c);      // X3D's joints
 void compile_components(Compilation& c);  // mechane:agent on nodes, agents and machines of the tree
 void compile_quantities(Compilation& c);
+void compile_viewpoints(Compilation& c);
+void compile_effects(Compilation& c);     // of quantities, seen and heard
 void compile_activities(Compilation& c);  // activities and their steps
 void check_components(Compilation& c);    // parameters against their types; names may be of anything above
 void check_goals(Compilation& c);         // rules that no value of their quantity can meet
 void compile_visits(Compilation& c);
-void compile_viewpoints(Compilation& c);
 void compile_hash(Compilation& c);
 
 /// What a careful author would want to hear of a world that compiles: warnings.

@@ -202,6 +202,15 @@ void check_audio(Compilation& c, const Fields& fields, state::StepDescription& s
   }
 }
 
+void read_detail(Compilation& c, const Fields& fields, state::StepDescription& step) {
+  step.detail = fields.string("detail");
+  const auto& views = c.world.viewpoints;
+  const auto named = [&](const state::Viewpoint& view) { return view.name == step.detail; };
+  if (step.detail.empty() || std::any_of(views.begin(), views.end(), named)) return;
+  c.problems.error(fields.line("detail"), fields.where(), fmt::format("no Viewpoint is called '{}'", step.detail),
+                   suggest(step.detail, names_of(views), "add a Viewpoint of that DEF"));
+}
+
 void compile_step(Compilation& c, const Written& activity, const Metadata& set) {
   const std::string where = "step " + set.name;
   const Fields fields(&set, step_table(), where, c.problems);
@@ -218,6 +227,7 @@ void compile_step(Compilation& c, const Written& activity, const Metadata& set) 
   for (const Metadata* trigger : fields.sets_like("trigger:*"))
     read_trigger(c, activity, *trigger, where, step, activity.find(set.name));
   read_timeout(c, activity, fields, step);
+  read_detail(c, fields, step);
   step.opens = fields.string("opens");
   if (fields.given("opens") && !is_id(step.opens)) {
     c.problems.error(fields.line("opens"), where,

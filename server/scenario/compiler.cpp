@@ -139,20 +139,6 @@ void compile_scenario(Compilation& c) {
   c.world.title = read_texts(c, fields.set("text"), "the scenario's text", "title")["title"];
 }
 
-void compile_viewpoints(Compilation& c) {
-  for (const NodeId id : c.document.elements("Viewpoint")) {
-    Attributes attributes(c.document, id, c.problems);
-    state::Viewpoint viewpoint;
-    viewpoint.description = attributes.text("description");
-    viewpoint.X_WV = {attributes.vector("position"), attributes.rotation("orientation")};
-    viewpoint.field_of_view_rad = attributes.number("fieldOfView");
-    if (c.document[id].parent != c.document.scene()) {
-      attributes.warning("the Viewpoint is read without the nodes around it", "put it directly under the Scene");
-    }
-    c.world.viewpoints.push_back(std::move(viewpoint));
-  }
-}
-
 void compile_hash(Compilation& c) {
   std::string all = "mechane-scenario " + c.document.content_hash() + "\n";
   for (const auto& [url, hash] : c.model_hashes)
@@ -168,11 +154,12 @@ void compile_all(Compilation& c) {
   compile_joints(c);
   compile_components(c);
   compile_quantities(c);
+  compile_viewpoints(c);
+  compile_effects(c);
   compile_activities(c);
   check_components(c);
   check_goals(c);
   compile_visits(c);
-  compile_viewpoints(c);
   compile_hash(c);
   if (!c.problems.has_errors() && c.scenario) lint(c);
 }

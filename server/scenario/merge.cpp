@@ -166,7 +166,7 @@ class Merge {
     const NodeId other = tree_of(theirs_);
     if (!tree || !other) return;
     std::string added;
-    for (const char* key : {"agents", "machines", "quantities", "activities", "visits"}) {
+    for (const char* key : {"agents", "machines", "quantities", "activities", "visits", "effects"}) {
       const NodeId set = find_child(theirs_, other, key);
       if (!set) continue;
       if (const NodeId ours = find_child(ours_, tree, key)) {
@@ -264,6 +264,7 @@ void note_renames(const Renames& renames, const std::string& file, std::vector<s
   note("the activity", renames.activities);
   note("the step", renames.steps);
   note("the visit", renames.visits);
+  note("the effect", renames.effects);
 }
 
 /// Reads a file with its paths made right for the folder where the result will lie.

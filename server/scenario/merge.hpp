@@ -18,8 +18,8 @@ struct Merged {
 };
 
 /// Merges files into one that will lie at `out` (paths of meshes and sounds are made relative to it; nothing is written). The first
-/// file's head, title and effort scale are kept; agents, machines, quantities, activities, visits, bodies and all other nodes are of
-/// both. Machines keep their places: two that stand in one place still do. Errors: a file that cannot be read, fewer than two files.
+/// file's head, title and effort scale are kept; agents, machines, quantities, activities, visits, effects, bodies and all other nodes
+/// are of both. Machines keep their places: two that stand in one place still do. Errors: a file that cannot be read, fewer than two files.
 [[nodiscard]] Expected<Merged> merge_files(std::span<const std::string> files, const std::filesystem::path& out);
 
 /// The body of `mechane merge FILE FILE... -o OUT`: merges, checks the result, writes it. Prints notes and problems. Returns the exit

@@ -48,6 +48,7 @@ void collect(const Document& document, NodeId set, const Scope& scope, NamesOf& 
       if (scope.naming == Names::activity) out.activities.insert(name);
       if (scope.naming == Names::step) out.steps.insert(name);
       if (scope.table == &visit_table()) out.visits.insert(name);
+      if (scope.table == &effect_table()) out.effects.insert(name);
     }
     if (document[child].name == "MetadataSet")
       collect(document, child, scope_of_child(document, scope, name, child), out);
@@ -111,6 +112,7 @@ class Renamer {
       case Names::joint:
       case Names::agent:
       case Names::model:
+      case Names::view:
         return &renames_.things;
       case Names::quantity:
         return &renames_.quantities;
@@ -145,6 +147,7 @@ class Renamer {
     if (scope.holds == Holds::components) rename(id, "name", renames_.things);
     if (scope.holds == Holds::named) {
       if (scope.table == &visit_table()) rename(id, "name", renames_.visits);
+      if (scope.table == &effect_table()) rename(id, "name", renames_.effects);
       if (const Map* map = map_for(scope.naming)) rename(id, "name", *map);
     }
     // "object:INNER"
@@ -227,6 +230,7 @@ Renames renames_for(const NamesOf& ours, const NamesOf& theirs) {
   out.activities = new_names(ours.activities, theirs.activities);
   out.steps = new_names(ours.steps, theirs.steps);
   out.visits = new_names(ours.visits, theirs.visits);
+  out.effects = new_names(ours.effects, theirs.effects);
   return out;
 }
 

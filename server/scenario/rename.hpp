@@ -20,6 +20,7 @@ struct NamesOf {
   std::set<std::string> activities;
   std::set<std::string> steps;
   std::set<std::string> visits;
+  std::set<std::string> effects;
 };
 
 [[nodiscard]] NamesOf names_of_file(const Document& document);
@@ -33,10 +34,11 @@ struct Renames {
   std::map<std::string, std::string> activities;
   std::map<std::string, std::string> steps;
   std::map<std::string, std::string> visits;
+  std::map<std::string, std::string> effects;
 
   [[nodiscard]] std::size_t count() const {
     return things.size() + prototypes.size() + exports.size() + quantities.size() + activities.size() + steps.size() +
-           visits.size();
+           visits.size() + effects.size();
   }
 };
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "server/state/description.hpp"
+
 namespace mechane::scenario {
 namespace {
 
@@ -135,6 +137,10 @@ constexpr Key kStepKeys[] = {
      .example = "\"show\"",
      .default_text = "end",
      .names = Names::step},
+    {.name = "detail",
+     .summary = "the DEF of the Viewpoint from which a close-up is shown in a corner of the picture",
+     .example = "\"MECHANISM\"",
+     .names = Names::view},
     {.name = "opens",
      .summary =
          "the id of the scenario that the visitors go on to as this step begins. Where the server has none of that id "
@@ -280,6 +286,49 @@ constexpr Key kVisitKeys[] = {
 };
 constexpr Table kVisit{"visit", "a scripted hand", kVisitKeys};
 
+constexpr Key kEffectKeys[] = {
+    {.name = "kind",
+     .summary = "what is seen or heard. level: a surface of water that rises; stream: water that runs out; jet: water "
+                "or steam "
+                "under pressure, its speed from flow and size; sound.NAME: a sound at that place",
+     .example = "\"stream\"",
+     .required = true,
+     .choices = state::effect_kinds()},
+    {.name = "quantity",
+     .summary = "what drives it: a flow (l/s, l/min) for stream and jet, a height in m for level, else any number",
+     .example = "\"flow\"",
+     .required = true,
+     .names = Names::quantity},
+    {.name = "body", .summary = "what it stays with; none: fixed in W", .example = "\"BARREL\"", .names = Names::body},
+    {.name = "node", .summary = "level: the node of the mesh file that rises", .example = "\"WATER_BASIN\""},
+    {.name = "point", .kind = vector, .unit = "m", .summary = "where, in the body's frame", .example = "0 0.2 1.4"},
+    {.name = "direction", .kind = vector, .summary = "whither, in the body's frame; none: 0 1 0", .example = "0 0 1"},
+    {.name = "full",
+     .kind = number,
+     .summary = "the quantity's value at which it is at its strongest",
+     .example = "1.5",
+     .default_number = 1,
+     .min = 1e-9,
+     .max = 1e9},
+    {.name = "size",
+     .kind = number,
+     .unit = "m",
+     .summary = "how large: a jet's bore, a fire's width",
+     .example = "0.3",
+     .default_number = 0.02,
+     .min = 1e-3,
+     .max = 10},
+    {.name = "speed",
+     .kind = number,
+     .unit = "m/s",
+     .summary = "how fast water or steam leaves; of a jet of water the flow says so",
+     .example = "0.6",
+     .default_number = 0.5,
+     .min = 0,
+     .max = 100},
+};
+constexpr Table kEffect{"effect", "something seen or heard of a machine's working, driven by a quantity", kEffectKeys};
+
 constexpr Key kScenarioKeys[] = {
     {.name = "format", .kind = number, .summary = "version of these tables", .example = "1", .required = true},
     {.name = "id",
@@ -323,6 +372,11 @@ constexpr Key kScenarioKeys[] = {
      .kind = set,
      .summary = "sets named as the scripted visits",
      .inner = &kVisit,
+     .free_names = true},
+    {.name = "effects",
+     .kind = set,
+     .summary = "sets named as what is seen and heard beside the bodies: water, steam, fire",
+     .inner = &kEffect,
      .free_names = true},
 };
 constexpr Table kScenario{"mechane:scenario", "on the WorldInfo: all that X3D itself cannot say", kScenarioKeys};
@@ -389,9 +443,9 @@ constexpr Key kBodyKeys[] = {
 };
 constexpr Table kBody{"mechane:body", "on a RigidBody: its shape in a mesh file", kBodyKeys};
 
-constexpr std::array<const Table*, 13> kTables{&kScenario, &kQuantity, &kActivity, &kQuestion, &kStep,
+constexpr std::array<const Table*, 14> kTables{&kScenario, &kQuantity, &kActivity, &kQuestion, &kStep,
                                                &kOverride, &kTrigger,  &kRule,     &kText,     &kVisit,
-                                               &kMove,     &kHaptic,   &kBody};
+                                               &kMove,     &kEffect,   &kHaptic,   &kBody};
 
 }  // namespace
 
@@ -414,6 +468,9 @@ const Table& question_table() {
 }
 const Table& step_table() {
   return kStep;
+}
+const Table& effect_table() {
+  return kEffect;
 }
 const Table& override_table() {
   return kOverride;

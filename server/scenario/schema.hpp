@@ -24,7 +24,7 @@ enum class ValueKind {
 };
 
 /// What a string names.
-enum class Names { nothing, body, joint, agent, quantity, step, activity, model, source, language };
+enum class Names { nothing, body, joint, agent, quantity, step, activity, model, source, language, view };
 
 struct Table;
 
@@ -62,6 +62,7 @@ inline constexpr int kFormatVersion = 1;
 [[nodiscard]] const Table& activity_table();
 [[nodiscard]] const Table& question_table();  ///< one of an activity's questionnaire
 [[nodiscard]] const Table& step_table();
+[[nodiscard]] const Table& effect_table();    ///< one of the scenario's effects
 [[nodiscard]] const Table& override_table();  ///< `object:NAME` in a step
 [[nodiscard]] const Table& trigger_table();   ///< `trigger:N` in a step
 [[nodiscard]] const Table& rule_table();      ///< `rule:N` in a trigger

@@ -55,6 +55,7 @@ constexpr Key kInline[] = {
      .required = true},
 };
 constexpr Key kViewpoint[] = {
+    kDef,
     {.name = "description", .summary = "its name in lists; displays ask for it", .example = "front"},
     {.name = "position", .kind = vector, .unit = "m", .summary = "where the eye is", .example = "0 1.2 4"},
     {.name = "orientation",

@@ -48,7 +48,8 @@ struct Coupling {
   double sign = 1;  ///< stop
   std::array<RopeNode, kMaxRopeNodes> nodes{};
   std::uint32_t node_count = 0;
-  bool drum = false;  ///< the first node is a drum that turns with joint1
+  bool drum = false;         ///< the first node is a drum that turns with joint1
+  double diameter_m = 0.02;  ///< rope: as it is drawn
   Vec3 drum_start_1 =
       Vec3::UnitX();  ///< from the drum's centre to where the rope leaves it at the start, in body1, unit length
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -134,6 +135,7 @@ struct StepDescription {
   double hint_after_s = 20;
   double timeout_s = 0;   ///< the step is left after so long, whatever holds; 0: never
   StepId timeout_next{};  ///< the step that follows then; none: the activity is done
+  std::string detail{};   ///< name of the Viewpoint from which a close-up is shown; empty: none
   std::string opens{};    ///< id of the scenario that the visitors go on to as this step begins; empty: they stay
 };
 
@@ -185,10 +187,33 @@ struct VisitDescription {
 };
 
 struct Viewpoint {
+  std::string name;  ///< DEF; empty: it has none
   std::string description;
   Pose X_WV;  ///< looks along -z, y up, as X3D
   double field_of_view_rad = kPi / 4;
 };
+
+/// What is seen or heard of a machine's working beside its bodies: water, steam, fire. Physics knows nothing of it; a quantity of
+/// the world drives it, so that it stands still when the world does.
+struct EffectDescription {
+  std::string name;
+  std::string kind;  ///< one of effect_kinds()
+  BodyId body;       ///< none: fixed in W
+  std::string node;  ///< `level`: the node of the mesh file that rises
+  Vec3 p_BE = Vec3::Zero();
+  Vec3 direction_B = Vec3::UnitY();  ///< unit
+  QuantityId quantity;
+  double full = 1;  ///< value of the quantity at which it is at its strongest
+  double size_m = 0.02;
+  double speed_m_per_s = 0.5;
+};
+
+/// The kinds of effects that displays know, separated by blanks.
+[[nodiscard]] constexpr std::string_view effect_kinds() {
+  return "level stream jet spray steam smoke fire dust sound.water sound.wood sound.rope sound.stone sound.fire "
+         "sound.steam "
+         "sound.ratchet sound.bow";
+}
 
 struct WorldDescription {
   std::string id;            ///< "archimedes-screw"
@@ -207,7 +232,8 @@ struct WorldDescription {
   std::vector<ActivityDescription> activities;
   std::vector<StepDescription> steps;
   std::vector<VisitDescription> visits;
-  std::vector<Viewpoint> viewpoints;
+  std::vector<Viewpoint> viewpoints;  ///< the first is where a display stands
+  std::vector<EffectDescription> effects;
 
   [[nodiscard]] BodyId find_body(const std::string& name) const;
   [[nodiscard]] JointId find_joint(const std::string& name) const;

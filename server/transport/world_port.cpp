@@ -103,6 +103,11 @@ std::optional<std::uint32_t> WorldPort::take_wish() {
   return newest;
 }
 
+std::optional<VisitAnswer> WorldPort::take_answer() {
+  VisitAnswer answer;
+  return answers_.pop(answer) ? std::optional(answer) : std::nullopt;
+}
+
 void WorldPort::collect() {
   const std::uint64_t in_use = generation_in_use_.load(std::memory_order_acquire);
   std::erase_if(retired_, [&](const Retired& r) { return r.generation <= in_use; });
@@ -182,6 +187,10 @@ void WorldPort::publish_snapshot(const state::WorldState& state) noexcept {
   s.progress = state.progress;
   for (std::size_t i = 0; i < s.hands.size(); ++i)
     s.hands[i] = snapshot_of(state.users[i], current_.names[i]);
+  s.rope_count = 0;
+  for (const state::Coupling& coupling : state.couplings) {
+    if (coupling.kind == state::CouplingKind::rope && s.rope_count < s.ropes.size()) s.ropes[s.rope_count++] = coupling;
+  }
   snapshots_.commit();
 }
 

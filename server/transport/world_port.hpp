@@ -14,6 +14,7 @@
 #include "server/state/description.hpp"
 #include "server/state/input.hpp"
 #include "server/state/world_state.hpp"
+#include "server/transport/visit_answer.hpp"
 
 namespace mechane::transport {
 
@@ -38,6 +39,8 @@ struct HandSnapshot {
   Vec3 f_W = Vec3::Zero();
 };
 
+inline constexpr std::size_t kMaxShownRopes = 8;
+
 /// All that displays and status need of one tick. Its vectors are sized once.
 struct SceneSnapshot {
   std::uint64_t tick = 0;
@@ -48,6 +51,8 @@ struct SceneSnapshot {
   std::vector<std::uint8_t> agent_enabled;
   state::Progress progress;
   std::array<HandSnapshot, state::kMaxUsers> hands{};
+  std::array<state::Coupling, kMaxShownRopes> ropes{};  ///< the first so many of the world
+  std::size_t rope_count = 0;
 };
 
 /// Made and owned by ServerTransport. The main thread binds users; one loop thread gathers and publishes.
@@ -84,6 +89,8 @@ class WorldPort {
   [[nodiscard]] std::size_t free_slot() const;
   /// The newest wish of somebody at a kiosk of this world: the scenario to go on to, by its place in TransportConfig::scenarios.
   [[nodiscard]] std::optional<std::uint32_t> take_wish();
+  /// The next answer of a visitor, in the order in which they came.
+  [[nodiscard]] std::optional<VisitAnswer> take_answer();
   /// Lets go of lanes that the loop has stopped using. ServerTransport::poll() calls it.
   void collect();
 
@@ -100,6 +107,7 @@ class WorldPort {
   // The other sides, each for one thread of the transport's.
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
   bool offer_wish(std::uint32_t scenario) noexcept { return wishes_.push(scenario); }             ///< command listener
+  bool offer_answer(const VisitAnswer& answer) noexcept { return answers_.push(answer); }         ///< command listener
   [[nodiscard]] const SceneSnapshot* take_snapshot() noexcept { return snapshots_.take(); }       ///< scene publisher
   bool take_event(state::Event& out) noexcept { return events_.pop(out); }                        ///< scene publisher
   [[nodiscard]] std::uint64_t events_lost() const noexcept { return events_lost_.load(std::memory_order_relaxed); }
@@ -137,6 +145,7 @@ class WorldPort {
   realtime::Ring<state::Event> events_{kEventCapacity};
   realtime::Ring<state::Command> commands_{kCommandCapacity};
   realtime::Ring<std::uint32_t> wishes_{8};
+  realtime::Ring<VisitAnswer> answers_{64};
   std::atomic<std::uint64_t> events_lost_{0};
 
   // Loop thread's.

@@ -3,27 +3,21 @@
 #include <algorithm>
 #include <chrono>
 
+#include "server/state/rope_shape.hpp"
 #include "server/transport/names.hpp"
+#include "server/transport/presentation.hpp"
+#include "server/transport/wire_texts.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::transport {
 namespace {
 
-constexpr std::uint32_t kOpen = 5;  // the kind of a command that is the main thread's, not the tick's
+// Kinds of commands that are the main thread's, not the tick's.
+constexpr std::uint32_t kOpen = 5;
+constexpr std::uint32_t kAnswer = 6;
 
 std::uint64_t now_ns() {
   return to_ns(std::chrono::steady_clock::now());
-}
-
-/// Texts by language as wire texts; the map must outlive them.
-std::vector<proto::WireText> wire_texts(const state::Texts& texts) {
-  std::vector<proto::WireText> wire;
-  for (const auto& [language, text] : texts) {
-    proto::WireText& one = wire.emplace_back();
-    proto::set_text(one.language, language);
-    one.content = proto::look_into(text);
-  }
-  return wire;
 }
 
 const state::Texts& texts_of(const state::StepDescription* step, const std::string& which) {
@@ -75,6 +69,8 @@ Expected<std::unique_ptr<WorldWriter>> WorldWriter::create(const proto::Particip
   std::optional<Error> fault = open(made->frames_, proto::Writer<proto::SceneFrame>::create(participant, partition));
   if (!fault) fault = open(made->objects_, proto::Writer<proto::SceneObject>::create(participant, partition));
   if (!fault) fault = open(made->status_, proto::Writer<proto::WorldStatus>::create(participant, partition));
+  if (!fault)
+    fault = open(made->presentation_, proto::Writer<proto::WorldPresentation>::create(participant, partition));
   if (!fault) fault = open(made->events_, proto::Writer<proto::Event>::create(participant, partition));
   if (!fault) {
     fault = open(made->commands_, proto::Reader<proto::Command>::create(
@@ -93,6 +89,7 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
     state::Command command;
     command.id = wire.id;
     if (wire.kind == kOpen) return take_wish(proto::string_of(wire.argument), wire.id);
+    if (wire.kind == kAnswer) return take_answer(proto::string_of(wire.argument), wire.id);
     if (wire.kind < 1 || wire.kind > 4) return refuse(wire.id);
     command.kind = static_cast<state::CommandKind>(wire.kind);
     if (command.kind == state::CommandKind::start_activity) {
@@ -114,6 +111,12 @@ void WorldWriter::take_wish(const std::string& scenario, std::uint64_t id) {
     refuse(id);
 }
 
+void WorldWriter::take_answer(const std::string& argument, std::uint64_t id) {
+  const auto answer = read_answer(argument, port_.description());
+  if (!answer || !port_.offer_answer(*answer)) return refuse(id);
+  reply(id, state::EventKind::command_done);
+}
+
 bool WorldWriter::is_new(std::uint64_t session, std::uint64_t id) {
   const auto known = std::find_if(heard_.begin(), heard_.end(), [&](const Heard& h) { return h.session == session; });
   if (known != heard_.end()) {
@@ -126,8 +129,12 @@ bool WorldWriter::is_new(std::uint64_t session, std::uint64_t id) {
 }
 
 void WorldWriter::refuse(std::uint64_t id) {
-  // A full ring: somebody sends refused commands faster than they can be answered; those go unanswered.
-  if (!refused_.push(id)) rejects_.add(Reject::bad_value);
+  reply(id, state::EventKind::command_refused);
+}
+
+void WorldWriter::reply(std::uint64_t id, state::EventKind kind) {
+  // A full ring: somebody sends commands faster than they can be answered; those go unanswered.
+  if (!replies_.push({id, kind})) rejects_.add(Reject::bad_value);
 }
 
 void WorldWriter::write_manifest() {
@@ -156,6 +163,7 @@ void WorldWriter::write_manifest() {
     o.dynamic_friction = static_cast<float>(body.haptic.dynamic_friction);
     count(objects_.write(o));
   }
+  count(presentation_.write(Presentation(port_.world(), world).wire()));
 }
 
 void WorldWriter::write() {
@@ -172,13 +180,13 @@ void WorldWriter::write() {
   }
   while (port_.take_event(event))
     write_event(event);
-  std::uint64_t id = 0;
-  while (refused_.pop(id)) {
-    state::Event refusal;
-    refusal.tick = last_ ? last_->tick : 0;
-    refusal.kind = state::EventKind::command_refused;
-    refusal.value = static_cast<double>(id);
-    write_event(refusal);
+  Reply reply;
+  while (replies_.pop(reply)) {
+    state::Event answer;
+    answer.tick = last_ ? last_->tick : 0;
+    answer.kind = reply.kind;
+    answer.value = static_cast<double>(reply.id);
+    write_event(answer);
   }
 }
 
@@ -213,6 +221,7 @@ void WorldWriter::write_frame(const SceneSnapshot& snapshot) {
     wire.X_WS._length = wire.X_WS._maximum = static_cast<std::uint32_t>(segments);
     proto::set_vec3(wire.f_W, hand.f_W);
   }
+  set_ropes(snapshot);
   SceneSnapshot copy = snapshot;  // wire sequences point at writable buffers, though nobody writes to them
   proto::SceneFrame frame{};
   proto::set_text(frame.world, port_.world());
@@ -224,7 +233,25 @@ void WorldWriter::write_frame(const SceneSnapshot& snapshot) {
   proto::look_into(frame.visible, copy.visible);
   proto::look_into(frame.quantities, copy.quantities);
   proto::look_into(frame.hands, hands_);
+  proto::look_into(frame.ropes, ropes_);
   count(frames_.write(frame));
+}
+
+void WorldWriter::set_ropes(const SceneSnapshot& snapshot) {
+  const Vec3 g_W = port_.description().gravity_W;
+  const Vec3 down_W = g_W.norm() > 0 ? Vec3(g_W.normalized()) : Vec3(0, -1, 0);
+  ropes_.resize(snapshot.rope_count);
+  rope_points_.resize(snapshot.rope_count);
+  for (std::size_t i = 0; i < snapshot.rope_count; ++i) {
+    const std::vector<Vec3> shape = state::rope_shape(snapshot.ropes[i], snapshot.bodies, down_W);
+    rope_points_[i].clear();
+    for (const Vec3& p_W : shape) {
+      for (int k = 0; k < 3; ++k)
+        rope_points_[i].push_back(static_cast<float>(p_W[k]));
+    }
+    ropes_[i].diameter_m = static_cast<float>(snapshot.ropes[i].diameter_m);
+    proto::look_into(ropes_[i].p_W, rope_points_[i]);
+  }
 }
 
 void WorldWriter::write_status(const SceneSnapshot& snapshot) {
@@ -246,6 +273,8 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
   auto title = wire_texts(world.title);
   auto caption = wire_texts(texts_of(step, "caption"));
   auto hint = wire_texts(texts_of(step, "hint"));
+  auto narration = wire_texts(texts_of(step, "narration"));
+  auto audio = wire_texts(texts_of(step, "audio"));
 
   proto::WorldStatus status{};
   proto::set_text(status.world, port_.world());
@@ -270,6 +299,9 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
   proto::look_into(status.title, title);
   proto::look_into(status.caption, caption);
   proto::look_into(status.hint_text, hint);
+  proto::look_into(status.narration, narration);
+  proto::look_into(status.audio, audio);
+  status.detail = proto::look_into(step != nullptr ? step->detail : none);
   proto::look_into(status.activities, activities);
   count(status_.write(status));
 }

@@ -37,7 +37,10 @@ class WorldWriter {
   void take_commands(proto::ReaderView<proto::Command> view);
   /// Whether a command was not heard before: a link that was cut and found again brings those of the last seconds twice.
   [[nodiscard]] bool is_new(std::uint64_t session, std::uint64_t id);
+  void take_answer(const std::string& argument, std::uint64_t id);
   void refuse(std::uint64_t id);
+  void reply(std::uint64_t id, state::EventKind kind);
+  void set_ropes(const SceneSnapshot& snapshot);
   void write_frame(const SceneSnapshot& snapshot);
   void write_status(const SceneSnapshot& snapshot);
   void write_event(const state::Event& event);
@@ -47,7 +50,13 @@ class WorldWriter {
   WorldPort& port_;
   RejectCounters& rejects_;
   const std::vector<std::string>& scenarios_;
-  realtime::Ring<std::uint64_t> refused_{64};  // command listener to publisher
+
+  /// To a command that the tick does not see.
+  struct Reply {
+    std::uint64_t id = 0;
+    state::EventKind kind = state::EventKind::command_refused;
+  };
+  realtime::Ring<Reply> replies_{64};  // command listener to publisher
 
   struct Heard {
     std::uint64_t session = 0;  // a client's own are odd
@@ -65,9 +74,12 @@ class WorldWriter {
   std::vector<proto::WireBodyPose> bodies_;
   std::vector<proto::WireHandPose> hands_;
   std::array<std::array<proto::WirePose, state::kHandSegments>, state::kMaxUsers> segments_;
+  std::vector<proto::WireRope> ropes_;
+  std::vector<std::vector<float>> rope_points_;
   proto::Writer<proto::SceneFrame> frames_;
   proto::Writer<proto::SceneObject> objects_;
   proto::Writer<proto::WorldStatus> status_;
+  proto::Writer<proto::WorldPresentation> presentation_;
   proto::Writer<proto::Event> events_;
   proto::Reader<proto::Command> commands_;  // last: its listener ends first
 };

@@ -12,7 +12,7 @@
 namespace mechane::proto {
 
 /// Version of idl/mechane.idl. Raise it when a field changes its meaning; receivers drop samples of another version.
-inline constexpr std::uint32_t kProtocol = 1;
+inline constexpr std::uint32_t kProtocol = 2;
 inline constexpr std::size_t kMaxUsers = 4;
 inline constexpr std::size_t kMaxLocalContacts = 8;
 
@@ -21,6 +21,7 @@ using HapticOutput = ::mechane_HapticOutput;
 using SceneFrame = ::mechane_SceneFrame;
 using SceneObject = ::mechane_SceneObject;
 using WorldStatus = ::mechane_WorldStatus;
+using WorldPresentation = ::mechane_WorldPresentation;
 using Event = ::mechane_Event;
 using Command = ::mechane_Command;
 using WorldAssignment = ::mechane_WorldAssignment;
@@ -32,6 +33,12 @@ using WireBodyPose = ::mechane_BodyPose;
 using WireHandPose = ::mechane_HandPose;
 using WireText = ::mechane_Text;
 using WireQuantity = ::mechane_Quantity;
+using WireRope = ::mechane_RopeShape;
+using WireAnswer = ::mechane_Answer;
+using WireQuestion = ::mechane_Question;
+using WireActivity = ::mechane_Activity;
+using WireView = ::mechane_View;
+using WireEffect = ::mechane_Effect;
 using HandOwner = ::mechane_HandOwner;
 
 /// Where a topic's endpoints live.
@@ -55,6 +62,7 @@ MECHANE_PROTO_TOPIC(HapticOutput, kiosk, haptic_output_qos);
 MECHANE_PROTO_TOPIC(SceneFrame, world, scene_frame_qos);
 MECHANE_PROTO_TOPIC(SceneObject, world, scene_object_qos);
 MECHANE_PROTO_TOPIC(WorldStatus, world, world_status_qos);
+MECHANE_PROTO_TOPIC(WorldPresentation, world, world_status_qos);
 MECHANE_PROTO_TOPIC(Event, world, event_qos);
 MECHANE_PROTO_TOPIC(Command, world, command_qos);
 MECHANE_PROTO_TOPIC(WorldAssignment, museum, world_assignment_qos);

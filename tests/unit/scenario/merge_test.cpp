@@ -74,6 +74,12 @@ TEST_F(MergeFiles, TheScrewWithItselfIsTwoScrews) {
   EXPECT_EQ(two.quantities[two.find_quantity("basin_2").index()].source, "PUMP_2.basin_l");
   EXPECT_EQ(two.visits[3].activity, two.find_activity("use_2"));
   EXPECT_EQ(two.visits[3].moves[0].body, two.find_body("INNER_2"));
+  ASSERT_EQ(two.effects.size(), 2 * one.effects.size());
+  const auto& spout = two.effects[one.effects.size() + 1];
+  EXPECT_EQ(spout.name, "SPOUT_2");
+  EXPECT_EQ(spout.body, two.find_body("OUTER_2"));
+  EXPECT_EQ(spout.quantity, two.find_quantity("flow_2"));
+  EXPECT_EQ(two.steps[two.find_step("fill_2").index()].detail, "BASIN_VIEW_2");
   const auto& placed = two.agents[two.find_agent("SEATED_2").index()];
   EXPECT_EQ(std::get<std::vector<std::string>>(placed.parameters.at("snap")), std::vector<std::string>{"SEAT_2"});
 }

@@ -25,6 +25,9 @@ struct ClientConfig {
   std::uint32_t domain = 0;  ///< DDS domain; the network is set up by CYCLONEDDS_URI
 };
 
+/// When a question is answered: what was learnt is the difference.
+enum class AnswerTime { before, after };
+
 enum class LinkState {
   searching,  ///< no server has answered yet
   joined,     ///< in a world
@@ -69,6 +72,8 @@ class Client {
 
   [[nodiscard]] virtual std::vector<SceneObject> objects() const = 0;  ///< the manifest as known so far
   [[nodiscard]] virtual std::optional<WorldStatus> world_status() const = 0;
+  /// Of the world that the client is in; null until it has come.
+  [[nodiscard]] virtual std::shared_ptr<const WorldPresentation> presentation() const = 0;
   [[nodiscard]] virtual std::optional<ServerStatus> server_status() const = 0;
   /// Events since the last call, oldest first (the last 256 are kept).
   [[nodiscard]] virtual std::vector<WorldEvent> take_events() = 0;
@@ -83,6 +88,10 @@ class Client {
   /// The kiosks of this world go on to another scenario; empty: home, the server's first. ServerStatus::scenarios has the ids. What
   /// answers is the new world (see world_status()), or command_refused.
   virtual std::uint64_t open_exhibit(const std::string& scenario) = 0;
+  /// A visitor's answer to a question of an activity: the answer's name, or the mark from 1 on. Kept with the visit, without anybody's
+  /// name. command_refused where there is no such question or answer.
+  virtual std::uint64_t answer(AnswerTime when, const std::string& activity, const std::string& question,
+                               const std::string& answer) = 0;
 };
 
 }  // namespace mechane::client

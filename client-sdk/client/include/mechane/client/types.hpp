@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,7 +74,13 @@ struct HandPose {
   bool holding = false;
 };
 
-/// One frame of a world: every movable pose, every quantity, every hand.
+/// A rope's middle as a line, from what is wound on a drum to its end.
+struct RopeShape {
+  double diameter_m = 0.02;
+  std::vector<Vec3> points_W;  ///< empty: it is off (cut); else as many in each frame
+};
+
+/// One frame of a world: every movable pose, every quantity, every hand, every rope.
 struct Frame {
   std::uint64_t sequence = 0;
   std::uint64_t tick = 0;
@@ -82,6 +89,7 @@ struct Frame {
   std::vector<std::uint8_t> visible;  ///< by object index
   std::vector<double> quantities;     ///< in the order of WorldStatus::quantities
   std::vector<HandPose> hands;
+  std::vector<RopeShape> ropes;
 };
 
 /// One object of the manifest.
@@ -101,7 +109,10 @@ struct QuantityInfo {
   std::string unit;
 };
 
-/// Where the visit is. Texts by language.
+/// Text by language code.
+using Texts = std::map<std::string, std::string>;
+
+/// Where the visit is.
 struct WorldStatus {
   std::string world;
   std::string scenario;  ///< id
@@ -115,10 +126,66 @@ struct WorldStatus {
   bool hint = false;
   std::vector<std::string> enabled_agents;
   std::vector<QuantityInfo> quantities;
-  std::map<std::string, std::string> title;  ///< by language
-  std::map<std::string, std::string> caption;
-  std::map<std::string, std::string> hint_text;
+  Texts title;
+  Texts caption;
+  Texts hint_text;
   std::vector<std::string> activities;
+  Texts narration;     ///< what is read aloud in this step
+  Texts audio;         ///< its recording, by path from the scenario's folder, where the author named one
+  std::string detail;  ///< a view of the presentation: a close-up belongs to this step; empty: none
+};
+
+/// A question of an activity, for before and after it.
+struct Question {
+  enum class Kind { choice, scale };
+  struct Answer {
+    std::string name;
+    Texts text;
+  };
+  std::string name;
+  Kind kind = Kind::choice;
+  Texts text;
+  std::vector<Answer> answers;  ///< choice: in the order shown
+  std::uint32_t marks = 0;      ///< scale: how many
+  Texts low;                    ///< scale: what its ends mean
+  Texts high;
+};
+
+struct Activity {
+  std::string name;
+  Texts title;
+  Texts goal;  ///< what a visitor shall learn
+  std::vector<Question> questions;
+};
+
+/// From where to look.
+struct View {
+  std::string name;
+  Pose X_WV;                           ///< looks along -z, y up
+  double field_of_view_rad = kPi / 4;  ///< of the picture's shorter side
+};
+
+/// Something seen or heard of a machine's working, driven by a quantity of the frames.
+struct Effect {
+  std::string name;
+  std::string kind;                     ///< level, stream, jet, spray, steam, smoke, fire, dust, or sound.NAME
+  std::optional<std::uint32_t> object;  ///< that it stays with; none: fixed in W
+  std::string node;                     ///< level: the node of the mesh file that rises
+  Vec3 p_BE = Vec3::Zero();             ///< in the object's frame
+  Vec3 direction_B = Vec3::UnitY();     ///< unit
+  std::uint32_t quantity = 0;           ///< into Frame::quantities
+  double full = 1;                      ///< its value at which the effect is at its strongest
+  double size_m = 0;
+  double speed_m_per_s = 0;
+};
+
+/// What a display shows of a world and that never changes.
+struct WorldPresentation {
+  std::string world;
+  std::vector<std::string> languages;  ///< codes; the first is shown first
+  std::vector<Activity> activities;
+  std::vector<View> views;  ///< the first is where a display stands
+  std::vector<Effect> effects;
 };
 
 struct WorldEvent {

@@ -1,0 +1,102 @@
+// Viewpoints, and the effects that are seen and heard beside the bodies.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "server/scenario/compilation.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+QuantityId read_quantity(Compilation& c, const Fields& fields) {
+  const std::string name = fields.string("quantity");
+  const QuantityId quantity = c.world.find_quantity(name);
+  if (fields.given("quantity") && !quantity) {
+    c.problems.error(fields.line("quantity"), fields.where(), fmt::format("no quantity is called '{}'", name),
+                     suggest(name, names_of(c.world.quantities), "add it to the scenario's quantities"));
+  }
+  return quantity;
+}
+
+BodyId read_body(Compilation& c, const Fields& fields) {
+  if (!fields.given("body")) return BodyId::none();
+  const std::string name = fields.string("body");
+  const BodyId body = c.world.find_body(name);
+  if (!body) {
+    c.problems.error(fields.line("body"), fields.where(), fmt::format("no body is called '{}'", name),
+                     suggest(name, names_of(c.world.bodies), "add a RigidBody of that DEF"));
+  }
+  return body;
+}
+
+/// A displayed flow has to be one: what a display makes of it is a width or a speed.
+void check_unit(Compilation& c, const Fields& fields, const state::EffectDescription& effect) {
+  const bool flow = effect.kind == "stream" || effect.kind == "jet";
+  const bool height = effect.kind == "level";
+  if (!effect.quantity || !(flow || height)) return;
+  const std::string& unit = c.world.quantities[effect.quantity.index()].unit;
+  const bool fits = flow ? unit == "l/s" || unit == "l/min" || unit == "m3/s" || unit == "kg/s" : unit == "m";
+  if (fits) return;
+  c.problems.error(fields.line("quantity"), fields.where(),
+                   fmt::format("a {} is driven by a {}, and '{}' has the unit '{}'", effect.kind,
+                               flow ? "flow" : "height", fields.string("quantity"), unit),
+                   flow ? "name a quantity with the unit l/s, l/min, m3/s or kg/s" : "name a quantity with the unit m");
+}
+
+state::EffectDescription read_effect(Compilation& c, const Metadata& set) {
+  const Fields fields(&set, effect_table(), "effect " + set.name, c.problems);
+  state::EffectDescription effect;
+  effect.name = set.name;
+  effect.kind = fields.string("kind");
+  effect.body = read_body(c, fields);
+  effect.node = fields.string("node");
+  effect.quantity = read_quantity(c, fields);
+  effect.full = fields.number("full");
+  effect.size_m = fields.number("size");
+  effect.speed_m_per_s = fields.number("speed");
+  effect.p_BE = fields.vector("point");
+  if (fields.given("direction")) {
+    effect.direction_B = fields.vector("direction");
+    if (effect.direction_B.norm() < 1e-9) {
+      c.problems.error(fields.line("direction"), fields.where(), "the direction has no length",
+                       "write a vector, like 0 1 0");
+    } else {
+      effect.direction_B.normalize();
+    }
+  }
+  if (effect.kind == "level" && effect.node.empty())
+    c.problems.error(set.line, fields.where(), "nothing rises", "name the node of the mesh file in the key node");
+  check_unit(c, fields, effect);
+  return effect;
+}
+
+}  // namespace
+
+void compile_effects(Compilation& c) {
+  const Metadata* tree = tree_set(c, "effects");
+  if (tree == nullptr) return;
+  for (const Metadata& set : tree->children) {
+    if (set.kind != MetadataKind::set) {
+      c.problems.error(set.line, "effect " + set.name, "the effect is not a set", "write a MetadataSet");
+    } else {
+      c.world.effects.push_back(read_effect(c, set));
+    }
+  }
+}
+
+void compile_viewpoints(Compilation& c) {
+  for (const NodeId id : c.document.elements("Viewpoint")) {
+    Attributes attributes(c.document, id, c.problems);
+    state::Viewpoint viewpoint;
+    viewpoint.name = attributes.text("DEF");
+    viewpoint.description = attributes.text("description");
+    viewpoint.X_WV = {attributes.vector("position"), attributes.rotation("orientation")};
+    viewpoint.field_of_view_rad = attributes.number("fieldOfView");
+    if (c.document[id].parent != c.document.scene()) {
+      attributes.warning("the Viewpoint is read without the nodes around it", "put it directly under the Scene");
+    }
+    c.world.viewpoints.push_back(std::move(viewpoint));
+  }
+}
+
+}  // namespace mechane::scenario

@@ -1,0 +1,53 @@
+// Effects and close-ups of a scenario: read, and faults said with a remedy.
+#include <gtest/gtest.h>
+
+#include "tests/unit/scenario/scenario_fixture.hpp"
+
+namespace mechane::scenario {
+namespace {
+
+TEST(Effects, AreReadFromTheShippedFile) {
+  const state::WorldDescription world = *compile_text(text_of(shipped_file())).world;
+  const auto spout =
+      std::find_if(world.effects.begin(), world.effects.end(), [](const auto& e) { return e.kind == "stream"; });
+  ASSERT_NE(spout, world.effects.end());
+  EXPECT_EQ(spout->name, "SPOUT");
+  EXPECT_EQ(spout->body, world.find_body("OUTER"));
+  EXPECT_EQ(spout->quantity, world.find_quantity("flow"));
+  EXPECT_NEAR(spout->direction_B.norm(), 1, 1e-12);
+  EXPECT_NEAR(spout->p_BE.z(), 1.13, 1e-9);
+  EXPECT_DOUBLE_EQ(spout->speed_m_per_s, 0.55);
+  EXPECT_EQ(world.steps[world.find_step("fill").index()].detail, "BASIN_VIEW");
+  ASSERT_EQ(world.viewpoints.size(), 2U);
+  EXPECT_EQ(world.viewpoints[1].name, "BASIN_VIEW");
+}
+
+TEST(Effects, FaultsAreSaidWithTheirRemedy) {
+  const auto expect_error = [](const Outcome& outcome, const std::string& words) {
+    const Problem problem = outcome.find(words);
+    EXPECT_EQ(problem.severity, Severity::error) << to_string(problem);
+    EXPECT_GT(problem.line, 0);
+    EXPECT_FALSE(problem.remedy.empty());
+  };
+  expect_error(compile_text(edited("'\"stream\"'", "'\"streem\"'")), "'streem' is none of: level stream");
+  const std::string body = "<MetadataString containerField='value' name='body' value=";
+  expect_error(
+      compile_text(edited(body + "'\"OUTER\"'/>\n            <MetadataDouble containerField='value' name='point'",
+                          body + "'\"OTER\"'/>\n            <MetadataDouble containerField='value' name='point'")),
+      "did you mean 'OUTER'?");
+  const std::string flow =
+      "<MetadataString containerField='value' name='quantity' value='\"flow\"'/>\n            "
+      "<MetadataDouble containerField='value' name='full' value='3'/>";
+  const auto driven_by = [&](const std::string& quantity) {
+    return edited(flow, "<MetadataString containerField='value' name='quantity' value='\"" + quantity + "\"'/>");
+  };
+  expect_error(compile_text(driven_by("flw")), "did you mean 'flow'?");
+  expect_error(compile_text(driven_by("speed")), "a stream is driven by a flow, and 'speed' has the unit 'rpm'");
+  expect_error(compile_text(edited("value='-0.5083 0 0.8612'", "value='0 0 0'")), "the direction has no length");
+  expect_error(compile_text(edited("<MetadataString containerField='value' name='node' value='\"WATER_BASIN\"'/>", "")),
+               "nothing rises");
+  expect_error(compile_text(edited("'\"BASIN_VIEW\"'", "'\"BASIN_VIW\"'")), "did you mean 'BASIN_VIEW'?");
+}
+
+}  // namespace
+}  // namespace mechane::scenario
