@@ -37,6 +37,9 @@ const HandJoints kOpen = bent(0.1, 0.15, 0.15);
 const HandJoints kClosed = bent(0.5, 0.9, 0.9);
 const HandJoints kPointing = bent(0.6, 0, 1.3);
 constexpr double kClosesInS = 0.3;
+// A whole hand comes from above on what it is to carry, lest its fingers, which are long, push it away or catch it by its side.
+constexpr double kOverM = 0.12;
+constexpr double kUpAfter = 0.5, kOverAfter = 0.75, kDownFrom = 0.65;  // shares of the reach's time
 
 /// The palm down, the fingers across the axis: away from the visitor, who looks along -z, or to his right.
 Quat across(const Vec3& axis_W) {
@@ -116,6 +119,7 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   empty_s_ = 0;
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
+  over_m_ = 0;
   if (move.kind == VisitMove::Kind::reach) {
     if (config_.kind == client::HandKind::glove && config_.shapes_hand) shape_hand();
     if (index_ != last_reach_) fetched_again_ = 0;
@@ -155,6 +159,7 @@ void VisitPlayer::shape_hand() {
     p_HG_.setZero();
     X_WH_goal_.R.setIdentity();
     joints_goal_ = kOpen;
+    over_m_ = kOverM;
   }
 }
 
@@ -210,9 +215,15 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double
 }
 
 void VisitPlayer::move_hand_towards_goal(double duration_s) {
-  const double s = duration_s > 0 ? minimum_jerk(time_s_ / duration_s) : 1.0;
+  const double share = duration_s > 0 ? time_s_ / duration_s : 1.0;
+  const double s = over_m_ > 0 ? minimum_jerk(share / kOverAfter) : minimum_jerk(share);
   intent_.X_WH.p = X_WH_start_.p + s * (X_WH_goal_.p - X_WH_start_.p);
   intent_.X_WH.R = X_WH_start_.R.slerp(s, X_WH_goal_.R);
+  if (over_m_ <= 0) return;
+  // Up first, then over it, then down.
+  const double rises_m = X_WH_goal_.p.y() + over_m_ - X_WH_start_.p.y();
+  intent_.X_WH.p.y() = X_WH_start_.p.y() + minimum_jerk(share / kUpAfter) * rises_m -
+                       minimum_jerk((share - kDownFrom) / (1 - kDownFrom)) * over_m_;
 }
 
 bool VisitPlayer::turn(const VisitMove& move) {

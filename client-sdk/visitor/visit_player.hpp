@@ -89,6 +89,7 @@ class VisitPlayer {
   double swing_from_rad_ = 0;  // where the joint stood when the swing began
   Vec3 p_BG_ = Vec3::Zero();   // the grip that the last reach was for
   Vec3 p_HG_ = Vec3::Zero();   // where the hand has it
+  double over_m_ = 0;          // how far over its goal the hand comes before it goes down on it
   HandJoints joints_goal_{};
 };
 

@@ -178,10 +178,10 @@ constexpr state::ParameterType kAssembledParameters[] = {
          "lines like \"ONE before OTHER\": what must be in place before what; none: one after the other as listed"},
 };
 constexpr state::ValueType kAssembledValues[] = {
-    {"placed", "", "how many parts are in their places"},
-    {"complete", "", "1 while all are"},
-    {"refused", "", "how often a part came before its turn"},
-    {"next", "", "index of a body whose turn it is; -1: none"},
+    state::amount("placed", "", "how many parts are in their places"),
+    state::yes_or_no("complete", "1 while all are"),
+    state::amount("refused", "", "how often a part came before its turn"),
+    {"next", "", "index of a body whose turn it is; -1: none", -1},
 };
 
 }  // namespace

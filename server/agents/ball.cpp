@@ -64,7 +64,8 @@ constexpr state::ParameterType kBallParameters[] = {
      .summary = "the cone's axis as the bodies stand at the start; none: 0 1 0",
      .count = 3},
 };
-constexpr state::ValueType kBallValues[] = {{"tilt", "rad", "how far the axis is from where it was at the start"}};
+constexpr state::ValueType kBallValues[] = {
+    state::amount("tilt", "rad", "how far the axis is from where it was at the start")};
 
 }  // namespace
 

@@ -99,9 +99,9 @@ constexpr state::ParameterType kBreakableParameters[] = {
     {.name = "torque", .unit = "N m", .summary = "the real torque that breaks it", .min = 0, .max = 1e9},
 };
 constexpr state::ValueType kBreakableValues[] = {
-    {"broken", "", "1 once it is broken"},
-    {"force", "N", "what it bears: the real force"},
-    {"torque", "N m", "what it bears: the real torque"},
+    state::yes_or_no("broken", "1 once it is broken"),
+    state::amount("force", "N", "what it bears: the real force"),
+    state::amount("torque", "N m", "what it bears: the real torque"),
 };
 
 }  // namespace

@@ -74,9 +74,9 @@ constexpr state::ParameterType kDwellParameters[] = {
      .reference = state::Reference::body},
 };
 constexpr state::ValueType kDwellValues[] = {
-    {"dwelt", "", "1 while it has stayed long enough"},
-    {"inside", "", "1 while it is there"},
-    {"time", "s", "for how long"},
+    state::yes_or_no("dwelt", "1 while it has stayed long enough"),
+    state::yes_or_no("inside", "1 while it is there"),
+    state::amount("time", "s", "for how long"),
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ constexpr state::ParameterType kFiredParameters[] = {
      .summary = "agents that it switches off: a tie, a ratchet, a rope",
      .reference = state::Reference::agent}};
 constexpr state::ValueType kFiredValues[] = {
-    {"fired", "", "1 once it has fired"},
+    state::yes_or_no("fired", "1 once it has fired"),
     {"force", "N", "of the hand on the trigger, along the axis, as felt"},
     {"travel", "m", "how far the trigger went with the hand; rad where the joint is a hinge"},
 };

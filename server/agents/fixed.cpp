@@ -71,9 +71,9 @@ constexpr state::ParameterType kFixedParameters[] = {
      .reference = state::Reference::body},
 };
 constexpr state::ValueType kFixedValues[] = {
-    {"on", "", "1 while it ties"},
-    {"force", "N", "what the tie bears: the real force"},
-    {"torque", "N m", "what it bears at the body's origin: the real torque"},
+    state::yes_or_no("on", "1 while it ties"),
+    state::amount("force", "N", "what the tie bears: the real force"),
+    state::amount("torque", "N m", "what it bears at the body's origin: the real torque"),
 };
 
 }  // namespace

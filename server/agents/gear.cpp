@@ -150,7 +150,7 @@ constexpr state::ParameterType kWormParameters[] = {
      .max = 0.49},
 };
 constexpr state::ValueType kGearValues[] = {
-    {"engaged", "", "1 while the teeth mesh: it is on, and both joints are"},
+    state::yes_or_no("engaged", "1 while the teeth mesh: it is on, and both joints are"),
     {"torque", "N m", "of the teeth on a joint2 that is a hinge: the real torque"},
     {"force", "N", "of the teeth on a joint2 that is a slider: the real force"},
 };

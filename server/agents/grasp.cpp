@@ -232,8 +232,8 @@ constexpr state::ParameterType kGraspParameters[] = {
      .max = 10},
 };
 constexpr state::ValueType kGraspValues[] = {
-    {"active", "", "hands that hold one of the bodies"},
-    {"body", "", "index of the body that the first of them holds; -1: none"},
+    state::amount("active", "", "hands that hold one of the bodies"),
+    {"body", "", "index of the body that the first of them holds; -1: none", -1},
 };
 
 }  // namespace

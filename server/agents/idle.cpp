@@ -60,8 +60,8 @@ constexpr state::ParameterType kIdleParameters[] = {
      .max = 50},
 };
 constexpr state::ValueType kIdleValues[] = {
-    {"idle", "", "1 while nothing has happened for that long"},
-    {"time", "s", "since something happened"},
+    state::yes_or_no("idle", "1 while nothing has happened for that long"),
+    state::amount("time", "s", "since something happened"),
 };
 
 }  // namespace

@@ -99,8 +99,8 @@ constexpr state::ParameterType kIntermittentGearParameters[] = {
      .default_value = 1},
 };
 constexpr state::ValueType kIntermittentGearValues[] = {
-    {"engaged", "", "1 while it is on, and both joints are"},
-    {"steps", "", "teeth that the wheel has gone since then"},
+    state::yes_or_no("engaged", "1 while it is on, and both joints are"),
+    state::amount("steps", "", "teeth that the wheel has gone since then"),
 };
 
 }  // namespace

@@ -154,9 +154,9 @@ constexpr state::ParameterType kLitParameters[] = {
      .max = 3600},
 };
 constexpr state::ValueType kLitValues[] = {
-    {"lit", "", "1 while it burns"},
-    {"distance", "m", "from the flame to where it catches fire"},
-    {"burnt_s", "s", "how long it has burned"},
+    state::yes_or_no("lit", "1 while it burns"),
+    state::amount("distance", "m", "from the flame to where it catches fire"),
+    state::amount("burnt_s", "s", "how long it has burned"),
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ constexpr state::ParameterType kPlacedParameters[] = {
      .required = true,
      .reference = state::Reference::agent},
 };
-constexpr state::ValueType kPlacedValues[] = {{"placed", "", "1 while the snap has its object"}};
+constexpr state::ValueType kPlacedValues[] = {state::yes_or_no("placed", "1 while the snap has its object")};
 
 }  // namespace
 

@@ -132,11 +132,11 @@ constexpr state::ParameterType kPointParameters[] = {
     {.name = "time", .unit = "s", .summary = "for how long", .default_value = 0.3, .min = 0, .max = 60},
 };
 constexpr state::ValueType kPointValues[] = {
-    {"pointed", "", "1 while a finger has been on it for long enough"},
-    {"distance", "m", "from the nearest fingertip"},
-    {"angle", "rad", "between the sign and where the best finger points"},
-    {"time", "s", "for how long"},
-    {"clicked", "s", "how long a click on the sign still counts as a finger"},
+    state::yes_or_no("pointed", "1 while a finger has been on it for long enough"),
+    state::amount("distance", "m", "from the nearest fingertip"),
+    state::amount("angle", "rad", "between the sign and where the best finger points"),
+    state::amount("time", "s", "for how long"),
+    state::amount("clicked", "s", "how long a click on the sign still counts as a finger"),
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ Expected<std::unique_ptr<Agent>> make_pushed(const Build& build) {
 constexpr state::ParameterType kPushedParameters[] = {kEffortBody,  kEffortForce,   kEffortTravel, kEffortAxis,
                                                       kEffortJoint, kEffortReverse, kEffortTime};
 constexpr state::ValueType kPushedValues[] = {
-    {"pushed", "", "1 while a hand pushes it hard or far enough"},
+    state::yes_or_no("pushed", "1 while a hand pushes it hard or far enough"),
     {"force", "N", "of the hand on the body, along the axis, as felt"},
     {"travel", "m", "how far the body went with the hand; rad where the joint is a hinge"},
 };

@@ -23,12 +23,6 @@ std::string known_sources(const state::WorldDescription& description, const stat
   return names.size() > kMostNames ? list + " ..." : list;
 }
 
-double factor_of(const std::string& value, const std::string& unit) {
-  if (value == "rate" && unit == "rpm") return 60 / (2 * kPi);
-  if (value == "angle" && unit == "deg") return 180 / kPi;
-  return 1;
-}
-
 }  // namespace
 
 Expected<Quantities::Source> Quantities::resolve(const state::WorldDescription& description,
@@ -37,7 +31,7 @@ Expected<Quantities::Source> Quantities::resolve(const state::WorldDescription& 
   const std::size_t dot = quantity.source.find('.');
   const std::string name = quantity.source.substr(0, dot);
   const std::string value = dot == std::string::npos ? "" : quantity.source.substr(dot + 1);
-  const double factor = factor_of(value, quantity.unit);
+  const double factor = state::unit_factor(value, quantity.unit);
   if (const state::MemorySlot* slot = layout.find(quantity.source)) return Source{From::memory, slot->index, 0, factor};
   if (const JointId joint = description.find_joint(name)) {
     if (value == "angle" || value == "position") return Source{From::joint_position, joint.index(), 0, factor};

@@ -103,9 +103,9 @@ constexpr state::ParameterType kRatchetParameters[] = {
      .max = 10},
 };
 constexpr state::ValueType kRatchetValues[] = {
-    {"engaged", "", "1 while the pawl is on the teeth"},
+    state::yes_or_no("engaged", "1 while the pawl is on the teeth"),
     {"tooth", "", "the last tooth passed"},
-    {"holding", "", "1 while the pawl bears a load"},
+    state::yes_or_no("holding", "1 while the pawl bears a load"),
     {"torque", "N m", "what it bears on a hinge: the real torque"},
     {"force", "N", "what it bears on a slider: the real force"},
 };

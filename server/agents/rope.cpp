@@ -198,10 +198,10 @@ constexpr state::ParameterType kRopeParameters[] = {
      .summary = "turning the drum to lower angles winds; otherwise to higher ones"},
 };
 constexpr state::ValueType kRopeValues[] = {
-    {"tension_n", "N", "of its first part, at the drum: the real tension"},
-    {"end_tension_n", "N", "of its last part: the real tension"},
+    state::amount("tension_n", "N", "of its first part, at the drum: the real tension"),
+    state::amount("end_tension_n", "N", "of its last part: the real tension"),
     {"length_m", "m", "off the drum"},
-    {"slack", "m", "how much longer it is than its way; 0: taut"},
+    state::amount("slack", "m", "how much longer it is than its way; 0: taut"),
 };
 
 }  // namespace

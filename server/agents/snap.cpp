@@ -181,9 +181,9 @@ constexpr state::ParameterType kSnapParameters[] = {
      .summary = "held in its place by a tie, which bears forces and can break, instead of standing still"},
 };
 constexpr state::ValueType kSnapValues[] = {
-    {"placed", "", "1 once the object is in its place"},
-    {"distance", "m", "from the object to its place"},
-    {"angle", "rad", "between the object's attitude and the place's"},
+    state::yes_or_no("placed", "1 once the object is in its place"),
+    state::amount("distance", "m", "from the object to its place"),
+    state::amount("angle", "rad", "between the object's attitude and the place's"),
 };
 
 }  // namespace

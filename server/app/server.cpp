@@ -1,5 +1,6 @@
 #include "server/app/server.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,8 @@ class Server::Impl {
   int run(StopSignals& signals);
 
  private:
+  [[nodiscard]] bool loops_run() const;
+  void say_ready();
   void look(TimePoint now);
   void say_status();
 
@@ -101,10 +104,13 @@ Expected<void> Server::Impl::start() {
 
 int Server::Impl::run(StopSignals& signals) {
   const TimePoint began = main_clock_.now();
-  log::info(fmt::format("ready: {} in DDS domain {}, waiting for kiosks", settings_.name, settings_.domain));
-  notify_systemd("READY=1");
+  bool ready = false;
   for (std::uint64_t looks = 1; !signals.wait(kLookEveryMs); ++looks) {
     const TimePoint now = main_clock_.now();
+    if (!ready && loops_run()) {
+      ready = true;
+      say_ready();
+    }
     look(now);
     if (looks % kLooksPerStatus == 0) say_status();
     if (looks % kLooksPerWatchdog == 0) notify_systemd("WATCHDOG=1");
@@ -120,6 +126,16 @@ int Server::Impl::run(StopSignals& signals) {
   if (written) return 0;
   log::error(written.error());
   return 1;
+}
+
+/// Each loop has made a tick: one that is started may yet wait for a processor, and would leave its kiosks without forces.
+bool Server::Impl::loops_run() const {
+  return std::all_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop->thread().report().ticks > 0; });
+}
+
+void Server::Impl::say_ready() {
+  log::info(fmt::format("ready: {} in DDS domain {}, waiting for kiosks", settings_.name, settings_.domain));
+  notify_systemd("READY=1");
 }
 
 void Server::Impl::look(TimePoint now) {

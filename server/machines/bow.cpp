@@ -206,9 +206,11 @@ constexpr state::ParameterType kBowParameters[] = {
     {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the slider draws to negative positions"},
 };
 constexpr state::ValueType kBowValues[] = {
-    {"caught", "", "1 while the claw holds the string"},       {"string_m", "m", "how far the string is drawn"},
-    {"force_n", "N", "of the string on the slider, unscaled"}, {"energy_j", "J", "held by the bow, unscaled"},
-    {"shot_j", "J", "what the last projectile took"},
+    state::yes_or_no("caught", "1 while the claw holds the string"),
+    state::amount("string_m", "m", "how far the string is drawn"),
+    state::amount("force_n", "N", "of the string on the slider, unscaled"),
+    state::amount("energy_j", "J", "held by the bow, unscaled"),
+    state::amount("shot_j", "J", "what the last projectile took"),
 };
 
 }  // namespace

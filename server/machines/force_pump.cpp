@@ -315,14 +315,14 @@ constexpr state::ParameterType kForcePumpParameters[] = {
 };
 constexpr state::ValueType kForcePumpValues[] = {
     {"flow_l_per_s", "l/s", "what comes into the vessel now; negative where it runs back"},
-    {"jet_l_per_s", "l/s", "what leaves the trumpet now"},
-    {"lifted_l", "l", "out of the trumpet so far"},
-    {"leaked_l", "l", "past the pistons so far"},
-    {"level_m", "m", "of the water in the tub over its floor; 0 where no basinArea is given"},
-    {"head_m", "m", "of the water over the well"},
-    {"force_n", "N", "of the water on the pressing pistons, unscaled"},
-    {"handle_n", "N", "what pistons and friction ask of the hand, unscaled"},
-    {"strokes", "", "how often the first piston has turned round"},
+    state::amount("jet_l_per_s", "l/s", "what leaves the trumpet now"),
+    state::amount("lifted_l", "l", "out of the trumpet so far"),
+    state::amount("leaked_l", "l", "past the pistons so far"),
+    state::amount("level_m", "m", "of the water in the tub over its floor; 0 where no basinArea is given"),
+    state::amount("head_m", "m", "of the water over the well", "lift"),
+    state::amount("force_n", "N", "of the water on the pressing pistons, unscaled"),
+    state::amount("handle_n", "N", "what pistons and friction ask of the hand, unscaled"),
+    state::amount("strokes", "", "how often the first piston has turned round"),
 };
 
 }  // namespace

@@ -137,9 +137,9 @@ constexpr state::ParameterType kPebbleCounterParameters[] = {
      .summary = "true: the drum counts when it turns to negative angles"},
 };
 constexpr state::ValueType kPebbleCounterValues[] = {
-    {"pebbles", "", "fallen so far"},
-    {"distance_m", "m", "that the pebbles stand for"},
-    {"left", "", "pebbles still in the drum"},
+    state::amount("pebbles", "", "fallen so far", "holes"),
+    state::amount("distance_m", "m", "that the pebbles stand for"),
+    state::amount("left", "", "pebbles still in the drum", "holes"),
 };
 
 }  // namespace

@@ -433,17 +433,17 @@ constexpr state::ParameterType kProjectileParameters[] = {
      .max = 1e7},
 };
 constexpr state::ValueType kProjectileValues[] = {
-    {"flying", "", "1 from the shot to the blow"},
-    {"speed_m_s", "m/s", "of the flight, the last one where it has ended"},
-    {"range_m", "m", "over ground, from the shot to here or to where the flight ended"},
-    {"height_m", "m", "the highest so far, above the shot"},
-    {"flight_s", "s", "since the shot"},
-    {"energy_j", "J", "at the shot"},
-    {"shots", "", "so far"},
-    {"struck", "", "1 when the flight ended at something else than the target"},
-    {"hit", "", "1 when it went into the target"},
-    {"off_centre_m", "m", "from the target's centre to the hit"},
-    {"depth_m", "m", "how far it went in"},
+    state::yes_or_no("flying", "1 from the shot to the blow"),
+    state::amount("speed_m_s", "m/s", "of the flight, the last one where it has ended"),
+    state::amount("range_m", "m", "over ground, from the shot to here or to where the flight ended"),
+    state::amount("height_m", "m", "the highest so far, above the shot"),
+    state::amount("flight_s", "s", "since the shot"),
+    state::amount("energy_j", "J", "at the shot"),
+    state::amount("shots", "", "so far"),
+    state::yes_or_no("struck", "1 when the flight ended at something else than the target"),
+    state::yes_or_no("hit", "1 when it went into the target"),
+    state::amount("off_centre_m", "m", "from the target's centre to the hit", "targetRadius"),
+    state::amount("depth_m", "m", "how far it went in"),
 };
 
 }  // namespace

@@ -238,13 +238,13 @@ constexpr state::ParameterType kScrewPumpParameters[] = {
     {.name = "basinStart", .unit = "l", .summary = "in the basin at the start", .min = 0, .max = 1e9},
 };
 constexpr state::ValueType kScrewPumpValues[] = {
-    {"basin_l", "l", "water in the basin"},
-    {"level_m", "m", "of the basin's water over its floor"},
-    {"flow_l_per_s", "l/s", "what comes into the basin now"},
-    {"spill_l_per_s", "l/s", "what runs back over the core or over the basin's rim now"},
-    {"lifted_l", "l", "lifted to the outlet so far"},
-    {"torque_nm", "N m", "what the water asks of the crank, unscaled"},
-    {"filled", "", "share of the screw that is full of water, 0 to 1"},
+    state::amount("basin_l", "l", "water in the basin", "basinCapacity"),
+    state::amount("level_m", "m", "of the basin's water over its floor"),
+    state::amount("flow_l_per_s", "l/s", "what comes into the basin now"),
+    state::amount("spill_l_per_s", "l/s", "what runs back over the core or over the basin's rim now"),
+    state::amount("lifted_l", "l", "lifted to the outlet so far"),
+    state::amount("torque_nm", "N m", "what the water asks of the crank, unscaled"),
+    {"filled", "", "share of the screw that is full of water, 0 to 1", 0, 1},
 };
 
 }  // namespace

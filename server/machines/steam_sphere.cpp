@@ -259,10 +259,13 @@ constexpr state::ParameterType kSteamSphereParameters[] = {
      .summary = "true: the nozzles drive the hinge to negative angles"},
 };
 constexpr state::ValueType kSteamSphereValues[] = {
-    {"temperature_c", "deg C", "of the water"},    {"steam_kg_s", "kg/s", "that comes off the water, in real time"},
-    {"water_l", "l", "left in the cauldron"},      {"rate", "rad/s", "of the sphere; the unit rpm converts"},
-    {"torque_nm", "N m", "of the jets, unscaled"}, {"exit_m_s", "m/s", "of the steam out of the nozzles"},
-    {"boils", "", "1 while the water boils"},
+    {.name = "temperature_c", .unit = "deg C", .summary = "of the water", .max = kBoiling_c},
+    state::amount("steam_kg_s", "kg/s", "that comes off the water, in real time"),
+    state::amount("water_l", "l", "left in the cauldron", "water"),
+    {"rate", "rad/s", "of the sphere; the unit rpm converts"},
+    {"torque_nm", "N m", "of the jets, unscaled"},
+    state::amount("exit_m_s", "m/s", "of the steam out of the nozzles"),
+    state::yes_or_no("boils", "1 while the water boils"),
 };
 
 }  // namespace

@@ -188,11 +188,11 @@ constexpr state::ParameterType kTorsionSpringParameters[] = {
     {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the arm is drawn to negative angles"},
 };
 constexpr state::ValueType kTorsionSpringValues[] = {
-    {"torque_nm", "N m", "of all springs on the arm, unscaled"},
-    {"energy_j", "J", "held by the springs, unscaled"},
-    {"angle", "rad", "how far the arm is drawn, from rest"},
-    {"shot_j", "J", "what the last projectile took"},
-    {"calibre_dactyls", "", "the springs' diameter in dactyls of 18.5 mm"},
+    state::amount("torque_nm", "N m", "of all springs on the arm, unscaled"),
+    state::amount("energy_j", "J", "held by the springs, unscaled"),
+    state::amount("angle", "rad", "how far the arm is drawn, from rest"),
+    state::amount("shot_j", "J", "what the last projectile took"),
+    state::amount("calibre_dactyls", "", "the springs' diameter in dactyls of 18.5 mm"),
 };
 
 }  // namespace

@@ -18,33 +18,9 @@ struct Range {
   std::string from;
 };
 
-/// Ranges of values whose types do not state them yet (state::ValueType).
-struct Stated {
-  std::string_view type;
-  state::ValueType value;
-};
-constexpr Stated kStated[] = {
-    {"machine.screw_pump", {"basin_l", "l", {}, 0, kInfinity, "basinCapacity"}},
-    {"machine.screw_pump", {"level_m", "m", {}, 0, kInfinity, {}}},
-    {"machine.screw_pump", {"lifted_l", "l", {}, 0, kInfinity, {}}},
-    {"geometry.snap", {"placed", {}, {}, 0, 1, {}}},
-    {"geometry.snap", {"distance", "m", {}, 0, kInfinity, {}}},
-    {"simulation.placed", {"placed", {}, {}, 0, 1, {}}},
-    {"simulation.grasp", {"active", {}, {}, 0, kInfinity, {}}},
-};
-
-bool says_something(const state::ValueType& value) {
-  return value.min > -kInfinity || value.max < kInfinity || !value.max_parameter.empty();
-}
-
 const state::ValueType* find_value(const state::ComponentType& type, std::string_view name) {
-  for (const state::ValueType& value : type.values) {
-    if (value.name == name && says_something(value)) return &value;
-  }
-  for (const Stated& stated : kStated) {
-    if (stated.type == type.name && stated.value.name == name) return &stated.value;
-  }
-  return nullptr;
+  const auto it = std::ranges::find(type.values, name, &state::ValueType::name);
+  return it == type.values.end() ? nullptr : &*it;
 }
 
 /// An author's number, or the type's default.
@@ -62,15 +38,16 @@ double parameter_of(const state::ComponentDescription& component, const state::C
 
 void narrow(const std::vector<state::ComponentDescription>& table,
             const state::ComponentType* (*find)(std::string_view), const std::string& name, const std::string& value,
-            Range& range) {
+            const std::string& unit, Range& range) {
   for (const state::ComponentDescription& component : table) {
     const state::ComponentType* type = component.name == name ? find(component.type) : nullptr;
     const state::ValueType* stated = type != nullptr ? find_value(*type, value) : nullptr;
     if (stated == nullptr) continue;
-    range.min = stated->min;
-    range.max = stated->max;
+    const double factor = state::unit_factor(value, unit);
+    range.min = factor * stated->min;
+    range.max = factor * stated->max;
     if (stated->max_parameter.empty()) continue;
-    range.max = std::min(range.max, parameter_of(component, *type, stated->max_parameter));
+    range.max = std::min(range.max, factor * parameter_of(component, *type, stated->max_parameter));
     range.from = fmt::format("{} of {}", stated->max_parameter, name);
   }
 }
@@ -82,9 +59,7 @@ void narrow_to_stops(const state::WorldDescription& world, const std::string& na
   if (!id || (value != "angle" && value != "position" && value != "turns")) return;
   const state::JointDescription& joint = world.joints[id.index()];
   if (joint.min_position > joint.max_position || joint.kind == state::JointKind::ball) return;
-  double factor = 1;
-  if (value == "turns") factor = 1 / (2 * kPi);
-  if (value == "angle" && unit == "deg") factor = 180 / kPi;
+  const double factor = value == "turns" ? 1 / (2 * kPi) : state::unit_factor(value, unit);
   range = {factor * joint.min_position, factor * joint.max_position, "the stops of " + name};
 }
 
@@ -93,8 +68,8 @@ Range range_of(const state::WorldDescription& world, const state::QuantityDescri
   const std::string name = quantity.source.substr(0, dot);
   const std::string value = dot == std::string::npos ? "" : quantity.source.substr(dot + 1);
   Range range;
-  narrow(world.agents, find_agent_type, name, value, range);
-  narrow(world.machines, find_machine_type, name, value, range);
+  narrow(world.agents, find_agent_type, name, value, quantity.unit, range);
+  narrow(world.machines, find_machine_type, name, value, quantity.unit, range);
   narrow_to_stops(world, name, value, quantity.unit, range);
   return range;
 }

@@ -298,6 +298,11 @@ std::string parameter_default(const state::ParameterType& parameter) {
   }
 }
 
+std::string range_of_value(const state::ValueType& value) {
+  return value.max_parameter.empty() ? range_in_words(value.min, value.max)
+                                     : fmt::format("{} to {}", value.min, code(value.max_parameter));
+}
+
 std::string component_text(const state::ComponentType& type) {
   std::string text = fmt::format("\n### {}\n\n{}.\n\n", type.name, type.summary);
   text += "| parameter | type | unit | range | default | what it is |\n|---|---|---|---|---|---|\n";
@@ -306,9 +311,11 @@ std::string component_text(const state::ComponentType& type) {
                  parameter_default(p), std::string(p.summary)});
   }
   if (type.values.empty()) return text;
-  text += "\nQuantities can read:\n\n| value | unit | what it is |\n|---|---|---|\n";
-  for (const state::ValueType& value : type.values)
-    text += row({code("NAME." + std::string(value.name)), std::string(value.unit), std::string(value.summary)});
+  text += "\nQuantities can read:\n\n| value | unit | range | what it is |\n|---|---|---|---|\n";
+  for (const state::ValueType& value : type.values) {
+    text += row({code("NAME." + std::string(value.name)), std::string(value.unit), range_of_value(value),
+                 std::string(value.summary)});
+  }
   return text;
 }
 

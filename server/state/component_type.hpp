@@ -47,6 +47,24 @@ struct ValueType {
   std::string_view max_parameter = {};  ///< of the same component: the value never exceeds it; in the same unit
 };
 
+/// What a quantity's unit makes of a value: an angle in `deg`, a rate in `rpm`; every other is read as it is.
+[[nodiscard]] inline double unit_factor(std::string_view value, std::string_view unit) {
+  if (value == "rate" && unit == "rpm") return 60 / (2 * kPi);
+  if (value == "angle" && unit == "deg") return 180 / kPi;
+  return 1;
+}
+
+/// A value that is 0 or 1.
+[[nodiscard]] constexpr ValueType yes_or_no(std::string_view name, std::string_view summary) {
+  return {name, {}, summary, 0, 1, {}};
+}
+
+/// A value that is never below zero: a count, a length, a time, what was lifted.
+[[nodiscard]] constexpr ValueType amount(std::string_view name, std::string_view unit, std::string_view summary,
+                                         std::string_view max_parameter = {}) {
+  return {name, unit, summary, 0, std::numeric_limits<double>::infinity(), max_parameter};
+}
+
 struct ComponentType {
   std::string_view name;  ///< "geometry.hinge"
   std::string_view summary;

@@ -90,6 +90,7 @@ class Faults(EndToEnd):
         self.environment["NOTIFY_SOCKET"] = path
         server = self.server()
         self.assertIn(b"READY=1", listener.recv(4096))
+        # At once: ready is said only where every loop ticks, so the report has ticks however soon the stop comes.
         self.assertEqual(server.stop(), 0)
         messages = b""
         listener.settimeout(1)

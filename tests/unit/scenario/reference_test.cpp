@@ -1,6 +1,8 @@
 // The manual holds what the tables hold, its copy is fresh, and its example is a scenario.
 #include "server/scenario/reference.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "server/agents/registry.hpp"
@@ -49,6 +51,34 @@ TEST(Reference, HoldsEveryKeyParameterAndValue) {
         expect(parameter.summary);
       for (const auto& value : type.values)
         expect("`NAME." + std::string(value.name) + "`");
+    }
+  }
+}
+
+TEST(Reference, AValueThatIsOneWhileSomethingHoldsIsNeverMore) {
+  std::size_t flags = 0;
+  for (const auto& types : {agents::registry(), machines::registry()}) {
+    for (const state::ComponentType& type : types) {
+      for (const state::ValueType& value : type.values) {
+        if (!value.summary.starts_with("1 ")) continue;
+        ++flags;
+        EXPECT_EQ(value.min, 0) << type.name << " " << value.name << ": write state::yes_or_no";
+        EXPECT_EQ(value.max, 1) << type.name << " " << value.name << ": write state::yes_or_no";
+      }
+    }
+  }
+  EXPECT_GT(flags, 15u);
+}
+
+TEST(Reference, ARangeThatEndsAtAParameterNamesOneOfTheTypeInTheSameUnit) {
+  for (const auto& types : {agents::registry(), machines::registry()}) {
+    for (const state::ComponentType& type : types) {
+      for (const state::ValueType& value : type.values) {
+        if (value.max_parameter.empty()) continue;
+        const auto it = std::ranges::find(type.parameters, value.max_parameter, &state::ParameterType::name);
+        ASSERT_NE(it, type.parameters.end()) << type.name << " " << value.name;
+        EXPECT_EQ(it->unit, value.unit) << type.name << " " << value.name;
+      }
     }
   }
 }

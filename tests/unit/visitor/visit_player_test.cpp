@@ -140,6 +140,30 @@ TEST(VisitPlayerCarry, WhatASnapTookOrTheHandHoldsIsNotFetchedAgain) {
   EXPECT_EQ(carry_to(Vec3(0.3, 1, 0), true).size(), 3u);
 }
 
+TEST(VisitPlayerCarry, AWholeHandComesFromAboveOnWhatItTakes) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = carrying();
+  PlayerConfig config;
+  config.kind = client::HandKind::glove;
+  config.X_WH_rest.p = Vec3(-0.7, 0.9, 0.1);
+  VisitPlayer player(world, visit, config);
+  const std::vector<Pose> X_WB{Pose{}, lever_at(0)};
+  const Vec3 goal = X_WB[1] * visit.moves[0].p_BG;
+  double highest_m = 0, last_m = config.X_WH_rest.p.y() - goal.y();
+  while (player.results().empty()) {
+    player.advance(0.001, X_WB, false, 0);
+    const Vec3 way = player.intent().X_WH.p - goal;
+    // Its fingers reach 0.2 m before its wrist: by then they are well over it.
+    const bool fingers_there = std::abs(way.x()) < 0.2 && std::abs(way.x()) > 0.1;
+    EXPECT_TRUE(!fingers_there || way.y() > 0.06) << way.transpose();
+    EXPECT_LT(std::abs(way.y() - last_m), 0.01) << "it does not leap";
+    last_m = way.y();
+    highest_m = std::max(highest_m, way.y());
+  }
+  EXPECT_GT(highest_m, 0.09);
+  EXPECT_LT((player.intent().X_WH.p - goal).norm(), 1e-9);
+}
+
 TEST(VisitPlayerTurn, AHandleThatIsLostIsCaughtAgainAndTurnedForTheRest) {
   VisitMove reach, grasp, turn;
   reach.kind = VisitMove::Kind::reach;
