@@ -80,6 +80,13 @@ std::optional<ImageData> decode(const content::ImportedTexture& texture, bool sr
   return std::move(*image);
 }
 
+bool is_clear(const ImageData& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] < 255) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 AssetLibrary::AssetLibrary(Loader loader) : loader_(std::move(loader)) {}
@@ -142,15 +149,15 @@ void AssetLibrary::add_materials(const content::ImportedScene& scene, const std:
     to.emissive = from.emissive;
     to.metallic = from.metallic;
     to.roughness = from.roughness;
-    // Blending needs an order of drawing; until then what is more than half clear is left out.
-    to.alpha_cutoff = from.alpha_mode == content::AlphaMode::opaque ? 0.0F
-                      : from.alpha_mode == content::AlphaMode::mask ? from.alpha_cutoff
-                                                                    : 0.5F;
+    to.alpha_cutoff = from.alpha_mode == content::AlphaMode::mask ? from.alpha_cutoff : 0.0F;
     to.double_sided = from.double_sided;
     to.base_colour_image = image(from.base_colour_texture, true);
     to.normal_image = image(from.normal_texture, false);
     to.metallic_roughness_image = image(from.metallic_roughness_texture, false);
     to.emissive_image = image(from.emissive_texture, true);
+    // Many tools write BLEND for what nobody can see through; sorting it would cost time, and its shadow.
+    const bool clear_image = to.base_colour_image && is_clear(assets_.images[*to.base_colour_image]);
+    to.clear = from.alpha_mode == content::AlphaMode::blend && (from.base_colour.w() < 1 || clear_image);
     add_material(to);
   }
 }

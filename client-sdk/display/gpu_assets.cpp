@@ -22,6 +22,17 @@ TextureName upload_image(const ImageData& image) {
   return texture;
 }
 
+std::vector<Vec3f> middles_of(const MeshData& mesh) {
+  std::vector<Vec3f> out;
+  out.reserve(mesh.indices.size() / 3);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    out.emplace_back(
+        (mesh.positions[mesh.indices[i]] + mesh.positions[mesh.indices[i + 1]] + mesh.positions[mesh.indices[i + 2]]) /
+        3.0F);
+  }
+  return out;
+}
+
 }  // namespace
 
 void describe_vertices() {
@@ -82,7 +93,8 @@ void GpuAssets::upload(const SceneAssets& assets) {
   while (meshes_.size() < assets.meshes.size()) {
     const MeshData& mesh = assets.meshes[meshes_.size()];
     const std::vector<float> vertices = interleave(mesh);
-    GpuMesh gpu{make_vertex_array(), make_buffer(), make_buffer(), static_cast<std::int32_t>(mesh.indices.size())};
+    GpuMesh gpu{make_vertex_array(), make_buffer(), make_buffer(), static_cast<std::int32_t>(mesh.indices.size()),
+                middles_of(mesh)};
     glBindVertexArray(gpu.vertex_array.get());
     glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.get());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
@@ -99,6 +111,31 @@ void GpuAssets::draw(std::uint32_t mesh) const {
   MECHANE_ASSERT(mesh < meshes_.size());
   glBindVertexArray(meshes_[mesh].vertex_array.get());
   glDrawElements(GL_TRIANGLES, meshes_[mesh].index_count, GL_UNSIGNED_INT, nullptr);
+}
+
+void GpuAssets::draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const {
+  MECHANE_ASSERT(mesh < meshes_.size());
+  glBindVertexArray(meshes_[mesh].vertex_array.get());
+  const std::vector<GLsizei> counts(triangles.size(), 3);
+  std::vector<const void*> offsets;
+  offsets.reserve(triangles.size());
+  for (const std::uint32_t triangle : triangles) {
+    MECHANE_ASSERT(triangle < meshes_[mesh].middles_M.size());
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): where a buffer is bound, OpenGL takes an offset for a pointer
+    offsets.push_back(reinterpret_cast<const void*>(std::size_t{3} * triangle * sizeof(std::uint32_t)));
+  }
+  glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
+                      static_cast<GLsizei>(triangles.size()));
+}
+
+bool GpuAssets::is_clear(std::uint32_t material) const {
+  MECHANE_ASSERT(material < materials_.size());
+  return materials_[material].clear;
+}
+
+const std::vector<Vec3f>& GpuAssets::triangle_middles(std::uint32_t mesh) const {
+  MECHANE_ASSERT(mesh < meshes_.size());
+  return meshes_[mesh].middles_M;
 }
 
 void GpuAssets::use_material(std::uint32_t material, const Program& program) const {
@@ -125,6 +162,13 @@ void GpuAssets::use_material(std::uint32_t material, const Program& program) con
   } else {
     glEnable(GL_CULL_FACE);
   }
+}
+
+void set_material_units(const Program& program) {
+  program.set("base_image", 0);
+  program.set("normal_image", 1);
+  program.set("metallic_roughness_image", 2);
+  program.set("emissive_image", 3);
 }
 
 void set_model(const Program& program, const Eigen::Affine3f& X_WM) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "client-sdk/display/gl_object.hpp"
@@ -42,7 +43,12 @@ class GpuAssets {
   void upload(const SceneAssets& assets);
   /// Draws the triangles; the program, with its uniforms, must be in use.
   void draw(std::uint32_t mesh) const;
-  /// Sets uniforms and texture units 0..3 of surface.frag, and face culling.
+  /// Draws some of the triangles, in the order given.
+  void draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const;
+  [[nodiscard]] bool is_clear(std::uint32_t material) const;
+  /// Of each triangle, in the mesh's frame.
+  [[nodiscard]] const std::vector<Vec3f>& triangle_middles(std::uint32_t mesh) const;
+  /// Sets uniforms and texture units 0..3 of material.glsl, and face culling.
   void use_material(std::uint32_t material, const Program& program) const;
 
  private:
@@ -51,11 +57,15 @@ class GpuAssets {
     BufferName vertices;
     BufferName indices;
     std::int32_t index_count = 0;
+    std::vector<Vec3f> middles_M;  ///< of the triangles
   };
   std::vector<GpuMesh> meshes_;
   std::vector<TextureName> images_;
   std::vector<MaterialData> materials_;
 };
+
+/// Says which texture units GpuAssets::use_material fills. The program must be in use.
+void set_material_units(const Program& program);
 
 /// Sets X_WM and N_WM of mesh.vert (or depth.vert).
 void set_model(const Program& program, const Eigen::Affine3f& X_WM);

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include "client-sdk/display/particles.hpp"
 #include "client-sdk/display/passes.hpp"
 
 namespace mechane::display {
@@ -51,6 +52,9 @@ void set_lighting(const Program& program, const PassInput& input) {
   program.set("occluder_count", static_cast<int>(occluders.size()));
   program.set("occluders", occluders);
   if (!occluders.empty()) program.set("occluder_bound", bound_of(scene.occluders));
+  const std::vector<Eigen::Vector4f> fires = fire_lights(scene);
+  program.set("fire_count", static_cast<int>(fires.size()));
+  program.set("fires", fires);
   program.set("shadow_map", kShadowUnit);
   glActiveTexture(GL_TEXTURE0 + kShadowUnit);
   glBindTexture(GL_TEXTURE_2D, input.shadow.depth.get());

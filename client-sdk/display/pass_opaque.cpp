@@ -6,7 +6,8 @@
 namespace mechane::display {
 
 Expected<OpaquePass> OpaquePass::create() {
-  Expected<Program> surface = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "surface.frag"});
+  Expected<Program> surface =
+      Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "material.glsl", "surface.frag"});
   if (!surface) return tl::unexpected(surface.error());
   Expected<Program> rope = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "rope.frag"});
   if (!rope) return tl::unexpected(rope.error());
@@ -26,11 +27,9 @@ void OpaquePass::draw(const PassInput& input) const {
   glDisable(GL_BLEND);
   surface_.use();
   set_lighting(surface_, input);
-  surface_.set("base_image", 0);
-  surface_.set("normal_image", 1);
-  surface_.set("metallic_roughness_image", 2);
-  surface_.set("emissive_image", 3);
+  set_material_units(surface_);
   for (const Instance& instance : input.scene.instances) {
+    if (input.assets.is_clear(instance.material)) continue;
     set_model(surface_, instance.X_WM);
     input.assets.use_material(instance.material, surface_);
     input.assets.draw(instance.mesh);

@@ -26,7 +26,7 @@ Eigen::Matrix4f ShadowPass::draw(const RenderScene& scene, const GpuAssets& asse
   program_.use();
   program_.set("PV", PV_light);
   for (const Instance& instance : scene.instances) {
-    if (!instance.casts_shadow) continue;
+    if (!instance.casts_shadow || assets.is_clear(instance.material)) continue;
     program_.set("X_WM", instance.X_WM.matrix());
     assets.draw(instance.mesh);
   }

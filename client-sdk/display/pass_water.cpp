@@ -5,6 +5,22 @@
 
 namespace mechane::display {
 
+void begin_blending() {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_FALSE);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  // Colours come multiplied by their opacity.
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void end_blending() {
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDepthMask(GL_TRUE);
+}
+
 WaterPass::WaterPass(Program surface, Program stream)
     : surface_(std::move(surface)), stream_(std::move(stream)), tube_(StreamedMesh::create()) {}
 
@@ -19,13 +35,7 @@ Expected<WaterPass> WaterPass::create() {
 void WaterPass::draw(const PassInput& input) {
   const RenderScene& scene = input.scene;
   if (scene.waters.empty() && scene.streams.empty()) return;
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDepthMask(GL_FALSE);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  // Colours come multiplied by their opacity.
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  begin_blending();
   surface_.use();
   set_lighting(surface_, input);
   surface_.set("time_s", static_cast<float>(scene.time_s));
@@ -41,12 +51,14 @@ void WaterPass::draw(const PassInput& input) {
   set_model(stream_, Eigen::Affine3f::Identity());
   for (const WaterStream& stream : scene.streams)
     draw_stream(stream);
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
+  end_blending();
 }
 
 void WaterPass::draw_stream(const WaterStream& stream) {
   if (!(stream.width_m > 0)) return;
+  // Lumps some four times as long as the jet is thick.
+  stream_.set("lumps_per_s", stream.v_W.norm() / (4.5F * stream.width_m));
+  stream_.set("broken_s", stream.jet ? jet_breakup_s(stream) : 1e6F);
   tube_.upload(stream_mesh(stream));
   tube_.draw();
 }

@@ -20,6 +20,7 @@ struct PassInput {
   const SkyHarmonics& sky;
   const ShadowTarget& shadow;
   Eigen::Matrix4f PV_light;
+  const HdrTarget& target;  ///< where they draw to
 };
 
 /// Depth from the sun, once for both eyes.
@@ -79,6 +80,31 @@ class WaterPass {
   StreamedMesh tube_;
 };
 
+/// What is seen through: glass and the like, triangle by triangle from the farthest to the nearest, over all that is solid and over water.
+class ClearPass {
+ public:
+  [[nodiscard]] static Expected<ClearPass> create();
+  void draw(const PassInput& input) const;
+
+ private:
+  explicit ClearPass(Program program) : program_(std::move(program)) {}
+  Program program_;
+};
+
+/// Steam, smoke, fire, dust, drops: over all else.
+class ParticlePass {
+ public:
+  [[nodiscard]] static Expected<ParticlePass> create();
+  void draw(const PassInput& input) const;
+
+ private:
+  explicit ParticlePass(Program program)
+      : program_(std::move(program)), vertex_array_(make_vertex_array()), buffer_(make_buffer()) {}
+  Program program_;
+  VertexArrayName vertex_array_;
+  BufferName buffer_;
+};
+
 /// From linear light with several samples a pixel to what a screen shows, into the bound framebuffer's viewport.
 class TonePass {
  public:
@@ -90,6 +116,10 @@ class TonePass {
   Program program_;
   VertexArrayName no_vertices_;
 };
+
+/// Depth is tested and not written; colours come multiplied by their opacity, over what is there.
+void begin_blending();
+void end_blending();
 
 /// Sets the uniforms of sky.glsl and lighting.glsl; texture unit 4 holds the shadow map.
 void set_lighting(const Program& program, const PassInput& input);

@@ -6,6 +6,8 @@
 namespace mechane::display {
 namespace {
 
+constexpr float kGravity = 9.81F;
+
 double signed_power(double base, double exponent) {
   return std::copysign(std::pow(std::abs(base), exponent), base);
 }
@@ -105,19 +107,30 @@ MeshData disc_mesh(double radius_m, int sectors) {
   return mesh;
 }
 
-MeshData stream_mesh(const WaterStream& stream) {
-  constexpr int kRings = 24;
-  constexpr int kSectors = 12;
-  constexpr float kGravity = 9.81F;
+float flight_time_s(const WaterStream& stream) {
   const float drop = std::max(stream.p_WS.y() - stream.landing_height_m, 0.01F);
   const float vy = stream.v_W.y();
-  const float flight_s = (vy + std::sqrt(vy * vy + 2 * kGravity * drop)) / kGravity;
+  return (vy + std::sqrt(vy * vy + 2 * kGravity * drop)) / kGravity;
+}
+
+float jet_breakup_s(const WaterStream& stream) {
+  constexpr float kDensity_kg_per_m3 = 998;
+  constexpr float kSurfaceTension_N_per_m = 0.0728F;
+  const float speed = std::max(stream.v_W.norm(), 0.1F);
+  const float weber = kDensity_kg_per_m3 * speed * speed * stream.width_m / kSurfaceTension_N_per_m;
+  return 8.51F * stream.width_m * std::pow(weber, 0.31F) / speed;
+}
+
+MeshData stream_mesh(const WaterStream& stream) {
+  const int ring_count = stream.jet ? 48 : 24;
+  constexpr int kSectors = 12;
+  const float flight_s = flight_time_s(stream);
   Vec3f across = stream.v_W.cross(Vec3f::UnitY());
   across = across.norm() > 1e-5F ? Vec3f(across.normalized()) : Vec3f(Vec3f::UnitZ());
   const float start_speed = std::max(stream.v_W.norm(), 0.3F);
   MeshData mesh;
-  for (int ring = 0; ring <= kRings; ++ring) {
-    const float t = flight_s * static_cast<float>(ring) / kRings;
+  for (int ring = 0; ring <= ring_count; ++ring) {
+    const float t = flight_s * static_cast<float>(ring) / static_cast<float>(ring_count);
     const Vec3f v = stream.v_W - Vec3f(0, kGravity * t, 0);
     const Vec3f p = stream.p_WS + stream.v_W * t - Vec3f(0, 0.5F * kGravity * t * t, 0);
     const Vec3f along = v.norm() > 1e-5F ? Vec3f(v.normalized()) : Vec3f(-Vec3f::UnitY());
@@ -125,7 +138,7 @@ MeshData stream_mesh(const WaterStream& stream) {
     // The same water passes every ring: the section shrinks as the speed grows.
     const float shrink = std::sqrt(start_speed / std::max(v.norm(), start_speed));
     const float half_width = 0.5F * stream.width_m * shrink;
-    const float half_depth = 0.45F * half_width;
+    const float half_depth = (stream.jet ? 1.0F : 0.45F) * half_width;
     for (int sector = 0; sector <= kSectors; ++sector) {
       const float a = 2 * static_cast<float>(kPi) * static_cast<float>(sector) / kSectors;
       const Vec3f n = (std::cos(a) * across * half_depth + std::sin(a) * up * half_width).normalized();
@@ -134,7 +147,7 @@ MeshData stream_mesh(const WaterStream& stream) {
       mesh.uv.emplace_back(static_cast<float>(sector) / kSectors, t);
     }
   }
-  add_grid(mesh, kRings, kSectors);
+  add_grid(mesh, ring_count, kSectors);
   return mesh;
 }
 

@@ -20,6 +20,13 @@ namespace mechane::display {
 /// A level disc about the origin that looks up.
 [[nodiscard]] MeshData disc_mesh(double radius_m, int sectors);
 
+/// From where it leaves to where it lands.
+[[nodiscard]] float flight_time_s(const WaterStream& stream);
+
+/// After how long a jet's core is gone: 8.51 d We^0.31 / v (Sallam, Dai & Faeth 2002, turbulent jets in still air), We with water's
+/// density and surface tension.
+[[nodiscard]] float jet_breakup_s(const WaterStream& stream);
+
 /// A tube along the parabola of the falling water, in W. uv: share of the way about the tube, seconds since the spout.
 [[nodiscard]] MeshData stream_mesh(const WaterStream& stream);
 

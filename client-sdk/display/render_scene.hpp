@@ -38,6 +38,7 @@ struct MaterialData {
   float metallic = 0;
   float roughness = 0.8F;
   float alpha_cutoff = 0;  ///< over 0: fragments with less opacity are left out
+  bool clear = false;      ///< seen through by base_colour's opacity, drawn last and sorted; throws no shadow
   bool double_sided = false;
   std::optional<std::uint32_t> base_colour_image;
   std::optional<std::uint32_t> normal_image;
@@ -67,18 +68,30 @@ struct WaterInstance {
   float ripple = 1;        ///< slope of the waves against a calm basin's
 };
 
-/// Falling water: a parabola from the spout to where it lands.
+/// Falling water: a parabola from where it leaves, with any velocity, to where it lands.
 struct WaterStream {
   Vec3f p_WS = Vec3f::Zero();  ///< where it leaves
   Vec3f v_W = Vec3f::Zero();   ///< with what velocity, m/s
   float landing_height_m = 0;  ///< y in W where it ends
   float width_m = 0;           ///< 0: none
+  bool jet = false;            ///< out of a nozzle: round, and falling apart into drops on its way
 };
 
 /// A rope where its points are, drawn as a tube of laid hemp that throws a shadow. Made for some eight of up to 200 points each.
 struct RenderRope {
   std::vector<Vec3f> points_W;  ///< from end to end, taut between them
   float radius_m = 0;           ///< 0: none
+};
+
+/// Where steam leaves a nozzle, a fire burns, dust is whirled up. Follows from the scene's time alone: see particles.hpp.
+struct ParticleEffect {
+  enum class Kind : std::uint8_t { steam, smoke, fire, dust, spray };
+  Kind kind = Kind::steam;
+  Vec3f p_W = Vec3f::Zero();           ///< the middle of where it leaves
+  Vec3f direction_W = Vec3f::UnitY();  ///< unit
+  float intensity = 0;                 ///< 0 none .. 1
+  float size_m = 0.05F;                ///< radius of where it leaves: nozzle, hearth; particles grow from it
+  float speed_m_per_s = 0;             ///< with which it leaves
 };
 
 struct Sun {
@@ -126,8 +139,10 @@ struct RenderScene {
   std::vector<WaterInstance> waters;
   std::vector<WaterStream> streams;
   std::vector<RenderRope> ropes;
-  std::vector<Occluder> occluders;   ///< the first kMaxOccluders count
-  Eigen::AlignedBox3f shadow_box_W;  ///< what the shadow map has to cover
+  std::vector<ParticleEffect> effects;
+  Vec3f wind_W = Vec3f(0.32F, 0, 0.10F);  ///< m/s; smoke drifts with it
+  std::vector<Occluder> occluders;        ///< the first kMaxOccluders count
+  Eigen::AlignedBox3f shadow_box_W;       ///< what the shadow map has to cover
   Camera camera;
   Sun sun;
   bool sky = true;                       ///< false: black, no light but the sun's

@@ -21,13 +21,28 @@ void no_filter(GLenum kind) {
   glTexParameteri(kind, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
+/// Makes `texture` a depth picture and the framebuffer's only attachment. Leaves both bound.
+void attach_depth_texture(const FramebufferName& framebuffer, const TextureName& texture, PixelSize size) {
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, static_cast<GLsizei>(size.width),
+               static_cast<GLsizei>(size.height), 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  no_filter(GL_TEXTURE_2D);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.get(), 0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+}
+
 }  // namespace
 
 Expected<HdrTarget> HdrTarget::create(PixelSize size, int samples) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  HdrTarget target{make_framebuffer(), make_texture(), make_renderbuffer(), size,
-                   std::clamp(samples, 1, std::max(most, 1))};
+  HdrTarget target{
+      make_framebuffer(), make_texture(), make_renderbuffer(), size, std::clamp(samples, 1, std::max(most, 1)),
+      make_framebuffer(), make_texture()};
   const auto width = static_cast<GLsizei>(size.width);
   const auto height = static_cast<GLsizei>(size.height);
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, target.colour.get());
@@ -38,23 +53,27 @@ Expected<HdrTarget> HdrTarget::create(PixelSize size, int samples) {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, target.colour.get(), 0);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.get());
   if (auto ok = check_complete("multisampled picture", size); !ok) return tl::unexpected(ok.error());
+  attach_depth_texture(target.depth_copy_framebuffer, target.depth_copy, size);
+  if (auto ok = check_complete("copy of the depth", size); !ok) return tl::unexpected(ok.error());
   return target;
+}
+
+void HdrTarget::resolve_depth() const {
+  const auto width = static_cast<GLint>(size.width);
+  const auto height = static_cast<GLint>(size.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, depth_copy_framebuffer.get());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
 }
 
 Expected<ShadowTarget> ShadowTarget::create(std::uint32_t size) {
   ShadowTarget target{make_framebuffer(), make_texture(), size};
-  const auto side = static_cast<GLsizei>(size);
-  glBindTexture(GL_TEXTURE_2D, target.depth.get());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, side, side, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  attach_depth_texture(target.framebuffer, target.depth, {size, size});
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  no_filter(GL_TEXTURE_2D);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, target.depth.get(), 0);
-  glDrawBuffer(GL_NONE);
-  glReadBuffer(GL_NONE);
   if (auto ok = check_complete("shadow map", {size, size}); !ok) return tl::unexpected(ok.error());
   return target;
 }

@@ -17,8 +17,12 @@ struct HdrTarget {
   RenderbufferName depth;
   PixelSize size;
   int samples = 1;
+  FramebufferName depth_copy_framebuffer;
+  TextureName depth_copy;  ///< one sample a pixel, as resolve_depth() left it
 
   [[nodiscard]] static Expected<HdrTarget> create(PixelSize size, int samples);
+  /// Copies the depth to where shaders can read it, and leaves `framebuffer` bound.
+  void resolve_depth() const;
 };
 
 /// Square depth texture, read with comparison.

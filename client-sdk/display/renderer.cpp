@@ -34,13 +34,17 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& set
   if (!sky) return tl::unexpected(sky.error());
   Expected<WaterPass> water = WaterPass::create();
   if (!water) return tl::unexpected(water.error());
+  Expected<ClearPass> clear = ClearPass::create();
+  if (!clear) return tl::unexpected(clear.error());
+  Expected<ParticlePass> particle = ParticlePass::create();
+  if (!particle) return tl::unexpected(particle.error());
   Expected<TonePass> tone = TonePass::create();
   if (!tone) return tl::unexpected(tone.error());
   Expected<OverlayPass> overlay = OverlayPass::create(settings.font_folder);
   if (!overlay) return tl::unexpected(overlay.error());
   return std::unique_ptr<Renderer>(
       new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water),
-                                    std::move(*tone), std::move(*overlay)}));
+                                    std::move(*clear), std::move(*particle), std::move(*tone), std::move(*overlay)}));
 }
 
 Expected<void> Renderer::fit_targets(PixelSize picture, PixelSize eye, bool inset) {
@@ -91,7 +95,7 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
 
 void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
                          const HdrTarget& target) {
-  const PassInput input{scene, assets_, ropes_, view, sky_, passes_.shadow.map(), PV_light};
+  const PassInput input{scene, assets_, ropes_, view, sky_, passes_.shadow.map(), PV_light, target};
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
   glViewport(0, 0, static_cast<GLsizei>(target.size.width), static_cast<GLsizei>(target.size.height));
   glDepthMask(GL_TRUE);
@@ -100,6 +104,8 @@ void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Ei
   passes_.opaque.draw(input);
   passes_.sky.draw(input);
   passes_.water.draw(input);
+  passes_.clear.draw(input);
+  passes_.particle.draw(input);
 }
 
 void Renderer::finish_eye(const RenderScene& scene, PixelSize eye, std::int32_t x) {

@@ -46,6 +46,8 @@ class Renderer {
     OpaquePass opaque;
     SkyPass sky;
     WaterPass water;
+    ClearPass clear;
+    ParticlePass particle;
     TonePass tone;
     OverlayPass overlay;
   };

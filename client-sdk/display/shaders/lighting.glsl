@@ -10,6 +10,8 @@ uniform float shadow_blur_texels;
 uniform vec4 occluders[32];  // xyz: middle in W, w: radius
 uniform int occluder_count;
 uniform vec4 occluder_bound;
+uniform vec4 fires[4];  // xyz: middle in W, w: irradiance at one metre
+uniform int fire_count;
 
 const float kPi = 3.14159265;
 
@@ -74,14 +76,28 @@ vec3 reflected_sky(vec3 r, float roughness) {
   return sky_on * mix(sharp, blurred, smoothstep(0.15, 0.75, roughness));
 }
 
-vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
+// What fires near by send, without shadows; a normal of no length takes light from all around.
+vec3 fire_irradiance(vec3 p_W, vec3 n) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < fire_count; ++i) {
+    vec3 to = fires[i].xyz - p_W;
+    float d2 = dot(to, to);
+    float facing = dot(n, n) > 0.0 ? max(dot(n, to * inversesqrt(max(d2, 1e-6))), 0.0) : 0.5;
+    sum += vec3(1.0, 0.44, 0.13) * fires[i].w * facing / (d2 + 0.01);
+  }
+  return sum;
+}
+
+// Light from the body of a surface, and light mirrored by it.
+void shade_apart(Surface s, vec3 p_W, vec3 n_geometric, out vec3 body, out vec3 mirrored) {
   vec3 v = normalize(eye_W - p_W);
   float nv = max(dot(s.n, v), 1e-3);
   float nl = max(dot(s.n, to_sun), 0.0);
   vec3 f0 = mix(vec3(0.04), s.base, s.metallic);
   vec3 diffuse = s.base * (1.0 - s.metallic);
   float open = openness(p_W, s.n);
-  vec3 light = vec3(0.0);
+  body = vec3(0.0);
+  mirrored = vec3(0.0);
   if (nl > 0.0) {
     float sun = sunlight(p_W, n_geometric);
     vec3 h = normalize(v + to_sun);
@@ -92,12 +108,25 @@ vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
     float ggx = a2 / (kPi * d * d);
     float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
     vec3 f = f0 + (1.0 - f0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
-    light += ((1.0 - f) * diffuse / kPi + ggx * visible * f) * sun_irradiance * nl * sun * mix(1.0, open, 0.35);
+    vec3 arriving = sun_irradiance * nl * sun * mix(1.0, open, 0.35);
+    body += (1.0 - f) * diffuse / kPi * arriving;
+    mirrored += ggx * visible * f * arriving;
   }
   vec2 split = environment_factor(s.roughness, nv);
-  light += diffuse / kPi * irradiance_from_sky(s.n) * open;
-  light += reflected_sky(reflect(-v, s.n), s.roughness) * (f0 * split.x + split.y) * open;
-  return light;
+  body += diffuse / kPi * irradiance_from_sky(s.n) * open;
+  mirrored += reflected_sky(reflect(-v, s.n), s.roughness) * (f0 * split.x + split.y) * open;
+  if (fire_count > 0) {
+    vec3 fire = fire_irradiance(p_W, s.n) / kPi;
+    body += diffuse * fire;
+    mirrored += f0 * fire;
+  }
+}
+
+vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
+  vec3 body;
+  vec3 mirrored;
+  shade_apart(s, p_W, n_geometric, body, mirrored);
+  return body + mirrored;
 }
 
 vec3 through_air(vec3 light, vec3 p_W) {

@@ -6,6 +6,8 @@ in vec2 uv;  // x about the stream, y seconds since the water left the spout
 out vec4 colour;
 
 uniform float time_s;
+uniform float lumps_per_s;
+uniform float broken_s;  // when a jet's core is gone
 
 void main() {
   vec3 v = normalize(eye_W - p_W);
@@ -17,5 +19,10 @@ void main() {
   vec3 white = irradiance_from_sky(n) / kPi + sun_irradiance * 0.10 * (0.4 + 0.6 * max(dot(n, to_sun), 0.0));
   vec3 light = white * (0.25 + 0.75 * smoothstep(0.35, 0.8, streak)) + sky_radiance(reflect(-v, n)) * fresnel * sky_on;
   float opacity = clamp(0.22 + 0.55 * smoothstep(0.3, 0.85, streak) + fresnel * 0.6, 0.0, 0.95);
+  float gone = mix(-0.2, 1.2, smoothstep(0.55, 1.5, uv.y / broken_s));
+  if (gone > 0.0) {
+    float lump = value_noise(vec2(uv.x * 2.0, (uv.y - time_s) * lumps_per_s)) * 0.7 + value_noise(vec2(uv.x * 5.0, (uv.y - time_s) * lumps_per_s * 2.3)) * 0.3;
+    opacity *= smoothstep(gone - 0.18, gone + 0.18, lump);
+  }
   colour = vec4(through_air(light, p_W) * opacity, opacity);
 }

@@ -1,39 +1,7 @@
-in vec3 p_W;
-in vec3 n_W;
-in vec4 t_W;
-in vec2 uv;
-out vec4 colour;
-
-uniform vec4 base_colour;
-uniform vec3 emissive;
-uniform float metallic;
-uniform float roughness;
-uniform float alpha_cutoff;
-uniform int images;  // bits: 1 base colour, 2 normal, 4 metallic-roughness, 8 emissive
-uniform sampler2D base_image;
-uniform sampler2D normal_image;
-uniform sampler2D metallic_roughness_image;
-uniform sampler2D emissive_image;
-
 void main() {
-  vec4 base = base_colour;
-  if ((images & 1) != 0) base *= texture(base_image, uv);
-  if (base.a < alpha_cutoff) discard;
-  vec3 n = normalize(n_W);
-  if (!gl_FrontFacing) n = -n;
-  Surface s = Surface(base.rgb, metallic, roughness, n);
-  if ((images & 4) != 0) {
-    vec3 mr = texture(metallic_roughness_image, uv).rgb;
-    s.roughness *= mr.g;
-    s.metallic *= mr.b;
-  }
-  s.roughness = clamp(s.roughness, 0.05, 1.0);
-  if ((images & 2) != 0) {
-    vec3 t = normalize(t_W.xyz - n * dot(t_W.xyz, n));
-    vec3 m = texture(normal_image, uv).xyz * 2.0 - 1.0;
-    s.n = normalize(t * m.x + cross(n, t) * t_W.w * m.y + n * m.z);
-  }
-  vec3 glow = emissive;
-  if ((images & 8) != 0) glow *= texture(emissive_image, uv).rgb;
+  vec3 n;
+  float opacity;
+  vec3 glow;
+  Surface s = material(n, opacity, glow);
   colour = vec4(through_air(shade(s, p_W, n), p_W) + glow, 1.0);
 }

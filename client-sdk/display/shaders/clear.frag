@@ -1,0 +1,16 @@
+// Glass, horn, thin cloth: what lies behind shines through the body's colour; the mirror image on the surface stays as bright as on a
+// surface that lets nothing through.
+void main() {
+  vec3 n;
+  float opacity;
+  vec3 glow;
+  Surface s = material(n, opacity, glow);
+  vec3 diffuse;
+  vec3 mirrored;
+  shade_apart(s, p_W, n, diffuse, mirrored);
+  float nv = clamp(abs(dot(s.n, normalize(eye_W - p_W))), 0.0, 1.0);
+  float fresnel = 0.04 + 0.96 * pow(1.0 - nv, 5.0);
+  float cover = opacity + (1.0 - opacity) * fresnel;
+  vec3 light = (diffuse * opacity + mirrored) / cover;
+  colour = vec4(through_air(light, p_W) * cover + glow * opacity, cover);
+}

@@ -1,0 +1,46 @@
+in vec2 place;
+in vec2 turned;
+in vec3 p_W;
+flat in vec4 tint;
+flat in vec3 look;
+flat in float radius;
+flat in float sun;
+out vec4 colour;
+
+uniform sampler2D depth;
+uniform vec2 depth_to_m;  // of clip space: distance before the eye = y / (x + depth)
+uniform mat4 V_CW;
+
+float metres(float z) { return depth_to_m.y / (depth_to_m.x + 2.0 * z - 1.0); }
+
+void main() {
+  float r = length(place);
+  if (r > 1.0) discard;
+  float body;
+  if (look.z > 0.5 && look.z < 1.5) {
+    body = smoothstep(1.0, 0.55, r);
+  } else {
+    vec2 q = turned * 1.9 + look.y * vec2(61.0, 37.0);
+    float lumps = value_noise(q) * 0.62 + value_noise(q * 2.6 + 11.0) * 0.38;
+    body = smoothstep(1.0, 0.10, r + (0.5 - lumps) * 0.75) * smoothstep(1.0, 0.8, r);
+  }
+  // Where a puff meets a wall it fades out before it; near the eye, too.
+  float z_m = metres(gl_FragCoord.z);
+  float behind_m = metres(texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r) - z_m;
+  float opacity = tint.a * body * clamp(behind_m / (0.5 * radius + 0.002), 0.0, 1.0) * clamp(z_m * 4.0 - 0.4, 0.0, 1.0);
+  if (look.z > 1.5) {
+    // Flames add their light and hide nothing.
+    colour = vec4(tint.rgb * opacity * body, 0.0);
+    return;
+  }
+  vec3 n_C = vec3(place, sqrt(max(1.0 - r * r, 0.0)));
+  vec3 n = transpose(mat3(V_CW)) * n_C;
+  // Light goes round inside a cloud: even its far side is not dark.
+  float round = 0.45 + 0.55 * (0.5 + 0.5 * dot(n, to_sun));
+  vec3 light = irradiance_from_sky(n) / kPi + sun_irradiance * sun * round * 0.5 / kPi + fire_irradiance(p_W, vec3(0.0)) / kPi;
+  if (look.z > 0.5) {
+    vec3 v = normalize(eye_W - p_W);
+    light = light * 0.55 + reflected_sky(reflect(-v, n), 0.1) * 0.45 + sun_irradiance * sun * 0.5 * pow(max(dot(reflect(-v, n), to_sun), 0.0), 24.0);
+  }
+  colour = vec4(through_air(light * tint.rgb, p_W) * opacity, opacity);
+}
