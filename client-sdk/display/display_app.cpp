@@ -81,6 +81,7 @@ class DisplayLoop {
   std::unique_ptr<AssetLibrary> library_;
   std::unique_ptr<SceneBuilder> builder_;
   std::optional<client::WorldStatus> status_;
+  std::shared_ptr<const client::WorldPresentation> presentation_;
   client::Frame frame_;
   bool have_frame_ = false;
   std::string folder_;
@@ -121,6 +122,7 @@ void DisplayLoop::open_scenario() {
   });
   builder_ = std::make_unique<SceneBuilder>(*library_, options_.language);
   objects_known_ = 0;
+  presentation_.reset();
   have_frame_ = false;  // of the world before
 }
 
@@ -132,6 +134,10 @@ void DisplayLoop::take_news(TimePoint now) {
     if (options_.every_step && !due_) due_ = schedule_.due(now, *status_);
   }
   if (builder_ != nullptr) {
+    if (auto presentation = client_.presentation(); presentation != presentation_) {
+      presentation_ = std::move(presentation);
+      builder_->set_presentation(presentation_);
+    }
     const std::vector<client::SceneObject> objects = client_.objects();
     if (objects.size() != objects_known_) {
       objects_known_ = objects.size();

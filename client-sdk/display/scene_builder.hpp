@@ -2,6 +2,7 @@
 // from the frame.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,26 +15,14 @@
 
 namespace mechane::display {
 
-/// Where water leaves a screw or a pipe: the lowest point of the rim of its upper end.
-struct Spout {
-  Vec3f p_BS = Vec3f::Zero();     ///< in the object's frame
-  Vec3f axis_B = Vec3f::UnitZ();  ///< out of the opening, unit
-};
-
-/// The rim at the +z end of an object that has the pose X_WB. None when the object has no height along z.
-[[nodiscard]] std::optional<Spout> find_spout(const content::ImportedScene& scene, const std::string& node,
-                                              const Pose& X_WB);
-
-/// The width of a stream that carries `flow_m3_per_s` away at `speed_m_per_s`; its section is an ellipse a little flatter than half as
-/// thick as wide.
-[[nodiscard]] double stream_width_m(double flow_m3_per_s, double speed_m_per_s);
-
 class SceneBuilder {
  public:
   SceneBuilder(AssetLibrary& library, const std::string& language);
 
   /// Takes the manifest; loads what is new in it. Slow (files).
   void set_manifest(const std::vector<client::SceneObject>& objects);
+  /// Takes what never changes of the world: from where one looks, what is seen beside the bodies. Null: nothing is known of it.
+  void set_presentation(std::shared_ptr<const client::WorldPresentation> presentation);
   /// The scene of a frame. `frame` may be null (nothing has come yet): then objects stand where the manifest has them.
   [[nodiscard]] RenderScene build(const client::Frame* frame, const client::WorldStatus* status,
                                   client::LinkState link);
@@ -46,11 +35,12 @@ class SceneBuilder {
   };
   void add_scenery(const std::vector<client::SceneObject>& objects);
   void find_place();
-  /// A close-up of the basin, once there is water.
-  [[nodiscard]] Inset basin_inset() const;
-  void add_object(const Placed& placed, const Pose& X_WB, double level_m, RenderScene& out) const;
-  void add_stream(const client::Frame& frame, const client::WorldStatus& status, double level_m,
-                  RenderScene& out) const;
+  /// Where a display stands: as the scenario says, or before what can be touched.
+  [[nodiscard]] Camera standpoint() const;
+  [[nodiscard]] std::optional<Inset> detail(const client::WorldStatus& status) const;
+  [[nodiscard]] Pose pose_of(const Placed& placed, const client::Frame* frame) const;
+  void add_object(const Placed& placed, const Pose& X_WB, const client::Frame* frame, RenderScene& out) const;
+  void add_what_moves(const client::Frame& frame, const client::WorldStatus* status, RenderScene& out);
 
   AssetLibrary& library_;
   HandModel hand_;
@@ -62,9 +52,9 @@ class SceneBuilder {
   Eigen::AlignedBox3f box_W_;
   Eigen::AlignedBox3f shadow_box_W_;
   std::optional<float> ground_height_m_;
-  std::optional<std::size_t> spout_object_;
-  Spout spout_;
-  Eigen::AlignedBox3f basin_W_;  ///< the water's surface when the basin is empty
+  std::shared_ptr<const client::WorldPresentation> presentation_;
+  Eigen::AlignedBox3d interest_W_;       ///< what moves or fills, and a hand's breadth of air
+  std::optional<float> water_height_m_;  ///< y in W where the risen surface was modelled
 };
 
 }  // namespace mechane::display

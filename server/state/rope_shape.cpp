@@ -64,21 +64,31 @@ std::size_t longest_span(const RopePath& path, std::size_t nodes) {
   return longest;
 }
 
+/// Where the end of a rope hangs that nothing holds there: below the last sheave, as far as its last part reaches.
+Vec3 loose_end(const Coupling& rope, const RopePath& path, const Vec3& down_W) {
+  const std::size_t last = rope.node_count - 1;
+  const double span_m = (path.p_in_W[last] - path.p_out_W[last - 1]).norm();
+  const double rest_m = rope.length_m - (path.length_m - span_m);
+  return path.p_out_W[last - 1] + std::clamp(rest_m, 0.0, span_m) * down_W;
+}
+
 }  // namespace
 
 std::vector<Vec3> rope_shape(const Coupling& rope, const std::array<Pose, kMaxRopeNodes>& X_WN, const Quat& R_W1,
                              const Vec3& down_W) {
   std::vector<Vec3> shape;
-  if (!rope.enabled || rope.node_count < 2) return shape;
-  const RopePath path = measure_rope(rope, X_WN, R_W1);
+  if (rope.node_count < 2) return shape;
+  RopePath path = measure_rope(rope, X_WN, R_W1);
+  const std::size_t last = rope.node_count - 1;
+  if (!rope.enabled) path.p_in_W[last] = loose_end(rope, path, down_W);
   if (rope.drum) add_coil(rope, X_WN[0], path.p_out_W[0], shape);
   shape.push_back(path.p_out_W[0]);
-  const std::size_t sagging = longest_span(path, rope.node_count);
-  for (std::size_t i = 1; i < rope.node_count; ++i) {
+  const std::size_t sagging = rope.enabled ? longest_span(path, rope.node_count) : rope.node_count;
+  for (std::size_t i = 1; i <= last; ++i) {
     add_span(path.p_out_W[i - 1], path.p_in_W[i], i - 1 == sagging ? rope.slack_m : 0, down_W, shape);
-    if (i + 1 < rope.node_count) add_arc(rope.nodes[i], X_WN[i], path, i, shape);
+    if (i < last) add_arc(rope.nodes[i], X_WN[i], path, i, shape);
   }
-  shape.push_back(path.p_in_W[rope.node_count - 1]);
+  shape.push_back(path.p_in_W[last]);
   return shape;
 }
 

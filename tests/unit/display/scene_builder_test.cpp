@@ -61,6 +61,23 @@ client::WorldStatus water_status() {
   return status;
 }
 
+/// The screw's effects: a basin that fills, and water that runs out of the barrel's upper end.
+std::shared_ptr<const client::WorldPresentation> water_presentation() {
+  auto presentation = std::make_shared<client::WorldPresentation>();
+  client::Effect basin, spout;
+  basin.kind = "level";
+  basin.node = "WATER_BASIN";
+  basin.quantity = 0;
+  spout.kind = "stream";
+  spout.object = 0;
+  spout.p_BE = Vec3(0, -0.05, 0.5);
+  spout.direction_B = Vec3::UnitZ();
+  spout.quantity = 1;
+  spout.speed_m_per_s = 0.5;
+  presentation->effects = {basin, spout};
+  return presentation;
+}
+
 TEST(AssetLibrary, a_missing_file_or_node_is_a_box_and_is_told) {
   int loads = 0;
   AssetLibrary library = library_of(loads);
@@ -87,6 +104,7 @@ TEST(SceneBuilder, water_stands_where_the_level_says) {
   AssetLibrary library = library_of(loads);
   SceneBuilder builder(library, "en");
   builder.set_manifest({object(0, "machine.glb", "OUTER")});
+  builder.set_presentation(water_presentation());
   const client::WorldStatus status = water_status();
   client::Frame frame;
   frame.quantities = {0.0, 0.0};
@@ -108,6 +126,7 @@ TEST(SceneBuilder, the_stream_carries_the_flow) {
   barrel.X_WB = {Vec3(0, 1, 0),
                  Quat(Eigen::AngleAxisd(kPi / 4, Vec3::UnitY()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX()))};
   builder.set_manifest({barrel});
+  builder.set_presentation(water_presentation());
   const client::WorldStatus status = water_status();
   client::Frame frame;
   frame.quantities = {0.1, 0.0};
@@ -119,10 +138,55 @@ TEST(SceneBuilder, the_stream_carries_the_flow) {
   ASSERT_EQ(slow.streams.size(), 1U);
   EXPECT_NEAR(fast.streams[0].width_m, 2 * slow.streams[0].width_m, 1e-5) << "four times the water, twice the width";
   EXPECT_FLOAT_EQ(slow.streams[0].landing_height_m, 0.1F);
-  // The barrel's +z end is the high one: water leaves there, below its axis.
-  const Vec3 end = barrel.X_WB * Vec3(0, 0, 1);
-  EXPECT_LT((slow.streams[0].p_WS.cast<double>() - end).norm(), 0.2);
-  EXPECT_LT(slow.streams[0].p_WS.y(), static_cast<float>(end.y()));
+  EXPECT_LT((slow.streams[0].p_WS.cast<double>() - barrel.X_WB * Vec3(0, -0.05, 0.5)).norm(), 1e-6);
+  EXPECT_LT((slow.streams[0].v_W.cast<double>() - 0.5 * barrel.X_WB.rotate(Vec3::UnitZ())).norm(), 1e-6);
+}
+
+TEST(SceneBuilder, a_jet_of_the_same_bore_is_faster_with_more_water) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  builder.set_manifest({object(0, "machine.glb", "OUTER")});
+  auto presentation = std::make_shared<client::WorldPresentation>(*water_presentation());
+  presentation->effects[1].kind = "jet";
+  presentation->effects[1].size_m = 0.01;
+  builder.set_presentation(presentation);
+  const client::WorldStatus status = water_status();
+  client::Frame frame;
+  frame.quantities = {0.0, 0.2};  // l/s through 78.5 mm^2: 2.55 m/s
+  const RenderScene scene = builder.build(&frame, &status, client::LinkState::joined);
+  ASSERT_EQ(scene.streams.size(), 1U);
+  EXPECT_NEAR(scene.streams[0].v_W.norm(), 2.546, 0.001);
+  EXPECT_FLOAT_EQ(scene.streams[0].width_m, 0.01F);
+}
+
+TEST(SceneBuilder, ropes_and_close_ups_are_as_the_server_says) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  builder.set_manifest({object(0, "machine.glb", "OUTER")});
+  auto presentation = std::make_shared<client::WorldPresentation>();
+  presentation->views.resize(2);
+  presentation->views[0].X_WV.p = Vec3(0, 1.5, 3);
+  presentation->views[1].name = "NEAR";
+  presentation->views[1].X_WV.p = Vec3(1, 2, 1);
+  builder.set_presentation(presentation);
+  client::WorldStatus status = water_status();
+  client::Frame frame;
+  frame.ropes = {{0.016, {Vec3(0, 0, 0), Vec3(0, 1, 0)}}, {0.01, {}}};
+  const RenderScene whole = builder.build(&frame, &status, client::LinkState::joined);
+  ASSERT_EQ(whole.ropes.size(), 2U);
+  EXPECT_FLOAT_EQ(whole.ropes[0].radius_m, 0.008F);
+  EXPECT_EQ(whole.ropes[0].points_W.size(), 2U);
+  EXPECT_TRUE(whole.camera.p_WC.isApprox(Vec3(0, 1.5, 3)));
+  EXPECT_LT(whole.camera.p_WT.y(), 1.5) << "looks a little lower, for the caption lies there";
+  EXPECT_FALSE(whole.inset) << "this step has no close-up";
+  status.detail = "NEAR";
+  const RenderScene near = builder.build(&frame, &status, client::LinkState::joined);
+  ASSERT_TRUE(near.inset);
+  EXPECT_TRUE(near.inset->camera.p_WC.isApprox(Vec3(1, 2, 1)));
+  status.detail = "NOWHERE";
+  EXPECT_FALSE(builder.build(&frame, &status, client::LinkState::joined).inset);
 }
 
 TEST(SceneBuilder, a_landscape_is_seen_over_what_is_touched) {

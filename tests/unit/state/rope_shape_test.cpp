@@ -101,10 +101,15 @@ TEST(RopeShape, SlackHangsInTheLongestPart) {
   EXPECT_LT((slack.back() - taut.back()).norm(), 1e-12);
 }
 
-TEST(RopeShape, ACutRopeIsNotSeen) {
+TEST(RopeShape, TheEndOfACutRopeHangsDown) {
   Crane crane;
+  const std::vector<Vec3> tied = crane.shape();
   crane.rope.enabled = false;
-  EXPECT_TRUE(crane.shape().empty());
+  crane.X_WB[2].p += Vec3(1, -0.5, 0);  // the load has gone
+  const std::vector<Vec3> loose = crane.shape();
+  ASSERT_EQ(loose.size(), tied.size());
+  EXPECT_NEAR(loose.back().x(), -2.08, 0.1) << "below the sheave's rim";
+  EXPECT_NEAR(loose.back().y(), 1.4, 0.1) << "where the load was";
 }
 
 TEST(RopeShape, ThroughBarePointsAndOverNothingItIsFinite) {

@@ -77,7 +77,7 @@ struct HandPose {
 /// A rope's middle as a line, from what is wound on a drum to its end.
 struct RopeShape {
   double diameter_m = 0.02;
-  std::vector<Vec3> points_W;  ///< empty: it is off (cut); else as many in each frame
+  std::vector<Vec3> points_W;  ///< as many in each frame
 };
 
 /// One frame of a world: every movable pose, every quantity, every hand, every rope.
