@@ -33,6 +33,18 @@ Mat3 axes_of(const Camera& camera) {
   return R_CW;
 }
 
+/// Half the picture's height at one metre, and how far off the plane lies that has no parallax.
+struct Window {
+  double half_tan = 0;
+  double distance_m = 0;
+};
+
+Window window_of(const Camera& camera, double aspect) {
+  return {std::max(std::tan(camera.field_of_view_rad / 2),
+                   std::tan(std::min(camera.least_horizontal_rad, 3.0) / 2) / aspect),
+          camera.screen_distance_m > 0 ? camera.screen_distance_m : (camera.p_WT - camera.p_WC).norm()};
+}
+
 }  // namespace
 
 EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
@@ -41,9 +53,7 @@ EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
   const double shift = side * camera.eye_distance_m;
   const Vec3 p_WE = camera.p_WC + shift * R_CW.row(0).transpose();
 
-  const double half_tan = std::max(std::tan(camera.field_of_view_rad / 2),
-                                   std::tan(std::min(camera.least_horizontal_rad, 3.0) / 2) / aspect);
-  const double distance = camera.screen_distance_m > 0 ? camera.screen_distance_m : (camera.p_WT - camera.p_WC).norm();
+  const auto [half_tan, distance] = window_of(camera, aspect);
   const double half_height = half_tan * camera.near_m;
   const double half_width = half_height * aspect;
   // Both frusta meet in the same rectangle at the screen's distance.
@@ -56,6 +66,23 @@ EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
                .cast<float>();
   view.p_WE = p_WE.cast<float>();
   return view;
+}
+
+Camera for_screen(const Camera& camera, const ScreenSetup& screen, double aspect) {
+  Camera out = camera;
+  const double eyes_m = screen.eye_distance_m > 0 ? screen.eye_distance_m : camera.eye_distance_m;
+  out.eye_distance_m = eyes_m;
+  if (!(screen.width_m > 0) || !(screen.viewer_distance_m > 0)) return out;
+  const auto [half_tan, distance_m] = window_of(camera, aspect);
+  const double scale = 2 * half_tan * distance_m * aspect / screen.width_m;
+  const Vec3 back = (camera.p_WC - camera.p_WT).normalized();
+  out.p_WT = camera.p_WC - distance_m * back;
+  out.screen_distance_m = scale * screen.viewer_distance_m;
+  out.p_WC = out.p_WT + out.screen_distance_m * back;
+  out.field_of_view_rad = 2 * std::atan(half_tan * distance_m / out.screen_distance_m);
+  out.least_horizontal_rad = 0;
+  out.eye_distance_m = scale * eyes_m;
+  return out;
 }
 
 Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad) {

@@ -34,6 +34,18 @@ struct EyeView {
 /// `aspect` is width over height of one eye's picture.
 [[nodiscard]] EyeView eye_view(const Camera& camera, Eye eye, double aspect);
 
+/// The screen and who stands before it.
+struct ScreenSetup {
+  double width_m = 0;            ///< of what one eye's picture fills; 0: not known
+  double viewer_distance_m = 0;  ///< from the eyes to the screen; 0: not known
+  double eye_distance_m = 0;     ///< 0: the camera's own
+};
+
+/// The camera for such a screen. What lay in the plane of p_WT stays in the screen, as large as it was; the eyes stand before it as the visitor
+/// stands before the screen, all at one scale: depth has its true proportions, and what is far away has no more parallax than eyes are apart.
+/// Without a width and a distance only the eyes' distance is taken over, in metres of the world.
+[[nodiscard]] Camera for_screen(const Camera& camera, const ScreenSetup& screen, double aspect);
+
 /// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a little room left below for captions.
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad);
 

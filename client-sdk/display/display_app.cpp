@@ -66,6 +66,7 @@ class DisplayLoop {
   void open_scenario();
   Expected<void> draw(TimePoint now);
   [[nodiscard]] RenderScene build() const;
+  [[nodiscard]] RenderScene build_for_one() const;
   void take_wishes();
   Expected<void> write_picture(const std::string& name);
   void wait_for_next(TimePoint began);
@@ -156,6 +157,15 @@ void DisplayLoop::take_news(TimePoint now) {
 }
 
 RenderScene DisplayLoop::build() const {
+  RenderScene scene = build_for_one();
+  const PixelSize eye = eye_size(options_.stereo, context_.size());
+  if (eye.width > 0 && eye.height > 0)
+    scene.camera = for_screen(scene.camera, options_.screen, static_cast<double>(eye.width) / eye.height);
+  return scene;
+}
+
+/// Before it is known what screen it is for.
+RenderScene DisplayLoop::build_for_one() const {
   if (builder_ != nullptr)
     return builder_->build(have_frame_ ? &frame_ : nullptr, status_ ? &*status_ : nullptr, client_.state());
   RenderScene scene;
@@ -181,7 +191,7 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   const RenderScene scene = build();
   const PixelSize size = context_.size();
   // A window that is minimised has no pixels.
-  if (size.width < 2 || size.height == 0) return {};
+  if (size.width < 2 || size.height < 2) return {};
   if (auto ok = renderer_.draw(scene, options_.stereo, size); !ok) return ok;
   if (options_.offscreen) {
     renderer_.finish();
@@ -198,8 +208,7 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
 
 Expected<void> DisplayLoop::write_picture(const std::string& name) {
   if (options_.out.empty()) return {};
-  const std::string path =
-      fmt::format("{}/{}-{}.png", options_.out, name, options_.stereo == Stereo::mono ? "mono" : "sbs");
+  const std::string path = fmt::format("{}/{}-{}.png", options_.out, name, stereo_name(options_.stereo));
   if (auto ok = write_png(renderer_.read_picture(), path); !ok) return ok;
   log::info("wrote " + path);
   summary_.pictures.push_back(path);
@@ -287,9 +296,17 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   }
   // Before the context: the driver's own threads inherit it. A refusal does no harm.
   if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
-  auto context =
-      options.offscreen ? make_offscreen_context(options.size) : make_window_context(options.size, "Mechane");
+  auto context = options.offscreen
+                     ? make_offscreen_context(options.size)
+                     : make_window_context(options.size, "Mechane", options.stereo == Stereo::quad_buffer);
   if (!context) return tl::unexpected(context.error());
+  DisplayOptions possible = options;
+  if (options.stereo == Stereo::quad_buffer && !(*context)->has_quad_buffer()) {
+    log::warning(
+        "this display has no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs, "
+        "top-bottom, rows or anaglyph");
+    possible.stereo = Stereo::mono;
+  }
   auto renderer = Renderer::create(options.renderer);
   if (!renderer) return tl::unexpected(renderer.error());
   client::ClientConfig config;
@@ -298,7 +315,7 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   config.domain = options.domain;
   auto client = client::Client::connect(config);
   if (!client) return tl::unexpected(client.error());
-  return DisplayLoop(options, requests, **context, **renderer, **client, catalogue ? &*catalogue : nullptr).run();
+  return DisplayLoop(possible, requests, **context, **renderer, **client, catalogue ? &*catalogue : nullptr).run();
 }
 
 }  // namespace mechane::display

@@ -22,6 +22,7 @@ struct DisplayOptions {
   bool offscreen = false;
   PixelSize size{1280, 720};
   Stereo stereo = Stereo::mono;
+  ScreenSetup screen;  ///< that visitors stand before
   std::string language = "el";
   std::string assets;  ///< folder that mesh files are relative to; empty: the scenario's folder, as the server sees it
   std::string catalogue;     ///< file; mesh files are found in it first, by their content; empty: none

@@ -37,6 +37,8 @@ class GlContext {
   [[nodiscard]] virtual bool take_picture_wanted() = 0;
   /// Where the left button was pressed since the last call.
   [[nodiscard]] virtual std::optional<PixelPlace> take_click() { return {}; }
+  /// Whether the window has a picture for each eye (Stereo::quad_buffer).
+  [[nodiscard]] virtual bool has_quad_buffer() const { return false; }
   /// Home was asked for (key Home) since the last call.
   [[nodiscard]] virtual bool take_home_wanted() { return false; }
 };
@@ -44,7 +46,8 @@ class GlContext {
 /// EGL on Mesa's surfaceless platform: no screen, no X server. Errors: no EGL, no such platform, no OpenGL 3.3.
 [[nodiscard]] Expected<std::unique_ptr<GlContext>> make_offscreen_context(PixelSize size);
 
-/// A window with a context of its own; F11 fills the screen. Errors: no screen to open a window on, no OpenGL 3.3.
-[[nodiscard]] Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const std::string& title);
+/// A window with a context of its own; F11 fills the screen. `quad_buffer`: with a picture for each eye where the driver has such; has_quad_buffer() tells. Errors: no screen to open a window on, no OpenGL 3.3.
+[[nodiscard]] Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const std::string& title,
+                                                                       bool quad_buffer = false);
 
 }  // namespace mechane::display

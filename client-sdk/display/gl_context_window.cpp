@@ -41,6 +41,11 @@ class WindowContext final : public GlContext {
   }
   [[nodiscard]] bool close_wanted() const override { return glfwWindowShouldClose(window_) != 0; }
   [[nodiscard]] bool take_picture_wanted() override { return std::exchange(picture_wanted_, false); }
+  [[nodiscard]] bool has_quad_buffer() const override {
+    GLboolean has = GL_FALSE;
+    glGetBooleanv(GL_STEREO, &has);
+    return has == GL_TRUE;
+  }
   [[nodiscard]] std::optional<PixelPlace> take_click() override { return std::exchange(click_, std::nullopt); }
   [[nodiscard]] bool take_home_wanted() override { return std::exchange(home_wanted_, false); }
 
@@ -83,7 +88,7 @@ std::string last_glfw_error() {
 
 }  // namespace
 
-Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const std::string& title) {
+Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const std::string& title, bool quad_buffer) {
   if (glfwInit() == GLFW_FALSE) {
     return fail("cannot open a window: " + last_glfw_error(), "display, window",
                 "start it in a desktop session (DISPLAY set), or give --offscreen");
@@ -93,8 +98,14 @@ Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const s
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   // Anti-aliasing is done in the renderer's own targets.
   glfwWindowHint(GLFW_SAMPLES, 0);
-  GLFWwindow* window =
-      glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), title.c_str(), nullptr, nullptr);
+  const auto open = [&](bool stereo) {
+    // GLFW opens no window at all where the driver lacks this.
+    glfwWindowHint(GLFW_STEREO, stereo ? GLFW_TRUE : GLFW_FALSE);
+    return glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), title.c_str(), nullptr,
+                            nullptr);
+  };
+  GLFWwindow* window = quad_buffer ? open(true) : nullptr;
+  if (window == nullptr) window = open(false);
   if (window == nullptr) {
     const std::string reason = last_glfw_error();
     glfwTerminate();

@@ -19,10 +19,26 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--domain", o.domain, "DDS domain")->capture_default_str();
   app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();
-  const std::map<std::string, display::Stereo> stereo{{"mono", display::Stereo::mono},
-                                                      {"sbs", display::Stereo::side_by_side}};
-  app.add_option("--stereo", o.stereo, "mono, or sbs: left and right eye side by side")
-      ->transform(CLI::CheckedTransformer(stereo).description("{mono,sbs}"));
+  std::map<std::string, display::Stereo> stereo;
+  std::string names;
+  for (const auto& [name, mode] : display::stereo_names()) {
+    stereo.emplace(name, mode);
+    names += (names.empty() ? "{" : ",") + std::string(name);
+  }
+  app.add_option("--stereo", o.stereo,
+                 "how two eyes see one picture: halves side by side or one above the other, red-cyan glasses, rows in "
+                 "turn, a driver's two "
+                 "buffers; or one eye alone")
+      ->transform(CLI::CheckedTransformer(stereo).description(names + "}"));
+  app.add_flag("--right-eye-first", o.renderer.right_eye_first,
+               "with --stereo rows: the uppermost row is the right eye's");
+  app.add_option("--screen-width", o.screen.width_m,
+                 "of the picture that one eye sees, metres; with --viewer-distance, depth has its true proportions")
+      ->check(CLI::Range(0.05, 50.0));
+  app.add_option("--viewer-distance", o.screen.viewer_distance_m, "from the visitor's eyes to the screen, metres")
+      ->check(CLI::Range(0.1, 50.0));
+  app.add_option("--eye-separation", o.screen.eye_distance_m, "between the visitor's eyes, metres; without: 0.064")
+      ->check(CLI::Range(0.01, 0.2));
   app.add_option("--language", o.language, "language of the captions")
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();

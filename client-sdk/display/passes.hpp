@@ -8,6 +8,7 @@
 #include "client-sdk/display/render_target.hpp"
 #include "client-sdk/display/shader.hpp"
 #include "client-sdk/display/sky_light.hpp"
+#include "client-sdk/display/stereo.hpp"
 
 namespace mechane::display {
 
@@ -113,6 +114,19 @@ class TonePass {
 
  private:
   TonePass(Program program, VertexArrayName none) : program_(std::move(program)), no_vertices_(std::move(none)) {}
+  Program program_;
+  VertexArrayName no_vertices_;
+};
+
+/// The eyes' finished pictures into one: anaglyph or row by row. Into the bound framebuffer, all three of one size.
+class CompositePass {
+ public:
+  [[nodiscard]] static Expected<CompositePass> create();
+  /// `right_eye_first`: the uppermost row is the right eye's.
+  void draw(const PictureTarget& left, const PictureTarget& right, Stereo stereo, bool right_eye_first) const;
+
+ private:
+  CompositePass(Program program, VertexArrayName none) : program_(std::move(program)), no_vertices_(std::move(none)) {}
   Program program_;
   VertexArrayName no_vertices_;
 };

@@ -12,13 +12,10 @@ struct Ray {
 };
 
 Ray ray_through(const RenderScene& scene, PixelPlace place, Stereo stereo, PixelSize pictured) {
-  const bool mono = stereo == Stereo::mono;
-  const double width = mono ? pictured.width : pictured.width / 2;  // NOLINT(bugprone-integer-division): whole pixels
-  const bool right = !mono && place.x >= width;
-  const Eye eye = mono ? Eye::middle : right ? Eye::right : Eye::left;
-  const EyeView view = eye_view(scene.camera, eye, width / pictured.height);
-  const auto x = static_cast<float>(2 * (place.x - (right ? width : 0)) / width - 1);
-  const auto y = static_cast<float>(1 - 2 * place.y / pictured.height);
+  const EyePlace seen = eye_at(stereo, pictured, place);
+  const EyeView view = eye_view(scene.camera, seen.eye, seen.aspect);
+  const auto x = static_cast<float>(seen.x);
+  const auto y = static_cast<float>(seen.y);
   const Eigen::Matrix4f X_WC = (view.P * view.V_CW).inverse();
   const Vec3f near = (X_WC * Eigen::Vector4f(x, y, -1, 1)).hnormalized();
   return {view.p_WE, (near - view.p_WE).normalized()};
@@ -56,7 +53,7 @@ float distance_to(const Ray& ray_W, const Instance& instance, const MeshData& me
 
 std::optional<std::uint32_t> object_at(const RenderScene& scene, const SceneAssets& assets, PixelPlace place,
                                        Stereo stereo, PixelSize pictured) {
-  if (pictured.width < 2 || pictured.height == 0) return {};
+  if (pictured.width < 2 || pictured.height < 2) return {};
   const Ray ray = ray_through(scene, place, stereo, pictured);
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<std::uint32_t> object;

@@ -79,11 +79,15 @@ Expected<ShadowTarget> ShadowTarget::create(std::uint32_t size) {
 }
 
 Expected<PictureTarget> PictureTarget::create(PixelSize size) {
-  PictureTarget target{make_framebuffer(), make_renderbuffer(), size};
-  glBindRenderbuffer(GL_RENDERBUFFER, target.colour.get());
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
+  PictureTarget target{make_framebuffer(), make_texture(), size};
+  glBindTexture(GL_TEXTURE_2D, target.colour.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), 0,
+               GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  no_filter(GL_TEXTURE_2D);
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.colour.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
   if (auto ok = check_complete("picture", size); !ok) return tl::unexpected(ok.error());
   return target;
 }

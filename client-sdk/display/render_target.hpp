@@ -37,7 +37,7 @@ struct ShadowTarget {
 /// The finished picture, sRGB values in 8 bits.
 struct PictureTarget {
   FramebufferName framebuffer;
-  RenderbufferName colour;
+  TextureName colour;
   PixelSize size;
 
   [[nodiscard]] static Expected<PictureTarget> create(PixelSize size);

@@ -1,7 +1,5 @@
 #include "client-sdk/display/renderer.hpp"
 
-#include <array>
-
 #include <epoxy/gl.h>
 
 #include "client-sdk/display/rope_mesh.hpp"
@@ -17,6 +15,29 @@ Expected<void> fit(std::optional<HdrTarget>& target, PixelSize size, int samples
   if (!made) return tl::unexpected(made.error());
   target.emplace(std::move(*made));
   return {};
+}
+
+Expected<void> fit(std::optional<PictureTarget>& target, PixelSize size) {
+  if (target && target->size == size) return {};
+  target.reset();
+  Expected<PictureTarget> made = PictureTarget::create(size);
+  if (!made) return tl::unexpected(made.error());
+  target.emplace(std::move(*made));
+  return {};
+}
+
+/// Each eye has a picture of its own first.
+bool is_put_together(Stereo stereo) {
+  return stereo == Stereo::anaglyph || stereo == Stereo::row_interleaved || stereo == Stereo::quad_buffer;
+}
+
+void copy_to_buffer(const PictureTarget& from, PixelSize window, GLenum buffer) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  glDrawBuffer(buffer);
+  glBlitFramebuffer(0, 0, static_cast<GLint>(from.size.width), static_cast<GLint>(from.size.height), 0, 0,
+                    static_cast<GLint>(window.width), static_cast<GLint>(window.height), GL_COLOR_BUFFER_BIT,
+                    GL_LINEAR);
 }
 
 double aspect_of(PixelSize size) {
@@ -40,19 +61,24 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& set
   if (!particle) return tl::unexpected(particle.error());
   Expected<TonePass> tone = TonePass::create();
   if (!tone) return tl::unexpected(tone.error());
+  Expected<CompositePass> composite = CompositePass::create();
+  if (!composite) return tl::unexpected(composite.error());
   Expected<OverlayPass> overlay = OverlayPass::create(settings.font_folder);
   if (!overlay) return tl::unexpected(overlay.error());
-  return std::unique_ptr<Renderer>(
-      new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water),
-                                    std::move(*clear), std::move(*particle), std::move(*tone), std::move(*overlay)}));
+  return std::unique_ptr<Renderer>(new Renderer(
+      settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water), std::move(*clear),
+                       std::move(*particle), std::move(*tone), std::move(*composite), std::move(*overlay)}));
 }
 
-Expected<void> Renderer::fit_targets(PixelSize picture, PixelSize eye, bool inset) {
-  if (!picture_ || picture_->size != picture) {
-    picture_.reset();
-    Expected<PictureTarget> made = PictureTarget::create(picture);
-    if (!made) return tl::unexpected(made.error());
-    picture_.emplace(std::move(*made));
+Expected<void> Renderer::fit_targets(Stereo stereo, PixelSize picture, bool inset) {
+  const PixelSize eye = eye_size(stereo, picture);
+  if (auto ok = fit(picture_, picture); !ok) return ok;
+  for (std::optional<PictureTarget>& target : eyes_) {
+    if (!is_put_together(stereo)) {
+      target.reset();
+    } else if (auto ok = fit(target, eye); !ok) {
+      return ok;
+    }
   }
   if (auto ok = fit(hdr_, eye, settings_.samples); !ok) return ok;
   const PixelRectangle place = inset_rectangle(eye);
@@ -69,12 +95,11 @@ Expected<void> Renderer::fit_sky(const Sun& sun) {
 }
 
 Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize size) {
-  const bool mono = stereo == Stereo::mono;
-  const PixelSize eye_size{mono ? size.width : size.width / 2, size.height};
-  if (eye_size.width == 0 || eye_size.height == 0) {
-    return fail("the picture has no pixels", "display", "give a --size of at least 2x1");
+  const PixelSize eye_pixels = eye_size(stereo, size);
+  if (eye_pixels.width == 0 || eye_pixels.height == 0) {
+    return fail("the picture has no pixels", "display", "give a --size of at least 2x2");
   }
-  if (auto ok = fit_targets(size, eye_size, scene.inset.has_value()); !ok) return ok;
+  if (auto ok = fit_targets(stereo, size, scene.inset.has_value()); !ok) return ok;
   if (auto ok = fit_sky(scene.sun); !ok) return ok;
   MeshData ropes;
   for (const RenderRope& rope : scene.ropes)
@@ -84,13 +109,30 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   if (scene.inset) {
     draw_view(scene, eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size)), PV_light, *inset_);
   }
-  constexpr std::array<Eye, 2> kBoth{Eye::left, Eye::right};
-  for (int half = 0; half < (mono ? 1 : 2); ++half) {
-    const Eye eye = mono ? Eye::middle : kBoth[static_cast<std::size_t>(half)];
-    draw_view(scene, eye_view(scene.camera, eye, aspect_of(eye_size)), PV_light, *hdr_);
-    finish_eye(scene, eye_size, half * static_cast<std::int32_t>(eye_size.width));
+  const std::vector<Eye> eyes = eyes_of(stereo);
+  for (std::size_t i = 0; i < eyes.size(); ++i) {
+    draw_view(scene, eye_view(scene.camera, eyes[i], aspect_of(eye_pixels)), PV_light, *hdr_);
+    finish_eye(scene, eye_pixels, target_of(stereo, i));
   }
+  if (stereo == Stereo::anaglyph || stereo == Stereo::row_interleaved) {
+    glBindFramebuffer(GL_FRAMEBUFFER, picture_->framebuffer.get());
+    glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
+    passes_.composite.draw(*eyes_[0], *eyes_[1], stereo, settings_.right_eye_first);
+  }
+  last_ = stereo;
   return {};
+}
+
+Renderer::EyeTarget Renderer::target_of(Stereo stereo, std::size_t eye) const {
+  const PixelSize size = eye_size(stereo, picture_->size);
+  const auto index = static_cast<std::int32_t>(eye);
+  if (is_put_together(stereo)) return {*eyes_[eye]};
+  if (stereo == Stereo::side_by_side) return {*picture_, index * static_cast<std::int32_t>(size.width), 0};
+  // OpenGL counts rows from below.
+  if (stereo == Stereo::top_bottom)
+    return {*picture_, 0,
+            static_cast<std::int32_t>(picture_->size.height) - (1 + index) * static_cast<std::int32_t>(size.height)};
+  return {*picture_};
 }
 
 void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
@@ -108,24 +150,25 @@ void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Ei
   passes_.particle.draw(input);
 }
 
-void Renderer::finish_eye(const RenderScene& scene, PixelSize eye, std::int32_t x) {
-  glBindFramebuffer(GL_FRAMEBUFFER, picture_->framebuffer.get());
+void Renderer::finish_eye(const RenderScene& scene, PixelSize eye, const EyeTarget& into) {
+  glBindFramebuffer(GL_FRAMEBUFFER, into.target.framebuffer.get());
   const auto width = static_cast<GLsizei>(eye.width);
   const auto height = static_cast<GLsizei>(eye.height);
-  glViewport(x, 0, width, height);
+  glViewport(into.x, into.y, width, height);
   passes_.tone.draw(*hdr_, settings_.exposure);
   if (scene.inset) {
     const PixelRectangle place = inset_rectangle(eye);
-    glViewport(x + static_cast<GLint>(place.x), height - static_cast<GLint>(place.y + place.height),
+    glViewport(into.x + static_cast<GLint>(place.x), into.y + height - static_cast<GLint>(place.y + place.height),
                static_cast<GLsizei>(place.width), static_cast<GLsizei>(place.height));
     passes_.tone.draw(*inset_, settings_.exposure);
-    glViewport(x, 0, width, height);
+    glViewport(into.x, into.y, width, height);
   }
   passes_.overlay.draw(scene, eye);
 }
 
-ImageData Renderer::read_picture() const {
+ImageData Renderer::read_picture(Eye eye) const {
   MECHANE_ASSERT(picture_.has_value());
+  if (last_ == Stereo::quad_buffer) return eyes_[eye == Eye::right ? 1 : 0]->read();
   return picture_->read();
 }
 
@@ -135,11 +178,12 @@ void Renderer::finish() {
 
 void Renderer::copy_to_window(PixelSize window) const {
   MECHANE_ASSERT(picture_.has_value());
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_->framebuffer.get());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, static_cast<GLint>(picture_->size.width), static_cast<GLint>(picture_->size.height), 0, 0,
-                    static_cast<GLint>(window.width), static_cast<GLint>(window.height), GL_COLOR_BUFFER_BIT,
-                    GL_LINEAR);
+  if (last_ != Stereo::quad_buffer) {
+    copy_to_buffer(*picture_, window, GL_BACK);
+    return;
+  }
+  copy_to_buffer(*eyes_[0], window, GL_BACK_LEFT);
+  copy_to_buffer(*eyes_[1], window, GL_BACK_RIGHT);
 }
 
 }  // namespace mechane::display

@@ -1,24 +1,22 @@
 // Draws a RenderScene: one eye or two, pass after pass. Made, used and destroyed on the thread of a current OpenGL context.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
 #include "client-sdk/display/overlay_pass.hpp"
 #include "client-sdk/display/passes.hpp"
 #include "client-sdk/display/render_scene.hpp"
+#include "client-sdk/display/stereo.hpp"
 
 namespace mechane::display {
-
-enum class Stereo : std::uint8_t {
-  mono,
-  side_by_side,  ///< left eye in the left half; each half has the proportions of its own pixels (nothing is squeezed)
-};
 
 struct RendererSettings {
   int samples = 4;  ///< a pixel, 1..8
   std::uint32_t shadow_map_size = 2048;
   float exposure = 1.15F;
+  bool right_eye_first = false;  ///< row_interleaved: the screen's uppermost row is the right eye's
   std::string font_folder = default_font_folder();
 };
 
@@ -33,11 +31,11 @@ class Renderer {
   void forget_assets() { assets_ = {}; }
   /// Draws into the renderer's own picture. Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const RenderScene& scene, Stereo stereo, PixelSize size);
-  /// The last picture, upper row first. Waits for the graphics card.
-  [[nodiscard]] ImageData read_picture() const;
+  /// The last picture, upper row first. Waits for the graphics card. Of quad_buffer, that eye's.
+  [[nodiscard]] ImageData read_picture(Eye eye = Eye::left) const;
   /// Waits until the last picture is drawn.
   static void finish();
-  /// Copies the last picture into the window.
+  /// Copies the last picture into the window; after quad_buffer, into both of its pictures.
   void copy_to_window(PixelSize window) const;
 
  private:
@@ -49,15 +47,23 @@ class Renderer {
     ClearPass clear;
     ParticlePass particle;
     TonePass tone;
+    CompositePass composite;
     OverlayPass overlay;
   };
   Renderer(const RendererSettings& settings, Passes passes) : settings_(settings), passes_(std::move(passes)) {}
-  [[nodiscard]] Expected<void> fit_targets(PixelSize picture, PixelSize eye, bool inset);
+  [[nodiscard]] Expected<void> fit_targets(Stereo stereo, PixelSize picture, bool inset);
   [[nodiscard]] Expected<void> fit_sky(const Sun& sun);
   void draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
                  const HdrTarget& target);
-  /// Tone, close-up and words of one eye, into the picture from column x on.
-  void finish_eye(const RenderScene& scene, PixelSize eye, std::int32_t x);
+  /// Where an eye's finished picture goes: into `target`, its lower left corner at (x, y).
+  struct EyeTarget {
+    const PictureTarget& target;
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+  };
+  [[nodiscard]] EyeTarget target_of(Stereo stereo, std::size_t eye) const;
+  /// Tone, close-up and words of one eye.
+  void finish_eye(const RenderScene& scene, PixelSize eye, const EyeTarget& into);
 
   RendererSettings settings_;
   Passes passes_;
@@ -67,7 +73,9 @@ class Renderer {
   std::optional<Sun> baked_sun_;
   std::optional<HdrTarget> hdr_;
   std::optional<HdrTarget> inset_;
-  std::optional<PictureTarget> picture_;
+  std::optional<PictureTarget> picture_;              ///< quad_buffer: not used
+  std::array<std::optional<PictureTarget>, 2> eyes_;  ///< left and right, where they are put together afterwards
+  Stereo last_ = Stereo::mono;
 };
 
 }  // namespace mechane::display

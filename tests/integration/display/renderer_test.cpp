@@ -1,6 +1,7 @@
 #include "client-sdk/display/renderer.hpp"
 
 #include "tests/integration/display/drawn_picture.hpp"
+#include "tests/integration/display/lamp.hpp"
 
 /// Mesa keeps some memory until the process ends, and its drivers are unloaded before leaks are looked for: what is theirs cannot be
 /// told from ours by then. Other errors are still found.
@@ -12,57 +13,6 @@ extern "C" int __lsan_is_turned_off() {
 namespace mechane::display {
 namespace {
 
-/// Pixels from the picture's upper left corner, of a point seen by a camera at the origin that looks along -z, with the eye `e` metres
-/// to the right and a screen at distance D: by similar triangles, not by the renderer's matrices.
-Eigen::Vector2d seen_at(const Vec3& p, double e, double D, double fov, double width, double height) {
-  const double scale = 0.5 * height / (D * std::tan(fov / 2));
-  const double x = e + (p.x() - e) * D / -p.z();
-  const double y = p.y() * D / -p.z();
-  return {0.5 * width + x * scale, 0.5 * height - y * scale};
-}
-
-struct Blob {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  double weight = 0;
-};
-
-/// Centre of the light in columns [from, to), x counted from `from`.
-Blob blob(const ImageData& image, std::uint32_t from, std::uint32_t to) {
-  Blob out;
-  for (std::uint32_t y = 0; y < image.height; ++y) {
-    for (std::uint32_t x = from; x < to; ++x) {
-      const double w = image.rgba[4 * (std::size_t{y} * image.width + x)];
-      out.middle += w * Eigen::Vector2d(x - from + 0.5, y + 0.5);
-      out.weight += w;
-    }
-  }
-  if (out.weight > 0) out.middle /= out.weight;
-  return out;
-}
-
-/// A small glowing sphere in the dark.
-struct Lamp {
-  SceneAssets assets;
-  RenderScene scene;
-
-  explicit Lamp(const Vec3& p_W) {
-    assets.meshes.push_back(sphere_mesh(0.02, 24, 32));
-    MaterialData glow;
-    glow.base_colour = Eigen::Vector4f(0, 0, 0, 1);
-    glow.emissive = Vec3f(4, 4, 4);
-    assets.materials.push_back(glow);
-    Instance lamp;
-    lamp.X_WM.translation() = p_W.cast<float>();
-    scene.instances.push_back(lamp);
-    scene.sky = false;
-    scene.sun.irradiance = Vec3f::Zero();
-    scene.shadow_box_W = Eigen::AlignedBox3f(Vec3f(-1, -1, -4), Vec3f(1, 1, 0));
-    scene.camera.p_WC = Vec3::Zero();
-    scene.camera.p_WT = Vec3(0, 0, -1.5);
-    scene.camera.eye_distance_m = 0.10;
-  }
-};
-
 TEST_F(DrawnPicture, both_eyes_see_a_lamp_where_geometry_says) {
   // Before the screen (crossed), behind it, and in it.
   for (const Vec3& p : {Vec3(0.05, 0.10, -0.8), Vec3(-0.15, -0.20, -3.0), Vec3(0.10, 0.05, -1.5)}) {
@@ -70,8 +20,8 @@ TEST_F(DrawnPicture, both_eyes_see_a_lamp_where_geometry_says) {
     renderer_->forget_assets();
     const ImageData image = draw(lamp.assets, lamp.scene, Stereo::side_by_side);
     constexpr std::uint32_t kHalf = kSize.width / 2;
-    const Blob left = blob(image, 0, kHalf);
-    const Blob right = blob(image, kHalf, kSize.width);
+    const Blob left = blob(image, {0, 0, kHalf, kSize.height});
+    const Blob right = blob(image, {kHalf, 0, kHalf, kSize.height});
     ASSERT_GT(left.weight, 0);
     ASSERT_GT(right.weight, 0);
     const double fov = lamp.scene.camera.field_of_view_rad;
@@ -89,7 +39,7 @@ TEST_F(DrawnPicture, mono_shows_what_lies_between_the_eyes) {
   const Vec3 p(0.2, -0.1, -2);
   const Lamp lamp(p);
   const ImageData image = draw(lamp.assets, lamp.scene);
-  const Blob seen = blob(image, 0, kSize.width);
+  const Blob seen = blob(image, {0, 0, kSize.width, kSize.height});
   EXPECT_LT((seen.middle - seen_at(p, 0, 1.5, lamp.scene.camera.field_of_view_rad, kSize.width, kSize.height)).norm(),
             1.0);
 }
@@ -141,6 +91,38 @@ TEST_F(DrawnPicture, the_sun_lights_one_side_and_throws_a_shadow_on_the_other) {
   without.instances[0].casts_shadow = false;
   const ImageData bright = draw(ball.assets, without);
   EXPECT_GT(mean(bright, shadow.x(), shadow.y(), 3), dark + 50);
+}
+
+TEST_F(DrawnPicture, metal_mirrors_the_sky_and_is_nowhere_black) {
+  Ball ball;
+  ball.assets.materials[0].base_colour = Eigen::Vector4f(0.78F, 0.52F, 0.25F, 1);
+  ball.assets.materials[0].metallic = 1;
+  ball.assets.materials[0].roughness = 0.35F;
+  const ImageData image = draw(ball.assets, ball.scene);
+  // Even where no sun comes.
+  for (const Vec3& p : {Vec3(0.18, 0.6, 0.2), Vec3(-0.24, 0.45, 0.15), Vec3(0, 0.35, 0.25), Vec3(0, 0.75, 0.1)}) {
+    const Vec3 seen = colour_at(image, ball.pixel(p, kSize), 2);
+    EXPECT_GT(seen.x(), 40) << p.transpose();
+    EXPECT_GT(seen.x(), seen.z()) << "bronze tints what it mirrors";
+  }
+}
+
+TEST_F(DrawnPicture, what_is_near_hides_what_is_far_in_whichever_order) {
+  Ball ball;
+  MaterialData dark;
+  dark.base_colour = Eigen::Vector4f(0.02F, 0.02F, 0.02F, 1);
+  dark.roughness = 1;
+  ball.assets.materials.push_back(dark);
+  Instance behind = ball.scene.instances[0];
+  behind.material = 1;
+  behind.X_WM.translation() = Vec3f(0, 0.5F, -0.9F);
+  for (const bool first : {true, false}) {
+    RenderScene scene = ball.scene;
+    scene.instances.insert(first ? scene.instances.begin() : scene.instances.end(), behind);
+    const ImageData image = draw(ball.assets, scene);
+    const Eigen::Vector2d at = ball.pixel(Vec3(0.1, 0.55, 0.28), kSize);
+    EXPECT_GT(mean(image, at.x(), at.y(), 2), 90) << first;
+  }
 }
 
 TEST_F(DrawnPicture, a_hand_near_a_surface_darkens_it) {

@@ -1,0 +1,58 @@
+#include "client-sdk/display/stereo.hpp"
+
+#include <algorithm>
+
+#include "server/base/assert.hpp"
+
+namespace mechane::display {
+
+const std::vector<std::pair<std::string_view, Stereo>>& stereo_names() {
+  static const std::vector<std::pair<std::string_view, Stereo>> names{
+      {"mono", Stereo::mono},         {"sbs", Stereo::side_by_side},     {"top-bottom", Stereo::top_bottom},
+      {"anaglyph", Stereo::anaglyph}, {"rows", Stereo::row_interleaved}, {"quad", Stereo::quad_buffer},
+      {"left", Stereo::left_eye},     {"right", Stereo::right_eye}};
+  return names;
+}
+
+std::string_view stereo_name(Stereo stereo) {
+  const auto found = std::ranges::find(stereo_names(), stereo, [](const auto& entry) { return entry.second; });
+  MECHANE_ASSERT(found != stereo_names().end());
+  return found->first;
+}
+
+std::vector<Eye> eyes_of(Stereo stereo) {
+  switch (stereo) {
+    case Stereo::mono:
+      return {Eye::middle};
+    case Stereo::left_eye:
+      return {Eye::left};
+    case Stereo::right_eye:
+      return {Eye::right};
+    default:
+      return {Eye::left, Eye::right};
+  }
+}
+
+PixelSize eye_size(Stereo stereo, PixelSize picture) {
+  return {stereo == Stereo::side_by_side ? picture.width / 2 : picture.width,
+          stereo == Stereo::top_bottom ? picture.height / 2 : picture.height};
+}
+
+EyePlace eye_at(Stereo stereo, PixelSize picture, PixelPlace place) {
+  const PixelSize size = eye_size(stereo, picture);
+  const std::vector<Eye> eyes = eyes_of(stereo);
+  EyePlace out;
+  if (eyes.size() == 1) out.eye = eyes.front();
+  if (stereo == Stereo::side_by_side || stereo == Stereo::top_bottom) {
+    const bool second = stereo == Stereo::side_by_side ? place.x >= size.width : place.y >= size.height;
+    out.eye = second ? Eye::right : Eye::left;
+    if (second && stereo == Stereo::side_by_side) place.x -= size.width;
+    if (second && stereo == Stereo::top_bottom) place.y -= size.height;
+  }
+  out.x = 2 * place.x / size.width - 1;
+  out.y = 1 - 2 * place.y / size.height;
+  out.aspect = static_cast<double>(size.width) / size.height;
+  return out;
+}
+
+}  // namespace mechane::display
