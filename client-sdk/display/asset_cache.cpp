@@ -106,6 +106,7 @@ Expected<fs::path> AssetCache::keep(std::span<const std::byte> bytes, const std:
   const fs::path file = place_of(hash, extension);
   const Expected<void> written = write_whole(file, bytes);
   if (written) {
+    touch(file);  // the clock that find() uses, which is finer than the file system's
     in_use_.insert(file);
     make_room();
     return file;

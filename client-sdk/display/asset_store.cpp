@@ -179,10 +179,12 @@ bool AssetStore::use_remembered(Job& job, bool fresh) {
 }
 
 void AssetStore::arrived(const Job& job, std::filesystem::path file) {
+  {
+    const std::lock_guard lock(mutex_);
+    files_[job.key] = {AssetState::here, std::move(file), {}};
+    arrived_.insert(job.key.first);
+  }
   log::info(fmt::format("{}: is here{}", job.address, job.tries > 0 ? " now" : ""));
-  const std::lock_guard lock(mutex_);
-  files_[job.key] = {AssetState::here, std::move(file), {}};
-  arrived_.insert(job.key.first);
 }
 
 void AssetStore::again(Job& job, Error error) {
