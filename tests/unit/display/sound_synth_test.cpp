@@ -120,7 +120,7 @@ TEST_P(SoundSynth, sounds_in_its_range) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SoundSynth, testing::ValuesIn(kSoundKinds),
-                         [](const auto& info) { return std::string(name_of(info.param)); });
+                         [](const auto& kind) { return std::string(name_of(kind.param)); });
 
 }  // namespace
 }  // namespace mechane::display
