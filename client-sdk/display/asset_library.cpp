@@ -112,6 +112,18 @@ const ObjectModel& AssetLibrary::model(const std::string& uri, const std::string
   return models_.emplace(key, build(uri, node)).first->second;
 }
 
+bool AssetLibrary::load_again(const std::string& uri) {
+  const auto file = files_.find(uri);
+  if (file == files_.end() || file->second.scene) return false;
+  files_.erase(file);
+  missing_.erase(uri);
+  for (auto& [key, model] : models_) {
+    if (key == uri) model = build(uri, "");
+    if (key.starts_with(uri + "#")) model = build(uri, key.substr(uri.size() + 1));
+  }
+  return true;
+}
+
 AssetLibrary::File& AssetLibrary::load(const std::string& uri) {
   const auto found = files_.find(uri);
   if (found != files_.end()) return found->second;

@@ -37,6 +37,9 @@ class AssetLibrary {
 
   /// The model of a node of a file (empty: the whole file), loaded on first use. What cannot be loaded is logged once and is a box.
   const ObjectModel& model(const std::string& uri, const std::string& node);
+  /// Reads a file again that was missing, and makes the models that it was missing for, in their old place: references stay. True where
+  /// there were any.
+  bool load_again(const std::string& uri);
   /// The file itself, or null when it is missing.
   [[nodiscard]] const content::ImportedScene* file(const std::string& uri);
   /// Adds a mesh or material of our own.

@@ -64,6 +64,8 @@ class DisplayLoop {
   [[nodiscard]] bool finished() const;
   void take_news(TimePoint now);
   void open_scenario();
+  [[nodiscard]] std::unique_ptr<AssetStore> open_store() const;
+  void take_arrived();
   Expected<void> draw(TimePoint now);
   [[nodiscard]] RenderScene build() const;
   [[nodiscard]] RenderScene build_for_one() const;
@@ -78,6 +80,7 @@ class DisplayLoop {
   client::Client& client_;
   SystemClock clock_;
   const content::Catalogue* catalogue_;
+  std::unique_ptr<AssetStore> store_;      ///< where assets come from a server
   std::unique_ptr<MeshFiles> mesh_files_;  ///< of the library
   std::unique_ptr<AssetLibrary> library_;
   std::unique_ptr<SceneBuilder> builder_;
@@ -115,7 +118,9 @@ void DisplayLoop::open_scenario() {
   scenario_ = scenario_key(*status_);
   folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
   renderer_.forget_assets();
-  mesh_files_ = std::make_unique<MeshFiles>(folder_, catalogue_);
+  store_ = open_store();
+  mesh_files_ = store_ ? std::make_unique<MeshFiles>(store_.get(), catalogue_)
+                       : std::make_unique<MeshFiles>(std::filesystem::path(folder_), catalogue_);
   library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {
     const auto file = mesh_files_->find(uri);
     if (!file) return tl::unexpected(file.error());
@@ -125,6 +130,31 @@ void DisplayLoop::open_scenario() {
   objects_known_ = 0;
   presentation_.reset();
   have_frame_ = false;  // of the world before
+}
+
+/// None where assets are a folder's.
+std::unique_ptr<AssetStore> DisplayLoop::open_store() const {
+  if (!is_web_address(options_.assets)) return nullptr;
+  AssetStoreOptions options;
+  options.cache_folder = options_.asset_cache;
+  options.cache_bytes = std::uint64_t{options_.asset_cache_mib} << 20U;
+  auto address = AssetAddress::parse(options_.assets);
+  MECHANE_ASSERT(address.has_value());  // run_display() has read it
+  auto store = AssetStore::open(std::move(*address), options);
+  if (store) return std::move(*store);
+  log::error(store.error());
+  return nullptr;
+}
+
+/// Files that came from the server of assets take their placeholders' place.
+void DisplayLoop::take_arrived() {
+  if (!store_ || objects_known_ == 0) return;
+  bool any = false;
+  for (const std::string& name : store_->take_arrived())
+    any = library_->load_again(name) || any;
+  if (!any) return;
+  builder_->set_manifest(client_.objects());
+  renderer_.upload(library_->assets());
 }
 
 /// Status, manifest and frame as they are now.
@@ -147,6 +177,7 @@ void DisplayLoop::take_news(TimePoint now) {
       builder_->set_manifest(objects);
       renderer_.upload(library_->assets());
     }
+    take_arrived();
   }
   // While the link is down the last frame stays.
   client::Frame newer;
@@ -288,6 +319,9 @@ Expected<PixelSize> parse_size(const std::string& text) {
 Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests) {
   MECHANE_ASSERT(options.fps > 0);
   if (auto ok = make_folder(options.out); !ok) return tl::unexpected(ok.error());
+  if (is_web_address(options.assets)) {
+    if (auto address = AssetAddress::parse(options.assets); !address) return tl::unexpected(address.error());
+  }
   std::optional<content::Catalogue> catalogue;
   if (!options.catalogue.empty()) {
     auto opened = content::Catalogue::open(options.catalogue, content::Catalogue::Access::read);

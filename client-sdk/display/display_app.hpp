@@ -24,9 +24,13 @@ struct DisplayOptions {
   Stereo stereo = Stereo::mono;
   ScreenSetup screen;  ///< that visitors stand before
   std::string language = "el";
-  std::string assets;  ///< folder that mesh files are relative to; empty: the scenario's folder, as the server sees it
-  std::string catalogue;     ///< file; mesh files are found in it first, by their content; empty: none
-  std::string out;           ///< folder for pictures; made when it is not there
+  std::string
+      assets;  ///< folder, or address (http, https), that mesh files are relative to; empty: the scenario's folder, as the
+               ///< server sees it
+  std::string asset_cache;               ///< folder in which fetched files are kept; empty: default_asset_cache()
+  std::uint32_t asset_cache_mib = 4096;  ///< the most that is kept
+  std::string catalogue;                 ///< file; mesh files are found in it first, by their content; empty: none
+  std::string out;                       ///< folder for pictures; made when it is not there
   bool every_step = false;   ///< a picture of each step and each finished activity; offscreen, nothing else is drawn
   std::uint32_t frames = 0;  ///< stop after so many frames, the last of them a picture; 0: no limit
   double seconds = 0;        ///< stop after so long; 0: no limit
@@ -58,7 +62,7 @@ struct DisplayRequests {
 };
 
 /// Draws until an option or a request says stop. The caller's thread is the display's. Errors: no context, no fonts, a bad kiosk name,
-/// a folder that cannot be written, a catalogue that cannot be read.
+/// a folder that cannot be written, a catalogue that cannot be read, an address of assets that is none.
 [[nodiscard]] Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests);
 
 /// Reads "1280x720". Errors: not two numbers, or not within 16..8192.

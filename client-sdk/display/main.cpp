@@ -42,7 +42,14 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--language", o.language, "language of the captions")
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();
-  app.add_option("--assets", o.assets, "folder that mesh files are relative to; without: the scenario's folder");
+  app.add_option("--assets", o.assets,
+                 "folder, or address (http://server/scenario), that mesh files are relative to; without: the "
+                 "scenario's folder");
+  app.add_option("--asset-cache", o.asset_cache,
+                 "folder that keeps what was fetched; without: mechane/assets in $XDG_CACHE_HOME or ~/.cache");
+  app.add_option("--asset-cache-mib", o.asset_cache_mib, "the most that is kept there; what was not used for long goes")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
   app.add_option("--catalogue", o.catalogue,
                  "catalogue (mechane content) in which mesh files are looked for first, by their content");
   app.add_option("--fonts", o.renderer.font_folder, "folder of the DejaVu fonts")->capture_default_str();

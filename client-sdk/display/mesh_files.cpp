@@ -23,7 +23,7 @@ Expected<std::filesystem::path> MeshFiles::find(const std::string& uri) {
     if (!files) return tl::unexpected(files.error());
     places = std::move(*files);
   }
-  places.push_back(folder_ / uri);
+  if (store_ == nullptr) places.push_back(folder_ / uri);
   std::filesystem::path other;
   std::string other_hash;
   for (const std::filesystem::path& place : places) {
@@ -33,6 +33,7 @@ Expected<std::filesystem::path> MeshFiles::find(const std::string& uri) {
     other = place;
     other_hash = *hash;
   }
+  if (store_ != nullptr) return from_store(uri, wanted);
   if (other.empty()) {
     return fail("no file of this name, and none of this content in a catalogue", (folder_ / uri).string(),
                 "mechane content export on the server's machine; then give its catalogue with --catalogue");
@@ -43,6 +44,13 @@ Expected<std::filesystem::path> MeshFiles::find(const std::string& uri) {
                   "files here (mechane content export)",
                   other.string(), other_hash.substr(0, kHashDigits), wanted.substr(0, kHashDigits)));
   return other;
+}
+
+Expected<std::filesystem::path> MeshFiles::from_store(const std::string& uri, const std::string& wanted) const {
+  AssetFile file = store_->find(uri, wanted);
+  if (file.state == AssetState::here) return std::move(file.file);
+  if (file.state == AssetState::amiss) return tl::unexpected(std::move(file.error));
+  return fail("it is being fetched", uri);
 }
 
 }  // namespace mechane::display

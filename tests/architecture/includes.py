@@ -54,6 +54,9 @@ LIBRARIES = {
     "Cyclone DDS": (re.compile(r"(dds/|ddsc/)"), {"proto", "server/transport", "client-sdk/client", "client-sdk/cli"}),
     "spdlog": (re.compile(r"spdlog/"), {"server/log"}),
     "OpenGL": (re.compile(r"(epoxy|GLFW|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/display"}),
+    "libcurl": (re.compile(r"curl/"), {"client-sdk/display"}),
+    "OpenAL": (re.compile(r"AL/"), {"client-sdk/display"}),
+    "libsndfile": (re.compile(r"sndfile"), {"client-sdk/display"}),
 }
 # proto is the wrapper: its headers are where Cyclone DDS becomes typed topics.
 IN_HEADERS = {("proto", "Cyclone DDS")}

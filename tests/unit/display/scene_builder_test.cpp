@@ -91,6 +91,24 @@ TEST(AssetLibrary, a_missing_file_or_node_is_a_box_and_is_told) {
   EXPECT_EQ(loads, 2) << "each file is read once, found or not";
 }
 
+TEST(AssetLibrary, a_file_that_comes_late_takes_its_placeholders_place) {
+  bool there = false;
+  AssetLibrary library([&](const std::string& uri) -> Expected<content::ImportedScene> {
+    if (!there) return fail("it is being fetched", uri);
+    return machine_file();
+  });
+  const ObjectModel& barrel = library.model("machine.glb", "OUTER");
+  const ObjectModel& nobody = library.model("machine.glb", "NOBODY");
+  EXPECT_TRUE(barrel.missing);
+  EXPECT_FALSE(library.load_again("another.glb"));
+  there = true;
+  EXPECT_TRUE(library.load_again("machine.glb"));
+  EXPECT_FALSE(barrel.missing) << "the reference that a scene holds shows the model";
+  EXPECT_TRUE(nobody.missing);
+  EXPECT_EQ(library.missing(), (std::set<std::string>{"machine.glb#NOBODY"}));
+  EXPECT_FALSE(library.load_again("machine.glb")) << "what is here is not read again";
+}
+
 TEST(AssetLibrary, what_moves_together_is_one_mesh) {
   int loads = 0;
   AssetLibrary library = library_of(loads);
