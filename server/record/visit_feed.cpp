@@ -1,0 +1,66 @@
+#include "server/record/visit_feed.hpp"
+
+#include <algorithm>
+
+namespace mechane::record {
+namespace {
+
+using state::EventKind;
+
+/// Kinds that no sheet needs, or that come too often.
+bool is_noted(EventKind kind) noexcept {
+  switch (kind) {
+    case EventKind::none:
+    case EventKind::input_stale:
+    case EventKind::input_back:
+    case EventKind::turned:
+    case EventKind::command_refused:
+    case EventKind::dwelt:
+    case EventKind::idled:
+      return false;
+    default:
+      return true;
+  }
+}
+
+bool is_held_by_joint(const state::WorldDescription& description, const state::WorldState& state,
+                      std::uint32_t body) noexcept {
+  for (std::size_t j = 0; j < description.joints.size(); ++j) {
+    const state::JointDescription& joint = description.joints[j];
+    if (!state.joints[j].enabled) continue;
+    if ((joint.body1 && joint.body1.index() == body) || (joint.body2 && joint.body2.index() == body)) return true;
+  }
+  return false;
+}
+
+/// A hand that jumped or went away has not opened: that is the device's doing, not the visitor's.
+bool has_opened(const state::WorldDescription& description, const state::WorldState& state,
+                const state::Event& event) noexcept {
+  if (event.subject >= state.users.size()) return false;
+  const state::UserState& user = state.users[event.subject];
+  return user.present && !user.jumped && !is_held_by_joint(description, state, event.object);
+}
+
+state::CommandKind kind_of(const state::TickInputs& inputs, const state::Event& done) noexcept {
+  for (std::uint32_t i = 0; i < std::min<std::uint32_t>(inputs.command_count, state::kMaxCommandsPerTick); ++i) {
+    if (static_cast<double>(inputs.commands[i].id) == done.value) return inputs.commands[i].kind;
+  }
+  return state::CommandKind::none;
+}
+
+}  // namespace
+
+void VisitFeed::push(const state::WorldDescription& description, const state::WorldState& state,
+                     const state::TickInputs& inputs) noexcept {
+  for (const state::Event& event : state.event_span()) {
+    if (!is_noted(event.kind)) continue;
+    VisitNote note;
+    note.event = event;
+    if (event.kind == EventKind::command_done) note.command = kind_of(inputs, event);
+    if (event.kind == EventKind::released) note.opened_hand = has_opened(description, state, event);
+    if (!notes_.push(note)) lost_.fetch_add(1, std::memory_order_relaxed);
+  }
+  tick_.store(state.tick, std::memory_order_release);
+}
+
+}  // namespace mechane::record
