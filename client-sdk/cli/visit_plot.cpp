@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -160,8 +161,15 @@ void draw_endings(Sheet& sheet, const ActivitySummary& a) {
   const std::size_t done = a.ended[static_cast<std::size_t>(VisitEnding::done)];
   const std::size_t left = a.ended[static_cast<std::size_t>(VisitEnding::left)];
   if (a.whole() == 0) return;
-  heading(sheet, "how the visits ended: done without help, done with a hint or other help, left before the end",
-          "errors a visit");
+  heading(sheet, "", "errors a visit");
+  double x = kLeft;
+  for (const auto& [words, colour, room] : {std::tuple("done without help", kStrong, 138.0),
+                                            std::tuple("done with a hint or other help", kMuted, 206.0),
+                                            std::tuple("left before the end", kWarm, 0.0)}) {
+    sheet.box(x, sheet.y - 17, 10, 10, colour);
+    sheet.text(x + 15, sheet.y - 8, words, {.size = 11, .colour = kQuiet});
+    x += room;
+  }
   sheet.name(sheet.y + 18, "task done");
   stacked(sheet, {{a.done_alone, kStrong, kPaper}, {done - std::min(done, a.done_alone), kMuted, kInk}, {left, kWarm, kPaper}});
   sheet.value(sheet.y + 18, fmt::format("{:.2f}", a.mistakes_a_visit()));
@@ -218,7 +226,7 @@ Part part_of_mark(std::size_t mark, std::size_t marks, std::size_t count) {
     return static_cast<int>(std::lround(kStops[i].*part * (1 - t) + kStops[i + 1].*part * t));
   };
   return {count, fmt::format("#{:02x}{:02x}{:02x}", mix(&Colour::r), mix(&Colour::g), mix(&Colour::b)),
-          at > 1.4 ? kPaper : kInk};
+          at > 1.6 ? kPaper : kInk};
 }
 
 void draw_scales(Sheet& sheet, const ActivitySummary& a) {

@@ -143,6 +143,8 @@ int VisitsCommand::forget() {
   auto opened = VisitFile::open(file(), VisitFile::Access::write);
   if (!opened) return failed(opened.error());
   if (!options_.visit.empty()) {
+    if (options_.visit.size() < 4)
+      return failed({"too few letters for a number", options_.visit, "mechane visits list shows the numbers"});
     const auto sheets = opened->sheets({.number = options_.visit});
     if (!sheets) return failed(sheets.error());
     if (sheets->size() != 1) {
