@@ -152,7 +152,7 @@ void stacked(Sheet& sheet, const std::vector<Part>& parts) {
 
 void heading(Sheet& sheet, const std::string& words, const std::string& unit) {
   sheet.y += 14;
-  sheet.text(kLeft, sheet.y + 12, words, {.size = 11, .colour = kQuiet});
+  if (!words.empty()) sheet.text(kLeft, sheet.y + 12, words, {.size = 11, .colour = kQuiet});
   sheet.text(kWidth - kRight + 12, sheet.y + 12, unit, {.size = 11, .colour = kQuiet});
   sheet.y += 20;
 }

@@ -104,7 +104,10 @@ void VisitSheets::set_problem(const std::string& problem) {
 Expected<void> VisitSheets::begin_anew(const Error& why) {
   const auto aside = set_aside(config_.file);
   if (!aside) return tl::unexpected(aside.error());
-  log::error(fmt::format("{}; it is now {}, and a new one is begun", why.to_string(), aside->string()));
+  log::error(fmt::format("{}: {}; it is now {}, and a new one is begun; sqlite3's .recover may save some of the old",
+                         why.where, why.what, aside->string()));
+  known_.clear();
+  known_in_order_.clear();
   return {};
 }
 
@@ -128,15 +131,14 @@ Expected<VisitFile> VisitSheets::open_or_begin_anew() {
 Expected<void> VisitSheets::open() {
   std::error_code code;
   if (config_.file.has_parent_path()) std::filesystem::create_directories(config_.file.parent_path(), code);
-  file_.reset();
-  auto opened = open_or_begin_anew();
-  if (!opened) return tl::unexpected(opened.error());
-  const std::uint64_t inode = inode_of(config_.file);
-  if (inode != inode_) {  // another file knows nothing of what we wrote
+  if (is_replaced()) {  // another file knows nothing of what we wrote
     known_.clear();
     known_in_order_.clear();
   }
-  inode_ = inode;
+  file_.reset();
+  auto opened = open_or_begin_anew();
+  if (!opened) return tl::unexpected(opened.error());
+  inode_ = inode_of(config_.file);
   file_ = std::move(*opened);
   next_retention_ = {};
   return {};
