@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "client-sdk/cli/content_text.hpp"
+#include "server/scenario/utf8.hpp"
 
 namespace mechane::cli {
 namespace {
@@ -36,10 +37,11 @@ constexpr double kRow = 28;
 constexpr double kFootOfAxis = 30;
 constexpr std::size_t kLongestName = 26;
 
-/// Text of a file as XML may have it.
+/// Text of a file as XML may have it; what is not UTF-8 ends it.
 std::string escaped(const std::string& text) {
+  const std::string good = text.substr(0, scenario::first_bad_utf8(text).value_or(text.size()));
   std::string out;
-  for (const char c : shown(text)) {
+  for (const char c : shown(good)) {
     switch (c) {
       case '&':
         out += "&amp;";

@@ -56,15 +56,6 @@ class Faults(EndToEnd):
         self.assertRegex(server.text(), r"records are being lost: .*(No space left on device|File too large)")
         self.assertEqual(server.stop(), 0)
 
-    @staticmethod
-    def full_disk(folder):
-        """Runs a command with a disk of its own in `folder`, soon full; where that is not allowed, with a limit on each file."""
-        if subprocess.run(["unshare", "--map-root-user", "--mount", "true"], capture_output=True).returncode == 0:
-            mount = 'mkdir -p "$0" && mount -t tmpfs -o size=256k tmpfs "$0" && exec "$@"'
-            return ["unshare", "--map-root-user", "--mount", "sh", "-c", mount, str(folder)]
-        print("no user namespaces here: a limit on the size of files stands for the full disk")
-        return ["prlimit", "--fsize=65536", "env", "--ignore-signal=XFSZ"]
-
     def test_two_servers_warn_of_each_other(self):
         first = self.server()
         second = self.server("--name", "forgotten")

@@ -130,5 +130,14 @@ class EndToEnd(unittest.TestCase):
         return subprocess.run([str(BIN / "mechane"), *map(str, arguments)], capture_output=True, text=True,
                               timeout=limit_s * PATIENCE, env=self.environment, stdin=subprocess.DEVNULL)
 
+    @staticmethod
+    def full_disk(folder):
+        """Runs a command with a disk of its own in `folder`, soon full; where that is not allowed, with a limit on each file."""
+        if subprocess.run(["unshare", "--map-root-user", "--mount", "true"], capture_output=True).returncode == 0:
+            mount = 'mkdir -p "$0" && mount -t tmpfs -o size=256k tmpfs "$0" && exec "$@"'
+            return ["unshare", "--map-root-user", "--mount", "sh", "-c", mount, str(folder)]
+        print("no user namespaces here: a limit on the size of files stands for the full disk")
+        return ["prlimit", "--fsize=65536", "env", "--ignore-signal=XFSZ"]
+
     def hash_in(self, text):
         return re.search(r"final hash\s+([0-9a-f]{16})", text).group(1)
