@@ -112,7 +112,8 @@ class Sheet {
   [[nodiscard]] std::string page() const {
     const double height = y + 20;
     return fmt::format(
-               "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' width='{0:.0f}' height='{1:.0f}'>\n"
+               "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' width='{0:.0f}' "
+               "height='{1:.0f}'>\n"
                "<rect width='{0:.0f}' height='{1:.0f}' fill='{2}'/>\n",
                kWidth, height, kPaper) +
            body_ + "</svg>\n";
@@ -138,8 +139,8 @@ struct Part {
   const char* ink;
 };
 void stacked(Sheet& sheet, const std::vector<Part>& parts) {
-  const std::size_t all =
-      std::accumulate(parts.begin(), parts.end(), std::size_t{0}, [](std::size_t n, const Part& p) { return n + p.count; });
+  const std::size_t all = std::accumulate(parts.begin(), parts.end(), std::size_t{0},
+                                          [](std::size_t n, const Part& p) { return n + p.count; });
   double x = kLeft;
   for (const Part& part : parts) {
     if (part.count == 0) continue;
@@ -165,15 +166,17 @@ void draw_endings(Sheet& sheet, const ActivitySummary& a) {
   if (a.whole() == 0) return;
   heading(sheet, "", "errors a visit");
   double x = kLeft;
-  for (const auto& [words, colour, room] : {std::tuple("done without help", kStrong, 138.0),
-                                            std::tuple("done with a hint or other help", kMuted, 206.0),
-                                            std::tuple("left before the end", kWarm, 0.0)}) {
+  for (const auto& [words, colour, room] :
+       {std::tuple("done without help", kStrong, 138.0), std::tuple("done with a hint or other help", kMuted, 206.0),
+        std::tuple("left before the end", kWarm, 0.0)}) {
     sheet.box(x, sheet.y - 17, 10, 10, colour);
     sheet.text(x + 15, sheet.y - 8, words, {.size = 11, .colour = kQuiet});
     x += room;
   }
   sheet.name(sheet.y + 18, "task done");
-  stacked(sheet, {{a.done_alone, kStrong, kPaper}, {done - std::min(done, a.done_alone), kMuted, kInk}, {left, kWarm, kPaper}});
+  stacked(
+      sheet,
+      {{a.done_alone, kStrong, kPaper}, {done - std::min(done, a.done_alone), kMuted, kInk}, {left, kWarm, kPaper}});
   sheet.value(sheet.y + 18, fmt::format("{:.2f}", a.mistakes_a_visit()));
   sheet.y += kRow;
 }
@@ -242,7 +245,8 @@ void draw_scales(Sheet& sheet, const ActivitySummary& a) {
       parts.push_back(part_of_mark(mark, q.at_mark.size(), q.at_mark[mark - 1]));
     sheet.name(sheet.y + 18, q.when == AnswerTime::before ? q.name + " (before)" : q.name);
     stacked(sheet, parts);
-    sheet.value(sheet.y + 18, fmt::format("{:.1f} ± {:.1f} of {}, n {}", q.mean, q.spread, q.at_mark.size(), q.answers));
+    sheet.value(sheet.y + 18,
+                fmt::format("{:.1f} ± {:.1f} of {}, n {}", q.mean, q.spread, q.at_mark.size(), q.answers));
     sheet.y += kRow;
   }
 }
@@ -254,9 +258,7 @@ struct RightShares {
 
 void draw_right_row(Sheet& sheet, const std::string& name, const RightShares& shares) {
   const double middle = sheet.y + kRow / 2;
-  const auto x_of = [](const QuestionSummary& q) {
-    return kLeft + kField * share_of(q.right, q.judged).value_or(0);
-  };
+  const auto x_of = [](const QuestionSummary& q) { return kLeft + kField * share_of(q.right, q.judged).value_or(0); };
   const auto percent = [](const QuestionSummary* q) {
     return q == nullptr ? std::string("–") : fmt::format("{:.0f}", 100 * share_of(q->right, q->judged).value_or(0));
   };

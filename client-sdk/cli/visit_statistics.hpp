@@ -23,7 +23,7 @@ struct TimeSpread {
 
 struct StepSummary {
   std::string name;
-  std::size_t visits = 0;  ///< that came to it
+  std::size_t visits = 0;              ///< that came to it
   std::array<std::size_t, 4> ended{};  ///< by StepEnding; a step gone through twice counts twice
   std::size_t hints = 0;
   TimeSpread time;  ///< of those that were done, and seen from their beginning

@@ -46,7 +46,8 @@ class Columns {
     for (const auto& row : rows_) {
       std::string line = indent;
       for (std::size_t i = 0; i < row.size(); ++i)
-        line += i < to_the_left ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
+        line +=
+            i < to_the_left ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
       line.erase(line.find_last_not_of(' ') + 1);
       out += line + "\n";
     }
@@ -82,9 +83,9 @@ std::string days(std::int64_t first, std::int64_t last) {
 
 std::string endings_line(const ActivitySummary& a) {
   const std::size_t done = a.ended[at(VisitEnding::done)];
-  std::string line = fmt::format("  done {} of {} ({}), {} without help ({}), {} left", done, a.whole(),
-                                 percent(done, a.whole()), a.done_alone, percent(a.done_alone, a.whole()),
-                                 a.ended[at(VisitEnding::left)]);
+  std::string line =
+      fmt::format("  done {} of {} ({}), {} without help ({}), {} left", done, a.whole(), percent(done, a.whole()),
+                  a.done_alone, percent(a.done_alone, a.whole()), a.ended[at(VisitEnding::left)]);
   if (const std::size_t cut = a.ended[at(VisitEnding::cut)]; cut > 0)
     line += fmt::format("; {} cut off by a stop of the server", cut);
   if (const std::size_t running = a.ended[at(VisitEnding::running)]; running > 0)
@@ -303,15 +304,16 @@ std::string visits_report(std::span<const ActivitySummary> activities) {
   std::size_t visits = 0;
   for (const ActivitySummary& a : activities) {
     visits += a.visits;
-    text += fmt::format("{}, {}: {} {}\n", shown(a.scenario), shown(a.activity), count_text(a.visits, "visit", "visits"),
-                        days(a.first_minute, a.last_minute));
+    text += fmt::format("{}, {}: {} {}\n", shown(a.scenario), shown(a.activity),
+                        count_text(a.visits, "visit", "visits"), days(a.first_minute, a.last_minute));
     text += endings_line(a);
     if (a.time.count > 0)
       text += fmt::format("  from start to end: median {:.1f} s, nine of ten within {:.1f} s\n", a.time.median_s,
                           a.time.p90_s);
     text += mistakes_line(a);
     if (a.incomplete > 0)
-      text += fmt::format("  {} not noted in full, for the server was busy\n", count_text(a.incomplete, "visit", "visits"));
+      text +=
+          fmt::format("  {} not noted in full, for the server was busy\n", count_text(a.incomplete, "visit", "visits"));
     text += steps_table(a) + questions_table(a) + "\n";
   }
   const Satisfaction all = satisfaction_of(activities);
@@ -340,9 +342,7 @@ std::string visits_list(std::span<const VisitSheet> sheets) {
 
 std::string visit_page(const VisitSheet& sheet) {
   std::string page = fmt::format("{}: {}, {}\n", sheet.number, shown(sheet.scenario), shown(sheet.activity));
-  const auto line = [&](const char* what, const std::string& text) {
-    page += fmt::format("  {:<9} {}\n", what, text);
-  };
+  const auto line = [&](const char* what, const std::string& text) { page += fmt::format("  {:<9} {}\n", what, text); };
   line("began", record::minute_text(sheet.minute) + " UTC, at " + shown(sheet.kiosk));
   line("language", named_or_dash(sheet.language));
   line("hands", fmt::format("{}", sheet.hands));
@@ -357,7 +357,8 @@ std::string visit_page(const VisitSheet& sheet) {
                               mistake.subject.empty() ? "" : " (" + shown(mistake.subject) + ")",
                               count_text(mistake.count, "time", "times")));
   for (const SheetAnswer& answer : sheet.answers) {
-    const std::string value = answer.marks > 0 ? fmt::format("{} of {}", answer.mark, answer.marks) : shown(answer.value);
+    const std::string value =
+        answer.marks > 0 ? fmt::format("{} of {}", answer.mark, answer.marks) : shown(answer.value);
     line("answer", fmt::format("{}, {}: {}{}", shown(answer.question), word_of(answer.when), value,
                                !answer.right ? "" : (*answer.right ? ", right" : ", wrong")));
   }
@@ -367,9 +368,9 @@ std::string visit_page(const VisitSheet& sheet) {
 }
 
 std::string visits_csv(std::span<const VisitSheet> sheets) {
-  std::vector<std::string> head{"visit",    "began (UTC)", "kiosk",      "scenario",   "scenario hash", "activity",
-                                "language", "ending",      "done alone", "from start", "duration s",    "hands",
-                                "went on to", "hints",     "timed out",  "skipped"};
+  std::vector<std::string> head{"visit",      "began (UTC)", "kiosk",      "scenario",   "scenario hash", "activity",
+                                "language",   "ending",      "done alone", "from start", "duration s",    "hands",
+                                "went on to", "hints",       "timed out",  "skipped"};
   for (std::size_t k = 0; k < record::kMistakeKinds; ++k)
     head.emplace_back(word_of(static_cast<MistakeKind>(k)));
   head.emplace_back("remarks");

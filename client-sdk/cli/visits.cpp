@@ -135,8 +135,7 @@ int VisitsCommand::remark() {
 
 int VisitsCommand::forget() {
   if (options_.visit.empty() == options_.before.empty()) {
-    return failed({"say what to forget", "mechane visits forget", "name one visit, or --before DATE"},
-                  kWrongArguments);
+    return failed({"say what to forget", "mechane visits forget", "name one visit, or --before DATE"}, kWrongArguments);
   }
   const auto chosen = choice();
   if (!chosen) return failed(chosen.error(), kWrongArguments);

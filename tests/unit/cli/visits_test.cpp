@@ -41,8 +41,9 @@ VisitSheet visit_of(const std::string& number, double turn_s, VisitEnding ending
   sheet.duration_s = 2 + turn_s;
   sheet.hands = 1;
   sheet.ending = ending;
-  sheet.steps = {{"take", 2, StepEnding::done, false, true},
-                 {"turn", turn_s, ending == VisitEnding::done ? StepEnding::done : StepEnding::unfinished, false, true}};
+  sheet.steps = {
+      {"take", 2, StepEnding::done, false, true},
+      {"turn", turn_s, ending == VisitEnding::done ? StepEnding::done : StepEnding::unfinished, false, true}};
   return sheet;
 }
 
@@ -240,9 +241,9 @@ TEST_F(VisitsTest, ThePlotIsDrawnAndSafe) {
   keep(sheets);
   options_.svg = folder_ / "visits.svg";
   EXPECT_EQ(run(""), 0) << errors_;
-  EXPECT_THAT(text_of(options_.svg),
-              AllOf(HasSubstr("<svg xmlns="), HasSubstr("&lt;script&gt;&amp;&#39;"), Not(HasSubstr("<script")),
-                    HasSubstr(">4.5 ± 0.9 of 5, n 8<"), HasSubstr("25 → 75 %"), HasSubstr(">78 %<"), HasSubstr(">11 %<")));
+  EXPECT_THAT(text_of(options_.svg), AllOf(HasSubstr("<svg xmlns="), HasSubstr("&lt;script&gt;&amp;&#39;"),
+                                           Not(HasSubstr("<script")), HasSubstr(">4.5 ± 0.9 of 5, n 8<"),
+                                           HasSubstr("25 → 75 %"), HasSubstr(">78 %<"), HasSubstr(">11 %<")));
 }
 
 TEST_F(VisitsTest, NothingIsAReportToo) {
@@ -284,7 +285,8 @@ TEST(VisitStatistics, MedianAndNinetiethOfFewAndMany) {
 
 TEST(VisitStatistics, SatisfiedIsAboveTheMiddleOfItsScale) {
   VisitSheet sheet = visit_of("0000-0000-0000", 1);
-  for (const auto& [mark, marks] : {std::pair(3, 5), std::pair(4, 5), std::pair(2, 4), std::pair(3, 4), std::pair(1, 1)})
+  for (const auto& [mark, marks] :
+       {std::pair(3, 5), std::pair(4, 5), std::pair(2, 4), std::pair(3, 4), std::pair(1, 1)})
     sheet.answers.push_back(
         {std::to_string(mark) + " of " + std::to_string(marks), AnswerTime::after, "", mark, marks, {}});
   sheet.answers.push_back({"before", AnswerTime::before, "", 5, 5, {}});

@@ -199,7 +199,8 @@ TEST(VisitFile, WhatIsNoneIsSaidWithARemedy) {
   fs::create_directory(folder.file());
   EXPECT_THAT(error(Trouble::foreign, Access::write_new), HasSubstr("a folder or a device"));
   fs::remove(folder.file());
-  std::ofstream(folder.file()) << "This is a letter to my aunt, and no database at all, however long it may be.\n" << std::string(1000, '.');
+  std::ofstream(folder.file()) << "This is a letter to my aunt, and no database at all, however long it may be.\n"
+                               << std::string(1000, '.');
   EXPECT_THAT(error(Trouble::damaged, Access::write_new), HasSubstr("SQLite does not know the file"));
 }
 
@@ -215,7 +216,8 @@ TEST(VisitFile, AnotherProgramsAndANewerOnesAreNotTouched) {
   (void)open_visits(folder.file());
   overwrite(folder.file(), 60, std::string("\0\0\0\x09", 4));  // user_version of the file's head
   Trouble trouble = Trouble::none;
-  EXPECT_THAT(VisitFile::open(folder.file(), Access::write_new, &trouble).error().to_string(), HasSubstr("newer Mechane"));
+  EXPECT_THAT(VisitFile::open(folder.file(), Access::write_new, &trouble).error().to_string(),
+              HasSubstr("newer Mechane"));
   EXPECT_EQ(trouble, Trouble::foreign);
   overwrite(folder.file(), 68, "ABCD");  // application_id
   EXPECT_THAT(VisitFile::open(folder.file(), Access::write_new, &trouble).error().to_string(),

@@ -50,7 +50,8 @@ std::shared_ptr<state::WorldDescription> make_machine() {
   why.name = "why";
   why.answers = {{"water", {}}, {"wind", {}}};
   why.correct = "water";
-  world->activities.push_back({.name = "use", .first = StepId(kTake), .title = {}, .goal = {}, .questionnaire = {easy, why}});
+  world->activities.push_back(
+      {.name = "use", .first = StepId(kTake), .title = {}, .goal = {}, .questionnaire = {easy, why}});
   world->activities.push_back({.name = "other", .first = StepId(kTurn), .title = {}});
   return world;
 }
@@ -215,8 +216,8 @@ TEST_F(VisitObserverTest, AgentsAndMachinesSayTheOtherMistakes) {
   say(6000, EventKind::step_started, kTurn);
   say(7000, EventKind::spilled, 0);
   EXPECT_THAT(left().mistakes,
-              ElementsAre(SheetMistake{MistakeKind::wrong_part, "STONE", 2}, SheetMistake{MistakeKind::broke, "ROPE", 1},
-                          SheetMistake{MistakeKind::spilled, "PUMP", 2}));
+              ElementsAre(SheetMistake{MistakeKind::wrong_part, "STONE", 2},
+                          SheetMistake{MistakeKind::broke, "ROPE", 1}, SheetMistake{MistakeKind::spilled, "PUMP", 2}));
 }
 
 TEST_F(VisitObserverTest, BegunAnewByWhoWasHereIsTheSameVisitAndLaterAnother) {
