@@ -17,7 +17,6 @@ namespace mechane::cli {
 namespace {
 
 using record::AnswerTime;
-using record::StepEnding;
 using record::VisitEnding;
 
 // The colours of the bench's plots.

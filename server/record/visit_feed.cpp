@@ -48,6 +48,14 @@ state::CommandKind kind_of(const state::TickInputs& inputs, const state::Event& 
   return state::CommandKind::none;
 }
 
+/// Only a command begins an activity in a running world, and two in one tick do not come from one person.
+state::CommandKind kind_of_start(const state::TickInputs& inputs) noexcept {
+  for (std::uint32_t i = 0; i < std::min<std::uint32_t>(inputs.command_count, state::kMaxCommandsPerTick); ++i) {
+    if (inputs.commands[i].kind == state::CommandKind::restart_activity) return inputs.commands[i].kind;
+  }
+  return state::CommandKind::start_activity;
+}
+
 }  // namespace
 
 void VisitFeed::push(const state::WorldDescription& description, const state::WorldState& state,
@@ -57,6 +65,7 @@ void VisitFeed::push(const state::WorldDescription& description, const state::Wo
     VisitNote note;
     note.event = event;
     if (event.kind == EventKind::command_done) note.command = kind_of(inputs, event);
+    if (event.kind == EventKind::activity_started) note.command = kind_of_start(inputs);
     if (event.kind == EventKind::released) note.opened_hand = has_opened(description, state, event);
     if (!notes_.push(note)) lost_.fetch_add(1, std::memory_order_relaxed);
   }

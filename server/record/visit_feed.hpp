@@ -14,7 +14,7 @@ namespace mechane::record {
 /// An event that a sheet may need, with what only the loop knows at that moment.
 struct VisitNote {
   state::Event event;
-  state::CommandKind command = state::CommandKind::none;  ///< command_done: of that command
+  state::CommandKind command = state::CommandKind::none;  ///< of command_done, and of activity_started: whose doing it is
   bool opened_hand = false;  ///< released: by the hand, and no joint holds the body: it falls, or lies where it was put
 };
 

@@ -75,6 +75,7 @@ void VisitObserver::take_up(VisitSheet sheet, std::uint64_t tick) {
   began_ = tick - std::min(tick, spent);
   last_sign_ = tick;
   touched_ = true;
+  did_something_ = true;
   hands_seen_ = sheet.hands == 0 ? 0 : (1U << std::min<std::uint32_t>(sheet.hands, state::kMaxUsers)) - 1;
   sheet.ending = VisitEnding::running;
   lost_before_ = 0;
@@ -95,6 +96,9 @@ void VisitObserver::take(const VisitNote& note) {
   count_let_go(note.event.tick);
   if (note.event.kind == EventKind::command_done) {
     command_done(note);
+  } else if (note.event.kind == EventKind::activity_started) {
+    activity_started(ActivityId(note.event.subject), note.event.tick,
+                     note.command == state::CommandKind::restart_activity);
   } else if (note.event.kind == EventKind::released) {
     take_release(note);
   } else {
@@ -110,7 +114,9 @@ void VisitObserver::take_event(const state::Event& event) {
       if (is_user) hands_seen_ |= 1U << event.subject;
       if (is_user && event.kind == EventKind::grasped) holding_ |= 1U << event.subject;
       forget_let_go(event.object);
-      return sign(event.tick);
+      sign(event.tick);
+      did_something_ = did_something_ || event.kind == EventKind::grasped;
+      return;
     case EventKind::user_left:
       if (is_user) holding_ &= ~(1U << event.subject);
       return;
@@ -118,7 +124,9 @@ void VisitObserver::take_event(const state::Event& event) {
     case EventKind::pushed:
     case EventKind::lit:
     case EventKind::pointed:
-      return sign(event.tick);
+      sign(event.tick);
+      did_something_ = true;
+      return;
     case EventKind::placed:
       return forget_let_go(event.object);
     case EventKind::part_refused:
@@ -128,8 +136,6 @@ void VisitObserver::take_event(const state::Event& event) {
       return mistake(MistakeKind::broke, name_of(description_->agents, event.subject));
     case EventKind::spilled:
       return spilled(event.subject);
-    case EventKind::activity_started:
-      return activity_started(ActivityId(event.subject), event.tick);
     case EventKind::step_started:
       return step_started(StepId(event.subject), event.tick);
     case EventKind::activity_done:
@@ -170,32 +176,32 @@ void VisitObserver::command_done(const VisitNote& note) {
   changed_ = sheet_.has_value();
 }
 
-void VisitObserver::activity_started(ActivityId activity, std::uint64_t tick) {
+void VisitObserver::activity_started(ActivityId activity, std::uint64_t tick, bool restarted) {
   if (activity.index() >= description_->activities.size()) return;
   let_go_.clear();
-  const bool same = activity == activity_ && !is_over();
-  const bool was_here = same && !only_answers_ && (holding_ != 0 || tick - last_sign_ < kAway);
   const StepId left_step = std::exchange(step_, StepId::none());
-  if (!was_here && !(only_answers_ && !is_over())) finish(VisitEnding::left, last_sign_, left_step);
-  activity_ = activity;
-  activity_tick_ = tick;
-  if (was_here) {
-    measure_step(left_step, tick);
+  const bool was_here = !is_over() && (holding_ != 0 || tick - last_sign_ < kAway);
+  if (was_here && did_something_ && restarted && activity == activity_) {
+    activity_tick_ = tick;
     last_sign_ = tick;
+    measure_step(left_step, tick);
     return mistake(MistakeKind::restarted, "");
   }
+  const bool goes_on = was_here && !did_something_;  // so far it was answers, or a hand on its way
+  if (!goes_on) finish(VisitEnding::left, last_sign_, left_step);
+  activity_ = activity;
+  activity_tick_ = tick;
   steps_.clear();
-  touched_ = false;
+  touched_ = goes_on;
+  did_something_ = false;
   hands_seen_ = holding_;
-  if (is_over()) {
+  if (!goes_on) {
     if (sheet_) finished_.push_back(std::move(*sheet_));
     return sheet_.reset();
   }
-  // It was asked before the activity, and now that begins.
   sheet_->activity = description_->activities[activity.index()].name;
   sheet_->from_start = true;
   began_ = last_sign_ = tick;
-  touched_ = true;
   changed_ = true;
 }
 
@@ -234,6 +240,7 @@ void VisitObserver::begin_step(StepId step, std::uint64_t tick) {
 
 void VisitObserver::end_step(std::uint64_t tick, StepId next) {
   const state::StepDescription& step = description_of(step_);
+  did_something_ = true;
   measure_step(step_, tick);
   step_ended_ = tick;
   step_ = StepId::none();
@@ -257,7 +264,6 @@ void VisitObserver::activity_done(std::uint64_t tick) {
 void VisitObserver::sign(std::uint64_t tick) {
   if (!activity_ || (!step_ && is_over())) return;  // nothing to do here, or done: playing on is no visit
   if (is_over()) begin(tick);
-  only_answers_ = false;
   last_sign_ = tick;
   touched_ = true;
   const auto hands = static_cast<std::uint32_t>(std::popcount(hands_seen_));
@@ -285,7 +291,7 @@ void VisitObserver::begin(std::uint64_t tick) {
   sheet_->language = language_;
   sheet_->from_start = just_begun || at_first;
   sheet_->steps = steps_;
-  only_answers_ = false;
+  did_something_ = false;
   changed_ = true;
 }
 
@@ -351,10 +357,7 @@ Expected<void> VisitObserver::answer(const VisitAnswer& given) {
     return fail("nobody was seen at the activity that this asks about", "question " + given.question,
                 "ask after a visit, and before the activity begins anew");
   }
-  if (!sheet_ || (is_over() && given.when == AnswerTime::before)) {
-    begin(tick_);
-    only_answers_ = true;
-  }
+  if (!sheet_ || (is_over() && given.when == AnswerTime::before)) begin(tick_);
   if (!is_over()) last_sign_ = tick_;
   const auto known = std::ranges::find_if(sheet_->answers, [&](const SheetAnswer& one) {
     return one.question == answer->question && one.when == answer->when;

@@ -25,8 +25,8 @@ struct VisitSources {
 /// A kiosk's device is there all day, so that a hand that is present is no visitor. A visit begins with the first touch, grasp, pointing,
 /// command or answer, and counts from the start of the activity where that was less than kAway before: reading what to do is part of
 /// it. It ends with the activity, or is 'left' where nothing is seen of the visitor for kAway. Answers to the questions after it are
-/// taken until the next visit begins. An activity that is begun anew by somebody who was there a moment ago is the same visit, with a
-/// mistake more.
+/// taken until the next visit begins. An activity that is restarted by somebody who was there a moment ago is the same visit, with a
+/// mistake more; one that is started is another visit, unless nothing but a touch or an answer came before.
 class VisitObserver {
  public:
   static constexpr std::uint64_t kAway = 90'000;  ///< ticks without a sign of a visitor
@@ -64,7 +64,7 @@ class VisitObserver {
   void take_event(const state::Event& event);
   void take_release(const VisitNote& note);
   void command_done(const VisitNote& note);
-  void activity_started(ActivityId activity, std::uint64_t tick);
+  void activity_started(ActivityId activity, std::uint64_t tick, bool restarted);
   void step_started(StepId step, std::uint64_t tick);
   void activity_done(std::uint64_t tick);
   void sign(std::uint64_t tick);
@@ -101,7 +101,7 @@ class VisitObserver {
   std::vector<VisitSheet> finished_;  // to be handed out, and not ours any more
   std::uint64_t began_ = 0;           // tick from which the visit counts
   std::uint64_t last_sign_ = 0;
-  bool only_answers_ = false;     // so far
+  bool did_something_ = false;    // more than answer, or touch a thing
   std::uint32_t hands_seen_ = 0;  // bits
   std::uint32_t holding_ = 0;     // bits: whoever holds something is there
   std::vector<LetGo> let_go_;     // what may still settle

@@ -14,7 +14,7 @@ namespace mechane::record {
 namespace {
 
 constexpr Duration kLookForOld = std::chrono::hours(1);
-constexpr std::int64_t kMinutesPerDay = 24 * 60;
+constexpr std::int64_t kMinutesPerDay = 1440;
 constexpr std::size_t kMostKnown = 10'000;
 
 std::uint64_t inode_of(const std::filesystem::path& file) {

@@ -72,6 +72,9 @@ class VisitObserverTest : public testing::Test {
     observer_.emplace(description_, "kiosk-1", at, tick, std::move(unfinished), sources);
   }
 
+  void start(std::uint64_t tick, std::uint32_t activity, CommandKind by = CommandKind::start_activity) {
+    observer_->take({.event = {tick, EventKind::activity_started, activity, kNobody, 0}, .command = by});
+  }
   void say(std::uint64_t tick, EventKind kind, std::uint32_t subject, std::uint32_t object = kNobody) {
     observer_->take({.event = {tick, kind, subject, object, 0}});
   }
@@ -220,17 +223,16 @@ TEST_F(VisitObserverTest, AgentsAndMachinesSayTheOtherMistakes) {
                           SheetMistake{MistakeKind::broke, "ROPE", 1}, SheetMistake{MistakeKind::spilled, "PUMP", 2}));
 }
 
-TEST_F(VisitObserverTest, BegunAnewByWhoWasHereIsTheSameVisitAndLaterAnother) {
+TEST_F(VisitObserverTest, RestartedByWhoWasHereIsTheSameVisitAndLaterAnother) {
   begin(1000);
   say(2000, EventKind::step_started, kTurn);
-  say(4000, EventKind::activity_started, 0);
+  start(4000, 0, CommandKind::restart_activity);
   say(4000, EventKind::step_started, kTake);
-  command(4000, CommandKind::restart_activity);
   const VisitSheet again = sheet();
   EXPECT_THAT(again.mistakes, ElementsAre(SheetMistake{MistakeKind::restarted, "", 1}));
   EXPECT_THAT(again.steps, SizeIs(3));
   EXPECT_EQ(again.steps[1], (SheetStep{"turn", 2, StepEnding::unfinished, false, true}));
-  say(5000 + VisitObserver::kAway, EventKind::activity_started, 0);
+  start(5000 + VisitObserver::kAway, 0, CommandKind::restart_activity);
   say(5000 + VisitObserver::kAway, EventKind::step_started, kTake);
   const VisitSheet first = sheet();
   EXPECT_EQ(first.ending, VisitEnding::left);
@@ -241,9 +243,36 @@ TEST_F(VisitObserverTest, BegunAnewByWhoWasHereIsTheSameVisitAndLaterAnother) {
   EXPECT_THAT(next.mistakes, IsEmpty());
 }
 
+TEST_F(VisitObserverTest, StartedIsAnotherVisitOnceSomethingWasDone) {
+  begin(1000);
+  say(2000, EventKind::grasped, 0, kCrank);
+  start(3000, 0);
+  say(3000, EventKind::step_started, kTake);
+  const VisitSheet first = sheet();
+  EXPECT_EQ(first.ending, VisitEnding::left);
+  EXPECT_THAT(first.mistakes, IsEmpty());
+  begin(4000);
+  EXPECT_NE(sheet().number, first.number);
+}
+
+TEST_F(VisitObserverTest, ATouchOnTheWayToTheStartIsNoVisitOfItsOwn) {
+  begin(1000);
+  const std::string number = sheet().number;
+  start(5000, 1);
+  say(5000, EventKind::step_started, kTurn);
+  say(7000, EventKind::activity_done, 1);
+  const VisitSheet s = sheet();
+  EXPECT_EQ(s.number, number);
+  EXPECT_EQ(s.activity, "other");
+  EXPECT_DOUBLE_EQ(s.duration_s, 2);
+  EXPECT_THAT(s.mistakes, IsEmpty());
+  EXPECT_THAT(s.steps, SizeIs(1));
+}
+
 TEST_F(VisitObserverTest, AnotherActivityIsAnotherVisit) {
   begin(1000);
-  say(2000, EventKind::activity_started, 1);
+  say(1500, EventKind::grasped, 0, kCrank);
+  start(2000, 1, CommandKind::start_activity);
   say(2000, EventKind::step_started, kTurn);
   EXPECT_EQ(sheet().ending, VisitEnding::left);
   begin(3000);
@@ -301,7 +330,7 @@ TEST_F(VisitObserverTest, AnswersAreCheckedAndCounted) {
 TEST_F(VisitObserverTest, WhatWasAskedBeforeTheActivityBelongsToItsVisit) {
   ASSERT_TRUE(observer_->answer({"why", "wind", AnswerTime::before}));
   const std::string number = sheet().number;
-  say(50'000, EventKind::activity_started, 0);
+  start(50'000, 0);
   say(50'000, EventKind::step_started, kTake);
   begin(51'000);
   say(52'000, EventKind::activity_done, 0);
@@ -371,21 +400,24 @@ TEST(VisitFeed, NotesOfATickComeWithWhatOnlyTheLoopKnows) {
   state.emit(EventKind::released, 0, kCrank);
   state.emit(EventKind::released, 1, kStone);
   state.emit(EventKind::command_done, kNobody, kNobody, 42);
+  state.emit(EventKind::activity_started, 0);
   state::TickInputs inputs;
-  inputs.command_count = 1;
+  inputs.command_count = 2;
   inputs.commands[0] = {.id = 42, .kind = CommandKind::next_step};
+  inputs.commands[1] = {.id = 43, .kind = CommandKind::restart_activity};
   VisitFeed feed;
   feed.push(*world, state, inputs);
   EXPECT_EQ(feed.tick(), 7U);
-  std::vector<VisitNote> notes(5);
+  std::vector<VisitNote> notes(6);
   std::size_t count = 0;
   while (count < notes.size() && feed.take(notes[count]))
     ++count;
-  ASSERT_EQ(count, 4U);
+  ASSERT_EQ(count, 5U);
   EXPECT_TRUE(notes[0].opened_hand);
   EXPECT_FALSE(notes[1].opened_hand);  // the joint holds it
   EXPECT_FALSE(notes[2].opened_hand);  // the device jumped
   EXPECT_EQ(notes[3].command, CommandKind::next_step);
+  EXPECT_EQ(notes[4].command, CommandKind::restart_activity);
 }
 
 TEST(VisitFeed, AFullOneLosesAndCounts) {
