@@ -23,14 +23,23 @@ bool is_noted(EventKind kind) noexcept {
   }
 }
 
-bool is_held_by_joint(const state::WorldDescription& description, const state::WorldState& state,
-                      std::uint32_t body) noexcept {
+bool is_tied(const state::Coupling& coupling, std::uint32_t body) noexcept {
+  const auto is_it = [body](BodyId id) { return id && id.index() == body; };
+  if (!coupling.enabled) return false;
+  if (coupling.kind == state::CouplingKind::fixed) return is_it(coupling.body1) || is_it(coupling.body2);
+  if (coupling.kind != state::CouplingKind::rope) return false;
+  return std::any_of(coupling.nodes.begin(), coupling.nodes.begin() + coupling.node_count,
+                     [&](const state::RopeNode& node) { return is_it(node.body); });
+}
+
+/// By a joint, a tie or a rope: it does not fall when a hand opens.
+bool is_held(const state::WorldDescription& description, const state::WorldState& state, std::uint32_t body) noexcept {
   for (std::size_t j = 0; j < description.joints.size(); ++j) {
     const state::JointDescription& joint = description.joints[j];
     if (!state.joints[j].enabled) continue;
     if ((joint.body1 && joint.body1.index() == body) || (joint.body2 && joint.body2.index() == body)) return true;
   }
-  return false;
+  return std::ranges::any_of(state.couplings, [body](const state::Coupling& c) { return is_tied(c, body); });
 }
 
 /// A hand that jumped or went away has not opened: that is the device's doing, not the visitor's.
@@ -38,7 +47,7 @@ bool has_opened(const state::WorldDescription& description, const state::WorldSt
                 const state::Event& event) noexcept {
   if (event.subject >= state.users.size()) return false;
   const state::UserState& user = state.users[event.subject];
-  return user.present && !user.jumped && !is_held_by_joint(description, state, event.object);
+  return user.present && !user.jumped && !is_held(description, state, event.object);
 }
 
 state::CommandKind kind_of(const state::TickInputs& inputs, const state::Event& done) noexcept {

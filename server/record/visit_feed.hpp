@@ -15,7 +15,7 @@ namespace mechane::record {
 struct VisitNote {
   state::Event event;
   state::CommandKind command = state::CommandKind::none;  ///< of command_done, and of activity_started: whose doing it is
-  bool opened_hand = false;  ///< released: by the hand, and no joint holds the body: it falls, or lies where it was put
+  bool opened_hand = false;  ///< released: by the hand, and no joint or rope holds the body: it falls, or lies where it was put
 };
 
 /// A bounded queue from the loop to one other thread. A full one loses notes and counts them: a tick never waits.

@@ -420,6 +420,26 @@ TEST(VisitFeed, NotesOfATickComeWithWhatOnlyTheLoopKnows) {
   EXPECT_EQ(notes[4].command, CommandKind::restart_activity);
 }
 
+TEST(VisitFeed, WhatHangsOnARopeIsNotLetGo) {
+  const auto world = make_machine();
+  state::WorldState state(*world);
+  state.users[0].present = true;
+  state.couplings.resize(1);
+  state.couplings[0].kind = state::CouplingKind::rope;
+  state.couplings[0].node_count = 2;
+  state.couplings[0].nodes[1].body = BodyId(kStone);
+  VisitFeed feed;
+  VisitNote note;
+  for (const bool tied : {false, true}) {
+    state.couplings[0].enabled = tied;
+    state.event_count = 0;
+    state.emit(EventKind::released, 0, kStone);
+    feed.push(*world, state, {});
+    ASSERT_TRUE(feed.take(note));
+    EXPECT_EQ(note.opened_hand, !tied);
+  }
+}
+
 TEST(VisitFeed, AFullOneLosesAndCounts) {
   const auto world = make_machine();
   state::WorldState state(*world);
