@@ -13,6 +13,7 @@
 #include "client-sdk/cli/echo.hpp"
 #include "client-sdk/cli/open.hpp"
 #include "client-sdk/cli/sibling.hpp"
+#include "client-sdk/cli/visits.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/merge.hpp"
@@ -98,6 +99,34 @@ CLI::App* add_content(CLI::App& app, cli::ContentOptions& o) {
   return content;
 }
 
+CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
+  CLI::App* visits = app.add_subcommand("visits", "tell what visitors did and said: tables, CSV, a plot");
+  visits->require_subcommand(0, 1);
+  visits->add_option("--records", o.records, "the server's folder of records, which has the sheets")
+      ->capture_default_str();
+  visits->add_option("--file", o.file, "or the file of sheets itself");
+  visits->add_option("--since", o.since, "only visits that began then or later: 2026-11-22, or with a time, in UTC");
+  visits->add_option("--scenario", o.scenario, "only visits to this scenario (its id)");
+  visits->add_option("--kiosk", o.kiosk, "only visits at this kiosk");
+  visits->add_option("--csv", o.csv, "write single visits to this file, for a spreadsheet");
+  visits->add_option("--svg", o.svg, "draw the report to this file");
+  CLI::App* list = visits->add_subcommand("list", "print the newest visits, with their numbers");
+  list->add_option("--last", o.last, "so many; 0: all")->capture_default_str();
+  CLI::App* show = visits->add_subcommand("show", "print all of one visit's sheet");
+  CLI::App* remark = visits->add_subcommand("remark", "add an observer's remark to a visit's sheet");
+  CLI::App* forget = visits->add_subcommand("forget", "delete sheets: of one visit, or of all before a date");
+  for (CLI::App* command : {show, remark})
+    command->add_option("visit", o.visit, "its number; the first four letters may do")->required();
+  remark->add_option("text", o.text, "up to 2000 bytes; name nobody in it")->required();
+  forget->add_option("visit", o.visit, "its number; the first four letters may do");
+  forget->add_option("--before", o.before, "all that began before this date");
+  for (CLI::App* command : {visits, list, show})
+    command->add_flag("--json", o.json, "as JSON");
+  for (CLI::App* command : visits->get_subcommands({}))
+    command->fallthrough();  // --records may stand behind the verb
+  return visits;
+}
+
 int add_and_parse(int argc, char** argv) {
   CLI::App app{"Mechane: touch, assemble and work the machines of ancient Greek engineers."};
   app.set_version_flag("--version", std::string("mechane ") + MECHANE_VERSION);
@@ -111,6 +140,8 @@ int add_and_parse(int argc, char** argv) {
   auto* open_command = add_open(app, open);
   cli::ContentOptions content;
   auto* content_command = add_content(app, content);
+  cli::VisitsOptions visits;
+  auto* visits_command = add_visits(app, visits);
   std::vector<std::string> files;
   auto* check_command = app.add_subcommand("check", "check scenario files: errors with line, node and remedy");
   check_command->add_option("files", files, "X3D files")->required();
@@ -137,6 +168,10 @@ int add_and_parse(int argc, char** argv) {
   if (*open_command) return cli::run_open(open);
   if (*content_command)
     return cli::run_content(content_command->get_subcommands().front()->get_name(), content, std::cout, std::cerr);
+  if (*visits_command) {
+    const auto verbs = visits_command->get_subcommands();
+    return cli::run_visits(verbs.empty() ? "" : verbs.front()->get_name(), visits, std::cout, std::cerr);
+  }
   if (*check_command)
     return scenario::run_check(files, std::cout,
                                check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);

@@ -34,8 +34,13 @@ std::string who(const Session& session) {
 }  // namespace
 
 Lobby::Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
-             record::Recorder* recorder, std::vector<std::unique_ptr<WorldLoop>>& loops)
-    : settings_(settings), scenarios_(scenarios), transport_(transport), recorder_(recorder), loops_(loops) {
+             record::Recorder* recorder, record::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops)
+    : settings_(settings),
+      scenarios_(scenarios),
+      transport_(transport),
+      recorder_(recorder),
+      sheets_(sheets),
+      loops_(loops) {
   if (recorder_ == nullptr) return;
   for (const auto& path : record::find_snapshots(settings.records)) {
     auto file = record::read_snapshot_file(path);
@@ -147,6 +152,7 @@ Expected<Lobby::Entry*> Lobby::open(std::vector<std::string> kiosks,
   entry->running.step = (*world)->state.progress.step;
   entry->running.world = std::move(*world);
   entry->running.port = *port;
+  start_visits(*entry, !header.snapshot.empty());
   start_records(*entry, std::move(header));
   const auto least = std::min_element(loops_.begin(), loops_.end(),
                                       [](const auto& a, const auto& b) { return a->size() < b->size(); });
@@ -192,6 +198,7 @@ Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDesc
   auto opened = open(entry.kiosks, std::move(description));
   if (!opened) return tl::unexpected(opened.error());
   Entry& next = **opened;
+  const std::string went_on_to = next.description->id;
   next.idle_since = entry.idle_since;
   for (const std::string& kiosk : std::exchange(entry.kiosks, {}))
     transport_.assign_kiosk(kiosk, *next.running.port);
@@ -201,7 +208,7 @@ Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDesc
     entry.running.port->unbind_user(slot);
     bind_hand(session, next);
   }
-  close(entry, record::WorldRecorder::Snapshot::remove);
+  close(entry, record::WorldRecorder::Snapshot::remove, went_on_to);
   worlds_.erase(worlds_.find(entry.name));
   return {};
 }
@@ -254,6 +261,20 @@ void Lobby::start_records(Entry& entry, record::JournalHeader header) {
   entry.running.recorder.emplace(recorder_->open(std::move(header), sample.size() + 4096));
 }
 
+void Lobby::start_visits(Entry& entry, bool resumed) {
+  if (sheets_ == nullptr) return;
+  entry.visits = std::make_unique<WorldVisits>(*sheets_, entry.description, entry.kiosks.front(),
+                                               entry.running.world->state, resumed);
+  entry.running.visits = &entry.visits->feed();
+}
+
+Expected<void> Lobby::take_answer(const std::string& kiosk, const record::VisitAnswer& answer) {
+  Entry* entry = world_of(kiosk);
+  if (entry == nullptr) return fail("there is no such kiosk", kiosk, "answer from a kiosk that has a world");
+  if (entry->visits == nullptr) return {};
+  return entry->visits->answer(answer);
+}
+
 void Lobby::hand_granted(const Session& session) {
   Entry* entry = world_of(session.kiosk);
   if (entry != nullptr) bind_hand(session, *entry);  // without a world, it was told why
@@ -292,6 +313,7 @@ void Lobby::tidy(TimePoint now) {
   const auto limit = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings_.world_idle_s));
   for (auto it = worlds_.begin(); it != worlds_.end();) {
     Entry& entry = *it->second;
+    if (entry.visits != nullptr) entry.visits->look();
     if (!entry.idle_since || now - *entry.idle_since < limit) {
       ++it;
       continue;
@@ -317,8 +339,12 @@ void Lobby::wait_until_left(Entry& entry) {
   entry.loop->forget_one();
 }
 
-void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot) {
+void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot, const std::string& went_on_to) {
   wait_until_left(entry);
+  if (entry.visits != nullptr) {
+    const bool stops = snapshot == record::WorldRecorder::Snapshot::keep;
+    entry.visits->close(stops ? record::VisitEnding::cut : record::VisitEnding::left, went_on_to);
+  }
   const state::WorldState& state = entry.running.world->state;
   if (entry.running.recorder) {
     // The last state, not that of a second ago.

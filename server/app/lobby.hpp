@@ -12,6 +12,7 @@
 #include "server/app/scenario_store.hpp"
 #include "server/app/settings.hpp"
 #include "server/app/world_loop.hpp"
+#include "server/app/world_visits.hpp"
 #include "server/record/recorder.hpp"
 #include "server/record/snapshot_file.hpp"
 #include "server/transport/server_transport.hpp"
@@ -21,14 +22,17 @@ namespace mechane::app {
 /// Main thread only.
 class Lobby {
  public:
-  /// All arguments outlive the lobby. `recorder` may be null: nothing is kept.
+  /// All arguments outlive the lobby. `recorder` and `sheets` may be null: nothing is kept.
   Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
-        record::Recorder* recorder, std::vector<std::unique_ptr<WorldLoop>>& loops);
+        record::Recorder* recorder, record::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops);
   ~Lobby();
 
   void take(const transport::News& news, TimePoint now);
   /// Lets kiosks go on to another scenario: where a step says so, or somebody wishes it. After the news of a poll.
   void follow_signs();
+  /// What a visitor at a kiosk answers, for the sheet of the visit. Errors: no such kiosk, its activity does not ask that, it is none of
+  /// the answers. Without sheets it is taken, and not kept.
+  [[nodiscard]] Expected<void> take_answer(const std::string& kiosk, const record::VisitAnswer& answer);
   /// Closes what has been idle long enough, takes apart what its loop has given back.
   void tidy(TimePoint now);
   /// Takes all worlds off their loops and closes their journals. Snapshots stay, for a restart.
@@ -42,6 +46,7 @@ class Lobby {
     std::string name;
     std::shared_ptr<const state::WorldDescription> description;
     RunningWorld running;
+    std::unique_ptr<WorldVisits> visits;  ///< null: no sheets are kept
     WorldLoop* loop = nullptr;
     std::vector<std::string> kiosks;
     std::optional<TimePoint> idle_since;
@@ -65,13 +70,16 @@ class Lobby {
   [[nodiscard]] std::optional<record::SnapshotFile> take_snapshot_of(const std::string& kiosk,
                                                                      const state::WorldDescription& description);
   void start_records(Entry& entry, record::JournalHeader header);
-  void close(Entry& entry, record::WorldRecorder::Snapshot snapshot);
+  void start_visits(Entry& entry, bool resumed);
+  /// `went_on_to`: the scenario that its visitors go on to; empty: none.
+  void close(Entry& entry, record::WorldRecorder::Snapshot snapshot, const std::string& went_on_to = {});
   void wait_until_left(Entry& entry);
 
   const Settings& settings_;
   const ScenarioStore& scenarios_;
   transport::ServerTransport& transport_;
   record::Recorder* recorder_;
+  record::VisitSheets* sheets_;
   std::vector<std::unique_ptr<WorldLoop>>& loops_;
   std::map<std::string, std::unique_ptr<Entry>> worlds_;
   std::vector<record::SnapshotFile> from_before_;  // of the run before this one

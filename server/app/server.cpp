@@ -13,6 +13,7 @@
 #include "server/app/world_loop.hpp"
 #include "server/log/log.hpp"
 #include "server/record/recorder.hpp"
+#include "server/record/visit_sheets.hpp"
 #include "server/transport/server_transport.hpp"
 
 namespace mechane::app {
@@ -52,6 +53,7 @@ class Server::Impl {
   explicit Impl(const Settings& settings) : settings_(settings) {}
 
   Expected<void> start();
+  Expected<void> start_records();
   int run(StopSignals& signals);
 
  private:
@@ -64,6 +66,7 @@ class Server::Impl {
   SystemClock main_clock_;
   std::optional<ScenarioStore> scenarios_;
   std::unique_ptr<record::Recorder> recorder_;
+  std::unique_ptr<record::VisitSheets> sheets_;
   std::unique_ptr<transport::ServerTransport> transport_;
   std::vector<std::unique_ptr<SystemClock>> clocks_;
   std::vector<std::unique_ptr<WorldLoop>> loops_;
@@ -78,14 +81,7 @@ Expected<void> Server::Impl::start() {
   }();
   if (!scenarios) return tl::unexpected(scenarios.error());
   scenarios_ = std::move(*scenarios);
-  if (!settings_.records.empty()) {
-    record::RecorderConfig config;
-    config.folder = settings_.records;
-    config.max_journal_bytes = settings_.records_limit_mb * 1'000'000;
-    auto recorder = record::Recorder::create(config);
-    if (!recorder) return tl::unexpected(recorder.error());
-    recorder_ = std::move(*recorder);
-  }
+  if (auto started = start_records(); !started) return started;
   auto transport = transport::ServerTransport::start(transport_config(settings_, *scenarios_));
   if (!transport) return tl::unexpected(transport.error());
   transport_ = std::move(*transport);
@@ -98,7 +94,28 @@ Expected<void> Server::Impl::start() {
     log::warning(
         "SCHED_FIFO was refused: the loop runs as an ordinary thread and will be late under load; see mechane doctor");
   }
-  lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), loops_);
+  lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), sheets_.get(), loops_);
+  return {};
+}
+
+Expected<void> Server::Impl::start_records() {
+  if (!settings_.records.empty()) {
+    record::RecorderConfig config;
+    config.folder = settings_.records;
+    config.max_journal_bytes = settings_.records_limit_mb * 1'000'000;
+    auto recorder = record::Recorder::create(config);
+    if (!recorder) return tl::unexpected(recorder.error());
+    recorder_ = std::move(*recorder);
+  }
+  if (const std::filesystem::path file = settings_.visits_file(); !file.empty()) {
+    record::VisitSheetsConfig config;
+    config.file = file;
+    config.keep_days = settings_.visits_keep_days;
+    config.max_bytes = settings_.visits_limit_mb * 1'000'000;
+    auto sheets = record::VisitSheets::create(config);
+    if (!sheets) return tl::unexpected(sheets.error());
+    sheets_ = std::move(*sheets);
+  }
   return {};
 }
 
@@ -162,7 +179,8 @@ void Server::Impl::say_status() {
   status.wake_us_p99 = summary.wake_us_p99;
   status.wake_us_max = summary.wake_us_max;
   status.realtime = summary.realtime;
-  status.records_ok = recorder_ == nullptr || recorder_->status().records_ok;
+  status.records_ok =
+      (recorder_ == nullptr || recorder_->status().records_ok) && (sheets_ == nullptr || sheets_->status().ok);
   transport_->publish_server_status(status);
 }
 

@@ -30,6 +30,9 @@ class TomlReader {
     take("domain", settings.domain);
     take_path("records", settings.records);
     take("records_limit_mb", settings.records_limit_mb);
+    take_path("visits", settings.visits);
+    take("visits_keep_days", settings.visits_keep_days);
+    take("visits_limit_mb", settings.visits_limit_mb);
     take_path("cache", settings.cache);
     take_path("catalogue", settings.catalogue);
     take("fifo_priority", settings.fifo_priority);
@@ -132,6 +135,8 @@ Expected<void> validate(const Settings& s) {
        {range("worlds", s.worlds, 1, 64), range("loop_threads", s.loop_threads, 1, 32),
         range("domain", s.domain, 0, 230), range("fifo_priority", s.fifo_priority, 0, 98),
         range("world_idle_s", s.world_idle_s, 1, 86400), range("resume_within_s", s.resume_within_s, 0, 1e7),
+        range("visits_keep_days", s.visits_keep_days, 0, 36500),
+        range("visits_limit_mb", static_cast<double>(s.visits_limit_mb), 1, 1e6),
         range("force.stiffness_scale", s.stiffness_scale, 0, 10)}) {
     if (!checked) return checked;
   }
@@ -171,6 +176,11 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
   app.add_option("--domain", s.domain, "DDS domain");
   app.add_option("--records", s.records, "folder of journals and snapshots; '' keeps none");
   app.add_option("--records-limit-mb", s.records_limit_mb, "the oldest journals go when there are more");
+  app.add_option(
+      "--visits", s.visits,
+      "file of visitors' sheets (mechane visits); a bare name lies in the folder of records; 'none' keeps none");
+  app.add_option("--visits-keep-days", s.visits_keep_days, "older sheets are deleted; 0: never for their age");
+  app.add_option("--visits-limit-mb", s.visits_limit_mb, "the oldest sheets go when the file is larger");
   app.add_option("--cache", s.cache, "folder of built collision parts");
   app.add_option("--fifo-priority", s.fifo_priority, "of the loop; 0: an ordinary thread");
   app.add_option("--first-cpu", cpu, "pin loop thread i to processor first + i");
@@ -198,17 +208,25 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
   return s;
 }
 
+std::filesystem::path Settings::visits_file() const {
+  if (visits.empty() || visits == "none") return {};
+  if (visits.has_parent_path()) return visits;
+  return records.empty() ? std::filesystem::path() : records / visits;
+}
+
 std::string to_string(const Settings& s) {
   std::string scenarios;
   for (const auto& path : s.scenarios)
     scenarios += (scenarios.empty() ? "" : ", ") + path.string();
   return fmt::format(
       "name = {}\nscenarios = {}\nworlds = {}\nloop_threads = {}\ndomain = {}\nrecords = {}\nrecords_limit_mb = {}\n"
+      "visits = {}\nvisits_keep_days = {}\nvisits_limit_mb = {}\n"
       "cache = {}\ncatalogue = {}\nfifo_priority = {}\nfirst_cpu = {}\nworld_idle_s = {}\nresume_within_s = "
       "{}\nforce.mode = {}\n"
       "force.max_force_n = {}\nforce.stiffness_scale = {}",
       s.name, scenarios, s.worlds, s.loop_threads, s.domain, s.records.empty() ? "none" : s.records.string(),
-      s.records_limit_mb, s.cache.empty() ? "the user's cache folder" : s.cache.string(),
+      s.records_limit_mb, s.visits_file().empty() ? "none" : s.visits_file().string(), s.visits_keep_days,
+      s.visits_limit_mb, s.cache.empty() ? "the user's cache folder" : s.cache.string(),
       s.catalogue.empty() ? "none" : s.catalogue.string(), s.fifo_priority,
       s.first_cpu ? std::to_string(*s.first_cpu) : "any", s.world_idle_s, s.resume_within_s,
       s.force.mode == haptics::ForceMode::paper ? "paper" : "continuous", s.force.governor.max_force_n,

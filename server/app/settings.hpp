@@ -23,16 +23,22 @@ struct Settings {
   std::uint32_t domain = 0;                       ///< DDS domain, 0 .. 230
   std::filesystem::path records = "out/records";  ///< journals and snapshots; empty: none are kept
   std::uint64_t records_limit_mb = 20'000;        ///< the oldest journals go when there are more
-  std::filesystem::path cache;                    ///< built parts; empty: the user's cache folder
-  int fifo_priority = 80;                         ///< of the loop, 0 .. 98; 0: an ordinary thread
-  std::optional<int> first_cpu;                   ///< pins loop thread i to processor first_cpu + i
-  double world_idle_s = 30;                       ///< a world without clients is closed after this long
-  double resume_within_s = 600;                   ///< a restarted server puts a kiosk back where it was, up to this old
-  double run_for_s = 0;                           ///< stops by itself after this long; 0: runs until it is told to stop
-  std::filesystem::path report;                   ///< JSON of counters and tick times, written at the stop; empty: none
+  /// Visitors' sheets, in the folder of records where it has none of its own; empty or "none": none are kept.
+  std::filesystem::path visits = "visits.db";
+  std::uint32_t visits_keep_days = 730;  ///< older sheets are deleted; 0: never for their age
+  std::uint64_t visits_limit_mb = 200;   ///< the oldest sheets go when there are more
+  std::filesystem::path cache;           ///< built parts; empty: the user's cache folder
+  int fifo_priority = 80;                ///< of the loop, 0 .. 98; 0: an ordinary thread
+  std::optional<int> first_cpu;          ///< pins loop thread i to processor first_cpu + i
+  double world_idle_s = 30;              ///< a world without clients is closed after this long
+  double resume_within_s = 600;          ///< a restarted server puts a kiosk back where it was, up to this old
+  double run_for_s = 0;                  ///< stops by itself after this long; 0: runs until it is told to stop
+  std::filesystem::path report;          ///< JSON of counters and tick times, written at the stop; empty: none
   bool verbose = false;
   haptics::HandSize hand;
   haptics::ForceConfig force;
+  /// Where the sheets are; empty: none are kept. Without records there is no folder for a bare name.
+  [[nodiscard]] std::filesystem::path visits_file() const;
   double stiffness_scale = 1;  ///< on every material and grasp, 0 .. 10; 0: nothing can be felt or moved
 };
 

@@ -19,6 +19,7 @@ class TickOutput final : public world::Publisher {
 
   void publish(const state::WorldState& state) noexcept override {
     running_.port->publish(state);
+    if (running_.visits != nullptr) running_.visits->push(running_.port->description(), state, inputs_);
     if (!running_.recorder) return;
     record::TickRecord record;
     record.tick = state.tick;

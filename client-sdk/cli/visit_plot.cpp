@@ -1,0 +1,330 @@
+#include "client-sdk/cli/visit_plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "client-sdk/cli/content_text.hpp"
+#include "server/scenario/utf8.hpp"
+
+namespace mechane::cli {
+namespace {
+
+using record::AnswerTime;
+using record::VisitEnding;
+
+// The colours of the bench's plots.
+constexpr const char* kInk = "#1f1e1b";
+constexpr const char* kQuiet = "#6b6a64";
+constexpr const char* kGrid = "#e4e2da";
+constexpr const char* kPaper = "#fcfcfb";
+constexpr const char* kStrong = "#2a78d6";
+constexpr const char* kMuted = "#a9bccf";
+constexpr const char* kWarm = "#eb6834";
+
+constexpr double kWidth = 900;
+constexpr double kLeft = 210;
+constexpr double kRight = 150;
+constexpr double kField = kWidth - kLeft - kRight;
+constexpr double kRow = 28;
+constexpr double kFootOfAxis = 30;
+constexpr std::size_t kLongestName = 26;
+
+/// Text of a file as XML may have it; what is not UTF-8 ends it.
+std::string escaped(const std::string& text) {
+  const std::string good = text.substr(0, scenario::first_bad_utf8(text).value_or(text.size()));
+  std::string out;
+  for (const char c : shown(good)) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// At most `letters` of it; UTF-8 is not cut in the middle of a letter.
+std::string shortened(const std::string& text, std::size_t letters) {
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool starts = (static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80U;
+    if (starts && ++seen > letters) return text.substr(0, i) + "…";
+  }
+  return text;
+}
+
+struct TextStyle {
+  int size = 12;
+  const char* colour = kInk;
+  const char* anchor = "start";
+  bool bold = false;
+};
+
+/// Draws from the top down; what is drawn first lies under what comes later.
+class Sheet {
+ public:
+  double y = 0;
+
+  void text(double x, double at, const std::string& words, const TextStyle& style = {}) {
+    body_ += fmt::format(
+        "<text x='{:.1f}' y='{:.1f}' font-family='DejaVu Sans, Helvetica, Arial, sans-serif' font-size='{}' "
+        "font-weight='{}' fill='{}' text-anchor='{}'>{}</text>\n",
+        x, at, style.size, style.bold ? "bold" : "normal", style.colour, style.anchor, escaped(words));
+  }
+  void name(double at, const std::string& words) {
+    text(kLeft - 12, at, shortened(words, kLongestName), {.anchor = "end"});
+  }
+  void value(double at, const std::string& words) {
+    text(kWidth - kRight + 12, at, words, {.size = 11, .colour = kQuiet});
+  }
+  void line(double x1, double y1, double x2, double y2, const char* colour, double width = 1) {
+    body_ += fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='{}' stroke-width='{}'/>\n", x1,
+                         y1, x2, y2, colour, width);
+  }
+  void box(double x, double top, double width, double height, const std::string& colour) {
+    if (width <= 0) return;
+    body_ += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}'/>\n", x, top, width,
+                         height, colour);
+  }
+  void dot(double x, double at, double radius, const char* fill, const char* edge) {
+    body_ += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}' stroke='{}' stroke-width='2'/>\n", x, at,
+                         radius, fill, edge);
+  }
+  [[nodiscard]] std::string page() const {
+    const double height = y + 20;
+    return fmt::format(
+               "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' width='{0:.0f}' "
+               "height='{1:.0f}'>\n"
+               "<rect width='{0:.0f}' height='{1:.0f}' fill='{2}'/>\n",
+               kWidth, height, kPaper) +
+           body_ + "</svg>\n";
+  }
+
+ private:
+  std::string body_;
+};
+
+/// 1, 2 or 5 of a decade, so that some five marks reach `highest`.
+double step_of_axis(double highest) {
+  const double decade = std::pow(10, std::floor(std::log10(highest / 5)));
+  for (const double m : {1.0, 2.0, 5.0, 10.0}) {
+    if (m * decade * 5 >= highest) return m * decade;
+  }
+  return 10 * decade;
+}
+
+/// Parts of a whole side by side, each with its share in it where there is room.
+struct Part {
+  std::size_t count;
+  std::string colour;
+  const char* ink;
+};
+void stacked(Sheet& sheet, const std::vector<Part>& parts) {
+  const std::size_t all = std::accumulate(parts.begin(), parts.end(), std::size_t{0},
+                                          [](std::size_t n, const Part& p) { return n + p.count; });
+  double x = kLeft;
+  for (const Part& part : parts) {
+    if (part.count == 0) continue;
+    const double width = kField * static_cast<double>(part.count) / static_cast<double>(all);
+    sheet.box(x, sheet.y + 4, width - 1.5, kRow - 8, part.colour);
+    if (width > 34)
+      sheet.text(x + width / 2, sheet.y + 18, fmt::format("{:.0f} %", 100 * width / kField),
+                 {.size = 11, .colour = part.ink, .anchor = "middle"});
+    x += width;
+  }
+}
+
+void heading(Sheet& sheet, const std::string& words, const std::string& unit) {
+  sheet.y += 14;
+  if (!words.empty()) sheet.text(kLeft, sheet.y + 12, words, {.size = 11, .colour = kQuiet});
+  sheet.text(kWidth - kRight + 12, sheet.y + 12, unit, {.size = 11, .colour = kQuiet});
+  sheet.y += 20;
+}
+
+void draw_endings(Sheet& sheet, const ActivitySummary& a) {
+  const std::size_t done = a.ended[static_cast<std::size_t>(VisitEnding::done)];
+  const std::size_t left = a.ended[static_cast<std::size_t>(VisitEnding::left)];
+  if (a.whole() == 0) return;
+  heading(sheet, "", "errors a visit");
+  double x = kLeft;
+  for (const auto& [words, colour, room] :
+       {std::tuple("done without help", kStrong, 138.0), std::tuple("done with a hint or other help", kMuted, 206.0),
+        std::tuple("left before the end", kWarm, 0.0)}) {
+    sheet.box(x, sheet.y - 17, 10, 10, colour);
+    sheet.text(x + 15, sheet.y - 8, words, {.size = 11, .colour = kQuiet});
+    x += room;
+  }
+  sheet.name(sheet.y + 18, "task done");
+  stacked(
+      sheet,
+      {{a.done_alone, kStrong, kPaper}, {done - std::min(done, a.done_alone), kMuted, kInk}, {left, kWarm, kPaper}});
+  sheet.value(sheet.y + 18, fmt::format("{:.2f}", a.mistakes_a_visit()));
+  sheet.y += kRow;
+}
+
+void draw_axis(Sheet& sheet, double top, double highest) {
+  const double step = step_of_axis(highest);
+  for (int i = 0; i * step <= highest * 1.0001; ++i) {
+    const double x = kLeft + kField * (i * step) / highest;
+    sheet.line(x, top, x, sheet.y, kGrid);
+    sheet.text(x, sheet.y + 16, fmt::format("{:g} s", i * step), {.size = 11, .colour = kQuiet, .anchor = "middle"});
+  }
+}
+
+void draw_steps(Sheet& sheet, const ActivitySummary& a) {
+  double highest = 0;
+  for (const StepSummary& step : a.steps)
+    highest = std::max(highest, step.time.p90_s);
+  if (highest <= 0) return;
+  highest *= 1.04;
+  heading(sheet, "time in each step: the median, and up to where nine of ten were done", "hints, visits");
+  const double top = sheet.y;
+  sheet.y += kRow * static_cast<double>(a.steps.size());
+  draw_axis(sheet, top, highest);
+  sheet.y = top;  // the rows lie over the axis
+  for (const StepSummary& step : a.steps) {
+    const double middle = sheet.y + kRow / 2;
+    sheet.name(middle + 4, step.name);
+    if (step.time.count > 0) {
+      const double x = kLeft + kField * step.time.median_s / highest;
+      const double far = kLeft + kField * step.time.p90_s / highest;
+      sheet.box(x, middle - 4, far - x, 8, kMuted);
+      sheet.line(far, middle - 7, far, middle + 7, kStrong, 2);
+      sheet.dot(x, middle, 5, kStrong, kStrong);
+    }
+    sheet.value(middle + 4, fmt::format("{} hint{}, {} visit{}", step.hints, step.hints == 1 ? "" : "s", step.visits,
+                                        step.visits == 1 ? "" : "s"));
+    sheet.y += kRow;
+  }
+  sheet.y += kFootOfAxis;
+}
+
+/// From warm at the lowest mark over grey to blue at the highest.
+Part part_of_mark(std::size_t mark, std::size_t marks, std::size_t count) {
+  struct Colour {
+    double r, g, b;
+  };
+  constexpr std::array<Colour, 3> kStops{{{235, 104, 52}, {222, 219, 209}, {42, 120, 214}}};
+  const double at = marks < 2 ? 2 : 2 * static_cast<double>(mark - 1) / static_cast<double>(marks - 1);
+  const std::size_t i = at < 1 ? 0 : 1;
+  const double t = at - static_cast<double>(i);
+  const auto mix = [&](double Colour::*part) {
+    return static_cast<int>(std::lround(kStops[i].*part * (1 - t) + kStops[i + 1].*part * t));
+  };
+  return {count, fmt::format("#{:02x}{:02x}{:02x}", mix(&Colour::r), mix(&Colour::g), mix(&Colour::b)),
+          at > 1.6 ? kPaper : kInk};
+}
+
+void draw_scales(Sheet& sheet, const ActivitySummary& a) {
+  const auto is_scale = [](const QuestionSummary& q) { return !q.at_mark.empty(); };
+  if (std::ranges::none_of(a.questions, is_scale)) return;
+  heading(sheet, "marks, from the lowest to the highest", "mean ± spread");
+  for (const QuestionSummary& q : a.questions) {
+    if (!is_scale(q)) continue;
+    std::vector<Part> parts;
+    for (std::size_t mark = 1; mark <= q.at_mark.size(); ++mark)
+      parts.push_back(part_of_mark(mark, q.at_mark.size(), q.at_mark[mark - 1]));
+    sheet.name(sheet.y + 18, q.when == AnswerTime::before ? q.name + " (before)" : q.name);
+    stacked(sheet, parts);
+    sheet.value(sheet.y + 18,
+                fmt::format("{:.1f} ± {:.1f} of {}, n {}", q.mean, q.spread, q.at_mark.size(), q.answers));
+    sheet.y += kRow;
+  }
+}
+
+struct RightShares {
+  const QuestionSummary* before = nullptr;
+  const QuestionSummary* after = nullptr;
+};
+
+void draw_right_row(Sheet& sheet, const std::string& name, const RightShares& shares) {
+  const double middle = sheet.y + kRow / 2;
+  const auto x_of = [](const QuestionSummary& q) { return kLeft + kField * share_of(q.right, q.judged).value_or(0); };
+  const auto percent = [](const QuestionSummary* q) {
+    return q == nullptr ? std::string("–") : fmt::format("{:.0f}", 100 * share_of(q->right, q->judged).value_or(0));
+  };
+  sheet.name(middle + 4, name);
+  if (shares.before != nullptr && shares.after != nullptr)
+    sheet.line(x_of(*shares.before), middle, x_of(*shares.after), middle, kMuted, 4);
+  if (shares.before != nullptr) sheet.dot(x_of(*shares.before), middle, 5, kPaper, kStrong);
+  if (shares.after != nullptr) sheet.dot(x_of(*shares.after), middle, 5, kStrong, kStrong);
+  sheet.value(middle + 4, fmt::format("{} → {} %", percent(shares.before), percent(shares.after)));
+  sheet.y += kRow;
+}
+
+void draw_right(Sheet& sheet, const ActivitySummary& a) {
+  std::map<std::string, RightShares> questions;
+  for (const QuestionSummary& q : a.questions) {
+    if (q.judged > 0) (q.when == AnswerTime::before ? questions[q.name].before : questions[q.name].after) = &q;
+  }
+  if (questions.empty()) return;
+  heading(sheet, "right answers: before (ring) and after (dot) the visit", "before → after");
+  const double bottom = sheet.y + kRow * static_cast<double>(questions.size());
+  for (int percent = 0; percent <= 100; percent += 25) {
+    const double x = kLeft + kField * percent / 100;
+    sheet.line(x, sheet.y, x, bottom, kGrid);
+    sheet.text(x, bottom + 16, fmt::format("{} %", percent), {.size = 11, .colour = kQuiet, .anchor = "middle"});
+  }
+  for (const auto& [name, shares] : questions)
+    draw_right_row(sheet, name, shares);
+  sheet.y += kFootOfAxis;
+}
+
+std::string subtitle_of(std::span<const ActivitySummary> activities) {
+  std::size_t visits = 0;
+  std::int64_t first = activities.front().first_minute;
+  std::int64_t last = 0;
+  for (const ActivitySummary& a : activities) {
+    visits += a.visits;
+    first = std::min(first, a.first_minute);
+    last = std::max(last, a.last_minute);
+  }
+  std::string text = fmt::format("{} visit{}, {} to {}", visits, visits == 1 ? "" : "s",
+                                 record::minute_text(first).substr(0, 10), record::minute_text(last).substr(0, 10));
+  const Satisfaction all = satisfaction_of(activities);
+  if (const auto share = share_of(all.satisfied, all.marks))
+    text += fmt::format("; {:.0f} % of {} marks given afterwards lie above the middle", 100 * *share, all.marks);
+  return text;
+}
+
+}  // namespace
+
+std::string visits_svg(std::span<const ActivitySummary> activities) {
+  Sheet sheet;
+  sheet.text(24, 34, "What visitors did and said", {.size = 18, .bold = true});
+  sheet.text(24, 56, activities.empty() ? "no visit yet" : subtitle_of(activities), {.colour = kQuiet});
+  sheet.y = 76;
+  for (const ActivitySummary& a : activities) {
+    sheet.line(24, sheet.y, kWidth - 24, sheet.y, kGrid);
+    sheet.text(24, sheet.y + 26, a.scenario + ", " + a.activity, {.size = 14, .bold = true});
+    sheet.text(kWidth - 24, sheet.y + 26, fmt::format("{} visit{}", a.visits, a.visits == 1 ? "" : "s"),
+               {.colour = kQuiet, .anchor = "end"});
+    sheet.y += 34;
+    draw_endings(sheet, a);
+    draw_steps(sheet, a);
+    draw_scales(sheet, a);
+    draw_right(sheet, a);
+    sheet.y += 22;
+  }
+  return sheet.page();
+}
+
+}  // namespace mechane::cli

@@ -1,0 +1,172 @@
+#include "client-sdk/cli/visits.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <ostream>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "client-sdk/cli/content_text.hpp"
+#include "client-sdk/cli/visit_plot.hpp"
+#include "client-sdk/cli/visit_statistics.hpp"
+#include "client-sdk/cli/visit_text.hpp"
+#include "server/record/visit_file.hpp"
+
+namespace mechane::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using record::VisitChoice;
+using record::VisitFile;
+using record::VisitSheet;
+
+constexpr int kWrongArguments = 2;
+
+/// One run of a verb: where it speaks, and what it was told.
+class VisitsCommand {
+ public:
+  VisitsCommand(const VisitsOptions& options, std::ostream& out, std::ostream& errors)
+      : options_(options), out_(out), errors_(errors) {}
+
+  int report();
+  int list();
+  int show();
+  int remark();
+  int forget();
+
+ private:
+  int failed(const Error& error, int status = 1) {
+    fmt::print(errors_, "mechane visits: {}\n", shown(error.to_string()));
+    return status;
+  }
+  [[nodiscard]] fs::path file() const {
+    return options_.file.empty() ? options_.records / record::kVisitFileName : options_.file;
+  }
+  /// What the options choose. Errors: a date that is none.
+  [[nodiscard]] Expected<VisitChoice> choice() const;
+  [[nodiscard]] Expected<std::vector<VisitSheet>> read(const VisitChoice& choice) const;
+  int write(const fs::path& path, const std::string& text);
+
+  const VisitsOptions& options_;
+  std::ostream& out_;
+  std::ostream& errors_;
+};
+
+Expected<VisitChoice> VisitsCommand::choice() const {
+  VisitChoice choice{.scenario = options_.scenario, .kiosk = options_.kiosk, .number = options_.visit};
+  for (const auto& [text, minute] :
+       {std::pair(&options_.since, &choice.since), std::pair(&options_.before, &choice.before)}) {
+    if (text->empty()) continue;
+    const auto date = record::minute_of_text(*text);
+    if (!date) return tl::unexpected(date.error());
+    *minute = *date;
+  }
+  return choice;
+}
+
+Expected<std::vector<VisitSheet>> VisitsCommand::read(const VisitChoice& choice) const {
+  const auto opened = VisitFile::open(file(), VisitFile::Access::read);
+  if (!opened) return tl::unexpected(opened.error());
+  return opened->sheets(choice);
+}
+
+int VisitsCommand::write(const fs::path& path, const std::string& text) {
+  errno = 0;
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out) {
+    return failed({fmt::format("the file cannot be written: {}", std::strerror(errno)), path.string(),
+                   "check its folder, the rights and the disk's space"});
+  }
+  fmt::print(errors_, "wrote {}\n", path.string());
+  return 0;
+}
+
+int VisitsCommand::report() {
+  const auto chosen = choice();
+  if (!chosen) return failed(chosen.error(), kWrongArguments);
+  const auto sheets = read(*chosen);
+  if (!sheets) return failed(sheets.error());
+  const std::vector<ActivitySummary> activities = summarise(*sheets);
+  out_ << (options_.json ? report_json(activities) : visits_report(activities));
+  int status = 0;
+  if (!options_.csv.empty()) status = std::max(status, write(options_.csv, visits_csv(*sheets)));
+  if (!options_.svg.empty()) status = std::max(status, write(options_.svg, visits_svg(activities)));
+  return status;
+}
+
+int VisitsCommand::list() {
+  const auto chosen = choice();
+  if (!chosen) return failed(chosen.error(), kWrongArguments);
+  auto sheets = read(*chosen);
+  if (!sheets) return failed(sheets.error());
+  if (options_.last > 0 && sheets->size() > options_.last)
+    sheets->erase(sheets->begin(), sheets->end() - static_cast<std::ptrdiff_t>(options_.last));
+  out_ << (options_.json ? sheets_json(*sheets) : visits_list(*sheets));
+  return 0;
+}
+
+int VisitsCommand::show() {
+  const auto sheets = read({.number = options_.visit});
+  if (!sheets) return failed(sheets.error());
+  if (sheets->empty())
+    return failed({"there is no visit of this number", options_.visit, "mechane visits list shows the numbers"});
+  if (options_.json) {
+    out_ << sheets_json(*sheets);
+    return 0;
+  }
+  for (const VisitSheet& sheet : *sheets)
+    out_ << (&sheet == sheets->data() ? "" : "\n") << visit_page(sheet);
+  return 0;
+}
+
+int VisitsCommand::remark() {
+  auto opened = VisitFile::open(file(), VisitFile::Access::write);
+  if (!opened) return failed(opened.error());
+  const auto number = opened->remark(options_.visit, {record::minute_now(), options_.text});
+  if (!number) return failed(number.error());
+  fmt::print(out_, "{}: remark kept\n", *number);
+  return 0;
+}
+
+int VisitsCommand::forget() {
+  if (options_.visit.empty() == options_.before.empty()) {
+    return failed({"say what to forget", "mechane visits forget", "name one visit, or --before DATE"}, kWrongArguments);
+  }
+  const auto chosen = choice();
+  if (!chosen) return failed(chosen.error(), kWrongArguments);
+  auto opened = VisitFile::open(file(), VisitFile::Access::write);
+  if (!opened) return failed(opened.error());
+  if (!options_.visit.empty()) {
+    if (options_.visit.size() < 4)
+      return failed({"too few letters for a number", options_.visit, "mechane visits list shows the numbers"});
+    const auto sheets = opened->sheets({.number = options_.visit});
+    if (!sheets) return failed(sheets.error());
+    if (sheets->size() != 1) {
+      return failed({sheets->empty() ? std::string("there is no visit of this number")
+                                     : fmt::format("{} visits begin so", sheets->size()),
+                     options_.visit, "mechane visits list shows the numbers"});
+    }
+  }
+  const auto forgotten = opened->forget(*chosen);
+  if (!forgotten) return failed(forgotten.error());
+  fmt::print(out_, "{} {} forgotten\n", *forgotten, *forgotten == 1 ? "visit" : "visits");
+  return 0;
+}
+
+}  // namespace
+
+int run_visits(std::string_view verb, const VisitsOptions& options, std::ostream& out, std::ostream& errors) {
+  VisitsCommand command(options, out, errors);
+  if (verb == "list") return command.list();
+  if (verb == "show") return command.show();
+  if (verb == "remark") return command.remark();
+  if (verb == "forget") return command.forget();
+  return command.report();
+}
+
+}  // namespace mechane::cli

@@ -1,0 +1,396 @@
+#include "server/record/visit_observer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "server/base/clock.hpp"
+
+namespace mechane::record {
+namespace {
+
+using state::EventKind;
+
+template <class List>
+std::string name_of(const List& list, std::uint32_t index) {
+  return index < list.size() ? list[index].name : std::string();
+}
+
+constexpr double kHalfTick_s = 0.5 * kTickSeconds;
+
+Expected<SheetAnswer> checked(const state::QuestionDescription& question, const VisitAnswer& given) {
+  SheetAnswer answer{.question = given.question, .when = given.when};
+  if (question.kind == state::QuestionDescription::Kind::scale) {
+    answer.marks = question.marks;
+    const char* end = given.answer.data() + given.answer.size();
+    const auto [at, error] = std::from_chars(given.answer.data(), end, answer.mark);
+    if (error != std::errc{} || at != end || answer.mark < 1 || answer.mark > question.marks) {
+      return fail(fmt::format("'{}' is no mark", given.answer), "question " + given.question,
+                  fmt::format("answer with 1 to {}", question.marks));
+    }
+    return answer;
+  }
+  const auto known = std::ranges::find(question.answers, given.answer, &state::QuestionDescription::Answer::name);
+  if (known == question.answers.end()) {
+    return fail(fmt::format("'{}' is none of its answers", given.answer), "question " + given.question,
+                "answer with a name that the scenario gives");
+  }
+  answer.value = given.answer;
+  if (!question.correct.empty()) answer.right = given.answer == question.correct;
+  return answer;
+}
+
+}  // namespace
+
+VisitObserver::VisitObserver(std::shared_ptr<const state::WorldDescription> description, std::string kiosk,
+                             const state::Progress& at, std::uint64_t tick, std::optional<VisitSheet> unfinished,
+                             VisitSources sources)
+    : description_(std::move(description)),
+      kiosk_(std::move(kiosk)),
+      sources_(std::move(sources)),
+      tick_(tick),
+      activity_(at.activity),
+      activity_tick_(at.activity_tick) {
+  if (at.step && !at.done) begin_step(at.step, at.step_tick);
+  if (unfinished) take_up(std::move(*unfinished), tick);
+}
+
+/// The world may be a second older than the sheet: steps that the sheet has and the world has not come again, and are taken out.
+void VisitObserver::take_up(VisitSheet sheet, std::uint64_t tick) {
+  if (!activity_ || sheet.activity != description_->activities[activity_.index()].name || !step_) return;
+  const std::string& now = description_of(step_).name;
+  const auto last =
+      std::find_if(sheet.steps.rbegin(), sheet.steps.rend(), [&](const SheetStep& step) { return step.name == now; });
+  if (last != sheet.steps.rend()) {
+    sheet.steps.erase(last.base() - 1, sheet.steps.end());
+  } else if (!sheet.steps.empty() && sheet.steps.back().ending == StepEnding::unfinished) {
+    sheet.steps.pop_back();
+  }
+  sheet.steps.push_back(steps_.back());
+  steps_ = sheet.steps;
+  const auto spent = static_cast<std::uint64_t>(sheet.duration_s / kTickSeconds);
+  began_ = tick - std::min(tick, spent);
+  last_sign_ = tick;
+  touched_ = true;
+  did_something_ = true;
+  hands_seen_ = sheet.hands == 0 ? 0 : (1U << std::min<std::uint32_t>(sheet.hands, state::kMaxUsers)) - 1;
+  sheet.ending = VisitEnding::running;
+  lost_before_ = 0;
+  sheet_ = std::move(sheet);
+  changed_ = true;
+}
+
+const state::StepDescription& VisitObserver::description_of(StepId step) const {
+  return description_->steps[step.index()];
+}
+
+double VisitObserver::seconds_from(std::uint64_t tick) const {
+  return static_cast<double>(tick_ - std::min(tick, tick_)) * kTickSeconds;
+}
+
+void VisitObserver::take(const VisitNote& note) {
+  tick_ = std::max(tick_, note.event.tick);
+  count_let_go(note.event.tick);
+  if (note.event.kind == EventKind::command_done) {
+    command_done(note);
+  } else if (note.event.kind == EventKind::activity_started) {
+    activity_started(ActivityId(note.event.subject), note.event.tick,
+                     note.command == state::CommandKind::restart_activity);
+  } else if (note.event.kind == EventKind::released) {
+    take_release(note);
+  } else {
+    take_event(note.event);
+  }
+}
+
+void VisitObserver::take_event(const state::Event& event) {
+  const bool is_user = event.subject < state::kMaxUsers;
+  switch (event.kind) {
+    case EventKind::touched:
+    case EventKind::grasped:
+      if (is_user) hands_seen_ |= 1U << event.subject;
+      if (is_user && event.kind == EventKind::grasped) holding_ |= 1U << event.subject;
+      forget_let_go(event.object);
+      sign(event.tick);
+      did_something_ = did_something_ || event.kind == EventKind::grasped;
+      return;
+    case EventKind::user_left:
+      if (is_user) holding_ &= ~(1U << event.subject);
+      return;
+    case EventKind::pulled:
+    case EventKind::pushed:
+    case EventKind::lit:
+    case EventKind::pointed:
+      sign(event.tick);
+      did_something_ = true;
+      return;
+    case EventKind::placed:
+      return forget_let_go(event.object);
+    case EventKind::part_refused:
+      sign(event.tick);
+      return mistake(MistakeKind::wrong_part, name_of(description_->bodies, event.object));
+    case EventKind::broke:
+      return mistake(MistakeKind::broke, name_of(description_->agents, event.subject));
+    case EventKind::spilled:
+      return spilled(event.subject);
+    case EventKind::step_started:
+      return step_started(StepId(event.subject), event.tick);
+    case EventKind::activity_done:
+      return activity_done(event.tick);
+    default:
+      return;
+  }
+}
+
+void VisitObserver::take_release(const VisitNote& note) {
+  const state::Event& event = note.event;
+  if (event.subject < state::kMaxUsers) holding_ &= ~(1U << event.subject);
+  if (is_over()) return;
+  last_sign_ = event.tick;
+  if (note.opened_hand && let_go_.size() < kMostMistakes) let_go_.push_back({event.object, event.tick});
+}
+
+void VisitObserver::forget_let_go(std::uint32_t body) {
+  std::erase_if(let_go_, [body](const LetGo& one) { return one.body == body; });
+}
+
+void VisitObserver::count_let_go(std::uint64_t tick) {
+  for (const LetGo& one : let_go_) {
+    if (tick > one.tick + kSettles) mistake(MistakeKind::let_go, name_of(description_->bodies, one.body));
+  }
+  std::erase_if(let_go_, [tick](const LetGo& one) { return tick > one.tick + kSettles; });
+}
+
+/// The loop says what a command did first, and that it was a command after it.
+void VisitObserver::command_done(const VisitNote& note) {
+  const std::uint64_t tick = note.event.tick;
+  if (note.command == state::CommandKind::click) return sign(tick);
+  if (note.command != state::CommandKind::next_step || step_ended_ != tick) return;
+  const auto ended = std::find_if(steps_.rbegin(), steps_.rend(),
+                                  [](const SheetStep& step) { return step.ending != StepEnding::unfinished; });
+  if (ended != steps_.rend()) ended->ending = StepEnding::skipped;
+  if (sheet_) sheet_->steps = steps_;
+  changed_ = sheet_.has_value();
+}
+
+void VisitObserver::activity_started(ActivityId activity, std::uint64_t tick, bool restarted) {
+  if (activity.index() >= description_->activities.size()) return;
+  let_go_.clear();
+  const StepId left_step = std::exchange(step_, StepId::none());
+  const bool was_here = !is_over() && (holding_ != 0 || tick - last_sign_ < kAway);
+  if (was_here && did_something_ && restarted && activity == activity_) {
+    activity_tick_ = tick;
+    last_sign_ = tick;
+    measure_step(left_step, tick);
+    return mistake(MistakeKind::restarted, "");
+  }
+  const bool goes_on = was_here && !did_something_;  // so far it was answers, or a hand on its way
+  if (!goes_on) finish(VisitEnding::left, last_sign_, left_step);
+  activity_ = activity;
+  activity_tick_ = tick;
+  steps_.clear();
+  touched_ = goes_on;
+  did_something_ = false;
+  hands_seen_ = holding_;
+  if (!goes_on) {
+    if (sheet_) finished_.push_back(std::move(*sheet_));
+    return sheet_.reset();
+  }
+  sheet_->activity = description_->activities[activity.index()].name;
+  sheet_->from_start = true;
+  began_ = last_sign_ = tick;
+  changed_ = true;
+}
+
+/// How long the visitor has been in a step that did not end.
+void VisitObserver::measure_step(StepId id, std::uint64_t tick) {
+  if (!id || steps_.empty() || steps_.back().ending != StepEnding::unfinished) return;
+  const state::StepDescription& step = description_of(id);
+  const auto since = [tick](std::uint64_t from) {
+    return static_cast<double>(tick - std::min(tick, from)) * kTickSeconds;
+  };
+  steps_.back().duration_s = since(step_tick_);
+  // The world's own clock of the step: who comes late sees the hint at once.
+  steps_.back().hint_shown = step.texts.contains("hint") && since(step_began_) >= step.hint_after_s;
+}
+
+void VisitObserver::step_started(StepId step, std::uint64_t tick) {
+  if (step.index() >= description_->steps.size()) return;
+  let_go_.clear();  // what was let go may be what the step waited for
+  if (step_) end_step(tick, step);
+  begin_step(step, tick);
+  const std::string& opens = description_of(step).opens;
+  if (opens.empty() || is_over()) return;
+  sheet_->went_on_to = opens;  // a sign was touched: that is what there was to do
+  activity_done(tick);
+}
+
+void VisitObserver::begin_step(StepId step, std::uint64_t tick) {
+  step_ = step;
+  step_tick_ = step_began_ = tick;
+  spilled_in_step_.clear();
+  if (steps_.size() < kMostSteps) steps_.push_back({.name = description_of(step).name});
+  if (is_over()) return;
+  sheet_->steps = steps_;
+  changed_ = true;
+}
+
+void VisitObserver::end_step(std::uint64_t tick, StepId next) {
+  const state::StepDescription& step = description_of(step_);
+  did_something_ = true;
+  measure_step(step_, tick);
+  step_ended_ = tick;
+  step_ = StepId::none();
+  if (steps_.empty() || steps_.back().ending != StepEnding::unfinished) return;  // there was no room for it
+  const double whole_s = static_cast<double>(tick - std::min(tick, step_began_)) * kTickSeconds;
+  const bool late = step.timeout_s > 0 && whole_s + kHalfTick_s >= step.timeout_s;
+  steps_.back().ending = late && next == step.timeout_next ? StepEnding::timed_out : StepEnding::done;
+}
+
+void VisitObserver::activity_done(std::uint64_t tick) {
+  let_go_.clear();
+  if (step_) end_step(tick, StepId::none());
+  if (is_over()) return;
+  last_sign_ = tick;
+  sheet_->steps = steps_;
+  sheet_->duration_s = seconds_from(began_);
+  sheet_->ending = VisitEnding::done;
+  changed_ = true;
+}
+
+void VisitObserver::sign(std::uint64_t tick) {
+  if (!activity_ || (!step_ && is_over())) return;  // nothing to do here, or done: playing on is no visit
+  if (is_over()) begin(tick);
+  last_sign_ = tick;
+  touched_ = true;
+  const auto hands = static_cast<std::uint32_t>(std::popcount(hands_seen_));
+  changed_ = changed_ || hands != sheet_->hands;
+  sheet_->hands = hands;
+}
+
+void VisitObserver::begin(std::uint64_t tick) {
+  if (sheet_) finished_.push_back(std::move(*sheet_));
+  const bool at_first = !step_ || step_ == description_->activities[activity_.index()].first;
+  const bool just_begun = !touched_ && tick - std::min(tick, activity_tick_) < kAway;
+  if (!just_begun) {  // the activity has waited for somebody: its time counts from now
+    steps_.clear();
+    if (step_) steps_.push_back({.name = description_of(step_).name, .whole = at_first});
+    step_tick_ = tick;
+  }
+  began_ = just_begun ? activity_tick_ : tick;
+  sheet_.emplace();
+  sheet_->number = sources_.number();
+  sheet_->minute = sources_.minute();
+  sheet_->kiosk = kiosk_;
+  sheet_->scenario = description_->id;
+  sheet_->scenario_hash = description_->content_hash;
+  sheet_->activity = description_->activities[activity_.index()].name;
+  sheet_->language = language_;
+  sheet_->from_start = just_begun || at_first;
+  sheet_->steps = steps_;
+  did_something_ = false;
+  changed_ = true;
+}
+
+void VisitObserver::finish(VisitEnding ending, std::uint64_t tick, StepId step) {
+  if (is_over()) return;
+  count_let_go(tick + kSettles + 1);
+  sheet_->duration_s = static_cast<double>(tick - std::min(tick, began_)) * kTickSeconds;
+  measure_step(step, tick);
+  sheet_->steps = steps_;
+  sheet_->ending = ending;
+  hands_seen_ = 0;
+  finished_.push_back(std::move(*sheet_));
+  sheet_.reset();
+  changed_ = false;
+}
+
+void VisitObserver::mistake(MistakeKind kind, const std::string& subject) {
+  if (is_over()) return;
+  changed_ = true;
+  const auto known = std::ranges::find_if(
+      sheet_->mistakes, [&](const SheetMistake& one) { return one.kind == kind && one.subject == subject; });
+  if (known != sheet_->mistakes.end()) {
+    ++known->count;
+  } else if (sheet_->mistakes.size() < kMostMistakes) {
+    sheet_->mistakes.push_back({kind, subject, 1});
+  }
+}
+
+void VisitObserver::spilled(std::uint32_t machine) {
+  if (std::ranges::find(spilled_in_step_, machine) != spilled_in_step_.end()) return;
+  spilled_in_step_.push_back(machine);
+  mistake(MistakeKind::spilled, name_of(description_->machines, machine));
+}
+
+void VisitObserver::look(std::uint64_t tick, std::uint32_t lost) {
+  tick_ = std::max(tick_, tick);
+  count_let_go(tick_);
+  if (is_over()) {
+    lost_before_ = lost;
+    return;
+  }
+  if (lost != lost_before_) {
+    sheet_->notes_lost += lost - lost_before_;
+    lost_before_ = lost;
+    changed_ = true;
+  }
+  if (holding_ != 0) last_sign_ = tick_;
+  if (tick_ - std::min(tick_, last_sign_) >= kAway) finish(VisitEnding::left, last_sign_, step_);
+}
+
+Expected<void> VisitObserver::answer(const VisitAnswer& given) {
+  if (!activity_) return fail("the scenario has no activity, and asks nothing", description_->id, "see the scenario");
+  const auto& questions = description_->activities[activity_.index()].questionnaire;
+  const auto question = std::ranges::find(questions, given.question, &state::QuestionDescription::name);
+  if (question == questions.end()) {
+    return fail(
+        fmt::format("activity {} asks no '{}'", description_->activities[activity_.index()].name, given.question),
+        description_->id, "name a question of the activity's questionnaire");
+  }
+  auto answer = checked(*question, given);
+  if (!answer) return tl::unexpected(answer.error());
+  if (!sheet_ && given.when == AnswerTime::after) {
+    return fail("nobody was seen at the activity that this asks about", "question " + given.question,
+                "ask after a visit, and before the activity begins anew");
+  }
+  if (!sheet_ || (is_over() && given.when == AnswerTime::before)) begin(tick_);
+  if (!is_over()) last_sign_ = tick_;
+  const auto known = std::ranges::find_if(sheet_->answers, [&](const SheetAnswer& one) {
+    return one.question == answer->question && one.when == answer->when;
+  });
+  if (known != sheet_->answers.end()) {
+    *known = std::move(*answer);  // thought better of
+  } else {
+    sheet_->answers.push_back(std::move(*answer));
+  }
+  changed_ = true;
+  return {};
+}
+
+void VisitObserver::close(VisitEnding why, const std::string& went_on_to) {
+  if (is_over()) {
+    if (sheet_ && changed_) finished_.push_back(*sheet_);
+    sheet_.reset();
+    changed_ = false;
+    return;
+  }
+  sheet_->went_on_to = went_on_to;
+  // Who leaves for another exhibit is seen until now.
+  finish(why, why == VisitEnding::cut || !went_on_to.empty() ? tick_ : std::max(last_sign_, began_), step_);
+}
+
+std::vector<VisitSheet> VisitObserver::take_changed() {
+  std::vector<VisitSheet> changed = std::exchange(finished_, {});
+  if (sheet_ && changed_) {
+    if (!is_over()) sheet_->duration_s = seconds_from(began_);
+    changed.push_back(*sheet_);
+  }
+  changed_ = false;
+  return changed;
+}
+
+}  // namespace mechane::record

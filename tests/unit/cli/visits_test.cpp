@@ -1,0 +1,313 @@
+#include "client-sdk/cli/visits.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "client-sdk/cli/visit_plot.hpp"
+#include "client-sdk/cli/visit_statistics.hpp"
+#include "client-sdk/cli/visit_text.hpp"
+#include "server/record/visit_file.hpp"
+
+namespace mechane::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using record::AnswerTime;
+using record::MistakeKind;
+using record::StepEnding;
+using record::VisitEnding;
+using record::VisitFile;
+using record::VisitSheet;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+VisitSheet visit_of(const std::string& number, double turn_s, VisitEnding ending = VisitEnding::done) {
+  VisitSheet sheet;
+  sheet.number = number;
+  sheet.kiosk = "kiosk-1";
+  sheet.scenario = "machine";
+  sheet.scenario_hash = "hash";
+  sheet.activity = "use";
+  sheet.minute = 29'922'357;
+  sheet.duration_s = 2 + turn_s;
+  sheet.hands = 1;
+  sheet.ending = ending;
+  sheet.steps = {
+      {"take", 2, StepEnding::done, false, true},
+      {"turn", turn_s, ending == VisitEnding::done ? StepEnding::done : StepEnding::unfinished, false, true}};
+  return sheet;
+}
+
+/// Ten visits: eight done (one with a hint, two with mistakes), one left, one cut off.
+std::vector<VisitSheet> ten_visits() {
+  std::vector<VisitSheet> sheets;
+  for (int i = 0; i < 8; ++i) {
+    sheets.push_back(visit_of("000" + std::to_string(i) + "-0000-0000", 1 + i));
+    sheets.back().answers.push_back({"easy", AnswerTime::after, "", i < 6 ? 5 : 3, 5, {}});
+    sheets.back().answers.push_back({"why", AnswerTime::before, i < 2 ? "water" : "wind", 0, 0, i < 2});
+    sheets.back().answers.push_back({"why", AnswerTime::after, i < 6 ? "water" : "wind", 0, 0, i < 6});
+  }
+  sheets[0].steps[1].hint_shown = true;
+  sheets[1].mistakes = {{MistakeKind::let_go, "STONE", 3}};
+  sheets[2].mistakes = {{MistakeKind::restarted, "", 1}, {MistakeKind::let_go, "STONE", 1}};
+  sheets.push_back(visit_of("0008-0000-0000", 100, VisitEnding::left));
+  sheets.push_back(visit_of("0009-0000-0000", 200, VisitEnding::cut));
+  return sheets;
+}
+
+/// A file of sheets in a folder of the test; and what the command said last.
+class VisitsTest : public testing::Test {
+ protected:
+  VisitsTest() {
+    std::string name = (fs::temp_directory_path() / "mechane-cli-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    options_.records = folder_;
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  void keep(const std::vector<VisitSheet>& sheets) {
+    auto file = VisitFile::open(folder_ / "visits.db", VisitFile::Access::write_new);
+    ASSERT_TRUE(file) << file.error().to_string();
+    for (const VisitSheet& sheet : sheets)
+      ASSERT_TRUE(file->put(sheet, true));
+  }
+  int run(std::string_view verb) {
+    std::ostringstream out;
+    std::ostringstream errors;
+    const int status = run_visits(verb, options_, out, errors);
+    out_ = out.str();
+    errors_ = errors.str();
+    return status;
+  }
+  nlohmann::json json(std::string_view verb) {
+    options_.json = true;
+    EXPECT_EQ(run(verb), 0) << errors_;
+    return nlohmann::json::parse(out_);
+  }
+  static std::string text_of(const fs::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+  fs::path folder_;
+  VisitsOptions options_;
+  std::string out_;
+  std::string errors_;
+};
+
+TEST_F(VisitsTest, TheReportCountsWhatVisitorsDidAndSaid) {
+  keep(ten_visits());
+  const auto report = json("");
+  EXPECT_EQ(report["visits"], 10);
+  EXPECT_EQ(report["satisfaction"]["marks"], 8);
+  EXPECT_EQ(report["satisfaction"]["satisfied"], 6);
+  ASSERT_THAT(report["activities"], SizeIs(1));
+  const auto& use = report["activities"][0];
+  EXPECT_EQ(use["done"], 8);
+  EXPECT_EQ(use["done_alone"], 7);
+  EXPECT_EQ(use["left"], 1);
+  EXPECT_EQ(use["cut"], 1);
+  EXPECT_EQ(use["mistakes"]["let go"], 4);
+  EXPECT_DOUBLE_EQ(use["mistakes_a_visit"], 5.0 / 9);
+  EXPECT_DOUBLE_EQ(use["time"]["median_s"], 6.5);
+  EXPECT_EQ(use["steps"][0]["step"], "take");
+  EXPECT_EQ(use["steps"][1]["visits"], 10);
+  EXPECT_EQ(use["steps"][1]["done"], 8);
+  EXPECT_EQ(use["steps"][1]["hints"], 1);
+  EXPECT_DOUBLE_EQ(use["steps"][1]["time"]["median_s"], 4.5);
+  EXPECT_DOUBLE_EQ(use["steps"][1]["time"]["p90_s"], 8);
+  ASSERT_THAT(use["questions"], SizeIs(3));
+  EXPECT_EQ(use["questions"][0]["asked"], "before");
+  EXPECT_EQ(use["questions"][0]["right"], 2);
+  EXPECT_EQ(use["questions"][1]["question"], "easy");
+  EXPECT_DOUBLE_EQ(use["questions"][1]["mean"], 4.5);
+  EXPECT_NEAR(use["questions"][1]["spread"], 0.9258, 1e-4);
+  EXPECT_EQ(use["questions"][2]["right"], 6);
+  options_.json = false;
+  EXPECT_EQ(run(""), 0);
+  EXPECT_THAT(out_, AllOf(HasSubstr("done 8 of 9 (89 %), 7 without help (78 %), 1 left; 1 cut off"),
+                          HasSubstr("errors a visit 0.56 (let go 4, restarted 1); 1 hint"), HasSubstr("4.50 of 5"),
+                          HasSubstr("satisfied: 75 % (6 of 8 marks")));
+}
+
+TEST_F(VisitsTest, TimesOfWhoCameInTheMidstAreNoMeasure) {
+  VisitSheet late = visit_of("0000-0000-0000", 90);
+  late.from_start = false;
+  late.steps = {{"turn", 1, StepEnding::done, false, false}};
+  keep({late});
+  const auto report = json("");
+  EXPECT_EQ(report["activities"][0]["time"]["count"], 0);
+  EXPECT_EQ(report["activities"][0]["steps"][0]["time"]["count"], 0);
+  EXPECT_EQ(report["activities"][0]["done"], 1);
+  EXPECT_EQ(report["activities"][0]["done_alone"], 0);
+}
+
+TEST_F(VisitsTest, ItIsChosenByScenarioKioskAndDate) {
+  std::vector<VisitSheet> sheets = ten_visits();
+  sheets[0].kiosk = "kiosk-2";
+  sheets[1].scenario = "other";
+  sheets[2].minute += 24 * 60;
+  keep(sheets);
+  options_.kiosk = "kiosk-2";
+  EXPECT_EQ(json("")["visits"], 1);
+  options_.kiosk.clear();
+  options_.scenario = "other";
+  EXPECT_EQ(json("")["visits"], 1);
+  options_.scenario.clear();
+  options_.since = "2026-11-23";
+  EXPECT_EQ(json("")["visits"], 1);
+  options_.since = "last week";
+  EXPECT_EQ(run(""), 2);
+  EXPECT_THAT(errors_, HasSubstr("last week: this is no date; write it as 2026-11-22"));
+}
+
+TEST_F(VisitsTest, TheListShowsTheNewestAndAPageAllOfOne) {
+  keep(ten_visits());
+  options_.last = 3;
+  EXPECT_EQ(run("list"), 0);
+  EXPECT_THAT(out_, AllOf(HasSubstr("0009-0000-0000"), Not(HasSubstr("0006-0000-0000")), HasSubstr("3 visits")));
+  options_.last = 0;
+  EXPECT_THAT(json("list"), SizeIs(10));
+  options_.json = false;
+  options_.visit = "0002";
+  EXPECT_EQ(run("show"), 0);
+  EXPECT_THAT(out_, AllOf(HasSubstr("error     let go (STONE), 1 time"), HasSubstr("answer    easy, after: 5 of 5"),
+                          HasSubstr("why, before: wind, wrong")));
+  options_.visit = "zzzz";
+  EXPECT_EQ(run("show"), 1);
+  EXPECT_THAT(errors_, HasSubstr("mechane visits list"));
+}
+
+TEST_F(VisitsTest, AnObserverRemarksAndForgets) {
+  keep(ten_visits());
+  options_.visit = "0003";
+  options_.text = "asked, \"why?\"";
+  EXPECT_EQ(run("remark"), 0) << errors_;
+  EXPECT_THAT(out_, HasSubstr("0003-0000-0000: remark kept"));
+  options_.visit = "000";
+  EXPECT_EQ(run("remark"), 1);
+  options_.visit = "0004";
+  EXPECT_EQ(run("forget"), 0) << errors_;
+  EXPECT_EQ(out_, "1 visit forgotten\n");
+  EXPECT_EQ(run("forget"), 1) << "it is gone";
+  options_.visit = "000";
+  EXPECT_EQ(run("forget"), 1) << "too short to be meant";
+  options_.visit.clear();
+  EXPECT_EQ(run("forget"), 2) << "all must not be forgotten by saying nothing";
+  EXPECT_EQ(json("")["visits"], 9);
+  EXPECT_EQ(json("")["activities"][0]["remarks"], 1);
+  options_.before = "2026-11-23";
+  EXPECT_EQ(run("forget"), 0);
+  options_.before.clear();
+  EXPECT_EQ(json("")["visits"], 0);
+}
+
+TEST_F(VisitsTest, TheSpreadsheetHasALineAVisitAndNoFormula) {
+  std::vector<VisitSheet> sheets = ten_visits();
+  sheets[0].kiosk = "=HYPERLINK(\"x\")";
+  sheets[1].kiosk = "a,b\nc";
+  keep(sheets);
+  options_.csv = folder_ / "visits.csv";
+  EXPECT_EQ(run(""), 0) << errors_;
+  EXPECT_THAT(errors_, HasSubstr("wrote"));
+  const std::string csv = text_of(options_.csv);
+  EXPECT_THAT(csv, AllOf(HasSubstr("use turn s"), HasSubstr("use before: why"), HasSubstr("\"'=HYPERLINK(\"\"x\"\")\""),
+                         HasSubstr("\"a,b\nc\"")));
+  std::size_t lines = 0;
+  for (std::size_t at = csv.find("\r\n"); at != std::string::npos; at = csv.find("\r\n", at + 2))
+    ++lines;
+  EXPECT_EQ(lines, 11U);
+  options_.csv = folder_ / "nowhere" / "visits.csv";
+  EXPECT_EQ(run(""), 1);
+  EXPECT_THAT(errors_, HasSubstr("cannot be written"));
+}
+
+TEST_F(VisitsTest, ThePlotIsDrawnAndSafe) {
+  std::vector<VisitSheet> sheets = ten_visits();
+  for (VisitSheet& sheet : sheets)
+    sheet.activity = "<script>&'";
+  keep(sheets);
+  options_.svg = folder_ / "visits.svg";
+  EXPECT_EQ(run(""), 0) << errors_;
+  EXPECT_THAT(text_of(options_.svg), AllOf(HasSubstr("<svg xmlns="), HasSubstr("&lt;script&gt;&amp;&#39;"),
+                                           Not(HasSubstr("<script")), HasSubstr(">4.5 ± 0.9 of 5, n 8<"),
+                                           HasSubstr("25 → 75 %"), HasSubstr(">78 %<"), HasSubstr(">11 %<")));
+}
+
+TEST_F(VisitsTest, NothingIsAReportToo) {
+  keep({});
+  options_.svg = folder_ / "visits.svg";
+  EXPECT_EQ(run(""), 0);
+  EXPECT_EQ(out_, "0 visits\n");
+  EXPECT_THAT(text_of(options_.svg), HasSubstr("no visit yet"));
+  EXPECT_EQ(run("list"), 0);
+  EXPECT_EQ(out_, "0 visits\n");
+}
+
+TEST_F(VisitsTest, WhatIsNoFileOfSheetsIsSaidOnOneLine) {
+  EXPECT_EQ(run(""), 1);
+  EXPECT_THAT(errors_, AllOf(HasSubstr("visits.db: there are no visits' sheets"), HasSubstr("--records")));
+  std::ofstream(folder_ / "letter.txt") << std::string(2000, 'a');
+  options_.file = folder_ / "letter.txt";
+  for (const char* verb : {"", "list", "show", "remark", "forget"}) {
+    options_.visit = "0000";
+    options_.text = "x";
+    EXPECT_EQ(run(verb), 1) << verb;
+    EXPECT_THAT(errors_, HasSubstr("SQLite does not know the file")) << verb;
+    EXPECT_THAT(out_, IsEmpty()) << verb;
+  }
+}
+
+TEST(VisitStatistics, MedianAndNinetiethOfFewAndMany) {
+  EXPECT_EQ(spread_of({}).count, 0U);
+  EXPECT_DOUBLE_EQ(spread_of({7}).median_s, 7);
+  EXPECT_DOUBLE_EQ(spread_of({7}).p90_s, 7);
+  EXPECT_DOUBLE_EQ(spread_of({3, 1}).median_s, 2);
+  EXPECT_DOUBLE_EQ(spread_of({3, 1}).p90_s, 3);
+  std::vector<double> times(100);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    times[i] = static_cast<double>(100 - i);
+  EXPECT_DOUBLE_EQ(spread_of(times).median_s, 50.5);
+  EXPECT_DOUBLE_EQ(spread_of(times).p90_s, 90);
+}
+
+TEST(VisitStatistics, SatisfiedIsAboveTheMiddleOfItsScale) {
+  VisitSheet sheet = visit_of("0000-0000-0000", 1);
+  for (const auto& [mark, marks] :
+       {std::pair(3, 5), std::pair(4, 5), std::pair(2, 4), std::pair(3, 4), std::pair(1, 1)})
+    sheet.answers.push_back(
+        {std::to_string(mark) + " of " + std::to_string(marks), AnswerTime::after, "", mark, marks, {}});
+  sheet.answers.push_back({"before", AnswerTime::before, "", 5, 5, {}});
+  const std::vector<ActivitySummary> all = summarise(std::vector{sheet});
+  EXPECT_EQ(satisfaction_of(all).marks, 5U);
+  EXPECT_EQ(satisfaction_of(all).satisfied, 2U);
+}
+
+TEST(VisitStatistics, StepsStandInTheOrderInWhichVisitorsCameToThem) {
+  VisitSheet sheet = visit_of("0000-0000-0000", 1);
+  sheet.steps = {{"zeta", 1, StepEnding::done, false, true},
+                 {"alpha", 1, StepEnding::unfinished, false, true},
+                 {"zeta", 2, StepEnding::done, false, true},
+                 {"alpha", 1, StepEnding::timed_out, true, true}};
+  const auto all = summarise(std::vector{sheet});
+  ASSERT_THAT(all[0].steps, SizeIs(2));
+  EXPECT_EQ(all[0].steps[0].name, "zeta");
+  EXPECT_EQ(all[0].steps[0].visits, 1U);
+  EXPECT_EQ(all[0].steps[0].time.count, 2U);
+  EXPECT_THAT(all[0].steps[1].ended, ElementsAre(1, 0, 1, 0));
+}
+
+}  // namespace
+}  // namespace mechane::cli
