@@ -53,7 +53,11 @@ CLI::App* add_echo(CLI::App& app, cli::EchoOptions& echo) {
 CLI::App* add_open(CLI::App& app, cli::OpenOptions& open) {
   CLI::App* command = app.add_subcommand("open", "let a kiosk go on to another exhibit, or home");
   command->add_option("scenario", open.scenario, "id of the scenario; without: home, the server's first");
-  command->add_option("--kiosk", open.kiosk, "name of the kiosk")->capture_default_str();
+  command->add_option("--kiosk", open.kiosk, "name of the kiosk")
+      ->capture_default_str()
+      ->check([](const std::string& name) {
+        return name.empty() ? "a kiosk has a name: write --kiosk kiosk-1" : std::string();
+      });
   command->add_option("--domain", open.domain, "DDS domain");
   return command;
 }
