@@ -39,21 +39,37 @@ class ContentCommand {
     fmt::print(errors_, "mechane content: {}\n", shown(error.to_string()));
     return 1;
   }
-  /// The entries that the words name; without words all. An error for a word that names none.
-  /// Where `one_each`, also for a word that names several.
-  Expected<std::vector<CatalogueEntry>> named(const std::vector<CatalogueEntry>& all, bool one_each = false) const;
-  Expected<std::vector<CatalogueEntry>> read(std::optional<Catalogue>& catalogue) const;
+  [[nodiscard]] std::string command(std::string_view verb, const std::string& word = {}) const {
+    return content::content_command(options_.catalogue, verb, word);
+  }
+  /// An open catalogue, all that it has, and of that what the words name: without words all.
+  struct Read {
+    Catalogue catalogue;
+    std::vector<CatalogueEntry> all;
+    std::vector<CatalogueEntry> named;
+  };
+  /// Errors: no catalogue, and a word that names no entry; where `one_each`, also one that names several.
+  Expected<Read> read(Catalogue::Access access = Catalogue::Access::read, bool one_each = false) const;
+  Expected<std::vector<CatalogueEntry>> named(const std::vector<CatalogueEntry>& all, bool one_each) const;
+  Expected<Gathered> gather_files() const;
+  void say_changes(const Catalogue::Changes& changes);
 
   const ContentOptions& options_;
   std::ostream& out_;
   std::ostream& errors_;
 };
 
-Expected<std::vector<CatalogueEntry>> ContentCommand::read(std::optional<Catalogue>& catalogue) const {
-  auto opened = Catalogue::open(options_.catalogue, Catalogue::Access::read);
-  if (!opened) return tl::unexpected(opened.error());
-  catalogue.emplace(std::move(*opened));
-  return catalogue->entries();
+Expected<ContentCommand::Read> ContentCommand::read(Catalogue::Access access, bool one_each) const {
+  std::error_code code;
+  // Only `add` makes a catalogue where there is none.
+  const bool there = fs::exists(options_.catalogue, code);
+  auto catalogue = Catalogue::open(options_.catalogue, there ? access : Catalogue::Access::read);
+  if (!catalogue) return tl::unexpected(catalogue.error());
+  auto all = catalogue->entries();
+  if (!all) return tl::unexpected(all.error());
+  auto found = named(*all, one_each);
+  if (!found) return tl::unexpected(found.error());
+  return Read{std::move(*catalogue), std::move(*all), std::move(*found)};
 }
 
 Expected<std::vector<CatalogueEntry>> ContentCommand::named(const std::vector<CatalogueEntry>& all,
@@ -64,8 +80,7 @@ Expected<std::vector<CatalogueEntry>> ContentCommand::named(const std::vector<Ca
   for (const std::string& word : options_.words) {
     const std::vector<CatalogueEntry> entries = content::find_entries(all, word);
     if (entries.empty()) {
-      return fail("the catalogue has nothing of this name, path or hash", word,
-                  "mechane content list shows what it has");
+      return fail("the catalogue has nothing of this name, path or hash", word, command("list") + " shows what it has");
     }
     if (one_each && entries.size() > 1) {
       std::vector<std::string> paths;
@@ -80,25 +95,43 @@ Expected<std::vector<CatalogueEntry>> ContentCommand::named(const std::vector<Ca
   return found;
 }
 
+/// Files first: where none of them can be added, no new catalogue is left behind.
+Expected<Gathered> ContentCommand::gather_files() const {
+  std::error_code code;
+  if (!fs::exists(options_.catalogue, code))
+    return gather(options_, content::folder_of_catalogue(options_.catalogue), {});
+  const auto catalogue = Catalogue::open(options_.catalogue, Catalogue::Access::write);
+  if (!catalogue) return tl::unexpected(catalogue.error());
+  const auto known = catalogue->entries();
+  if (!known) return tl::unexpected(known.error());
+  return gather(options_, catalogue->folder(), *known);
+}
+
+void ContentCommand::say_changes(const Catalogue::Changes& changes) {
+  const auto say = [&](const std::vector<std::string>& paths, const char* what, const char* more) {
+    for (const std::string& path : paths)
+      fmt::print(out_, "{:<8} {}{}\n", what, shown(path), more);
+  };
+  say(changes.added, "added", "");
+  say(changes.changed, "changed", "");
+  say(changes.retold, "retold", ": the same file, of which something else is known now");
+  fmt::print(out_, "{}: {} added, {} changed, {}{} as they were\n", options_.catalogue.string(), changes.added.size(),
+             changes.changed.size(), changes.retold.empty() ? "" : fmt::format("{} retold, ", changes.retold.size()),
+             changes.same);
+}
+
 int ContentCommand::add() {
+  const auto gathered = gather_files();
+  if (!gathered) return failed(gathered.error());
+  for (const Error& error : gathered->errors)
+    (void)failed(error);
+  if (gathered->entries.empty()) return 1;
   auto catalogue = Catalogue::open(options_.catalogue, Catalogue::Access::write);
   if (!catalogue) return failed(catalogue.error());
-  const auto known = catalogue->entries();
-  if (!known) return failed(known.error());
-  const Gathered gathered = gather(options_, catalogue->folder(), *known);
-  for (const Error& error : gathered.errors)
-    (void)failed(error);
-  const auto changes = catalogue->put(gathered.entries);
+  const auto changes = catalogue->put(gathered->entries);
   if (!changes) return failed(changes.error());
-  const auto say = [&](const std::vector<std::string>& paths, const char* what) {
-    for (const std::string& path : paths)
-      fmt::print(out_, "{:<8} {}\n", what, shown(path));
-  };
-  say(changes->added, "added");
-  say(changes->changed, "changed");
-  fmt::print(out_, "{}: {} added, {} changed, {} as they were\n", options_.catalogue.string(), changes->added.size(),
-             changes->changed.size(), changes->same);
-  return gathered.errors.empty() ? 0 : 1;
+  say_changes(*changes);
+  return gathered->errors.empty() ? 0 : 1;
 }
 
 int ContentCommand::list() {
@@ -108,58 +141,49 @@ int ContentCommand::list() {
                options_.kind);
     return 2;
   }
-  std::optional<Catalogue> catalogue;
-  auto entries = read(catalogue);
-  if (!entries) return failed(entries.error());
+  auto content = read();
+  if (!content) return failed(content.error());
+  std::vector<CatalogueEntry>& entries = content->all;
   const auto lacks = [](const std::vector<std::string>& values, const std::string& wanted) {
     return !wanted.empty() && std::ranges::find(values, wanted) == values.end();
   };
-  std::erase_if(*entries, [&](const CatalogueEntry& entry) {
+  std::erase_if(entries, [&](const CatalogueEntry& entry) {
     return (!options_.kind.empty() && word_of(entry.kind) != options_.kind) || lacks(entry.tags, options_.tag) ||
            lacks(entry.languages, options_.language);
   });
-  std::ranges::stable_sort(*entries, {}, &CatalogueEntry::kind);
-  out_ << (options_.json ? entries_json(*entries) : entries_table(*entries));
+  std::ranges::stable_sort(entries, {}, &CatalogueEntry::kind);
+  out_ << (options_.json ? entries_json(entries) : entries_table(entries));
   return 0;
 }
 
 int ContentCommand::show() {
-  std::optional<Catalogue> catalogue;
-  const auto all = read(catalogue);
-  if (!all) return failed(all.error());
-  auto entries = named(*all);
-  if (!entries) return failed(entries.error());
-  std::ranges::stable_sort(*entries, {}, &CatalogueEntry::kind);
+  auto content = read();
+  if (!content) return failed(content.error());
+  std::ranges::stable_sort(content->named, {}, &CatalogueEntry::kind);
   if (options_.json) {
-    out_ << entries_json(*entries);
+    out_ << entries_json(content->named);
     return 0;
   }
-  for (const CatalogueEntry& entry : *entries)
-    out_ << (&entry == entries->data() ? "" : "\n") << entry_page(entry, *all);
+  for (const CatalogueEntry& entry : content->named)
+    out_ << (&entry == content->named.data() ? "" : "\n") << entry_page(entry, content->all);
   return 0;
 }
 
 int ContentCommand::verify() {
-  std::optional<Catalogue> catalogue;
-  const auto entries = read(catalogue);
-  if (!entries) return failed(entries.error());
-  const auto faults = content::verify(*catalogue);
+  const auto content = read();
+  if (!content) return failed(content.error());
+  const auto faults = content::verify(content->catalogue);
   if (!faults) return failed(faults.error());
-  out_ << (options_.json ? faults_json(*faults) : faults_text(*faults, *entries));
+  out_ << (options_.json ? faults_json(*faults) : faults_text(*faults, content->all));
   return std::ranges::all_of(*faults, &CatalogueFault::is_note) ? 0 : 1;
 }
 
 int ContentCommand::remove() {
-  auto catalogue = Catalogue::open(options_.catalogue, Catalogue::Access::write);
-  if (!catalogue) return failed(catalogue.error());
-  const auto all = catalogue->entries();
-  if (!all) return failed(all.error());
-  const auto entries = named(*all, true);
-  if (!entries) return failed(entries.error());
+  auto content = read(Catalogue::Access::write, true);
+  if (!content) return failed(content.error());
   std::vector<std::string> paths;
-  for (const CatalogueEntry& entry : *entries)
-    paths.push_back(entry.path);
-  const auto removed = catalogue->remove(paths);
+  std::ranges::transform(content->named, std::back_inserter(paths), &CatalogueEntry::path);
+  const auto removed = content->catalogue.remove(paths);
   if (!removed) return failed(removed.error());
   for (const std::string& path : paths)
     fmt::print(out_, "removed  {}\n", shown(path));
@@ -168,27 +192,27 @@ int ContentCommand::remove() {
 }
 
 int ContentCommand::export_to() {
-  std::optional<Catalogue> catalogue;
-  const auto all = read(catalogue);
-  if (!all) return failed(all.error());
-  auto wanted = named(*all);
-  if (!wanted) return failed(wanted.error());
-  const std::vector<CatalogueEntry> entries = content::with_all_referred(*all, std::move(*wanted));
-  if (entries.empty())
-    return failed({"the catalogue is empty", options_.catalogue.string(), "mechane content add FOLDER"});
+  const auto content = read();
+  if (!content) return failed(content.error());
+  const std::vector<CatalogueEntry> entries = content::with_all_referred(content->all, content->named);
+  if (entries.empty()) return failed({"the catalogue is empty", options_.catalogue.string(), command("add", "FOLDER")});
   for (const CatalogueEntry& entry : entries) {
     for (const std::string& path : entry.refers_to) {
       if (!std::ranges::binary_search(entries, path, {}, &CatalogueEntry::path))
-        return failed({fmt::format("it needs {}, which the catalogue does not know", path), entry.path,
-                       "mechane content add " + path});
+        return failed(
+            {fmt::format("it needs {}, which the catalogue does not know", path), entry.path, command("add", path)});
     }
   }
-  const auto done = content::export_content(*catalogue, entries, options_.folder);
+  const auto done = content::export_content(content->catalogue, entries, options_.folder);
   if (!done) return failed(done.error());
+  const std::size_t along = entries.size() - content->named.size();
   fmt::print(out_, "{}: {} files, {}, each read back and right{}\n", options_.folder, done->files,
              size_text(done->bytes), done->replaced ? "; the older export is gone" : "");
+  if (along > 0)
+    fmt::print(out_, "{} named, and {} that they refer to: models, sounds, pages, scenarios that their signs open\n",
+               content->named.size(), along);
   fmt::print(out_, "on the kiosk: mechane display --catalogue {}\n",
-             (fs::path(options_.folder) / content::kCatalogueFileName).string());
+             content::shell_word((fs::path(options_.folder) / content::kCatalogueFileName).string()));
   return 0;
 }
 

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "server/content/catalogue.hpp"
+#include "server/content/content_command.hpp"
 
 namespace mechane::cli {
 
 struct ContentOptions {
-  std::filesystem::path catalogue = "scenarios/catalogue.db";
+  std::filesystem::path catalogue = content::kDefaultCatalogue;
   std::vector<std::string> words;      ///< add: files and folders; the others: names, paths or hashes
   std::string folder;                  ///< export: where to
   content::Credits credits;            ///< add: wins over what a file says; empty: nothing was said

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <deque>
+#include <fstream>
 
 #include <fmt/format.h>
 
 #include "server/content/catalogue_check.hpp"
 #include "server/content/content_hash.hpp"
+#include "server/content/mesh_import.hpp"
+#include "server/content/model_references.hpp"
 #include "server/scenario/facts.hpp"
 
 namespace mechane::cli {
@@ -22,6 +25,27 @@ std::string language_in_name(const fs::path& file) {
   const bool language =
       code.size() == 3 && std::ranges::all_of(code.substr(1), [](char c) { return c >= 'a' && c <= 'z'; });
   return language ? code.substr(1) : "";
+}
+
+/// A folder's LICENCE or LICENSE, by its lines as SPDX has them ("SPDX-License-Identifier: CC0-1.0"); empty where there is none.
+content::Credits read_licence_note(const fs::path& folder) {
+  content::Credits credits;
+  for (const char* name : {"LICENCE", "LICENSE"}) {
+    std::error_code code;
+    if (!fs::is_regular_file(folder / name, code)) continue;
+    std::ifstream in(folder / name);
+    for (std::string line; std::getline(in, line);) {
+      const auto take = [&](std::string_view key, std::string& into) {
+        const std::size_t at = line.find(key);
+        if (at == std::string::npos || !into.empty()) return;
+        const std::size_t first = line.find_first_not_of(" \t", at + key.size());
+        if (first != std::string::npos) into = line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+      };
+      take("SPDX-License-Identifier:", credits.licence);
+      take("SPDX-FileCopyrightText:", credits.author);
+    }
+  }
+  return credits;
 }
 
 class Gatherer {
@@ -93,6 +117,11 @@ class Gatherer {
       return;
     }
     if (made_.contains(*path)) return;
+    if (fs::is_symlink(next.file, code)) {
+      result_.errors.push_back({"this is a link, and an export or another machine would not have what it leads to",
+                                next.file.string(), "put a copy of the file here, or name the file itself"});
+      return;
+    }
     auto entry = entry_of(next, *path);
     if (entry) {
       made_.emplace(*path, std::move(*entry));
@@ -102,7 +131,8 @@ class Gatherer {
   }
 
   Expected<CatalogueEntry> entry_of(const Waiting& next, const std::string& path) {
-    const auto kind = content::kind_of_file(next.file);
+    auto kind = content::kind_of_file(next.file);
+    if (!kind && content::is_piece_of_model(next.file)) kind = ContentKind::model;
     if (!kind) {
       return fail("this is no content", next.file.string(),
                   "content is .x3d, .glb .gltf .obj .stl .ply, .part, .png .jpg .ktx2, .ogg .opus .wav .flac .mp3, .md "
@@ -119,6 +149,7 @@ class Gatherer {
     entry.hash = std::move(*hash);
     std::error_code code;
     entry.bytes = fs::file_size(next.file, code);
+    if (entry.bytes == 0) return fail("the file is empty", next.file.string(), "make it again");
     entry.refers_to.clear();
     entry.wordings.clear();
     if (*kind == ContentKind::scenario) {
@@ -126,12 +157,41 @@ class Gatherer {
     } else if (const std::string language = language_in_name(next.file); !language.empty()) {
       entry.languages = {language};
     }
-    if (*kind == ContentKind::model)
-      refer_to_beside(next.file, entry, [&](const fs::path& other) {
-        return content::kind_of_file(other) == ContentKind::part && other.stem() == next.file.stem();
-      });
+    if (*kind == ContentKind::model && !content::is_piece_of_model(next.file)) {
+      const bool as_it_was = old != known_.end() && old->second.hash == entry.hash;
+      if (auto ok = take_model(next.file, as_it_was, entry); !ok) return tl::unexpected(ok.error());
+    }
     if (next.named) take_options(entry);
+    take_licence_beside(next.file, entry);
     return entry;
+  }
+
+  /// A model must be one that the server and the displays will read.
+  Expected<void> take_model(const fs::path& file, bool as_it_was, CatalogueEntry& entry) {
+    if (!as_it_was) {
+      if (const auto scene = content::import_mesh(file); !scene) return tl::unexpected(scene.error());
+    }
+    const auto others = content::files_of_model(file);
+    if (!others) return tl::unexpected(others.error());
+    for (const std::string& name : *others) {
+      if (!content::kind_of_file(name) && !content::is_piece_of_model(name)) continue;
+      if (auto ok = refer_to(file.parent_path() / name, entry); !ok) return tl::unexpected(ok.error());
+    }
+    refer_to_beside(file, entry, [&](const fs::path& other) {
+      return content::kind_of_file(other) == ContentKind::part && other.stem() == file.stem();
+    });
+    return {};
+  }
+
+  /// To a file that `entry` names, there or not: verify says what is not there.
+  Expected<void> refer_to(const fs::path& other, CatalogueEntry& entry, const std::string& language = {}) {
+    const auto path = content::path_inside(folder_, other);
+    if (!path) return tl::unexpected(path.error());
+    entry.refers_to.push_back(*path);
+    if (!language.empty()) languages_.emplace(*path, language);
+    std::error_code code;
+    if (fs::exists(other, code)) waiting_.push_back({other, false});
+    return {};
   }
 
   Expected<void> take_facts(const fs::path& file, CatalogueEntry& entry) {
@@ -147,13 +207,7 @@ class Gatherer {
       opened_.emplace(entry.path, id);
     for (const auto& [url, language] : facts->files) {
       if (!content::kind_of_file(url)) continue;
-      const fs::path other = file.parent_path() / url;
-      const auto path = content::path_inside(folder_, other);
-      if (!path) return tl::unexpected(path.error());
-      entry.refers_to.push_back(*path);
-      if (!language.empty()) languages_.emplace(*path, language);
-      std::error_code code;
-      if (fs::exists(other, code)) waiting_.push_back({other, false});  // verify says what is not there
+      if (auto ok = refer_to(file.parent_path() / url, entry, language); !ok) return tl::unexpected(ok.error());
     }
     const std::string stem = file.stem().string();
     refer_to_beside(file, entry, [&](const fs::path& other) {
@@ -195,6 +249,21 @@ class Gatherer {
     }
   }
 
+  /// What neither a person nor the file has said, a LICENCE says for all in its folder; the nearest, up to the catalogue's folder.
+  void take_licence_beside(const fs::path& file, CatalogueEntry& entry) {
+    if (!entry.credits.licence.empty()) return;
+    std::error_code code;
+    fs::path at = fs::weakly_canonical(fs::absolute(file, code), code).parent_path();
+    for (; content::is_inside((at / "x").lexically_relative(folder_).generic_string()); at = at.parent_path()) {
+      auto note = notes_.find(at);
+      if (note == notes_.end()) note = notes_.emplace(at, read_licence_note(at)).first;
+      if (note->second.licence.empty()) continue;
+      entry.credits.licence = note->second.licence;
+      if (entry.credits.author.empty()) entry.credits.author = note->second.author;
+      return;
+    }
+  }
+
   void take_options(CatalogueEntry& entry) const {
     take_credits(options_.credits, entry);
     entry.tags.insert(entry.tags.end(), options_.tags.begin(), options_.tags.end());
@@ -208,6 +277,7 @@ class Gatherer {
   std::map<std::string, CatalogueEntry> made_;
   std::multimap<std::string, std::string> opened_;  ///< ids of scenarios, by the path of the one that opens them
   std::map<std::string, std::string> languages_;    ///< of sounds, by path
+  std::map<fs::path, content::Credits> notes_;      ///< of folders that were asked for a LICENCE
   Gathered result_;
 };
 

@@ -54,7 +54,11 @@ CLI::App* add_echo(CLI::App& app, cli::EchoOptions& echo) {
 CLI::App* add_open(CLI::App& app, cli::OpenOptions& open) {
   CLI::App* command = app.add_subcommand("open", "let a kiosk go on to another exhibit, or home");
   command->add_option("scenario", open.scenario, "id of the scenario; without: home, the server's first");
-  command->add_option("--kiosk", open.kiosk, "name of the kiosk")->capture_default_str();
+  command->add_option("--kiosk", open.kiosk, "name of the kiosk")
+      ->capture_default_str()
+      ->check([](const std::string& name) {
+        return name.empty() ? "a kiosk has a name: write --kiosk kiosk-1" : std::string();
+      });
   command->add_option("--domain", open.domain, "DDS domain");
   return command;
 }
@@ -63,8 +67,10 @@ void add_content_add(CLI::App& content, cli::ContentOptions& o) {
   CLI::App* add = content.add_subcommand(
       "add", "take files into the catalogue, or take them anew; of scenarios also what they need");
   add->add_option("files", o.words, "files and folders, in the catalogue's folder")->required();
-  add->add_option("--licence", o.credits.licence,
-                  "e.g. Apache-2.0; wins over what a file says of itself, as all of these do");
+  add->add_option(
+      "--licence", o.credits.licence,
+      "e.g. Apache-2.0; wins over what a file says of itself, as all of these do; where neither says, a file LICENCE "
+      "or LICENSE beside it or above does, by its lines SPDX-License-Identifier and SPDX-FileCopyrightText");
   add->add_option("--author", o.credits.author, "who made it");
   add->add_option("--source", o.credits.source, "where it comes from, or what it follows");
   add->add_option("--version", o.credits.version, "of the file");
@@ -89,9 +95,12 @@ CLI::App* add_content(CLI::App& app, cli::ContentOptions& o) {
   content->add_subcommand("remove", "forget files; they stay where they are")
       ->add_option("names", o.words, "name, path, or hash")
       ->required();
-  CLI::App* out = content->add_subcommand("export", "copy content, and a catalogue of it, for a kiosk");
+  CLI::App* out =
+      content->add_subcommand("export", "copy content, all that it refers to, and a catalogue of it, for a kiosk");
   out->add_option("folder", o.folder, "a new or empty folder, or that of an older export")->required();
-  out->add_option("names", o.words, "only these, and what they need; without: all");
+  out->add_option(
+      "names", o.words,
+      "only these, and what they refer to: models, sounds, pages, the scenarios that signs open; without: all");
   for (CLI::App* command : {list, show, verify})
     command->add_flag("--json", o.json, "as JSON");
   for (CLI::App* command : content->get_subcommands({}))

@@ -21,6 +21,7 @@ nlohmann::json activity_json(const ActivityReport& activity, const std::string& 
           {"name", activity.name},
           {"visit", activity.visit},
           {"done", activity.done},
+          {"reason", activity.reason},
           {"seconds", activity.seconds},
           {"steps", std::move(steps)},
           {"moves", std::move(moves)},

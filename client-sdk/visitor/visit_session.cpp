@@ -63,6 +63,11 @@ class Session {
   /// Whether a step's sign has sent the kiosk on to another scenario.
   [[nodiscard]] bool gone_on() const { return status_ && status_->scenario != world_.id; }
   void note_going_on(ActivityReport& report);
+  /// A step whose sign leads nowhere on this server: there is nothing to wait for.
+  void note_dead_end(ActivityReport& report) const;
+  /// "visit pointing, step choose".
+  [[nodiscard]] std::string place(const ActivityReport& report) const;
+  void say_what_it_waits_for(const ActivityReport& report) const;
   void come_back();
   void say(const std::string& activity, const std::string& what) const;
   [[nodiscard]] double seconds_since(TimePoint start) {
@@ -112,6 +117,30 @@ void Session::note_step(ActivityReport& report) {
   step_ = status_->done ? std::string() : status_->step;
   step_began_ = clock_.now();
   say(report.name, status_->done ? "done" : status_->step);
+  note_dead_end(report);
+}
+
+void Session::note_dead_end(ActivityReport& report) const {
+  const StepId step = world_.find_step(step_);
+  if (!step || world_.steps[step.index()].opens.empty()) return;
+  const std::string& opens = world_.steps[step.index()].opens;
+  const auto server = client_.server_status();
+  if (!server || std::ranges::find(server->scenarios, opens) != server->scenarios.end()) return;
+  report.reason = fmt::format("{}: it opens '{}', which the server was not started with", place(report), opens);
+  say(report.name, report.reason);
+}
+
+std::string Session::place(const ActivityReport& report) const {
+  return fmt::format("visit {}, {}", report.visit, step_.empty() ? "before its first step" : "step " + step_);
+}
+
+void Session::say_what_it_waits_for(const ActivityReport& report) const {
+  const StepId step = world_.find_step(step_);
+  const bool opens = step && !world_.steps[step.index()].opens.empty();
+  const std::string what =
+      opens ? fmt::format("the server to open '{}'", world_.steps[step.index()].opens) : "the step to be over";
+  say(report.name, fmt::format("{}: its moves are over; it waits up to {:.0f} s for {}", place(report),
+                               std::chrono::duration<double>(options_.done_within).count(), what));
 }
 
 /// The step that sends on is over as it begins: its world may be gone before anybody has seen it.
@@ -173,10 +202,19 @@ ActivityReport Session::play(const VisitDescription& visit) {
     device_.intend(player.intent());
     tick();
     note_step(report);
-    if (gone_on()) break;
+    if (gone_on() || !report.reason.empty()) break;
     report.done = status_ && status_->activity == report.name && status_->done;
-    if (player.finished() && finished == TimePoint{}) finished = clock_.now();
-    if (finished != TimePoint{} && clock_.now() - finished > options_.done_within) break;
+    if (report.done || !player.finished()) continue;
+    if (finished == TimePoint{}) {
+      finished = clock_.now();
+      say_what_it_waits_for(report);
+    }
+    if (clock_.now() - finished > options_.done_within) break;
+  }
+  if (!report.done && report.reason.empty()) {
+    report.reason = place(report) + (gone_on()    ? ": somebody else opened " + status_->scenario
+                                     : stop_ != 0 ? ": stopped"
+                                                  : ": nothing more came of it after its last move");
   }
   // The script goes on to its end, so that the hand lets go and comes to rest.
   while (stop_ == 0 && report.done && !gone_on() && !player.finished()) {

@@ -38,6 +38,7 @@ struct ActivityReport {
   std::string visit;  ///< which of its visits
   bool done = false;
   double seconds = 0;
+  std::string reason;      ///< why it is not done, with visit and step; empty where it is
   std::string gone_on_to;  ///< the scenario that a sign of the visit opened; empty: none
   std::vector<StepTime> steps;
   std::vector<MoveResult> moves;

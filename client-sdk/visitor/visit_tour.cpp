@@ -32,6 +32,7 @@ std::string steps_of(const ActivityReport& activity) {
 
 std::string outcome_of(const ActivityReport& activity) {
   if (activity.done) return "done";
+  if (!activity.reason.empty()) return activity.reason;
   return activity.steps.empty() ? "not begun" : "stopped at " + activity.steps.back().name;
 }
 

@@ -113,6 +113,9 @@ def _add_recordings(scenario: Scenario) -> None:
 
 def read_scenario(file: Path) -> Scenario:
     """Errors: Trouble."""
+    if file.is_dir():
+        found = next((pattern for pattern in ("*.x3d", "*/*.x3d") if any(file.glob(pattern))), None)
+        raise Trouble("this is a folder", file, f"name its scenarios: {file}/{found}" if found else "no scenario (.x3d) is in it")
     try:
         if file.stat().st_size > MAX_FILE_BYTES:
             raise Trouble("too large for a scenario", file, "meshes belong into files of their own")

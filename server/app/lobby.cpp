@@ -26,6 +26,15 @@ std::string step_name(const state::WorldDescription& description, const state::W
   return state.progress.step ? description.steps[state.progress.step.index()].name : std::string("none");
 }
 
+/// An answer by the names that the scenario gives, as a sheet keeps it.
+record::VisitAnswer sheet_answer(const state::WorldDescription& description, const transport::VisitAnswer& given) {
+  const state::ActivityDescription& activity = description.activities[given.activity.index()];
+  const state::QuestionDescription& question = activity.questionnaire[given.question];
+  const bool choice = question.kind == state::QuestionDescription::Kind::choice;
+  return {activity.name, question.name, choice ? question.answers[given.answer].name : std::to_string(given.answer),
+          given.after ? record::AnswerTime::after : record::AnswerTime::before};
+}
+
 std::string who(const Session& session) {
   return fmt::format("{} of {} (user {}, {} on {})", session.role == transport::Role::hand ? "hand" : "watcher",
                      session.kiosk, session.user, session.program, session.host);
@@ -268,11 +277,14 @@ void Lobby::start_visits(Entry& entry, bool resumed) {
   entry.running.visits = &entry.visits->feed();
 }
 
-Expected<void> Lobby::take_answer(const std::string& kiosk, const record::VisitAnswer& answer) {
-  Entry* entry = world_of(kiosk);
-  if (entry == nullptr) return fail("there is no such kiosk", kiosk, "answer from a kiosk that has a world");
-  if (entry->visits == nullptr) return {};
-  return entry->visits->answer(answer);
+void Lobby::take_answers() {
+  for (auto& [name, entry] : worlds_) {
+    while (const auto given = entry->running.port->take_answer()) {
+      if (entry->visits == nullptr) continue;
+      if (auto kept = entry->visits->answer(sheet_answer(*entry->description, *given)); !kept)
+        log::warning(kept.error().to_string());
+    }
+  }
 }
 
 void Lobby::hand_granted(const Session& session) {

@@ -30,9 +30,8 @@ class Lobby {
   void take(const transport::News& news, TimePoint now);
   /// Lets kiosks go on to another scenario: where a step says so, or somebody wishes it. After the news of a poll.
   void follow_signs();
-  /// What a visitor at a kiosk answers, for the sheet of the visit. Errors: no such kiosk, its activity does not ask that, it is none of
-  /// the answers. Without sheets it is taken, and not kept.
-  [[nodiscard]] Expected<void> take_answer(const std::string& kiosk, const record::VisitAnswer& answer);
+  /// Visitors' answers go to the sheets of their visits. Without sheets they are taken, and not kept.
+  void take_answers();
   /// Closes what has been idle long enough, takes apart what its loop has given back.
   void tidy(TimePoint now);
   /// Takes all worlds off their loops and closes their journals. Snapshots stay, for a restart.

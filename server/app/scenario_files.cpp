@@ -7,6 +7,7 @@
 
 #include "server/content/catalogue.hpp"
 #include "server/content/catalogue_check.hpp"
+#include "server/content/content_command.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/log/log.hpp"
 
@@ -43,9 +44,8 @@ void warn_if_changed(const CatalogueEntry& entry, const content::Catalogue& cata
   if (!hash) {
     log::warning(hash.error().to_string());
   } else if (*hash != entry.hash) {
-    log::warning(
-        fmt::format("{}: its content is not what the catalogue says; mechane content verify --catalogue {} says more",
-                    file.string(), catalogue.file().string()));
+    log::warning(fmt::format("{}: its content is not what the catalogue says; {} says more", file.string(),
+                             content::content_command(catalogue.file(), "verify")));
   }
 }
 
@@ -66,8 +66,8 @@ Expected<std::vector<fs::path>> find_scenarios(std::span<const fs::path> names, 
     const auto path = content::path_inside(catalogue->folder(), file);
     const auto entry = std::ranges::find(*entries, path.value_or(""), &CatalogueEntry::path);
     if (entry == entries->end()) {
-      log::warning(fmt::format("{}: the catalogue does not know this file; mechane content add {}", file.string(),
-                               file.string()));
+      log::warning(fmt::format("{}: the catalogue does not know this file; {}", file.string(),
+                               content::content_command(catalogue->file(), "add", file.string())));
     } else {
       used.push_back(*entry);
     }

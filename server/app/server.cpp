@@ -158,6 +158,7 @@ void Server::Impl::say_ready() {
 void Server::Impl::look(TimePoint now) {
   for (const transport::News& news : transport_->poll(now))
     lobby_->take(news, now);
+  lobby_->take_answers();
   lobby_->follow_signs();
   lobby_->tidy(now);
 }

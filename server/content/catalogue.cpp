@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include "server/content/content_command.hpp"
+
 namespace mechane::content {
 namespace {
 
@@ -39,10 +41,12 @@ constexpr const char* kHashIndex = "CREATE INDEX entry_hash ON entry (hash)";
 /// SQLite's reason in a person's words.
 Error explain(const SQLite::Exception& e, const fs::path& file, const std::string& doing) {
   const std::string where = file.string();
-  const char* anew = "move it away and make it anew: mechane content add FOLDER";
+  const std::string anew =
+      fmt::format("{}; what --licence, --author and the like said has to be said again", remake_command(file));
   switch (e.getErrorCode()) {
     case SQLITE_NOTADB:
-      return {"this is no catalogue: SQLite does not know the file", where, "name another file with --catalogue"};
+      return {"this is no catalogue, or its beginning is damaged: SQLite does not know the file", where,
+              "name another file with --catalogue; or, where it was a catalogue: " + anew};
     case SQLITE_CORRUPT:
       return {fmt::format("the catalogue is damaged ({})", e.what()), where, anew};
     case SQLITE_READONLY:
@@ -77,7 +81,7 @@ struct KindWords {
 constexpr std::array<KindWords, kContentKinds> kKinds{{{"scenario", " .x3d "},
                                                        {"model", " .glb .gltf .obj .stl .ply "},
                                                        {"part", " .part "},
-                                                       {"texture", " .png .jpg .jpeg .ktx2 "},
+                                                       {"texture", " .png .jpg .jpeg .ktx2 .webp .tga .bmp "},
                                                        {"sound", " .ogg .opus .wav .flac .mp3 "},
                                                        {"text", " .md .html .vtt "}}};
 
@@ -122,6 +126,11 @@ std::optional<ContentKind> kind_of_file(const fs::path& file) {
     if (kKinds[i].endings.find(" " + ending + " ") != std::string_view::npos) return static_cast<ContentKind>(i);
   }
   return {};
+}
+
+fs::path folder_of_catalogue(const fs::path& file) {
+  std::error_code code;
+  return fs::weakly_canonical(fs::absolute(file, code).parent_path(), code);
 }
 
 bool is_inside(std::string_view text) {
@@ -295,8 +304,7 @@ std::vector<CatalogueEntry> Catalogue::Connection::read_now() const {
 
 Catalogue::Catalogue(fs::path file, std::unique_ptr<Connection> connection)
     : file_(std::move(file)), connection_(std::move(connection)) {
-  std::error_code code;
-  folder_ = fs::weakly_canonical(fs::absolute(file_, code).parent_path(), code);
+  folder_ = folder_of_catalogue(file_);
 }
 Catalogue::Catalogue(Catalogue&&) noexcept = default;
 Catalogue& Catalogue::operator=(Catalogue&&) noexcept = default;
@@ -307,7 +315,11 @@ Expected<Catalogue> Catalogue::open(const fs::path& file, Access access) {
   const bool there = fs::exists(file, code);
   if (!there && access == Access::read) {
     return fail("there is no catalogue", file.string(),
-                "make it with 'mechane content add FOLDER', or name another with --catalogue");
+                fmt::format("make it: {}; or name another with --catalogue", content_command(file, "add", "FOLDER")));
+  }
+  if (there && access == Access::read && fs::is_regular_file(file, code) && fs::file_size(file, code) == 0) {
+    return fail("the file is empty: no catalogue has been made in it yet", file.string(),
+                content_command(file, "add", "FOLDER"));
   }
   if (there && !fs::is_regular_file(file, code))
     return fail("this is no catalogue but a folder or a device", file.string(), "name a file with --catalogue");
@@ -350,7 +362,8 @@ Expected<Catalogue::Changes> Catalogue::put(std::span<const CatalogueEntry> entr
         ++changes.same;
         continue;
       }
-      (old == known.end() ? changes.added : changes.changed).push_back(entry.path);
+      const bool same_file = old != known.end() && old->second.hash == entry.hash;
+      (old == known.end() ? changes.added : same_file ? changes.retold : changes.changed).push_back(entry.path);
       connection_->write(entry);
       known[entry.path] = entry;
     }

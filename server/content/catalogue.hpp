@@ -22,7 +22,7 @@ inline constexpr std::size_t kContentKinds = 6;
 /// "scenario", "model", ...
 [[nodiscard]] std::string_view word_of(ContentKind kind);
 [[nodiscard]] std::optional<ContentKind> kind_of_word(std::string_view word);
-/// By the ending of a file's name; none for what is no content.
+/// By the ending of a file's name; none for what is no content by itself.
 [[nodiscard]] std::optional<ContentKind> kind_of_file(const std::filesystem::path& file);
 
 /// What is known of a file, and not from its bytes. Empty: unknown.
@@ -50,6 +50,9 @@ struct CatalogueEntry {
   bool operator==(const CatalogueEntry&) const = default;
 };
 
+/// What the paths in a catalogue, there or not, are relative to: the folder that it is in, absolute.
+[[nodiscard]] std::filesystem::path folder_of_catalogue(const std::filesystem::path& file);
+
 /// Whether a path can be an entry's: relative, without "." and "..", so that it stays in the catalogue's folder.
 [[nodiscard]] bool is_inside(std::string_view path);
 
@@ -71,7 +74,8 @@ class Catalogue {
 
   struct Changes {
     std::vector<std::string> added;    ///< paths, in the order given
-    std::vector<std::string> changed;  ///< had an entry that said otherwise
+    std::vector<std::string> changed;  ///< the file has other bytes than its entry said
+    std::vector<std::string> retold;   ///< the file is as it was, and something else is known of it
     std::size_t same = 0;
   };
   /// Writes all of them, or on an error none. An entry replaces the one of its path. What is equal is not written at all.

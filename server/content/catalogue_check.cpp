@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "server/content/content_command.hpp"
 #include "server/content/content_hash.hpp"
 
 namespace mechane::content {
@@ -21,8 +22,8 @@ constexpr std::size_t kShownDigits = 8;
 /// Finds the faults of one catalogue.
 class CatalogueCheck {
  public:
-  CatalogueCheck(const fs::path& folder, const std::vector<CatalogueEntry>& entries)
-      : folder_(folder), entries_(entries) {
+  CatalogueCheck(const Catalogue& catalogue, const std::vector<CatalogueEntry>& entries)
+      : file_(catalogue.file()), folder_(catalogue.folder()), entries_(entries) {
     for (const CatalogueEntry& entry : entries) {
       by_path_.emplace(entry.path, &entry);
       referred_.insert(entry.refers_to.begin(), entry.refers_to.end());
@@ -38,7 +39,8 @@ class CatalogueCheck {
         check_id(entry);
       }
       if (entry.credits.licence.empty())
-        add(Fault::Kind::no_licence, entry.path, "it has no licence", "mechane content add FILE --licence LICENCE");
+        add(Fault::Kind::no_licence, entry.path, "it has no licence",
+            command("add", "FILE") + " --licence LICENCE, or write a file LICENCE beside it");
     }
     if (auto ok = check_folder(); !ok) return tl::unexpected(ok.error());
     std::ranges::stable_sort(faults_, {}, &Fault::path);
@@ -54,7 +56,7 @@ class CatalogueCheck {
     std::error_code code;
     if (!fs::exists(folder_ / entry.path, code)) {
       add(Fault::Kind::gone, entry.path, "the file is gone",
-          "bring it back, or forget it: mechane content remove " + entry.path);
+          "bring it back, or forget it: " + command("remove", entry.path));
       return;
     }
     const Expected<std::string> hash = content_hash(folder_ / entry.path);
@@ -64,7 +66,7 @@ class CatalogueCheck {
       add(Fault::Kind::changed, entry.path,
           fmt::format("its content is another: {} instead of {}", hash->substr(0, kShownDigits),
                       entry.hash.substr(0, kShownDigits)),
-          "restore the file, or where the change was meant: mechane content add " + entry.path);
+          "restore the file, or where the change was meant: " + command("add", entry.path));
     }
   }
 
@@ -83,12 +85,13 @@ class CatalogueCheck {
       const bool there = is_inside(path) && fs::exists(folder_ / path, code);
       add(Fault::Kind::missing, entry.path,
           fmt::format("it needs {}, which {}", path, there ? "the catalogue does not know" : "is not there"),
-          there ? "mechane content add " + path
-                : fmt::format("make the file, or correct its name in {0} and: mechane content add {0}", entry.path));
+          there ? command("add", path)
+                : fmt::format("make the file, or correct its name in {} and: {}", entry.path,
+                              command("add", entry.path)));
     }
     if (entry.kind != ContentKind::scenario && !referred_.contains(entry.path)) {
       add(Fault::Kind::orphan, entry.path, "nothing refers to it",
-          "use it in a scenario and add that again, or take the file away and: mechane content remove " + entry.path);
+          "use it in a scenario and add that again, or take the file away and: " + command("remove", entry.path));
     }
   }
 
@@ -103,7 +106,7 @@ class CatalogueCheck {
         add(Fault::Kind::language, scenario.path,
             fmt::format("in '{}' it lacks: {}{}", language, lacking.front(),
                         more > 0 ? fmt::format(" and {} more", more) : ""),
-            "mechane content show " + scenario.name + " lists them; write them, and add the scenario again");
+            command("show", scenario.path) + " lists them; write them, and add the scenario again");
       }
     }
     check_pages(scenario);
@@ -134,11 +137,17 @@ class CatalogueCheck {
       const std::string path = file.lexically_relative(folder_).generic_string();
       if (!by_path_.contains(path))
         add(Fault::Kind::unknown, path, "the catalogue does not know this file",
-            "mechane content add " + path + ", or take the file away");
+            command("add", path) + ", or take the file away");
     }
     return {};
   }
 
+  /// A remedy as it is typed.
+  [[nodiscard]] std::string command(std::string_view verb, const std::string& word) const {
+    return content_command(file_, verb, word);
+  }
+
+  const fs::path& file_;
   const fs::path& folder_;
   const std::vector<CatalogueEntry>& entries_;
   std::map<std::string, const CatalogueEntry*> by_path_;
@@ -166,7 +175,7 @@ std::string_view word_of(Fault::Kind kind) {
 Expected<std::vector<Fault>> verify(const Catalogue& catalogue) {
   const auto entries = catalogue.entries();
   if (!entries) return tl::unexpected(entries.error());
-  return CatalogueCheck(catalogue.folder(), *entries).run();
+  return CatalogueCheck(catalogue, *entries).run();
 }
 
 Expected<std::vector<fs::path>> content_in(const fs::path& folder) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "server/content/content_command.hpp"
 #include "server/content/content_hash.hpp"
 
 namespace mechane::content {
@@ -45,24 +46,35 @@ void sync_path(const fs::path& path) {
   ::close(fd);
 }
 
-Expected<void> copy_one(const fs::path& from, const CatalogueEntry& entry, const fs::path& to) {
+Expected<void> copy_one(const Catalogue& catalogue, const CatalogueEntry& entry, const fs::path& to) {
+  const fs::path from = catalogue.folder() / entry.path;
+  const std::string verify = content_command(catalogue.file(), "verify");
   std::error_code code;
   fs::create_directories(to.parent_path(), code);
   if (!code) fs::copy_file(from, to, code);
   if (code) {
     return fail("it cannot be copied: " + code.message(), entry.path,
-                fs::exists(from, code) ? "check the disk and its space" : "mechane content verify says what is amiss");
+                fs::exists(from, code) ? "check the disk and its space" : verify + " says what is amiss");
   }
   const Expected<std::string> hash = content_hash(to);
   if (!hash) return tl::unexpected(hash.error());
   if (*hash != entry.hash) {
     return fail("its content is not what the catalogue knows", entry.path,
-                "mechane content verify; then restore it, or add it again");
+                verify + "; then restore it, or add it again");
   }
   fs::permissions(to, fs::perms::owner_write | fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read,
                   code);
   sync_path(to);
   return {};
+}
+
+/// An export beside what it is made of would be taken for content, or would take its place.
+Expected<void> check_apart(const fs::path& folder, const fs::path& to) {
+  std::error_code code;
+  const fs::path inside = fs::weakly_canonical(to, code).lexically_relative(folder);
+  if (code || inside.empty() || *inside.begin() == "..") return {};
+  return fail(inside == "." ? "this is the catalogue's own folder" : "this is in the catalogue's own folder",
+              to.string(), "name a folder outside " + folder.string());
 }
 
 /// Nothing but an older export may be replaced. Returns whether there is one.
@@ -113,6 +125,7 @@ Expected<Exported> export_content(const Catalogue& catalogue, std::span<const Ca
   std::error_code code;
   fs::path to = fs::absolute(folder, code).lexically_normal();
   if (to.filename().empty()) to = to.parent_path();
+  if (auto ok = check_apart(catalogue.folder(), to); !ok) return tl::unexpected(ok.error());
   Expected<bool> replace = may_replace(to);
   if (!replace) return tl::unexpected(replace.error());
   fs::create_directories(to.parent_path(), code);
@@ -126,8 +139,7 @@ Expected<Exported> export_content(const Catalogue& catalogue, std::span<const Ca
                   code);
   Exported exported{.replaced = *replace};
   for (const CatalogueEntry& entry : entries) {
-    if (auto ok = copy_one(catalogue.folder() / entry.path, entry, draft.path() / entry.path); !ok)
-      return tl::unexpected(ok.error());
+    if (auto ok = copy_one(catalogue, entry, draft.path() / entry.path); !ok) return tl::unexpected(ok.error());
     ++exported.files;
     exported.bytes += entry.bytes;
   }

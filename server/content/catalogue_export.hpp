@@ -19,7 +19,7 @@ struct Exported {
 
 /// Copies the entries' files into `to`, and a catalogue of them as catalogue.db. All is written aside, each copy's hash is held against
 /// its entry, and only then the folder gets its name: it is whole or as it was. An empty folder, or an older export that holds nothing
-/// else, is replaced in one step. Errors: a file that is gone or not what its entry says, a folder that holds something else, a full
+/// else, is replaced in one step. Errors: a file that is gone or not what its entry says, a folder that holds something else or is in the catalogue's own, a full
 /// disk.
 [[nodiscard]] Expected<Exported> export_content(const Catalogue& catalogue, std::span<const CatalogueEntry> entries,
                                                 const std::filesystem::path& to);

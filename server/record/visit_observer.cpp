@@ -344,12 +344,16 @@ void VisitObserver::look(std::uint64_t tick, std::uint32_t lost) {
 
 Expected<void> VisitObserver::answer(const VisitAnswer& given) {
   if (!activity_) return fail("the scenario has no activity, and asks nothing", description_->id, "see the scenario");
-  const auto& questions = description_->activities[activity_.index()].questionnaire;
+  const state::ActivityDescription& activity = description_->activities[activity_.index()];
+  if (given.activity != activity.name) {
+    return fail(fmt::format("a question of activity {} was answered, and {} runs", given.activity, activity.name),
+                description_->id, "ask before another activity begins");
+  }
+  const auto& questions = activity.questionnaire;
   const auto question = std::ranges::find(questions, given.question, &state::QuestionDescription::name);
   if (question == questions.end()) {
-    return fail(
-        fmt::format("activity {} asks no '{}'", description_->activities[activity_.index()].name, given.question),
-        description_->id, "name a question of the activity's questionnaire");
+    return fail(fmt::format("activity {} asks no '{}'", activity.name, given.question), description_->id,
+                "name a question of the activity's questionnaire");
   }
   auto answer = checked(*question, given);
   if (!answer) return tl::unexpected(answer.error());

@@ -18,7 +18,8 @@ enum class AnswerTime : std::uint8_t { before, after };
 
 /// A visitor's answer as it comes over the wire.
 struct VisitAnswer {
-  std::string question;  ///< its name in the activity's questionnaire
+  std::string activity;  ///< of the questionnaire
+  std::string question;  ///< its name in the questionnaire
   std::string answer;    ///< choice: the answer's name; scale: the mark, "1" the lowest
   AnswerTime when = AnswerTime::after;
 };

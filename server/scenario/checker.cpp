@@ -1,6 +1,7 @@
 #include "server/scenario/checker.hpp"
 
 #include <algorithm>
+#include <map>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -14,23 +15,65 @@ std::string count(std::size_t number, std::string_view word) {
   return fmt::format("{} {}{}", number, word, number == 1 ? "" : "s");
 }
 
+namespace fs = std::filesystem;
+
 std::vector<Problem> sorted(const Problems& problems) {
   std::vector<Problem> all = problems.all();
   std::stable_sort(all.begin(), all.end(), [](const Problem& a, const Problem& b) { return a.line < b.line; });
   return all;
 }
 
-}  // namespace
+struct Checked {
+  std::vector<Problem> problems;
+  std::string id;  ///< empty where the file is too broken to have one
+};
 
-std::vector<Problem> check(const std::filesystem::path& file) {
+Checked check_one(const fs::path& file) {
   Problems problems(file.string());
   MeshFinder finder;
-  // The result is of no interest here: what is wrong with it is in `problems`.
-  static_cast<void>(read_scenario(file, finder, problems));
-  return sorted(problems);
+  const auto world = read_scenario(file, finder, problems);
+  return {sorted(problems), world ? world->id : std::string()};
 }
 
-std::vector<Problem> check_text(std::string_view text, const std::filesystem::path& file, ObjectLoader& loader) {
+/// A folder is no scenario; those in it can be named.
+Problem about_folder(const fs::path& folder) {
+  for (const char* depth : {"", "*"}) {
+    std::error_code code;
+    fs::recursive_directory_iterator at(folder, code);
+    for (const fs::recursive_directory_iterator end; !code && at != end; at.increment(code)) {
+      if (at.depth() >= 1) at.disable_recursion_pending();
+      if (at.depth() == (*depth == '\0' ? 0 : 1) && at->path().extension() == ".x3d") {
+        return {Severity::error,
+                folder.string(),
+                0,
+                "",
+                "this is a folder",
+                fmt::format("write: mechane check {}", (folder / depth / "*.x3d").lexically_normal().string())};
+      }
+    }
+  }
+  return {Severity::error,           folder.string(), 0, "", "this is a folder, and no scenario (.x3d) is in it",
+          "name the scenario's file"};
+}
+
+/// Scenarios of one id cannot be on one server; the ids of files that were checked, each with its first file.
+void check_ids(const std::string& file, Checked& checked, std::map<std::string, std::string>& ids) {
+  if (checked.id.empty()) return;
+  const auto [it, first] = ids.emplace(checked.id, file);
+  std::error_code code;
+  if (first || fs::equivalent(it->second, file, code)) return;
+  checked.problems.push_back({Severity::error, file, 0, "",
+                              fmt::format("its id '{}' is that of {} too", checked.id, it->second),
+                              "give it an id of its own: no server takes both"});
+}
+
+}  // namespace
+
+std::vector<Problem> check(const fs::path& file) {
+  return check_one(file).problems;
+}
+
+std::vector<Problem> check_text(std::string_view text, const fs::path& file, ObjectLoader& loader) {
   Problems problems(file.string());
   if (const auto document = read_document(text, file, problems))
     static_cast<void>(compile(*document, loader, problems));
@@ -43,9 +86,16 @@ int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat
     return 2;
   }
   std::vector<Problem> all;
+  std::map<std::string, std::string> ids;
   for (const std::string& file : files) {
-    const std::vector<Problem> found = check(file);
-    all.insert(all.end(), found.begin(), found.end());
+    std::error_code code;
+    if (fs::is_directory(file, code)) {
+      all.push_back(about_folder(file));
+      continue;
+    }
+    Checked checked = check_one(file);
+    check_ids(file, checked, ids);
+    all.insert(all.end(), checked.problems.begin(), checked.problems.end());
   }
   const auto of = [&](Severity severity) {
     return static_cast<std::size_t>(

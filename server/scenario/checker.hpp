@@ -25,7 +25,7 @@ enum class CheckFormat { text, json };
 [[nodiscard]] std::vector<Problem> check_text(std::string_view text, const std::filesystem::path& file,
                                               ObjectLoader& loader);
 
-/// The body of `mechane check FILE...`: writes problems and a last line that counts them (or one JSON array). Returns the program's exit
+/// The body of `mechane check FILE...`: writes problems, two files of one id among them, and a last line that counts them (or one JSON array). Returns the program's exit
 /// status: 0 without errors (warnings and notes are none), 1 with errors, 2 without files.
 [[nodiscard]] int run_check(std::span<const std::string> files, std::ostream& out,
                             CheckFormat format = CheckFormat::text);

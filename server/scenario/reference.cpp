@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "server/agents/registry.hpp"
+#include "server/base/assert.hpp"
 #include "server/machines/registry.hpp"
 #include "server/scenario/schema.hpp"
 #include "server/scenario/x3d_schema.hpp"
@@ -25,7 +26,7 @@ This page lists everything that may be written. It is made by `mechane reference
 
 ## How to work
 
-1. Copy an exhibit that is near to yours, or the example below.
+1. Copy an exhibit that is near to yours, or the example below, and give it an `id` of its own: no server takes two of one id.
 2. Change it, and run `mechane check FILE.x3d`. It names each mistake with its line, and says what to write instead.
    Errors keep the exhibit from running; warnings are likely not meant; notes say what Mechane leaves aside.
 3. Try it: `mechane server --scenario FILE.x3d`, and in another window `mechane display`.
@@ -150,6 +151,61 @@ constexpr std::string_view kExample = R"(<?xml version='1.0' encoding='UTF-8'?>
   </Scene>
 </X3D>
 )";
+
+constexpr std::string_view kSignIntroduction = R"(
+## A sign to another exhibit
+
+A finger on a body, or a click on it, lets the kiosk go on to another scenario of the server. To make the post of the example such a sign:
+)";
+
+/// What is added to the example, with where it goes: before these lines.
+struct SignPiece {
+  std::string_view where;
+  std::string_view text;
+  std::string_view before;
+};
+
+constexpr SignPiece kSignPieces[] = {
+    {"in `agents`, who sees the finger", R"(<MetadataSet containerField='value' name='POINT'>
+  <MetadataString containerField='value' name='type' value='"simulation.point"'/>
+  <MetadataString containerField='value' name='body' value='"POST"'/>
+</MetadataSet>
+)",
+     R"(        </MetadataSet>
+        <MetadataSet containerField='value' name='quantities'>)"},
+    {"in `quantities`, a name for what it sees",
+     R"(<MetadataString containerField='value' name='at_sign' value='"POINT.pointed"'/>
+)",
+     R"(        </MetadataSet>
+        <MetadataSet containerField='value' name='activities'>)"},
+    {"in the step `once`, what leads away from it", R"(<MetadataSet containerField='value' name='trigger:2'>
+  <MetadataString containerField='value' name='quantity' value='"at_sign"'/>
+  <MetadataString containerField='value' name='op' value='">"'/>
+  <MetadataDouble containerField='value' name='value' value='0.5'/>
+  <MetadataString containerField='value' name='next' value='"to-screw"'/>
+</MetadataSet>
+)",
+     R"(              </MetadataSet>
+            </MetadataSet>
+          </MetadataSet>
+        </MetadataSet>
+        <MetadataSet containerField='value' name='visits'>)"},
+    {"in `steps`, the step that opens the other by its `id`; where the server has none of that id, the visitor is soon "
+     "back",
+     R"(<MetadataSet containerField='value' name='to-screw'>
+  <MetadataString containerField='value' name='opens' value='"archimedes-screw"'/>
+  <MetadataSet containerField='value' name='text'>
+    <MetadataString containerField='value' name='caption.en' value='"To the screw ..."'/>
+  </MetadataSet>
+  <MetadataDouble containerField='value' name='timeoutSeconds' value='6'/>
+  <MetadataString containerField='value' name='timeoutNext' value='"once"'/>
+</MetadataSet>
+)",
+     R"(            </MetadataSet>
+          </MetadataSet>
+        </MetadataSet>
+        <MetadataSet containerField='value' name='visits'>)"},
+};
 
 constexpr std::string_view kNodesIntroduction = R"(
 ## Nodes of X3D
@@ -333,10 +389,23 @@ std::string reference_example() {
   return std::string(kExample);
 }
 
+std::string reference_sign_example() {
+  std::string text(kExample);
+  for (const SignPiece& piece : kSignPieces) {
+    const std::size_t at = text.find(piece.before);
+    MECHANE_ASSERT(at != std::string::npos);
+    text.insert(at, piece.text);
+  }
+  return text;
+}
+
 std::string reference_page() {
   std::string page(kIntroduction);
   page += kExample;
   page += "```\n";
+  page += kSignIntroduction;
+  for (const SignPiece& piece : kSignPieces)
+    page += fmt::format("\n{}:\n\n```xml\n{}```\n", sentence(piece.where), piece.text);
   page += node_tables_text();
   page += key_tables_text();
   page += components_text("Agents",

@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import time
 import unittest
 
 from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, repeat_until, wait_until
@@ -110,6 +111,28 @@ class Visit(EndToEnd):
             self.assertIn(answer, result.stdout + result.stderr)
         self.assertEqual(server.stop(), 0, server.text())
 
+    def test_a_sign_that_leads_nowhere_is_named_at_once(self):
+        village = ROOT / "scenarios/village/village.x3d"
+        self.server(scenario=village)
+        file = self.folder / "village.json"
+        began = time.monotonic()
+        result = self.run_command("visitor", "--scenario", village, "--kiosk", "kiosk-1", "--patience", "200", "--report", file, limit_s=190)
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertLess(time.monotonic() - began, 150 * PATIENCE, "it waited for what cannot come")
+        activity = json.loads(file.read_text())["activities"][0]
+        self.assertEqual(activity["reason"], "visit pointing, step to-archimedes-screw: it opens 'archimedes-screw', which the "
+                                             "server was not started with")
+        self.assertIn(activity["reason"], result.stdout)
+
+    def test_a_visitor_says_what_it_waits_for_once_its_moves_are_over(self):
+        self.server()
+        file = self.folder / "missed.json"
+        result = self.run_command("visitor", "--scenario", SCENARIO, "--kiosk", "kiosk-1", "--activity", "use", "--offset", "0", "0.5", "0",
+                                  "--patience", "1", "--report", file, limit_s=120)
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertRegex(result.stdout, r"use: visit turning, step \w+: its moves are over; it waits up to 1 s for the step to be over")
+        self.assertRegex(json.loads(file.read_text())["activities"][0]["reason"], r"visit turning, step \w+: nothing more came of it")
+
     def test_a_click_on_a_sign_opens_its_exhibit_and_the_key_home_leads_back(self):
         server = self.server(scenario=[ROOT / "scenarios/village/village.x3d", SCENARIO], records=False)
         read, write = os.pipe()
@@ -133,6 +156,11 @@ class Visit(EndToEnd):
         finally:
             screen.kill()
             screen.wait()
+
+    def test_a_kiosk_without_a_name_is_refused_before_the_network_is_asked(self):
+        result = self.run_command("open", "--kiosk", "", limit_s=5)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("a kiosk has a name", result.stderr)
 
     def test_wrong_arguments_end_with_one_status(self):
         for command in (("visitor", "--kios", "a"), ("fit",), ("echo", "--count", "x"), ("haptic", "--device"), ("replay", "--fast", "x"),

@@ -151,7 +151,7 @@ TEST_F(ContentTest, ARemedyOfVerifyWorksAsItIsWritten) {
   ASSERT_EQ(add_all(), 0);
   edit_screw("</X3D>", "</X3D>\n");
   ASSERT_EQ(run("verify"), 1);
-  EXPECT_THAT(out_, HasSubstr("mechane content add archimedes-screw/archimedes-screw.x3d"));
+  EXPECT_THAT(out_, HasSubstr(" archimedes-screw/archimedes-screw.x3d\n"));
   EXPECT_EQ(run("add", {"archimedes-screw/archimedes-screw.x3d"}), 0) << errors_;
 }
 
@@ -209,6 +209,110 @@ TEST_F(ContentTest, AHostileNameDoesNotReachTheTerminal) {
   ASSERT_EQ(add_all(), 0);
   ASSERT_EQ(run("show", {"models/pulley-crane.glb"}), 0);
   EXPECT_THAT(out_, AllOf(HasSubstr("?[2J"), Not(HasSubstr("\x1b"))));
+}
+
+TEST_F(ContentTest, RemediesNameTheCatalogueAndTakeBlanks) {
+  const fs::path blank = folder_ / "scenarios/archimedes screw.md";
+  std::ofstream(folder_ / "scenarios/archimedes screw.x3d") << "no scenario; it makes the page content\n";
+  std::ofstream(blank) << "A page.\n";
+  ASSERT_EQ(run("add", {(folder_ / "scenarios/models").string()}), 0) << errors_;
+  EXPECT_EQ(run("verify"), 1);
+  const std::string catalogue = options_.catalogue.string();
+  EXPECT_THAT(out_, HasSubstr("mechane content add --catalogue " + catalogue + " 'archimedes screw.md'"));
+  EXPECT_THAT(out_, HasSubstr("mechane content remove --catalogue " + catalogue + " models/pulley-crane.glb"));
+}
+
+TEST_F(ContentTest, ABrokenOrEmptyModelIsRefusedAndNoCatalogueIsLeft) {
+  const fs::path models = folder_ / "scenarios/models";
+  std::ofstream(models / "broken.glb") << "glTF and nothing more";
+  std::ofstream(models / "empty.obj") << "";
+  EXPECT_EQ(run("add", {(models / "broken.glb").string(), (models / "empty.obj").string()}), 1);
+  EXPECT_THAT(errors_, AllOf(HasSubstr("broken.glb"), HasSubstr("empty.obj: the file is empty")));
+  EXPECT_FALSE(fs::exists(options_.catalogue)) << "an add that added nothing made one";
+  EXPECT_EQ(run("remove", {"x"}), 1);
+  EXPECT_FALSE(fs::exists(options_.catalogue)) << "a removal made one";
+  EXPECT_EQ(add_all(), 1);
+  EXPECT_THAT(out_, HasSubstr("6 added")) << "the good ones are";
+}
+
+TEST_F(ContentTest, ALinkIsNotTaken) {
+  const fs::path link = folder_ / "scenarios/models/linked.glb";
+  fs::create_symlink(folder_ / "scenarios/models/pulley-crane.glb", link);
+  EXPECT_EQ(run("add", {link.string()}), 1);
+  EXPECT_THAT(errors_, HasSubstr("linked.glb: this is a link"));
+}
+
+TEST_F(ContentTest, AnEmptyFileIsACatalogueThatIsYetToBeMadeAndADamagedOneIsMadeAnew) {
+  std::ofstream(options_.catalogue) << "";
+  EXPECT_EQ(run("list"), 1);
+  EXPECT_THAT(errors_, AllOf(HasSubstr("the file is empty"), HasSubstr("mechane content add")));
+  ASSERT_EQ(add_all(), 0) << errors_;
+  EXPECT_EQ(run("verify"), 0) << out_;
+  std::fstream(options_.catalogue, std::ios::in | std::ios::out | std::ios::binary) << "damage at the beginning";
+  EXPECT_EQ(run("list"), 1);
+  const std::string file = options_.catalogue.string();
+  EXPECT_THAT(errors_, HasSubstr("mv " + file + " " + file + ".damaged && mechane content add --catalogue " + file +
+                                 " " + (folder_ / "scenarios").string()));
+  fs::rename(options_.catalogue, file + ".damaged");
+  EXPECT_EQ(add_all(), 0) << "the remedy helps: " << errors_;
+}
+
+TEST_F(ContentTest, AnExportStaysOutOfTheCataloguesFolder) {
+  ASSERT_EQ(add_all(), 0);
+  for (const char* inside : {"scenarios", "scenarios/kiosk", "scenarios/models/../kiosk/"}) {
+    options_.folder = (folder_ / inside).string();
+    EXPECT_EQ(run("export"), 1) << inside;
+    EXPECT_THAT(errors_, HasSubstr("the catalogue's own folder")) << inside;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "scenarios/kiosk"));
+  options_.folder = (folder_ / "scenarios-of-a-kiosk").string();
+  ASSERT_EQ(run("export", {"pulley-crane/pulley-crane.x3d"}), 0) << errors_;
+  EXPECT_THAT(out_, HasSubstr("1 named, and 2 that they refer to"));
+}
+
+TEST_F(ContentTest, WhatRefersToARenamedFileIsRetoldAndNotChanged) {
+  const fs::path page = folder_ / "scenarios/pulley-crane/pulley-crane.md";
+  ASSERT_EQ(add_all(), 0);
+  fs::rename(page, page.parent_path() / "pulley-crane.en.md");
+  ASSERT_EQ(add_all(), 0);
+  EXPECT_THAT(out_, AllOf(HasSubstr("added    pulley-crane/pulley-crane.en.md"), HasSubstr("0 changed, 1 retold"),
+                          HasSubstr("retold   pulley-crane/pulley-crane.x3d: the same file")));
+}
+
+TEST_F(ContentTest, ALicenceNoteSpeaksForWhatSaysNothing) {
+  const fs::path scenarios = folder_ / "scenarios";
+  fs::copy_file(fs::path(MECHANE_SOURCE_DIR) / "scenarios/LICENCE", scenarios / "LICENCE");
+  std::ofstream(scenarios / "pulley-crane/LICENSE") << "SPDX-License-Identifier: CC-BY-4.0\n";
+  options_.credits.licence = "CC0-1.0";
+  ASSERT_EQ(run("add", {(scenarios / "models/pulley-crane.glb").string()}), 0);
+  options_.credits = {};
+  ASSERT_EQ(add_all(), 0);
+  const auto licence = [&](const char* path) { return json("show", {path}).at(0)["licence"].get<std::string>(); };
+  EXPECT_EQ(licence("models/pulley-crane.glb"), "CC0-1.0") << "a person said so";
+  EXPECT_EQ(licence("models/archimedes-screw.glb"), "Apache-2.0");
+  EXPECT_EQ(licence("pulley-crane/pulley-crane.md"), "CC-BY-4.0") << "the nearest counts";
+  EXPECT_EQ(licence("pulley-crane/pulley-crane.x3d"), "Apache-2.0") << "the file says so itself";
+  ASSERT_EQ(run("verify"), 0);
+  EXPECT_THAT(out_, Not(HasSubstr("no licence")));
+}
+
+TEST_F(ContentTest, WhatAModelRefersToIsTakenAlong) {
+  const fs::path models = folder_ / "scenarios/models";
+  std::ofstream(models / "stool.obj")
+      << "mtllib stool.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(models / "stool.mtl") << "newmtl wood\nmap_Kd -s 1 1 1 oak.png\n";
+  std::ofstream(models / "oak.png") << "\x89PNG\r\n\x1a\n not decoded here";
+  edit_screw("../models/archimedes-screw.glb", "../models/stool.obj");
+  ASSERT_EQ(run("add", {(models / "stool.obj").string()}), 0) << errors_;
+  EXPECT_THAT(out_, AllOf(HasSubstr("models/stool.mtl"), HasSubstr("models/oak.png"), HasSubstr("3 added")));
+  EXPECT_EQ(json("show", {"models/stool.obj"}).at(0)["refers_to"],
+            (std::vector<std::string>{"models/oak.png", "models/stool.mtl"}));
+  options_.folder = (folder_ / "kiosk").string();
+  ASSERT_EQ(run("export", {"models/stool.obj"}), 0) << errors_;
+  EXPECT_TRUE(fs::exists(folder_ / "kiosk/models/oak.png"));
+  fs::remove(models / "stool.mtl");
+  EXPECT_EQ(run("verify"), 1);
+  EXPECT_THAT(out_, HasSubstr("models/stool.mtl: gone"));
 }
 
 }  // namespace

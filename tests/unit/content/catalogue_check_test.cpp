@@ -153,7 +153,9 @@ TEST_F(CatalogueCheckTest, AnOlderExportIsReplacedAndNothingElse) {
   std::ofstream(to / "notes.txt") << "of a person";
   EXPECT_THAT(export_error(to), HasSubstr("notes.txt"));
   EXPECT_TRUE(fs::exists(to / "notes.txt"));
-  EXPECT_THAT(export_error(folder_.path() / "crane.md"), HasSubstr("no folder"));
+  EXPECT_THAT(export_error(folder_.path() / "crane.md"), HasSubstr("the catalogue's own folder"));
+  std::ofstream(target_.path() / "file") << "of a person";
+  EXPECT_THAT(export_error(target_.path() / "file"), HasSubstr("no folder"));
   ASSERT_EQ(fs::remove(to / kCatalogueFileName), true);
   EXPECT_THAT(export_error(to), HasSubstr("something else"));
 }

@@ -80,7 +80,9 @@ RC_GTEST_PROP(Catalogue, APutReplacesAndARemoveForgetsAllOfAnEntry, ()) {
   (void)catalogue.put(first).value();
   const std::vector<CatalogueEntry> second{any_entry(1)};
   const auto changes = catalogue.put(second).value();
-  RC_ASSERT(changes.changed.size() == (first[0] == second[0] ? 0U : 1U));
+  const bool other_bytes = first[0].hash != second[0].hash;
+  RC_ASSERT(changes.changed.size() == (other_bytes ? 1U : 0U));
+  RC_ASSERT(changes.retold.size() == (other_bytes || first[0] == second[0] ? 0U : 1U));
   RC_ASSERT(catalogue.entries().value() == (std::vector{second[0], first[1]}));
   const std::vector<std::string> both{second[0].path, first[1].path, "absent"};
   RC_ASSERT(catalogue.remove(both).value() == 2U);
@@ -130,7 +132,7 @@ TEST(Catalogue, SaysWhatIsNoCatalogue) {
   EXPECT_THAT(error_of(folder.path() / "absent.db"), HasSubstr("there is no catalogue"));
   EXPECT_THAT(error_of(folder.path()), HasSubstr("a folder"));
   EXPECT_THAT(error_of(folder.write("text.db", std::string(5000, 'x'))), HasSubstr("SQLite does not know the file"));
-  EXPECT_THAT(error_of(folder.write("empty.db", "")), HasSubstr("another program"));
+  EXPECT_THAT(error_of(folder.write("empty.db", "")), HasSubstr("the file is empty"));
   EXPECT_THAT(error_of(folder.path() / "no/such/folder/c.db", Catalogue::Access::write), HasSubstr("cannot be opened"));
 }
 

@@ -241,6 +241,10 @@ class Little(unittest.TestCase):
         self.refuse("not XML", "mechane check")
         self.file.unlink()
         self.refuse("cannot be read")
+        self.file.mkdir()
+        self.refuse("this is a folder", "no scenario (.x3d) is in it")
+        (self.file / "b.x3d").write_text("<X3D/>")
+        self.refuse("this is a folder", "*.x3d")
 
     def test_whatever_the_bytes_a_fault_is_told_and_nothing_else_is_raised(self):
         draw = random.Random(20261121)

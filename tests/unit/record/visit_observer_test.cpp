@@ -311,24 +311,27 @@ TEST_F(VisitObserverTest, WhoIsLedElsewhereHasLeft) {
 }
 
 TEST_F(VisitObserverTest, AnswersAreCheckedAndCounted) {
-  ASSERT_TRUE(observer_->answer({"why", "wind", AnswerTime::before}));
+  ASSERT_TRUE(observer_->answer({"use", "why", "wind", AnswerTime::before}));
   begin(1000);
   say(2000, EventKind::activity_done, 0);
-  ASSERT_TRUE(observer_->answer({"why", "wind", AnswerTime::after}));
-  ASSERT_TRUE(observer_->answer({"why", "water", AnswerTime::after}));  // thought better of
-  ASSERT_TRUE(observer_->answer({"easy", "4", AnswerTime::after}));
+  ASSERT_TRUE(observer_->answer({"use", "why", "wind", AnswerTime::after}));
+  ASSERT_TRUE(observer_->answer({"use", "why", "water", AnswerTime::after}));  // thought better of
+  ASSERT_TRUE(observer_->answer({"use", "easy", "4", AnswerTime::after}));
   EXPECT_THAT(sheet().answers, ElementsAre(SheetAnswer{"why", AnswerTime::before, "wind", 0, 0, false},
                                            SheetAnswer{"why", AnswerTime::after, "water", 0, 0, true},
                                            SheetAnswer{"easy", AnswerTime::after, "", 4, 5, {}}));
   for (const char* mark : {"0", "6", "4x", "", "+4", "99999999999999999999"})
-    EXPECT_THAT(observer_->answer({"easy", mark, AnswerTime::after}).error().remedy, HasSubstr("1 to 5")) << mark;
-  EXPECT_THAT(observer_->answer({"why", "fire", AnswerTime::after}).error().what, HasSubstr("none of its answers"));
-  EXPECT_THAT(observer_->answer({"who", "me", AnswerTime::after}).error().what, HasSubstr("asks no 'who'"));
+    EXPECT_THAT(observer_->answer({"use", "easy", mark, AnswerTime::after}).error().remedy, HasSubstr("1 to 5"))
+        << mark;
+  EXPECT_THAT(observer_->answer({"use", "why", "fire", AnswerTime::after}).error().what,
+              HasSubstr("none of its answers"));
+  EXPECT_THAT(observer_->answer({"other", "easy", "4", AnswerTime::after}).error().what, HasSubstr("and use runs"));
+  EXPECT_THAT(observer_->answer({"use", "who", "me", AnswerTime::after}).error().what, HasSubstr("asks no 'who'"));
   EXPECT_THAT(observer_->take_changed(), IsEmpty());
 }
 
 TEST_F(VisitObserverTest, WhatWasAskedBeforeTheActivityBelongsToItsVisit) {
-  ASSERT_TRUE(observer_->answer({"why", "wind", AnswerTime::before}));
+  ASSERT_TRUE(observer_->answer({"use", "why", "wind", AnswerTime::before}));
   const std::string number = sheet().number;
   start(50'000, 0);
   say(50'000, EventKind::step_started, kTake);
@@ -342,7 +345,7 @@ TEST_F(VisitObserverTest, WhatWasAskedBeforeTheActivityBelongsToItsVisit) {
 }
 
 TEST_F(VisitObserverTest, AnAnswerAfterNoVisitIsRefused) {
-  EXPECT_THAT(observer_->answer({"easy", "4", AnswerTime::after}).error().what, HasSubstr("nobody was seen"));
+  EXPECT_THAT(observer_->answer({"use", "easy", "4", AnswerTime::after}).error().what, HasSubstr("nobody was seen"));
 }
 
 TEST_F(VisitObserverTest, AVisitThatAServersStopCutOffGoesOn) {

@@ -122,5 +122,30 @@ TEST(Check, WritesForPeopleAndForPrograms) {
   EXPECT_EQ(run_check({}, none), 2);
 }
 
+TEST(Checker, TwoFilesOfOneIdAreAnErrorAndOneFileTwiceIsNone) {
+  const EditedFile copy("title='", "title='A copy of ");
+  std::ostringstream text;
+  EXPECT_EQ(run_check(std::vector<std::string>{shipped_file().string(), copy.path.string()}, text), 1);
+  EXPECT_NE(text.str().find(copy.path.string() + ": error: its id 'archimedes-screw' is that of " +
+                            shipped_file().string() + " too; give it an id of its own"),
+            std::string::npos)
+      << text.str();
+  std::ostringstream same;
+  EXPECT_EQ(run_check(std::vector<std::string>{shipped_file().string(), shipped_file().string()}, same), 0)
+      << same.str();
+}
+
+TEST(Checker, AFolderIsAnsweredWithTheNamesOfItsScenarios) {
+  const auto said = [](const std::filesystem::path& folder) {
+    std::ostringstream text;
+    EXPECT_EQ(run_check(std::vector<std::string>{folder.string()}, text), 1);
+    return text.str();
+  };
+  const std::filesystem::path scenarios = source_folder() / "scenarios";
+  EXPECT_NE(said(scenarios).find("write: mechane check " + (scenarios / "*/*.x3d").string()), std::string::npos);
+  EXPECT_NE(said(scenarios / "village").find((scenarios / "village/*.x3d").string()), std::string::npos);
+  EXPECT_NE(said(scenarios / "models").find("no scenario (.x3d) is in it"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mechane::scenario

@@ -32,6 +32,21 @@ TEST(Reference, TheExampleIsWithoutFault) {
   EXPECT_NE(reference_page().find(reference_example()), std::string::npos);
 }
 
+TEST(Reference, ItsSignIsWithoutFaultAndLeadsOn) {
+  Problems problems("sign.x3d");
+  FakeLoader loader;
+  const auto document = read_document(reference_sign_example(), "sign.x3d", problems);
+  ASSERT_TRUE(document) << document.error().to_string();
+  const auto world = compile(*document, loader, problems);
+  for (const Problem& p : problems.all())
+    ADD_FAILURE() << to_string(p);
+  ASSERT_TRUE(world);
+  ASSERT_EQ(world->steps.size(), 2u);
+  EXPECT_EQ(world->steps[1].opens, "archimedes-screw");
+  EXPECT_EQ(world->steps[0].triggers[1].next, StepId(1));
+  EXPECT_NE(reference_page().find("name='opens' value='\"archimedes-screw\"'/>"), std::string::npos);
+}
+
 TEST(Reference, HoldsEveryKeyParameterAndValue) {
   const std::string page = reference_page();
   const auto expect = [&](std::string_view words) { EXPECT_NE(page.find(words), std::string::npos) << words; };

@@ -1,0 +1,44 @@
+"""What deploy's scripts say when they are asked, or asked wrongly: at once, before anything is installed or built."""
+
+import pathlib
+import subprocess
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+
+def run(script, *arguments):
+    return subprocess.run([str(ROOT / "deploy" / script), *arguments], capture_output=True, text=True, timeout=30, stdin=subprocess.DEVNULL)
+
+
+class Scripts(unittest.TestCase):
+    def test_help_is_for_people(self):
+        for script in ("demo", "test", "bench", "narration"):
+            with self.subTest(script):
+                result = run(script, "--help")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f"deploy/{script}", result.stdout)
+                for line in result.stdout.splitlines():
+                    self.assertFalse(line.startswith(("#", "set -")), line)
+
+    def test_help_is_asked_for_anywhere(self):
+        self.assertEqual(run("demo", "--all", "--help").stdout, run("demo", "--help").stdout)
+
+    def test_every_argument_of_the_demo_stands_in_its_help(self):
+        text = run("demo", "--help").stdout
+        for line in (ROOT / "deploy/demo_lib/demo.py").read_text().splitlines():
+            name = line.partition('parser.add_argument("')[2].partition('"')[0]
+            if name and name not in ("--bin", "--out"):  # the script gives these itself
+                self.assertIn(f"deploy/demo {name}", text)
+
+    def test_a_wrong_argument_ends_the_demo_before_it_begins(self):
+        for wrong in (["--headles"], ["--domain"], ["--domain", "x"], ["--domain", "--all"], ["--all", "now"]):
+            with self.subTest(wrong):
+                result = run("demo", *wrong)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn("demo: ", result.stderr)
+                self.assertEqual(result.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
