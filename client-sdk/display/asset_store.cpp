@@ -59,7 +59,11 @@ AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
   const std::lock_guard lock(mutex_);
   const auto [at, is_new] = files_.try_emplace(key);
   AssetFile& file = at->second;
-  if (!is_new) return file;
+  // Another display that shares the cache may have made room.
+  std::error_code code;
+  const bool gone = file.state == AssetState::here && !std::filesystem::exists(file.file, code);
+  if (!is_new && !gone) return file;
+  file = {};
   const Expected<std::string> address = address_.of(name);
   if (!address) {
     file = {AssetState::amiss, {}, address.error()};

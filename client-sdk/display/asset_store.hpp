@@ -45,7 +45,7 @@ struct AssetFile {
 [[nodiscard]] std::filesystem::path default_asset_cache();
 
 /// Owns a thread, which fetches, hashes and writes; the functions here may be called from any thread, and wait for nothing. What is
-/// wrong is logged once a file and cause, with a remedy. One scenario's: its end gives up what is still on its way.
+/// wrong is logged once a file and cause, with a remedy. Its end gives up what is still on its way.
 class AssetStore {
  public:
   /// Errors: no HTTP library.

@@ -118,7 +118,8 @@ void DisplayLoop::open_scenario() {
   scenario_ = scenario_key(*status_);
   folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
   renderer_.forget_assets();
-  store_ = open_store();
+  // One for all scenarios: who comes back to one finds its files at once.
+  if (!store_) store_ = open_store();
   mesh_files_ = store_ ? std::make_unique<MeshFiles>(store_.get(), catalogue_)
                        : std::make_unique<MeshFiles>(std::filesystem::path(folder_), catalogue_);
   library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {

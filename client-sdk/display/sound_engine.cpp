@@ -68,11 +68,14 @@ double towards(double from, double to, double step_s, double glide_s) {
   return to + (from - to) * std::exp(-step_s / glide_s);
 }
 
+double near_of(const SoundSource& source) {
+  return std::clamp(source.near_m, 0.1, double{kFarthest_m});
+}
+
 /// As OpenAL's inverse distance, clamped, will have it.
 double heard(const SoundSource& source, const Vec3& p_W) {
-  const double near = std::max(source.near_m, 0.1);
-  const double distance = std::clamp((source.p_W - p_W).norm(), near, std::max(near, double{kFarthest_m}));
-  return source.gain * near / distance;
+  const double distance = std::clamp((source.p_W - p_W).norm(), near_of(source), double{kFarthest_m});
+  return source.gain * near_of(source) / distance;
 }
 
 void set_vector(ALuint source, ALenum name, const Vec3& v) {
@@ -179,11 +182,13 @@ void SoundEngine::Impl::begin_speech(const std::string& file) {
 }
 
 void SoundEngine::Impl::set_narration(const std::optional<Narration>& wanted) {
-  const std::string id = wanted ? wanted->id : std::string();
+  // One whose file is not here yet may come later under the same id.
+  const bool ready = wanted && !wanted->file.empty();
+  const std::string id = ready ? wanted->id : std::string();
   if (id == narration) return;
   end_speech();
   narration = id;
-  if (wanted && !wanted->file.empty()) begin_speech(wanted->file);
+  if (ready) begin_speech(wanted->file);
 }
 
 Voice* SoundEngine::Impl::voice_of(const std::string& id) {
@@ -232,7 +237,7 @@ void SoundEngine::Impl::set_voices(const SoundScene& scene) {
     voice->target = std::clamp(source->gain, 0.0, 1.0);
     voice->heard = heard(*source, scene.listener.p_W);
     set_vector(voice->source, AL_POSITION, source->p_W);
-    alSourcef(voice->source, AL_REFERENCE_DISTANCE, static_cast<float>(std::max(source->near_m, 0.1)));
+    alSourcef(voice->source, AL_REFERENCE_DISTANCE, static_cast<float>(near_of(*source)));
     alSourcef(voice->source, AL_PITCH, static_cast<float>(std::clamp(source->pitch, 0.25, 4.0)));
     if (!known || source->looped) {
       ALint state = 0;

@@ -34,7 +34,7 @@ struct SoundSource {
 /// Plays once, from the frame in which its id is new; another id, or none, ends it.
 struct Narration {
   std::string id;
-  std::string file;  ///< on this machine: .wav, .ogg, .flac
+  std::string file;  ///< on this machine: .wav, .ogg, .flac; empty: it is not here yet, or the step has none
 };
 
 struct SoundScene {

@@ -226,8 +226,8 @@ void add_ring(const Ring& ring, std::size_t first, std::vector<float>& out) {
 
 void add_drops(const DropLayer& layer, SoundRandom& random, std::vector<float>& out) {
   if (layer.level <= 0) return;
-  const float length_s = static_cast<float>(out.size()) / static_cast<float>(kSoundRate_hz);
-  for (float t = 0; t < length_s; t += -std::log(1 - 0.999F * random.unit()) / layer.per_s) {
+  float t = 0;
+  while (samples_in(t) < out.size()) {
     // Small ones are many and high; the square keeps the loud ones rare.
     const float size = random.unit();
     const float hz = layer.high_hz * std::pow(layer.low_hz / layer.high_hz, size);
@@ -235,6 +235,7 @@ void add_drops(const DropLayer& layer, SoundRandom& random, std::vector<float>& 
     const float strength = random.unit();
     const float faded = layer.fade_s > 0 ? std::exp(-t / layer.fade_s) : 1.0F;
     add_ring({hz, decay_s, layer.rise, layer.level * strength * strength * faded}, samples_in(t), out);
+    t -= std::log(1 - 0.999F * random.unit()) / layer.per_s;  // a Poisson process
   }
 }
 

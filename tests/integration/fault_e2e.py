@@ -4,11 +4,10 @@ import json
 import os
 import signal
 import socket
-import subprocess
 import time
 import unittest
 
-from harness import BIN, SCENARIO, EndToEnd, wait_until
+from harness import SCENARIO, EndToEnd, wait_until
 
 
 class Faults(EndToEnd):

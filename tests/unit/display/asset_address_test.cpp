@@ -1,6 +1,7 @@
 #include "client-sdk/display/asset_address.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 namespace mechane::display {
 namespace {
@@ -48,6 +49,23 @@ TEST(AssetAddress, what_is_no_address_is_told) {
   EXPECT_TRUE(is_web_address("https://m"));
   EXPECT_FALSE(is_web_address("scenarios/http"));
   EXPECT_TRUE(AssetAddress::parse("https://m/s")->secure());
+}
+
+RC_GTEST_PROP(AssetAddress, whatever_a_scenario_names_is_refused_or_stays_below_the_root, ()) {
+  const auto part =
+      rc::gen::oneOf(rc::gen::elementOf(std::vector<std::string>{"..", ".", "", "%2e%2e", "..\\", "a", "http:", "?"}),
+                     rc::gen::arbitrary<std::string>());
+  std::string name;
+  for (const std::string& next : *rc::gen::container<std::vector<std::string>>(part))
+    name += next + "/";
+  name += *part;
+  const auto whole = AssetAddress::parse("http://m/root/scenario")->of(name);
+  if (!whole) return;
+  RC_ASSERT(whole->starts_with("http://m/root/"));
+  RC_ASSERT((*whole + "/").find("/../") == std::string::npos);
+  RC_ASSERT((*whole + "/").find("/./") == std::string::npos);
+  RC_ASSERT(whole->find("//", 7) == std::string::npos);
+  RC_ASSERT(whole->find_first_of("?#\\@ ") == std::string::npos);
 }
 
 }  // namespace

@@ -237,6 +237,16 @@ TEST_F(AssetStoreTest, a_file_damaged_on_disk_is_found_and_fetched_anew) {
   EXPECT_EQ(server.asked("/screw/a.glb"), 2);
 }
 
+TEST_F(AssetStoreTest, a_file_that_another_display_removed_is_fetched_anew) {
+  const SmallHttpServer server([&](const std::string&, const std::string&) { return HttpReply{200, body_}; });
+  open(server);
+  wait_for("a.glb", hash_, AssetState::here);
+  fs::remove(cached(hash_));
+  EXPECT_EQ(store_->find("a.glb", hash_).state, AssetState::on_its_way);
+  EXPECT_EQ(text_of(wait_for("a.glb", hash_, AssetState::here).file), body_);
+  EXPECT_EQ(server.asked("/screw/a.glb"), 2);
+}
+
 TEST_F(AssetStoreTest, without_a_hash_the_server_is_asked_whether_its_file_is_still_the_same) {
   std::atomic<int> version{1};
   auto server = std::make_unique<SmallHttpServer>([&](const std::string&, const std::string& head) {

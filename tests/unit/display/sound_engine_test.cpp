@@ -213,6 +213,8 @@ TEST_F(SoundEngineTest, a_narration_speaks_once_and_ends_with_its_step) {
   scene.narration = Narration{"step 3", ""};
   (void)play(scene, 0.1);
   EXPECT_LT(measure(play(scene, 0.2)).peak, kDither) << "a step without a voice ends that of the one before";
+  scene.narration->file = two;
+  EXPECT_GT(measure(play(scene, 0.4)).both(), 0.1) << "its file came late";
   scene.narration = Narration{"step 1", one};
   EXPECT_GT(measure(play(scene, 0.4)).both(), 0.1) << "a step that begins again is told again";
 }
