@@ -5,38 +5,27 @@
 #include <filesystem>
 #include <fstream>
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include "server/content/catalogue.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace {
 
 using mechane::content::Catalogue;
 
 /// One file for all inputs of a run, in memory where there is a place for that; it goes with the program.
-struct CatalogueFile {
-  CatalogueFile() {
-    const bool memory = access("/dev/shm", W_OK) == 0;
-    const std::filesystem::path folder = memory ? "/dev/shm" : std::filesystem::temp_directory_path();
-    path = folder / fmt::format("mechane-catalogue-fuzz-{}.db", getpid());
-  }
-  CatalogueFile(const CatalogueFile&) = delete;
-  CatalogueFile& operator=(const CatalogueFile&) = delete;
-  ~CatalogueFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-  std::filesystem::path path;
-};
+const std::filesystem::path& catalogue_file() {
+  static const mechane::test::ScratchFolder kFolder(mechane::test::folder_in_memory());
+  static const std::filesystem::path kFile = kFolder.path() / "catalogue.db";
+  return kFile;
+}
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const CatalogueFile file;
-  std::ofstream(file.path, std::ios::binary | std::ios::trunc)
+  const std::filesystem::path& file = catalogue_file();
+  std::ofstream(file, std::ios::binary | std::ios::trunc)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-  const auto catalogue = Catalogue::open(file.path, Catalogue::Access::read);
+  const auto catalogue = Catalogue::open(file, Catalogue::Access::read);
   if (!catalogue) return 0;
   const auto entries = catalogue->entries();
   if (!entries) return 0;

@@ -1,6 +1,5 @@
 #include "server/app/scenario_files.hpp"
 
-#include <cstdlib>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -9,6 +8,7 @@
 #include "server/content/catalogue.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/log/log.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace mechane::app {
 namespace {
@@ -24,16 +24,10 @@ class ScenarioFilesTest : public testing::Test {
  protected:
   static void SetUpTestSuite() { log::start("test", log::Level::info); }
   ScenarioFilesTest() {
-    std::string name = (fs::temp_directory_path() / "mechane-app-XXXXXX").string();
-    folder_ = fs::canonical(mkdtemp(name.data()));
     auto catalogue = content::Catalogue::open(folder_ / "catalogue.db", content::Catalogue::Access::write);
     entries_ = {entry("crane.x3d", content::ContentKind::scenario), entry("crane.glb", content::ContentKind::model)};
     entries_[0].refers_to = {"crane.glb"};
     EXPECT_TRUE(catalogue->put(entries_));
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
   [[nodiscard]] content::CatalogueEntry entry(const std::string& path, content::ContentKind kind) const {
     std::ofstream(folder_ / path) << path;
@@ -51,7 +45,8 @@ class ScenarioFilesTest : public testing::Test {
     return files;
   }
 
-  fs::path folder_;
+  const test::ScratchFolder scratch_;
+  const fs::path& folder_ = scratch_.path();
   std::vector<content::CatalogueEntry> entries_;
   std::string said_;
 };

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace mechane::cli {
 namespace {
 
@@ -21,8 +23,6 @@ using testing::Not;
 class ContentTest : public testing::Test {
  protected:
   ContentTest() {
-    std::string name = (fs::temp_directory_path() / "mechane-cli-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
     options_.catalogue = folder_ / "scenarios/catalogue.db";
     for (const char* path :
          {"archimedes-screw/archimedes-screw.x3d", "archimedes-screw/archimedes-screw.md",
@@ -31,10 +31,6 @@ class ContentTest : public testing::Test {
       fs::create_directories((folder_ / "scenarios" / path).parent_path());
       fs::copy_file(fs::path(MECHANE_SOURCE_DIR) / "scenarios" / path, folder_ / "scenarios" / path);
     }
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
   int run(std::string_view verb, const std::vector<std::string>& words = {}) {
     options_.words = words;
@@ -63,7 +59,8 @@ class ContentTest : public testing::Test {
     std::ofstream(file) << text.replace(at, from.size(), to);
   }
 
-  fs::path folder_;
+  const test::ScratchFolder scratch_;
+  const fs::path& folder_ = scratch_.path();
   ContentOptions options_;
   std::string out_;
   std::string errors_;

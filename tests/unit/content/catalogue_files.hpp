@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "server/content/catalogue.hpp"
 #include "server/content/content_hash.hpp"
@@ -25,11 +24,7 @@ inline CatalogueEntry plain_entry(const std::string& path) {
   return entry;
 }
 
-/// For properties, which would else wait for a disk some thousand times.
-inline std::filesystem::path folder_in_memory() {
-  const std::filesystem::path memory = "/dev/shm";
-  return access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
-}
+using test::folder_in_memory;
 
 inline std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

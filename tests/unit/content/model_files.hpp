@@ -3,44 +3,16 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace mechane::content {
 
-/// A folder that goes with the test.
-class ScratchFolder {
- public:
-  ScratchFolder() : ScratchFolder(std::filesystem::temp_directory_path()) {}
-  explicit ScratchFolder(const std::filesystem::path& parent) {
-    std::string name = (parent / "mechane-content-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code code;
-    std::filesystem::remove_all(path_, code);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path_ / name;
-  }
-  /// A shell script that stands in for the import program.
-  std::filesystem::path script(const std::string& name, const std::string& body) const {
-    const auto file = write(name, "#!/bin/sh\n" + body + "\n");
-    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-    return file;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using test::ScratchFolder;
 
 /// A cube of side 2 m about the origin, faces outwards.
 inline constexpr float kCube[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},

@@ -1,12 +1,12 @@
 #include "client-sdk/display/mesh_files.hpp"
 
-#include <cstdlib>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "server/content/content_hash.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace mechane::display {
 namespace {
@@ -20,8 +20,6 @@ using testing::IsEmpty;
 class MeshFilesTest : public testing::Test {
  protected:
   MeshFilesTest() {
-    std::string name = (fs::temp_directory_path() / "mechane-display-XXXXXX").string();
-    top_ = mkdtemp(name.data());
     fs::create_directories(top_ / "server");
     fs::create_directories(top_ / "kiosk/models");
     write("server/screw.glb", "the server's");
@@ -33,10 +31,6 @@ class MeshFilesTest : public testing::Test {
     entry.hash = hash_;
     EXPECT_TRUE(catalogue_->put(std::vector{entry}));
   }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(top_, ignored);
-  }
   void write(const char* path, const char* bytes) const { std::ofstream(top_ / path) << bytes; }
   /// Where the file is found, from the top; or "nowhere".
   std::string find(const Catalogue* catalogue, const std::string& hash, const char* folder = "server") {
@@ -47,7 +41,8 @@ class MeshFilesTest : public testing::Test {
     return found ? fs::weakly_canonical(*found).lexically_relative(fs::weakly_canonical(top_)).string() : "nowhere";
   }
 
-  fs::path top_;
+  const test::ScratchFolder scratch_;
+  const fs::path& top_ = scratch_.path();
   std::string hash_;
   std::optional<Catalogue> catalogue_;
   std::set<std::string> differing_;

@@ -4,7 +4,8 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+
+#include "tests/support/scratch_folder.hpp"
 
 namespace mechane::realtime {
 namespace {
@@ -13,22 +14,14 @@ namespace fs = std::filesystem;
 
 // A folder that stands for "/", with the files of proc and sys that a test writes.
 class MachineCheck : public testing::Test {
- public:
-  ~MachineCheck() override { fs::remove_all(root_); }
-
  protected:
-  MachineCheck()
-      : root_(fs::path(testing::TempDir()) / ("machine-" + std::to_string(getpid()) + "-" +
-                                              testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(root_);
-  }
-
   void write(const std::string& path, const std::string& text) {
     fs::create_directories((root_ / path).parent_path());
     std::ofstream(root_ / path) << text << "\n";
   }
 
-  fs::path root_;
+  const test::ScratchFolder scratch_;
+  const fs::path& root_ = scratch_.path();
 };
 
 TEST_F(MachineCheck, TellsAGoodMachineFromABadOne) {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
-#include <unistd.h>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/scenario/scenario_fixture.hpp"
 
 namespace mechane::scenario {
@@ -40,19 +40,15 @@ std::string output_of(const std::string& command) {
 class EditedFile {
  public:
   EditedFile(const std::string& from, const std::string& to) {
-    folder_ = std::filesystem::temp_directory_path() / ("mechane-check-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_ / "exhibit");
-    std::filesystem::create_directory_symlink(source_folder() / "scenarios/models", folder_ / "models");
-    path = folder_ / "exhibit/test.x3d";
+    std::filesystem::create_directories(scratch_.path() / "exhibit");
+    std::filesystem::create_directory_symlink(source_folder() / "scenarios/models", scratch_.path() / "models");
+    path = scratch_.path() / "exhibit/test.x3d";
     std::ofstream(path) << edited(from, to);
   }
-  EditedFile(const EditedFile&) = delete;
-  EditedFile& operator=(const EditedFile&) = delete;
-  ~EditedFile() { std::filesystem::remove_all(folder_); }
   std::filesystem::path path;
 
  private:
-  std::filesystem::path folder_;
+  const test::ScratchFolder scratch_;
 };
 
 void expect_warning(const std::string& from, const std::string& to, const std::string& words) {

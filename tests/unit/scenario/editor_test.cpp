@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <unistd.h>
 
 #include "server/scenario/metadata.hpp"
 #include "server/scenario/reference.hpp"
 #include "server/scenario/text_edits.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/scenario/scenario_fixture.hpp"
 
 namespace mechane::scenario {
@@ -52,7 +52,8 @@ void expect_same(const Document& a, const Document& b) {
 }
 
 TEST(Editor, ReadWriteReadIsTheSameToTheByte) {
-  const auto out = std::filesystem::temp_directory_path() / ("mechane-editor-" + std::to_string(getpid()) + ".x3d");
+  const test::ScratchFolder folder;
+  const auto out = folder.path() / "out.x3d";
   for (const auto& file : sample_files()) {
     const auto editor = Editor::open(file);
     ASSERT_TRUE(editor) << editor.error().to_string();
@@ -62,7 +63,6 @@ TEST(Editor, ReadWriteReadIsTheSameToTheByte) {
     ASSERT_TRUE(again);
     expect_same(editor->document(), again->document());
   }
-  std::filesystem::remove(out);
 }
 
 TEST(Editor, EverySpanIsWhereTheTreeSaysItIs) {

@@ -4,11 +4,11 @@
 #include <cstdlib>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "server/scenario/checker.hpp"
 #include "server/scenario/mesh_finder.hpp"
 #include "server/scenario/rename.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/scenario/scenario_fixture.hpp"
 
 namespace mechane::scenario {
@@ -16,18 +16,15 @@ namespace {
 
 class MergeFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder = std::filesystem::temp_directory_path() / ("mechane-merge-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder / "in");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
+  void SetUp() override { std::filesystem::create_directories(folder / "in"); }
 
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder / "in" / name, std::ios::binary) << text;
     return (folder / "in" / name).string();
   }
 
-  std::filesystem::path folder;
+  const test::ScratchFolder scratch;
+  const std::filesystem::path& folder = scratch.path();
 };
 
 /// Merges, reads the result as of `path`, compiles it.
