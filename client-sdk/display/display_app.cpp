@@ -67,6 +67,7 @@ class DisplayLoop {
   [[nodiscard]] std::unique_ptr<AssetStore> open_store() const;
   void take_arrived();
   Expected<void> draw(TimePoint now);
+  void let_hear(const Camera& ears);
   [[nodiscard]] RenderScene build() const;
   [[nodiscard]] RenderScene build_for_one() const;
   void take_wishes();
@@ -88,6 +89,7 @@ class DisplayLoop {
   std::shared_ptr<const client::WorldPresentation> presentation_;
   client::Frame frame_;
   bool have_frame_ = false;
+  std::optional<DisplaySound> sound_;
   std::string folder_;
   std::string scenario_;
   std::size_t objects_known_ = 0;
@@ -231,11 +233,20 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
     renderer_.copy_to_window(size);
   }
   context_.present();
+  let_hear(scene.camera);
   ++summary_.frames;
   if (frame_ms_.size() < kFrameTimesKept) {
     frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - now).count());
   }
   return {};
+}
+
+void DisplayLoop::let_hear(const Camera& ears) {
+  const std::vector<client::WorldEvent> events = client_.take_events();
+  if (!sound_) return;
+  const bool here = have_frame_ && client_.state() == LinkState::joined;
+  sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(),
+               client_.objects(), events, folder_);
 }
 
 Expected<void> DisplayLoop::write_picture(const std::string& name) {
@@ -260,6 +271,7 @@ void DisplayLoop::wait_for_next(TimePoint began) {
 
 Expected<DisplaySummary> DisplayLoop::run() {
   started_ = next_ = clock_.now();
+  if (options_.sound.on && !options_.offscreen) sound_.emplace(options_.sound, options_.language);
   while (!stop_wanted(clock_.now())) {
     const TimePoint now = clock_.now();
     take_news(now);
@@ -286,6 +298,12 @@ Expected<DisplaySummary> DisplayLoop::run() {
   if (mesh_files_) summary_.differing_assets.assign(mesh_files_->differing().begin(), mesh_files_->differing().end());
   if (library_) summary_.missing_assets.assign(library_->missing().begin(), library_->missing().end());
   summary_.renderer = context_.renderer_name();
+  if (sound_) {
+    const SoundState heard = sound_->state();
+    summary_.sound = heard.sounding ? heard.device : heard.problem;
+  } else {
+    summary_.sound = "off";
+  }
   return std::move(summary_);
 }
 
@@ -299,7 +317,8 @@ std::string DisplaySummary::to_json() const {
                                     {"differing_assets", differing_assets},
                                     {"steps_missed", steps_missed},
                                     {"done", done},
-                                    {"renderer", renderer}};
+                                    {"renderer", renderer},
+                                    {"sound", sound}};
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

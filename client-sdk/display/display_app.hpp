@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "client-sdk/display/display_sound.hpp"
 #include "client-sdk/display/gl_context.hpp"
 #include "client-sdk/display/picture_schedule.hpp"
 #include "client-sdk/display/renderer.hpp"
@@ -37,6 +38,7 @@ struct DisplayOptions {
   bool until_done = false;   ///< stop when the world's last activity is done
   double fps = 60;           ///< at most
   RendererSettings renderer;
+  SoundSettings sound;  ///< in a window; offscreen nothing is heard
 };
 
 /// What was done, for scripts.
@@ -50,6 +52,7 @@ struct DisplaySummary {
   double frame_ms_p99 = 0;
   bool done = false;  ///< the world's last activity was done
   std::string renderer;
+  std::string sound;  ///< the device; else why nothing is heard
 
   /// One line of JSON.
   [[nodiscard]] std::string to_json() const;

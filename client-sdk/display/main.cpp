@@ -58,6 +58,12 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
   app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);
   app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
+  app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_flag("!--mute", o.sound.on, "let nothing be heard");
+  app.add_option("--narration", o.sound.narration,
+                 "folder of deploy/narration; without: that beside the programs, where they were built");
   app.add_option("--fps", o.fps, "frames a second, at most")->check(CLI::Range(0.1, 240.0))->capture_default_str();
 }
 

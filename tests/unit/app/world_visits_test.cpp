@@ -79,8 +79,8 @@ TEST_F(WorldVisitsTest, WhatTheLoopNotesAndTheVisitorAnswersIsOnTheDisk) {
     WorldVisits visits(*sheets_, description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     tick(visits, state, {state::EventKind::activity_done});
-    ASSERT_TRUE(visits.answer({"turn", "easy", "5", record::AnswerTime::after}));
-    EXPECT_THAT(visits.answer({"turn", "easy", "9", record::AnswerTime::after}).error().to_string(),
+    ASSERT_TRUE(visits.answer({"use", "easy", "5", record::AnswerTime::after}));
+    EXPECT_THAT(visits.answer({"use", "easy", "9", record::AnswerTime::after}).error().to_string(),
                 HasSubstr("1 to 5"));
     visits.close(VisitEnding::left, "");
   }

@@ -1,0 +1,100 @@
+#include "client-sdk/display/display_sound.hpp"
+
+#include <filesystem>
+
+#include "client-sdk/display/overlay_text.hpp"
+
+namespace mechane::display {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name that is one file's in its folder, and no way out of it.
+bool is_plain(const std::string& name) {
+  return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
+}
+
+bool stays_inside(const fs::path& path) {
+  if (path.empty() || path.is_absolute()) return false;
+  const fs::path normal = path.lexically_normal();
+  return !normal.empty() && *normal.begin() != "..";
+}
+
+std::string if_there(const fs::path& file) {
+  std::error_code error;
+  return fs::is_regular_file(file, error) ? file.string() : std::string();
+}
+
+std::vector<SoundEffect> heard_effects(const client::WorldPresentation* presentation) {
+  std::vector<SoundEffect> heard;
+  if (presentation == nullptr) return heard;
+  for (const client::Effect& effect : presentation->effects) {
+    if (!effect.kind.starts_with("sound.")) continue;
+    heard.push_back({effect.name, effect.kind, effect.object ? static_cast<std::int32_t>(*effect.object) : -1,
+                     effect.p_BE, static_cast<std::int32_t>(effect.quantity), effect.full, effect.size_m});
+  }
+  return heard;
+}
+
+SoundListener at(const Camera& camera) {
+  return {camera.p_WC, (camera.p_WT - camera.p_WC).normalized(), camera.up_W};
+}
+
+SoundPlayerOptions options_of(const SoundSettings& settings) {
+  SoundPlayerOptions options;
+  options.levels.volume = settings.volume;
+  return options;
+}
+
+}  // namespace
+
+std::string narration_file(const client::WorldStatus& status, const std::string& language,
+                           const std::string& scenario_folder, const std::string& narration_folder) {
+  const auto named = status.audio.find(language);
+  if (named != status.audio.end() && !scenario_folder.empty() && stays_inside(named->second)) {
+    if (std::string file = if_there(fs::path(scenario_folder) / named->second); !file.empty()) return file;
+  }
+  if (narration_folder.empty() || !is_plain(status.scenario) || !is_plain(status.step) || !is_plain(language))
+    return {};
+  for (const char* ending : {".wav", ".ogg", ".flac"}) {
+    const fs::path file = fs::path(narration_folder) / status.scenario / (status.step + "." + language + ending);
+    if (std::string found = if_there(file); !found.empty()) return found;
+  }
+  return {};
+}
+
+std::string built_narration_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  const fs::path folder = program.parent_path().parent_path() / "narration";
+  return fs::is_directory(folder, error) ? folder.string() : std::string();
+}
+
+DisplaySound::DisplaySound(const SoundSettings& settings, std::string language)
+    : narration_folder_(settings.narration.empty() ? built_narration_folder() : settings.narration),
+      language_(std::move(language)),
+      player_(options_of(settings)) {}
+
+void DisplaySound::hear(const Camera& ears, const client::Frame* frame, const client::WorldStatus* status,
+                        const client::WorldPresentation* presentation, std::span<const client::SceneObject> objects,
+                        std::span<const client::WorldEvent> events, const std::string& scenario_folder) {
+  SoundScene scene;
+  scene.listener = at(ears);
+  if (frame != nullptr) {
+    const std::vector<SoundEffect> effects = heard_effects(presentation);
+    scene.sources = sound_sources({before_ ? &*before_ : nullptr, frame, events, objects, effects});
+    before_ = *frame;
+  } else {
+    before_.reset();
+  }
+  if (status != nullptr && !status->done) {
+    // Looked for once a step: the disk is not asked at every picture.
+    const std::string id = narration_id(*status);
+    if (id != narration_.id) narration_ = {id, narration_file(*status, language_, scenario_folder, narration_folder_)};
+    if (!narration_.file.empty()) scene.narration = narration_;
+  }
+  player_.play(std::move(scene));
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,49 @@
+// What a display lets be heard: the effects of the frame, knocks of events, and each step's narration.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client-sdk/display/render_scene.hpp"
+#include "client-sdk/display/sound_player.hpp"
+#include <mechane/client/types.hpp>
+
+namespace mechane::display {
+
+struct SoundSettings {
+  bool on = true;
+  double volume = 0.8;    ///< 0..1
+  std::string narration;  ///< folder with SCENARIO/STEP.LANGUAGE.wav, .ogg or .flac; empty: that of the programs' build
+};
+
+/// The file of a step's narration in one language: what the author named, by its path from the scenario's folder, else that of the
+/// narration's folder. Empty where there is none; names that lead out of their folder find nothing.
+[[nodiscard]] std::string narration_file(const client::WorldStatus& status, const std::string& language,
+                                         const std::string& scenario_folder, const std::string& narration_folder);
+
+/// The folder `narration` beside that of the running program; empty where there is none.
+[[nodiscard]] std::string built_narration_folder();
+
+/// Made and called on the display's thread; the player has its own, and a missing sound card is told once and costs nothing else.
+class DisplaySound {
+ public:
+  DisplaySound(const SoundSettings& settings, std::string language);
+
+  /// Once a picture. `frame` and `status` may be null: nothing is heard then.
+  void hear(const Camera& ears, const client::Frame* frame, const client::WorldStatus* status,
+            const client::WorldPresentation* presentation, std::span<const client::SceneObject> objects,
+            std::span<const client::WorldEvent> events, const std::string& scenario_folder);
+  [[nodiscard]] SoundState state() const { return player_.state(); }
+
+ private:
+  std::string narration_folder_;
+  std::string language_;
+  std::optional<client::Frame> before_;
+  Narration narration_;
+  SoundPlayer player_;
+};
+
+}  // namespace mechane::display
