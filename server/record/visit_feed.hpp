@@ -14,8 +14,10 @@ namespace mechane::record {
 /// An event that a sheet may need, with what only the loop knows at that moment.
 struct VisitNote {
   state::Event event;
-  state::CommandKind command = state::CommandKind::none;  ///< of command_done, and of activity_started: whose doing it is
-  bool opened_hand = false;  ///< released: by the hand, and no joint or rope holds the body: it falls, or lies where it was put
+  state::CommandKind command =
+      state::CommandKind::none;  ///< of command_done, and of activity_started: whose doing it is
+  bool opened_hand =
+      false;  ///< released: by the hand, and no joint or rope holds the body: it falls, or lies where it was put
 };
 
 /// A bounded queue from the loop to one other thread. A full one loses notes and counts them: a tick never waits.
