@@ -113,7 +113,7 @@ void VisitObserver::take_event(const state::Event& event) {
     case EventKind::grasped:
       if (is_user) hands_seen_ |= 1U << event.subject;
       if (is_user && event.kind == EventKind::grasped) holding_ |= 1U << event.subject;
-      forget_let_go(event.object);
+      if (event.kind == EventKind::grasped) forget_let_go(event.object, event.tick - std::min(event.tick, kHandsOver));
       sign(event.tick);
       did_something_ = did_something_ || event.kind == EventKind::grasped;
       return;
@@ -128,7 +128,7 @@ void VisitObserver::take_event(const state::Event& event) {
       did_something_ = true;
       return;
     case EventKind::placed:
-      return forget_let_go(event.object);
+      return forget_let_go(event.object, 0);
     case EventKind::part_refused:
       sign(event.tick);
       return mistake(MistakeKind::wrong_part, name_of(description_->bodies, event.object));
@@ -153,8 +153,9 @@ void VisitObserver::take_release(const VisitNote& note) {
   if (note.opened_hand && let_go_.size() < kMostMistakes) let_go_.push_back({event.object, event.tick});
 }
 
-void VisitObserver::forget_let_go(std::uint32_t body) {
-  std::erase_if(let_go_, [body](const LetGo& one) { return one.body == body; });
+/// What was let go at `since` or later.
+void VisitObserver::forget_let_go(std::uint32_t body, std::uint64_t since) {
+  std::erase_if(let_go_, [=](const LetGo& one) { return one.body == body && one.tick >= since; });
 }
 
 void VisitObserver::count_let_go(std::uint64_t tick) {

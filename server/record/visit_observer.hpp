@@ -30,8 +30,11 @@ struct VisitSources {
 class VisitObserver {
  public:
   static constexpr std::uint64_t kAway = 90'000;  ///< ticks without a sign of a visitor
-  /// A part that comes to its place, or into a hand again, within so many ticks after it was let go, was not let go wrongly.
-  static constexpr std::uint64_t kSettles = 1'000;
+  /// A part that comes to its place, or that the step waited for, within so many ticks after it was let go, was not let go wrongly.
+  /// Steps wait for up to 3 s until what they ask for has lasted.
+  static constexpr std::uint64_t kSettles = 3'500;
+  /// Nor was one that a hand, this or another, holds again so soon.
+  static constexpr std::uint64_t kHandsOver = 1'000;
   static constexpr std::size_t kMostSteps = 200;  ///< of one sheet: rules that go in circles must not fill the disk
   static constexpr std::size_t kMostMistakes = 200;
 
@@ -76,7 +79,7 @@ class VisitObserver {
   void mistake(MistakeKind kind, const std::string& subject);
   void spilled(std::uint32_t machine);
   void count_let_go(std::uint64_t tick);
-  void forget_let_go(std::uint32_t body);
+  void forget_let_go(std::uint32_t body, std::uint64_t since);
   void take_up(VisitSheet sheet, std::uint64_t tick);
   [[nodiscard]] bool is_over() const { return !sheet_ || sheet_->ending != VisitEnding::running; }
   [[nodiscard]] const state::StepDescription& description_of(StepId step) const;

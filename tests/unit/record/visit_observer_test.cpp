@@ -190,16 +190,18 @@ TEST_F(VisitObserverTest, LettingGoIsAMistakeUnlessThePartSettles) {
   let_go(2000, kStone);
   say(2500, EventKind::grasped, 1, kStone);  // from hand to hand
   let_go(4000, kStone);
-  say(4900, EventKind::placed, 0, kStone);  // where it belongs
-  say(6000, EventKind::grasped, 0, kStone);
-  let_go(7000, kStone);
-  observer_->look(8000, 0);
+  say(4000 + VisitObserver::kSettles, EventKind::placed, 0, kStone);  // where it belongs
+  say(10'000, EventKind::grasped, 0, kStone);
+  let_go(11'000, kStone);
+  say(11'500, EventKind::touched, 0, kStone);
+  say(12'001, EventKind::grasped, 0, kStone);  // picked up again
+  observer_->look(11'000 + VisitObserver::kSettles, 0);
   EXPECT_THAT(sheet().mistakes, IsEmpty());
-  observer_->look(8001, 0);
+  observer_->look(11'001 + VisitObserver::kSettles, 0);
   EXPECT_THAT(sheet().mistakes, ElementsAre(SheetMistake{MistakeKind::let_go, "STONE", 1}));
-  let_go(9000, kCrank, false);  // a joint has it
-  let_go(9500, kStone);
-  say(9600, EventKind::step_started, kTurn);  // that was what the step waited for
+  let_go(19'000, kCrank, false);  // a joint has it
+  let_go(19'500, kStone);
+  say(19'600, EventKind::step_started, kTurn);  // that was what the step waited for
   EXPECT_THAT(left().mistakes, ElementsAre(SheetMistake{MistakeKind::let_go, "STONE", 1}));
 }
 
