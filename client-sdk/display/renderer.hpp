@@ -38,7 +38,12 @@ class Renderer {
   /// Uploads what is new in `assets`.
   void upload(const SceneAssets& assets) { assets_.upload(assets); }
   /// Frees all that was uploaded: another scenario begins.
-  void forget_assets() { assets_ = {}; }
+  void forget_assets() {
+    assets_ = {};
+    passes_.shadow.forget();
+  }
+  /// How often the shadow map was drawn: not in each picture.
+  [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return passes_.shadow.times_drawn(); }
   /// Draws into the renderer's own picture. Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const RenderScene& scene, Stereo stereo, PixelSize size);
   /// The last picture, upper row first. Waits for the graphics card. Of quad_buffer, that eye's.

@@ -58,8 +58,8 @@ Expected<void> measure(const Config& config, const display::RenderScene& scene, 
   settings.profile = true;
   auto renderer = display::Renderer::create(settings);
   if (!renderer) return tl::unexpected(renderer.error());
-  const auto stereo = std::ranges::find(display::stereo_names(), config.stereo,
-                                        &std::pair<std::string_view, display::Stereo>::first);
+  const auto stereo =
+      std::ranges::find(display::stereo_names(), config.stereo, &std::pair<std::string_view, display::Stereo>::first);
   if (stereo == display::stereo_names().end()) return fail("no such mode", config.stereo, "see mechane display --help");
   (*renderer)->upload(assets);
   std::map<std::string, std::vector<double>> wall_ms;
