@@ -10,6 +10,9 @@
 namespace mechane::display {
 namespace {
 
+/// Triangles of a piece: fewer are culled more finely, and cost more calls.
+constexpr std::uint32_t kPiece = 1000;
+
 TextureName upload_image(const ImageData& image) {
   TextureName texture = make_texture();
   glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -22,15 +25,29 @@ TextureName upload_image(const ImageData& image) {
   return texture;
 }
 
-std::vector<Vec3f> middles_of(const MeshData& mesh) {
+std::vector<Vec3f> middles_of(const MeshData& mesh, const std::vector<std::uint32_t>& indices) {
+  // As the pieces have the triangles, which is not as the file has them.
   std::vector<Vec3f> out;
-  out.reserve(mesh.indices.size() / 3);
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    out.emplace_back(
-        (mesh.positions[mesh.indices[i]] + mesh.positions[mesh.indices[i + 1]] + mesh.positions[mesh.indices[i + 2]]) /
-        3.0F);
+  out.reserve(indices.size() / 3);
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    out.emplace_back((mesh.positions[indices[i]] + mesh.positions[indices[i + 1]] + mesh.positions[indices[i + 2]]) /
+                     3.0F);
   }
   return out;
+}
+
+/// Draws parts of the index buffer, in the order given.
+void draw_ranges(const VertexArrayName& vertex_array, const std::vector<MeshPiece>& ranges) {
+  std::vector<GLsizei> counts;
+  std::vector<const void*> offsets;
+  for (const MeshPiece& range : ranges) {
+    counts.push_back(static_cast<GLsizei>(range.index_count));
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): where a buffer is bound, OpenGL takes an offset for a pointer
+    offsets.push_back(reinterpret_cast<const void*>(std::size_t{range.first_index} * sizeof(std::uint32_t)));
+  }
+  glBindVertexArray(vertex_array.get());
+  glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
+                      static_cast<GLsizei>(counts.size()));
 }
 
 }  // namespace
@@ -93,15 +110,17 @@ void GpuAssets::upload(const SceneAssets& assets) {
   while (meshes_.size() < assets.meshes.size()) {
     const MeshData& mesh = assets.meshes[meshes_.size()];
     const std::vector<float> vertices = interleave(mesh);
-    GpuMesh gpu{make_vertex_array(), make_buffer(), make_buffer(), static_cast<std::int32_t>(mesh.indices.size()),
-                middles_of(mesh)};
+    PiecedIndices cut = cut_up(mesh, kPiece);
+    GpuMesh gpu{make_vertex_array(),   make_buffer(),
+                make_buffer(),         static_cast<std::int32_t>(cut.indices.size()),
+                std::move(cut.pieces), middles_of(mesh, cut.indices)};
     glBindVertexArray(gpu.vertex_array.get());
     glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.get());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
                  GL_STATIC_DRAW);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices.get());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
-                 mesh.indices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(cut.indices.size() * sizeof(std::uint32_t)),
+                 cut.indices.data(), GL_STATIC_DRAW);
     describe_vertices();
     meshes_.push_back(std::move(gpu));
   }
@@ -113,19 +132,25 @@ void GpuAssets::draw(std::uint32_t mesh) const {
   glDrawElements(GL_TRIANGLES, meshes_[mesh].index_count, GL_UNSIGNED_INT, nullptr);
 }
 
+const std::vector<MeshPiece>& GpuAssets::pieces(std::uint32_t mesh) const {
+  MECHANE_ASSERT(mesh < meshes_.size());
+  return meshes_[mesh].pieces;
+}
+
+void GpuAssets::draw_pieces(std::uint32_t mesh, std::span<const std::uint32_t> pieces) const {
+  MECHANE_ASSERT(mesh < meshes_.size());
+  std::vector<MeshPiece> ranges;
+  for (const std::uint32_t piece : pieces)
+    ranges.push_back(meshes_[mesh].pieces[piece]);
+  draw_ranges(meshes_[mesh].vertex_array, ranges);
+}
+
 void GpuAssets::draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const {
   MECHANE_ASSERT(mesh < meshes_.size());
-  glBindVertexArray(meshes_[mesh].vertex_array.get());
-  const std::vector<GLsizei> counts(triangles.size(), 3);
-  std::vector<const void*> offsets;
-  offsets.reserve(triangles.size());
-  for (const std::uint32_t triangle : triangles) {
-    MECHANE_ASSERT(triangle < meshes_[mesh].middles_M.size());
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): where a buffer is bound, OpenGL takes an offset for a pointer
-    offsets.push_back(reinterpret_cast<const void*>(std::size_t{3} * triangle * sizeof(std::uint32_t)));
-  }
-  glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
-                      static_cast<GLsizei>(triangles.size()));
+  std::vector<MeshPiece> ranges;
+  for (const std::uint32_t triangle : triangles)
+    ranges.push_back({3 * triangle, 3, {}});
+  draw_ranges(meshes_[mesh].vertex_array, ranges);
 }
 
 bool GpuAssets::is_clear(std::uint32_t material) const {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "client-sdk/display/culling.hpp"
 #include "client-sdk/display/gl_object.hpp"
 #include "client-sdk/display/render_scene.hpp"
 #include "client-sdk/display/shader.hpp"
@@ -43,6 +44,10 @@ class GpuAssets {
   void upload(const SceneAssets& assets);
   /// Draws the triangles; the program, with its uniforms, must be in use.
   void draw(std::uint32_t mesh) const;
+  /// What the mesh is cut into, so that what is out of sight need not be drawn.
+  [[nodiscard]] const std::vector<MeshPiece>& pieces(std::uint32_t mesh) const;
+  /// Draws some of the pieces.
+  void draw_pieces(std::uint32_t mesh, std::span<const std::uint32_t> pieces) const;
   /// Draws some of the triangles, in the order given.
   void draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] bool is_clear(std::uint32_t material) const;
@@ -57,6 +62,7 @@ class GpuAssets {
     BufferName vertices;
     BufferName indices;
     std::int32_t index_count = 0;
+    std::vector<MeshPiece> pieces;
     std::vector<Vec3f> middles_M;  ///< of the triangles
   };
   std::vector<GpuMesh> meshes_;

@@ -1,9 +1,45 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
 #include <epoxy/gl.h>
 
 #include "client-sdk/display/passes.hpp"
 #include "client-sdk/display/procedural_mesh.hpp"
 
 namespace mechane::display {
+
+namespace {
+
+struct SolidPiece {
+  float steps_away = 0;
+  std::uint32_t instance = 0;
+  std::uint32_t piece = 0;
+};
+
+/// What can be seen of all that is solid, the nearest first: what it hides need not be lit. Order is by whole steps of a distance that
+/// doubles every two, so that pieces of one thing stay together and few change places while something moves.
+std::vector<SolidPiece> from_front_to_back(const PassInput& input) {
+  const Eigen::Matrix4f PV = input.view.P * input.view.V_CW;
+  std::vector<SolidPiece> out;
+  for (std::uint32_t i = 0; i < input.scene.instances.size(); ++i) {
+    const Instance& instance = input.scene.instances[i];
+    if (input.assets.is_clear(instance.material)) continue;
+    const Eigen::Matrix4f PV_MC = PV * instance.X_WM.matrix();
+    const std::vector<MeshPiece>& pieces = input.assets.pieces(instance.mesh);
+    for (std::uint32_t k = 0; k < pieces.size(); ++k) {
+      if (is_outside(PV_MC, pieces[k].box_M)) continue;
+      const float away_m = distance_m(instance.X_WM, pieces[k].box_M, input.view.p_WE);
+      out.push_back({std::floor(2 * std::log2(std::max(away_m, 0.1F))), i, k});
+    }
+  }
+  std::ranges::sort(out, [](const SolidPiece& a, const SolidPiece& b) {
+    return std::tie(a.steps_away, a.instance, a.piece) < std::tie(b.steps_away, b.instance, b.piece);
+  });
+  return out;
+}
+
+}  // namespace
 
 Expected<OpaquePass> OpaquePass::create() {
   Expected<Program> surface =
@@ -28,11 +64,17 @@ void OpaquePass::draw(const PassInput& input) const {
   surface_.use();
   set_lighting(surface_, input);
   set_material_units(surface_);
-  for (const Instance& instance : input.scene.instances) {
-    if (input.assets.is_clear(instance.material)) continue;
+  const std::vector<SolidPiece> solid = from_front_to_back(input);
+  std::vector<std::uint32_t> run;
+  for (std::size_t first = 0; first < solid.size();) {
+    const std::uint32_t of = solid[first].instance;
+    run.clear();
+    for (; first < solid.size() && solid[first].instance == of; ++first)
+      run.push_back(solid[first].piece);
+    const Instance& instance = input.scene.instances[of];
     set_model(surface_, instance.X_WM);
     input.assets.use_material(instance.material, surface_);
-    input.assets.draw(instance.mesh);
+    input.assets.draw_pieces(instance.mesh, run);
   }
   if (!input.ropes.empty()) {
     glEnable(GL_CULL_FACE);

@@ -24,18 +24,24 @@ struct PassInput {
   const HdrTarget& target;  ///< where they draw to
 };
 
-/// Depth from the sun, once for both eyes.
+/// Depth from the sun, once for both eyes, and again only when something that throws a shadow has moved.
 class ShadowPass {
  public:
   [[nodiscard]] static Expected<ShadowPass> create(std::uint32_t map_size);
   /// Returns world to clip space of the sun.
-  Eigen::Matrix4f draw(const RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes) const;
+  Eigen::Matrix4f draw(const RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes);
+  /// The meshes are others from now on.
+  void forget() { drawn_.clear(); }
+  /// How often the map was drawn anew.
+  [[nodiscard]] std::uint64_t times_drawn() const { return times_drawn_; }
   [[nodiscard]] const ShadowTarget& map() const { return map_; }
 
  private:
   ShadowPass(Program program, ShadowTarget map) : program_(std::move(program)), map_(std::move(map)) {}
   Program program_;
   ShadowTarget map_;
+  std::vector<float> drawn_;  ///< all that the map depends on, as it was drawn
+  std::uint64_t times_drawn_ = 0;
 };
 
 /// Everything solid, ropes, and the plain of earth. (A depth pass before it was tried: it costs more than it saves, here and with meshes of small

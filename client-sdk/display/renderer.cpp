@@ -101,11 +101,13 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   }
   if (auto ok = fit_targets(stereo, size, scene.inset.has_value()); !ok) return ok;
   if (auto ok = fit_sky(scene.sun); !ok) return ok;
+  mark(nullptr);
   MeshData ropes;
   for (const RenderRope& rope : scene.ropes)
     append_rope(rope, ropes);
   ropes_.upload(ropes);
   const Eigen::Matrix4f PV_light = passes_.shadow.draw(scene, assets_, ropes_);
+  mark("shadow");
   if (scene.inset) {
     draw_view(scene, eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size)), PV_light, *inset_);
   }
@@ -113,14 +115,31 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   for (std::size_t i = 0; i < eyes.size(); ++i) {
     draw_view(scene, eye_view(scene.camera, eyes[i], aspect_of(eye_pixels)), PV_light, *hdr_);
     finish_eye(scene, eye_pixels, target_of(stereo, i));
+    mark("tone and words");
   }
   if (stereo == Stereo::anaglyph || stereo == Stereo::row_interleaved) {
     glBindFramebuffer(GL_FRAMEBUFFER, picture_->framebuffer.get());
     glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
     passes_.composite.draw(*eyes_[0], *eyes_[1], stereo, settings_.right_eye_first);
+    mark("composite");
   }
   last_ = stereo;
   return {};
+}
+
+void Renderer::mark(const char* pass) {
+  if (!settings_.profile) return;
+  glFinish();
+  const auto wall = std::chrono::steady_clock::now();
+  const std::clock_t cpu = std::clock();
+  if (pass == nullptr) {
+    pass_times_.clear();
+  } else {
+    pass_times_.push_back({pass, std::chrono::duration<double, std::milli>(wall - wall_mark_).count(),
+                           1e3 * static_cast<double>(cpu - cpu_mark_) / CLOCKS_PER_SEC});
+  }
+  wall_mark_ = wall;
+  cpu_mark_ = cpu;
 }
 
 Renderer::EyeTarget Renderer::target_of(Stereo stereo, std::size_t eye) const {
@@ -144,10 +163,15 @@ void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Ei
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   passes_.opaque.draw(input);
+  mark("opaque");
   passes_.sky.draw(input);
+  mark("sky");
   passes_.water.draw(input);
+  mark("water");
   passes_.clear.draw(input);
+  mark("clear");
   passes_.particle.draw(input);
+  mark("particles");
 }
 
 void Renderer::finish_eye(const RenderScene& scene, PixelSize eye, const EyeTarget& into) {

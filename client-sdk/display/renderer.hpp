@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <chrono>
+#include <ctime>
 #include <memory>
 #include <optional>
 
@@ -16,8 +18,16 @@ struct RendererSettings {
   int samples = 4;  ///< a pixel, 1..8
   std::uint32_t shadow_map_size = 2048;
   float exposure = 1.15F;
+  bool profile = false;          ///< waits for each pass and keeps its time: pass_times()
   bool right_eye_first = false;  ///< row_interleaved: the screen's uppermost row is the right eye's
   std::string font_folder = default_font_folder();
+};
+
+/// What a pass took, waited for.
+struct PassTime {
+  const char* pass = "";
+  double wall_ms = 0;
+  double cpu_ms = 0;  ///< of all threads of this process: a software renderer's cost
 };
 
 class Renderer {
@@ -28,11 +38,18 @@ class Renderer {
   /// Uploads what is new in `assets`.
   void upload(const SceneAssets& assets) { assets_.upload(assets); }
   /// Frees all that was uploaded: another scenario begins.
-  void forget_assets() { assets_ = {}; }
+  void forget_assets() {
+    assets_ = {};
+    passes_.shadow.forget();
+  }
+  /// How often the shadow map was drawn: not in each picture.
+  [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return passes_.shadow.times_drawn(); }
   /// Draws into the renderer's own picture. Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const RenderScene& scene, Stereo stereo, PixelSize size);
   /// The last picture, upper row first. Waits for the graphics card. Of quad_buffer, that eye's.
   [[nodiscard]] ImageData read_picture(Eye eye = Eye::left) const;
+  /// Of the last picture, in the order drawn; both eyes' stand one after the other. Empty without RendererSettings::profile.
+  [[nodiscard]] const std::vector<PassTime>& pass_times() const { return pass_times_; }
   /// Waits until the last picture is drawn.
   static void finish();
   /// Copies the last picture into the window; after quad_buffer, into both of its pictures.
@@ -53,6 +70,8 @@ class Renderer {
   Renderer(const RendererSettings& settings, Passes passes) : settings_(settings), passes_(std::move(passes)) {}
   [[nodiscard]] Expected<void> fit_targets(Stereo stereo, PixelSize picture, bool inset);
   [[nodiscard]] Expected<void> fit_sky(const Sun& sun);
+  /// Begins to measure; with a name: ends a pass and begins the next.
+  void mark(const char* pass);
   void draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
                  const HdrTarget& target);
   /// Where an eye's finished picture goes: into `target`, its lower left corner at (x, y).
@@ -76,6 +95,9 @@ class Renderer {
   std::optional<PictureTarget> picture_;              ///< quad_buffer: not used
   std::array<std::optional<PictureTarget>, 2> eyes_;  ///< left and right, where they are put together afterwards
   Stereo last_ = Stereo::mono;
+  std::vector<PassTime> pass_times_;
+  std::chrono::steady_clock::time_point wall_mark_;
+  std::clock_t cpu_mark_ = 0;
 };
 
 }  // namespace mechane::display

@@ -71,9 +71,10 @@ vec2 environment_factor(float roughness, float nv) {
 }
 
 vec3 reflected_sky(vec3 r, float roughness) {
-  vec3 sharp = sky_radiance(r);
   vec3 blurred = irradiance_from_sky(r) / kPi;
-  return sky_on * mix(sharp, blurred, smoothstep(0.15, 0.75, roughness));
+  // Most of what is built is rough: the sharp sky, which costs more than all the rest, is not looked up for it.
+  if (roughness >= 0.75) return sky_on * blurred;
+  return sky_on * mix(sky_radiance(r), blurred, smoothstep(0.15, 0.75, roughness));
 }
 
 // What fires near by send, without shadows; a normal of no length takes light from all around.
@@ -107,7 +108,9 @@ void shade_apart(Surface s, vec3 p_W, vec3 n_geometric, out vec3 body, out vec3 
     float d = nh * nh * (a2 - 1.0) + 1.0;
     float ggx = a2 / (kPi * d * d);
     float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
-    vec3 f = f0 + (1.0 - f0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    float away = 1.0 - max(dot(v, h), 0.0);
+    float away2 = away * away;
+    vec3 f = f0 + (1.0 - f0) * away2 * away2 * away;
     vec3 arriving = sun_irradiance * nl * sun * mix(1.0, open, 0.35);
     body += (1.0 - f) * diffuse / kPi * arriving;
     mirrored += ggx * visible * f * arriving;

@@ -125,6 +125,48 @@ TEST_F(DrawnPicture, what_is_near_hides_what_is_far_in_whichever_order) {
   }
 }
 
+TEST_F(DrawnPicture, shadows_are_drawn_anew_when_something_moves_and_only_then) {
+  Ball ball;
+  const ImageData first = draw(ball.assets, ball.scene);
+  EXPECT_EQ(draw(ball.assets, ball.scene).rgba, first.rgba);
+  EXPECT_EQ(renderer_->shadow_maps_drawn(), 1U);
+  ball.scene.camera.p_WC.x() += 0.1;
+  (void)draw(ball.assets, ball.scene);
+  EXPECT_EQ(renderer_->shadow_maps_drawn(), 1U) << "who looks throws no shadow";
+  ball.scene.camera.p_WC.x() -= 0.1;
+  const Eigen::Vector2d shadow = ball.pixel(Vec3(-0.55, 0, 0), kSize);
+  const double dark = mean(first, shadow.x(), shadow.y(), 3);
+  ball.scene.instances[0].X_WM.translation().z() = -0.9F;
+  const ImageData moved = draw(ball.assets, ball.scene);
+  EXPECT_GT(mean(moved, shadow.x(), shadow.y(), 3), dark + 50) << "the shadow went with the ball";
+  EXPECT_EQ(renderer_->shadow_maps_drawn(), 2U);
+  RenderRope rope;
+  rope.radius_m = 0.1F;
+  rope.points_W = {Vec3f(-1, 0.4F, 0), Vec3f(1, 0.4F, 0)};
+  ball.scene.ropes.push_back(rope);
+  (void)draw(ball.assets, ball.scene);
+  ball.scene.ropes[0].points_W[0].y() = 0.5F;
+  (void)draw(ball.assets, ball.scene);
+  EXPECT_EQ(renderer_->shadow_maps_drawn(), 4U);
+  // Other meshes under the same numbers.
+  renderer_->forget_assets();
+  (void)draw(ball.assets, ball.scene);
+  EXPECT_EQ(renderer_->shadow_maps_drawn(), 5U);
+}
+
+TEST_F(DrawnPicture, what_is_out_of_sight_still_throws_its_shadow_into_the_picture) {
+  Ball ball;
+  // Up to the sun's side, above the picture's edge.
+  ball.scene.instances[0].X_WM.translation() = Vec3f(1.8F, 2.3F, 0);
+  ball.scene.shadow_box_W.extend(Vec3f(2.2F, 2.7F, 0));
+  const Eigen::Vector2d where = ball.pixel(Vec3(1.8, 2.3, 0), kSize);
+  ASSERT_LT(where.y(), -100);
+  const ImageData image = draw(ball.assets, ball.scene);
+  const Eigen::Vector2d shadow = ball.pixel(Vec3(-0.5, 0, 0), kSize);
+  const Eigen::Vector2d open = ball.pixel(Vec3(0.5, 0, 0), kSize);
+  EXPECT_LT(mean(image, shadow.x(), shadow.y(), 3), mean(image, open.x(), open.y(), 3) - 50);
+}
+
 TEST_F(DrawnPicture, a_hand_near_a_surface_darkens_it) {
   const Ball ball;
   RenderScene scene = ball.scene;

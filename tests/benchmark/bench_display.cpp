@@ -1,0 +1,133 @@
+// How long a display takes for a picture of a scenario, pass by pass, offscreen: at the start of the visit, nobody there. Wall time, and the
+// processor's (all threads: a software renderer's cost, however busy the machine is).
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "client-sdk/display/image_file.hpp"
+#include "client-sdk/display/renderer.hpp"
+#include "client-sdk/display/scene_builder.hpp"
+#include "server/content/mesh_import.hpp"
+#include "server/scenario/compiler.hpp"
+#include "server/scenario/file_finder.hpp"
+#include "tests/benchmark/bench_stats.hpp"
+
+namespace mechane::benchmark {
+namespace {
+
+struct Config {
+  std::string scenario;
+  std::string out;
+  std::string stereo = "mono";
+  int frames = 15;
+  std::uint32_t width = 1280;
+  std::uint32_t height = 720;
+};
+
+std::vector<client::SceneObject> objects_of(const state::WorldDescription& world) {
+  std::vector<client::SceneObject> out;
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
+    const state::BodyDescription& body = world.bodies[i];
+    client::SceneObject object;
+    object.index = i;
+    object.name = body.name;
+    object.mesh_uri = body.mesh.uri;
+    object.mesh_node = body.mesh.node;
+    object.X_WB = body.X_WB;
+    object.movable = !body.fixed;
+    out.push_back(object);
+  }
+  return out;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+Expected<void> measure(const Config& config, const display::RenderScene& scene, const display::SceneAssets& assets,
+                       Report& report) {
+  auto context = display::make_offscreen_context({config.width, config.height});
+  if (!context) return tl::unexpected(context.error());
+  display::RendererSettings settings;
+  settings.profile = true;
+  auto renderer = display::Renderer::create(settings);
+  if (!renderer) return tl::unexpected(renderer.error());
+  const auto stereo =
+      std::ranges::find(display::stereo_names(), config.stereo, &std::pair<std::string_view, display::Stereo>::first);
+  if (stereo == display::stereo_names().end()) return fail("no such mode", config.stereo, "see mechane display --help");
+  (*renderer)->upload(assets);
+  std::map<std::string, std::vector<double>> wall_ms;
+  std::map<std::string, std::vector<double>> cpu_ms;
+  display::RenderScene moving = scene;
+  for (int frame = -2; frame < config.frames; ++frame) {
+    moving.time_s += 1.0 / 60;
+    if (auto ok = (*renderer)->draw(moving, stereo->second, {config.width, config.height}); !ok) return ok;
+    std::map<std::string, display::PassTime> sums;
+    for (const display::PassTime& time : (*renderer)->pass_times()) {
+      for (const std::string& name : {std::string(time.pass), std::string("frame")}) {
+        sums[name].wall_ms += time.wall_ms;
+        sums[name].cpu_ms += time.cpu_ms;
+      }
+    }
+    if (frame < 0) continue;  // shaders are compiled while the first are drawn
+    for (const auto& [name, time] : sums) {
+      wall_ms[name].push_back(time.wall_ms);
+      cpu_ms[name].push_back(time.cpu_ms);
+    }
+  }
+  for (const auto& [name, values] : wall_ms) {
+    report.metric(name + ".wall_ms.median", median(values));
+    report.metric(name + ".cpu_ms.median", median(cpu_ms[name]));
+  }
+  report.note((*context)->renderer_name());
+  return config.out.empty() ? Expected<void>() : display::write_png((*renderer)->read_picture(), config.out);
+}
+
+int main_of(const Config& config) {
+  scenario::FileFinder finder;
+  scenario::Problems problems(config.scenario);
+  const auto world = scenario::read_scenario(config.scenario, finder, problems);
+  if (!world) {
+    std::cerr << "bench_display: " << world.error().to_string() << "\n";
+    return 1;
+  }
+  const std::filesystem::path folder = std::filesystem::path(config.scenario).parent_path();
+  display::AssetLibrary library([&](const std::string& uri) { return content::import_mesh(folder / uri); });
+  display::SceneBuilder builder(library, "en");
+  builder.set_manifest(objects_of(*world));
+  const display::RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
+  std::size_t triangles = 0;
+  for (const display::Instance& instance : scene.instances)
+    triangles += library.assets().meshes[instance.mesh].indices.size() / 3;
+  Report report;
+  report.metric("instances", static_cast<double>(scene.instances.size()));
+  report.metric("triangles", static_cast<double>(triangles));
+  if (auto ok = measure(config, scene, library.assets(), report); !ok) {
+    std::cerr << "bench_display: " << ok.error().to_string() << "\n";
+    return 1;
+  }
+  std::cout << report.text() << "\n";
+  return 0;
+}
+
+}  // namespace
+}  // namespace mechane::benchmark
+
+int main(int argc, char** argv) {
+  mechane::benchmark::Config config;
+  CLI::App app{"Draws a scenario as a display does, and times each pass"};
+  app.add_option("scenario", config.scenario, "X3D file")->required()->check(CLI::ExistingFile);
+  app.add_option("--frames", config.frames, "pictures that count")->check(CLI::Range(1, 10'000));
+  app.add_option("--width", config.width, "pixels")->check(CLI::Range(16, 8192));
+  app.add_option("--height", config.height, "pixels")->check(CLI::Range(16, 8192));
+  app.add_option("--stereo", config.stereo, "as mechane display has it");
+  app.add_option("--out", config.out, "writes the last picture, PNG");
+  CLI11_PARSE(app, argc, argv);
+  return mechane::benchmark::main_of(config);
+}
