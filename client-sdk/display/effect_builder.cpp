@@ -23,6 +23,7 @@ std::optional<WaterStream> water_of(const client::Effect& effect, double flow_m3
   double speed_m_per_s = effect.speed_m_per_s;
   double width_m = 0;
   if (effect.kind == "jet") {
+    stream.jet = true;
     width_m = effect.size_m;
     speed_m_per_s = flow_m3_per_s / (kPi / 4 * width_m * width_m);
     if (speed_m_per_s < 0.02) return std::nullopt;

@@ -184,8 +184,9 @@ void SceneBuilder::add_what_moves(const client::Frame& frame, const client::Worl
   for (const client::RopeShape& rope : frame.ropes) {
     RenderRope& drawn = out.ropes.emplace_back();
     drawn.radius_m = static_cast<float>(rope.diameter_m / 2);
-    for (const Vec3& p_W : rope.points_W)
-      drawn.points_W.push_back(p_W.cast<float>());
+    // From the end that is tied: the lay is counted from there, and stays where it is while a drum takes up the other end.
+    for (auto p_W = rope.points_W.rbegin(); p_W != rope.points_W.rend(); ++p_W)
+      drawn.points_W.push_back(p_W->cast<float>());
   }
   if (presentation_ == nullptr || status == nullptr) return;
   float landing_height_m = ground_height_m_.value_or(0);

@@ -176,6 +176,7 @@ TEST(SceneBuilder, a_jet_of_the_same_bore_is_faster_with_more_water) {
   ASSERT_EQ(scene.streams.size(), 1U);
   EXPECT_NEAR(scene.streams[0].v_W.norm(), 2.546, 0.001);
   EXPECT_FLOAT_EQ(scene.streams[0].width_m, 0.01F);
+  EXPECT_TRUE(scene.streams[0].jet);
 }
 
 TEST(SceneBuilder, ropes_and_close_ups_are_as_the_server_says) {
