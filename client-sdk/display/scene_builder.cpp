@@ -59,7 +59,7 @@ Camera camera_at(const client::View& view, const Eigen::AlignedBox3d& interest_W
 
 /// What the view shows stays in sight above the caption: it sees as much more, all of it below.
 Camera above_caption(Camera camera) {
-  constexpr double kCaption = 0.16;  // of the picture's height
+  constexpr double kCaption = 0.12;  // of the picture's height
   const double half = std::tan(camera.field_of_view_rad / 2);
   const double wider = half / (1 - kCaption);
   camera.field_of_view_rad = 2 * std::atan(wider);
