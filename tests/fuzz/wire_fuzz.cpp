@@ -9,6 +9,7 @@
 #include "client-sdk/client/frame_history.hpp"
 #include "client-sdk/client/parse.hpp"
 #include "server/transport/validate.hpp"
+#include "server/transport/visit_answer.hpp"
 #include <mechane/client/types.hpp>
 #include <mechane/proto/convert.hpp>
 
@@ -90,6 +91,15 @@ void fuzz_frame(Bytes bytes) {
     proto::look_into(wire.visible, visible);
     proto::look_into(wire.quantities, quantities);
     proto::look_into(wire.hands, hands);
+    std::vector<float> line(bytes.take<std::uint8_t>() % 32);
+    for (float& number : line)
+      number = bytes.take<float>();
+    std::vector<proto::WireRope> ropes(bytes.take<std::uint8_t>() % 3);
+    for (auto& rope : ropes) {
+      rope.diameter_m = bytes.take<float>();
+      proto::look_into(rope.p_W, line);
+    }
+    proto::look_into(wire.ropes, ropes);
     client::Frame frame;
     if (!client::parse(wire, frame)) continue;
     frame.received = TimePoint(std::chrono::hours(1) + i * std::chrono::milliseconds(16));
@@ -99,6 +109,58 @@ void fuzz_frame(Bytes bytes) {
   if (!history.at(TimePoint(std::chrono::hours(1)), out)) return;
   for (const auto& body : out.bodies)
     must(std::abs(body.X_WB.R.norm() - 1) < 1e-6);
+  for (const auto& rope : out.ropes)
+    must(rope.diameter_m > 0);
+}
+
+void fuzz_presentation(Bytes bytes) {
+  std::vector<proto::WireView> views(bytes.take<std::uint8_t>() % 4);
+  for (auto& view : views) {
+    view.X_WV = bytes.take<proto::WirePose>();
+    view.field_of_view_rad = bytes.take<float>();
+  }
+  std::vector<proto::WireEffect> effects(bytes.take<std::uint8_t>() % 4);
+  for (auto& effect : effects) {
+    effect = bytes.take<proto::WireEffect>();
+    effect.name = effect.kind = effect.node = nullptr;
+  }
+  std::vector<proto::WireQuestion> questions(bytes.take<std::uint8_t>() % 4);
+  for (auto& question : questions) {
+    question = {};
+    question.kind = bytes.take<std::uint8_t>();
+    question.marks = bytes.take<std::uint32_t>();
+  }
+  std::vector<proto::WireActivity> activities(bytes.take<std::uint8_t>() % 4);
+  for (auto& activity : activities)
+    proto::look_into(activity.questions, questions);
+  proto::WorldPresentation wire{};
+  wire.protocol = proto::kProtocol;
+  proto::look_into(wire.views, views);
+  proto::look_into(wire.effects, effects);
+  proto::look_into(wire.activities, activities);
+  client::WorldPresentation presentation;
+  if (!client::parse(wire, presentation)) return;
+  for (const auto& view : presentation.views)
+    must(view.field_of_view_rad > 0 && view.field_of_view_rad < kPi && std::abs(view.X_WV.R.norm() - 1) < 1e-9);
+  for (const auto& effect : presentation.effects)
+    must(effect.full > 0 && std::abs(effect.direction_B.norm() - 1) < 0.02 && effect.p_BE.allFinite());
+}
+
+/// A scenario with one question of each kind, and the argument of a command.
+void fuzz_answer(const std::uint8_t* data, std::size_t size) {
+  state::WorldDescription world;
+  state::QuestionDescription choice, scale;
+  choice.name = scale.name = "q";
+  choice.answers = {{"a", {}}, {"", {}}};
+  scale.kind = state::QuestionDescription::Kind::scale;
+  state::ActivityDescription one, other;
+  one.name = "use";
+  one.questionnaire = {choice, scale};
+  world.activities = {one, other};
+  const auto answer = transport::read_answer({reinterpret_cast<const char*>(data), size}, world);
+  if (!answer) return;
+  must(answer->activity.index() == 0 && answer->question < 2);
+  must(answer->question == 0 ? answer->answer < 2 : answer->answer >= 1 && answer->answer <= 5);
 }
 
 }  // namespace
@@ -106,6 +168,14 @@ void fuzz_frame(Bytes bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const Bytes rest(data + 1, size - 1);
+  if (data[0] >= 0x80) {
+    if (data[0] % 2 == 0) {
+      fuzz_presentation(rest);
+    } else {
+      fuzz_answer(data + 1, size - 1);
+    }
+    return 0;
+  }
   switch (data[0] % 4) {
     case 0:
       fuzz_input(rest);

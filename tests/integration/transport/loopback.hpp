@@ -68,11 +68,29 @@ class LoopbackDomain {
     body.mesh = {"models/small.glb", "abcd", body.name};
     world->bodies.push_back(body);
   }
-  world->activities.push_back({"use", StepId(0), {}});
+  state::QuestionDescription liked;
+  liked.name = "liked";
+  liked.kind = state::QuestionDescription::Kind::scale;
+  liked.question = {{"en", "Did you like it?"}};
+  liked.high = {{"en", "much"}};
+  world->activities.push_back(
+      {.name = "use", .first = StepId(0), .title = {}, .goal = {{"en", "Cranks turn."}}, .questionnaire = {liked}});
+  world->languages = {"el", "en"};
+  world->viewpoints.push_back({"NEAR", "near", {Vec3(0, 1.5, 2), Quat::Identity()}, 0.7});
+  state::EffectDescription spout;
+  spout.name = "SPOUT";
+  spout.kind = "stream";
+  spout.body = BodyId(1);
+  spout.p_BE = Vec3(0, 0.25, 0);
+  spout.quantity = QuantityId(0);
+  spout.full = 2;
+  world->effects.push_back(spout);
   state::StepDescription step;
   step.name = "turn";
   step.activity = ActivityId(0);
   step.texts["caption"] = {{"en", "Turn the crank"}};
+  step.texts["narration"] = {{"en", "A crank has an arm."}};
+  step.detail = "NEAR";
   world->steps.push_back(step);
   world->quantities.push_back({"water", "PUMP.basin_l", "l"});
   return world;
@@ -96,6 +114,13 @@ class EchoServer {
       return;
     }
     port_ = *port;
+    state::Coupling rope;
+    rope.kind = state::CouplingKind::rope;
+    rope.enabled = true;
+    rope.node_count = 2;
+    rope.nodes[0].body = BodyId(0);
+    rope.nodes[1].body = BodyId(2);
+    if (bodies > 2) state_.couplings.push_back(rope);
     state_.progress.activity = ActivityId(0);
     state_.progress.step = StepId(0);
     main_ = std::thread([this] { run_main(); });
@@ -115,6 +140,11 @@ class EchoServer {
     const std::lock_guard lock(mutex_);
     return samples_;
   }
+  /// What visitors have answered.
+  [[nodiscard]] std::vector<transport::VisitAnswer> answers() const {
+    const std::lock_guard lock(mutex_);
+    return answers_;
+  }
   [[nodiscard]] std::vector<transport::NewsKind> news() const {
     const std::lock_guard lock(mutex_);
     return news_;
@@ -126,6 +156,10 @@ class EchoServer {
     while (!stop_) {
       for (const transport::News& n : transport_->poll(std::chrono::steady_clock::now()))
         handle(n);
+      while (const auto answer = port_->take_answer()) {
+        const std::lock_guard lock(mutex_);
+        answers_.push_back(*answer);
+      }
       never.wait(std::chrono::milliseconds(10));
     }
   }
@@ -195,6 +229,7 @@ class EchoServer {
   mutable std::mutex mutex_;
   std::vector<state::HandSample> samples_;
   std::vector<transport::NewsKind> news_;
+  std::vector<transport::VisitAnswer> answers_;
   std::thread main_;
   std::thread loop_;
 };

@@ -116,6 +116,48 @@ TEST_F(Loopback, AWatcherLearnsManifestStatusFramesAndCommandsAreAnswered) {
   }));
 }
 
+TEST_F(Loopback, AWatcherLearnsWhatToShowAndItsVisitorAnswers) {
+  EchoServer server;
+  auto watcher = connect(Role::watcher, "watcher");
+  ASSERT_TRUE(watcher->wait_for(LinkState::joined, 10s));
+  ASSERT_TRUE(eventually([&] { return watcher->presentation() && watcher->world_status(); }));
+  const client::WorldPresentation shown = *watcher->presentation();
+  EXPECT_EQ(shown.languages, (std::vector<std::string>{"el", "en"}));
+  ASSERT_EQ(shown.views.size(), 1U);
+  EXPECT_EQ(shown.views[0].name, "NEAR");
+  EXPECT_EQ(shown.views[0].X_WV.p, Vec3(0, 1.5, 2));
+  ASSERT_EQ(shown.effects.size(), 1U);
+  EXPECT_EQ(shown.effects[0].object, 1U);
+  EXPECT_EQ(shown.effects[0].p_BE, Vec3(0, 0.25, 0));
+  EXPECT_EQ(shown.effects[0].full, 2);
+  ASSERT_EQ(shown.activities.size(), 1U);
+  EXPECT_EQ(shown.activities[0].goal.at("en"), "Cranks turn.");
+  ASSERT_EQ(shown.activities[0].questions.size(), 1U);
+  EXPECT_EQ(shown.activities[0].questions[0].marks, 5U);
+  EXPECT_EQ(shown.activities[0].questions[0].high.at("en"), "much");
+  EXPECT_TRUE(eventually([&] { return watcher->world_status()->detail == "NEAR"; }));
+  EXPECT_EQ(watcher->world_status()->narration.at("en"), "A crank has an arm.");
+
+  client::Frame frame;
+  ASSERT_TRUE(eventually([&] { return watcher->newest_frame(frame) && frame.ropes.size() == 1; }));
+  EXPECT_NEAR(frame.ropes[0].diameter_m, 0.02, 1e-6);
+  EXPECT_EQ(frame.ropes[0].points_W.front(), Vec3(0, 0, 0));
+  EXPECT_EQ(frame.ropes[0].points_W.back(), Vec3(2, 0, 0));
+
+  const std::uint64_t good = watcher->answer(client::AnswerTime::after, "use", "liked", "4");
+  const std::uint64_t bad = watcher->answer(client::AnswerTime::after, "use", "liked", "6");
+  bool done = false, refused = false;
+  EXPECT_TRUE(eventually([&] {
+    for (const client::WorldEvent& event : watcher->take_events()) {
+      done = done || (event.kind == "command_done" && event.value == static_cast<double>(good));
+      refused = refused || (event.kind == "command_refused" && event.value == static_cast<double>(bad));
+    }
+    return done && refused && server.answers().size() == 1;
+  }));
+  EXPECT_EQ(server.answers().at(0).answer, 4U);
+  EXPECT_TRUE(server.answers().at(0).after);
+}
+
 TEST_F(Loopback, TheFirstSessionKeepsTheHandAndTheNextHasItWhenTheFirstIsGone) {
   EchoServer server;
   auto first = connect(Role::hand, "first-program");
