@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import collision
+import display
 import machine
 import path
 import worlds
@@ -17,7 +18,7 @@ from peers import Measured
 from plots import number
 
 ROOT = Path(__file__).resolve().parents[2]
-BENCHMARKS = {"path": path, "collision": collision, "worlds": worlds}
+BENCHMARKS = {"path": path, "collision": collision, "worlds": worlds, "display": display}
 
 
 @dataclass

@@ -1,0 +1,82 @@
+"""What a picture costs: by pass, by size, for one eye and for two of full size. On a machine without a graphics card the processor draws."""
+
+from peers import Measured, Missing, own
+from plots import bars, number
+
+PROGRAM_LIMIT_S = 600
+SCENES = ("village", "odometer")
+PICTURES = (("mono", 1280, 720), ("mono", 1920, 1080), ("quad", 1280, 720))  # quad: two eyes, each of the full size
+FRAMES_PER_S = 1  # that the slowest machine draws: the time given says how many pictures count
+AIM_EYES, AIM_FRAME_MS = 1.7, 1000 / 60
+
+
+def _key(scene: str, stereo: str, height: int) -> str:
+    return f"{scene}.{stereo}{height}"
+
+
+def measure(context) -> tuple[Measured, list[str]]:
+    result, missing, drawn_by = Measured(), [], set()
+    frames = max(5, int(context.seconds * FRAMES_PER_S / len(PICTURES)))
+    for scene in SCENES:
+        scenario = context.root / f"scenarios/{scene}/{scene}.x3d"
+        for stereo, width, height in PICTURES:
+            print(f"  bench_display, {scene}, {stereo} {width}x{height}, {frames} pictures ...", flush=True)
+            try:
+                one = own(context.bin, "bench_display", [str(scenario), "--stereo", stereo, "--width", str(width), "--height", str(height), "--frames", str(frames)],
+                          PROGRAM_LIMIT_S)
+            except Missing as reason:
+                missing.append(f"display: {reason}")
+                continue
+            drawn_by.update(one.notes)
+            result.metrics |= {f"{_key(scene, stereo, height)}.{name}": value for name, value in one.metrics.items()}
+    for scene in SCENES:
+        add_ratio(result.metrics, scene)
+    result.notes += [f"drawn by {name}" for name in sorted(drawn_by)]
+    result.notes += missed(result.metrics)
+    return result, missing
+
+
+def add_ratio(metrics: dict[str, float], scene: str) -> None:
+    one, two = (metrics.get(f"{_key(scene, stereo, 720)}.frame.cpu_ms.median") for stereo in ("mono", "quad"))
+    if one and two:
+        metrics[f"{scene}.eyes_ratio"] = two / one
+
+
+def missed(metrics: dict[str, float]) -> list[str]:
+    found = []
+    for scene in SCENES:
+        if metrics.get(f"{scene}.eyes_ratio", 0) >= AIM_EYES:
+            found.append(f"missed: {scene}: two eyes cost {number(metrics[f'{scene}.eyes_ratio'])} times one, the aim is under {AIM_EYES}")
+        for stereo, _, height in PICTURES:
+            wall = metrics.get(f"{_key(scene, stereo, height)}.frame.wall_ms.median", 0)
+            if wall >= AIM_FRAME_MS:
+                found.append(f"missed: {scene}, {stereo} at {height} lines: {number(wall)} ms a picture, the aim (on a graphics card) is 60 a second")
+    return found
+
+
+def table(name: str, metrics: dict[str, float]) -> str:
+    keys = [_key(scene, stereo, height) for scene in SCENES for stereo, _, height in PICTURES]
+    keys = [key for key in keys if f"{key}.frame.cpu_ms.median" in metrics]
+    passes = sorted({metric.split(".")[2] for metric in metrics if metric.endswith(".cpu_ms.median")} - {"frame"})
+    rows = [["CPU ms, all threads", "frame", "p99", *passes, "wall ms", "triangles"]]
+    for key in keys:
+        shown = [f"{key}.frame.cpu_ms.median", f"{key}.frame.cpu_ms.p99", *(f"{key}.{one}.cpu_ms.median" for one in passes), f"{key}.frame.wall_ms.median",
+                 f"{key}.triangles"]
+        rows.append([key, *(number(metrics[metric]) if metric in metrics else "-" for metric in shown)])
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    text = [f"\n{name}", *("  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in rows)]
+    for scene in SCENES:
+        if f"{scene}.eyes_ratio" in metrics:
+            text.append(f"  {scene}: two eyes of full size cost {number(metrics[f'{scene}.eyes_ratio'])} times one (aim: under {AIM_EYES})")
+    return "\n".join(text)
+
+
+def plot(result: Measured, out, machine: str) -> list:
+    rows = sorted(((metric.removesuffix(".cpu_ms.median").replace("mono720.", ""), value) for metric, value in result.metrics.items()
+                   if ".mono720." in metric and metric.endswith(".cpu_ms.median") and not metric.startswith("frame")), key=lambda row: -row[1])
+    rows = [(name, value) for name, value in rows if value >= 0.1]
+    if not rows:
+        return []
+    made = out / "display-passes.svg"
+    bars(made, "A picture of 1280x720, pass by pass", f"median processor time of all threads. {machine}", rows, "ms", logarithmic=True)
+    return [made]
