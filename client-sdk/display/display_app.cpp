@@ -438,7 +438,8 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   config.domain = options.domain;
   auto client = client::Client::connect(config);
   if (!client) return tl::unexpected(client.error());
-  return DisplayLoop(possible, requests, **context, **renderer, **client, **typesetter, catalogue ? &*catalogue : nullptr)
+  return DisplayLoop(possible, requests, **context, **renderer, **client, **typesetter,
+                     catalogue ? &*catalogue : nullptr)
       .run();
 }
 

@@ -24,7 +24,7 @@ struct DisplayOptions {
   bool offscreen = false;
   PixelSize size{1280, 720};
   Stereo stereo = Stereo::mono;
-  ScreenSetup screen;  ///< that visitors stand before
+  ScreenSetup screen;           ///< that visitors stand before
   std::string language = "el";  ///< that it starts in, and comes back to when a visitor has gone
   std::string
       assets;  ///< folder, or address (http, https), that mesh files are relative to; empty: the scenario's folder, as the
@@ -41,7 +41,7 @@ struct DisplayOptions {
   RendererSettings renderer;
   AskWhen ask = AskWhen::after;  ///< an activity's questions
   OverlayStyle overlay;          ///< at the start; keys change it
-  SoundSettings sound;  ///< in a window; offscreen nothing is heard
+  SoundSettings sound;           ///< in a window; offscreen nothing is heard
 };
 
 /// What was done, for scripts.

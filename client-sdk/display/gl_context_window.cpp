@@ -16,7 +16,8 @@ class WindowContext final : public GlContext {
     });
     // Where the plus is on a keyboard, only its own layout knows.
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int letter) {
-      if (letter == '+') static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->keys_.push_back(DisplayKey::large_text);
+      if (letter == '+')
+        static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->keys_.push_back(DisplayKey::large_text);
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
       if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)

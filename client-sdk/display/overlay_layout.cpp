@@ -66,8 +66,8 @@ Box add_caption(Page& page, const OverlayContent& content, const Box& room) {
   page.add_panel(box);
   const float title_line = page.tx(kTitleSize * 1.2F);
   page.add_shape({box.x, box.y + padding, page.px(page.high_contrast ? 10 : 4), title_line}, 0, page.colours.gold);
-  const float dots = page.add_dots(box.right() - padding, box.y + padding + title_line / 2, content.steps_done,
-                                   content.steps_total);
+  const float dots =
+      page.add_dots(box.right() - padding, box.y + padding + title_line / 2, content.steps_done, content.steps_total);
   // A title that meets the dots is cut short: the caption says what matters.
   const auto title = page.lines(Face::bold, kTitleSize, content.title, box.width - 3 * padding - dots);
   if (!title.empty()) {
@@ -86,7 +86,11 @@ struct ReadoutSizes {
 
 ReadoutSizes readout_sizes(const Page& page) {
   const bool narrow = page.width < page.px(900);
-  return {narrow,        page.tx(narrow ? 14 : 18), page.tx(224), page.tx(narrow ? 56 : 92), page.tx(narrow ? 0 : 21),
+  return {narrow,
+          page.tx(narrow ? 14 : 18),
+          page.tx(224),
+          page.tx(narrow ? 56 : 92),
+          page.tx(narrow ? 0 : 21),
           narrow ? 28.F : 34.F};
 }
 
@@ -124,8 +128,7 @@ Box add_readouts(Page& page, const OverlayContent& content, const std::vector<Bo
   box.height = static_cast<float>(count) * s.row + edges;
   page.add_panel(box);
   for (std::size_t i = 0; i < count; ++i) {
-    add_readout(page, content.readouts[i], s, box.x + s.padding,
-                box.y + s.padding + static_cast<float>(i) * s.row);
+    add_readout(page, content.readouts[i], s, box.x + s.padding, box.y + s.padding + static_cast<float>(i) * s.row);
   }
   return box;
 }
@@ -204,7 +207,8 @@ void lay_out_captions(Page& page, const OverlayContent& content, const Box& corn
   const float margin = page.margin();
   const ReadoutSizes readout = readout_sizes(page);
   const float readouts = page.width - margin - (content.readouts.empty() ? 0 : readout.width + gap);
-  const bool note_above = (page.width + note.width) / 2 <= readouts && (page.width - note.width) / 2 >= inset.right() + gap;
+  const bool note_above =
+      (page.width + note.width) / 2 <= readouts && (page.width - note.width) / 2 >= inset.right() + gap;
   float top = inset.empty() ? margin : inset.below() + gap;
   // One number at least has its place before many words have theirs.
   if (!content.readouts.empty()) top = std::max(top, margin + 2 * readout.padding + readout.row + gap);

@@ -110,12 +110,16 @@ float Page::add_dots(float right, float middle, std::uint32_t done, std::uint32_
   const float space = tx(9);
   const float here = 2.4F * dot;
   const bool finished = done >= total;
-  const float wide = static_cast<float>(total) * dot + static_cast<float>(total - 1) * space + (finished ? 0 : here - dot);
+  const float wide =
+      static_cast<float>(total) * dot + static_cast<float>(total - 1) * space + (finished ? 0 : here - dot);
   float x = right - wide;
   for (std::uint32_t i = 0; i < total; ++i) {
     const bool present = i == done;
     const float w = present ? here : dot;
-    add_shape({x, middle - dot / 2, w, dot}, dot / 2, i < done ? colours.gold : present ? colours.paper : colours.faint);
+    add_shape({x, middle - dot / 2, w, dot}, dot / 2,
+              i < done  ? colours.gold
+              : present ? colours.paper
+                        : colours.faint);
     x += w + space;
   }
   return wide;

@@ -207,8 +207,8 @@ Box add_corner(Page& page, const std::vector<OverlayButton>& buttons) {
       door.w() = 1;
       add_house(page, box.x + padding, y + std::round((height - house) / 2), house, page.colours.gold, door);
     }
-    add_centred(page, {box.x + icon, y, width - icon, height}, Face::bold, kCornerText,
-                page.colours.paper, {button.text});
+    add_centred(page, {box.x + icon, y, width - icon, height}, Face::bold, kCornerText, page.colours.paper,
+                {button.text});
     add_target(page, box, button.action);
     right = box.x - page.px(12);
   }

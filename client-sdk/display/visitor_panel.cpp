@@ -14,10 +14,11 @@ struct PanelWords {
 
 /// The display's own words are in two languages; a world may have more.
 const PanelWords& words_in(const std::string& language) {
-  static const PanelWords kEnglish{"Village", "Home",      "Skip",
+  static const PanelWords kEnglish{"Village", "Home",       "Skip",
                                    "Close",   "Thank you!", "Your answers help us to make this exhibit better."};
-  static const PanelWords kGreek{"Χωριό",    "Αρχή",        "Παράλειψη",
-                                 "Κλείσιμο", "Ευχαριστούμε!", "Οι απαντήσεις σας μας βοηθούν να κάνουμε το έκθεμα καλύτερο."};
+  static const PanelWords kGreek{"Χωριό",         "Αρχή",
+                                 "Παράλειψη",     "Κλείσιμο",
+                                 "Ευχαριστούμε!", "Οι απαντήσεις σας μας βοηθούν να κάνουμε το έκθεμα καλύτερο."};
   return language == "el" ? kGreek : kEnglish;
 }
 

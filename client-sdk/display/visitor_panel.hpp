@@ -46,12 +46,15 @@ struct VisitorWishes {
 
 class VisitorPanel {
  public:
-  static constexpr Duration kQuestionsWait = std::chrono::seconds(45);  ///< without a click: then nobody is there who answers
+  static constexpr Duration kQuestionsWait =
+      std::chrono::seconds(45);  ///< without a click: then nobody is there who answers
   static constexpr Duration kFarewell = std::chrono::seconds(10);
-  static constexpr Duration kSettles = std::chrono::milliseconds(400);  ///< the second tap of a double one answers nothing
+  static constexpr Duration kSettles =
+      std::chrono::milliseconds(400);  ///< the second tap of a double one answers nothing
   static constexpr Duration kGoal = std::chrono::seconds(8);
-  static constexpr Duration kAlone = std::chrono::seconds(90);  ///< without a hand's motion or a click: the visitor has gone
-  static constexpr double kHandMoved_m = 0.005;                 ///< less is a device that trembles
+  static constexpr Duration kAlone =
+      std::chrono::seconds(90);                  ///< without a hand's motion or a click: the visitor has gone
+  static constexpr double kHandMoved_m = 0.005;  ///< less is a device that trembles
 
   explicit VisitorPanel(VisitorPanelSettings settings);
 
@@ -107,7 +110,7 @@ class VisitorPanel {
   std::optional<Asking> asking_;
   bool asked_before_ = false;  ///< in this run
   bool asked_after_ = false;
-  std::optional<TimePoint> last_sign_;  ///< of a visitor; none: there is nobody
+  std::optional<TimePoint> last_sign_;                             ///< of a visitor; none: there is nobody
   std::map<std::pair<std::string, std::uint32_t>, Vec3> hands_W_;  ///< by kiosk and user, where they last moved to
   VisitorWishes wishes_;
 };

@@ -80,7 +80,8 @@ struct Extent {
 
 bool overlap(const Extent& a, const Extent& b) {
   constexpr float kTouch = 0.5F;
-  return a.left + kTouch < b.right && b.left + kTouch < a.right && a.top + kTouch < b.bottom && b.top + kTouch < a.bottom;
+  return a.left + kTouch < b.right && b.left + kTouch < a.right && a.top + kTouch < b.bottom &&
+         b.top + kTouch < a.bottom;
 }
 
 /// From a capital's head to the line: what two lines must not share.
@@ -170,8 +171,10 @@ T between(T least, T most) {
 }
 
 std::string some_words(std::size_t least, std::size_t most) {
-  static const std::vector<std::string> kWords{"νερό", "κοχλίας", "η", "σιγά-σιγά", "the", "Αρχιμήδης", "στρέβλωση",
-                                               "counterweight", "ανεμοστρόβιλος", "drum", "Ἡρωνας", "ηλεκτροεγκεφαλογράφημα"};
+  static const std::vector<std::string> kWords{"νερό",      "κοχλίας",       "η",
+                                               "σιγά-σιγά", "the",           "Αρχιμήδης",
+                                               "στρέβλωση", "counterweight", "ανεμοστρόβιλος",
+                                               "drum",      "Ἡρωνας",        "ηλεκτροεγκεφαλογράφημα"};
   std::string text;
   const auto count = between(least, most);
   for (std::size_t i = 0; i < count; ++i)
@@ -248,7 +251,8 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, questions_lie_over_nothing_and_within_the
 TEST(OverlayLayout, a_finger_finds_each_button) {
   OverlayContent content;
   content.title = "t";
-  content.corner = {button_of(OverlayAction::Kind::home, "Χωριό"), button_of(OverlayAction::Kind::language, "EN", "en")};
+  content.corner = {button_of(OverlayAction::Kind::home, "Χωριό"),
+                    button_of(OverlayAction::Kind::language, "EN", "en")};
   OverlayPanel panel;
   panel.text = "Πόσες στροφές του τροχού έχει το μίλι του Βιτρούβιου;";
   panel.leave = button_of(OverlayAction::Kind::skip, "Παράλειψη");
@@ -299,7 +303,8 @@ TEST(OverlayLayout, large_text_is_larger) {
   content.title = "title";
   const int usual = lay_out(content, {1280, 720}, real_letters()).texts.front().size_px;
   content.style.text_scale = kLargeText;
-  EXPECT_NEAR(lay_out(content, {1280, 720}, real_letters()).texts.front().size_px, kLargeText * static_cast<float>(usual), 1);
+  EXPECT_NEAR(lay_out(content, {1280, 720}, real_letters()).texts.front().size_px,
+              kLargeText * static_cast<float>(usual), 1);
 }
 
 TEST(OverlayLayout, nothing_to_say_draws_nothing) {
