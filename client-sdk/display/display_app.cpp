@@ -10,6 +10,7 @@
 
 #include "client-sdk/display/image_file.hpp"
 #include "client-sdk/display/mesh_files.hpp"
+#include "client-sdk/display/overlay_layout.hpp"
 #include "client-sdk/display/picking.hpp"
 #include "server/base/assert.hpp"
 #include "server/content/mesh_import.hpp"
@@ -49,13 +50,16 @@ std::string scenario_key(const client::WorldStatus& status) {
 class DisplayLoop {
  public:
   DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
-              client::Client& client, const content::Catalogue* catalogue)
+              client::Client& client, Typesetter& typesetter, const content::Catalogue* catalogue)
       : options_(options),
         requests_(requests),
         context_(context),
         renderer_(renderer),
         client_(client),
-        catalogue_(catalogue) {}
+        typesetter_(typesetter),
+        catalogue_(catalogue),
+        panel_({options.language, options.ask, options.overlay}),
+        spoken_(options.language) {}
 
   Expected<DisplaySummary> run();
 
@@ -68,9 +72,13 @@ class DisplayLoop {
   void take_arrived();
   Expected<void> draw(TimePoint now);
   void let_hear(const Camera& ears);
-  [[nodiscard]] RenderScene build() const;
+  [[nodiscard]] RenderScene build(TimePoint now) const;
   [[nodiscard]] RenderScene build_for_one() const;
-  void take_wishes();
+  void take_wishes(TimePoint now);
+  void take_key(DisplayKey key, TimePoint now);
+  void take_click(PixelPlace place, TimePoint now);
+  [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
+  void click_object(PixelPlace place, TimePoint now);
   Expected<void> write_picture(const std::string& name);
   void wait_for_next(TimePoint began);
 
@@ -79,6 +87,7 @@ class DisplayLoop {
   GlContext& context_;
   Renderer& renderer_;
   client::Client& client_;
+  Typesetter& typesetter_;
   SystemClock clock_;
   const content::Catalogue* catalogue_;
   std::unique_ptr<AssetStore> store_;      ///< where assets come from a server
@@ -90,6 +99,10 @@ class DisplayLoop {
   client::Frame frame_;
   bool have_frame_ = false;
   std::optional<DisplaySound> sound_;
+  VisitorPanel panel_;
+  std::string spoken_;    ///< the language that all others know of
+  OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
+  std::optional<std::string> shown_inset_;
   std::string folder_;
   std::string scenario_;
   std::size_t objects_known_ = 0;
@@ -129,7 +142,7 @@ void DisplayLoop::open_scenario() {
     if (!file) return tl::unexpected(file.error());
     return content::import_mesh(*file);
   });
-  builder_ = std::make_unique<SceneBuilder>(*library_, options_.language);
+  builder_ = std::make_unique<SceneBuilder>(*library_, spoken_);
   objects_known_ = 0;
   presentation_.reset();
   have_frame_ = false;  // of the world before
@@ -190,8 +203,10 @@ void DisplayLoop::take_news(TimePoint now) {
   }
 }
 
-RenderScene DisplayLoop::build() const {
+RenderScene DisplayLoop::build(TimePoint now) const {
   RenderScene scene = build_for_one();
+  panel_.write(scene.overlay, now);
+  if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
   const PixelSize eye = eye_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
     scene.camera = for_screen(scene.camera, options_.screen, static_cast<double>(eye.width) / eye.height);
@@ -205,16 +220,66 @@ RenderScene DisplayLoop::build_for_one() const {
   RenderScene scene;
   scene.ground_height_m = 0.0F;
   scene.camera.p_WT = Vec3(0, 1.2, 0);
-  scene.overlay.note = link_note(client_.state(), false, options_.language);
+  scene.overlay.note = link_note(client_.state(), false, spoken_);
   return scene;
 }
 
-/// A click on a sign is as good as a finger; Home leads back to where the exhibits are chosen.
-void DisplayLoop::take_wishes() {
-  if (context_.take_home_wanted()) (void)client_.open_exhibit("");
-  const auto place = context_.take_click();
-  if (!place || builder_ == nullptr) return;
-  const auto clicked = object_at(build(), library_->assets(), *place, options_.stereo, context_.size());
+void DisplayLoop::take_wishes(TimePoint now) {
+  for (const DisplayKey key : context_.take_keys())
+    take_key(key, now);
+  if (const auto place = context_.take_click()) take_click(*place, now);
+  const auto server = client_.server_status();
+  const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
+  panel_.update({status_ ? &*status_ : nullptr, presentation_, have_frame_ ? &frame_ : nullptr, home}, now);
+  const VisitorWishes wishes = panel_.take_wishes();
+  if (wishes.home) (void)client_.open_exhibit("");
+  for (const VisitorAnswer& given : wishes.answers) {
+    if (client_.answer(given.when, given.activity, given.question, given.answer) == 0)
+      log::warning("an answer to '" + given.question + "' was not sent: there is no world");
+  }
+  if (panel_.language() == spoken_) return;
+  spoken_ = panel_.language();
+  if (builder_) builder_->set_language(spoken_);
+  if (sound_) sound_->set_language(spoken_);
+}
+
+void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
+  switch (key) {
+    case DisplayKey::home:
+      (void)client_.open_exhibit("");
+      return;
+    case DisplayKey::language:
+      return panel_.next_language(now);
+    case DisplayKey::large_text:
+      return panel_.toggle_large_text();
+    case DisplayKey::high_contrast:
+      return panel_.toggle_high_contrast();
+  }
+}
+
+/// Buttons come first; what lies behind a panel of questions is not meant.
+void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
+  if (const auto action = pressed(place)) return panel_.press(*action, now);
+  panel_.touch(now);
+  if (!shown_.panel) click_object(place, now);
+}
+
+std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
+  const PixelSize picture = context_.size();
+  const PixelSize eye = eye_size(options_.stereo, picture);
+  if (eye.width < 2 || eye.height < 2) return {};
+  const MeasureText measure = [this](Face face, int px, std::string_view text) {
+    return typesetter_.width(face, px, text);
+  };
+  const EyePlace seen = eye_at(options_.stereo, picture, place);
+  return action_at(lay_out(shown_, eye, measure, shown_inset_ ? &*shown_inset_ : nullptr), (1 + seen.x) / 2 * eye.width,
+                   (1 - seen.y) / 2 * eye.height);
+}
+
+/// A click on a sign is as good as a finger.
+void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
+  if (builder_ == nullptr) return;
+  const auto clicked = object_at(build(now), library_->assets(), place, options_.stereo, context_.size());
   if (!clicked) return;
   for (const client::SceneObject& object : client_.objects()) {
     if (object.index == *clicked) (void)client_.click(object.name);
@@ -222,7 +287,7 @@ void DisplayLoop::take_wishes() {
 }
 
 Expected<void> DisplayLoop::draw(TimePoint now) {
-  const RenderScene scene = build();
+  const RenderScene scene = build(now);
   const PixelSize size = context_.size();
   // A window that is minimised has no pixels.
   if (size.width < 2 || size.height < 2) return {};
@@ -233,6 +298,8 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
     renderer_.copy_to_window(size);
   }
   context_.present();
+  shown_ = scene.overlay;
+  shown_inset_ = scene.inset ? std::optional(scene.inset->caption) : std::nullopt;
   let_hear(scene.camera);
   ++summary_.frames;
   if (frame_ms_.size() < kFrameTimesKept) {
@@ -271,11 +338,11 @@ void DisplayLoop::wait_for_next(TimePoint began) {
 
 Expected<DisplaySummary> DisplayLoop::run() {
   started_ = next_ = clock_.now();
-  if (options_.sound.on && !options_.offscreen) sound_.emplace(options_.sound, options_.language);
+  if (options_.sound.on && !options_.offscreen) sound_.emplace(options_.sound, spoken_);
   while (!stop_wanted(clock_.now())) {
     const TimePoint now = clock_.now();
     take_news(now);
-    take_wishes();
+    take_wishes(now);
     const bool requested = requests_.picture.exchange(false) || context_.take_picture_wanted();
     const bool only_pictures = options_.offscreen && options_.every_step;
     if (!only_pictures || due_ || requested) {
@@ -363,13 +430,17 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   }
   auto renderer = Renderer::create(options.renderer);
   if (!renderer) return tl::unexpected(renderer.error());
+  auto typesetter = Typesetter::create(options.renderer.font_folder);
+  if (!typesetter) return tl::unexpected(typesetter.error());
   client::ClientConfig config;
   config.kiosk = options.kiosk;
   config.program = "mechane-display";
   config.domain = options.domain;
   auto client = client::Client::connect(config);
   if (!client) return tl::unexpected(client.error());
-  return DisplayLoop(possible, requests, **context, **renderer, **client, catalogue ? &*catalogue : nullptr).run();
+  return DisplayLoop(possible, requests, **context, **renderer, **client, **typesetter,
+                     catalogue ? &*catalogue : nullptr)
+      .run();
 }
 
 }  // namespace mechane::display

@@ -13,6 +13,7 @@
 #include "client-sdk/display/picture_schedule.hpp"
 #include "client-sdk/display/renderer.hpp"
 #include "client-sdk/display/scene_builder.hpp"
+#include "client-sdk/display/visitor_panel.hpp"
 #include <mechane/client/client.hpp>
 
 namespace mechane::display {
@@ -23,8 +24,8 @@ struct DisplayOptions {
   bool offscreen = false;
   PixelSize size{1280, 720};
   Stereo stereo = Stereo::mono;
-  ScreenSetup screen;  ///< that visitors stand before
-  std::string language = "el";
+  ScreenSetup screen;           ///< that visitors stand before
+  std::string language = "el";  ///< that it starts in, and comes back to when a visitor has gone
   std::string
       assets;  ///< folder, or address (http, https), that mesh files are relative to; empty: the scenario's folder, as the
                ///< server sees it
@@ -38,7 +39,9 @@ struct DisplayOptions {
   bool until_done = false;   ///< stop when the world's last activity is done
   double fps = 60;           ///< at most
   RendererSettings renderer;
-  SoundSettings sound;  ///< in a window; offscreen nothing is heard
+  AskWhen ask = AskWhen::after;  ///< an activity's questions
+  OverlayStyle overlay;          ///< at the start; keys change it
+  SoundSettings sound;           ///< in a window; offscreen nothing is heard
 };
 
 /// What was done, for scripts.

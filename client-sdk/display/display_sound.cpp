@@ -90,7 +90,7 @@ void DisplaySound::hear(const Camera& ears, const client::Frame* frame, const cl
   }
   if (status != nullptr && !status->done) {
     // Looked for once a step: the disk is not asked at every picture.
-    const std::string id = narration_id(*status);
+    const std::string id = narration_id(*status) + " " + language_;
     if (id != narration_.id) narration_ = {id, narration_file(*status, language_, scenario_folder, narration_folder_)};
     if (!narration_.file.empty()) scene.narration = narration_;
   }

@@ -36,6 +36,8 @@ class DisplaySound {
   void hear(const Camera& ears, const client::Frame* frame, const client::WorldStatus* status,
             const client::WorldPresentation* presentation, std::span<const client::SceneObject> objects,
             std::span<const client::WorldEvent> events, const std::string& scenario_folder);
+  /// From the next picture on: what is read aloud begins anew in it.
+  void set_language(const std::string& language) { language_ = language; }
   [[nodiscard]] SoundState state() const { return player_.state(); }
 
  private:

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/base/error.hpp"
 
@@ -20,6 +21,14 @@ struct PixelSize {
 struct PixelPlace {
   double x = 0;
   double y = 0;
+};
+
+/// A key that means something to the display itself.
+enum class DisplayKey : std::uint8_t {
+  home,           ///< Home
+  language,       ///< L
+  large_text,     ///< +
+  high_contrast,  ///< C
 };
 
 class GlContext {
@@ -39,8 +48,8 @@ class GlContext {
   [[nodiscard]] virtual std::optional<PixelPlace> take_click() { return {}; }
   /// Whether the window has a picture for each eye (Stereo::quad_buffer).
   [[nodiscard]] virtual bool has_quad_buffer() const { return false; }
-  /// Home was asked for (key Home) since the last call.
-  [[nodiscard]] virtual bool take_home_wanted() { return false; }
+  /// The keys pressed since the last call, in order.
+  [[nodiscard]] virtual std::vector<DisplayKey> take_keys() { return {}; }
 };
 
 /// EGL on Mesa's surfaceless platform: no screen, no X server. Errors: no EGL, no such platform, no OpenGL 3.3.

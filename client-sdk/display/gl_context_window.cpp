@@ -14,6 +14,11 @@ class WindowContext final : public GlContext {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
       if (action == GLFW_PRESS) static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_key(key);
     });
+    // Where the plus is on a keyboard, only its own layout knows.
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int letter) {
+      if (letter == '+')
+        static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->keys_.push_back(DisplayKey::large_text);
+    });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
       if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
         static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_click();
@@ -47,13 +52,15 @@ class WindowContext final : public GlContext {
     return has == GL_TRUE;
   }
   [[nodiscard]] std::optional<PixelPlace> take_click() override { return std::exchange(click_, std::nullopt); }
-  [[nodiscard]] bool take_home_wanted() override { return std::exchange(home_wanted_, false); }
+  [[nodiscard]] std::vector<DisplayKey> take_keys() override { return std::exchange(keys_, {}); }
 
  private:
   void on_key(int key) {
     if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
     if (key == GLFW_KEY_P) picture_wanted_ = true;
-    if (key == GLFW_KEY_HOME) home_wanted_ = true;
+    if (key == GLFW_KEY_HOME) keys_.push_back(DisplayKey::home);
+    if (key == GLFW_KEY_L) keys_.push_back(DisplayKey::language);
+    if (key == GLFW_KEY_C) keys_.push_back(DisplayKey::high_contrast);
     if (key == GLFW_KEY_F11) toggle_full_screen();
   }
   /// The cursor is told in the window's units; a picture may have more pixels than those.
@@ -76,7 +83,7 @@ class WindowContext final : public GlContext {
 
   GLFWwindow* window_;
   bool picture_wanted_ = false;
-  bool home_wanted_ = false;
+  std::vector<DisplayKey> keys_;
   std::optional<PixelPlace> click_;
 };
 

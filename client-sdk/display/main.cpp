@@ -39,9 +39,18 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
       ->check(CLI::Range(0.1, 50.0));
   app.add_option("--eye-separation", o.screen.eye_distance_m, "between the visitor's eyes, metres; without: 0.064")
       ->check(CLI::Range(0.01, 0.2));
-  app.add_option("--language", o.language, "language of the captions")
+  app.add_option("--language", o.language,
+                 "language of all words; visitors may change it (key L), without them it comes back")
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();
+  app.add_option("--ask", o.ask, "when visitors are asked an activity's questions")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, display::AskWhen>{{"none", display::AskWhen::none},
+                                                                                  {"after", display::AskWhen::after},
+                                                                                  {"both", display::AskWhen::both}})
+                      .description("{none,after,both}"));
+  app.add_flag_callback(
+      "--large-text", [&o] { o.overlay.text_scale = display::kLargeText; }, "words 1.35 times as large; key +");
+  app.add_flag("--high-contrast", o.overlay.high_contrast, "white and yellow words on black; key C");
   app.add_option("--assets", o.assets,
                  "folder, or address (http://server/scenario), that mesh files are relative to; without: the "
                  "scenario's folder");

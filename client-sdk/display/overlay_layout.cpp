@@ -1,191 +1,235 @@
 #include "client-sdk/display/overlay_layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "client-sdk/display/overlay_page.hpp"
 
 namespace mechane::display {
 namespace {
 
-const Eigen::Vector4f kInk(0.055F, 0.065F, 0.075F, 0.80F);
-const Eigen::Vector4f kPaper(0.97F, 0.96F, 0.93F, 1.0F);
-const Eigen::Vector4f kGold(0.93F, 0.77F, 0.46F, 1.0F);
-const Eigen::Vector4f kQuiet(0.97F, 0.96F, 0.93F, 0.66F);
-const Eigen::Vector4f kFaint(0.97F, 0.96F, 0.93F, 0.24F);
-const Eigen::Vector4f kWater(0.45F, 0.74F, 0.86F, 1.0F);
-
-float unit_of(PixelSize size) {
-  return std::max(std::min(static_cast<float>(size.height) / 720.0F, static_cast<float>(size.width) / 800.0F), 0.35F);
-}
-
-/// All lengths are for a picture of 1280 x 720 and grow with it; a narrow picture (half of a stereo pair) shrinks them less than
-/// its width, for the sake of the reader.
-class Page {
- public:
-  Page(PixelSize size, const MeasureText& measure)
-      : width(static_cast<float>(size.width)), height(static_cast<float>(size.height)), measure_(measure) {
-    unit_ = unit_of(size);
-  }
-  [[nodiscard]] float px(float design) const { return std::round(design * unit_); }
-  [[nodiscard]] int font(float design) const { return std::max(8, static_cast<int>(std::lround(design * unit_))); }
-  [[nodiscard]] float measure(Face face, float design, std::string_view text) const {
-    return measure_(face, font(design), text);
-  }
-  [[nodiscard]] std::vector<std::string> lines(Face face, float design, std::string_view text, float width_px) const {
-    return break_lines(text, width_px, [&](std::string_view part) { return measure(face, design, part); });
-  }
-
-  float width;
-  float height;
-  OverlayLayout out;
-
- private:
-  float unit_ = 1;
-  const MeasureText& measure_;
-};
-
-constexpr float kMargin = 36;
 constexpr float kPadding = 24;
 constexpr float kTitleSize = 18;
+constexpr float kGoalSize = 21;
 constexpr float kCaptionSize = 27;
 constexpr float kHintSize = 20;
-constexpr float kDot = 9;
-constexpr float kDotGap = 9;
+constexpr float kNoteSize = 20;
 
-void add_text(Page& page, float x, float baseline, Face face, float design, const Eigen::Vector4f& colour,
-              std::string text) {
-  page.out.texts.push_back({x, std::round(baseline), page.font(design), face, colour, std::move(text)});
-}
+/// What a caption panel holds, from top to bottom under its title.
+struct CaptionPart {
+  Face face;
+  float size;
+  Eigen::Vector4f colour;
+  const std::string& text;
+};
 
-/// Steps as dots, the present one long; the right end at `right`. Returns the width.
-float add_dots(Page& page, float right, float middle, const OverlayContent& content) {
-  const std::uint32_t total = std::min(content.steps_total, 16U);
-  if (total < 2) return 0;  // one step is no way to be shown
-  const float dot = page.px(kDot);
-  const float gap = page.px(kDotGap);
-  const float here = 2.4F * dot;
-  const bool finished = content.steps_done >= content.steps_total;
-  const float width =
-      static_cast<float>(total) * dot + static_cast<float>(total - 1) * gap + (finished ? 0 : here - dot);
-  float x = right - width;
-  for (std::uint32_t i = 0; i < total; ++i) {
-    const bool done = i < content.steps_done;
-    const bool present = i == content.steps_done;
-    const float w = present ? here : dot;
-    page.out.shapes.push_back({x, middle - dot / 2, w, dot, dot / 2, done ? kGold : present ? kPaper : kFaint});
-    x += w + gap;
+/// Its lines under the title, from y = 0 on; returns the height with the padding.
+float add_caption_lines(Page& page, const OverlayContent& content, float x, float inner) {
+  const Palette& c = page.colours;
+  const std::array<CaptionPart, 3> parts{{{Face::serif, kGoalSize, c.paper, content.goal},
+                                          {Face::regular, kCaptionSize, c.paper, content.caption},
+                                          {Face::regular, kHintSize, c.water, content.hint}}};
+  float at = page.tx(kPadding) + page.tx(kTitleSize * 1.2F);
+  for (const CaptionPart& part : parts) {
+    const auto lines = page.lines(part.face, part.size, part.text, inner);
+    if (!lines.empty()) at += page.tx(8);
+    for (const std::string& line : lines) {
+      page.add_text(x, at + page.tx(part.size * 1.02F), part.face, part.size, part.colour, line);
+      at += page.tx(part.size * 1.37F);
+    }
   }
-  return width;
+  return at + page.tx(kPadding);
 }
 
-void add_caption(Page& page, const OverlayContent& content) {
-  if (content.caption.empty() && content.title.empty()) return;
-  const float margin = page.px(kMargin);
-  const float padding = page.px(kPadding);
-  const float panel_width = std::min(page.width - 2 * margin, page.px(820));
-  const float inner = panel_width - 2 * padding;
-  const float line = page.px(kCaptionSize * 1.36F);
-  const float hint_line = page.px(kHintSize * 1.40F);
-  const auto caption = page.lines(Face::regular, kCaptionSize, content.caption, inner);
-  const auto hint = page.lines(Face::regular, kHintSize, content.hint, inner);
-  const float title_line = page.px(kTitleSize * 1.2F);
-  float height = 2 * padding + title_line;
-  if (!caption.empty()) height += page.px(8) + static_cast<float>(caption.size()) * line;
-  if (!hint.empty()) height += page.px(8) + static_cast<float>(hint.size()) * hint_line;
-  const float x = margin;
-  const float y = page.height - margin - height;
-
-  page.out.shapes.push_back({x, y, panel_width, height, page.px(14), kInk});
-  page.out.shapes.push_back({x, y + padding, page.px(4), title_line, 0, kGold});
-  const float baseline = y + padding + page.px(kTitleSize * 0.95F);
-  const float dots = add_dots(page, x + panel_width - padding, y + padding + title_line / 2, content);
+/// Its lower end at room's; words become smaller until it is no higher than room. Returns where it lies.
+Box add_caption(Page& page, const OverlayContent& content, const Box& room) {
+  if (content.caption.empty() && content.title.empty()) return {};
+  const float wanted = page.scale;
+  const std::size_t texts = page.out.texts.size();
+  float height = 0;
+  float padding = 0;
+  for (;; page.scale *= 0.92F) {
+    padding = page.tx(kPadding);
+    page.out.texts.resize(texts);
+    height = add_caption_lines(page, content, room.x + padding, room.width - 2 * padding);
+    if (height <= room.height || page.scale < 0.3F) break;
+  }
+  // Too many words even so, or no room for any: the first of them.
+  while (height > room.height && page.out.texts.size() > texts) {
+    page.out.texts.pop_back();
+    const OverlayText* last = page.out.texts.size() > texts ? &page.out.texts.back() : nullptr;
+    height = (last == nullptr ? page.tx(kTitleSize * 1.2F) + padding : last->baseline + page.tx(8)) + padding;
+  }
+  const Box box{room.x, room.below() - height, room.width, height};
+  page.move_down(page.out.shapes.size(), texts, page.out.targets.size(), box.y);
+  page.add_panel(box);
+  const float title_line = page.tx(kTitleSize * 1.2F);
+  page.add_shape({box.x, box.y + padding, page.px(page.high_contrast ? 10 : 4), title_line}, 0, page.colours.gold);
+  const float dots =
+      page.add_dots(box.right() - padding, box.y + padding + title_line / 2, content.steps_done, content.steps_total);
   // A title that meets the dots is cut short: the caption says what matters.
-  const auto title = page.lines(Face::bold, kTitleSize, content.title, inner - dots - padding);
-  if (!title.empty()) add_text(page, x + padding, baseline, Face::bold, kTitleSize, kGold, title.front());
-  float at = y + padding + title_line + page.px(8);
-  for (const std::string& text : caption) {
-    add_text(page, x + padding, at + page.px(kCaptionSize * 1.02F), Face::regular, kCaptionSize, kPaper, text);
-    at += line;
+  const auto title = page.lines(Face::bold, kTitleSize, content.title, box.width - 3 * padding - dots);
+  if (!title.empty()) {
+    page.add_text(box.x + padding, box.y + padding + page.tx(kTitleSize * 0.95F), Face::bold, kTitleSize,
+                  page.colours.gold, title.front());
   }
-  at += hint.empty() ? 0 : page.px(8);
-  for (const std::string& text : hint) {
-    add_text(page, x + padding, at + page.px(kHintSize * 1.02F), Face::regular, kHintSize, kWater, text);
-    at += hint_line;
-  }
+  page.scale = wanted;
+  return box;
 }
 
 /// A narrow picture has no room beside the machine: there the unit must say what the number is.
-void add_readouts(Page& page, const OverlayContent& content) {
-  if (content.readouts.empty()) return;
+struct ReadoutSizes {
+  bool narrow;
+  float padding, width, row, label, number;
+};
+
+ReadoutSizes readout_sizes(const Page& page) {
   const bool narrow = page.width < page.px(900);
-  const float margin = page.px(kMargin);
-  const float padding = page.px(narrow ? 14 : 18);
-  const float width = page.px(224);
-  const float row = page.px(narrow ? 56 : 92);
-  const float label_height = page.px(narrow ? 0 : 21);
-  const float number_size = narrow ? 28 : 34;
-  const auto count = static_cast<float>(content.readouts.size());
-  const float x = page.width - margin - width;
-  const float y = margin;
-  page.out.shapes.push_back({x, y, width, count * row + 2 * padding - page.px(12), page.px(14), kInk});
-  float at = y + padding;
-  for (const Readout& readout : content.readouts) {
-    const float baseline = at + label_height + page.px(narrow ? 24 : 30);
-    const float end_width = page.measure(Face::regular, 13, readout.end);
-    if (!narrow) add_text(page, x + padding, at + page.px(13), Face::regular, 15, kQuiet, readout.label);
-    add_text(page, x + padding, baseline, Face::bold, number_size, kPaper, readout.value);
-    const float value_width = page.measure(Face::bold, number_size, readout.value);
-    add_text(page, x + padding + value_width + page.px(7), baseline, Face::regular, 17, kQuiet, readout.unit);
-    if (!narrow) {
-      add_text(page, x + width - padding - end_width, at + page.px(13), Face::regular, 13, kQuiet, readout.end);
-    }
-    const float bar = page.px(6);
-    const float bar_y = baseline + page.px(narrow ? 9 : 12);
-    const float full = width - 2 * padding;
-    page.out.shapes.push_back({x + padding, bar_y, full, bar, bar / 2, kFaint});
-    const float filled = full * static_cast<float>(std::clamp(readout.fraction, 0.0, 1.0));
-    if (filled >= bar) page.out.shapes.push_back({x + padding, bar_y, filled, bar, bar / 2, kWater});
-    at += row;
+  return {narrow,
+          page.tx(narrow ? 14 : 18),
+          page.tx(224),
+          page.tx(narrow ? 56 : 92),
+          page.tx(narrow ? 0 : 21),
+          narrow ? 28.F : 34.F};
+}
+
+void add_readout(Page& page, const Readout& readout, const ReadoutSizes& s, float x, float y) {
+  const Palette& c = page.colours;
+  const float right = x + s.width - 2 * s.padding;
+  const float baseline = y + s.label + page.tx(s.narrow ? 24 : 30);
+  if (!s.narrow) {
+    page.add_text(x, y + page.tx(13), Face::regular, 15, c.quiet, readout.label);
+    page.add_text(right - page.measure(Face::regular, 13, readout.end), y + page.tx(13), Face::regular, 13, c.quiet,
+                  readout.end);
+  }
+  page.add_text(x, baseline, Face::bold, s.number, c.paper, readout.value);
+  const float value_width = page.measure(Face::bold, s.number, readout.value);
+  page.add_text(x + value_width + page.tx(7), baseline, Face::regular, 17, c.quiet, readout.unit);
+  const float bar = page.tx(page.high_contrast ? 10 : 6);
+  const float bar_y = baseline + page.tx(s.narrow ? 9 : 12);
+  const float full = right - x;
+  page.add_shape({x, bar_y, full, bar}, bar / 2, c.faint);
+  const float filled = full * static_cast<float>(std::clamp(readout.fraction, 0.0, 1.0));
+  if (filled >= bar) page.add_shape({x, bar_y, filled, bar}, bar / 2, c.water);
+}
+
+/// As many as have room above `below`, the first of them first.
+Box add_readouts(Page& page, const OverlayContent& content, const std::vector<Box>& others) {
+  const ReadoutSizes s = readout_sizes(page);
+  Box box{page.width - page.margin() - s.width, page.margin(), s.width, 0};
+  float below = page.height - page.margin();
+  for (const Box& other : others)
+    if (!other.empty() && other.shares_columns(box)) below = std::min(below, other.y - page.gap());
+  const float edges = 2 * s.padding - page.tx(12);
+  const float rows = std::floor((below - box.y - edges) / s.row);
+  const auto count = std::min(content.readouts.size(), static_cast<std::size_t>(std::max(rows, 0.0F)));
+  if (count == 0) return {};
+  box.height = static_cast<float>(count) * s.row + edges;
+  page.add_panel(box);
+  for (std::size_t i = 0; i < count; ++i) {
+    add_readout(page, content.readouts[i], s, box.x + s.padding, box.y + s.padding + static_cast<float>(i) * s.row);
+  }
+  return box;
+}
+
+/// A calm word about the link: its lines, measured.
+struct Note {
+  std::vector<std::string> lines;
+  float width = 0, height = 0;
+};
+
+Note measure_note(const Page& page, const std::string& text) {
+  Note note;
+  const float padding = page.tx(20);
+  note.lines = page.lines(Face::regular, kNoteSize, text, page.width - 2 * page.margin() - 2 * padding);
+  for (const std::string& line : note.lines)
+    note.width = std::max(note.width, page.measure(Face::regular, kNoteSize, line) + 2 * padding);
+  if (!note.lines.empty()) note.height = page.tx(18) + static_cast<float>(note.lines.size()) * page.tx(28);
+  return note;
+}
+
+Box add_note(Page& page, const Note& note, float y) {
+  const Box box{std::round((page.width - note.width) / 2), y, note.width, note.height};
+  page.add_shape(box, std::min(box.height / 2, page.tx(23)), page.colours.ink);
+  float at = y + page.tx(30);
+  for (const std::string& line : note.lines) {
+    page.add_text(box.x + page.tx(20), at, Face::regular, kNoteSize, page.colours.paper, line);
+    at += page.tx(28);
+  }
+  return box;
+}
+
+Box inset_box(PixelSize size) {
+  const PixelRectangle inset = inset_rectangle(size);
+  return {static_cast<float>(inset.x), static_cast<float>(inset.y), static_cast<float>(inset.width),
+          static_cast<float>(inset.height)};
+}
+
+void add_inset_frame(Page& page, const Box& inset, const std::string& caption) {
+  const auto [x, y, width, height] = inset;
+  const float line = std::max(page.px(page.high_contrast ? 6 : 3), 1.0F);
+  Eigen::Vector4f frame = page.colours.ink;
+  frame.w() = 1;
+  const auto lines = page.lines(Face::regular, 15, caption, width - 2 * page.px(14));
+  const float strip = page.tx(30);
+  page.add_shape({x, y + height - strip, width, strip}, 0, page.colours.ink);
+  page.add_shape({x - line, y - line, width + 2 * line, line}, 0, frame);
+  page.add_shape({x - line, y + height, width + 2 * line, line}, 0, frame);
+  page.add_shape({x - line, y, line, height}, 0, frame);
+  page.add_shape({x + width, y, line, height}, 0, frame);
+  if (!lines.empty()) {
+    page.add_text(x + page.px(14), y + height - page.tx(10), Face::regular, 15, page.colours.paper, lines.front());
   }
 }
 
-void add_note(Page& page, const OverlayContent& content) {
-  if (content.note.empty()) return;
-  const float text_width = page.measure(Face::regular, 20, content.note);
-  const float padding = page.px(20);
-  const float height = page.px(46);
-  const float width = text_width + 2 * padding;
-  const float x = std::round((page.width - width) / 2);
-  const float y = page.px(kMargin);
-  page.out.shapes.push_back({x, y, width, height, height / 2, kInk});
-  add_text(page, x + padding, y + page.px(30), Face::regular, 20, kPaper, content.note);
+/// Beside the buttons where there is room for words, above them where there is not.
+Box caption_room(const Page& page, const Box& corner, float top) {
+  const float margin = page.margin();
+  const float wanted = std::min(page.width - 2 * margin, page.tx(820));
+  const float beside = corner.empty() ? wanted : corner.x - page.gap() - margin;
+  const bool fits = beside >= std::min(wanted, page.tx(600));
+  const float below = fits ? page.height - margin : corner.y - page.gap();
+  return {margin, top, fits ? std::min(wanted, beside) : wanted, below - top};
 }
 
-void add_inset_frame(Page& page, PixelSize size, const std::string& caption) {
-  const PixelRectangle inset = inset_rectangle(size);
-  const auto x = static_cast<float>(inset.x);
-  const auto y = static_cast<float>(inset.y);
-  const auto width = static_cast<float>(inset.width);
-  const auto height = static_cast<float>(inset.height);
-  const float line = std::max(page.px(3), 1.0F);
-  const float strip = page.px(30);
-  Eigen::Vector4f frame = kInk;
-  frame.w() = 1;
-  page.out.shapes.push_back({x, y + height - strip, width, strip, 0, kInk});
-  page.out.shapes.push_back({x - line, y - line, width + 2 * line, line, 0, frame});
-  page.out.shapes.push_back({x - line, y + height, width + 2 * line, line, 0, frame});
-  page.out.shapes.push_back({x - line, y, line, height, 0, frame});
-  page.out.shapes.push_back({x + width, y, line, height, 0, frame});
-  add_text(page, x + page.px(14), y + height - page.px(10), Face::regular, 15, kPaper, caption);
+void lay_out_panel(Page& page, const OverlayContent& content, const Box& corner, const Note& note) {
+  const float margin = page.margin();
+  float top = margin;
+  if (!note.lines.empty()) top = add_note(page, note, top).below() + page.gap();
+  const float below = corner.empty() ? page.height - margin : corner.y - page.gap();
+  add_question_panel(page, *content.panel, {margin, top, page.width - 2 * margin, below - top});
+}
+
+void lay_out_captions(Page& page, const OverlayContent& content, const Box& corner, const Note& note,
+                      const Box& inset) {
+  const float gap = page.gap();
+  const float margin = page.margin();
+  const ReadoutSizes readout = readout_sizes(page);
+  const float readouts = page.width - margin - (content.readouts.empty() ? 0 : readout.width + gap);
+  const bool note_above =
+      (page.width + note.width) / 2 <= readouts && (page.width - note.width) / 2 >= inset.right() + gap;
+  float top = inset.empty() ? margin : inset.below() + gap;
+  // One number at least has its place before many words have theirs.
+  if (!content.readouts.empty()) top = std::max(top, margin + 2 * readout.padding + readout.row + gap);
+  if (!note.lines.empty()) top = note_above ? std::max(top, margin + note.height + gap) : top + note.height + gap;
+  const Box caption = add_caption(page, content, caption_room(page, corner, top));
+  float low = page.height - margin + gap;
+  for (const Box& box : {caption, corner})
+    if (!box.empty()) low = std::min(low, box.y);
+  Box said;
+  if (!note.lines.empty()) said = add_note(page, note, note_above ? margin : low - gap - note.height);
+  add_readouts(page, content, {caption, corner, said});
 }
 
 }  // namespace
 
 PixelRectangle inset_rectangle(PixelSize size) {
-  const float unit = unit_of(size);
+  const float unit = overlay_unit(size);
   const auto px = [unit](float design) { return static_cast<std::uint32_t>(std::lround(design * unit)); };
   // Narrow pictures have little room beside the readouts.
   const float width = static_cast<float>(size.width) < 900 * unit ? 220 : 300;
-  return {px(kMargin), px(kMargin), px(width), px(0.68F * width)};
+  return {px(36), px(36), px(width), px(0.68F * width)};
 }
 
 std::vector<std::string> break_lines(std::string_view text, float width,
@@ -212,12 +256,29 @@ std::vector<std::string> break_lines(std::string_view text, float width,
 
 OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure,
                       const std::string* inset_caption) {
-  Page page(size, measure);
-  if (inset_caption != nullptr) add_inset_frame(page, size, *inset_caption);
-  add_caption(page, content);
-  add_readouts(page, content);
-  add_note(page, content);
+  Page page(size, content.style, measure);
+  Box inset;
+  if (inset_caption != nullptr && !content.panel) {
+    inset = inset_box(size);
+    add_inset_frame(page, inset, *inset_caption);
+  }
+  if (content.panel) page.add_shape({0, 0, page.width, page.height}, 0, page.colours.veil);
+  const Box corner = add_corner(page, content.corner);
+  const Note note = measure_note(page, content.note);
+  if (content.panel) {
+    lay_out_panel(page, content, corner, note);
+  } else {
+    lay_out_captions(page, content, corner, note, inset);
+  }
   return std::move(page.out);
+}
+
+std::optional<OverlayAction> action_at(const OverlayLayout& layout, double x, double y) {
+  for (const OverlayTarget& target : layout.targets) {
+    if (x >= target.x && y >= target.y && x < target.x + target.width && y < target.y + target.height)
+      return target.action;
+  }
+  return std::nullopt;
 }
 
 }  // namespace mechane::display

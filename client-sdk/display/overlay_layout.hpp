@@ -1,8 +1,10 @@
-// Where the words go: a caption panel low on the left, readouts high on the right, a note above. Pure: content and size in, shapes
+// Where the words go: a caption panel low on the left, buttons low on the right, readouts high on the right, a note above; or one panel
+// of questions. Nothing lies over anything else, nor out of the picture; words that are too many become smaller. Pure: content and size in, shapes
 // and lines of text out. Pixels, origin in the upper left corner; colours are sRGB with straight alpha.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,9 +37,16 @@ struct PixelRectangle {
   std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
+/// What can be pressed, and where.
+struct OverlayTarget {
+  float x = 0, y = 0, width = 0, height = 0;
+  OverlayAction action;
+};
+
 struct OverlayLayout {
   std::vector<OverlayShape> shapes;  ///< drawn first, in order
   std::vector<OverlayText> texts;
+  std::vector<OverlayTarget> targets;  ///< none lies over another
 };
 
 /// Width of a line, in pixels.
@@ -46,6 +55,9 @@ using MeasureText = std::function<float(Face, int size_px, std::string_view utf8
 /// `inset_caption`: of a close-up that lies in inset_rectangle(size); null: there is none.
 [[nodiscard]] OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure,
                                     const std::string* inset_caption = nullptr);
+
+/// What is pressed at a place of the same picture; none: nothing of the overlay's.
+[[nodiscard]] std::optional<OverlayAction> action_at(const OverlayLayout& layout, double x, double y);
 
 /// Where a close-up goes: the upper left corner.
 [[nodiscard]] PixelRectangle inset_rectangle(PixelSize size);

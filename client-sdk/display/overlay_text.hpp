@@ -20,6 +20,7 @@ namespace mechane::display {
 class OverlayWriter {
  public:
   explicit OverlayWriter(std::string language) : language_(std::move(language)) {}
+  void set_language(const std::string& language) { language_ = language; }
   [[nodiscard]] OverlayContent write(const client::WorldStatus& status, const client::Frame* frame);
 
  private:

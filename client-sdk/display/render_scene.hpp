@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "client-sdk/display/camera.hpp"
+#include "client-sdk/display/overlay_controls.hpp"
 #include "server/base/math.hpp"
 
 namespace mechane::display {
@@ -118,6 +119,10 @@ struct OverlayContent {
   std::uint32_t steps_done = 0;
   std::uint32_t steps_total = 0;
   std::vector<Readout> readouts;
+  std::string goal;                   ///< of the activity, at its beginning
+  std::vector<OverlayButton> corner;  ///< low on the right
+  std::optional<OverlayPanel> panel;  ///< it stands before captions and readouts, which are not shown then
+  OverlayStyle style;
 };
 
 /// A sphere that darkens what is near it: contact shading of the hand.

@@ -110,6 +110,11 @@ void SceneBuilder::add_scenery(const std::vector<client::SceneObject>& objects) 
   }
 }
 
+void SceneBuilder::set_language(const std::string& language) {
+  language_ = language;
+  writer_.set_language(language);
+}
+
 void SceneBuilder::set_presentation(std::shared_ptr<const client::WorldPresentation> presentation) {
   presentation_ = std::move(presentation);
   find_place();

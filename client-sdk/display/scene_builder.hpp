@@ -23,6 +23,8 @@ class SceneBuilder {
   void set_manifest(const std::vector<client::SceneObject>& objects);
   /// Takes what never changes of the world: from where one looks, what is seen beside the bodies. Null: nothing is known of it.
   void set_presentation(std::shared_ptr<const client::WorldPresentation> presentation);
+  /// Of all words, from the next scene on.
+  void set_language(const std::string& language);
   /// The scene of a frame. `frame` may be null (nothing has come yet): then objects stand where the manifest has them.
   [[nodiscard]] RenderScene build(const client::Frame* frame, const client::WorldStatus* status,
                                   client::LinkState link);

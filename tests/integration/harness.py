@@ -1,5 +1,6 @@
 """Starts Mechane's programs for end-to-end tests: own DDS domain tag, loopback only, own folder, everything stopped at the end."""
 
+import contextlib
 import json
 import os
 import pathlib
@@ -113,6 +114,19 @@ class EndToEnd(unittest.TestCase):
                              *arguments)
         process.report_file = report
         return process
+
+    @contextlib.contextmanager
+    def screen(self, size):
+        """The environment of a screen without glass, for windows; gone at the end."""
+        read, write = os.pipe()
+        server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{size}x24"], pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        try:
+            with os.fdopen(read) as said:
+                yield {**self.environment, "DISPLAY": f":{said.readline().strip()}"}
+        finally:
+            server.kill()
+            server.wait()
 
     def report_of(self, visitor):
         return json.loads(visitor.report_file.read_text())

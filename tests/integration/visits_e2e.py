@@ -1,10 +1,12 @@
 """Visitors' sheets, from a scripted visitor's hand to `mechane visits`: what was done, what a kill and a full disk cost."""
 
+import itertools
 import json
 import sqlite3
+import subprocess
 import unittest
 
-from harness import ROOT, SCENARIO, EndToEnd, wait_until
+from harness import ROOT, SCENARIO, EndToEnd, repeat_until, wait_until
 
 VILLAGE = ROOT / "scenarios/village/village.x3d"
 
@@ -130,6 +132,26 @@ class Visits(EndToEnd):
         result = self.run_command("visits", "--records", self.folder / "records")
         self.assertEqual(result.returncode, 1)
         self.assertIn("there are no visits' sheets", result.stderr)
+
+    def test_an_answer_given_by_a_click_is_on_the_sheet(self):
+        self.server(scenario=VILLAGE)
+        with self.screen("640x360") as environment:
+            window = self.start("window", "display", "--kiosk", "wall", "--size", "640x360", "--ask", "both", "--language", "en",
+                                environment=environment)
+            answers = lambda: {a["question"]: a for sheet in self.sheets() for a in sheet["answers"]}
+            places = itertools.cycle(range(330, 20, -15))
+
+            def click():
+                # The first click tells that somebody is there; then answers lie in the picture's middle column, and nothing else does.
+                for _ in range(2):
+                    subprocess.run(["xdotool", "mousemove", "320", str(next(places)), "click", "1"], env=environment, stderr=subprocess.DEVNULL)
+
+            repeat_until(click, lambda: len(answers()) == 2, 120, "clicks answer both questions", again_s=0.6)
+            self.assertEqual(window.stop(), 0, window.text())
+        given = answers()
+        self.assertEqual({a["asked"] for a in given.values()}, {"before"})
+        self.assertIn(given["water"]["answer"], ("screw", "crane", "odometer"))
+        self.assertEqual(given["clear"]["mark"], 3, "of five, the one in the middle")
 
 
 if __name__ == "__main__":

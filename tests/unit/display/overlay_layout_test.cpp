@@ -1,5 +1,7 @@
 #include "client-sdk/display/overlay_layout.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -69,6 +71,240 @@ TEST(OverlayLayout, dots_tell_what_is_done) {
   EXPECT_EQ(golden(0), 0);
   EXPECT_EQ(golden(2), 2);
   EXPECT_EQ(golden(3), 3);
+}
+
+struct Extent {
+  float left, top, right, bottom;
+  std::string what;
+};
+
+bool overlap(const Extent& a, const Extent& b) {
+  constexpr float kTouch = 0.5F;
+  return a.left + kTouch < b.right && b.left + kTouch < a.right && a.top + kTouch < b.bottom &&
+         b.top + kTouch < a.bottom;
+}
+
+/// From a capital's head to the line: what two lines must not share.
+std::vector<Extent> words_of(const OverlayLayout& layout, const MeasureText& measure) {
+  std::vector<Extent> extents;
+  for (const OverlayText& text : layout.texts) {
+    const auto size = static_cast<float>(text.size_px);
+    extents.push_back({text.x, text.baseline - 0.74F * size, text.x + measure(text.face, text.size_px, text.text),
+                       text.baseline + 0.2F * size, text.text});
+  }
+  return extents;
+}
+
+std::vector<Extent> targets_of(const OverlayLayout& layout) {
+  std::vector<Extent> extents;
+  for (const OverlayTarget& t : layout.targets)
+    extents.push_back({t.x, t.y, t.x + t.width, t.y + t.height, "target " + t.action.value});
+  return extents;
+}
+
+Extent extent_of(const OverlayShape& s) {
+  return {s.x, s.y, s.x + s.width, s.y + s.height, "shape"};
+}
+
+/// Shapes of the panels' own colour: panels, the note, the corner's buttons. With high contrast some are faces within frames.
+std::vector<Extent> panels_of(const OverlayLayout& layout, bool high_contrast) {
+  std::vector<Extent> extents;
+  for (const OverlayShape& shape : layout.shapes) {
+    if (!high_contrast && shape.colour.w() == 0.80F) extents.push_back(extent_of(shape));
+  }
+  return extents;
+}
+
+bool within(const Extent& a, const Extent& b) {
+  return a.left >= b.left && a.top >= b.top && a.right <= b.right && a.bottom <= b.bottom;
+}
+
+/// What is wrong with a layout; empty: nothing.
+std::string fault_of(const OverlayLayout& layout, PixelSize size, const MeasureText& measure, bool high_contrast) {
+  const auto width = static_cast<float>(size.width);
+  const auto height = static_cast<float>(size.height);
+  std::vector<Extent> all = words_of(layout, measure);
+  const std::vector<Extent> targets = targets_of(layout);
+  for (const std::vector<Extent>& kind : {all, targets, panels_of(layout, high_contrast)}) {
+    for (std::size_t i = 0; i < kind.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (overlap(kind[i], kind[j])) return "'" + kind[i].what + "' lies over '" + kind[j].what + "'";
+      }
+    }
+  }
+  for (const Extent& words : all) {
+    for (const Extent& target : targets) {
+      if (overlap(words, target) && !within(words, target)) return "'" + words.what + "' sticks out of its button";
+    }
+  }
+  all.insert(all.end(), targets.begin(), targets.end());
+  for (const OverlayShape& shape : layout.shapes)
+    all.push_back(extent_of(shape));
+  for (const Extent& e : all) {
+    if (e.left < -0.5F || e.top < -0.5F || e.right > width + 0.5F || e.bottom > height + 0.5F)
+      return "'" + e.what + "' runs out of the picture";
+  }
+  return {};
+}
+
+/// Letters of real fonts, Greek ones too.
+const MeasureText& real_letters() {
+  static const auto typesetter = *Typesetter::create(default_font_folder());
+  static const MeasureText measure = [](Face face, int px, std::string_view text) {
+    return typesetter->width(face, px, text);
+  };
+  return measure;
+}
+
+OverlayButton button_of(OverlayAction::Kind kind, const std::string& text, const std::string& value = "") {
+  OverlayButton button;
+  button.action.kind = kind;
+  button.action.value = value;
+  button.text = text;
+  return button;
+}
+
+/// As wide in the first case as in the last.
+template <class T>
+T between(T least, T most) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange<T>(least, most + 1));
+}
+
+std::string some_words(std::size_t least, std::size_t most) {
+  static const std::vector<std::string> kWords{"νερό",      "κοχλίας",       "η",
+                                               "σιγά-σιγά", "the",           "Αρχιμήδης",
+                                               "στρέβλωση", "counterweight", "ανεμοστρόβιλος",
+                                               "drum",      "Ἡρωνας",        "ηλεκτροεγκεφαλογράφημα"};
+  std::string text;
+  const auto count = between(least, most);
+  for (std::size_t i = 0; i < count; ++i)
+    text += (i > 0 ? " " : "") + kWords[between<std::size_t>(0, kWords.size() - 1)];
+  return text;
+}
+
+PixelSize some_size() {
+  return *rc::gen::element(PixelSize{1280, 720}, PixelSize{1920, 1080}, PixelSize{720, 1280}, PixelSize{640, 720},
+                           PixelSize{640, 360}, PixelSize{1280, 360}, PixelSize{1080, 1920}, PixelSize{1024, 768},
+                           PixelSize{3840, 2160}, PixelSize{2560, 720});
+}
+
+void add_some_corner(OverlayContent& content) {
+  if (*rc::gen::arbitrary<bool>()) content.corner.push_back(button_of(OverlayAction::Kind::home, "Χωριό"));
+  const int languages = between(0, 2);
+  for (int i = 0; i < languages; ++i)
+    content.corner.push_back(button_of(OverlayAction::Kind::language, "ΕΛ", std::to_string(i)));
+  content.style.text_scale = *rc::gen::element(1.0F, kLargeText);
+  content.style.high_contrast = *rc::gen::arbitrary<bool>();
+  if (between(0, 2) == 0) content.note = "Μια στιγμή, το έκθεμα συνεχίζει αμέσως …";
+}
+
+RC_GTEST_PROP(OverlayLayoutOfAnything, captions_lie_over_nothing_and_within_the_picture, ()) {
+  OverlayContent content;
+  add_some_corner(content);
+  content.title = some_words(1, 6);
+  content.goal = some_words(0, 20);
+  content.caption = some_words(0, 40);
+  content.hint = some_words(0, 20);
+  content.steps_total = between(0U, 19U);
+  content.steps_done = between(0U, content.steps_total);
+  const std::vector<Readout> readouts{{"Νερό", "12,4", "λίτρα", 0.6, "20"},
+                                      {"Ταχύτητα", "31", "στρ./λεπτό", 0.5, "60"},
+                                      {"Θερμοκρασία", "100", "°C", 0.5, "100"},
+                                      {"Δύναμη", "-31,5", "νιούτον", 1, "50"}};
+  content.readouts.assign(readouts.begin(), readouts.begin() + between(0, 4));
+  const PixelSize size = some_size();
+  const std::string inset = "Από κοντά";
+  const bool close_up = *rc::gen::arbitrary<bool>();
+  const OverlayLayout layout = lay_out(content, size, real_letters(), close_up ? &inset : nullptr);
+  const std::string fault = fault_of(layout, size, real_letters(), content.style.high_contrast);
+  RC_LOG() << size.width << "x" << size.height << ": " << fault;
+  RC_ASSERT(fault.empty());
+  RC_ASSERT(layout.targets.size() == content.corner.size());
+}
+
+RC_GTEST_PROP(OverlayLayoutOfAnything, questions_lie_over_nothing_and_within_the_picture, ()) {
+  OverlayContent content;
+  add_some_corner(content);
+  OverlayPanel panel;
+  panel.title = some_words(1, 6);
+  panel.goal = some_words(0, 14);
+  panel.text = some_words(1, 14);
+  panel.scale = *rc::gen::arbitrary<bool>();
+  panel.low = panel.scale ? some_words(1, 4) : "";
+  panel.high = panel.scale ? some_words(1, 4) : "";
+  const int answers = between(0, panel.scale ? 10 : 6);
+  for (int i = 0; i < answers; ++i) {
+    const std::string name = std::to_string(i + 1);
+    panel.answers.push_back(button_of(OverlayAction::Kind::answer, panel.scale ? name : some_words(1, 8), name));
+  }
+  panel.leave = button_of(OverlayAction::Kind::skip, "Παράλειψη");
+  panel.questions = between(1U, 5U);
+  content.panel = panel;
+  const PixelSize size = some_size();
+  const OverlayLayout layout = lay_out(content, size, real_letters());
+  const std::string fault = fault_of(layout, size, real_letters(), content.style.high_contrast);
+  RC_LOG() << size.width << "x" << size.height << ": " << fault;
+  RC_ASSERT(fault.empty());
+  RC_ASSERT(layout.targets.size() == content.corner.size() + panel.answers.size() + 1);
+}
+
+TEST(OverlayLayout, a_finger_finds_each_button) {
+  OverlayContent content;
+  content.title = "t";
+  content.corner = {button_of(OverlayAction::Kind::home, "Χωριό"),
+                    button_of(OverlayAction::Kind::language, "EN", "en")};
+  OverlayPanel panel;
+  panel.text = "Πόσες στροφές του τροχού έχει το μίλι του Βιτρούβιου;";
+  panel.leave = button_of(OverlayAction::Kind::skip, "Παράλειψη");
+  for (const char* name : {"a", "b", "c", "d"})
+    panel.answers.push_back(button_of(OverlayAction::Kind::answer, "Τετρακόσιες στροφές", name));
+  for (const float scale : {1.0F, kLargeText}) {
+    content.style.text_scale = scale;
+    for (const bool asks : {false, true}) {
+      content.panel = asks ? std::optional(panel) : std::nullopt;
+      for (const PixelSize size : {PixelSize{1280, 720}, {1920, 1080}, {720, 1280}, {640, 720}}) {
+        const OverlayLayout layout = lay_out(content, size, real_letters());
+        for (const OverlayTarget& target : layout.targets) {
+          // 9 mm at 40 pixels a centimetre; more where the picture is larger.
+          const float least = 36.0F * static_cast<float>(std::min(size.width, size.height)) / 720.0F;
+          EXPECT_GE(target.width, least) << size.width << "x" << size.height;
+          EXPECT_GE(target.height, least) << size.width << "x" << size.height;
+          EXPECT_EQ(action_at(layout, target.x + target.width / 2, target.y + target.height / 2), target.action);
+        }
+        EXPECT_EQ(action_at(layout, 1, 1), std::nullopt);
+      }
+    }
+  }
+}
+
+TEST(OverlayLayout, high_contrast_is_opaque_black_under_white_and_yellow_words) {
+  OverlayContent content;
+  content.style.high_contrast = true;
+  content.title = "title";
+  content.caption = "caption";
+  content.hint = "hint";
+  content.goal = "goal";
+  content.readouts = {{"Νερό", "12,4", "λίτρα", 0.6, "20"}};
+  const OverlayLayout layout = lay_out(content, {1280, 720}, real_letters());
+  EXPECT_EQ(layout.shapes.front().colour, Eigen::Vector4f(0, 0, 0, 1));
+  for (const OverlayShape& shape : layout.shapes) {
+    EXPECT_EQ(shape.colour.w(), 1);
+    EXPECT_GE(std::min(shape.width, shape.height), 8) << "no thin lines";
+  }
+  for (const OverlayText& text : layout.texts) {
+    EXPECT_EQ(text.colour.w(), 1);
+    const float luminance = 0.2126F * text.colour.x() + 0.7152F * text.colour.y() + 0.0722F * text.colour.z();
+    EXPECT_GT(luminance, 0.75F) << text.text;
+  }
+}
+
+TEST(OverlayLayout, large_text_is_larger) {
+  OverlayContent content;
+  content.title = "title";
+  const int usual = lay_out(content, {1280, 720}, real_letters()).texts.front().size_px;
+  content.style.text_scale = kLargeText;
+  EXPECT_NEAR(lay_out(content, {1280, 720}, real_letters()).texts.front().size_px,
+              kLargeText * static_cast<float>(usual), 1);
 }
 
 TEST(OverlayLayout, nothing_to_say_draws_nothing) {
