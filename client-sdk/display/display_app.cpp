@@ -58,7 +58,8 @@ class DisplayLoop {
         client_(client),
         typesetter_(typesetter),
         catalogue_(catalogue),
-        panel_({options.language, options.ask, options.overlay}),
+        panel_({options.language, options.ask, options.overlay,
+                std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.home_after_s))}),
         spoken_(options.language) {}
 
   Expected<DisplaySummary> run();

@@ -41,6 +41,7 @@ struct DisplayOptions {
   RendererSettings renderer;
   AskWhen ask = AskWhen::after;  ///< an activity's questions
   OverlayStyle overlay;          ///< at the start; keys change it
+  double home_after_s = 0;       ///< without anybody's motion or click: back to the server's first scenario; 0: never
   SoundSettings sound;           ///< in a window; offscreen nothing is heard
 };
 

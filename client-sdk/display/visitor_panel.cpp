@@ -3,22 +3,33 @@
 #include <algorithm>
 #include <cctype>
 
+#include <fmt/format.h>
+
 #include "client-sdk/display/overlay_text.hpp"
 
 namespace mechane::display {
 namespace {
 
 struct PanelWords {
-  std::string_view village, home, skip, close, thanks, farewell;
+  std::string_view village, home, skip, close, thanks, farewell, going_home;
 };
 
 /// The display's own words are in two languages; a world may have more.
 const PanelWords& words_in(const std::string& language) {
-  static const PanelWords kEnglish{"Village", "Home",       "Skip",
-                                   "Close",   "Thank you!", "Your answers help us to make this exhibit better."};
-  static const PanelWords kGreek{"Χωριό",         "Αρχή",
-                                 "Παράλειψη",     "Κλείσιμο",
-                                 "Ευχαριστούμε!", "Οι απαντήσεις σας μας βοηθούν να κάνουμε το έκθεμα καλύτερο."};
+  static const PanelWords kEnglish{"Village",
+                                   "Home",
+                                   "Skip",
+                                   "Close",
+                                   "Thank you!",
+                                   "Your answers help us to make this exhibit better.",
+                                   "Is anybody here? Back to the beginning in {} s"};
+  static const PanelWords kGreek{"Χωριό",
+                                 "Αρχή",
+                                 "Παράλειψη",
+                                 "Κλείσιμο",
+                                 "Ευχαριστούμε!",
+                                 "Οι απαντήσεις σας μας βοηθούν να κάνουμε το έκθεμα καλύτερο.",
+                                 "Είναι κανείς εδώ; Επιστροφή στην αρχή σε {} δ."};
   return language == "el" ? kGreek : kEnglish;
 }
 
@@ -79,7 +90,7 @@ std::vector<std::string> VisitorPanel::other_languages() const {
 void VisitorPanel::notice_visitor(TimePoint now) {
   // Who comes late to a beginning reads what the first one read.
   if (!last_sign_ && at_beginning()) goal_from_ = now;
-  last_sign_ = now;
+  last_sign_ = stirred_ = now;
 }
 
 void VisitorPanel::notice_hands(const client::Frame* frame, TimePoint now) {
@@ -97,7 +108,11 @@ void VisitorPanel::notice_hands(const client::Frame* frame, TimePoint now) {
 void VisitorPanel::follow_run(const client::WorldStatus& status, TimePoint now) {
   const bool anew = !run_ || run_->world != status.world || run_->activity != status.activity ||
                     status.steps_done < run_->steps_done || (run_->done && !status.done);
-  if (run_ && run_->world != status.world) hands_W_.clear();
+  if (!run_ || run_->world != status.world) {
+    hands_W_.clear();
+    stirred_ = now;
+    home_wished_ = false;
+  }
   if (anew) {
     asking_.reset();
     asked_before_ = asked_after_ = false;
@@ -136,6 +151,14 @@ void VisitorPanel::update(const VisitorNews& news, TimePoint now) {
     asked_before_ = false;
   }
   ask_or_end(now);
+  leave_alone(now);
+}
+
+/// Nobody is there: the next visitor shall choose an exhibit, and not find the last one's. Wished once a world.
+void VisitorPanel::leave_alone(TimePoint now) {
+  if (settings_.home_after <= Duration{0} || home_.empty() || home_wished_ || !run_) return;
+  if (now - stirred_ < settings_.home_after) return;
+  wishes_.home = home_wished_ = true;
 }
 
 void VisitorPanel::touch(TimePoint now) {
@@ -232,6 +255,10 @@ void VisitorPanel::write(OverlayContent& content, TimePoint now) const {
   }
   for (const std::string& code : other_languages())
     content.corner.push_back(panel_button(OverlayAction::Kind::language, language_label(code), code));
+  const Duration left = settings_.home_after - (now - stirred_);
+  const bool warns = settings_.home_after > Duration{0} && left > Duration{0} && left <= kWarning;
+  if (warns && !home_.empty() && run_ && content.note.empty())
+    content.note = fmt::format(fmt::runtime(words.going_home), std::chrono::ceil<std::chrono::seconds>(left).count());
   const client::Activity* what = activity();
   if (what == nullptr) return;
   if (asking_) {

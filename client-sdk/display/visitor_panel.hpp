@@ -21,6 +21,7 @@ struct VisitorPanelSettings {
   std::string language = "el";  ///< what the display comes back to
   AskWhen ask = AskWhen::after;
   OverlayStyle style;
+  Duration home_after{0};  ///< without a hand's motion or a click: back to where exhibits are chosen; 0: never
 };
 
 /// What is known now. Null: nothing is.
@@ -53,8 +54,9 @@ class VisitorPanel {
       std::chrono::milliseconds(400);  ///< the second tap of a double one answers nothing
   static constexpr Duration kGoal = std::chrono::seconds(8);
   static constexpr Duration kAlone =
-      std::chrono::seconds(90);                  ///< without a hand's motion or a click: the visitor has gone
-  static constexpr double kHandMoved_m = 0.005;  ///< less is a device that trembles
+      std::chrono::seconds(90);  ///< without a hand's motion or a click: the visitor has gone
+  static constexpr Duration kWarning = std::chrono::seconds(10);  ///< before it goes home by itself
+  static constexpr double kHandMoved_m = 0.005;                   ///< less is a device that trembles
 
   explicit VisitorPanel(VisitorPanelSettings settings);
 
@@ -96,6 +98,7 @@ class VisitorPanel {
   void ask_or_end(TimePoint now);
   void answer(const std::string& value, TimePoint now);
   void go_on(TimePoint now);
+  void leave_alone(TimePoint now);
   [[nodiscard]] const client::Activity* activity() const;
   [[nodiscard]] std::vector<std::string> other_languages() const;
   [[nodiscard]] bool at_beginning() const { return run_ && run_->steps_done == 0 && !run_->done; }
@@ -111,6 +114,8 @@ class VisitorPanel {
   bool asked_before_ = false;  ///< in this run
   bool asked_after_ = false;
   std::optional<TimePoint> last_sign_;                             ///< of a visitor; none: there is nobody
+  TimePoint stirred_;                                              ///< somebody did something last, or this world began
+  bool home_wished_ = false;                                       ///< in this world
   std::map<std::pair<std::string, std::uint32_t>, Vec3> hands_W_;  ///< by kiosk and user, where they last moved to
   VisitorWishes wishes_;
 };

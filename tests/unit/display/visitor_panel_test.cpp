@@ -77,6 +77,31 @@ TEST_F(VisitorPanelTest, the_way_home_is_offered_where_it_leads_elsewhere) {
   EXPECT_FALSE(panel.take_wishes().home);
 }
 
+TEST_F(VisitorPanelTest, a_kiosk_that_is_left_alone_goes_home_by_itself) {
+  VisitorPanel panel({"en", AskWhen::none, {}, seconds(60)});
+  look(panel);
+  move_hand();
+  look(panel, seconds(40));
+  EXPECT_EQ(look(panel, seconds(45)).note, "") << "it is counted from the last motion";
+  EXPECT_EQ(look(panel, milliseconds(7500)).note, "Is anybody here? Back to the beginning in 8 s");
+  panel.touch(now);
+  EXPECT_EQ(look(panel, seconds(5)).note, "");
+  EXPECT_FALSE(panel.take_wishes().home);
+  look(panel, seconds(56));
+  EXPECT_TRUE(panel.take_wishes().home);
+  look(panel, seconds(100));
+  EXPECT_FALSE(panel.take_wishes().home) << "once: who cannot go home is not asked again and again";
+  status.world = "w2";
+  status.scenario = "village";
+  look(panel, seconds(1));
+  look(panel, seconds(100));
+  EXPECT_FALSE(panel.take_wishes().home) << "it is at home";
+  VisitorPanel patient({"en", AskWhen::none, {}});
+  look(patient, seconds(1));
+  look(patient, seconds(100'000));
+  EXPECT_FALSE(patient.take_wishes().home);
+}
+
 TEST_F(VisitorPanelTest, another_language_stays_while_somebody_is_there) {
   VisitorPanel panel({"el", AskWhen::after, {}});
   EXPECT_EQ(look(panel).corner.back().text, "EN");
