@@ -241,7 +241,7 @@ Json to_json(const proto::KioskStatus& s) {
   j.update(
       {{"kiosk", text(s.kiosk)}, {"session", s.session}, {"user", s.user}, {"role", s.role == 0 ? "hand" : "watcher"}});
   j.update({{"program", text(s.program)}, {"host", text(s.host)}, {"process_id", s.process_id}});
-  j.update({{"scenario", text(s.scenario)}, {"join_kiosk", text(s.join_kiosk)}});
+  j.update({{"scenario", text(s.scenario)}, {"was_there", s.was_there != 0}, {"join_kiosk", text(s.join_kiosk)}});
   return j;
 }
 

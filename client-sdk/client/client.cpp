@@ -120,7 +120,8 @@ class ClientImpl final : public Client {
   std::uint64_t world_incarnation_ = 0;
   TimePoint next_report_{};
   std::uint64_t report_sequence_ = 0;
-  std::string scenario_;  // that the kiosk was in last
+  std::string scenario_;  // that the kiosk was in last, or is to begin with
+  bool was_there_ = false;
   proto::Writer<proto::KioskStatus> kiosk_status_;
 
   realtime::Wakeup news_;
@@ -188,7 +189,11 @@ void ClientImpl::report(TimePoint at) {
   proto::set_text(wire.host, host_);
   wire.process_id = static_cast<std::uint32_t>(::getpid());
   // A server that starts anew shall put the kiosk back where it went to, not where it began.
-  if (std::string now_in = store_.scenario(); !now_in.empty()) scenario_ = std::move(now_in);
+  if (std::string now_in = store_.scenario(); !now_in.empty()) {
+    scenario_ = std::move(now_in);
+    was_there_ = true;
+  }
+  wire.was_there = was_there_ ? 1 : 0;
   proto::set_text(wire.scenario, scenario_);
   proto::set_text(wire.join_kiosk, config_.join_kiosk);
   if (!kiosk_status_.write(wire)) log::warning("client: the network did not take this process' status");

@@ -71,6 +71,7 @@ class DisplayLoop {
   void open_scenario();
   [[nodiscard]] std::unique_ptr<AssetStore> open_store() const;
   void take_arrived();
+  void say_refusal();
   Expected<void> draw(TimePoint now);
   void let_hear(const Camera& ears);
   [[nodiscard]] RenderScene build(TimePoint now) const;
@@ -104,6 +105,7 @@ class DisplayLoop {
   std::string spoken_;    ///< the language that all others know of
   OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
   std::optional<std::string> shown_inset_;
+  std::string told_refusal_;
   std::string folder_;
   std::string scenario_;
   std::size_t objects_known_ = 0;
@@ -174,6 +176,14 @@ void DisplayLoop::take_arrived() {
   renderer_.upload(library_->assets());
 }
 
+/// Visitors see a calm picture; whoever looks after the kiosk needs the reason.
+void DisplayLoop::say_refusal() {
+  const std::string refusal = client_.state() == LinkState::refused ? client_.refusal() : std::string();
+  if (refusal == told_refusal_) return;
+  told_refusal_ = refusal;
+  if (!refusal.empty()) log::warning("no exhibit yet: " + refusal);
+}
+
 /// Status, manifest and frame as they are now.
 void DisplayLoop::take_news(TimePoint now) {
   if (auto status = client_.world_status()) {
@@ -196,6 +206,7 @@ void DisplayLoop::take_news(TimePoint now) {
     }
     take_arrived();
   }
+  say_refusal();
   // While the link is down the last frame stays.
   client::Frame newer;
   if (client_.state() == LinkState::joined && client_.interpolated_frame(now, kInterpolationDelay, newer)) {

@@ -82,7 +82,8 @@ OverlayContent OverlayWriter::write(const client::WorldStatus& status, const cli
   OverlayContent content;
   content.title = text_in(status.title, language_);
   content.caption = text_in(status.caption, language_);
-  if (status.hint) content.hint = text_in(status.hint_text, language_);
+  if (status.done) content.caption = greek ? "Τα καταφέρατε!" : "You have done it!";
+  if (status.hint && !status.done) content.hint = text_in(status.hint_text, language_);
   content.steps_done = status.steps_done;
   content.steps_total = status.steps_total;
   if (frame == nullptr) return content;

@@ -16,7 +16,10 @@ std::string file_name(const std::string& text) {
 
 std::optional<std::string> PictureSchedule::due(TimePoint now, const client::WorldStatus& status) {
   if (status.activity.empty()) return {};
-  const std::string name = file_name(status.activity) + "-" + (status.done ? "done" : file_name(status.step));
+  std::string name = file_name(status.activity) + "-" + (status.done ? "done" : file_name(status.step));
+  // Exhibits may have steps of one name: the first that comes has it, the next one's begins with its exhibit.
+  const std::string& owner = owner_.try_emplace(name, status.scenario).first->second;
+  if (owner != status.scenario) name = file_name(status.scenario) + "-" + name;
   if (name != present_) {
     if (!present_.empty() && !taken_.contains(present_)) missed_.insert(present_);
     present_ = name;

@@ -2,6 +2,7 @@
 // activity is done. Pure: time and status in, names out.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,7 +17,7 @@ class PictureSchedule {
   static constexpr Duration kSettle = std::chrono::milliseconds(500);
   static constexpr Duration kSettleDone = std::chrono::milliseconds(150);
 
-  /// The name of a picture that is due now ("use-turn", "use-done"), each name once in a lifetime. Call it in every turn of the loop.
+  /// The name of a picture that is due now ("use-turn", "use-done"), each once in a lifetime. Call it in every turn of the loop.
   [[nodiscard]] std::optional<std::string> due(TimePoint now, const client::WorldStatus& status);
   /// Steps that ended before their picture was due.
   [[nodiscard]] const std::set<std::string>& missed() const { return missed_; }
@@ -24,6 +25,7 @@ class PictureSchedule {
  private:
   std::string present_;
   TimePoint since_;
+  std::map<std::string, std::string> owner_;  ///< of each name: the scenario that had it first
   std::set<std::string> taken_;
   std::set<std::string> missed_;
 };

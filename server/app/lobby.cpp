@@ -140,6 +140,11 @@ Expected<Lobby::Entry*> Lobby::open_for(const Session& session) {
                 "wait for one to be free, or start the server with more --worlds");
   }
   auto description = session.scenario.empty() ? scenarios_.first() : scenarios_.find(session.scenario);
+  if (description == nullptr && session.was_there) {
+    log::warning(fmt::format("{} was in '{}', which this server was not started with; it begins at '{}'", session.kiosk,
+                             session.scenario, scenarios_.first()->id));
+    description = scenarios_.first();
+  }
   if (description == nullptr) {
     return fail(fmt::format("this server has no scenario '{}'", session.scenario), session.kiosk,
                 "start the server with its file, or ask for another");

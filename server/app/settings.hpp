@@ -18,7 +18,7 @@ struct Settings {
   /// X3D files, or ids in the catalogue; the first is what a kiosk gets that asks for none.
   std::vector<std::filesystem::path> scenarios;
   std::filesystem::path catalogue;                ///< of content, see mechane content; empty: none
-  std::uint32_t worlds = 4;                       ///< at most so many at once, 1 .. 64
+  std::uint32_t worlds = 6;                       ///< at most so many at once, 1 .. 64
   std::uint32_t loop_threads = 1;                 ///< 1 .. 32
   std::uint32_t domain = 0;                       ///< DDS domain, 0 .. 230
   std::filesystem::path records = "out/records";  ///< journals and snapshots; empty: none are kept

@@ -122,8 +122,13 @@ void VisitObserver::take_event(const state::Event& event) {
       return;
     case EventKind::pulled:
     case EventKind::pushed:
-    case EventKind::lit:
     case EventKind::pointed:
+      sign(event.tick);
+      did_something_ = true;
+      return;
+    case EventKind::lit:
+      // A torch that lies in the coals lights itself.
+      if (holding_ == 0) return;
       sign(event.tick);
       did_something_ = true;
       return;

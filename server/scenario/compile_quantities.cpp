@@ -50,6 +50,17 @@ void check_source(Compilation& c, const std::string& source, int line, const std
   }
 }
 
+/// Any word is shown as it is written; but rpm and deg convert, and a slip there gives a wrong number.
+void check_unit(Compilation& c, const std::string& unit, int line, const std::string& where) {
+  static const std::vector<std::string> kKnown = {
+      "m",  "cm", "mm", "km", "rad", "deg",  "rpm",  "rad/s", "s",     "min",  "h",  "l",   "l/s",  "l/min",
+      "m3", "m2", "kg", "g",  "t",   "N",    "kN",   "N m",   "J",     "kJ",   "W",  "m/s", "m/s2", "degC",
+      "K",  "%",  "Pa", "Hz", "",    "kg/s", "m3/s", "1/s",   "1/min", "km/h", "kW", "bar", "turns"};
+  if (std::find(kKnown.begin(), kKnown.end(), unit) != kKnown.end()) return;
+  c.problems.warning(line, where, fmt::format("the unit '{}' is none that is known: it is only shown", unit),
+                     suggest(unit, kKnown, "leave it if visitors read it so; of rates rpm and of angles deg convert"));
+}
+
 }  // namespace
 
 void compile_quantities(Compilation& c) {
@@ -66,6 +77,7 @@ void compile_quantities(Compilation& c) {
       const Fields fields(&item, quantity_table(), where, c.problems);
       quantity.source = fields.string("source");
       quantity.unit = fields.string("unit");
+      check_unit(c, quantity.unit, fields.line("unit"), where);
       line = fields.line("source");
     } else {
       c.problems.error(item.line, where, "it is neither a source nor a set",

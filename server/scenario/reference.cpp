@@ -29,7 +29,9 @@ This page lists everything that may be written. It is made by `mechane reference
 1. Copy an exhibit that is near to yours, or the example below, and give it an `id` of its own: no server takes two of one id.
 2. Change it, and run `mechane check FILE.x3d`. It names each mistake with its line, and says what to write instead.
    Errors keep the exhibit from running; warnings are likely not meant; notes say what Mechane leaves aside.
-3. Try it: `mechane server --scenario FILE.x3d`, and in another window `mechane display`.
+3. Try it: `mechane server --scenario FILE.x3d`, in another window `mechane display`, and in a third `mechane visitor --scenario FILE.x3d`,
+   which plays its visits as a hand would. After a change start the server anew: the display finds it. A copy in another folder needs its
+   mesh files where its `url` says.
 4. `mechane merge A.x3d B.x3d -o C.x3d` puts two exhibits into one.
 
 ## How to write a value

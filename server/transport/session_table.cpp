@@ -8,6 +8,7 @@ bool SessionTable::appeared(const Session& session) {
   for (Session& known : sessions_) {
     if (known.id != session.id) continue;
     known.scenario = session.scenario;
+    known.was_there = session.was_there;
     known.join_kiosk = session.join_kiosk;
     return false;
   }

@@ -23,6 +23,7 @@ struct Session {
   std::string program;
   std::string host;
   std::string scenario;    ///< wish: id of the scenario; empty: the server's first
+  bool was_there = false;  ///< it is no wish: the kiosk was in that scenario last
   std::string join_kiosk;  ///< wish: share the world of this kiosk; empty: a world of its own
 };
 

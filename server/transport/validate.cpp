@@ -96,6 +96,7 @@ Reject validate(const proto::KioskStatus& s, Session& out) {
   out.program = printable(proto::text_of(s.program));
   out.host = printable(proto::text_of(s.host));
   out.scenario = printable(proto::text_of(s.scenario));
+  out.was_there = s.was_there != 0;
   out.join_kiosk = printable(proto::text_of(s.join_kiosk));
   return Reject::none;
 }

@@ -109,6 +109,14 @@ class Visit(EndToEnd):
             result = self.run_command("open", "--kiosk", kiosk, *wish)
             self.assertEqual(result.returncode, status, result.stdout + result.stderr)
             self.assertIn(answer, result.stdout + result.stderr)
+        # A server that no longer has the exhibit brings the kiosk home; what nobody has been in stays an error.
+        server.kill()
+        server = self.server(scenario=scenarios[0])
+        wait_until(lambda: "kiosk-1 was in 'archimedes-screw', which this server was not started with" in server.text(), 20, "the kiosk goes home")
+        self.assertEqual(self.scenario_of("kiosk-1"), "village")
+        lost = self.visitor("kiosk-3")
+        wait_until(lambda: "this server has no scenario 'archimedes-screw'" in server.text(), 20, "a wish for what is not there is refused")
+        lost.stop()
         self.assertEqual(server.stop(), 0, server.text())
 
     def test_a_sign_that_leads_nowhere_is_named_at_once(self):

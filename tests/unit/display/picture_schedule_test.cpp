@@ -27,6 +27,20 @@ TEST(PictureSchedule, one_picture_a_step_after_it_settled) {
   EXPECT_TRUE(schedule.missed().empty());
 }
 
+TEST(PictureSchedule, steps_of_one_name_in_two_exhibits_are_two) {
+  PictureSchedule schedule;
+  const TimePoint start{};
+  client::WorldStatus crane = at("use", "grasp");
+  crane.scenario = "crane";
+  client::WorldStatus screw = crane;
+  screw.scenario = "screw";
+  EXPECT_FALSE(schedule.due(start, crane));
+  EXPECT_EQ(schedule.due(start + milliseconds(600), crane), "use-grasp");
+  EXPECT_FALSE(schedule.due(start + milliseconds(700), screw));
+  EXPECT_EQ(schedule.due(start + milliseconds(1300), screw), "screw-use-grasp");
+  EXPECT_FALSE(schedule.due(start + milliseconds(2000), crane)) << "it has been taken";
+}
+
 TEST(PictureSchedule, a_step_too_short_is_told_as_missed_until_it_comes_again) {
   PictureSchedule schedule;
   const TimePoint start{};

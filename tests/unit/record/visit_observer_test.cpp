@@ -101,6 +101,15 @@ class VisitObserverTest : public testing::Test {
   int numbers_ = 0;
 };
 
+TEST_F(VisitObserverTest, WhatLightsItselfIsNobodysVisit) {
+  say(1000, EventKind::lit, 0);
+  observer_->look(3000, 0);
+  EXPECT_THAT(observer_->take_changed(), IsEmpty());
+  say(4000, EventKind::grasped, 0, kCrank);
+  say(5000, EventKind::lit, 0);
+  EXPECT_EQ(sheet().ending, VisitEnding::running);
+}
+
 TEST_F(VisitObserverTest, AVisitThatGoesWellIsDoneStepByStepWithItsTimes) {
   begin(2000);
   say(5000, EventKind::step_started, kTurn);

@@ -22,6 +22,11 @@ TEST(Effects, AreReadFromTheShippedFile) {
   EXPECT_EQ(world.viewpoints[1].name, "BASIN_VIEW");
 }
 
+TEST(Quantities, AnUnknownUnitIsWarnedOf) {
+  const Problem slip = compile_text(edited("'\"rpm\"'", "'\"rmp\"'")).find("did you mean 'rpm'?");
+  EXPECT_EQ(slip.severity, Severity::warning);
+}
+
 TEST(Effects, FaultsAreSaidWithTheirRemedy) {
   const auto expect_error = [](const Outcome& outcome, const std::string& words) {
     const Problem problem = outcome.find(words);
