@@ -12,7 +12,7 @@ constexpr float kTurn_rad = 0.2F;
 /// How far before and after a point its corner is rounded, in radii.
 constexpr float kRounded = 4;
 
-struct Ring {
+struct TubeRing {
   Vec3f p_WR;
   Vec3f along_W;  ///< unit
 };
@@ -32,7 +32,7 @@ Vec3f across(const Vec3f& along) {
 
 /// Rings about the corner at p. They lie on the parabola that touches both sides `reach` from the corner, and turn by equal angles: where
 /// there is no room for a curve, as in a rope that doubles back, they turn about one place, so that the tube stays as thick as it is.
-void add_corner(const Vec3f& p, const Vec3f& from, const Vec3f& to, float reach, std::vector<Ring>& rings) {
+void add_corner(const Vec3f& p, const Vec3f& from, const Vec3f& to, float reach, std::vector<TubeRing>& rings) {
   const Vec3f turn = from.cross(to);
   const float angle = std::atan2(turn.norm(), from.dot(to));
   if (angle < 0.5F * kTurn_rad) {
@@ -52,8 +52,8 @@ void add_corner(const Vec3f& p, const Vec3f& from, const Vec3f& to, float reach,
   }
 }
 
-std::vector<Ring> rings_of(const std::vector<Vec3f>& points, float radius_m) {
-  std::vector<Ring> rings;
+std::vector<TubeRing> rings_of(const std::vector<Vec3f>& points, float radius_m) {
+  std::vector<TubeRing> rings;
   Vec3f before = (points[1] - points[0]).normalized();
   rings.push_back({points[0], before});
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -73,7 +73,7 @@ Vec3f first_side(const Vec3f& along) {
   return Eigen::Quaternionf::FromTwoVectors(reference, along) * across(reference);
 }
 
-void add_end(const Ring& ring, std::uint32_t first_of_ring, bool last, MeshData& into) {
+void add_end(const TubeRing& ring, std::uint32_t first_of_ring, bool last, MeshData& into) {
   const auto middle = static_cast<std::uint32_t>(into.positions.size());
   const Vec3f n = last ? ring.along_W : Vec3f(-ring.along_W);
   const auto add = [&](const Vec3f& p, const Eigen::Vector2f& uv) {
@@ -97,12 +97,12 @@ void append_rope(const RenderRope& rope, MeshData& into) {
   if (!(rope.radius_m > 0)) return;
   const std::vector<Vec3f> points = distinct(rope);
   if (points.size() < 2) return;
-  const std::vector<Ring> rings = rings_of(points, rope.radius_m);
+  const std::vector<TubeRing> rings = rings_of(points, rope.radius_m);
   const auto first = static_cast<std::uint32_t>(into.positions.size());
   Vec3f side_W = first_side(rings[0].along_W);
   float length_m = 0;
   for (std::size_t i = 0; i < rings.size(); ++i) {
-    const Ring& ring = rings[i];
+    const TubeRing& ring = rings[i];
     if (i > 0) {
       length_m += (ring.p_WR - rings[i - 1].p_WR).norm();
       side_W = Eigen::Quaternionf::FromTwoVectors(rings[i - 1].along_W, ring.along_W) * side_W;

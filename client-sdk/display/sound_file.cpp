@@ -39,11 +39,11 @@ Expected<SoundRecording> read_sound(const std::string& file) {
   recording.channels = info.channels;
   recording.rate_hz = info.samplerate;
   // Piece by piece: what the header says of the length need not be true. As numbers of -1 .. 1, whatever the file has.
-  constexpr sf_count_t kPiece = 1 << 14;
+  constexpr sf_count_t kFramesAtOnce = 1 << 14;
   const auto channels = static_cast<std::size_t>(info.channels);
-  std::vector<float> piece(static_cast<std::size_t>(kPiece) * channels);
+  std::vector<float> piece(static_cast<std::size_t>(kFramesAtOnce) * channels);
   for (sf_count_t read = 0; read <= most;) {
-    const sf_count_t got = sf_readf_float(in.get(), piece.data(), kPiece);
+    const sf_count_t got = sf_readf_float(in.get(), piece.data(), kFramesAtOnce);
     if (got <= 0) {
       if (recording.samples.empty()) return fail("the sound is empty", file, kSoundRemedy);
       return recording;
