@@ -36,7 +36,9 @@ void add_target(Page& page, const Box& box, const OverlayAction& action) {
 void add_house(Page& page, float x, float y, float side, const Eigen::Vector4f& wall, const Eigen::Vector4f& door) {
   const float eaves = std::round(y + 0.48F * side);
   const float middle = x + side / 2;
-  for (float row = std::round(y); row < eaves; row += 1) {
+  const float top = std::round(y);
+  for (int i = 0; i < static_cast<int>(eaves - top); ++i) {
+    const float row = top + static_cast<float>(i);
     const float half = (row + 0.5F - y) / (eaves - y) * side / 2;
     page.add_shape({middle - half, row, 2 * half, 1}, 0, wall);
   }
