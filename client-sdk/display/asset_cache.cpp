@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "server/content/content_hash.hpp"
+#include "server/content/whole_file.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -20,24 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostNoteBytes = 4096;
-
-/// At once and whole under its own name, or not at all.
-Expected<void> write_whole(const fs::path& file, std::span<const std::byte> bytes) {
-  std::error_code code;
-  fs::create_directories(file.parent_path(), code);
-  std::string draft = file.string() + ".XXXXXX";
-  const int fd = mkstemp(draft.data());
-  if (fd < 0) return fail("cannot be written", file.string());
-  ::close(fd);
-  std::ofstream out(draft, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) fs::rename(draft, file, code);
-  if (out && !code) return {};
-  std::error_code ignored;
-  fs::remove(draft, ignored);
-  return fail(code ? code.message() : "cannot be written whole", file.string());
-}
 
 struct CachedFile {
   fs::path path;
@@ -104,7 +87,7 @@ std::optional<fs::path> AssetCache::find(const std::string& hash, const std::str
 Expected<fs::path> AssetCache::keep(std::span<const std::byte> bytes, const std::string& hash,
                                     const std::string& extension) {
   const fs::path file = place_of(hash, extension);
-  const Expected<void> written = write_whole(file, bytes);
+  const Expected<void> written = content::write_whole(file, bytes);
   if (written) {
     touch(file);  // the clock that find() uses, which is finer than the file system's
     in_use_.insert(file);
@@ -132,7 +115,7 @@ Expected<fs::path> AssetCache::keep_aside(std::span<const std::byte> bytes, cons
       if (mkdtemp(fresh.data()) == nullptr) continue;
       aside = *asides_.insert(fs::path(fresh)).first;
     }
-    if (write_whole(aside / name, bytes)) return aside / name;
+    if (content::write_whole(aside / name, bytes)) return aside / name;
   }
   return fail("there is no room for it on any disk", folder_.string(),
               "make room, or choose a folder with --asset-cache");
@@ -172,7 +155,7 @@ void AssetCache::remember(const std::string& address, const RememberedFile& file
   const nlohmann::ordered_json note{
       {"address", address}, {"hash", file.hash}, {"etag", file.etag}, {"modified", file.modified}};
   const std::string text = note.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  (void)write_whole(note_of(address), std::as_bytes(std::span(text)));
+  (void)content::write_whole(note_of(address), std::as_bytes(std::span(text)));
 }
 
 }  // namespace mechane::display

@@ -108,7 +108,7 @@ class DisplayLoop {
   std::string told_refusal_;
   std::string folder_;
   std::string scenario_;
-  std::size_t objects_known_ = 0;
+  std::vector<client::SceneObject> objects_;  ///< the manifest
   PictureSchedule schedule_;
   std::optional<std::string> due_;
   bool last_picture_taken_ = false;
@@ -146,7 +146,7 @@ void DisplayLoop::open_scenario() {
     return content::import_mesh(*file);
   });
   builder_ = std::make_unique<SceneBuilder>(*library_, spoken_);
-  objects_known_ = 0;
+  objects_.clear();
   presentation_.reset();
   have_frame_ = false;  // of the world before
 }
@@ -167,12 +167,12 @@ std::unique_ptr<AssetStore> DisplayLoop::open_store() const {
 
 /// Files that came from the server of assets take their placeholders' place.
 void DisplayLoop::take_arrived() {
-  if (!store_ || objects_known_ == 0) return;
+  if (!store_ || objects_.empty()) return;
   bool any = false;
   for (const std::string& name : store_->take_arrived())
     any = library_->load_again(name) || any;
   if (!any) return;
-  builder_->set_manifest(client_.objects());
+  builder_->set_manifest(objects_);
   renderer_.upload(library_->assets());
 }
 
@@ -196,12 +196,12 @@ void DisplayLoop::take_news(TimePoint now) {
       presentation_ = std::move(presentation);
       builder_->set_presentation(presentation_);
     }
-    const std::vector<client::SceneObject> objects = client_.objects();
-    if (objects.size() != objects_known_) {
-      objects_known_ = objects.size();
-      for (const client::SceneObject& object : objects)
+    std::vector<client::SceneObject> objects = client_.objects();
+    if (objects.size() != objects_.size()) {
+      objects_ = std::move(objects);
+      for (const client::SceneObject& object : objects_)
         mesh_files_->expect(object.mesh_uri, object.mesh_hash);
-      builder_->set_manifest(objects);
+      builder_->set_manifest(objects_);
       renderer_.upload(library_->assets());
     }
     take_arrived();
@@ -293,7 +293,7 @@ void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
   if (builder_ == nullptr) return;
   const auto clicked = object_at(build(now), library_->assets(), place, options_.stereo, context_.size());
   if (!clicked) return;
-  for (const client::SceneObject& object : client_.objects()) {
+  for (const client::SceneObject& object : objects_) {
     if (object.index == *clicked) (void)client_.click(object.name);
   }
 }
@@ -324,8 +324,8 @@ void DisplayLoop::let_hear(const Camera& ears) {
   const std::vector<client::WorldEvent> events = client_.take_events();
   if (!sound_) return;
   const bool here = have_frame_ && client_.state() == LinkState::joined;
-  sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(),
-               client_.objects(), events, folder_);
+  sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(), objects_,
+               events, folder_);
 }
 
 Expected<void> DisplayLoop::write_picture(const std::string& name) {

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <span>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/content/scene_codec.hpp"
+#include "server/content/whole_file.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::content {
@@ -45,24 +45,6 @@ std::shared_ptr<const collision::Object> read_cached(const fs::path& file) {
   if (object) return std::make_shared<const collision::Object>(std::move(*object));
   log::warning(fmt::format("{}: {}; it is built again", file.string(), object.error().what));
   return nullptr;
-}
-
-/// Under its own name at once and whole, or not at all: two servers may build the same object.
-Expected<void> write_cached(const fs::path& file, std::span<const std::byte> bytes) {
-  std::error_code code;
-  fs::create_directories(file.parent_path(), code);
-  std::string draft = file.string() + ".XXXXXX";
-  const int fd = mkstemp(draft.data());
-  if (fd < 0) return fail("cannot be written", file.string());
-  ::close(fd);
-  std::ofstream out(draft, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) fs::rename(draft, file, code);
-  if (out && !code) return {};
-  std::error_code ignored;
-  fs::remove(draft, ignored);
-  return fail(code ? code.message() : "cannot be written whole", file.string());
 }
 
 const char* setting(const char* name) {
@@ -102,7 +84,7 @@ Expected<std::shared_ptr<const collision::Object>> ObjectStore::load(const fs::p
   }
   Expected<collision::Object> built = build(file, node, config);
   if (!built) return tl::unexpected(built.error());
-  if (auto kept = write_cached(*cached, collision::write_object(*built)); !kept) {
+  if (auto kept = write_whole(*cached, collision::write_object(*built)); !kept) {
     log::warning(fmt::format("{}; the object is built again at each start", kept.error().to_string()));
   }
   auto object = std::make_shared<const collision::Object>(std::move(*built));

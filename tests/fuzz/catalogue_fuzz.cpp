@@ -31,7 +31,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!entries) return 0;
   for (const auto& entry : *entries) {
     if (!mechane::content::is_inside(entry.path) || entry.hash.size() != 32) std::abort();
-    if (!catalogue->files_of(entry.hash)) std::abort();
+    const auto files = catalogue->files_of(entry.hash);
+    if (!files) continue;  // a page of the index that the rows did not need is damaged, and told so
+    for (const auto& found : *files) {
+      if (!mechane::content::is_inside(found.lexically_relative(file.parent_path()).string())) std::abort();
+    }
   }
   return 0;
 }

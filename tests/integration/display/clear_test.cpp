@@ -28,13 +28,7 @@ struct Panes {
     scene.camera.p_WC = Vec3(0, 1, 3);
     scene.camera.p_WT = Vec3(0, 1, 0);
   }
-  void add(std::uint32_t mesh, std::uint32_t material, const Vec3f& p_W) {
-    Instance instance;
-    instance.mesh = mesh;
-    instance.material = material;
-    instance.X_WM.translation() = p_W;
-    scene.instances.push_back(instance);
-  }
+  void add(std::uint32_t mesh, std::uint32_t material, const Vec3f& p_W) { add_instance(scene, mesh, material, p_W); }
 };
 
 TEST_F(DrawnPicture, what_stands_behind_glass_is_seen_through_it) {

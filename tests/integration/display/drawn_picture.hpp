@@ -14,6 +14,15 @@
 
 namespace mechane::display {
 
+/// One more thing in a scene, upright.
+inline void add_instance(RenderScene& scene, std::uint32_t mesh, std::uint32_t material, const Vec3f& p_W) {
+  Instance instance;
+  instance.mesh = mesh;
+  instance.material = material;
+  instance.X_WM.translation() = p_W;
+  scene.instances.push_back(instance);
+}
+
 class DrawnPicture : public testing::Test {
  protected:
   void SetUp() override {

@@ -24,13 +24,7 @@ struct Yard {
     scene.camera.p_WT = Vec3(0, 0.6, 0);
     scene.time_s = 12.3;
   }
-  void add(std::uint32_t mesh, std::uint32_t material, const Vec3f& p_W) {
-    Instance instance;
-    instance.mesh = mesh;
-    instance.material = material;
-    instance.X_WM.translation() = p_W;
-    scene.instances.push_back(instance);
-  }
+  void add(std::uint32_t mesh, std::uint32_t material, const Vec3f& p_W) { add_instance(scene, mesh, material, p_W); }
 };
 
 TEST_F(DrawnPicture, each_kind_of_particle_looks_its_part) {

@@ -6,12 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "client-sdk/cli/visit_plot.hpp"
 #include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
 #include "server/record/visit_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace mechane::cli {
 namespace {
@@ -67,15 +67,7 @@ std::vector<VisitSheet> ten_visits() {
 /// A file of sheets in a folder of the test; and what the command said last.
 class VisitsTest : public testing::Test {
  protected:
-  VisitsTest() {
-    std::string name = (fs::temp_directory_path() / "mechane-cli-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    options_.records = folder_;
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
+  VisitsTest() { options_.records = folder_; }
   void keep(const std::vector<VisitSheet>& sheets) {
     auto file = VisitFile::open(folder_ / "visits.db", VisitFile::Access::write_new);
     ASSERT_TRUE(file) << file.error().to_string();
@@ -101,7 +93,8 @@ class VisitsTest : public testing::Test {
     return text.str();
   }
 
-  fs::path folder_;
+  test::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
   VisitsOptions options_;
   std::string out_;
   std::string errors_;

@@ -10,6 +10,7 @@
 #include "client-sdk/display/mesh_files.hpp"
 #include "server/base/clock.hpp"
 #include "server/content/content_hash.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/small_http_server.hpp"
 
 namespace mechane::display {
@@ -36,8 +37,6 @@ class AssetStoreTest : public testing::Test {
  protected:
   AssetStoreTest() {
     ::setenv("no_proxy", "127.0.0.1", 1);
-    std::string name = (fs::temp_directory_path() / "mechane-assets-test-XXXXXX").string();
-    top_ = mkdtemp(name.data());
     options_.cache_folder = top_ / "cache";
     options_.first_retry = milliseconds(20);
     options_.longest_retry = milliseconds(80);
@@ -46,7 +45,6 @@ class AssetStoreTest : public testing::Test {
     store_.reset();
     std::error_code ignored;
     fs::permissions(top_ / "cache", fs::perms::owner_all, ignored);
-    fs::remove_all(top_, ignored);
   }
   void open(const SmallHttpServer& server) { open(server.address("/screw")); }
   void open(const std::string& address) {
@@ -71,7 +69,8 @@ class AssetStoreTest : public testing::Test {
     return options_.cache_folder / "files" / hash.substr(0, 2) / (hash + extension);
   }
 
-  fs::path top_;
+  test::ScratchFolder scratch_;
+  fs::path top_ = scratch_.path();
   AssetStoreOptions options_;
   std::unique_ptr<AssetStore> store_;
   const std::string body_ = std::string(40'000, 'm') + "esh";

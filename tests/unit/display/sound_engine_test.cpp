@@ -11,6 +11,7 @@
 #include <sndfile.h>
 
 #include "client-sdk/display/sound_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace mechane::display {
 namespace {
@@ -60,15 +61,7 @@ SoundSource source_at(const std::string& id, SoundKind kind, const Vec3& p_W, bo
 
 class SoundEngineTest : public testing::Test {
  protected:
-  SoundEngineTest() : engine_(std::move(*SoundEngine::open(SoundOutput::samples))) {
-    std::string name = (fs::temp_directory_path() / "mechane-sound-XXXXXX").string();
-    top_ = mkdtemp(name.data());
-  }
-  void TearDown() override {
-    engine_.reset();
-    std::error_code ignored;
-    fs::remove_all(top_, ignored);
-  }
+  SoundEngineTest() : engine_(std::move(*SoundEngine::open(SoundOutput::samples))) {}
   /// As a display would: sixty frames a second.
   std::vector<float> play(const SoundScene& scene, double seconds) {
     std::vector<float> all;
@@ -103,7 +96,8 @@ class SoundEngineTest : public testing::Test {
 
   std::unique_ptr<SoundEngine> engine_;
   SoundLevels levels_;
-  fs::path top_;
+  test::ScratchFolder scratch_;
+  fs::path top_ = scratch_.path();
 };
 
 constexpr int kWav = SF_FORMAT_WAV | SF_FORMAT_PCM_16;

@@ -10,6 +10,7 @@
 #include <rapidcheck/gtest.h>
 #include <unistd.h>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/record/visit_sheet_samples.hpp"
 
 namespace mechane::record {
@@ -24,25 +25,12 @@ using testing::SizeIs;
 using Access = VisitFile::Access;
 using Trouble = VisitFile::Trouble;
 
-/// A folder in memory where there is a place for that: properties would else wait for a disk some thousand times.
 class VisitFolder {
  public:
-  VisitFolder() {
-    const fs::path memory = "/dev/shm";
-    const fs::path parent = access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path();
-    std::string name = (parent / "mechane-visits-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  VisitFolder(const VisitFolder&) = delete;
-  VisitFolder& operator=(const VisitFolder&) = delete;
-  ~VisitFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] fs::path file() const { return path_ / kVisitFileName; }
+  [[nodiscard]] fs::path file() const { return folder_.path() / kVisitFileName; }
 
  private:
-  fs::path path_;
+  test::ScratchFolder folder_{test::folder_in_memory()};
 };
 
 VisitFile open_visits(const fs::path& file, Access access = Access::write_new) {
