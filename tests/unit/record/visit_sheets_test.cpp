@@ -1,5 +1,6 @@
 #include "server/record/visit_sheets.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <functional>
