@@ -176,6 +176,7 @@ def gather(out, visitors, replays):
         "water_l": round(sum(r.get("water_l", 0) for r in reports), 2),
         "pictures": len(pictures),
         "pictures.wanted": len(wanted),
+        "pictures.missed": len(missed),
         "replays.same_hash": replays[0],
         "replays.asked": replays[1],
         "force_n.max": max([r.get("force_n", {}).get("max", 0) for r in reports], default=0),
@@ -216,7 +217,7 @@ def print_summary(metrics, activities, missed, out):
     print("  motion to force          median {:.0f} us, p99 {:.0f}, p99.9 {:.0f}, max {:.0f}".format(
         *(get(f"rtt_us.{k}") for k in ("median", "p99", "p999", "max"))))
     print(f"  journals replayed        {metrics['replays.same_hash']} of {metrics['replays.asked']} to the live hash")
-    print(f"  pictures                 {metrics['pictures']:8d}      of {metrics['pictures.wanted']}, in {out / 'pictures'}")
+    print(f"  pictures of steps        {metrics['pictures.wanted'] - metrics['pictures.missed']:8d}      of {metrics['pictures.wanted']}, in {out / 'pictures'}")
     for kiosk, name in missed:
         print(f"                           missed: {name} at {kiosk} (drawing took longer than the step)")
 
@@ -255,8 +256,9 @@ def main():
     root, out = pathlib.Path.cwd(), options.out.resolve()
     for stale in ("pictures", "records"):
         shutil.rmtree(out / stale, ignore_errors=True)
-    for stale in out.glob("*.json"):
-        stale.unlink()
+    for stale in (*out.glob("*.json"), *out.glob("*.log")):
+        if stale.name != "build.log":
+            stale.unlink()
     out.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
     programs = Programs(options.bin.resolve(), out, environment_of(root))
