@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "client-sdk/cli/content_text.hpp"
+#include "server/base/markup.hpp"
 #include "server/scenario/utf8.hpp"
 
 namespace mechane::cli {
@@ -38,27 +39,7 @@ constexpr std::size_t kLongestName = 26;
 
 /// Text of a file as XML may have it; what is not UTF-8 ends it.
 std::string escaped(const std::string& text) {
-  const std::string good = text.substr(0, scenario::first_bad_utf8(text).value_or(text.size()));
-  std::string out;
-  for (const char c : shown(good)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
+  return escape_markup(shown(text.substr(0, scenario::first_bad_utf8(text).value_or(text.size()))));
 }
 
 /// At most `letters` of it; UTF-8 is not cut in the middle of a letter.

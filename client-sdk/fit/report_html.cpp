@@ -8,6 +8,7 @@
 
 #include "client-sdk/fit/report_style.hpp"
 #include "client-sdk/fit/table.hpp"
+#include "server/base/markup.hpp"
 #include "server/base/parallel.hpp"
 
 namespace mechane::fit {
@@ -285,30 +286,7 @@ std::string html_page(const Report& report) {
 }
 
 std::string escaped(std::string_view text) {
-  std::string out;
-  // Also makes it UTF-8 without control characters.
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
+  return escape_markup(printable(text));  // printable also makes it UTF-8 without control characters
 }
 
 }  // namespace mechane::fit

@@ -11,7 +11,7 @@ class Exhibits(EndToEnd):
         scenarios = sorted((ROOT / "scenarios").glob("*/*.x3d"))
         server = self.server("--worlds", len(scenarios), scenario=scenarios)
         report = self.folder / "tour.json"
-        tour = self.run_command("visitor", "--all", "--at-once", 3, "--scenario", ROOT / "scenarios",
+        tour = self.run_command("visitor", "--all", "--at-once", 4, "--scenario", ROOT / "scenarios",
                                 "--report", report, limit_s=900)
         self.assertEqual(tour.returncode, 0, tour.stdout + tour.stderr)
         stops = json.loads(report.read_text())
