@@ -50,12 +50,13 @@ std::string scenario_key(const client::WorldStatus& status) {
 class DisplayLoop {
  public:
   DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
-              client::Client& client, Typesetter& typesetter, const content::Catalogue* catalogue)
+              DisplaySource& source, Typesetter& typesetter, const content::Catalogue* catalogue)
       : options_(options),
         requests_(requests),
         context_(context),
         renderer_(renderer),
-        client_(client),
+        source_(source),
+        client_(*source.client),
         typesetter_(typesetter),
         catalogue_(catalogue),
         panel_({options.language, options.ask, options.overlay,
@@ -65,15 +66,17 @@ class DisplayLoop {
   Expected<DisplaySummary> run();
 
  private:
+  [[nodiscard]] TimePoint now();
   [[nodiscard]] bool stop_wanted(TimePoint now) const;
   [[nodiscard]] bool finished() const;
   void take_news(TimePoint now);
+  void record(TimePoint now);
   void open_scenario();
   [[nodiscard]] std::unique_ptr<AssetStore> open_store() const;
   void take_arrived();
   void say_refusal();
   Expected<void> draw(TimePoint now);
-  void let_hear(const Camera& ears);
+  void let_hear(const Camera& ears, TimePoint now);
   [[nodiscard]] RenderScene build(TimePoint now) const;
   [[nodiscard]] RenderScene build_for_one() const;
   void take_wishes(TimePoint now);
@@ -88,6 +91,7 @@ class DisplayLoop {
   DisplayRequests& requests_;
   GlContext& context_;
   Renderer& renderer_;
+  DisplaySource& source_;
   client::Client& client_;
   Typesetter& typesetter_;
   SystemClock clock_;
@@ -124,10 +128,18 @@ bool DisplayLoop::finished() const {
   return status_->activities.empty() || status_->activities.back() == status_->activity;
 }
 
+/// A film's time goes by its pictures, not by how long they take.
+TimePoint DisplayLoop::now() {
+  if (options_.film_fps <= 0) return clock_.now();
+  const double seconds = static_cast<double>(summary_.frames) / options_.film_fps;
+  return started_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
 bool DisplayLoop::stop_wanted(TimePoint now) const {
   if (requests_.stop || context_.close_wanted()) return true;
   if (options_.seconds > 0 && now - started_ >= std::chrono::duration<double>(options_.seconds)) return true;
   if (options_.frames > 0 && summary_.frames >= options_.frames) return true;
+  if (source_.recorded != nullptr && source_.recorded->over()) return true;
   const bool owes_picture = options_.every_step && !last_picture_taken_;
   return options_.until_done && finished() && !owes_picture;
 }
@@ -186,6 +198,7 @@ void DisplayLoop::say_refusal() {
 
 /// Status, manifest and frame as they are now.
 void DisplayLoop::take_news(TimePoint now) {
+  if (source_.recorded != nullptr) source_.recorded->advance(now);
   if (auto status = client_.world_status()) {
     status_ = std::move(status);
     if (builder_ == nullptr || scenario_key(*status_) != scenario_) open_scenario();
@@ -206,6 +219,7 @@ void DisplayLoop::take_news(TimePoint now) {
     }
     take_arrived();
   }
+  record(now);
   say_refusal();
   // While the link is down the last frame stays.
   client::Frame newer;
@@ -213,6 +227,13 @@ void DisplayLoop::take_news(TimePoint now) {
     frame_ = std::move(newer);
     have_frame_ = true;
   }
+}
+
+void DisplayLoop::record(TimePoint now) {
+  if (!source_.recorder || !status_ || client_.state() != LinkState::joined) return;
+  client::Frame newest;
+  const bool any = client_.newest_frame(newest);
+  source_.recorder->hear(now, *status_, presentation_.get(), objects_, any ? &newest : nullptr);
 }
 
 RenderScene DisplayLoop::build(TimePoint now) const {
@@ -299,6 +320,7 @@ void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
 }
 
 Expected<void> DisplayLoop::draw(TimePoint now) {
+  const TimePoint began = clock_.now();
   const RenderScene scene = build(now);
   const PixelSize size = context_.size();
   // A window that is minimised has no pixels.
@@ -312,16 +334,17 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   context_.present();
   shown_ = scene.overlay;
   shown_inset_ = scene.inset ? std::optional(scene.inset->caption) : std::nullopt;
-  let_hear(scene.camera);
+  let_hear(scene.camera, now);
   ++summary_.frames;
   if (frame_ms_.size() < kFrameTimesKept) {
-    frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - now).count());
+    frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - began).count());
   }
   return {};
 }
 
-void DisplayLoop::let_hear(const Camera& ears) {
+void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
   const std::vector<client::WorldEvent> events = client_.take_events();
+  if (source_.recorder) source_.recorder->hear(now, events);
   if (!sound_) return;
   const bool here = have_frame_ && client_.state() == LinkState::joined;
   sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(), objects_,
@@ -338,6 +361,7 @@ Expected<void> DisplayLoop::write_picture(const std::string& name) {
 }
 
 void DisplayLoop::wait_for_next(TimePoint began) {
+  if (options_.film_fps > 0) return;
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
   const TimePoint now = clock_.now();
   next_ = std::max(next_ + period, now);
@@ -351,12 +375,12 @@ void DisplayLoop::wait_for_next(TimePoint began) {
 Expected<DisplaySummary> DisplayLoop::run() {
   started_ = next_ = clock_.now();
   if (options_.sound.on && !options_.offscreen) sound_.emplace(options_.sound, spoken_);
-  while (!stop_wanted(clock_.now())) {
-    const TimePoint now = clock_.now();
+  while (!stop_wanted(now())) {
+    const TimePoint now = this->now();
     take_news(now);
     take_wishes(now);
     const bool requested = requests_.picture.exchange(false) || context_.take_picture_wanted();
-    const bool only_pictures = options_.offscreen && options_.every_step;
+    const bool only_pictures = options_.offscreen && options_.every_step && options_.film_fps <= 0;
     if (!only_pictures || due_ || requested) {
       if (auto ok = draw(now); !ok) return tl::unexpected(ok.error());
     }
@@ -364,6 +388,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
     if (due_) names.push_back(*std::exchange(due_, std::nullopt));
     if (requested) names.push_back(fmt::format("request-{:03}", ++requested_pictures_));
     if (options_.frames > 0 && summary_.frames == options_.frames) names.emplace_back("frame");
+    if (options_.film_fps > 0) names.push_back(fmt::format("film-{:05}", summary_.frames));
     for (const std::string& name : names) {
       if (auto ok = write_picture(name); !ok) return tl::unexpected(ok.error());
       if (finished() && name.ends_with("-done")) last_picture_taken_ = true;
@@ -448,9 +473,10 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   config.kiosk = options.kiosk;
   config.program = "mechane-display";
   config.domain = options.domain;
-  auto client = client::Client::connect(config);
-  if (!client) return tl::unexpected(client.error());
-  return DisplayLoop(possible, requests, **context, **renderer, **client, **typesetter,
+  auto source = open_source(options.source, config);
+  if (!source) return tl::unexpected(source.error());
+  if (source->recorded != nullptr) possible.ask = AskWhen::none;  // nobody is there who answers
+  return DisplayLoop(possible, requests, **context, **renderer, *source, **typesetter,
                      catalogue ? &*catalogue : nullptr)
       .run();
 }

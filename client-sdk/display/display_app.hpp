@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client-sdk/display/display_sound.hpp"
+#include "client-sdk/display/display_source.hpp"
 #include "client-sdk/display/gl_context.hpp"
 #include "client-sdk/display/picture_schedule.hpp"
 #include "client-sdk/display/renderer.hpp"
@@ -43,6 +44,9 @@ struct DisplayOptions {
   OverlayStyle overlay;          ///< at the start; keys change it
   double home_after_s = 0;       ///< without anybody's motion or click: back to the server's first scenario; 0: never
   SoundSettings sound;           ///< in a window; offscreen nothing is heard
+  SourceOptions source;          ///< played instead of a server's, and recorded
+  double film_fps =
+      0;  ///< over 0, with a recording: every picture, so many a second of it, as fast or slowly as they can be drawn
 };
 
 /// What was done, for scripts.

@@ -79,6 +79,32 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--fps", o.fps, "frames a second, at most")->check(CLI::Range(0.1, 240.0))->capture_default_str();
 }
 
+void add_recording_options(CLI::App& app, display::DisplayOptions& o) {
+  app.add_option("--record", o.source.record,
+                 "file that all that is shown is recorded to, to be played without a server; a file of that name goes");
+  app.add_option("--record-fps", o.source.recorder.fps, "frames a second that are recorded, at most")
+      ->check(CLI::Range(1.0, 240.0))
+      ->capture_default_str();
+  app.add_option_function<std::uint64_t>(
+         "--record-mib", [&o](std::uint64_t mib) { o.source.recorder.limit_bytes = mib << 20U; },
+         "the recording ends where it is so large; without: 256")
+      ->check(CLI::Range(1, 1024));
+  auto* play = app.add_option("--play", o.source.play, "recording that is shown in a server's place");
+  app.add_option("--speed", o.source.player.speed, "of a recording; 1: as it was")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str()
+      ->needs(play);
+  app.add_option("--play-from", o.source.play_from,
+                 "where the recording begins: a second, as 12.5, or a step and a share of it, as turn@0.4")
+      ->needs(play);
+  app.add_flag("--play-again", o.source.player.again, "begin the recording anew when it is over")->needs(play);
+  app.add_option(
+         "--film-fps", o.film_fps,
+         "write every picture of a recording to --out, so many for each second, however long each takes to draw")
+      ->check(CLI::Range(0.1, 240.0))
+      ->needs(play);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -86,6 +112,7 @@ int main(int argc, char** argv) {
   std::string size = "1280x720";
   CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
   add_options(app, options, size);
+  add_recording_options(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
