@@ -245,6 +245,48 @@ Json to_json(const proto::KioskStatus& s) {
   return j;
 }
 
+template <class Sequence>
+Json settings(const Sequence& sequence) {
+  Json all = Json::object();
+  for (const proto::WireSetting& setting : proto::elements(sequence))
+    all[text(setting.name)] = text(setting.value);
+  return all;
+}
+
+Json to_json(const proto::DisplayStatus& s) {
+  Json j = head(s);
+  j.update({{"kiosk", text(s.kiosk)}, {"display", text(s.display)}, {"session", s.session}});
+  j.update(
+      {{"version", proto::string_of(s.version)}, {"host", proto::string_of(s.host)}, {"process_id", s.process_id}});
+  j.update({{"uptime_s", s.uptime_s}, {"width", s.width}, {"height", s.height}, {"offscreen", s.offscreen}});
+  j.update(
+      {{"pictures", s.pictures}, {"pictures_per_s", s.pictures_per_s}, {"picture_ms_median", s.picture_ms_median}});
+  j.update({{"picture_ms_p99", s.picture_ms_p99}, {"wanted_per_s", s.wanted_per_s}, {"link", s.link}});
+  j.update({{"refusal", proto::string_of(s.refusal)}, {"world", proto::string_of(s.world)}});
+  j.update(
+      {{"scenario", proto::string_of(s.scenario)}, {"frames_per_s", s.frames_per_s}, {"frames_lost", s.frames_lost}});
+  j.update({{"missing_total", s.missing_total},
+            {"missing", strings(s.missing)},
+            {"renderer", proto::string_of(s.renderer)}});
+  j.update({{"sound", proto::string_of(s.sound)}, {"sound_problem", proto::string_of(s.sound_problem)}});
+  j.update({{"showing", proto::string_of(s.showing)}, {"warnings", s.warnings}});
+  j.update({{"last_warning", proto::string_of(s.last_warning)}, {"settings", settings(s.settings)}});
+  Json answers = Json::array();
+  for (const proto::WireWishAnswer& a : proto::elements(s.answers)) {
+    answers.push_back(
+        {{"id", a.id}, {"refusal", proto::string_of(a.refusal)}, {"picture", proto::string_of(a.picture)}});
+  }
+  j["answers"] = answers;
+  return j;
+}
+
+Json to_json(const proto::DisplayWish& s) {
+  Json j = head(s);
+  j.update({{"kiosk", text(s.kiosk)}, {"display", text(s.display)}, {"session", s.session}, {"id", s.id}});
+  j.update({{"settings", settings(s.settings)}, {"picture", s.picture}});
+  return j;
+}
+
 /// Whether a sample's key names the kiosk and world that were asked for.
 bool wanted(const Json& j, const EchoOptions& options) {
   const bool kiosk = options.kiosk.empty() || !j.contains("kiosk") || j["kiosk"] == options.kiosk;
@@ -360,10 +402,11 @@ constexpr Topic topic() {
 
 int run_echo(const EchoOptions& options) {
   static constexpr Topic kTopics[] = {
-      topic<proto::HapticInput>(), topic<proto::HapticOutput>(),     topic<proto::SceneFrame>(),
-      topic<proto::SceneObject>(), topic<proto::WorldStatus>(),      topic<proto::Event>(),
-      topic<proto::Command>(),     topic<proto::WorldAssignment>(),  topic<proto::ServerStatus>(),
-      topic<proto::KioskStatus>(), topic<proto::WorldPresentation>()};
+      topic<proto::HapticInput>(), topic<proto::HapticOutput>(),      topic<proto::SceneFrame>(),
+      topic<proto::SceneObject>(), topic<proto::WorldStatus>(),       topic<proto::Event>(),
+      topic<proto::Command>(),     topic<proto::WorldAssignment>(),   topic<proto::ServerStatus>(),
+      topic<proto::KioskStatus>(), topic<proto::WorldPresentation>(), topic<proto::DisplayStatus>(),
+      topic<proto::DisplayWish>()};
   for (const Topic& t : kTopics) {
     if (options.topic == t.name) return t.run(options);
   }

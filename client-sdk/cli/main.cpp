@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "client-sdk/cli/content.hpp"
+#include "client-sdk/cli/displays.hpp"
 #include "client-sdk/cli/doctor.hpp"
 #include "client-sdk/cli/echo.hpp"
 #include "client-sdk/cli/open.hpp"
@@ -18,6 +19,7 @@
 #include "server/scenario/checker.hpp"
 #include "server/scenario/merge.hpp"
 #include "server/scenario/reference.hpp"
+#include <mechane/client/displays.hpp>
 
 namespace {
 
@@ -61,6 +63,28 @@ CLI::App* add_open(CLI::App& app, cli::OpenOptions& open) {
       });
   command->add_option("--domain", open.domain, "DDS domain");
   return command;
+}
+
+CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
+  CLI::App* displays = app.add_subcommand("displays", "tell how all displays are, with remarks; change what they do");
+  displays->require_subcommand(0, 1);
+  displays->add_option("--kiosk", o.kiosk, "only this kiosk's");
+  displays->add_option("--display", o.display, "only the display of this name (mechane display --name)");
+  displays->add_option("--domain", o.domain, "DDS domain");
+  displays->add_option("--seconds", o.seconds, "how long displays may take to answer")
+      ->check(CLI::Range(0.1, 600.0))
+      ->capture_default_str();
+  displays->add_flag("--json", o.json, "one JSON object a line");
+  std::string help = "change settings of a kiosk's displays, until they end:";
+  for (const client::DisplaySettingInfo& setting : client::display_settings())
+    help += " " + std::string(setting.name) + " (" + std::string(setting.values) + ")";
+  CLI::App* set = displays->add_subcommand("set", help);
+  set->add_option("settings", o.settings, "NAME=VALUE, as in volume=0.5 language=en")->required();
+  CLI::App* picture =
+      displays->add_subcommand("picture", "let a kiosk's displays write what they show into their --out folder");
+  for (CLI::App* command : {set, picture})
+    command->fallthrough();  // --kiosk may stand behind the verb
+  return displays;
 }
 
 void add_content_add(CLI::App& content, cli::ContentOptions& o) {
@@ -147,6 +171,8 @@ int add_and_parse(int argc, char** argv) {
   auto* echo_command = add_echo(app, echo);
   cli::OpenOptions open;
   auto* open_command = add_open(app, open);
+  cli::DisplaysOptions displays;
+  auto* displays_command = add_displays(app, displays);
   cli::ContentOptions content;
   auto* content_command = add_content(app, content);
   cli::VisitsOptions visits;
@@ -175,6 +201,10 @@ int add_and_parse(int argc, char** argv) {
   }
   if (*echo_command) return cli::run_echo(echo);
   if (*open_command) return cli::run_open(open);
+  if (*displays_command) {
+    const auto verbs = displays_command->get_subcommands();
+    return cli::run_displays(verbs.empty() ? "" : verbs.front()->get_name(), displays);
+  }
   if (*content_command)
     return cli::run_content(content_command->get_subcommands().front()->get_name(), content, std::cout, std::cerr);
   if (*visits_command) {

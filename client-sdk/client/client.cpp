@@ -10,6 +10,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "client-sdk/client/display_link.hpp"
 #include "client-sdk/client/hand_link.hpp"
 #include "client-sdk/client/parse.hpp"
 #include "client-sdk/client/world_link.hpp"
@@ -78,6 +79,14 @@ class ClientImpl final : public Client {
     const char* const time = when == AnswerTime::before ? "before" : "after";
     return send_command(6, fmt::format("{}:{}/{}={}", time, activity, question, answer));
   }
+  [[nodiscard]] FrameTraffic frame_traffic() const override {
+    const std::lock_guard lock(store_.mutex);
+    return store_.traffic;
+  }
+  bool report(const DisplayStatus& status) override { return display_ && display_->report(status); }
+  [[nodiscard]] std::vector<DisplayWish> take_display_wishes() override {
+    return display_ ? display_->take_wishes() : std::vector<DisplayWish>();
+  }
 
  private:
   struct Server {
@@ -126,6 +135,7 @@ class ClientImpl final : public Client {
 
   realtime::Wakeup news_;
   std::unique_ptr<HandLink> hand_;
+  std::unique_ptr<DisplayLink> display_;
   proto::Reader<proto::ServerStatus> server_reader_;
   proto::Reader<proto::WorldAssignment> assignment_reader_;
   std::thread thread_;  // last
@@ -141,6 +151,11 @@ Expected<void> ClientImpl::open() {
     auto hand = HandLink::create(participant_, config_.kiosk, config_.user, session_, config_.fifo_priority);
     if (!hand) return tl::unexpected<Error>(hand.error());
     hand_ = std::move(*hand);
+  }
+  if (!config_.display.empty()) {
+    auto display = DisplayLink::create(participant_, config_.kiosk, config_.display, session_);
+    if (!display) return tl::unexpected<Error>(display.error());
+    display_ = std::move(*display);
   }
   auto servers = proto::Reader<proto::ServerStatus>::create(participant_, "", [this](auto) { news_.signal(); });
   if (!servers) return tl::unexpected<Error>(servers.error());
@@ -357,6 +372,9 @@ Expected<void> check(const ClientConfig& config) {
   if (auto named = proto::check_name(config.kiosk, "kiosk"); !named) return named;
   if (!config.join_kiosk.empty()) {
     if (auto named = proto::check_name(config.join_kiosk, "kiosk"); !named) return named;
+  }
+  if (!config.display.empty()) {
+    if (auto named = proto::check_name(config.display, "display"); !named) return named;
   }
   if (config.user >= proto::kMaxUsers) {
     return fail(fmt::format("user {} is none of a kiosk's", config.user), "user", "choose one of 0 to 3");

@@ -3,26 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client-sdk/client/clean_text.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::client {
 namespace {
-
-/// A text from the network as it may stand on a terminal: line ends and tabs stay, other control characters go.
-std::string clean(std::string text) {
-  std::erase_if(text, [](char c) {
-    const auto u = static_cast<unsigned char>(c);
-    return (u < 0x20 && c != '\n' && c != '\t') || u == 0x7f;
-  });
-  return text;
-}
-std::string clean_string(const char* text) {
-  return clean(proto::string_of(text));
-}
-template <std::size_t N>
-std::string clean(const char (&text)[N]) {
-  return clean(std::string(proto::text_of(text)));
-}
 
 bool parse_pose(const proto::WirePose& wire, Pose& out) noexcept {
   if (!proto::all_finite(wire)) return false;

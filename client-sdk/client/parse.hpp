@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include <mechane/client/displays.hpp>
 #include <mechane/client/types.hpp>
 #include <mechane/proto/topics.hpp>
 
@@ -15,6 +16,8 @@ inline constexpr std::size_t kMaxTexts = 64;
 inline constexpr std::size_t kMaxRopes = 64;
 inline constexpr std::size_t kMaxRopePoints = 1024;
 inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
+inline constexpr std::size_t kMaxSettings = 64;    ///< of one wish or status
+inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers of one status
 
 /// All of these return false, with `out` in no particular state, where the sample is of another protocol version, a number is not
 /// finite, a rotation is none, or a count is beyond its limit. Times of receipt and sequences of one's own are the caller's.
@@ -26,6 +29,10 @@ inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of
 [[nodiscard]] bool parse(const proto::WorldPresentation& wire, WorldPresentation& out);
 [[nodiscard]] bool parse(const proto::Event& wire, WorldEvent& out);
 [[nodiscard]] bool parse(const proto::ServerStatus& wire, ServerStatus& out);
+/// Of a display with a name at a kiosk with a name; numbers are finite and not negative, shares at most 1.
+[[nodiscard]] bool parse(const proto::DisplayStatus& wire, DisplayStatus& out);
+/// What is wished is not checked: apply() does.
+[[nodiscard]] bool parse(const proto::DisplayWish& wire, DisplayWish& out);
 
 /// What a WorldAssignment means for one kiosk.
 struct Assignment {

@@ -6,6 +6,12 @@
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::client {
+namespace {
+
+/// A larger gap is another writer's count, or a lie; no link loses a minute and goes on.
+constexpr std::uint64_t kMostLostAtOnce = 3600;
+
+}  // namespace
 
 void WorldStore::clear() {
   const std::lock_guard lock(mutex);
@@ -75,6 +81,10 @@ void WorldLink::take_frames(proto::ReaderView<proto::SceneFrame> view) {
     arriving_.received = std::chrono::steady_clock::now();
     store_.newest.publish({number_, arriving_});
     const std::lock_guard lock(store_.mutex);
+    ++store_.traffic.received;
+    const bool gap = last_frame_ != 0 && wire.seq > last_frame_ && wire.seq - last_frame_ <= kMostLostAtOnce;
+    if (gap) store_.traffic.lost += wire.seq - last_frame_ - 1;
+    last_frame_ = wire.seq;
     store_.history.add(arriving_, wire.sent_ns);
   });
 }

@@ -10,6 +10,7 @@
 
 #include "client-sdk/client/frame_history.hpp"
 #include "server/realtime/mailbox.hpp"
+#include <mechane/client/displays.hpp>
 #include <mechane/client/types.hpp>
 #include <mechane/proto/entity.hpp>
 
@@ -32,6 +33,7 @@ struct WorldStore {
   std::optional<WorldStatus> status;
   std::shared_ptr<const WorldPresentation> presentation;
   std::deque<WorldEvent> events;
+  FrameTraffic traffic;  ///< of all worlds
 
   /// Another world: what was known of the last one goes, but for events that nobody has taken.
   void clear();
@@ -65,7 +67,8 @@ class WorldLink {
   std::string world_;
   std::uint64_t number_;
   WorldStore& store_;
-  Frame arriving_;  // the frame listener's
+  Frame arriving_;  // the frame listener's, as the next
+  std::uint64_t last_frame_ = 0;
   std::uint64_t command_sequence_ = 0;
   proto::Writer<proto::Command> commands_;
   proto::Reader<proto::SceneFrame> frames_;

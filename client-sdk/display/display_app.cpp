@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include "client-sdk/display/image_file.hpp"
+#include "client-sdk/display/kiosk_desk.hpp"
 #include "client-sdk/display/mesh_files.hpp"
 #include "client-sdk/display/overlay_layout.hpp"
 #include "client-sdk/display/picking.hpp"
@@ -46,6 +47,29 @@ std::string scenario_key(const client::WorldStatus& status) {
   return status.world + " " + status.scenario + " " + status.scenario_hash;
 }
 
+client::DisplaySettings settings_at_start(const DisplayOptions& options) {
+  client::DisplaySettings settings;
+  settings.volume = options.sound.volume;
+  settings.muted = !options.sound.on;
+  settings.language = options.language;
+  settings.large_text = options.overlay.text_scale > 1;
+  settings.high_contrast = options.overlay.high_contrast;
+  settings.ask = ask_name(options.ask);
+  settings.home_after_s = options.home_after_s;
+  return settings;
+}
+
+VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
+  return {settings.language,
+          ask_when(settings.ask),
+          {settings.large_text ? kLargeText : 1.0F, settings.high_contrast},
+          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
+}
+
+DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context) {
+  return {options.kiosk, options.name, context.renderer_name(), options.offscreen, options.fps, !options.out.empty()};
+}
+
 /// One display's life. Made and run on one thread.
 class DisplayLoop {
  public:
@@ -59,8 +83,8 @@ class DisplayLoop {
         client_(*source.client),
         typesetter_(typesetter),
         catalogue_(catalogue),
-        panel_({options.language, options.ask, options.overlay,
-                std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.home_after_s))}),
+        desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
+        panel_(panel_settings(desk_.settings())),
         spoken_(options.language) {}
 
   Expected<DisplaySummary> run();
@@ -75,16 +99,20 @@ class DisplayLoop {
   [[nodiscard]] std::unique_ptr<AssetStore> open_store() const;
   void take_arrived();
   void say_refusal();
+  void say_stray();
   Expected<void> draw(TimePoint now);
+  Expected<void> survive(const Error& error);
   void let_hear(const Camera& ears, TimePoint now);
   [[nodiscard]] RenderScene build(TimePoint now) const;
   [[nodiscard]] RenderScene build_for_one() const;
   void take_wishes(TimePoint now);
+  void tend_kiosk(TimePoint now);
   void take_key(DisplayKey key, TimePoint now);
   void take_click(PixelPlace place, TimePoint now);
   [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
   void click_object(PixelPlace place, TimePoint now);
   Expected<void> write_picture(const std::string& name);
+  void write_requested();
   void wait_for_next(TimePoint began);
 
   const DisplayOptions& options_;
@@ -105,11 +133,14 @@ class DisplayLoop {
   client::Frame frame_;
   bool have_frame_ = false;
   std::optional<DisplaySound> sound_;
+  KioskDesk desk_;
   VisitorPanel panel_;
   std::string spoken_;    ///< the language that all others know of
   OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
   std::optional<std::string> shown_inset_;
   std::string told_refusal_;
+  std::string told_stray_;
+  std::string told_draw_;
   std::string folder_;
   std::string scenario_;
   std::vector<client::SceneObject> objects_;  ///< the manifest
@@ -196,6 +227,13 @@ void DisplayLoop::say_refusal() {
   if (!refusal.empty()) log::warning("no exhibit yet: " + refusal);
 }
 
+/// What came loose from its world is not drawn; once is enough.
+void DisplayLoop::say_stray() {
+  if (builder_ == nullptr || builder_->stray().empty() || builder_->stray() == told_stray_) return;
+  told_stray_ = builder_->stray();
+  log::warning(told_stray_ + " is kilometres away and not drawn: its world has come apart; begin the activity anew");
+}
+
 /// Status, manifest and frame as they are now.
 void DisplayLoop::take_news(TimePoint now) {
   if (source_.recorded != nullptr) source_.recorded->advance(now);
@@ -276,6 +314,23 @@ void DisplayLoop::take_wishes(TimePoint now) {
   if (sound_) sound_->set_language(spoken_);
 }
 
+/// What is wished from afar, and how the display is.
+void DisplayLoop::tend_kiosk(TimePoint now) {
+  if (desk_.take_wishes(panel_.settings().style)) {
+    const client::DisplaySettings& wished = desk_.settings();
+    panel_.change(panel_settings(wished));
+    if (!sound_ && !wished.muted && !options_.offscreen) sound_.emplace(options_.sound, spoken_);
+    if (sound_) sound_->set_levels({wished.volume, wished.muted});
+  }
+  if (!desk_.report_due(now)) return;
+  DisplayFacts facts;
+  facts.size = context_.size();
+  facts.world = status_ ? &*status_ : nullptr;
+  facts.missing = library_ ? &library_->missing() : nullptr;
+  if (sound_) facts.sound = sound_->state();
+  desk_.report(facts, now);
+}
+
 void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
   switch (key) {
     case DisplayKey::home:
@@ -323,9 +378,10 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   const TimePoint began = clock_.now();
   const RenderScene scene = build(now);
   const PixelSize size = context_.size();
+  say_stray();
   // A window that is minimised has no pixels.
   if (size.width < 2 || size.height < 2) return {};
-  if (auto ok = renderer_.draw(scene, options_.stereo, size); !ok) return ok;
+  if (auto ok = renderer_.draw(scene, options_.stereo, size); !ok) return survive(ok.error());
   if (options_.offscreen) {
     renderer_.finish();
   } else {
@@ -336,9 +392,19 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   shown_inset_ = scene.inset ? std::optional(scene.inset->caption) : std::nullopt;
   let_hear(scene.camera, now);
   ++summary_.frames;
+  desk_.drawn(clock_.now() - began, clock_.now());
   if (frame_ms_.size() < kFrameTimesKept) {
     frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - began).count());
   }
+  return {};
+}
+
+/// A window may be drawn to a size that the driver has no memory for, and back: it waits for that. Offscreen the size stays wrong.
+Expected<void> DisplayLoop::survive(const Error& error) {
+  if (options_.offscreen) return tl::unexpected(error);
+  if (told_draw_ != error.what) log::error(error);
+  told_draw_ = error.what;
+  context_.present();  // takes the window's events
   return {};
 }
 
@@ -360,6 +426,14 @@ Expected<void> DisplayLoop::write_picture(const std::string& name) {
   return {};
 }
 
+/// For a person: a full disk costs the picture, and not the display.
+void DisplayLoop::write_requested() {
+  const auto written = write_picture(fmt::format("request-{:03}", ++requested_pictures_));
+  if (written) return desk_.picture_taken(summary_.pictures.empty() ? "" : summary_.pictures.back());
+  log::warning(written.error().to_string());
+  desk_.picture_failed(written.error());
+}
+
 void DisplayLoop::wait_for_next(TimePoint began) {
   if (options_.film_fps > 0) return;
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
@@ -379,14 +453,16 @@ Expected<DisplaySummary> DisplayLoop::run() {
     const TimePoint now = this->now();
     take_news(now);
     take_wishes(now);
-    const bool requested = requests_.picture.exchange(false) || context_.take_picture_wanted();
+    tend_kiosk(now);
+    const bool asked = requests_.picture.exchange(false);
+    const bool requested = context_.take_picture_wanted() || asked || desk_.picture_wanted();
     const bool only_pictures = options_.offscreen && options_.every_step && options_.film_fps <= 0;
     if (!only_pictures || due_ || requested) {
       if (auto ok = draw(now); !ok) return tl::unexpected(ok.error());
     }
     std::vector<std::string> names;
     if (due_) names.push_back(*std::exchange(due_, std::nullopt));
-    if (requested) names.push_back(fmt::format("request-{:03}", ++requested_pictures_));
+    if (requested) write_requested();
     if (options_.frames > 0 && summary_.frames == options_.frames) names.emplace_back("frame");
     if (options_.film_fps > 0) names.push_back(fmt::format("film-{:05}", summary_.frames));
     for (const std::string& name : names) {
@@ -472,6 +548,7 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   client::ClientConfig config;
   config.kiosk = options.kiosk;
   config.program = "mechane-display";
+  config.display = options.name;
   config.domain = options.domain;
   auto source = open_source(options.source, config);
   if (!source) return tl::unexpected(source.error());

@@ -21,6 +21,7 @@ namespace mechane::display {
 
 struct DisplayOptions {
   std::string kiosk = "kiosk-1";
+  std::string name = "wall";  ///< of this display among the kiosk's
   std::uint32_t domain = 0;
   bool offscreen = false;
   PixelSize size{1280, 720};

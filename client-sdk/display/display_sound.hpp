@@ -38,6 +38,7 @@ class DisplaySound {
             std::span<const client::WorldEvent> events, const std::string& scenario_folder);
   /// From the next picture on: what is read aloud begins anew in it.
   void set_language(const std::string& language) { language_ = language; }
+  void set_levels(const SoundLevels& levels) { player_.set_levels(levels); }
   [[nodiscard]] SoundState state() const { return player_.state(); }
 
  private:

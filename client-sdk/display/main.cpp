@@ -16,6 +16,8 @@ display::DisplayRequests g_requests;  // what a signal handler may write
 
 void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--kiosk", o.kiosk, "name of the kiosk")->capture_default_str();
+  app.add_option("--name", o.name, "of this display, where the kiosk has several (mechane displays)")
+      ->capture_default_str();
   app.add_option("--domain", o.domain, "DDS domain")->capture_default_str();
   app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();

@@ -15,6 +15,17 @@ constexpr double kLeastLevel_m = 0.002;
 constexpr float kLandscape_m = 40;
 /// How far about the eye's foreground things throw shadows: one map covers them, farther off nobody misses them.
 constexpr float kShadowReach_m = 13;
+/// What is farther away than any place is large came loose from its world, or was never in it: it is not drawn, and its numbers go into
+/// no box.
+constexpr double kStray_m = 10'000;
+
+bool is_stray(const Vec3& p_W) {
+  return !(p_W.cwiseAbs().maxCoeff() <= kStray_m);
+}
+
+bool is_stray(const client::HandPose& hand) {
+  return std::ranges::any_of(hand.X_WS, [](const Pose& X_WS) { return is_stray(X_WS.p); });
+}
 
 Eigen::Affine3f affine(const Pose& X) {
   Eigen::Affine3f out = Eigen::Affine3f::Identity();
@@ -126,6 +137,7 @@ void SceneBuilder::find_place() {
   water_height_m_.reset();
   for (const auto* list : {&objects_, &scenery_}) {
     for (const Placed& placed : *list) {
+      if (is_stray(placed.object.X_WB.p)) continue;
       const Eigen::AlignedBox3f box_W = moved(placed.model->box_B, placed.object.X_WB);
       box_W_.extend(box_W);
       const bool rises = presentation_ && std::ranges::any_of(presentation_->effects, [&](const client::Effect& e) {
@@ -150,7 +162,7 @@ void SceneBuilder::find_place() {
 }
 
 Camera SceneBuilder::standpoint() const {
-  if (presentation_ && !presentation_->views.empty())
+  if (presentation_ && !presentation_->views.empty() && !is_stray(presentation_->views.front().X_WV.p))
     return above_caption(camera_at(presentation_->views.front(), interest_W_));
   const bool landscape = !box_W_.isEmpty() && box_W_.sizes().maxCoeff() >= kLandscape_m;
   return landscape ? look_over(interest_W_) : frame_box(interest_W_, Vec3(0.20, 0.27, 1.0), 40.0 * kPi / 180);
@@ -158,18 +170,27 @@ Camera SceneBuilder::standpoint() const {
 
 Pose SceneBuilder::pose_of(const Placed& placed, const client::Frame* frame) const {
   if (frame == nullptr) return placed.object.X_WB;
-  const auto body = std::ranges::find(frame->bodies, placed.object.index, &client::BodyPose::object);
-  return body == frame->bodies.end() ? placed.object.X_WB : body->X_WB;
+  // A frame's bodies are in the order of their numbers.
+  const auto body = std::ranges::lower_bound(frame->bodies, placed.index.value_or(0), {}, &client::BodyPose::object);
+  const bool moves = placed.index && body != frame->bodies.end() && body->object == *placed.index;
+  return moves ? body->X_WB : placed.object.X_WB;
 }
 
 RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldStatus* status, client::LinkState link) {
   RenderScene scene;
+  stray_.clear();
   scene.camera = camera_;
   scene.ground_height_m = ground_height_m_;
   scene.shadow_box_W = shadow_box_W_;
   for (const Placed& placed : objects_) {
     const bool told = frame != nullptr && placed.object.index < frame->visible.size();
-    if (!told || frame->visible[placed.object.index] != 0) add_object(placed, pose_of(placed, frame), frame, scene);
+    if (told && frame->visible[placed.object.index] == 0) continue;
+    const Pose X_WB = pose_of(placed, frame);
+    if (is_stray(X_WB.p)) {
+      if (stray_.empty()) stray_ = placed.object.name;
+    } else {
+      add_object(placed, X_WB, frame, scene);
+    }
   }
   for (const Placed& placed : scenery_)
     add_object(placed, placed.object.X_WB, frame, scene);
@@ -184,9 +205,11 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
 
 void SceneBuilder::add_what_moves(const client::Frame& frame, const client::WorldStatus* status, RenderScene& out) {
   out.time_s = static_cast<double>(frame.tick % 3'600'000) * kTickSeconds;
-  for (const client::HandPose& hand : frame.hands)
-    hand_.draw(hand, out);
+  for (const client::HandPose& hand : frame.hands) {
+    if (!is_stray(hand)) hand_.draw(hand, out);
+  }
   for (const client::RopeShape& rope : frame.ropes) {
+    if (std::ranges::any_of(rope.points_W, [](const Vec3& p_W) { return is_stray(p_W); })) continue;
     RenderRope& drawn = out.ropes.emplace_back();
     drawn.radius_m = static_cast<float>(rope.diameter_m / 2);
     // From the end that is tied: the lay is counted from there, and stays where it is while a drum takes up the other end.
@@ -205,12 +228,16 @@ void SceneBuilder::add_what_moves(const client::Frame& frame, const client::Worl
     return placed == objects_.end() ? Pose{} : pose_of(*placed, &frame);
   };
   add_effects(*presentation_, frame, *status, pose, landing_height_m, out);
+  std::erase_if(out.streams, [](const WaterStream& stream) {
+    return is_stray(stream.p_WS.cast<double>()) || !stream.v_W.allFinite() || !std::isfinite(stream.width_m);
+  });
+  std::erase_if(out.effects, [](const ParticleEffect& effect) { return is_stray(effect.p_W.cast<double>()); });
 }
 
 std::optional<Inset> SceneBuilder::detail(const client::WorldStatus& status) const {
   if (presentation_ == nullptr || status.detail.empty()) return std::nullopt;
   const auto view = std::ranges::find(presentation_->views, status.detail, &client::View::name);
-  if (view == presentation_->views.end()) return std::nullopt;
+  if (view == presentation_->views.end() || is_stray(view->X_WV.p)) return std::nullopt;
   return Inset{camera_at(*view, interest_W_), language_ == "el" ? "Από κοντά" : "Close up"};
 }
 

@@ -28,6 +28,8 @@ class SceneBuilder {
   /// The scene of a frame. `frame` may be null (nothing has come yet): then objects stand where the manifest has them.
   [[nodiscard]] RenderScene build(const client::Frame* frame, const client::WorldStatus* status,
                                   client::LinkState link);
+  /// Name of an object that the last scene left out because it lies kilometres away; empty: there was none.
+  [[nodiscard]] const std::string& stray() const { return stray_; }
 
  private:
   struct Placed {
@@ -48,6 +50,7 @@ class SceneBuilder {
   HandModel hand_;
   OverlayWriter writer_;
   std::string language_;
+  std::string stray_;
   std::vector<Placed> objects_;  ///< of the manifest
   std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
   Camera camera_;

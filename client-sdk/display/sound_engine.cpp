@@ -11,6 +11,7 @@
 #include <AL/alext.h>
 #include <fmt/format.h>
 
+#include "client-sdk/display/alsa_log.hpp"
 #include "client-sdk/display/sound_file.hpp"
 #include "server/base/assert.hpp"
 #include "server/log/log.hpp"
@@ -115,6 +116,7 @@ Expected<void> SoundEngine::Impl::open_device() {
   if (output == SoundOutput::samples) {
     device.reset(alcLoopbackOpenDeviceSOFT(nullptr));
   } else {
+    quieten_alsa();
     device.reset(alcOpenDevice(nullptr));
   }
   if (!device) return fail("there is no device for sound", "sound", remedy);

@@ -66,6 +66,14 @@ std::vector<OverlayButton> answer_buttons(const client::Question& question, cons
 
 }  // namespace
 
+std::string ask_name(AskWhen when) {
+  return when == AskWhen::none ? "none" : when == AskWhen::both ? "both" : "after";
+}
+
+AskWhen ask_when(const std::string& name) {
+  return name == "none" ? AskWhen::none : name == "both" ? AskWhen::both : AskWhen::after;
+}
+
 VisitorPanel::VisitorPanel(VisitorPanelSettings settings)
     : settings_(std::move(settings)), language_(settings_.language) {}
 
@@ -97,10 +105,14 @@ void VisitorPanel::notice_hands(const client::Frame* frame, TimePoint now) {
   if (frame == nullptr) return;
   for (const client::HandPose& hand : frame->hands) {
     if (hand.stale) continue;
-    const Vec3& p_W = hand.X_WS.front().p;
-    const auto [known, fresh] = hands_W_.try_emplace({hand.kiosk, hand.user}, p_W);
-    if (fresh || (p_W - known->second).norm() < kHandMoved_m) continue;
-    known->second = p_W;
+    const KnownHand here{hand.X_WS.front().p, hand.force_W, hand.holding};
+    const auto [at, fresh] = hands_.try_emplace({hand.kiosk, hand.user}, here);
+    KnownHand& known = at->second;
+    // A device that lies in its rest may touch something for ever: only what changes is somebody's doing.
+    const bool moved = (here.p_W - known.p_W).norm() >= kHandMoved_m;
+    const bool felt = (here.f_W - known.f_W).norm() >= kContact_n || here.holding != known.holding;
+    if (fresh || !(moved || felt)) continue;
+    known = here;
     notice_visitor(now);
   }
 }
@@ -109,7 +121,7 @@ void VisitorPanel::follow_run(const client::WorldStatus& status, TimePoint now) 
   const bool anew = !run_ || run_->world != status.world || run_->activity != status.activity ||
                     status.steps_done < run_->steps_done || (run_->done && !status.done);
   if (!run_ || run_->world != status.world) {
-    hands_W_.clear();
+    hands_.clear();
     stirred_ = now;
     home_wished_ = false;
   }
@@ -141,6 +153,7 @@ void VisitorPanel::ask_or_end(TimePoint now) {
 }
 
 void VisitorPanel::update(const VisitorNews& news, TimePoint now) {
+  if (!std::exchange(began_, true)) stirred_ = now;
   presentation_ = news.presentation;
   home_ = news.status != nullptr && news.home != news.status->scenario ? news.home : std::string();
   if (news.status != nullptr) follow_run(*news.status, now);
@@ -219,6 +232,11 @@ void VisitorPanel::toggle_large_text() {
 
 void VisitorPanel::toggle_high_contrast() {
   settings_.style.high_contrast = !settings_.style.high_contrast;
+}
+
+void VisitorPanel::change(const VisitorPanelSettings& settings) {
+  settings_ = settings;
+  if (!last_sign_) language_ = settings_.language;
 }
 
 OverlayPanel VisitorPanel::panel_of(const client::Activity& activity) const {

@@ -16,6 +16,9 @@ namespace mechane::display {
 
 /// When an activity's questions are asked.
 enum class AskWhen : std::uint8_t { none, after, both };
+[[nodiscard]] std::string ask_name(AskWhen when);
+/// What no name is means `after`.
+[[nodiscard]] AskWhen ask_when(const std::string& name);
 
 struct VisitorPanelSettings {
   std::string language = "el";  ///< what the display comes back to
@@ -57,6 +60,7 @@ class VisitorPanel {
       std::chrono::seconds(90);  ///< without a hand's motion or a click: the visitor has gone
   static constexpr Duration kWarning = std::chrono::seconds(10);  ///< before it goes home by itself
   static constexpr double kHandMoved_m = 0.005;                   ///< less is a device that trembles
+  static constexpr double kContact_n = 0.5;                       ///< less of a change is a hand that lies still
 
   explicit VisitorPanel(VisitorPanelSettings settings);
 
@@ -70,6 +74,11 @@ class VisitorPanel {
   void next_language(TimePoint now);
   void toggle_large_text();
   void toggle_high_contrast();
+  /// From afar: by who looks after the kiosk. The language at once where nobody is there, else when the visitor has gone.
+  void change(const VisitorPanelSettings& settings);
+  [[nodiscard]] const VisitorPanelSettings& settings() const { return settings_; }
+  /// How long nobody has done anything: moved a hand, touched a thing, clicked.
+  [[nodiscard]] Duration alone_for(TimePoint now) const { return began_ ? now - stirred_ : Duration{0}; }
 
   /// Code of the language that all words are in now.
   [[nodiscard]] const std::string& language() const { return language_; }
@@ -92,6 +101,12 @@ class VisitorPanel {
     TimePoint shown;  ///< this question
     TimePoint touched;
   };
+  /// What a hand did last that was somebody's doing.
+  struct KnownHand {
+    Vec3 p_W;
+    Vec3 f_W;
+    bool holding = false;
+  };
   void notice_hands(const client::Frame* frame, TimePoint now);
   void notice_visitor(TimePoint now);
   void follow_run(const client::WorldStatus& status, TimePoint now);
@@ -113,10 +128,11 @@ class VisitorPanel {
   std::optional<Asking> asking_;
   bool asked_before_ = false;  ///< in this run
   bool asked_after_ = false;
-  std::optional<TimePoint> last_sign_;                             ///< of a visitor; none: there is nobody
-  TimePoint stirred_;                                              ///< somebody did something last, or this world began
-  bool home_wished_ = false;                                       ///< in this world
-  std::map<std::pair<std::string, std::uint32_t>, Vec3> hands_W_;  ///< by kiosk and user, where they last moved to
+  std::optional<TimePoint> last_sign_;  ///< of a visitor; none: there is nobody
+  TimePoint stirred_;                   ///< somebody did something last, or this world began
+  bool home_wished_ = false;            ///< in this world
+  std::map<std::pair<std::string, std::uint32_t>, KnownHand> hands_;  ///< by kiosk and user
+  bool began_ = false;
   VisitorWishes wishes_;
 };
 

@@ -1,7 +1,10 @@
 #include "server/log/log.hpp"
 
+#include <memory>
+#include <mutex>
 #include <string>
 
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -22,6 +25,26 @@ spdlog::level::level_enum to_spdlog(Level level) {
   return spdlog::level::err;
 }
 
+/// Keeps the newest warning.
+class TroubleSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  TroubleSink() { set_level(spdlog::level::warn); }
+  [[nodiscard]] Trouble trouble() {
+    const std::lock_guard lock(mutex_);
+    return trouble_;
+  }
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    ++trouble_.count;
+    trouble_.last.assign(message.payload.data(), message.payload.size());
+  }
+  void flush_() override {}
+
+ private:
+  Trouble trouble_;
+};
+
 }  // namespace
 
 void start(std::string_view program, Level least) {
@@ -29,6 +52,7 @@ void start(std::string_view program, Level least) {
   logger->set_level(to_spdlog(least));
   logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %^%-7l%$ %n: %v");
   logger->flush_on(spdlog::level::debug);
+  logger->sinks().push_back(std::make_shared<TroubleSink>());
   spdlog::set_default_logger(std::move(logger));
 }
 
@@ -46,6 +70,14 @@ void error(std::string_view text) {
 }
 void error(const Error& e) {
   spdlog::error(e.to_string());
+}
+
+Trouble trouble() {
+  const auto logger = spdlog::default_logger();
+  for (const spdlog::sink_ptr& sink : logger->sinks()) {
+    if (auto* keeper = dynamic_cast<TroubleSink*>(sink.get())) return keeper->trouble();
+  }
+  return {};
 }
 
 }  // namespace mechane::log

@@ -2,6 +2,8 @@
 // in code that does not run in a tick.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "server/base/error.hpp"
@@ -19,5 +21,13 @@ void info(std::string_view text);
 void warning(std::string_view text);
 void error(std::string_view text);
 void error(const Error& e);
+
+/// What went wrong since start(): for a status that others see.
+struct Trouble {
+  std::uint64_t count = 0;  ///< warnings and errors
+  std::string last;         ///< the newest one's text; empty: there was none
+};
+/// Thread-safe.
+[[nodiscard]] Trouble trouble();
 
 }  // namespace mechane::log

@@ -1,5 +1,6 @@
 // Whatever bytes arrive as a sample: the doors of server and client take it or refuse it, and what they take is fit for use.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -163,11 +164,71 @@ void fuzz_answer(const std::uint8_t* data, std::size_t size) {
   must(answer->question == 0 ? answer->answer < 2 : answer->answer >= 1 && answer->answer <= 5);
 }
 
+std::vector<proto::WireSetting> take_settings(Bytes& bytes) {
+  std::vector<proto::WireSetting> settings(bytes.take<std::uint8_t>() % 80);
+  for (auto& setting : settings)
+    setting = bytes.take<proto::WireSetting>();
+  return settings;
+}
+
+/// A wish as a display takes it: whatever it says, the settings stay within their ranges.
+void fuzz_wish(Bytes bytes) {
+  proto::DisplayWish wire{};
+  wire.protocol = proto::kProtocol;
+  wire.id = bytes.take<std::uint16_t>();
+  wire.picture = bytes.take<std::uint8_t>() % 2 == 1;
+  std::vector<proto::WireSetting> settings = take_settings(bytes);
+  proto::look_into(wire.settings, settings);
+  client::DisplayWish wish;
+  if (!client::parse(wire, wish)) return;
+  const client::DisplaySettings before;
+  client::DisplaySettings now;
+  const bool taken = client::apply(wish.settings, now).has_value();
+  must(taken || now == before);
+  must(now.volume >= 0 && now.volume <= 1 && now.home_after_s >= 0 && now.home_after_s <= 86'400);
+  must(now.attract_after_s >= 5 && (now.language == "el" || now.language == "en"));
+  client::DisplaySettings again;  // what is told of them can be wished for
+  must(client::apply(client::settings_of(now), again).has_value());
+}
+
+void fuzz_display(Bytes bytes) {
+  proto::DisplayStatus wire{};
+  wire.protocol = proto::kProtocol;
+  std::memcpy(wire.kiosk, "kiosk-1", 8);
+  const auto name = bytes.take<std::array<char, sizeof(wire.display)>>();
+  std::memcpy(wire.display, name.data(), name.size());
+  wire.link = bytes.take<std::uint8_t>();
+  for (float* number : {&wire.pictures_per_s, &wire.picture_ms_median, &wire.picture_ms_p99, &wire.wanted_per_s,
+                        &wire.frames_per_s, &wire.frames_lost})
+    *number = bytes.take<float>();
+  const std::string text(bytes.take<std::uint8_t>() * std::size_t{4}, bytes.take<char>());
+  wire.last_warning = wire.sound = wire.renderer = proto::look_into(text);
+  std::vector<char*> missing(bytes.take<std::uint8_t>() % 80, proto::look_into(text));
+  std::vector<proto::WireSetting> settings = take_settings(bytes);
+  std::vector<proto::WireWishAnswer> answers(bytes.take<std::uint8_t>() % 80);
+  proto::look_into(wire.missing, missing);
+  proto::look_into(wire.settings, settings);
+  proto::look_into(wire.answers, answers);
+  client::DisplayStatus status;
+  if (!client::parse(wire, status)) return;
+  must(proto::is_name(status.display) && status.link <= 3 && status.frames_lost >= 0 && status.frames_lost <= 1);
+  must(status.pictures_per_s >= 0 && std::isfinite(status.pictures_per_s));
+  must(status.last_warning.size() <= 500 && status.last_warning.find('\n') == std::string::npos);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const Bytes rest(data + 1, size - 1);
+  if (data[0] >= 0xf0) {
+    if (data[0] % 2 == 0) {
+      fuzz_wish(rest);
+    } else {
+      fuzz_display(rest);
+    }
+    return 0;
+  }
   if (data[0] >= 0x80) {
     if (data[0] % 2 == 0) {
       fuzz_presentation(rest);

@@ -70,6 +70,8 @@ class Process:
 
 
 class EndToEnd(unittest.TestCase):
+    command_prefix = ()  # of run_command(): where commands run
+
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory(prefix="mechane-test-")
         self.folder = pathlib.Path(self._folder.name)
@@ -141,7 +143,7 @@ class EndToEnd(unittest.TestCase):
         return result.returncode, result.stdout + result.stderr
 
     def run_command(self, *arguments, limit_s=60):
-        return subprocess.run([str(BIN / "mechane"), *map(str, arguments)], capture_output=True, text=True,
+        return subprocess.run([*self.command_prefix, str(BIN / "mechane"), *map(str, arguments)], capture_output=True, text=True,
                               timeout=limit_s * PATIENCE, env=self.environment, stdin=subprocess.DEVNULL)
 
     @staticmethod

@@ -11,7 +11,8 @@
 
 namespace mechane::proto {
 
-/// Version of idl/mechane.idl. Raise it when a field changes its meaning; receivers drop samples of another version.
+/// Version of idl/mechane.idl. Raise it when a field changes its meaning, not for a topic that is added: who does not know it does not
+/// subscribe to it. Receivers drop samples of another version.
 inline constexpr std::uint32_t kProtocol = 2;
 inline constexpr std::size_t kMaxUsers = 4;
 inline constexpr std::size_t kMaxLocalContacts = 8;
@@ -27,6 +28,8 @@ using Command = ::mechane_Command;
 using WorldAssignment = ::mechane_WorldAssignment;
 using ServerStatus = ::mechane_ServerStatus;
 using KioskStatus = ::mechane_KioskStatus;
+using DisplayStatus = ::mechane_DisplayStatus;
+using DisplayWish = ::mechane_DisplayWish;
 using WirePose = ::mechane_Pose;
 using WireLocalContact = ::mechane_LocalContact;
 using WireBodyPose = ::mechane_BodyPose;
@@ -40,6 +43,8 @@ using WireActivity = ::mechane_Activity;
 using WireView = ::mechane_View;
 using WireEffect = ::mechane_Effect;
 using HandOwner = ::mechane_HandOwner;
+using WireSetting = ::mechane_DisplaySetting;
+using WireWishAnswer = ::mechane_WishAnswer;
 
 /// Where a topic's endpoints live.
 enum class Place { museum, kiosk, world };
@@ -68,6 +73,8 @@ MECHANE_PROTO_TOPIC(Command, world, command_qos);
 MECHANE_PROTO_TOPIC(WorldAssignment, museum, world_assignment_qos);
 MECHANE_PROTO_TOPIC(ServerStatus, museum, server_status_qos);
 MECHANE_PROTO_TOPIC(KioskStatus, museum, kiosk_status_qos);
+MECHANE_PROTO_TOPIC(DisplayStatus, museum, kiosk_status_qos);
+MECHANE_PROTO_TOPIC(DisplayWish, museum, command_qos);
 #undef MECHANE_PROTO_TOPIC
 // clang-format on
 

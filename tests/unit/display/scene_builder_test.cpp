@@ -1,5 +1,7 @@
 #include "client-sdk/display/scene_builder.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "client-sdk/display/procedural_mesh.hpp"
@@ -256,6 +258,62 @@ TEST(HandModel, knows_the_scale_from_the_poses) {
     hand.X_WS[0] = {Vec3(3, 2, 1), Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))};
     hand.X_WS[4] = hand.X_WS[0] * Pose{scale * (Vec3(0.048, 0, -0.031) + bend * Vec3(0.0225, 0, 0)), bend};
     EXPECT_NEAR(hand_scale(hand), scale, 1e-6);
+  }
+}
+
+TEST(SceneBuilder, what_came_loose_from_its_world_is_left_out_and_named) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  client::SceneObject lost_from_the_start = object(2, "machine.glb", "part_b");
+  lost_from_the_start.X_WB.p = Vec3(1e30, 0, 0);
+  builder.set_manifest({object(0, "machine.glb", "OUTER"), object(1, "machine.glb", "part_a"), lost_from_the_start});
+  builder.set_presentation(water_presentation());
+  const client::WorldStatus status = water_status();
+  client::Frame frame;
+  frame.visible = {1, 1, 1};
+  frame.quantities = {0.1, 1.0};
+  frame.bodies = {{0, {}}, {1, {}}, {2, {}}};
+  const RenderScene whole = builder.build(&frame, &status, client::LinkState::joined);
+  EXPECT_EQ(builder.stray(), "");
+  EXPECT_TRUE(whole.camera.p_WC.allFinite() && whole.camera.p_WC.norm() < 100) << "one box does not move the eye";
+  frame.hands.resize(1);
+  frame.ropes = {{0.01, {Vec3(0, 0, 0), Vec3(0, -1e30, 0)}}};
+  for (const double far : {1e30, -1e7, std::numeric_limits<double>::quiet_NaN()}) {
+    frame.bodies[0].X_WB.p = Vec3(0, far, 0);  // the water spouts from this one
+    frame.hands[0].X_WS[0].p = Vec3(far, 0, 0);
+    const RenderScene scene = builder.build(&frame, &status, client::LinkState::joined);
+    EXPECT_EQ(scene.instances.size(), whole.instances.size() - 1) << far;
+    EXPECT_TRUE(scene.streams.empty() && scene.ropes.empty()) << far;
+    EXPECT_EQ(builder.stray(), "OUTER");
+  }
+  frame.bodies[0].X_WB.p = Vec3::Zero();
+  EXPECT_EQ(builder.build(&frame, &status, client::LinkState::joined).instances.size(), whole.instances.size());
+  EXPECT_EQ(builder.stray(), "") << "it is back";
+}
+
+TEST(SceneBuilder, of_ten_thousand_objects_each_is_where_it_belongs) {
+  constexpr std::uint32_t kMany = 10'000;
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  std::vector<client::SceneObject> manifest;
+  client::Frame frame;
+  for (std::uint32_t i = 0; i < kMany; ++i) {
+    manifest.push_back(object(i, i % 1000 == 7 ? "gone.glb" : "machine.glb", "OUTER"));
+    frame.visible.push_back(i % 2 == 0 ? 1 : 0);
+    if (i % 3 != 0) frame.bodies.push_back({i, {Vec3(0, 0.001 * i, 0), Quat::Identity()}});
+  }
+  builder.set_manifest(manifest);
+  EXPECT_EQ(loads, 2) << "a file is read once, for how many objects ever";
+  // An object that no manifest names, as of a world that begins anew in mid-frame.
+  frame.bodies.push_back({kMany + 5, {}});
+  const RenderScene scene = builder.build(&frame, nullptr, client::LinkState::joined);
+  ASSERT_EQ(scene.instances.size(), kMany / 2 + 1) << "with the scenery";
+  for (const Instance& instance : scene.instances) {
+    if (!instance.object) continue;
+    const float height = *instance.object % 3 != 0 ? 0.001F * static_cast<float>(*instance.object) : 0.0F;
+    EXPECT_NEAR(instance.X_WM.translation().y(), height, 1e-5);
   }
 }
 

@@ -92,6 +92,13 @@ int goes_on_without_a_card() {
   return !state.sounding && state.device.empty() && state.voices == 0 ? 0 : 2;
 }
 
+/// A card or none: what is told is told by our own log alone.
+int asks_alsa() {
+  use_driver("alsa");
+  SoundPlayer player(quick());
+  return comes([&] { return player.state().sounding || !player.state().problem.empty(); }) ? 0 : 1;
+}
+
 int notices_a_lost_device() {
   // A file on a full disk is a device that fails once it is written to.
   use_driver("wave");
@@ -119,6 +126,10 @@ TEST_F(SoundPlayerDeathTest, plays_what_it_is_told) {
 TEST_F(SoundPlayerDeathTest, without_a_card_it_goes_on_silently_and_says_so_once) {
   EXPECT_EXIT(std::exit(goes_on_without_a_card()), testing::ExitedWithCode(0),
               SaysOnce("there is no device for sound"));
+}
+
+TEST_F(SoundPlayerDeathTest, alsa_says_nothing_past_the_log) {
+  EXPECT_EXIT(std::exit(asks_alsa()), testing::ExitedWithCode(0), testing::Not(testing::HasSubstr("ALSA lib")));
 }
 
 TEST_F(SoundPlayerDeathTest, a_lost_device_is_told_and_looked_for) {

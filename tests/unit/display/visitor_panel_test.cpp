@@ -280,5 +280,47 @@ TEST_F(VisitorPanelTest, keys_change_how_words_look) {
   EXPECT_FLOAT_EQ(look(panel).style.text_scale, 1);
 }
 
+TEST_F(VisitorPanelTest, who_presses_or_grasps_without_moving_is_somebody) {
+  VisitorPanel panel({"en", AskWhen::none, {}, seconds(60)});
+  look(panel);
+  EXPECT_EQ(panel.alone_for(now), Duration{0}) << "it is counted from the display's start";
+  look(panel, seconds(30));
+  EXPECT_EQ(panel.alone_for(now), seconds(30));
+  frame.hands[0].force_W = Vec3(0, 2, 0);
+  look(panel, seconds(1));
+  EXPECT_EQ(panel.alone_for(now), Duration{0}) << "it pushes";
+  look(panel, seconds(30));
+  EXPECT_EQ(panel.alone_for(now), seconds(30)) << "a device in its rest pushes for ever";
+  frame.hands[0].holding = true;
+  look(panel, seconds(1));
+  EXPECT_EQ(panel.alone_for(now), Duration{0}) << "it grasps";
+  look(panel, seconds(5));
+  frame.hands[0].force_W = Vec3(0, 2.3, 0);
+  look(panel, seconds(5));
+  EXPECT_EQ(panel.alone_for(now), seconds(10)) << "a small change is the device's own";
+  panel.touch(now);
+  EXPECT_EQ(panel.alone_for(now), Duration{0});
+}
+
+TEST_F(VisitorPanelTest, from_afar_the_language_of_a_visitor_is_not_taken_away) {
+  VisitorPanel panel({"el", AskWhen::none, {}});
+  look(panel);
+  panel.change({"en", AskWhen::both, {kLargeText, true}, seconds(30)});
+  EXPECT_EQ(panel.language(), "en") << "nobody is there: at once";
+  EXPECT_EQ(look(panel).style.text_scale, kLargeText);
+  EXPECT_TRUE(look(panel).style.high_contrast);
+  move_hand();
+  look(panel);
+  panel.change({"el", AskWhen::none, {}, seconds(1000)});
+  EXPECT_EQ(look(panel).corner.back().text, "ΕΛ") << "somebody reads";
+  look(panel, seconds(91));
+  EXPECT_EQ(panel.language(), "el");
+}
+
+TEST(AskWhen, each_has_a_name) {
+  for (const AskWhen when : {AskWhen::none, AskWhen::after, AskWhen::both})
+    EXPECT_EQ(ask_when(ask_name(when)), when);
+}
+
 }  // namespace
 }  // namespace mechane::display

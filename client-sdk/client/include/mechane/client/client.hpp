@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/base/error.hpp"
+#include <mechane/client/displays.hpp>
 #include <mechane/client/types.hpp>
 
 namespace mechane::client {
@@ -23,6 +24,7 @@ struct ClientConfig {
   std::string join_kiosk{};  ///< wish: share the world of this kiosk; empty: a world of one's own
   int fifo_priority = 0;     ///< SCHED_FIFO of the thread that receives forces; 0, or refused: an ordinary thread
   std::uint32_t domain = 0;  ///< DDS domain; the network is set up by CYCLONEDDS_URI
+  std::string display{};     ///< name of the display that this client is, among the kiosk's; empty: it is none
 };
 
 /// When a question is answered: what was learnt is the difference.
@@ -92,6 +94,16 @@ class Client {
   /// name. command_refused where there is no such question or answer.
   virtual std::uint64_t answer(AnswerTime when, const std::string& activity, const std::string& question,
                                const std::string& answer) = 0;
+
+  // What follows concerns displays; a client that is none has nothing to say.
+
+  /// SceneFrames that came, and that were lost on the way, in this and former worlds.
+  [[nodiscard]] virtual FrameTraffic frame_traffic() const { return {}; }
+  /// Says how this display is; once a second keeps it alive for those who watch. False where the client is no display
+  /// (ClientConfig::display), or the network did not take it.
+  virtual bool report(const DisplayStatus& /*status*/) { return false; }
+  /// Wishes to this display since the last call, oldest first. Each is to be answered in the next status.
+  [[nodiscard]] virtual std::vector<DisplayWish> take_display_wishes() { return {}; }
 };
 
 }  // namespace mechane::client

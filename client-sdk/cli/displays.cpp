@@ -1,0 +1,130 @@
+#include "client-sdk/cli/displays.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "client-sdk/cli/displays_text.hpp"
+#include "server/base/clock.hpp"
+#include <mechane/client/displays.hpp>
+
+namespace mechane::cli {
+namespace {
+
+using client::DisplayStatus;
+
+constexpr Duration kLook = std::chrono::milliseconds(50);
+/// Each reports once a second: when no new one was found for longer, all are known.
+constexpr Duration kQuiet = std::chrono::milliseconds(1500);
+/// A picture that is drawn on the processor takes its time.
+constexpr double kPictureSeconds = 20;
+
+int tell(const Error& error, int status) {
+  std::cerr << "mechane displays: " << error.to_string() << "\n";
+  return status;
+}
+
+Duration duration_of(double s) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(s));
+}
+
+bool meant(const DisplayStatus& display, const DisplaysOptions& options) {
+  return (options.kiosk.empty() || display.kiosk == options.kiosk) &&
+         (options.display.empty() || display.display == options.display);
+}
+
+/// All that live, once no new one is found any more.
+std::vector<DisplayStatus> find_all(client::DisplayWatch& watch, const DisplaysOptions& options) {
+  SystemClock clock;
+  const TimePoint until = clock.now() + duration_of(options.seconds);
+  TimePoint changed = clock.now();
+  std::vector<DisplayStatus> found;
+  while (clock.now() < until && (found.empty() || clock.now() - changed < kQuiet)) {
+    watch.wait(kLook);
+    std::vector<DisplayStatus> now = watch.displays();
+    if (now.size() != found.size()) changed = clock.now();
+    found = std::move(now);
+  }
+  return found;
+}
+
+Expected<std::vector<DisplayStatus>> find(client::DisplayWatch& watch, const DisplaysOptions& options) {
+  std::vector<DisplayStatus> all = find_all(watch, options);
+  std::set<std::string> names;
+  for (const DisplayStatus& display : all)
+    names.insert(display.kiosk + "/" + display.display);
+  std::erase_if(all, [&](const DisplayStatus& display) { return !meant(display, options); });
+  if (!all.empty()) return all;
+  if (names.empty()) {
+    return fail("no display answered", "network",
+                "start one with 'mechane display', in the same DDS domain and network (mechane doctor)");
+  }
+  return fail("there is no such display", options.kiosk + "/" + (options.display.empty() ? "*" : options.display),
+              fmt::format("there are: {}", fmt::join(names, ", ")));
+}
+
+/// By session, of those that have answered.
+std::map<std::uint64_t, client::WishAnswer> answers_to(std::uint64_t id, client::DisplayWatch& watch) {
+  std::map<std::uint64_t, client::WishAnswer> answers;
+  for (const DisplayStatus& display : watch.displays()) {
+    const auto found = std::ranges::find(display.answers, id, &client::WishAnswer::id);
+    if (found != display.answers.end()) answers[display.session] = *found;
+  }
+  return answers;
+}
+
+/// Sends the wish and tells of each display's answer.
+int wish(client::DisplayWatch& watch, const DisplaysOptions& options,
+         const std::vector<client::DisplaySetting>& settings, bool picture) {
+  const auto displays = find(watch, options);
+  if (!displays) return tell(displays.error(), 1);
+  const auto id = watch.wish(options.kiosk, options.display, settings, picture);
+  if (!id) return tell(id.error(), 2);
+  SystemClock clock;
+  const TimePoint until =
+      clock.now() + duration_of(picture ? std::max(options.seconds, kPictureSeconds) : options.seconds);
+  std::map<std::uint64_t, client::WishAnswer> answers;
+  while (answers.size() < displays->size() && clock.now() < until) {
+    watch.wait(kLook);
+    answers = answers_to(*id, watch);
+  }
+  int status = 0;
+  for (const DisplayStatus& display : *displays) {
+    const auto answer = answers.find(display.session);
+    const bool refused = answer == answers.end() || !answer->second.refusal.empty();
+    if (refused) status = 1;
+    const std::string word = answer == answers.end()           ? "no answer"
+                             : !answer->second.refusal.empty() ? "refused: " + answer->second.refusal
+                             : picture                         ? display.host + ":" + answer->second.picture
+                                                               : "done";
+    (refused ? std::cerr : std::cout) << display.kiosk << "/" << display.display << ": " << word << "\n";
+  }
+  return status;
+}
+
+}  // namespace
+
+int run_displays(const std::string& verb, const DisplaysOptions& options) {
+  std::vector<client::DisplaySetting> settings;
+  client::DisplaySettings tried;
+  for (const std::string& text : options.settings) {
+    const auto setting = client::read_setting(text);
+    if (!setting) return tell(setting.error(), 2);
+    if (auto ok = client::apply(*setting, tried); !ok) return tell(ok.error(), 2);
+    settings.push_back(*setting);
+  }
+  if (!verb.empty() && options.kiosk.empty())
+    return tell(Error{"a kiosk has a name", "--kiosk", "write --kiosk kiosk-1; 'mechane displays' lists them"}, 2);
+  auto watch = client::DisplayWatch::open(options.domain);
+  if (!watch) return tell(watch.error(), 1);
+  if (!verb.empty()) return wish(**watch, options, settings, verb == "picture");
+  const auto displays = find(**watch, options);
+  if (!displays) return tell(displays.error(), 1);
+  std::cout << (options.json ? displays_json(*displays) : displays_table(*displays));
+  return 0;
+}
+
+}  // namespace mechane::cli

@@ -1,0 +1,20 @@
+// What `mechane displays` prints: a table, what a technician should look at, JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mechane/client/displays.hpp>
+
+namespace mechane::cli {
+
+/// What is not as it should be with one display, and what to do; empty: all is well.
+[[nodiscard]] std::vector<std::string> remarks_of(const client::DisplayStatus& display);
+
+/// A line a display, then the remarks.
+[[nodiscard]] std::string displays_table(const std::vector<client::DisplayStatus>& displays);
+
+/// One JSON object a display, each on a line of its own, with its remarks.
+[[nodiscard]] std::string displays_json(const std::vector<client::DisplayStatus>& displays);
+
+}  // namespace mechane::cli

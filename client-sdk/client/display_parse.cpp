@@ -1,0 +1,97 @@
+#include <cmath>
+
+#include "client-sdk/client/clean_text.hpp"
+#include "client-sdk/client/parse.hpp"
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::client {
+namespace {
+
+/// Longer texts are cut: a status is a line on a technician's screen.
+constexpr std::size_t kMostText = 500;
+
+std::string one_line(const char* text) {
+  std::string line = clean_string(text);
+  for (char& c : line)
+    c = c == '\n' || c == '\t' ? ' ' : c;
+  if (line.size() > kMostText) {
+    std::size_t end = kMostText;
+    while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xc0u) == 0x80u)
+      --end;
+    line.resize(end);
+  }
+  return line;
+}
+
+template <class Sequence>
+bool parse_settings(const Sequence& wire, std::vector<DisplaySetting>& out) {
+  const auto settings = proto::elements(wire);
+  if (settings.size() > kMaxSettings) return false;
+  out.clear();
+  for (const proto::WireSetting& setting : settings)
+    out.push_back({clean(setting.name), clean(setting.value)});
+  return true;
+}
+
+bool parse_lists(const proto::DisplayStatus& wire, DisplayStatus& out) {
+  const auto missing = proto::elements(wire.missing);
+  const auto answers = proto::elements(wire.answers);
+  if (missing.size() > kMaxListed || answers.size() > kMaxListed) return false;
+  out.missing.clear();
+  for (const char* file : missing)
+    out.missing.push_back(one_line(file));
+  out.answers.clear();
+  for (const proto::WireWishAnswer& answer : answers)
+    out.answers.push_back({answer.id, one_line(answer.refusal), one_line(answer.picture)});
+  return parse_settings(wire.settings, out.settings);
+}
+
+}  // namespace
+
+bool parse(const proto::DisplayStatus& wire, DisplayStatus& out) {
+  if (wire.protocol != proto::kProtocol || wire.link > 3) return false;
+  if (!proto::is_name(proto::text_of(wire.kiosk)) || !proto::is_name(proto::text_of(wire.display))) return false;
+  for (const float number : {wire.pictures_per_s, wire.picture_ms_median, wire.picture_ms_p99, wire.wanted_per_s,
+                             wire.frames_per_s, wire.frames_lost}) {
+    if (!std::isfinite(number) || number < 0) return false;
+  }
+  if (wire.frames_lost > 1) return false;
+  out.kiosk = proto::text_of(wire.kiosk);
+  out.display = proto::text_of(wire.display);
+  out.session = wire.session;
+  out.version = one_line(wire.version);
+  out.host = one_line(wire.host);
+  out.process_id = wire.process_id;
+  out.uptime_s = wire.uptime_s;
+  out.width = wire.width;
+  out.height = wire.height;
+  out.offscreen = wire.offscreen;
+  out.pictures = wire.pictures;
+  out.pictures_per_s = wire.pictures_per_s;
+  out.picture_ms_median = wire.picture_ms_median;
+  out.picture_ms_p99 = wire.picture_ms_p99;
+  out.wanted_per_s = wire.wanted_per_s;
+  out.link = wire.link;
+  out.refusal = one_line(wire.refusal);
+  out.world = one_line(wire.world);
+  out.scenario = one_line(wire.scenario);
+  out.frames_per_s = wire.frames_per_s;
+  out.frames_lost = wire.frames_lost;
+  out.missing_total = wire.missing_total;
+  out.renderer = one_line(wire.renderer);
+  out.sound = one_line(wire.sound);
+  out.sound_problem = one_line(wire.sound_problem);
+  out.showing = one_line(wire.showing);
+  out.warnings = wire.warnings;
+  out.last_warning = one_line(wire.last_warning);
+  return parse_lists(wire, out);
+}
+
+bool parse(const proto::DisplayWish& wire, DisplayWish& out) {
+  if (wire.protocol != proto::kProtocol || wire.id == 0) return false;
+  out.id = wire.id;
+  out.picture = wire.picture;
+  return parse_settings(wire.settings, out.settings);
+}
+
+}  // namespace mechane::client

@@ -1,0 +1,124 @@
+// Displays as whoever looks after a kiosk sees them: how each is, what can be changed of it while it runs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include <mechane/client/types.hpp>
+
+namespace mechane::client {
+
+/// One setting by name, as a person writes it: volume=0.5. display_settings() has all of them.
+struct DisplaySetting {
+  std::string name;
+  std::string value;
+  friend bool operator==(const DisplaySetting&, const DisplaySetting&) = default;
+};
+
+/// What a museum changes of a display while it runs.
+struct DisplaySettings {
+  double volume = 0.8;           ///< volume: 0 .. 1
+  bool muted = false;            ///< mute: on, off
+  std::string language = "el";   ///< language: el, en; of the start, and what comes back when a visitor has gone
+  bool large_text = false;       ///< large-text: on, off
+  bool high_contrast = false;    ///< high-contrast: on, off
+  std::string ask = "after";     ///< ask: none, after, both; when visitors are asked an activity's questions
+  double home_after_s = 0;       ///< home-after: 0 .. 86400 s without anybody; 0: never
+  bool attract = true;           ///< attract: on, off; a recorded visit while nobody is there, where one was given
+  double attract_after_s = 120;  ///< attract-after: 5 .. 86400 s without anybody
+  friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
+};
+
+/// A setting's name, and the values that it takes, in words.
+struct DisplaySettingInfo {
+  std::string_view name;
+  std::string_view values;
+};
+[[nodiscard]] const std::vector<DisplaySettingInfo>& display_settings();
+
+/// Changes one setting. Errors, with nothing changed: no such setting, no such value, out of its range.
+[[nodiscard]] Expected<void> apply(const DisplaySetting& setting, DisplaySettings& settings);
+/// All or none. Errors: of the first that is wrong.
+[[nodiscard]] Expected<void> apply(const std::vector<DisplaySetting>& wished, DisplaySettings& settings);
+/// As they are now, in the order of display_settings().
+[[nodiscard]] std::vector<DisplaySetting> settings_of(const DisplaySettings& settings);
+/// Reads "volume=0.5". Errors: no '='.
+[[nodiscard]] Expected<DisplaySetting> read_setting(const std::string& text);
+
+/// A wish of somebody who looks after a kiosk.
+struct DisplayWish {
+  std::uint64_t id = 0;
+  std::vector<DisplaySetting> settings;  ///< as they came: not checked
+  bool picture = false;
+};
+
+/// What became of a wish.
+struct WishAnswer {
+  std::uint64_t id = 0;
+  std::string refusal;  ///< empty: done
+  std::string picture;  ///< where it asked for one: its file, on the display's machine
+};
+
+/// How one display is.
+struct DisplayStatus {
+  std::string kiosk;
+  std::string display;  ///< its name at the kiosk
+  std::uint64_t session = 0;
+  std::string version;
+  std::string host;
+  std::uint32_t process_id = 0;
+  std::uint64_t uptime_s = 0;
+  std::uint32_t width = 0;  ///< of the picture, pixels; 0: a window that is minimised
+  std::uint32_t height = 0;
+  bool offscreen = false;
+  std::uint64_t pictures = 0;  ///< drawn since its start
+  double pictures_per_s = 0;   ///< in the last seconds, as the next two
+  double picture_ms_median = 0;
+  double picture_ms_p99 = 0;
+  double wanted_per_s = 60;  ///< at most so many are drawn
+  std::uint32_t link = 0;    ///< LinkState's number
+  std::string refusal;       ///< why the server refuses
+  std::string world;
+  std::string scenario;
+  double frames_per_s = 0;  ///< SceneFrames that came, in the last seconds
+  double frames_lost = 0;   ///< share of those that were sent, 0 .. 1
+  std::uint32_t missing_total = 0;
+  std::vector<std::string> missing;  ///< the first eight files that it could not load
+  std::string renderer;              ///< what draws, in the driver's words
+  std::string sound;                 ///< device; empty: nothing is heard
+  std::string sound_problem;         ///< why
+  std::string showing;               ///< "world", "attract"
+  std::uint64_t warnings = 0;        ///< in its log, since its start
+  std::string last_warning;
+  std::vector<DisplaySetting> settings;  ///< as they are now
+  std::vector<WishAnswer> answers;       ///< to the last wishes, newest last
+};
+
+/// SceneFrames of this client since it was made.
+struct FrameTraffic {
+  std::uint64_t received = 0;
+  std::uint64_t lost = 0;  ///< sent, and never come
+};
+
+/// All displays of a museum, for a person's tool. Any one thread of the caller's at a time.
+class DisplayWatch {
+ public:
+  /// Errors: a domain over 230, a configuration of the network that cannot be used.
+  [[nodiscard]] static Expected<std::unique_ptr<DisplayWatch>> open(std::uint32_t domain);
+  virtual ~DisplayWatch() = default;
+
+  /// Waits for news, at most so long.
+  virtual void wait(Duration timeout) = 0;
+  /// Those that live, by kiosk, name and session. One that ended or was cut off is gone after 3 s.
+  [[nodiscard]] virtual std::vector<DisplayStatus> displays() = 0;
+  /// Sends a wish to a kiosk's displays; `display` empty: to all of them. Returns the id that they answer with in their status; 0 where
+  /// the network did not take it. Errors: a bad name, a setting that does not exist or is out of its range.
+  [[nodiscard]] virtual Expected<std::uint64_t> wish(const std::string& kiosk, const std::string& display,
+                                                     const std::vector<DisplaySetting>& settings, bool picture) = 0;
+};
+
+}  // namespace mechane::client

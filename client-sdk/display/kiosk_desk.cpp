@@ -1,0 +1,162 @@
+#include "client-sdk/display/kiosk_desk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "server/log/log.hpp"
+
+namespace mechane::display {
+namespace {
+
+double seconds_of(Duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+/// Of values in order.
+double at_share(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
+}
+
+std::string host_name() {
+  char host[64] = {};
+  return ::gethostname(host, sizeof(host) - 1) == 0 ? std::string(host) : std::string("unknown");
+}
+
+}  // namespace
+
+void PictureMeter::drawn(Duration took, TimePoint now) {
+  ++total_;
+  pictures_.push_back({now, 1e3 * seconds_of(took)});
+  while (now - pictures_.front().at > kWindow)
+    pictures_.pop_front();
+}
+
+PictureMeter::Rate PictureMeter::rate(TimePoint now) const {
+  std::vector<double> took;
+  for (const Picture& picture : pictures_) {
+    if (now - picture.at <= kWindow) took.push_back(picture.ms);
+  }
+  const double over_s = seconds_of(std::min<Duration>(kWindow, now - began_));
+  if (took.empty() || over_s <= 0) return {};
+  std::ranges::sort(took);
+  return {static_cast<double>(took.size()) / over_s, at_share(took, 0.5), at_share(took, 0.99)};
+}
+
+TrafficMeter::Rate TrafficMeter::rate(const client::FrameTraffic& now_counted, TimePoint now) {
+  counts_.push_back({now, now_counted});
+  // One older than the window stays: the rate is counted from it.
+  while (counts_.size() > 2 && now - counts_[1].at >= kWindow)
+    counts_.pop_front();
+  const Count& first = counts_.front();
+  const double over_s = seconds_of(now - first.at);
+  const double came = static_cast<double>(now_counted.received - first.traffic.received);
+  const double lost = static_cast<double>(now_counted.lost - first.traffic.lost);
+  if (over_s <= 0 || came + lost <= 0) return {};
+  return {came / over_s, lost / (came + lost)};
+}
+
+KioskDesk::KioskDesk(client::Client& client, DisplayIdentity identity, client::DisplaySettings settings, TimePoint now)
+    : client_(client),
+      identity_(std::move(identity)),
+      settings_(std::move(settings)),
+      meter_(now),
+      began_(now),
+      next_report_(now),
+      host_(host_name()) {}
+
+bool KioskDesk::take_wishes(const OverlayStyle& style) {
+  settings_.large_text = style.text_scale > 1;
+  settings_.high_contrast = style.high_contrast;
+  const client::DisplaySettings before = settings_;
+  for (const client::DisplayWish& wish : client_.take_display_wishes())
+    answer(wish);
+  return settings_ != before;
+}
+
+void KioskDesk::answer(const client::DisplayWish& wish) {
+  if (wish.picture && !identity_.has_folder) {
+    return say({wish.id, "this display has no folder for pictures: start it with --out FOLDER", ""});
+  }
+  if (auto applied = client::apply(wish.settings, settings_); !applied)
+    return say({wish.id, applied.error().to_string(), ""});
+  for (const client::DisplaySetting& setting : wish.settings)
+    log::info(fmt::format("from afar: {}={}", setting.name, setting.value));
+  if (wish.picture) {
+    picture_for_.push_back(wish.id);
+  } else {
+    say({wish.id, "", ""});
+  }
+}
+
+void KioskDesk::say(client::WishAnswer answer) {
+  if (!answer.refusal.empty()) log::warning("a wish from afar is refused: " + answer.refusal);
+  answers_.push_back(std::move(answer));
+  if (answers_.size() > kAnswers) answers_.pop_front();
+  next_report_ = {};  // who asked is waiting
+}
+
+void KioskDesk::say_picture(const std::string& file, const std::string& refusal) {
+  for (const std::uint64_t id : std::exchange(picture_for_, {}))
+    say({id, refusal, file});
+}
+
+void KioskDesk::picture_taken(const std::string& file) {
+  say_picture(file, "");
+}
+
+void KioskDesk::picture_failed(const Error& error) {
+  say_picture("", error.to_string());
+}
+
+void KioskDesk::report(const DisplayFacts& facts, TimePoint now) {
+  next_report_ = now + kReportEvery;
+  client::DisplayStatus status;
+  status.version = MECHANE_VERSION;
+  status.host = host_;
+  status.process_id = static_cast<std::uint32_t>(::getpid());
+  status.uptime_s = static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::seconds>(now - began_).count());
+  status.width = facts.size.width;
+  status.height = facts.size.height;
+  status.offscreen = identity_.offscreen;
+  const PictureMeter::Rate pictures = meter_.rate(now);
+  status.pictures = meter_.total();
+  status.pictures_per_s = pictures.per_s;
+  status.picture_ms_median = pictures.median_ms;
+  status.picture_ms_p99 = pictures.p99_ms;
+  status.wanted_per_s = identity_.wanted_per_s;
+  status.link = static_cast<std::uint32_t>(client_.state());
+  if (client_.state() == client::LinkState::refused) status.refusal = client_.refusal();
+  if (facts.world != nullptr) {
+    status.world = facts.world->world;
+    status.scenario = facts.world->scenario;
+  }
+  const TrafficMeter::Rate frames = traffic_.rate(client_.frame_traffic(), now);
+  status.frames_per_s = frames.per_s;
+  status.frames_lost = frames.lost;
+  if (facts.missing != nullptr) {
+    status.missing_total = static_cast<std::uint32_t>(facts.missing->size());
+    for (const std::string& file : *facts.missing) {
+      if (status.missing.size() < kMissingNamed) status.missing.push_back(file);
+    }
+  }
+  status.renderer = identity_.renderer;
+  if (!facts.sound) {
+    status.sound_problem = identity_.offscreen ? "it has no window: nothing is heard" : "muted";
+  } else {
+    status.sound = facts.sound->device;
+    status.sound_problem = settings_.muted ? "muted" : facts.sound->problem;
+  }
+  status.showing = facts.attracts ? "attract" : "world";
+  const log::Trouble trouble = log::trouble();
+  status.warnings = trouble.count;
+  status.last_warning = trouble.last;
+  status.settings = client::settings_of(settings_);
+  status.answers.assign(answers_.begin(), answers_.end());
+  (void)client_.report(status);  // the next second brings another
+}
+
+}  // namespace mechane::display

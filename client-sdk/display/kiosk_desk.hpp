@@ -1,0 +1,119 @@
+// What a display tells to, and hears from, whoever looks after its kiosk: how it is, once a second; settings and pictures that are wished
+// for. On the display's thread; time is an argument.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "client-sdk/display/gl_context.hpp"
+#include "client-sdk/display/overlay_controls.hpp"
+#include "client-sdk/display/sound_player.hpp"
+#include "server/base/clock.hpp"
+#include <mechane/client/client.hpp>
+
+namespace mechane::display {
+
+/// Pictures a second, and what one takes, of the last seconds.
+class PictureMeter {
+ public:
+  static constexpr Duration kWindow = std::chrono::seconds(5);
+  struct Rate {
+    double per_s = 0;
+    double median_ms = 0;
+    double p99_ms = 0;
+  };
+  explicit PictureMeter(TimePoint began) : began_(began) {}
+  void drawn(Duration took, TimePoint now);
+  [[nodiscard]] Rate rate(TimePoint now) const;
+  [[nodiscard]] std::uint64_t total() const { return total_; }
+
+ private:
+  struct Picture {
+    TimePoint at;
+    double ms = 0;
+  };
+  TimePoint began_;
+  std::uint64_t total_ = 0;
+  std::deque<Picture> pictures_;
+};
+
+/// Frames that came and that were lost, of the last seconds, from counts that only rise.
+class TrafficMeter {
+ public:
+  static constexpr Duration kWindow = std::chrono::seconds(10);
+  struct Rate {
+    double per_s = 0;
+    double lost = 0;  ///< share, 0 .. 1
+  };
+  [[nodiscard]] Rate rate(const client::FrameTraffic& now_counted, TimePoint now);
+
+ private:
+  struct Count {
+    TimePoint at;
+    client::FrameTraffic traffic;
+  };
+  std::deque<Count> counts_;
+};
+
+/// What never changes of a display.
+struct DisplayIdentity {
+  std::string kiosk;
+  std::string name;
+  std::string renderer;
+  bool offscreen = false;
+  double wanted_per_s = 60;
+  bool has_folder = false;  ///< for pictures
+};
+
+/// What the display's loop knows at the time of a report.
+struct DisplayFacts {
+  PixelSize size;
+  const client::WorldStatus* world = nullptr;      ///< null: none is known
+  const std::set<std::string>* missing = nullptr;  ///< null: nothing was loaded yet
+  std::optional<SoundState> sound;                 ///< none: it makes no sound
+  bool attracts = false;                           ///< a recorded visit is shown
+};
+
+class KioskDesk {
+ public:
+  static constexpr Duration kReportEvery = std::chrono::seconds(1);
+  static constexpr std::size_t kAnswers = 8;
+  static constexpr std::size_t kMissingNamed = 8;
+
+  /// The client outlives the desk.
+  KioskDesk(client::Client& client, DisplayIdentity identity, client::DisplaySettings settings, TimePoint now);
+
+  /// Answers what was wished. True where settings changed. `style`: as visitors have it now, with keys of their own.
+  [[nodiscard]] bool take_wishes(const OverlayStyle& style);
+  [[nodiscard]] const client::DisplaySettings& settings() const { return settings_; }
+  /// Somebody wished for a picture; taken() or failed() answers.
+  [[nodiscard]] bool picture_wanted() const { return !picture_for_.empty(); }
+  void picture_taken(const std::string& file);
+  void picture_failed(const Error& error);
+
+  void drawn(Duration took, TimePoint now) { meter_.drawn(took, now); }
+  [[nodiscard]] bool report_due(TimePoint now) const { return now >= next_report_; }
+  void report(const DisplayFacts& facts, TimePoint now);
+
+ private:
+  void answer(const client::DisplayWish& wish);
+  void say(client::WishAnswer answer);
+  void say_picture(const std::string& file, const std::string& refusal);
+
+  client::Client& client_;
+  DisplayIdentity identity_;
+  client::DisplaySettings settings_;
+  PictureMeter meter_;
+  TrafficMeter traffic_;
+  TimePoint began_;
+  TimePoint next_report_;
+  std::string host_;
+  std::vector<std::uint64_t> picture_for_;  ///< ids of wishes
+  std::deque<client::WishAnswer> answers_;
+};
+
+}  // namespace mechane::display

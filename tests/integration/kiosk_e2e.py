@@ -1,0 +1,156 @@
+"""A kiosk's life: displays tell how they are and take wishes from afar, several show one world, links delay and lose."""
+
+import contextlib
+import json
+import pathlib
+import subprocess
+import sys
+import unittest
+
+from harness import BIN, PATIENCE, ROOT, EndToEnd, wait_until
+
+LINK = pathlib.Path(__file__).with_name("impaired_link.py")
+
+
+class Link:
+    """A router between two networks; see impaired_link.py."""
+
+    def __init__(self, **settings):
+        self.process = subprocess.Popen(["unshare", "--map-root-user", "--net", sys.executable, "-B", str(LINK)], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, text=True)
+        ends = self.process.stdout.readline()
+        if not ends:
+            self.close()
+            raise unittest.SkipTest("no networks of one's own can be made here (unshare)")
+        ends = json.loads(ends)
+        self.server, self.client = (["nsenter", "--user", "--net", "--preserve-credentials", "--target", str(ends[end])]
+                                    for end in ("server", "client"))
+        self.set(**settings)
+
+    def set(self, **settings):
+        for name, value in settings.items():
+            self.process.stdin.write(f"{name} {value}\n")
+        self.process.stdin.flush()
+
+    def close(self):
+        with contextlib.suppress(OSError):
+            self.process.stdin.close()
+        self.process.wait(timeout=20)
+        self.process.stdout.close()
+
+
+class Kiosk(EndToEnd):
+    def display(self, *arguments, name="wall", prefix=(), environment=None):
+        return self.start(name, "display", "--offscreen", "--kiosk", "kiosk-1", "--name", name, "--size", "160x90", "--fps", "10",
+                          *arguments, prefix=prefix, environment=environment)
+
+    def displays(self, *arguments):
+        """What `mechane displays` tells, by name."""
+        result = self.run_command("displays", "--json", *arguments)
+        told = [json.loads(line) for line in result.stdout.splitlines()]
+        return {display["display"]: display for display in told}
+
+    def wait_for_displays(self, wanted, limit_s, what):
+        told = {}
+
+        def look():
+            told.clear()
+            told.update(self.displays())
+            return wanted(told)
+
+        try:
+            wait_until(look, limit_s, what)
+        except AssertionError as error:
+            raise AssertionError(f"{error}; told was {json.dumps(told, indent=1)}") from None
+        return told
+
+    def test_two_displays_of_a_kiosk_show_one_world_and_do_as_they_are_told(self):
+        displays = [self.display("--out", self.folder / "wall"), self.display(name="bystanders")]
+        # Before any server: a calm picture, and no end.
+        told = self.wait_for_displays(lambda told: len(told) == 2 and all(d["pictures"] > 1 for d in told.values()), 30, "both draw")
+        self.assertEqual({d["link"] for d in told.values()}, {"searching"})
+        self.assertIn("it looks for a server", told["wall"]["remarks"][0])
+        server = self.server(records=False)
+        joined = lambda told: len(told) == 2 and all(d["link"] == "joined" and d["frames_per_s"] > 10 for d in told.values())
+        told = self.wait_for_displays(joined, 30, "both have joined")
+        self.assertEqual({d["world"] for d in told.values()}, {"world-1"})
+        self.assertEqual({d["scenario"] for d in told.values()}, {"archimedes-screw"})
+        self.assertEqual({d["missing_total"] for d in told.values()}, {0})
+
+        def command(*words, status=0):
+            result = self.run_command("displays", *words)
+            self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+            return result.stdout + result.stderr
+
+        self.assertEqual(command("set", "--kiosk", "kiosk-1", "--display", "wall", "volume=0.25", "language=en", "large-text=on"),
+                         "kiosk-1/wall: done\n")
+        self.assertRegex(command("set", "--kiosk", "kiosk-1", "ask=none"), "bystanders: done\nkiosk-1/wall: done")
+        settings = {name: display["settings"] for name, display in self.displays().items()}
+        self.assertEqual([settings["wall"][s] for s in ("volume", "language", "large-text", "ask")], ["0.25", "en", "on", "none"])
+        self.assertEqual([settings["bystanders"][s] for s in ("volume", "language", "large-text", "ask")], ["0.8", "el", "off", "none"])
+        self.assertIn("volume=... with 0 to 1", command("set", "--kiosk", "kiosk-1", "volume=7", status=2))
+        self.assertIn("there are: kiosk-1/bystanders, kiosk-1/wall", command("set", "--kiosk", "kiosk-2", "mute=on", status=1))
+        pictures = command("picture", "--kiosk", "kiosk-1", status=1)
+        self.assertIn("bystanders: refused: this display has no folder for pictures: start it with --out", pictures)
+        (file,) = (line.split(":")[-1] for line in pictures.splitlines() if line.startswith("kiosk-1/wall"))
+        self.assertEqual(pathlib.Path(file).read_bytes()[:4], b"\x89PNG")
+        table = command()
+        self.assertRegex(table, r"kiosk-1/wall +joined +archimedes-screw +160x90 ")
+        self.assertIn("kiosk-1/wall: it draws on the processor (llvmpipe", table)
+
+        # The server goes and comes: the picture stays, and both are back by themselves.
+        server.kill()
+        told = self.wait_for_displays(lambda told: {d["link"] for d in told.values()} == {"lost"}, 20, "the loss is told")
+        drawn = {name: display["pictures"] for name, display in told.items()}
+        self.server(records=False)
+        self.wait_for_displays(lambda told: joined(told) and all(told[n]["pictures"] > drawn[n] for n in drawn), 30, "both are back")
+        self.assertNotIn("error", displays[0].text() + displays[1].text())
+        displays[1].kill()
+        self.wait_for_displays(lambda told: set(told) == {"wall"}, 20, "one that was killed is not listed any more")
+
+    def test_what_a_display_lacks_is_told_and_it_goes_on(self):
+        self.server(records=False)
+        out = self.folder / "out"
+        display = self.display("--assets", self.folder, "--out", out)
+        told = self.wait_for_displays(lambda told: told and told["wall"]["missing_total"] > 0, 40, "the missing model is told")["wall"]
+        self.assertIn("archimedes-screw.glb", told["missing"][0])
+        self.assertTrue(any("plain boxes stand in their place" in remark for remark in told["remarks"]), told["remarks"])
+        self.assertRegex(told["last_warning"], "archimedes-screw.glb.*a plain box is shown")
+        # A folder that is gone costs the picture alone.
+        out.rmdir()
+        result = self.run_command("displays", "picture", "--kiosk", "kiosk-1")
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertIn("wall: refused: ", result.stderr)
+        self.assertGreater(self.displays()["wall"]["pictures"], told["pictures"])
+        self.assertTrue(display.running(), display.text())
+
+    def test_without_a_driver_for_graphics_the_remedy_is_told(self):
+        result = subprocess.run([str(BIN / "mechane"), "display", "--offscreen", "--frames", "1"], capture_output=True, text=True,
+                                timeout=60 * PATIENCE, env={**self.environment, "LIBGL_DRIVERS_PATH": str(self.folder), "MESA_LOADER_DRIVER_OVERRIDE": "none"})
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertIn("install libegl-mesa0 and libgl1-mesa-dri", result.stderr)
+
+    def test_a_display_behind_a_router_with_delay_and_loss_follows_a_whole_visit(self):
+        link = Link(delay=20, jitter=2, loss=0.01)
+        self.addCleanup(link.close)
+        museum = {**self.environment, "CYCLONEDDS_URI": "file://" + str(ROOT / "deploy/cyclonedds/museum.xml"),
+                  "MECHANE_SERVER": "10.77.1.2", "MECHANE_MUSEUM": self.environment["CYCLONEDDS_TEST_TAG"], "MECHANE_INTERFACE": "end-1"}
+        self.environment = museum
+        self.server(records=False, prefix=link.server)
+        self.display(prefix=link.client, environment={**museum, "MECHANE_INTERFACE": "end-2"})
+        self.command_prefix = link.server
+        joined = lambda told: told and told["wall"]["link"] == "joined" and told["wall"]["frames_per_s"] > 20
+        told = self.wait_for_displays(joined, 60, "the display has its scene")["wall"]
+        self.assertEqual((told["scenario"], told["missing_total"]), ("archimedes-screw", 0))
+        visitor = self.start("visitor", "visitor", "--kiosk", "kiosk-1", "--scenario", ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d",
+                             "--activity", "use", prefix=link.server)
+        self.wait_for_displays(lambda told: 0.002 < told["wall"]["frames_lost"] < 0.05, 40, "a loss of one in a hundred is told")
+        link.set(loss=0.1)
+        told = self.wait_for_displays(lambda told: 0.05 < told["wall"]["frames_lost"] < 0.3, 40, "a loss of one in ten is told")["wall"]
+        self.assertTrue(any("frames are lost on the way" in remark for remark in told["remarks"]), told["remarks"])
+        self.assertEqual(visitor.wait(120), 0, visitor.text())
+        self.wait_for_displays(joined, 20, "it has stayed")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

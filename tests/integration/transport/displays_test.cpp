@@ -1,0 +1,166 @@
+// Displays and who looks after them, over the loopback: how one is goes out, wishes come in, lies are refused.
+#include <gmock/gmock.h>
+
+#include "client-sdk/display/kiosk_desk.hpp"
+#include "tests/integration/transport/loopback.hpp"
+#include <mechane/client/displays.hpp>
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::test {
+namespace {
+
+using client::DisplayStatus;
+using client::WishAnswer;
+using display::KioskDesk;
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+/// A display without a picture: its client, and its desk.
+struct Desk {
+  explicit Desk(const std::string& name, bool has_folder = false) {
+    auto made =
+        client::Client::connect({.kiosk = "kiosk-1", .program = "tester", .domain = kClientDomain, .display = name});
+    if (!made) {
+      ADD_FAILURE() << made.error().to_string();
+      return;
+    }
+    client = std::move(*made);
+    display::DisplayIdentity identity;
+    identity.kiosk = "kiosk-1";
+    identity.name = name;
+    identity.renderer = "none";
+    identity.has_folder = has_folder;
+    desk = std::make_unique<KioskDesk>(*client, identity, client::DisplaySettings{}, now());
+  }
+  static TimePoint now() { return std::chrono::steady_clock::now(); }
+  /// As a display does in each turn of its loop.
+  void turn() {
+    if (desk->take_wishes(style)) ++changes;
+    display::DisplayFacts facts;
+    facts.size = {640, 360};
+    if (desk->report_due(now())) desk->report(facts, now());
+  }
+
+  std::unique_ptr<client::Client> client;
+  std::unique_ptr<KioskDesk> desk;
+  display::OverlayStyle style;
+  int changes = 0;
+};
+
+class Displays : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(museum_domain_.good());
+    ASSERT_TRUE(client_domain_.good());
+    auto opened = client::DisplayWatch::open(kServerDomain);
+    ASSERT_TRUE(opened.has_value()) << opened.error().to_string();
+    watch_ = std::move(*opened);
+  }
+  /// The status of one of the desks, once it fulfils a wish.
+  std::optional<DisplayStatus> told(const std::vector<Desk*>& desks, const std::string& name,
+                                    const std::function<bool(const DisplayStatus&)>& wanted) {
+    std::optional<DisplayStatus> found;
+    eventually(
+        [&] {
+          for (const DisplayStatus& status : watch_->displays()) {
+            if (status.display == name && wanted(status)) found = status;
+          }
+          return found.has_value();
+        },
+        10s,
+        [&] {
+          for (Desk* desk : desks)
+            desk->turn();
+        });
+    return found;
+  }
+  static bool answers(const DisplayStatus& status, std::uint64_t id) {
+    return std::ranges::find(status.answers, id, &WishAnswer::id) != status.answers.end();
+  }
+
+  LoopbackDomain museum_domain_{kServerDomain, 0};
+  LoopbackDomain client_domain_{kClientDomain, 0};
+  std::unique_ptr<client::DisplayWatch> watch_;
+};
+
+TEST_F(Displays, AWishReachesTheDisplaysThatItNamesAndIsAnsweredInTheirStatus) {
+  Desk wall("wall"), bystanders("bystanders");
+  const std::vector<Desk*> both{&wall, &bystanders};
+  ASSERT_TRUE(told(both, "wall", [](const DisplayStatus& s) { return s.width == 640; }));
+  ASSERT_TRUE(told(both, "bystanders", [](const DisplayStatus&) { return true; }));
+  const auto one = watch_->wish("kiosk-1", "wall", {{"volume", "0.5"}}, false);
+  ASSERT_TRUE(one.has_value());
+  const auto all = watch_->wish("kiosk-1", "", {{"language", "en"}}, false);
+  ASSERT_TRUE(all.has_value());
+  const auto elsewhere = watch_->wish("kiosk-2", "", {{"mute", "on"}}, false);
+  ASSERT_TRUE(elsewhere.has_value());
+  const auto at_wall = told(both, "wall", [&](const DisplayStatus& s) { return answers(s, *one) && answers(s, *all); });
+  const auto beside = told(both, "bystanders", [&](const DisplayStatus& s) { return answers(s, *all); });
+  ASSERT_TRUE(at_wall && beside);
+  EXPECT_EQ(at_wall->answers[0].refusal, "");
+  EXPECT_EQ(beside->answers.size(), 1U);
+  EXPECT_EQ(wall.desk->settings().volume, 0.5);
+  EXPECT_EQ(bystanders.desk->settings().volume, client::DisplaySettings{}.volume);
+  EXPECT_FALSE(wall.desk->settings().muted);
+  EXPECT_EQ(at_wall->settings, client::settings_of(wall.desk->settings()));
+  EXPECT_EQ(at_wall->link, 0U);
+}
+
+TEST_F(Displays, WhatALyingClientWishesIsRefusedAndChangesNothing) {
+  Desk wall("wall");
+  ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
+  EXPECT_FALSE(watch_->wish("kiosk-1", "", {{"volume", "2"}}, false).has_value()) << "the honest one asks first";
+  auto participant = proto::Participant::create(kServerDomain);
+  ASSERT_TRUE(participant.has_value());
+  auto liar = proto::Writer<proto::DisplayWish>::create(*participant, "");
+  ASSERT_TRUE(liar.has_value());
+  std::vector<proto::WireSetting> lies(2);
+  proto::set_text(lies[0].name, "large-text");
+  proto::set_text(lies[0].value, "on");
+  std::memset(&lies[1], 0xff, sizeof(lies[1]));
+  proto::DisplayWish wire{};
+  proto::set_text(wire.kiosk, "kiosk-1");
+  wire.protocol = proto::kProtocol;
+  wire.id = 77;
+  wire.picture = true;
+  proto::look_into(wire.settings, lies);
+  ASSERT_TRUE(liar->write(wire));
+  wire.id = 78;
+  wire.picture = false;
+  ASSERT_TRUE(liar->write(wire));
+  const auto status = told({&wall}, "wall", [](const DisplayStatus& s) { return answers(s, 77) && answers(s, 78); });
+  ASSERT_TRUE(status);
+  EXPECT_THAT(status->answers[0].refusal, HasSubstr("--out"));
+  EXPECT_THAT(status->answers[1].refusal, HasSubstr("a display has no setting"));
+  EXPECT_EQ(wall.desk->settings(), client::DisplaySettings{});
+  EXPECT_EQ(wall.changes, 0);
+}
+
+TEST_F(Displays, APictureIsAnsweredWhenItIsWrittenAndKeysOfVisitorsAreTold) {
+  Desk wall("wall", true);
+  ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
+  const auto wished = watch_->wish("kiosk-1", "wall", {}, true);
+  ASSERT_TRUE(wished.has_value());
+  ASSERT_TRUE(eventually([&] { return wall.desk->picture_wanted(); }, 10s, [&] { wall.turn(); }));
+  wall.style.high_contrast = true;
+  wall.desk->picture_taken("out/one.png");
+  EXPECT_FALSE(wall.desk->picture_wanted());
+  const auto status = told({&wall}, "wall", [&](const DisplayStatus& s) { return answers(s, *wished); });
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->answers[0].picture, "out/one.png");
+  EXPECT_EQ(status->answers[0].refusal, "");
+  EXPECT_EQ(wall.changes, 0) << "a key of a visitor is no wish";
+  EXPECT_TRUE(told({&wall}, "wall", [](const DisplayStatus& s) {
+    return std::ranges::count(s.settings, client::DisplaySetting{"high-contrast", "on"}) == 1;
+  }));
+}
+
+TEST_F(Displays, OneThatEndedIsGone) {
+  Desk wall("wall");
+  ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
+  wall.client.reset();
+  EXPECT_TRUE(eventually([&] { return watch_->displays().empty(); }));
+}
+
+}  // namespace
+}  // namespace mechane::test

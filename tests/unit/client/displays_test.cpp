@@ -1,0 +1,121 @@
+#include <cstring>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client-sdk/client/parse.hpp"
+#include <mechane/client/displays.hpp>
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::client {
+namespace {
+
+using testing::HasSubstr;
+
+std::string refusal_of(const std::string& name, const std::string& value) {
+  DisplaySettings settings;
+  const auto applied = apply(DisplaySetting{name, value}, settings);
+  EXPECT_EQ(settings, DisplaySettings{}) << name << "=" << value << " changed something";
+  return applied ? "" : applied.error().to_string();
+}
+
+TEST(DisplaySettings, each_is_read_as_it_is_written) {
+  DisplaySettings all{0.25, true, "en", true, true, "both", 90, false, 33};
+  DisplaySettings read;
+  ASSERT_TRUE(apply(settings_of(all), read).has_value());
+  EXPECT_EQ(read, all);
+  EXPECT_EQ(settings_of(all).size(), display_settings().size());
+}
+
+TEST(DisplaySettings, what_is_out_of_its_range_is_refused_with_the_range) {
+  for (const std::string value : {"1.01", "-0.1", "nan", "inf", "1e300", "", " 0.5", "0.5 ", "0,5", "half"})
+    EXPECT_THAT(refusal_of("volume", value), HasSubstr("0 to 1")) << value;
+  EXPECT_THAT(refusal_of("language", "de"), HasSubstr("el, en"));
+  EXPECT_THAT(refusal_of("language", ""), HasSubstr("el, en"));
+  EXPECT_THAT(refusal_of("mute", "yes"), HasSubstr("on, off"));
+  EXPECT_THAT(refusal_of("ask", "always"), HasSubstr("none, after, both"));
+  EXPECT_THAT(refusal_of("home-after", "86401"), HasSubstr("86400"));
+  EXPECT_THAT(refusal_of("attract-after", "4"), HasSubstr("5 to 86400"));
+  EXPECT_THAT(refusal_of("colour", "red"), HasSubstr("choose one of volume, mute"));
+  EXPECT_EQ(refusal_of("\x1b[2J", "1").find('\x1b'), std::string::npos) << "it may stand on a terminal";
+}
+
+TEST(DisplaySettings, of_several_all_are_taken_or_none) {
+  DisplaySettings settings;
+  EXPECT_FALSE(apply({{"volume", "0.1"}, {"language", "xx"}}, settings).has_value());
+  EXPECT_EQ(settings, DisplaySettings{});
+  EXPECT_TRUE(apply({{"volume", "0.1"}, {"language", "en"}, {"volume", "0.2"}}, settings).has_value());
+  EXPECT_EQ(settings.volume, 0.2) << "the last one counts";
+}
+
+TEST(DisplaySettings, a_word_without_a_value_sets_nothing) {
+  EXPECT_EQ(*read_setting("volume=0.5"), (DisplaySetting{"volume", "0.5"}));
+  EXPECT_EQ(*read_setting("language=a=b"), (DisplaySetting{"language", "a=b"}));
+  for (const char* text : {"volume", "", "=0.5"})
+    EXPECT_FALSE(read_setting(text).has_value()) << text;
+}
+
+/// A status that is well, for tests that spoil one thing of it.
+proto::DisplayStatus good_status() {
+  proto::DisplayStatus wire{};
+  proto::set_text(wire.kiosk, "kiosk-1");
+  proto::set_text(wire.display, "wall");
+  wire.protocol = proto::kProtocol;
+  return wire;
+}
+
+TEST(DisplayStatus, one_that_cannot_be_is_refused_as_a_whole) {
+  DisplayStatus out;
+  ASSERT_TRUE(parse(good_status(), out));
+  EXPECT_EQ(out.display, "wall");
+  const auto refused = [](auto spoil) {
+    proto::DisplayStatus wire = good_status();
+    spoil(wire);
+    DisplayStatus ignored;
+    return !parse(wire, ignored);
+  };
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(refused([](auto& w) { w.protocol = 1; }));
+  EXPECT_TRUE(refused([](auto& w) { w.link = 4; }));
+  EXPECT_TRUE(refused([](auto& w) { w.kiosk[0] = '\0'; }));
+  EXPECT_TRUE(refused([](auto& w) { std::memset(w.display, '*', sizeof(w.display)); }));
+  EXPECT_TRUE(refused([](auto& w) { w.picture_ms_p99 = kNan; }));
+  EXPECT_TRUE(refused([](auto& w) { w.frames_lost = 1.5F; }));
+  EXPECT_TRUE(refused([](auto& w) { w.pictures_per_s = -1; }));
+}
+
+TEST(DisplayStatus, texts_are_one_line_of_bearable_length) {
+  proto::DisplayStatus wire = good_status();
+  const std::string text = "first\nsecond\t\x1b[31mred " + std::string(2000, 'x');
+  wire.last_warning = proto::look_into(text);
+  std::string greek;
+  for (int i = 0; i < 300; ++i)
+    greek += "ά";
+  wire.sound = proto::look_into(greek);
+  DisplayStatus out;
+  ASSERT_TRUE(parse(wire, out));
+  EXPECT_THAT(out.last_warning, testing::StartsWith("first second [31mred xxx"));
+  EXPECT_EQ(out.last_warning.size(), 500U);
+  EXPECT_EQ(out.sound.size() % 2, 0U) << "no half of a letter";
+}
+
+TEST(DisplayWish, one_that_nobody_can_answer_or_with_too_much_is_no_wish) {
+  proto::DisplayWish wire{};
+  wire.protocol = proto::kProtocol;
+  wire.id = 7;
+  std::vector<proto::WireSetting> settings(kMaxSettings);
+  proto::look_into(wire.settings, settings);
+  DisplayWish out;
+  EXPECT_TRUE(parse(wire, out));
+  settings.resize(kMaxSettings + 1);
+  proto::look_into(wire.settings, settings);
+  EXPECT_FALSE(parse(wire, out));
+  settings.clear();
+  proto::look_into(wire.settings, settings);
+  wire.id = 0;
+  EXPECT_FALSE(parse(wire, out));
+}
+
+}  // namespace
+}  // namespace mechane::client
