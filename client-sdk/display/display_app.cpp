@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 
 #include "client-sdk/display/image_file.hpp"
-#include "client-sdk/display/kiosk_desk.hpp"
+#include "client-sdk/display/kiosk_setup.hpp"
 #include "client-sdk/display/mesh_files.hpp"
 #include "client-sdk/display/overlay_layout.hpp"
 #include "client-sdk/display/picking.hpp"
@@ -47,63 +47,46 @@ std::string scenario_key(const client::WorldStatus& status) {
   return status.world + " " + status.scenario + " " + status.scenario_hash;
 }
 
-client::DisplaySettings settings_at_start(const DisplayOptions& options) {
-  client::DisplaySettings settings;
-  settings.volume = options.sound.volume;
-  settings.muted = !options.sound.on;
-  settings.language = options.language;
-  settings.large_text = options.overlay.text_scale > 1;
-  settings.high_contrast = options.overlay.high_contrast;
-  settings.ask = ask_name(options.ask);
-  settings.home_after_s = options.home_after_s;
-  return settings;
-}
-
-VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
-  return {settings.language,
-          ask_when(settings.ask),
-          {settings.large_text ? kLargeText : 1.0F, settings.high_contrast},
-          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
-}
-
-DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context) {
-  return {options.kiosk, options.name, context.renderer_name(), options.offscreen, options.fps, !options.out.empty()};
-}
-
 /// One display's life. Made and run on one thread.
 class DisplayLoop {
  public:
   DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
-              client::Client& client, Typesetter& typesetter, const content::Catalogue* catalogue)
+              DisplaySource& source, Typesetter& typesetter, const content::Catalogue* catalogue,
+              std::unique_ptr<AttractLoop> attract)
       : options_(options),
         requests_(requests),
         context_(context),
         renderer_(renderer),
-        client_(client),
+        source_(source),
+        client_(*source.client),
         typesetter_(typesetter),
         catalogue_(catalogue),
-        desk_(client, identity_of(options, context), settings_at_start(options), clock_.now()),
+        attract_(std::move(attract)),
+        desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
         panel_(panel_settings(desk_.settings())),
         spoken_(options.language) {}
 
   Expected<DisplaySummary> run();
 
  private:
+  [[nodiscard]] TimePoint now();
   [[nodiscard]] bool stop_wanted(TimePoint now) const;
   [[nodiscard]] bool finished() const;
   void take_news(TimePoint now);
+  void record(TimePoint now);
   void open_scenario();
-  [[nodiscard]] std::unique_ptr<AssetStore> open_store() const;
   void take_arrived();
   void say_refusal();
   void say_stray();
   Expected<void> draw(TimePoint now);
   Expected<void> survive(const Error& error);
-  void let_hear(const Camera& ears);
+  void let_hear(const Camera& ears, TimePoint now);
   [[nodiscard]] RenderScene build(TimePoint now) const;
   [[nodiscard]] RenderScene build_for_one() const;
   void take_wishes(TimePoint now);
   void tend_kiosk(TimePoint now);
+  void tend_attract(TimePoint now);
+  void upload();
   void take_key(DisplayKey key, TimePoint now);
   void take_click(PixelPlace place, TimePoint now);
   [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
@@ -116,6 +99,7 @@ class DisplayLoop {
   DisplayRequests& requests_;
   GlContext& context_;
   Renderer& renderer_;
+  DisplaySource& source_;
   client::Client& client_;
   Typesetter& typesetter_;
   SystemClock clock_;
@@ -129,6 +113,8 @@ class DisplayLoop {
   client::Frame frame_;
   bool have_frame_ = false;
   std::optional<DisplaySound> sound_;
+  std::unique_ptr<AttractLoop> attract_;  ///< null: none
+  bool attracts_ = false;
   KioskDesk desk_;
   VisitorPanel panel_;
   std::string spoken_;    ///< the language that all others know of
@@ -155,10 +141,18 @@ bool DisplayLoop::finished() const {
   return status_->activities.empty() || status_->activities.back() == status_->activity;
 }
 
+/// A film's time goes by its pictures, not by how long they take.
+TimePoint DisplayLoop::now() {
+  if (options_.film_fps <= 0) return clock_.now();
+  const double seconds = static_cast<double>(summary_.frames) / options_.film_fps;
+  return started_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
 bool DisplayLoop::stop_wanted(TimePoint now) const {
   if (requests_.stop || context_.close_wanted()) return true;
   if (options_.seconds > 0 && now - started_ >= std::chrono::duration<double>(options_.seconds)) return true;
   if (options_.frames > 0 && summary_.frames >= options_.frames) return true;
+  if (source_.recorded != nullptr && source_.recorded->over()) return true;
   const bool owes_picture = options_.every_step && !last_picture_taken_;
   return options_.until_done && finished() && !owes_picture;
 }
@@ -166,9 +160,9 @@ bool DisplayLoop::stop_wanted(TimePoint now) const {
 void DisplayLoop::open_scenario() {
   scenario_ = scenario_key(*status_);
   folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
-  renderer_.forget_assets();
+  if (!attracts_) renderer_.forget_assets();
   // One for all scenarios: who comes back to one finds its files at once.
-  if (!store_) store_ = open_store();
+  if (!store_) store_ = open_asset_store(options_);
   mesh_files_ = store_ ? std::make_unique<MeshFiles>(store_.get(), catalogue_)
                        : std::make_unique<MeshFiles>(std::filesystem::path(folder_), catalogue_);
   library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {
@@ -182,20 +176,6 @@ void DisplayLoop::open_scenario() {
   have_frame_ = false;  // of the world before
 }
 
-/// None where assets are a folder's.
-std::unique_ptr<AssetStore> DisplayLoop::open_store() const {
-  if (!is_web_address(options_.assets)) return nullptr;
-  AssetStoreOptions options;
-  options.cache_folder = options_.asset_cache;
-  options.cache_bytes = std::uint64_t{options_.asset_cache_mib} << 20U;
-  auto address = AssetAddress::parse(options_.assets);
-  MECHANE_ASSERT(address.has_value());  // run_display() has read it
-  auto store = AssetStore::open(std::move(*address), options);
-  if (store) return std::move(*store);
-  log::error(store.error());
-  return nullptr;
-}
-
 /// Files that came from the server of assets take their placeholders' place.
 void DisplayLoop::take_arrived() {
   if (!store_ || objects_.empty()) return;
@@ -204,7 +184,7 @@ void DisplayLoop::take_arrived() {
     any = library_->load_again(name) || any;
   if (!any) return;
   builder_->set_manifest(objects_);
-  renderer_.upload(library_->assets());
+  upload();
 }
 
 /// Visitors see a calm picture; whoever looks after the kiosk needs the reason.
@@ -224,6 +204,7 @@ void DisplayLoop::say_stray() {
 
 /// Status, manifest and frame as they are now.
 void DisplayLoop::take_news(TimePoint now) {
+  if (source_.recorded != nullptr) source_.recorded->advance(now);
   if (auto status = client_.world_status()) {
     status_ = std::move(status);
     if (builder_ == nullptr || scenario_key(*status_) != scenario_) open_scenario();
@@ -240,10 +221,11 @@ void DisplayLoop::take_news(TimePoint now) {
       for (const client::SceneObject& object : objects_)
         mesh_files_->expect(object.mesh_uri, object.mesh_hash);
       builder_->set_manifest(objects_);
-      renderer_.upload(library_->assets());
+      upload();
     }
     take_arrived();
   }
+  record(now);
   say_refusal();
   // While the link is down the last frame stays.
   client::Frame newer;
@@ -253,9 +235,16 @@ void DisplayLoop::take_news(TimePoint now) {
   }
 }
 
+void DisplayLoop::record(TimePoint now) {
+  if (!source_.recorder || !status_ || client_.state() != LinkState::joined) return;
+  client::Frame newest;
+  const bool any = client_.newest_frame(newest);
+  source_.recorder->hear(now, *status_, presentation_.get(), objects_, any ? &newest : nullptr);
+}
+
 RenderScene DisplayLoop::build(TimePoint now) const {
-  RenderScene scene = build_for_one();
-  panel_.write(scene.overlay, now);
+  RenderScene scene = attracts_ ? attract_->build(now, spoken_, panel_.settings().style) : build_for_one();
+  if (!attracts_) panel_.write(scene.overlay, now);
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
   const PixelSize eye = eye_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
@@ -293,6 +282,25 @@ void DisplayLoop::take_wishes(TimePoint now) {
   if (sound_) sound_->set_language(spoken_);
 }
 
+/// The world's; an invitation's own assets go before.
+void DisplayLoop::upload() {
+  if (!attracts_ && library_) renderer_.upload(library_->assets());
+}
+
+/// Nobody is there: a recorded visit invites. The world goes on behind it, so that whoever comes is in it at once.
+void DisplayLoop::tend_attract(TimePoint now) {
+  if (attract_ == nullptr) return;
+  const client::DisplaySettings& settings = desk_.settings();
+  const std::chrono::duration<double> alone = panel_.alone_for(now);
+  const bool before = std::exchange(attracts_, settings.attract && alone.count() >= settings.attract_after_s);
+  if (attracts_ && !before) attract_->rewind();
+  if (attracts_ ? attract_->advance(now) || !before : before) {
+    renderer_.forget_assets();
+    if (attracts_) renderer_.upload(attract_->assets());
+    upload();
+  }
+}
+
 /// What is wished from afar, and how the display is.
 void DisplayLoop::tend_kiosk(TimePoint now) {
   if (desk_.take_wishes(panel_.settings().style)) {
@@ -307,10 +315,12 @@ void DisplayLoop::tend_kiosk(TimePoint now) {
   facts.world = status_ ? &*status_ : nullptr;
   facts.missing = library_ ? &library_->missing() : nullptr;
   if (sound_) facts.sound = sound_->state();
+  facts.attracts = attracts_;
   desk_.report(facts, now);
 }
 
 void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
+  panel_.touch(now);
   switch (key) {
     case DisplayKey::home:
       (void)client_.open_exhibit("");
@@ -328,6 +338,7 @@ void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
 void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
   if (const auto action = pressed(place)) return panel_.press(*action, now);
   panel_.touch(now);
+  if (attracts_) return;  // it means what is behind the invitation as little as a panel's
   if (!shown_.panel) click_object(place, now);
 }
 
@@ -354,6 +365,7 @@ void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
 }
 
 Expected<void> DisplayLoop::draw(TimePoint now) {
+  const TimePoint began = clock_.now();
   const RenderScene scene = build(now);
   const PixelSize size = context_.size();
   say_stray();
@@ -368,11 +380,11 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   context_.present();
   shown_ = scene.overlay;
   shown_inset_ = scene.inset ? std::optional(scene.inset->caption) : std::nullopt;
-  let_hear(scene.camera);
+  let_hear(scene.camera, now);
   ++summary_.frames;
-  desk_.drawn(clock_.now() - now, clock_.now());
+  desk_.drawn(clock_.now() - began, clock_.now());
   if (frame_ms_.size() < kFrameTimesKept) {
-    frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - now).count());
+    frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - began).count());
   }
   return {};
 }
@@ -386,10 +398,11 @@ Expected<void> DisplayLoop::survive(const Error& error) {
   return {};
 }
 
-void DisplayLoop::let_hear(const Camera& ears) {
+void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
   const std::vector<client::WorldEvent> events = client_.take_events();
+  if (source_.recorder) source_.recorder->hear(now, events);
   if (!sound_) return;
-  const bool here = have_frame_ && client_.state() == LinkState::joined;
+  const bool here = have_frame_ && client_.state() == LinkState::joined && !attracts_;
   sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(), objects_,
                events, folder_);
 }
@@ -412,6 +425,7 @@ void DisplayLoop::write_requested() {
 }
 
 void DisplayLoop::wait_for_next(TimePoint began) {
+  if (options_.film_fps > 0) return;
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
   const TimePoint now = clock_.now();
   next_ = std::max(next_ + period, now);
@@ -425,14 +439,15 @@ void DisplayLoop::wait_for_next(TimePoint began) {
 Expected<DisplaySummary> DisplayLoop::run() {
   started_ = next_ = clock_.now();
   if (options_.sound.on && !options_.offscreen) sound_.emplace(options_.sound, spoken_);
-  while (!stop_wanted(clock_.now())) {
-    const TimePoint now = clock_.now();
+  while (!stop_wanted(now())) {
+    const TimePoint now = this->now();
     take_news(now);
     take_wishes(now);
+    tend_attract(now);
     tend_kiosk(now);
     const bool asked = requests_.picture.exchange(false);
     const bool requested = context_.take_picture_wanted() || asked || desk_.picture_wanted();
-    const bool only_pictures = options_.offscreen && options_.every_step;
+    const bool only_pictures = options_.offscreen && options_.every_step && options_.film_fps <= 0;
     if (!only_pictures || due_ || requested) {
       if (auto ok = draw(now); !ok) return tl::unexpected(ok.error());
     }
@@ -440,6 +455,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
     if (due_) names.push_back(*std::exchange(due_, std::nullopt));
     if (requested) write_requested();
     if (options_.frames > 0 && summary_.frames == options_.frames) names.emplace_back("frame");
+    if (options_.film_fps > 0) names.push_back(fmt::format("film-{:05}", summary_.frames));
     for (const std::string& name : names) {
       if (auto ok = write_picture(name); !ok) return tl::unexpected(ok.error());
       if (finished() && name.ends_with("-done")) last_picture_taken_ = true;
@@ -525,10 +541,13 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   config.program = "mechane-display";
   config.display = options.name;
   config.domain = options.domain;
-  auto client = client::Client::connect(config);
-  if (!client) return tl::unexpected(client.error());
-  return DisplayLoop(possible, requests, **context, **renderer, **client, **typesetter,
-                     catalogue ? &*catalogue : nullptr)
+  auto source = open_source(options.source, config);
+  if (!source) return tl::unexpected(source.error());
+  auto attract = open_attract(options, catalogue ? &*catalogue : nullptr);
+  if (!attract) return tl::unexpected(attract.error());
+  if (source->recorded != nullptr) possible.ask = AskWhen::none;  // nobody is there who answers
+  return DisplayLoop(possible, requests, **context, **renderer, *source, **typesetter,
+                     catalogue ? &*catalogue : nullptr, std::move(*attract))
       .run();
 }
 

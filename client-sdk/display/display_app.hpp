@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client-sdk/display/display_sound.hpp"
+#include "client-sdk/display/display_source.hpp"
 #include "client-sdk/display/gl_context.hpp"
 #include "client-sdk/display/picture_schedule.hpp"
 #include "client-sdk/display/renderer.hpp"
@@ -43,7 +44,12 @@ struct DisplayOptions {
   AskWhen ask = AskWhen::after;  ///< an activity's questions
   OverlayStyle overlay;          ///< at the start; keys change it
   double home_after_s = 0;       ///< without anybody's motion or click: back to the server's first scenario; 0: never
+  std::string attract;           ///< file of a recording that is shown while nobody is there; empty: none
+  double attract_after_s = 120;  ///< without anybody's motion, touch or click
   SoundSettings sound;           ///< in a window; offscreen nothing is heard
+  SourceOptions source;          ///< played instead of a server's, and recorded
+  double film_fps =
+      0;  ///< over 0, with a recording: every picture, so many a second of it, as fast or slowly as they can be drawn
 };
 
 /// What was done, for scripts.

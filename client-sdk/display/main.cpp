@@ -14,10 +14,24 @@ using namespace mechane;
 
 display::DisplayRequests g_requests;  // what a signal handler may write
 
-void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
-  app.add_option("--kiosk", o.kiosk, "name of the kiosk")->capture_default_str();
+/// Of its life at a kiosk, from morning to evening.
+void add_kiosk_options(CLI::App& app, display::DisplayOptions& o) {
   app.add_option("--name", o.name, "of this display, where the kiosk has several (mechane displays)")
       ->capture_default_str();
+  app.add_option("--home-after", o.home_after_s,
+                 "seconds without a hand's motion or a click after which the kiosk goes home; 0: never")
+      ->check(CLI::Range(0.0, 86'400.0));
+  app.add_option("--attract", o.attract,
+                 "recording (--record) that is shown while nobody is there, with an invitation to touch")
+      ->check(CLI::ExistingFile);
+  app.add_option("--attract-after", o.attract_after_s,
+                 "seconds without a hand's motion or touch or a click after which it is shown")
+      ->check(CLI::Range(5.0, 86'400.0))
+      ->capture_default_str();
+}
+
+void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
+  app.add_option("--kiosk", o.kiosk, "name of the kiosk")->capture_default_str();
   app.add_option("--domain", o.domain, "DDS domain")->capture_default_str();
   app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();
@@ -69,9 +83,6 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
   app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);
   app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
-  app.add_option("--home-after", o.home_after_s,
-                 "seconds without a hand's motion or a click after which the kiosk goes home; 0: never")
-      ->check(CLI::Range(0.0, 86'400.0));
   app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
@@ -81,6 +92,32 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--fps", o.fps, "frames a second, at most")->check(CLI::Range(0.1, 240.0))->capture_default_str();
 }
 
+void add_recording_options(CLI::App& app, display::DisplayOptions& o) {
+  app.add_option("--record", o.source.record,
+                 "file that all that is shown is recorded to, to be played without a server; a file of that name goes");
+  app.add_option("--record-fps", o.source.recorder.fps, "frames a second that are recorded, at most")
+      ->check(CLI::Range(1.0, 240.0))
+      ->capture_default_str();
+  app.add_option_function<std::uint64_t>(
+         "--record-mib", [&o](std::uint64_t mib) { o.source.recorder.limit_bytes = mib << 20U; },
+         "the recording ends where it is so large; without: 256")
+      ->check(CLI::Range(1, 1024));
+  auto* play = app.add_option("--play", o.source.play, "recording that is shown in a server's place");
+  app.add_option("--speed", o.source.player.speed, "of a recording; 1: as it was")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str()
+      ->needs(play);
+  app.add_option("--play-from", o.source.play_from,
+                 "where the recording begins: a second, as 12.5, or a step and a share of it, as turn@0.4")
+      ->needs(play);
+  app.add_flag("--play-again", o.source.player.again, "begin the recording anew when it is over")->needs(play);
+  app.add_option(
+         "--film-fps", o.film_fps,
+         "write every picture of a recording to --out, so many for each second, however long each takes to draw")
+      ->check(CLI::Range(0.1, 240.0))
+      ->needs(play);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -88,6 +125,8 @@ int main(int argc, char** argv) {
   std::string size = "1280x720";
   CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
   add_options(app, options, size);
+  add_kiosk_options(app, options);
+  add_recording_options(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "server/record/byte_order.hpp"
+#include "server/base/byte_order.hpp"
 #include "server/record/tick_codec.hpp"
 
 namespace mechane::record {

@@ -5,7 +5,7 @@
 #include <xxhash.h>
 
 #include "server/base/assert.hpp"
-#include "server/record/byte_order.hpp"
+#include "server/base/byte_order.hpp"
 #include "server/record/tick_codec.hpp"
 
 namespace mechane::record {

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "server/record/byte_order.hpp"
+#include "server/base/byte_order.hpp"
 #include "server/record/snapshot_file.hpp"
 
 namespace mechane::record {

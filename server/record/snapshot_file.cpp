@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "server/record/byte_order.hpp"
+#include "server/base/byte_order.hpp"
 #include "server/record/file.hpp"
 
 // A file: magic "MECHWRLD", u32 version, u64 checksum (XXH3-64) of what follows: s world, s kiosk, s scenario, s scenario hash,

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "server/record/byte_order.hpp"
+#include "server/base/byte_order.hpp"
 #include "server/record/tick_record.hpp"
 
 namespace mechane::record {

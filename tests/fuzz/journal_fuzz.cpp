@@ -8,12 +8,14 @@
 
 #include <xxhash.h>
 
-#include "server/record/byte_order.hpp"
+#include "server/base/byte_order.hpp"
 #include "server/record/journal_reader.hpp"
 #include "server/record/journal_writer.hpp"
 
 namespace {
 
+using mechane::put;
+using mechane::VectorSink;
 using namespace mechane::record;
 
 std::vector<std::byte> journal_with_frame(std::uint8_t kind, std::span<const std::byte> payload) {

@@ -1,4 +1,4 @@
-// Numbers as bytes, little-endian, and back within bounds. What the journal and the snapshot file are written with.
+// Numbers as bytes, little-endian, and back within bounds. What journals, snapshot files and recorded frames are written with.
 #pragma once
 
 #include <bit>
@@ -13,7 +13,7 @@
 
 #include "server/base/assert.hpp"
 
-namespace mechane::record {
+namespace mechane {
 
 /// Appends to a vector.
 class VectorSink {
@@ -132,4 +132,4 @@ class ByteSource {
   bool ok_ = true;
 };
 
-}  // namespace mechane::record
+}  // namespace mechane

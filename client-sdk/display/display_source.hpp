@@ -1,0 +1,33 @@
+// Where a display has its worlds from: a server, or a recording in its place; and where they are recorded to.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "client-sdk/display/frame_recording.hpp"
+#include "client-sdk/display/recorded_client.hpp"
+#include "server/base/error.hpp"
+#include <mechane/client/client.hpp>
+
+namespace mechane::display {
+
+struct SourceOptions {
+  std::string play;       ///< file of a recording; empty: a server
+  std::string play_from;  ///< FrameRecording::moment(); empty: the beginning
+  PlaySettings player;    ///< `from` is taken from play_from
+  std::string record;     ///< file; empty: nothing is recorded
+  RecorderSettings recorder;
+};
+
+/// Used on the display's thread.
+struct DisplaySource {
+  std::unique_ptr<client::Client> client;
+  RecordedClient* recorded = nullptr;  ///< that client, where it is a recording
+  std::optional<FrameRecorder> recorder;
+};
+
+/// Errors: those of Client::connect(), of FrameRecording and of FrameRecorder.
+[[nodiscard]] Expected<DisplaySource> open_source(const SourceOptions& options, const client::ClientConfig& server);
+
+}  // namespace mechane::display

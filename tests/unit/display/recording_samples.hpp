@@ -1,0 +1,84 @@
+// A visit of two worlds, as a display hears it: a crank that turns, water that rises, a rope that is wound, and then another exhibit.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "client-sdk/display/frame_recording.hpp"
+
+namespace mechane::display {
+
+inline client::WorldStatus status_of_visit(const std::string& world, const std::string& step) {
+  client::WorldStatus status;
+  status.world = world;
+  status.scenario = "well-" + world;
+  status.activity = "use";
+  status.step = step;
+  status.steps_total = 3;
+  status.quantities = {{"level", "m"}, {"flow", "l/s"}};
+  status.title = {{"el", "Το πηγάδι"}, {"en", "The well"}};
+  status.activities = {"use"};
+  return status;
+}
+
+inline client::WorldPresentation presentation_of_visit(const std::string& world) {
+  client::WorldPresentation presentation;
+  presentation.world = world;
+  presentation.languages = {"el", "en"};
+  client::Question question;
+  question.name = "how";
+  question.answers = {{"by-rope", {{"en", "By the rope"}}}};
+  question.marks = 5;
+  client::Activity activity;
+  activity.name = "use";
+  activity.questions = {question};
+  presentation.activities = {activity};
+  client::View view;
+  view.X_WV.p = Vec3(0, 1.5, 3);
+  presentation.views = {view};
+  client::Effect basin, fixed;
+  basin.kind = "level";
+  basin.node = "WATER_BASIN";
+  basin.object = 1;
+  fixed.kind = "smoke";
+  presentation.effects = {basin, fixed};
+  return presentation;
+}
+
+inline std::vector<client::SceneObject> manifest_of_visit() {
+  std::vector<client::SceneObject> objects(2);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    objects[i].index = i;
+    objects[i].name = i == 0 ? "CRANK" : "BUCKET";
+    objects[i].mesh_uri = "machine.glb";
+    objects[i].mesh_node = "OUTER";
+    objects[i].movable = true;
+  }
+  return objects;
+}
+
+/// `at` after the beginning: the crank turns 2 rad a second, the bucket rises half a metre, the hand goes along.
+inline client::Frame frame_of_visit(std::uint64_t sequence, Duration at, TimePoint received) {
+  const double t = to_seconds(at);
+  client::Frame frame;
+  frame.sequence = sequence;
+  frame.tick = static_cast<std::uint64_t>(at / kTickPeriod);
+  frame.received = received;
+  frame.visible = {1, 1};
+  frame.bodies = {{0, {Vec3(0, 1, 0), Quat(Eigen::AngleAxisd(2 * t, Vec3::UnitZ()))}},
+                  {1, {Vec3(0.25, 0.5 * t, 0), Quat::Identity()}}};
+  frame.quantities = {0.1 * t, 0.3};
+  client::HandPose hand;
+  hand.kiosk = "kiosk-1";
+  hand.holding = true;
+  hand.X_WS[0] = {Vec3(0.2 * std::cos(2 * t), 1 + 0.2 * std::sin(2 * t), 0), Quat::Identity()};
+  hand.force_W = Vec3(0, -3, 0.5);
+  frame.hands = {hand};
+  client::RopeShape rope;
+  rope.points_W = {Vec3(0.25, 2, 0), Vec3(0.25, 0.5 * t, 0)};
+  frame.ropes = {rope};
+  return frame;
+}
+
+}  // namespace mechane::display
