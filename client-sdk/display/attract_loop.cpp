@@ -1,5 +1,6 @@
 #include "client-sdk/display/attract_loop.hpp"
 
+#include "client-sdk/display/overlay_text.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/log/log.hpp"
 
@@ -16,11 +17,12 @@ PlaySettings over_and_over() {
 }
 
 /// Calm: no step, no gauge, no question of somebody else's visit.
-OverlayContent invitation(const std::string& language, const OverlayStyle& style) {
+OverlayContent invitation(const client::WorldStatus* status, const std::string& language, const OverlayStyle& style) {
   OverlayContent content;
   const bool greek = language == "el";
-  content.title = greek ? kInviteGreek : kInviteEnglish;
-  content.caption = greek ? kInviteEnglish : kInviteGreek;
+  if (status != nullptr) content.title = text_in(status->title, language);
+  content.caption = greek ? kInviteGreek : kInviteEnglish;
+  content.hint = greek ? kInviteEnglish : kInviteGreek;
   content.style = style;
   return content;
 }
@@ -93,7 +95,7 @@ RenderScene AttractLoop::build(TimePoint now, const std::string& language, const
     hand.force_W = Vec3::Zero();
   const auto status = recorded_.world_status();
   RenderScene scene = builder_->build(any ? &frame : nullptr, status ? &*status : nullptr, client::LinkState::joined);
-  scene.overlay = invitation(language, style);
+  scene.overlay = invitation(status ? &*status : nullptr, language, style);
   scene.inset.reset();
   return scene;
 }
