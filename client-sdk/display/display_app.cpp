@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 
 #include "client-sdk/display/image_file.hpp"
-#include "client-sdk/display/kiosk_desk.hpp"
+#include "client-sdk/display/kiosk_setup.hpp"
 #include "client-sdk/display/mesh_files.hpp"
 #include "client-sdk/display/overlay_layout.hpp"
 #include "client-sdk/display/picking.hpp"
@@ -47,34 +47,12 @@ std::string scenario_key(const client::WorldStatus& status) {
   return status.world + " " + status.scenario + " " + status.scenario_hash;
 }
 
-client::DisplaySettings settings_at_start(const DisplayOptions& options) {
-  client::DisplaySettings settings;
-  settings.volume = options.sound.volume;
-  settings.muted = !options.sound.on;
-  settings.language = options.language;
-  settings.large_text = options.overlay.text_scale > 1;
-  settings.high_contrast = options.overlay.high_contrast;
-  settings.ask = ask_name(options.ask);
-  settings.home_after_s = options.home_after_s;
-  return settings;
-}
-
-VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
-  return {settings.language,
-          ask_when(settings.ask),
-          {settings.large_text ? kLargeText : 1.0F, settings.high_contrast},
-          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
-}
-
-DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context) {
-  return {options.kiosk, options.name, context.renderer_name(), options.offscreen, options.fps, !options.out.empty()};
-}
-
 /// One display's life. Made and run on one thread.
 class DisplayLoop {
  public:
   DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
-              DisplaySource& source, Typesetter& typesetter, const content::Catalogue* catalogue)
+              DisplaySource& source, Typesetter& typesetter, const content::Catalogue* catalogue,
+              std::unique_ptr<AttractLoop> attract)
       : options_(options),
         requests_(requests),
         context_(context),
@@ -83,6 +61,7 @@ class DisplayLoop {
         client_(*source.client),
         typesetter_(typesetter),
         catalogue_(catalogue),
+        attract_(std::move(attract)),
         desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
         panel_(panel_settings(desk_.settings())),
         spoken_(options.language) {}
@@ -96,7 +75,6 @@ class DisplayLoop {
   void take_news(TimePoint now);
   void record(TimePoint now);
   void open_scenario();
-  [[nodiscard]] std::unique_ptr<AssetStore> open_store() const;
   void take_arrived();
   void say_refusal();
   void say_stray();
@@ -107,6 +85,8 @@ class DisplayLoop {
   [[nodiscard]] RenderScene build_for_one() const;
   void take_wishes(TimePoint now);
   void tend_kiosk(TimePoint now);
+  void tend_attract(TimePoint now);
+  void upload();
   void take_key(DisplayKey key, TimePoint now);
   void take_click(PixelPlace place, TimePoint now);
   [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
@@ -133,6 +113,8 @@ class DisplayLoop {
   client::Frame frame_;
   bool have_frame_ = false;
   std::optional<DisplaySound> sound_;
+  std::unique_ptr<AttractLoop> attract_;  ///< null: none
+  bool attracts_ = false;
   KioskDesk desk_;
   VisitorPanel panel_;
   std::string spoken_;    ///< the language that all others know of
@@ -178,9 +160,9 @@ bool DisplayLoop::stop_wanted(TimePoint now) const {
 void DisplayLoop::open_scenario() {
   scenario_ = scenario_key(*status_);
   folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
-  renderer_.forget_assets();
+  if (!attracts_) renderer_.forget_assets();
   // One for all scenarios: who comes back to one finds its files at once.
-  if (!store_) store_ = open_store();
+  if (!store_) store_ = open_asset_store(options_);
   mesh_files_ = store_ ? std::make_unique<MeshFiles>(store_.get(), catalogue_)
                        : std::make_unique<MeshFiles>(std::filesystem::path(folder_), catalogue_);
   library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {
@@ -194,20 +176,6 @@ void DisplayLoop::open_scenario() {
   have_frame_ = false;  // of the world before
 }
 
-/// None where assets are a folder's.
-std::unique_ptr<AssetStore> DisplayLoop::open_store() const {
-  if (!is_web_address(options_.assets)) return nullptr;
-  AssetStoreOptions options;
-  options.cache_folder = options_.asset_cache;
-  options.cache_bytes = std::uint64_t{options_.asset_cache_mib} << 20U;
-  auto address = AssetAddress::parse(options_.assets);
-  MECHANE_ASSERT(address.has_value());  // run_display() has read it
-  auto store = AssetStore::open(std::move(*address), options);
-  if (store) return std::move(*store);
-  log::error(store.error());
-  return nullptr;
-}
-
 /// Files that came from the server of assets take their placeholders' place.
 void DisplayLoop::take_arrived() {
   if (!store_ || objects_.empty()) return;
@@ -216,7 +184,7 @@ void DisplayLoop::take_arrived() {
     any = library_->load_again(name) || any;
   if (!any) return;
   builder_->set_manifest(objects_);
-  renderer_.upload(library_->assets());
+  upload();
 }
 
 /// Visitors see a calm picture; whoever looks after the kiosk needs the reason.
@@ -253,7 +221,7 @@ void DisplayLoop::take_news(TimePoint now) {
       for (const client::SceneObject& object : objects_)
         mesh_files_->expect(object.mesh_uri, object.mesh_hash);
       builder_->set_manifest(objects_);
-      renderer_.upload(library_->assets());
+      upload();
     }
     take_arrived();
   }
@@ -275,8 +243,8 @@ void DisplayLoop::record(TimePoint now) {
 }
 
 RenderScene DisplayLoop::build(TimePoint now) const {
-  RenderScene scene = build_for_one();
-  panel_.write(scene.overlay, now);
+  RenderScene scene = attracts_ ? attract_->build(now, spoken_, panel_.settings().style) : build_for_one();
+  if (!attracts_) panel_.write(scene.overlay, now);
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
   const PixelSize eye = eye_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
@@ -314,6 +282,25 @@ void DisplayLoop::take_wishes(TimePoint now) {
   if (sound_) sound_->set_language(spoken_);
 }
 
+/// The world's; an invitation's own assets go before.
+void DisplayLoop::upload() {
+  if (!attracts_ && library_) renderer_.upload(library_->assets());
+}
+
+/// Nobody is there: a recorded visit invites. The world goes on behind it, so that whoever comes is in it at once.
+void DisplayLoop::tend_attract(TimePoint now) {
+  if (attract_ == nullptr) return;
+  const client::DisplaySettings& settings = desk_.settings();
+  const std::chrono::duration<double> alone = panel_.alone_for(now);
+  const bool before = std::exchange(attracts_, settings.attract && alone.count() >= settings.attract_after_s);
+  if (attracts_ && !before) attract_->rewind();
+  if (attracts_ ? attract_->advance(now) || !before : before) {
+    renderer_.forget_assets();
+    if (attracts_) renderer_.upload(attract_->assets());
+    upload();
+  }
+}
+
 /// What is wished from afar, and how the display is.
 void DisplayLoop::tend_kiosk(TimePoint now) {
   if (desk_.take_wishes(panel_.settings().style)) {
@@ -328,10 +315,12 @@ void DisplayLoop::tend_kiosk(TimePoint now) {
   facts.world = status_ ? &*status_ : nullptr;
   facts.missing = library_ ? &library_->missing() : nullptr;
   if (sound_) facts.sound = sound_->state();
+  facts.attracts = attracts_;
   desk_.report(facts, now);
 }
 
 void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
+  panel_.touch(now);
   switch (key) {
     case DisplayKey::home:
       (void)client_.open_exhibit("");
@@ -349,6 +338,7 @@ void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
 void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
   if (const auto action = pressed(place)) return panel_.press(*action, now);
   panel_.touch(now);
+  if (attracts_) return;  // it means what is behind the invitation as little as a panel's
   if (!shown_.panel) click_object(place, now);
 }
 
@@ -412,7 +402,7 @@ void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
   const std::vector<client::WorldEvent> events = client_.take_events();
   if (source_.recorder) source_.recorder->hear(now, events);
   if (!sound_) return;
-  const bool here = have_frame_ && client_.state() == LinkState::joined;
+  const bool here = have_frame_ && client_.state() == LinkState::joined && !attracts_;
   sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(), objects_,
                events, folder_);
 }
@@ -453,6 +443,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
     const TimePoint now = this->now();
     take_news(now);
     take_wishes(now);
+    tend_attract(now);
     tend_kiosk(now);
     const bool asked = requests_.picture.exchange(false);
     const bool requested = context_.take_picture_wanted() || asked || desk_.picture_wanted();
@@ -552,9 +543,11 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   config.domain = options.domain;
   auto source = open_source(options.source, config);
   if (!source) return tl::unexpected(source.error());
+  auto attract = open_attract(options, catalogue ? &*catalogue : nullptr);
+  if (!attract) return tl::unexpected(attract.error());
   if (source->recorded != nullptr) possible.ask = AskWhen::none;  // nobody is there who answers
   return DisplayLoop(possible, requests, **context, **renderer, *source, **typesetter,
-                     catalogue ? &*catalogue : nullptr)
+                     catalogue ? &*catalogue : nullptr, std::move(*attract))
       .run();
 }
 

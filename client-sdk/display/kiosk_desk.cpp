@@ -81,8 +81,12 @@ void KioskDesk::answer(const client::DisplayWish& wish) {
   if (wish.picture && !identity_.has_folder) {
     return say({wish.id, "this display has no folder for pictures: start it with --out FOLDER", ""});
   }
-  if (auto applied = client::apply(wish.settings, settings_); !applied)
+  client::DisplaySettings wished = settings_;
+  if (auto applied = client::apply(wish.settings, wished); !applied)
     return say({wish.id, applied.error().to_string(), ""});
+  if (wished.attract && !identity_.has_attract && !settings_.attract)
+    return say({wish.id, "this display has no recorded visit to show: start it with --attract FILE", ""});
+  settings_ = wished;
   for (const client::DisplaySetting& setting : wish.settings)
     log::info(fmt::format("from afar: {}={}", setting.name, setting.value));
   if (wish.picture) {

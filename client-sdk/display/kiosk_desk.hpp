@@ -66,7 +66,8 @@ struct DisplayIdentity {
   std::string renderer;
   bool offscreen = false;
   double wanted_per_s = 60;
-  bool has_folder = false;  ///< for pictures
+  bool has_folder = false;   ///< for pictures
+  bool has_attract = false;  ///< a recorded visit to show
 };
 
 /// What the display's loop knows at the time of a report.

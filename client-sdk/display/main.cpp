@@ -14,10 +14,24 @@ using namespace mechane;
 
 display::DisplayRequests g_requests;  // what a signal handler may write
 
-void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
-  app.add_option("--kiosk", o.kiosk, "name of the kiosk")->capture_default_str();
+/// Of its life at a kiosk, from morning to evening.
+void add_kiosk_options(CLI::App& app, display::DisplayOptions& o) {
   app.add_option("--name", o.name, "of this display, where the kiosk has several (mechane displays)")
       ->capture_default_str();
+  app.add_option("--home-after", o.home_after_s,
+                 "seconds without a hand's motion or a click after which the kiosk goes home; 0: never")
+      ->check(CLI::Range(0.0, 86'400.0));
+  app.add_option("--attract", o.attract,
+                 "recording (--record) that is shown while nobody is there, with an invitation to touch")
+      ->check(CLI::ExistingFile);
+  app.add_option("--attract-after", o.attract_after_s,
+                 "seconds without a hand's motion or touch or a click after which it is shown")
+      ->check(CLI::Range(5.0, 86'400.0))
+      ->capture_default_str();
+}
+
+void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
+  app.add_option("--kiosk", o.kiosk, "name of the kiosk")->capture_default_str();
   app.add_option("--domain", o.domain, "DDS domain")->capture_default_str();
   app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();
@@ -69,9 +83,6 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
   app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);
   app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
-  app.add_option("--home-after", o.home_after_s,
-                 "seconds without a hand's motion or a click after which the kiosk goes home; 0: never")
-      ->check(CLI::Range(0.0, 86'400.0));
   app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
@@ -114,6 +125,7 @@ int main(int argc, char** argv) {
   std::string size = "1280x720";
   CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
   add_options(app, options, size);
+  add_kiosk_options(app, options);
   add_recording_options(app, options);
   try {
     app.parse(argc, argv);

@@ -20,7 +20,7 @@ constexpr float kShadowReach_m = 13;
 constexpr double kStray_m = 10'000;
 
 bool is_stray(const Vec3& p_W) {
-  return !(p_W.cwiseAbs().maxCoeff() <= kStray_m);
+  return !(p_W.array().abs() <= kStray_m).all();  // what is no number is one, too
 }
 
 bool is_stray(const client::HandPose& hand) {

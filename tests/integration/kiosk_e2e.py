@@ -7,7 +7,7 @@ import subprocess
 import sys
 import unittest
 
-from harness import BIN, PATIENCE, ROOT, EndToEnd, wait_until
+from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, wait_until
 
 LINK = pathlib.Path(__file__).with_name("impaired_link.py")
 
@@ -124,6 +124,38 @@ class Kiosk(EndToEnd):
         self.assertGreater(self.displays()["wall"]["pictures"], told["pictures"])
         self.assertTrue(display.running(), display.text())
 
+    def test_while_nobody_is_there_a_recorded_visit_invites_until_a_hand_moves(self):
+        self.server(records=False)
+        film = self.folder / "visit.seen"
+        recorder = self.display("--record", film, name="recorder")
+        visit = ("visitor", "--kiosk", "kiosk-1", "--scenario", SCENARIO, "--activity", "use", "--endless")
+        first = self.start("first", *visit)
+        wait_until(lambda: "use: turn" in first.text(), 60, "somebody turns the crank")
+        wait_until(lambda: film.stat().st_size > 20_000, 60, "and is recorded")
+        self.assertEqual(recorder.stop(), 0, recorder.text())
+        first.stop()
+        wall = self.display("--attract", film, "--attract-after", "5", "--out", self.folder / "out")
+        showing = lambda what: lambda told: told and told["wall"]["showing"] == what
+        told = self.wait_for_displays(showing("attract"), 40, "nobody is there")["wall"]
+        self.assertEqual((told["link"], told["missing_total"]), ("joined", 0))
+        result = self.run_command("displays", "picture", "--kiosk", "kiosk-1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # The world behind it has felt nothing: the recorded hand is only seen.
+        frame = json.loads(self.run_command("echo", "SceneFrame", "--kiosk", "kiosk-1", "--count", "1", "--json").stdout)
+        self.assertEqual([hand["holding"] for hand in frame["hands"]], [])
+        second = self.start("second", *visit)
+        self.wait_for_displays(showing("world"), 30, "somebody came")
+        second.stop()
+        self.wait_for_displays(showing("attract"), 40, "and went")
+        self.run_command("displays", "set", "--kiosk", "kiosk-1", "attract=off")
+        self.wait_for_displays(showing("world"), 10, "it is switched off from afar")
+        self.assertEqual(wall.stop(), 0, wall.text())
+
+    def test_a_file_that_is_no_recorded_visit_is_told_at_the_start(self):
+        result = self.run_command("display", "--offscreen", "--attract", SCENARIO, "--frames", "1")
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertIn("archimedes-screw.x3d", result.stderr)
+
     def test_without_a_driver_for_graphics_the_remedy_is_told(self):
         result = subprocess.run([str(BIN / "mechane"), "display", "--offscreen", "--frames", "1"], capture_output=True, text=True,
                                 timeout=60 * PATIENCE, env={**self.environment, "LIBGL_DRIVERS_PATH": str(self.folder), "MESA_LOADER_DRIVER_OVERRIDE": "none"})
@@ -142,7 +174,7 @@ class Kiosk(EndToEnd):
         joined = lambda told: told and told["wall"]["link"] == "joined" and told["wall"]["frames_per_s"] > 20
         told = self.wait_for_displays(joined, 60, "the display has its scene")["wall"]
         self.assertEqual((told["scenario"], told["missing_total"]), ("archimedes-screw", 0))
-        visitor = self.start("visitor", "visitor", "--kiosk", "kiosk-1", "--scenario", ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d",
+        visitor = self.start("visitor", "visitor", "--kiosk", "kiosk-1", "--scenario", SCENARIO,
                              "--activity", "use", prefix=link.server)
         self.wait_for_displays(lambda told: 0.002 < told["wall"]["frames_lost"] < 0.05, 40, "a loss of one in a hundred is told")
         link.set(loss=0.1)

@@ -93,4 +93,10 @@ Qos kiosk_status_qos() {
   return q;
 }
 
+Qos display_status_qos() {
+  Qos q = last_known_value();
+  q.manual_liveliness(kDisplayLiveliness);
+  return q;
+}
+
 }  // namespace mechane::proto

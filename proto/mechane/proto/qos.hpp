@@ -13,6 +13,8 @@ namespace mechane::proto {
 
 inline constexpr Duration kServerLiveliness = std::chrono::milliseconds(500);
 inline constexpr Duration kKioskLiveliness = std::chrono::seconds(3);
+/// A display says nothing while it reads an exhibit's files; for longer than this it hangs. One that ended is noticed sooner.
+inline constexpr Duration kDisplayLiveliness = std::chrono::seconds(15);
 inline constexpr Duration kEventLifespan = std::chrono::seconds(2);
 inline constexpr int kEventDepth = 64;
 
@@ -47,5 +49,6 @@ class Qos {
 [[nodiscard]] Qos command_qos();
 [[nodiscard]] Qos server_status_qos();
 [[nodiscard]] Qos kiosk_status_qos();
+[[nodiscard]] Qos display_status_qos();
 
 }  // namespace mechane::proto

@@ -73,7 +73,7 @@ MECHANE_PROTO_TOPIC(Command, world, command_qos);
 MECHANE_PROTO_TOPIC(WorldAssignment, museum, world_assignment_qos);
 MECHANE_PROTO_TOPIC(ServerStatus, museum, server_status_qos);
 MECHANE_PROTO_TOPIC(KioskStatus, museum, kiosk_status_qos);
-MECHANE_PROTO_TOPIC(DisplayStatus, museum, kiosk_status_qos);
+MECHANE_PROTO_TOPIC(DisplayStatus, museum, display_status_qos);
 MECHANE_PROTO_TOPIC(DisplayWish, museum, command_qos);
 #undef MECHANE_PROTO_TOPIC
 // clang-format on

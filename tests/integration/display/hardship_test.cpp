@@ -44,8 +44,8 @@ TEST_F(DrawnPicture, a_size_that_the_driver_does_not_have_is_refused_and_the_nex
 }
 
 TEST_F(DrawnPicture, ten_thousand_objects_are_all_drawn) {
-  const ImageData picture = draw(one_box(0.004), many_boxes(125, 80));
-  // Each box is an island of light: counted along the row of pixels through the middle of each row of boxes.
+  const ImageData picture = draw(one_box(0.008), many_boxes(125, 80));
+  // Each box is an island of light of more than two pixels: its middle pixel is all light.
   const RenderScene scene = many_boxes(125, 80);
   int lit = 0;
   for (const Instance& box : scene.instances) {

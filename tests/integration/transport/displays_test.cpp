@@ -1,4 +1,6 @@
 // Displays and who looks after them, over the loopback: how one is goes out, wishes come in, lies are refused.
+#include <cstring>
+
 #include <gmock/gmock.h>
 
 #include "client-sdk/display/kiosk_desk.hpp"
@@ -118,6 +120,7 @@ TEST_F(Displays, WhatALyingClientWishesIsRefusedAndChangesNothing) {
   proto::set_text(lies[0].name, "large-text");
   proto::set_text(lies[0].value, "on");
   std::memset(&lies[1], 0xff, sizeof(lies[1]));
+  lies[1].name[sizeof(lies[1].name) - 1] = lies[1].value[sizeof(lies[1].value) - 1] = '\0';
   proto::DisplayWish wire{};
   proto::set_text(wire.kiosk, "kiosk-1");
   wire.protocol = proto::kProtocol;

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 std::string refusal_of(const std::string& name, const std::string& value) {
   DisplaySettings settings;
-  const auto applied = apply(DisplaySetting{name, value}, settings);
+  const auto applied = client::apply(DisplaySetting{name, value}, settings);
   EXPECT_EQ(settings, DisplaySettings{}) << name << "=" << value << " changed something";
   return applied ? "" : applied.error().to_string();
 }
@@ -23,7 +23,7 @@ std::string refusal_of(const std::string& name, const std::string& value) {
 TEST(DisplaySettings, each_is_read_as_it_is_written) {
   DisplaySettings all{0.25, true, "en", true, true, "both", 90, false, 33};
   DisplaySettings read;
-  ASSERT_TRUE(apply(settings_of(all), read).has_value());
+  ASSERT_TRUE(client::apply(settings_of(all), read).has_value());
   EXPECT_EQ(read, all);
   EXPECT_EQ(settings_of(all).size(), display_settings().size());
 }
@@ -43,9 +43,11 @@ TEST(DisplaySettings, what_is_out_of_its_range_is_refused_with_the_range) {
 
 TEST(DisplaySettings, of_several_all_are_taken_or_none) {
   DisplaySettings settings;
-  EXPECT_FALSE(apply({{"volume", "0.1"}, {"language", "xx"}}, settings).has_value());
+  EXPECT_FALSE(client::apply(std::vector<DisplaySetting>{{"volume", "0.1"}, {"language", "xx"}}, settings).has_value());
   EXPECT_EQ(settings, DisplaySettings{});
-  EXPECT_TRUE(apply({{"volume", "0.1"}, {"language", "en"}, {"volume", "0.2"}}, settings).has_value());
+  EXPECT_TRUE(
+      client::apply(std::vector<DisplaySetting>{{"volume", "0.1"}, {"language", "en"}, {"volume", "0.2"}}, settings)
+          .has_value());
   EXPECT_EQ(settings.volume, 0.2) << "the last one counts";
 }
 

@@ -113,7 +113,7 @@ class DisplayWatch {
 
   /// Waits for news, at most so long.
   virtual void wait(Duration timeout) = 0;
-  /// Those that live, by kiosk, name and session. One that ended or was cut off is gone after 3 s.
+  /// Those that live, by kiosk, name and session. One that ended or was cut off is soon gone, one that hangs after 15 s.
   [[nodiscard]] virtual std::vector<DisplayStatus> displays() = 0;
   /// Sends a wish to a kiosk's displays; `display` empty: to all of them. Returns the id that they answer with in their status; 0 where
   /// the network did not take it. Errors: a bad name, a setting that does not exist or is out of its range.

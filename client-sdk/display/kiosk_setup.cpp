@@ -1,0 +1,57 @@
+#include "client-sdk/display/kiosk_setup.hpp"
+
+#include "server/base/assert.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::display {
+
+client::DisplaySettings settings_at_start(const DisplayOptions& options) {
+  client::DisplaySettings settings;
+  settings.volume = options.sound.volume;
+  settings.muted = !options.sound.on;
+  settings.language = options.language;
+  settings.large_text = options.overlay.text_scale > 1;
+  settings.high_contrast = options.overlay.high_contrast;
+  settings.ask = ask_name(options.ask);
+  settings.home_after_s = options.home_after_s;
+  settings.attract = !options.attract.empty();
+  settings.attract_after_s = options.attract_after_s;
+  return settings;
+}
+
+VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
+  return {settings.language,
+          ask_when(settings.ask),
+          {settings.large_text ? kLargeText : 1.0F, settings.high_contrast},
+          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
+}
+
+DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context) {
+  return {options.kiosk, options.name,         context.renderer_name(), options.offscreen,
+          options.fps,   !options.out.empty(), !options.attract.empty()};
+}
+
+std::unique_ptr<AssetStore> open_asset_store(const DisplayOptions& display) {
+  if (!is_web_address(display.assets)) return nullptr;
+  AssetStoreOptions options;
+  options.cache_folder = display.asset_cache;
+  options.cache_bytes = std::uint64_t{display.asset_cache_mib} << 20U;
+  auto address = AssetAddress::parse(display.assets);
+  MECHANE_ASSERT(address.has_value());  // run_display() has read it
+  auto store = AssetStore::open(std::move(*address), options);
+  if (store) return std::move(*store);
+  log::error(store.error());
+  return nullptr;
+}
+
+Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,
+                                                    const content::Catalogue* catalogue) {
+  if (options.attract.empty()) return nullptr;
+  AttractAssets assets;
+  if (!is_web_address(options.assets)) assets.folder = options.assets;
+  assets.store = open_asset_store(options);
+  assets.catalogue = catalogue;
+  return AttractLoop::open(options.attract, std::move(assets));
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,23 @@
+// A display's options, as the parts of its life at a kiosk want them.
+#pragma once
+
+#include <memory>
+
+#include "client-sdk/display/attract_loop.hpp"
+#include "client-sdk/display/display_app.hpp"
+#include "client-sdk/display/kiosk_desk.hpp"
+
+namespace mechane::display {
+
+[[nodiscard]] client::DisplaySettings settings_at_start(const DisplayOptions& options);
+[[nodiscard]] VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
+[[nodiscard]] DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context);
+
+/// None where assets are a folder's. The address has been read once already.
+[[nodiscard]] std::unique_ptr<AssetStore> open_asset_store(const DisplayOptions& options);
+
+/// Null where none is wished for. Errors: those of FrameRecording.
+[[nodiscard]] Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,
+                                                                  const content::Catalogue* catalogue);
+
+}  // namespace mechane::display
