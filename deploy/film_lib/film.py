@@ -12,7 +12,6 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "demo_lib"))
 from demo import Programs  # noqa: E402
 
-FILM_FPS = 25
 DISSOLVE_S = 0.4
 START_LIMIT_S, VISIT_LIMIT_S, DRAW_LIMIT_S = 1200, 300, 3600
 SMALL = "640x360"
@@ -25,6 +24,7 @@ class Place:
     activity: str
     clip: tuple[str, float]  # where the film begins, and for how many seconds
     moments: tuple[str, str, str, str]  # of the picture tests: start, middle, a telling one, end
+    whole_hand: bool = True
 
     @property
     def scenario(self) -> str:
@@ -32,15 +32,15 @@ class Place:
 
 
 PLACES = (
-    Place("village", "choose", ("choose@0.3", 4), ("@0", "@0.5", "choose@0.8", "@1")),
-    Place("archimedes-screw", "use", ("turn@0.2", 6), ("@0", "turn@0", "turn@0.6", "@1")),
-    Place("ktesibios-pump", "use", ("steady@0.1", 5), ("@0", "stroke@0.5", "fill@0.5", "@1")),
-    Place("pulley-crane", "use", ("lift@0.2", 5), ("@0", "lift@0.3", "guide@0.5", "@1")),
-    Place("compound-pulley-crane", "use", ("lift@0.3", 5), ("@0", "lift@0.3", "guide@0.5", "@1")),
-    Place("catapult", "use", ("shoot@0", 5), ("@0", "wind@0.5", "load@0.7", "@1")),
-    Place("crossbow", "use", ("shoot@0", 5), ("@0", "wind@0.5", "lay@0.7", "@1")),
-    Place("aiolos-sphere", "use", ("spin@0.1", 5), ("@0", "light@0.7", "spin@0.7", "@1")),
-    Place("odometer", "use", ("push@0.3", 5), ("@0", "push@0.5", "mile@0.5", "@1")),
+    Place("village", "choose", ("choose@0.62", 3), ("@0", "@0.5", "choose@0.8", "@1")),
+    Place("archimedes-screw", "use", ("turn@0.2", 4), ("@0", "turn@0", "turn@0.6", "@1")),
+    Place("ktesibios-pump", "use", ("steady@0.1", 4), ("@0", "stroke@0.5", "fill@0.5", "@1")),
+    Place("pulley-crane", "use", ("lift@0.4", 4), ("@0", "lift@0.3", "guide@0.5", "@1"), whole_hand=False),
+    Place("compound-pulley-crane", "use", ("lift@0.4", 4), ("@0", "lift@0.3", "guide@0.5", "@1")),
+    Place("catapult", "use", ("shoot@0", 4), ("@0", "wind@0.5", "load@0.7", "@1")),
+    Place("crossbow", "use", ("shoot@0", 4), ("@0", "wind@0.5", "lay@0.7", "@1")),
+    Place("aiolos-sphere", "use", ("spin@0.3", 4), ("@0", "light@0.7", "spin@0.7", "@1")),
+    Place("odometer", "use", ("mile@0.2", 4), ("@0", "push@0.5", "mile@0.5", "@1")),
 )
 
 
@@ -71,8 +71,9 @@ def record(programs: Programs, place: Place, out: pathlib.Path) -> None:
     log = out / "server.log"
     wait_for(lambda: " ready: " in log.read_text(errors="replace") or server.poll() is not None, START_LIMIT_S, "the server is ready")
     programs.start("display", "display", "--kiosk", "film", "--offscreen", "--every-step", "--size", "32x18", "--record", str(file))
-    wait_for(lambda: file.exists() and file.stat().st_size > 20_000, 60, f"the display has a world: see {out / 'display.log'}")
-    programs.start("visitor", "visitor", "--kiosk", "film", "--scenario", place.scenario, "--activity", place.activity, "--linger", "0", "--report",
+    wait_for(lambda: file.exists() and file.stat().st_size > 20_000, 300, f"the display has a world: see {out / 'display.log'}")
+    hand = ["--glove"] if place.whole_hand else []
+    programs.start("visitor", "visitor", *hand, "--kiosk", "film", "--scenario", place.scenario, "--activity", place.activity, "--linger", "0", "--report",
                    str(out / f"{place.name}.json"))
     if programs.wait("visitor", VISIT_LIMIT_S) != 0:
         fail(f"the visit of {place.name} was not completed: see {out / 'visitor.log'}")
@@ -88,13 +89,16 @@ def cut(programs: Programs, place: Place, out: pathlib.Path) -> None:
     print(f"  cut {scene}, {scene.stat().st_size / 1e3:.0f} kB", flush=True)
 
 
-def draw(programs: Programs, place: Place, begin: str, size: str, folder: pathlib.Path, *arguments: str) -> None:
+def draw(programs: Programs, place: Place, size: str, fps: int, folder: pathlib.Path) -> int:
+    """Its clip, picture by picture; how many."""
     shutil.rmtree(folder, ignore_errors=True)
     name = f"draw-{folder.name}"
-    programs.start(name, "display", "--play", str(folder.parent / f"{place.name}.frames"), "--play-from", begin, "--assets", f"scenarios/{place.name}",
-                   "--offscreen", "--size", size, "--language", "en", "--film-fps", str(FILM_FPS), "--out", str(folder), *arguments)
+    programs.start(name, "display", "--play", str(folder.parent / f"{place.name}.frames"), "--play-from", place.clip[0], "--seconds",
+                   str(place.clip[1]), "--assets", f"scenarios/{place.name}", "--offscreen", "--size", size, "--language", "en", "--film-fps", str(fps), "--out",
+                   str(folder))
     if programs.wait(name, DRAW_LIMIT_S) != 0:
         fail(f"{place.name} could not be drawn: see {programs.out / (name + '.log')}")
+    return len(list(folder.glob("film-*.png")))
 
 
 def ffmpeg(*arguments: str) -> None:
@@ -112,16 +116,15 @@ def dissolves(count: int, seconds: list[float]) -> str:
     return text + f"[{last}]fade=in:st=0:d=0.4,fade=out:st={end - 0.6:.3f}:d=0.6,format=yuv420p[out]"
 
 
-def make_film(programs: Programs, places: list[Place], size: str, out: pathlib.Path) -> None:
+def make_film(programs: Programs, places: list[Place], size: str, fps: int, out: pathlib.Path) -> None:
     inputs, seconds = [], []
     for place in places:
         folder = out / place.name
         began = time.monotonic()
-        draw(programs, place, place.clip[0], size, folder, "--seconds", str(place.clip[1]))
-        drawn = len(list(folder.glob("film-*.png")))
+        drawn = draw(programs, place, size, fps, folder)
         print(f"  drew {place.name}: {drawn} pictures, {time.monotonic() - began:.0f} s", flush=True)
-        inputs += ["-framerate", str(FILM_FPS), "-i", str(folder / "film-%05d-mono.png")]
-        seconds.append(drawn / FILM_FPS)
+        inputs += ["-framerate", str(fps), "-i", str(folder / "film-%05d-mono.png")]
+        seconds.append(drawn / fps)
     film = out / "mechane.mp4"
     h264 = ("-c:v", "libx264", "-preset", "slow", "-movflags", "+faststart", "-an")
     ffmpeg(*inputs, "-filter_complex", dissolves(len(places), seconds), "-map", "[out]", *h264, "-crf", "19", str(film))
@@ -156,6 +159,7 @@ def main() -> int:
     parser.add_argument("--scenes", action="store_true", help="cut the picture tests' scenes; no film")
     parser.add_argument("--only", action="append", choices=[place.name for place in PLACES], default=[])
     parser.add_argument("--size", default="1280x720")
+    parser.add_argument("--fps", type=int, default=25)
     options = parser.parse_args()
     out = options.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
@@ -171,7 +175,7 @@ def main() -> int:
                 cut(programs, place, out)
         if not options.scenes:
             make_sheet(programs, places, out)
-            make_film(programs, places, options.size, out)
+            make_film(programs, places, options.size, options.fps, out)
     finally:
         programs.stop_all()
     return 0
