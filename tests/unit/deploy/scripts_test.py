@@ -13,7 +13,7 @@ def run(script, *arguments):
 
 class Scripts(unittest.TestCase):
     def test_help_is_for_people(self):
-        for script in ("demo", "test", "bench", "narration", "soak"):
+        for script in ("demo", "test", "bench", "narration", "soak", "film"):
             with self.subTest(script):
                 result = run(script, "--help")
                 self.assertEqual(result.returncode, 0, result.stderr)

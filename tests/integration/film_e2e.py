@@ -1,0 +1,72 @@
+"""What a display shows is what a server said: it stands still when the server does, and can be recorded and shown again."""
+
+import json
+import signal
+import unittest
+
+from harness import EndToEnd, wait_until
+
+
+class Film(EndToEnd):
+    def display(self, *arguments, size="320x180"):
+        return self.start("display", "display", "--kiosk", "wall", "--language", "en", "--offscreen", "--size", size, *arguments)
+
+    def picture(self, display):
+        """Of this moment, as bytes."""
+        self.pictures = getattr(self, "pictures", 0) + 1
+        file = self.folder / f"pictures/request-{self.pictures:03}-mono.png"
+        display.process.send_signal(signal.SIGUSR1)
+        wait_until(file.exists, 20, f"picture {self.pictures} was taken")
+        return file.read_bytes()
+
+    def test_a_server_that_is_stopped_in_mid_turn_stops_the_picture(self):
+        server = self.server(records=False)
+        display = self.display("--out", self.folder / "pictures")
+        visitor = self.visitor("wall", "--activity", "use")
+        wait_until(lambda: "use: turn" in visitor.text(), 60, "the visitor turns the crank")
+        moving = [self.picture(display) for _ in range(3)]
+        self.assertEqual(len(set(moving)), 3, "while the crank turns, no picture is like another")
+        server.process.send_signal(signal.SIGSTOP)
+        # The bounded extrapolation is over, and the calm word about the link is there, once one picture is like the one before.
+        still = [self.picture(display)]
+        wait_until(lambda: still.append(self.picture(display)) or still[-1] == still[-2], 30, "the picture stands still")
+        self.assertEqual({self.picture(display) for _ in range(8)}, {still[-1]}, "and nothing in it moves any more")
+        server.process.send_signal(signal.SIGCONT)
+        wait_until(lambda: self.picture(display) != still[-1], 30, "it goes on with the server")
+        self.assertEqual(display.stop(), 0, display.text())
+
+    def test_a_visit_is_recorded_and_shown_again_without_a_server(self):
+        server = self.server(records=False)
+        file = self.folder / "visit.frames"
+        display = self.display("--every-step", "--record", file, size="32x18")
+        wait_until(lambda: file.exists() and file.stat().st_size > 5000, 30, "the display hears of a world")
+        visitor = self.visitor("wall", "--activity", "use")
+        self.assertEqual(visitor.wait(120), 0, visitor.text())
+        self.assertEqual(display.stop(), 0, display.text())
+        server.kill()
+        play = ("display", "--offscreen", "--size", "160x90", "--language", "en", "--play")
+        shown = self.run_command(*play, file, "--film-fps", "5", "--play-from", "turn@0.2", "--seconds", "1", "--out", self.folder / "film")
+        self.assertEqual(shown.returncode, 0, shown.stdout + shown.stderr)
+        summary = json.loads(shown.stdout)
+        self.assertEqual((len(summary["pictures"]), summary["missing_assets"]), (5, []))
+        pictures = [(self.folder / f"film/film-{i:05}-mono.png").read_bytes() for i in range(1, 6)]
+        self.assertEqual(len(set(pictures)), 5, "the crank turns")
+        again = self.run_command(*play, file, "--film-fps", "5", "--play-from", "turn@0.2", "--frames", "1", "--out", self.folder / "again")
+        self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+        self.assertEqual((self.folder / "again/film-00001-mono.png").read_bytes(), pictures[0], "to the same picture")
+        # It ends by itself, and a killed display's recording is shown as far as it goes.
+        (self.folder / "cut.frames").write_bytes(file.read_bytes()[:20_000])
+        cut = self.run_command(*play, self.folder / "cut.frames", "--film-fps", "0.2")
+        self.assertEqual(cut.returncode, 0, cut.stdout + cut.stderr)
+        self.assertIn("cut off", cut.stderr)
+        damaged = bytearray(file.read_bytes())
+        damaged[3000] ^= 1
+        (self.folder / "damaged.frames").write_bytes(damaged)
+        for name, told in (("damaged.frames", "is damaged at byte"), ("visitor.frames", "No such file"), ("display-2.log", "--record")):
+            refused = self.run_command(*play, self.folder / name)
+            self.assertEqual(refused.returncode, 1, refused.stdout)
+            self.assertIn(told, refused.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,318 @@
+// The nine places at four moments of a visit, drawn from recorded scenes and held against the pictures that a person has accepted; and faults
+// that must not go unseen. deploy/film --scenes records the scenes anew; to accept what is drawn now, run the whole program once with
+// MECHANE_ACCEPT_GOLDEN=1, and look at the sheets of which it tells.
+#include <filesystem>
+#include <functional>
+#include <iostream>
+
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include "client-sdk/display/asset_library.hpp"
+#include "client-sdk/display/gl_context.hpp"
+#include "client-sdk/display/mesh_files.hpp"
+#include "client-sdk/display/recorded_client.hpp"
+#include "client-sdk/display/renderer.hpp"
+#include "client-sdk/display/scene_builder.hpp"
+#include "server/content/mesh_import.hpp"
+#include "tests/integration/pictures/reference_picture.hpp"
+#include "tests/support/picture_likeness.hpp"
+
+namespace mechane::display {
+namespace {
+
+constexpr PixelSize kPicture{320, 180};
+constexpr PixelSize kBothEyes{640, 180};
+constexpr std::size_t kMoments = 4;  ///< start, middle, a telling one, end
+/// So alike two drawings of one scene are, whoever's processor drew them. What a person sees at once is far below.
+constexpr double kLeastMean = 0.985;
+constexpr double kLeastWorst = 0.85;
+
+const std::filesystem::path kRoot = MECHANE_SOURCE_DIR;
+
+bool accepts() {
+  return std::getenv("MECHANE_ACCEPT_GOLDEN") != nullptr;
+}
+
+bool alike(const test::Likeness& likeness) {
+  return likeness.mean >= kLeastMean && likeness.worst >= kLeastWorst;
+}
+
+std::filesystem::path reference_file(const std::string& name) {
+  return kRoot / "tests/golden/pictures" / (name + ".jpg");
+}
+
+test::Likeness likeness_to(const ImageData& reference, const ImageData& drawn) {
+  return test::likeness(reference, test::as_kept(drawn));
+}
+
+/// A place with its meshes and its recorded moments.
+class Place {
+ public:
+  explicit Place(const std::string& name)
+      : client_(FrameRecording::open_file(kRoot / "tests/golden/scenes" / (name + ".frames")).value(), {}),
+        files_(kRoot / "scenarios" / name, nullptr),
+        library_([this](const std::string& uri) -> Expected<content::ImportedScene> {
+          const auto file = files_.find(uri);
+          if (!file) return tl::unexpected(file.error());
+          return content::import_mesh(*file);
+        }),
+        builder_(library_, "en") {}
+
+  RenderScene scene(std::size_t moment) {
+    const TimePoint now = TimePoint{} + moment * std::chrono::seconds(1);
+    if (moment == 0) client_.rewind();
+    if (!began_) client_.advance(TimePoint{});
+    client_.advance(now);
+    if (!std::exchange(began_, true)) {
+      builder_.set_presentation(client_.presentation());
+      builder_.set_manifest(client_.objects());
+      EXPECT_TRUE(library_.missing().empty()) << *library_.missing().begin();
+    }
+    client::Frame frame;
+    EXPECT_TRUE(client_.interpolated_frame(now, Duration{0}, frame));
+    const auto status = client_.world_status();
+    RenderScene out = builder_.build(&frame, &*status, client_.state());
+    // Words have tests of their own, and would hide the machine in so small a picture.
+    out.overlay = {};
+    out.camera = for_screen(out.camera, {}, static_cast<double>(kPicture.width) / kPicture.height);
+    return out;
+  }
+  [[nodiscard]] const SceneAssets& assets() const { return library_.assets(); }
+
+ private:
+  RecordedClient client_;
+  MeshFiles files_;
+  AssetLibrary library_;
+  SceneBuilder builder_;
+  bool began_ = false;
+};
+
+/// What was drawn, and what had been accepted before, one place a row: for eyes.
+class Sheets : public testing::Environment {
+ public:
+  void add(const std::optional<ImageData>& before, const ImageData& now) {
+    before_.push_back(before.value_or(ImageData{now.width, now.height, std::vector<std::uint8_t>(now.rgba.size())}));
+    now_.push_back(now);
+  }
+  void TearDown() override {
+    if (!accepts() || now_.empty()) return;
+    const std::filesystem::path folder = kRoot / "out/pictures";
+    std::filesystem::create_directories(folder);
+    for (const auto& [name, pictures] : {std::pair{"before", &before_}, std::pair{"accepted", &now_}}) {
+      const std::string file = (folder / (std::string(name) + ".png")).string();
+      ASSERT_TRUE(write_png(sheet(*pictures), file));
+      std::cout << "look at: " << file << "\n";
+    }
+  }
+
+ private:
+  /// Four pictures a row.
+  static ImageData sheet(const std::vector<ImageData>& pictures) {
+    const auto rows = static_cast<std::uint32_t>((pictures.size() + kMoments - 1) / kMoments);
+    ImageData out{kMoments * kPicture.width, rows * kPicture.height, {}};
+    out.rgba.resize(std::size_t{4} * out.width * out.height);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      for (std::size_t row = 0; row < kPicture.height; ++row) {
+        const auto* from = pictures[i].rgba.data() + 4 * row * kPicture.width;
+        std::copy_n(
+            from, 4 * kPicture.width,
+            out.rgba.data() + 4 * ((i / kMoments * kPicture.height + row) * out.width + i % kMoments * kPicture.width));
+      }
+    }
+    return out;
+  }
+  std::vector<ImageData> before_;
+  std::vector<ImageData> now_;
+};
+
+Sheets& sheets() {
+  static auto* const kSheets = static_cast<Sheets*>(testing::AddGlobalTestEnvironment(new Sheets));
+  return *kSheets;
+}
+[[maybe_unused]] const Sheets& kSheetsAreMade = sheets();
+
+class PlacePictures : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    auto context = make_offscreen_context(kPicture);
+    ASSERT_TRUE(context.has_value()) << context.error().to_string();
+    context_ = std::move(*context);
+    auto renderer = Renderer::create({});
+    ASSERT_TRUE(renderer.has_value()) << renderer.error().to_string();
+    renderer_ = std::move(*renderer);
+  }
+  // The renderer's objects go before their context.
+  void TearDown() override {
+    renderer_.reset();
+    context_.reset();
+  }
+
+  ImageData draw(const SceneAssets& assets, const RenderScene& scene, Stereo stereo = Stereo::mono,
+                 PixelSize size = kPicture) {
+    renderer_->upload(assets);
+    const Expected<void> drawn = renderer_->draw(scene, stereo, size);
+    EXPECT_TRUE(drawn.has_value()) << drawn.error().to_string();
+    return renderer_->read_picture();
+  }
+
+  /// Held against what was accepted, or accepted.
+  static void compare(const std::string& name, const ImageData& drawn) {
+    const std::optional<ImageData> reference = test::read_reference(reference_file(name));
+    if (accepts()) {
+      if (drawn.width == kPicture.width) sheets().add(reference, drawn);
+      ASSERT_TRUE(test::write_reference(drawn, reference_file(name)));
+      return;
+    }
+    ASSERT_TRUE(reference) << "there is no picture " << reference_file(name);
+    const test::Likeness likeness = likeness_to(*reference, drawn);
+    if (std::getenv("MECHANE_TEST_LIKENESS") != nullptr)
+      std::cout << name << ": " << likeness.mean << ", worst " << likeness.worst << "\n";
+    if (alike(likeness)) return;
+    const std::filesystem::path folder = kRoot / "out/pictures";
+    std::filesystem::create_directories(folder);
+    const std::string file = (folder / (name + ".png")).string();
+    EXPECT_TRUE(write_png(drawn, file));
+    ADD_FAILURE() << name << " looks other than accepted: likeness " << likeness.mean << ", in places "
+                  << likeness.worst << "; compare " << file << " with " << reference_file(name)
+                  << "; if it was meant, run this program once, whole, with MECHANE_ACCEPT_GOLDEN=1";
+  }
+
+  std::unique_ptr<GlContext> context_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+TEST_P(PlacePictures, look_as_they_were_accepted) {
+  Place place(GetParam());
+  for (std::size_t moment = 0; moment < kMoments; ++moment) {
+    const RenderScene scene = place.scene(moment);
+    compare(std::string(GetParam()) + "-" + std::to_string(moment + 1), draw(place.assets(), scene));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlacePictures,
+                         testing::Values("village", "archimedes-screw", "ktesibios-pump", "pulley-crane",
+                                         "compound-pulley-crane", "catapult", "crossbow", "aiolos-sphere", "odometer"),
+                         [](const auto& place) {
+                           std::string name = place.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+/// Draws the telling moment of a place well, and with a fault; both against what was accepted.
+class PlantedFault : public PlacePictures {
+ protected:
+  void expect_seen(const std::string& name, const std::function<ImageData(Place&, RenderScene)>& draw_faulty) {
+    if (accepts()) GTEST_SKIP() << "the pictures are being accepted";
+    Place place(name);
+    const RenderScene scene = place.scene(2);
+    const std::optional<ImageData> reference = test::read_reference(reference_file(name + "-3"));
+    ASSERT_TRUE(reference);
+    ASSERT_TRUE(alike(likeness_to(*reference, draw(place.assets(), scene)))) << "without the fault it is as accepted";
+    const test::Likeness faulty = likeness_to(*reference, draw_faulty(place, scene));
+    EXPECT_FALSE(alike(faulty)) << faulty.mean << ", worst " << faulty.worst;
+    std::cout << "with the fault: likeness " << faulty.mean << ", in places " << faulty.worst << "\n";
+  }
+};
+
+PFNGLENABLEPROC real_enable = nullptr;
+
+TEST_F(PlantedFault, a_missing_depth_buffer_is_seen) {
+  expect_seen("odometer", [this](Place& place, const RenderScene& scene) {
+    // The renderer enables the test of depth in each pass; so the driver must not hear of it.
+    real_enable = epoxy_glEnable;
+    epoxy_glEnable = [](GLenum what) {
+      if (what != GL_DEPTH_TEST) real_enable(what);
+    };
+    glDisable(GL_DEPTH_TEST);
+    ImageData picture = draw(place.assets(), scene);
+    epoxy_glEnable = real_enable;
+    return picture;
+  });
+}
+
+TEST_F(PlantedFault, metal_that_mirrors_nothing_is_seen) {
+  expect_seen("aiolos-sphere", [this](Place& place, const RenderScene& scene) {
+    SceneAssets black = place.assets();
+    std::size_t metals = 0;
+    for (MaterialData& material : black.materials) {
+      if (material.metallic < 0.5F) continue;
+      material.base_colour.head<3>().setZero();
+      ++metals;
+    }
+    EXPECT_GT(metals, 0U);
+    renderer_->forget_assets();
+    return draw(black, scene);
+  });
+}
+
+TEST_F(PlantedFault, the_loss_of_the_sky_s_light_is_seen) {
+  expect_seen("ktesibios-pump", [this](Place& place, RenderScene scene) {
+    scene.sky = false;
+    return draw(place.assets(), scene);
+  });
+}
+
+TEST_F(PlantedFault, lost_shadows_are_seen) {
+  expect_seen("pulley-crane", [this](Place& place, RenderScene scene) {
+    for (Instance& instance : scene.instances)
+      instance.casts_shadow = false;
+    return draw(place.assets(), scene);
+  });
+}
+
+/// The two halves of a picture side by side.
+ImageData halves_swapped(const ImageData& picture) {
+  ImageData out = picture;
+  const std::size_t half = picture.width / 2;
+  for (std::size_t row = 0; row < picture.height; ++row) {
+    for (std::size_t x = 0; x < picture.width; ++x) {
+      const std::size_t from = row * picture.width + (x + half) % picture.width;
+      std::copy_n(picture.rgba.data() + 4 * from, 4, out.rgba.data() + 4 * (row * picture.width + x));
+    }
+  }
+  return out;
+}
+
+TEST_F(PlantedFault, swapped_eyes_are_seen) {
+  Place place("archimedes-screw");
+  const ImageData drawn = draw(place.assets(), place.scene(2), Stereo::side_by_side, kBothEyes);
+  compare("archimedes-screw-3-sbs", drawn);
+  if (accepts()) return;
+  const std::optional<ImageData> reference = test::read_reference(reference_file("archimedes-screw-3-sbs"));
+  ASSERT_TRUE(reference);
+  const test::Likeness swapped = likeness_to(*reference, halves_swapped(drawn));
+  EXPECT_FALSE(alike(swapped)) << swapped.mean << ", worst " << swapped.worst;
+  std::cout << "with the fault: likeness " << swapped.mean << ", in places " << swapped.worst << "\n";
+}
+
+ImageData grey(std::uint32_t side, const std::function<int(std::uint32_t, std::uint32_t)>& level) {
+  ImageData out{side, side, {}};
+  for (std::uint32_t y = 0; y < side; ++y) {
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const auto value = static_cast<std::uint8_t>(std::clamp(level(x, y), 0, 255));
+      out.rgba.insert(out.rgba.end(), {value, value, value, 255});
+    }
+  }
+  return out;
+}
+
+TEST(PictureLikeness, tells_what_eyes_see_from_what_they_do_not) {
+  const auto pattern = [](std::uint32_t x, std::uint32_t y) { return static_cast<int>(60 + (x / 5 + y / 7) % 3 * 60); };
+  const ImageData picture = grey(64, pattern);
+  const test::Likeness same = test::likeness(picture, picture);
+  EXPECT_NEAR(same.mean, 1, 1e-9);
+  EXPECT_NEAR(same.worst, 1, 1e-9);
+  const auto noise =
+      grey(64, [&](auto x, auto y) { return pattern(x, y) + static_cast<int>((x * 7 + y * 13) % 5) - 2; });
+  EXPECT_TRUE(alike(test::likeness(picture, noise)));
+  const auto spot = grey(64, [&](auto x, auto y) { return x < 10 && y < 10 ? 20 : pattern(x, y); });
+  const test::Likeness spotted = test::likeness(picture, spot);
+  EXPECT_GT(spotted.mean, 0.9) << "the mean of the picture hides it";
+  EXPECT_LT(spotted.worst, 0.5);
+  EXPECT_FALSE(alike(test::likeness(picture, grey(64, [&](auto x, auto y) { return pattern(x, y) / 2; }))));
+  EXPECT_EQ(test::likeness(picture, grey(32, pattern)).mean, 0);
+}
+
+}  // namespace
+}  // namespace mechane::display
