@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <ostream>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -14,6 +15,7 @@
 #include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
 #include "server/record/visit_file.hpp"
+#include "server/scenario/problem.hpp"
 
 namespace mechane::cli {
 namespace {
@@ -48,6 +50,10 @@ class VisitsCommand {
   /// What the options choose. Errors: a date that is none.
   [[nodiscard]] Expected<VisitChoice> choice() const;
   [[nodiscard]] Expected<std::vector<VisitSheet>> read(const VisitChoice& choice) const;
+  /// Of report and list. Says what is wrong itself: then none, and the exit status.
+  std::optional<std::vector<VisitSheet>> chosen_sheets(int& status);
+  /// A name to choose by that no sheet has, where there are sheets.
+  [[nodiscard]] std::optional<Error> unknown_name(std::span<const VisitSheet> all) const;
   int write(const fs::path& path, const std::string& text);
 
   const VisitsOptions& options_;
@@ -73,6 +79,45 @@ Expected<std::vector<VisitSheet>> VisitsCommand::read(const VisitChoice& choice)
   return opened->sheets(choice);
 }
 
+std::optional<Error> VisitsCommand::unknown_name(std::span<const VisitSheet> all) const {
+  struct Filter {
+    const char* what;
+    const std::string& wanted;
+    std::string VisitSheet::*of;
+  };
+  for (const Filter& filter : {Filter{"scenario", options_.scenario, &VisitSheet::scenario},
+                               Filter{"kiosk", options_.kiosk, &VisitSheet::kiosk}}) {
+    std::set<std::string> known;
+    for (const VisitSheet& sheet : all)
+      known.insert(sheet.*filter.of);
+    if (filter.wanted.empty() || known.empty() || known.contains(filter.wanted)) continue;
+    const std::vector<std::string> names(known.begin(), known.end());
+    return Error{fmt::format("no sheet is of the {} '{}'", filter.what, filter.wanted), file().string(),
+                 scenario::suggest(filter.wanted, names, "")};
+  }
+  return std::nullopt;
+}
+
+std::optional<std::vector<VisitSheet>> VisitsCommand::chosen_sheets(int& status) {
+  const auto chosen = choice();
+  if (!chosen) {
+    status = failed(chosen.error(), kWrongArguments);
+    return std::nullopt;
+  }
+  auto sheets = read(*chosen);
+  // A name that is known may have no sheet in the time that was asked for.
+  const auto all = sheets && sheets->empty() ? read({}) : Expected<std::vector<VisitSheet>>();
+  if (!sheets || !all) {
+    status = failed(!sheets ? sheets.error() : all.error());
+    return std::nullopt;
+  }
+  if (const auto unknown = unknown_name(*all)) {
+    status = failed(*unknown, kWrongArguments);
+    return std::nullopt;
+  }
+  return std::move(*sheets);
+}
+
 int VisitsCommand::write(const fs::path& path, const std::string& text) {
   errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
@@ -87,23 +132,20 @@ int VisitsCommand::write(const fs::path& path, const std::string& text) {
 }
 
 int VisitsCommand::report() {
-  const auto chosen = choice();
-  if (!chosen) return failed(chosen.error(), kWrongArguments);
-  const auto sheets = read(*chosen);
-  if (!sheets) return failed(sheets.error());
+  int status = 0;
+  const auto sheets = chosen_sheets(status);
+  if (!sheets) return status;
   const std::vector<ActivitySummary> activities = summarise(*sheets);
   out_ << (options_.json ? report_json(activities) : visits_report(activities));
-  int status = 0;
   if (!options_.csv.empty()) status = std::max(status, write(options_.csv, visits_csv(*sheets)));
   if (!options_.svg.empty()) status = std::max(status, write(options_.svg, visits_svg(activities)));
   return status;
 }
 
 int VisitsCommand::list() {
-  const auto chosen = choice();
-  if (!chosen) return failed(chosen.error(), kWrongArguments);
-  auto sheets = read(*chosen);
-  if (!sheets) return failed(sheets.error());
+  int status = 0;
+  auto sheets = chosen_sheets(status);
+  if (!sheets) return status;
   if (options_.last > 0 && sheets->size() > options_.last)
     sheets->erase(sheets->begin(), sheets->end() - static_cast<std::ptrdiff_t>(options_.last));
   out_ << (options_.json ? sheets_json(*sheets) : visits_list(*sheets));

@@ -25,7 +25,7 @@ struct VisitsOptions {
 };
 
 /// The body of `mechane visits [VERB]`: "" (the report), list, show, remark or forget. Returns the exit status: 0; 1 where something is
-/// wrong with the file, said in a line with its remedy; 2 for wrong arguments. Any thread; no network.
+/// wrong with the file, said in a line with its remedy; 2 for wrong arguments, a scenario or kiosk that no sheet knows among them. Any thread; no network.
 [[nodiscard]] int run_visits(std::string_view verb, const VisitsOptions& options, std::ostream& out,
                              std::ostream& errors);
 

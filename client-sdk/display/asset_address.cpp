@@ -91,7 +91,7 @@ Expected<std::string> AssetAddress::of(std::string_view name) const {
   if (std::ranges::any_of(name, is_control))
     return fail("a name with control characters is not fetched", text(), "rename the file");
   std::vector<std::string> path;
-  if (!folder_.empty()) path.push_back(folder_);
+  path.push_back(folder_);  // empty at the root of a server: a way out of it leads there as well
   for (const std::string_view part : parts_of(name)) {
     if (part.empty())
       return fail("a name must be relative, and none of its parts empty", where,
@@ -107,6 +107,7 @@ Expected<std::string> AssetAddress::of(std::string_view name) const {
   }
   if (path.empty() || is_dots(parts_of(name).back()))
     return fail("it names a folder, not a file", where, "name a file");
+  if (path.front().empty()) path.erase(path.begin());
   return fmt::format("{}{}", root_, fmt::join(path, "/"));
 }
 

@@ -19,8 +19,9 @@ class AssetAddress {
   [[nodiscard]] static Expected<AssetAddress> parse(std::string_view text);
 
   /// The address of a file, named relative to the scenario's folder, with '/' between its parts; each part is escaped. As exhibits share
-  /// models, a name may lead to the folder that the scenario's folder stands in ("../models/screw.glb"), and no higher. Errors: it does,
-  /// or it is empty, absolute, has an empty part or a control character.
+  /// models, a name may lead to the folder that the scenario's folder stands in ("../models/screw.glb"), and no higher; at the root of a
+  /// web server, which has nothing above it, both are that root, as a browser reads it. Errors: it leads higher, or it is empty, absolute,
+  /// has an empty part or a control character.
   [[nodiscard]] Expected<std::string> of(std::string_view name) const;
 
   /// https: then a redirect must not lead to plain http.

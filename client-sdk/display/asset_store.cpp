@@ -58,12 +58,12 @@ AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
   const Key key(name, hash);
   const std::lock_guard lock(mutex_);
   const auto [at, is_new] = files_.try_emplace(key);
-  AssetFile& file = at->second;
+  AssetFile& file = at->second.file;
   // Another display that shares the cache may have made room.
   std::error_code code;
   const bool gone = file.state == AssetState::here && !std::filesystem::exists(file.file, code);
   if (!is_new && !gone) return file;
-  file = {};
+  at->second = {{}, Clock::now(), true};
   const Expected<std::string> address = address_.of(name);
   if (!address) {
     file = {AssetState::amiss, {}, address.error()};
@@ -77,12 +77,22 @@ AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
     wishes_.push_back(std::move(job));
     fetcher_->wake();
   }
+  at->second.may_come = file.state == AssetState::on_its_way;
   return file;
 }
 
 std::set<std::string> AssetStore::take_arrived() {
   const std::lock_guard lock(mutex_);
   return std::exchange(arrived_, {});
+}
+
+bool AssetStore::is_awaited(milliseconds patience) const {
+  const auto earliest = Clock::now() - patience;
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(files_, [&](const auto& entry) {
+    const Asked& asked = entry.second;
+    return asked.file.state != AssetState::here && asked.may_come && asked.since > earliest;
+  });
 }
 
 void AssetStore::run(const std::stop_token& stop) {
@@ -185,7 +195,7 @@ bool AssetStore::use_remembered(Job& job, bool fresh) {
 void AssetStore::arrived(const Job& job, std::filesystem::path file) {
   {
     const std::lock_guard lock(mutex_);
-    files_[job.key] = {AssetState::here, std::move(file), {}};
+    files_[job.key].file = {AssetState::here, std::move(file), {}};
     arrived_.insert(job.key.first);
   }
   log::info(fmt::format("{}: is here{}", job.address, job.tries > 0 ? " now" : ""));
@@ -199,7 +209,7 @@ void AssetStore::again(Job& job, Error error) {
   job.due = Clock::now() + std::min(pause, options_.longest_retry);
   if (job.told.insert(error.what).second) log::warning(error.to_string());
   const std::lock_guard lock(mutex_);
-  files_[job.key] = {AssetState::amiss, {}, std::move(error)};
+  files_[job.key].file = {AssetState::amiss, {}, std::move(error)};
 }
 
 }  // namespace mechane::display

@@ -60,10 +60,17 @@ class AssetStore {
   [[nodiscard]] AssetFile find(const std::string& name, const std::string& hash);
   /// Names of files that came since the last call.
   [[nodiscard]] std::set<std::string> take_arrived();
+  /// True while a file that was first asked for less than this long ago is not here and may yet come.
+  [[nodiscard]] bool is_awaited(std::chrono::milliseconds patience) const;
   [[nodiscard]] const AssetAddress& address() const { return address_; }
 
  private:
   using Key = std::pair<std::string, std::string>;  ///< name, hash
+  struct Asked {
+    AssetFile file;
+    std::chrono::steady_clock::time_point since;
+    bool may_come = true;
+  };
   /// A file that is not here yet. The thread's alone.
   struct Job {
     Key key;
@@ -92,8 +99,8 @@ class AssetStore {
   AssetCache cache_;                   ///< the thread's alone
   std::map<std::uint64_t, Job> jobs_;  ///< the thread's alone
   std::uint64_t next_id_ = 1;
-  std::mutex mutex_;  ///< guards what follows
-  std::map<Key, AssetFile> files_;
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::map<Key, Asked> files_;
   std::vector<Job> wishes_;
   std::set<std::string> arrived_;
   std::jthread thread_;  ///< last: it must end first

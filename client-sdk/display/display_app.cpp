@@ -25,6 +25,8 @@ using client::LinkState;
 /// Two frames of a world that sends sixty a second: so late the picture is, and so smooth.
 constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
 constexpr std::size_t kFrameTimesKept = 20'000;
+/// A picture of a step waits so long for a model from a server: with a server that does not answer, only the first one does.
+constexpr std::chrono::seconds kAssetPatience{15};
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -208,7 +210,6 @@ void DisplayLoop::take_news(TimePoint now) {
   if (auto status = client_.world_status()) {
     status_ = std::move(status);
     if (builder_ == nullptr || scenario_key(*status_) != scenario_) open_scenario();
-    if (options_.every_step && !due_) due_ = schedule_.due(now, *status_);
   }
   if (builder_ != nullptr) {
     if (auto presentation = client_.presentation(); presentation != presentation_) {
@@ -223,7 +224,10 @@ void DisplayLoop::take_news(TimePoint now) {
       builder_->set_manifest(objects_);
       upload();
     }
+    // Asked before what came is taken, lest something comes in between.
+    const bool whole = !store_ || (!objects_.empty() && !store_->is_awaited(kAssetPatience));
     take_arrived();
+    if (options_.every_step && status_ && !due_) due_ = schedule_.due(now, *status_, whole);
   }
   record(now);
   say_refusal();

@@ -68,8 +68,8 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
       "--large-text", [&o] { o.overlay.text_scale = display::kLargeText; }, "words 1.35 times as large; key +");
   app.add_flag("--high-contrast", o.overlay.high_contrast, "white and yellow words on black; key C");
   app.add_option("--assets", o.assets,
-                 "folder, or address (http://server/scenario), that mesh files are relative to; without: the "
-                 "scenario's folder");
+                 "folder, or address (http://server/scenario, or http://server:8000/ where its root is the scenarios' "
+                 "folder), that mesh files are relative to; without: the scenario's folder");
   app.add_option("--asset-cache", o.asset_cache,
                  "folder that keeps what was fetched; without: mechane/assets in $XDG_CACHE_HOME or ~/.cache");
   app.add_option("--asset-cache-mib", o.asset_cache_mib, "the most that is kept there; what was not used for long goes")

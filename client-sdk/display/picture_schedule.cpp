@@ -14,7 +14,7 @@ std::string file_name(const std::string& text) {
   return out;
 }
 
-std::optional<std::string> PictureSchedule::due(TimePoint now, const client::WorldStatus& status) {
+std::optional<std::string> PictureSchedule::due(TimePoint now, const client::WorldStatus& status, bool whole) {
   if (status.activity.empty()) return {};
   std::string name = file_name(status.activity) + "-" + (status.done ? "done" : file_name(status.step));
   // Exhibits may have steps of one name: the first that comes has it, the next one's begins with its exhibit.
@@ -26,6 +26,7 @@ std::optional<std::string> PictureSchedule::due(TimePoint now, const client::Wor
     since_ = now;
   }
   if (taken_.contains(name) || now - since_ < (status.done ? kSettleDone : kSettle)) return {};
+  if (!whole && now - since_ < kPatience) return {};
   taken_.insert(name);
   missed_.erase(name);
   return name;

@@ -224,6 +224,8 @@ ActivityReport Session::play(const VisitDescription& visit) {
   }
   report.seconds = seconds_since(began);
   report.moves.assign(player.results().begin(), player.results().end());
+  say(report.name,
+      fmt::format("visit {}: {}, {:.1f} s", visit.name, report.done ? "done" : "not done", report.seconds));
   return report;
 }
 

@@ -5,11 +5,13 @@ import glob
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree
 
 VILLAGE, SCREW, ODOMETER = (f"scenarios/{name}/{name}.x3d" for name in ("village", "archimedes-screw", "odometer"))
 # Two visitors work the screw; a third goes through the village, whose two visits touch the screw's sign and the odometer's.
@@ -18,6 +20,7 @@ LINGER_S = 8  # at the exhibit that a sign opened: a display that draws on the p
 VISIT_LIMIT_S = 240
 START_LIMIT_S = 1200
 TOUR_LIMIT_S = 1200
+TOUR_TOLD_EACH_S = 15  # where there is no terminal
 
 
 class Programs:
@@ -149,13 +152,60 @@ def start_clients(programs, options, out):
     return visitors
 
 
+def clear_line():
+    return "\r\033[K" if sys.stdout.isatty() else ""
+
+
+def count_visits(scenarios):
+    """The scripted visits in scenario files."""
+    def named(parent, name):
+        return [each for each in parent.iter("MetadataSet") if each.get("name") == name]
+
+    roots = [xml.etree.ElementTree.parse(file).getroot() for file in scenarios]
+    return sum(len(visits.findall("MetadataSet")) for root in roots for visits in named(root, "visits"))
+
+
+def tour_progress(log, visits):
+    """Of a tour's log so far: how many visits are over, of all, how many of them were not done, and where the visitors are now."""
+    ended, failed, at = 0, 0, {}
+    for line in log.splitlines():
+        match = re.fullmatch(r"(\S+)  (\S+): (?:visit \S+: (done|not done), [\d.]+ s|(\S+))", line)
+        if match is None:
+            continue
+        kiosk, activity, ending, step = match.groups()
+        if ending is None:
+            at[kiosk] = f"{kiosk} {activity}: {step}"
+        else:
+            ended += 1
+            failed += ending != "done"
+            at.pop(kiosk, None)
+    words = f"{ended} of {visits} visits"
+    if failed:
+        words += f", {failed} not done"
+    return words + "".join(f" | {place}" for place in at.values())
+
+
 def tour(programs, options, out):
-    """Every visit of every exhibit, some at a time; the table that the visitor prints. None where one was not completed."""
+    """Every visit of every exhibit, some at a time, telling how far it is; the table that the visitor prints. None where one was not
+    completed."""
     print("  every visit of every exhibit: some minutes", flush=True)
+    visits = count_visits(sorted(glob.glob("scenarios/*/*.x3d")))
     programs.start("tour", "visitor", "--all", "--at-once", "2", "--report", str(out / "tour.json"), "--domain", str(options.domain))
-    if programs.wait("tour", TOUR_LIMIT_S) != 0:
+    started = told = time.monotonic()
+    while programs.wait("tour", 0.5) is None and time.monotonic() - started < TOUR_LIMIT_S:
+        if not sys.stdout.isatty() and time.monotonic() - told < TOUR_TOLD_EACH_S:
+            continue
+        told = time.monotonic()
+        line = f"  {told - started:5.1f} s  {tour_progress((out / 'tour.log').read_text(errors='replace'), visits)}"
+        if sys.stdout.isatty():
+            print(f"\r\033[K{line[:shutil.get_terminal_size().columns - 1]}", end="", flush=True)
+        else:
+            print(line, flush=True)
+    log = (out / "tour.log").read_text(errors="replace")
+    print(f"{clear_line()}  {time.monotonic() - started:5.1f} s  {tour_progress(log, visits)}", flush=True)
+    if programs.running["tour"].poll() != 0:
         return None
-    return [line for line in (out / "tour.log").read_text().splitlines() if " steps " in line]
+    return [line for line in log.splitlines() if " steps " in line]
 
 
 def gather(out, visitors, replays):

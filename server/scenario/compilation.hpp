@@ -3,7 +3,9 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/scenario/attributes.hpp"
@@ -37,7 +39,11 @@ struct Compilation {
   std::map<std::string, std::string> model_hashes;  ///< by url as written
   std::vector<int> activity_lines;                  ///< by ActivityId
   std::vector<int> step_lines;                      ///< by StepId
+  std::vector<std::vector<int>> question_lines;     ///< by ActivityId, then as in its questionnaire
+  std::set<std::string> foreign_languages;          ///< of texts, and not the scenario's: said once each
   std::vector<WrittenRule> rules;                   ///< of all triggers, but for those that are faulty
+  std::map<std::pair<std::string, std::string>, int> parameter_lines;  ///< by agent or machine, and parameter
+  std::set<std::pair<std::string, std::string>> misspelt_parameters;   ///< what was meant by them, by agent or machine
 };
 
 /// Stages, in the order in which they need each other.
@@ -68,7 +74,7 @@ void compile_all(Compilation& c);
 [[nodiscard]] std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* set,
                                                              const std::string& where, std::string_view allowed);
 
-/// The questions of an activity.
+/// The questions of an activity; their lines go to Compilation::question_lines.
 [[nodiscard]] std::vector<state::QuestionDescription> read_questionnaire(Compilation& c, const Fields& activity);
 
 /// The type of an agent or machine; null where none has that name.

@@ -1,5 +1,8 @@
 // Agents and machines: from the scenario's tree, and from `mechane:agent` on joints and bodies.
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -37,40 +40,44 @@ state::Parameter to_parameter(const Metadata& value) {
   return value.numbers;
 }
 
+void read_parameter(Compilation& c, const Metadata& value, const ComponentType& type, const std::string& where,
+                    state::ComponentDescription& out) {
+  const auto known = std::ranges::find(type.parameters, value.name, &ParameterType::name);
+  if (known == type.parameters.end()) {
+    const std::vector<std::string> names = names_of_all(type.parameters);
+    c.problems.unknown(value.line, where, fmt::format("{} has no parameter '{}'", out.type, value.name), value.name,
+                       names);
+    c.misspelt_parameters.emplace(out.name, nearest(value.name, names));
+  } else if (value.kind == MetadataKind::set || (value.kind == MetadataKind::booleans && value.booleans.size() != 1)) {
+    c.problems.error(value.line, where, fmt::format("the parameter '{}' is not one value", value.name),
+                     std::string(known->summary));
+  } else {
+    out.parameters[value.name] = to_parameter(value);
+    c.parameter_lines[{out.name, value.name}] = value.line;
+  }
+}
+
 /// Reads type and parameters. Names and kinds of parameters are held against the type here, where each has its line; values and
-/// references by check_components, when all names are known.
-bool read_component(Compilation& c, const Metadata& set, const Registry& registry, state::ComponentDescription& out) {
+/// references by check_components, when all names are known. Without a type it is kept all the same: what refers to it is right.
+void read_component(Compilation& c, const Metadata& set, const Registry& registry, state::ComponentDescription& out) {
   const std::string where = fmt::format("{} {}", registry.word, out.name);
   out.line = set.line;
   const Metadata* type_name = set.find("type");
   if (type_name == nullptr || type_name->kind != MetadataKind::strings || type_name->strings.size() != 1) {
     c.problems.error(set.line, where, "the key 'type' is missing",
                      fmt::format("write one of: {}", fmt::join(names_of_all(registry.types), ", ")));
-    return false;
+    return;
   }
   out.type = type_name->strings.front();
   const ComponentType* type = find_type(registry.types, out.type);
   if (type == nullptr) {
     c.problems.error(type_name->line, where, fmt::format("no {} is of the type '{}'", registry.word, out.type),
                      suggest(out.type, names_of_all(registry.types), "remove it"));
-    return false;
+    return;
   }
   for (const Metadata& child : set.children) {
-    if (child.name == "type") continue;
-    const auto known = std::find_if(type->parameters.begin(), type->parameters.end(),
-                                    [&](const ParameterType& p) { return p.name == child.name; });
-    if (known == type->parameters.end()) {
-      c.problems.unknown(child.line, where, fmt::format("{} has no parameter '{}'", out.type, child.name), child.name,
-                         names_of_all(type->parameters));
-    } else if (child.kind == MetadataKind::set ||
-               (child.kind == MetadataKind::booleans && child.booleans.size() != 1)) {
-      c.problems.error(child.line, where, fmt::format("the parameter '{}' is not one value", child.name),
-                       std::string(known->summary));
-    } else {
-      out.parameters[child.name] = to_parameter(child);
-    }
+    if (child.name != "type") read_parameter(c, child, *type, where, out);
   }
-  return true;
 }
 
 void add_component(Compilation& c, std::vector<state::ComponentDescription>& table, const Metadata& set,
@@ -80,7 +87,8 @@ void add_component(Compilation& c, std::vector<state::ComponentDescription>& tab
                      "another agent or machine has this name", "rename one of them");
     return;
   }
-  if (read_component(c, set, registry, component)) table.push_back(std::move(component));
+  read_component(c, set, registry, component);
+  table.push_back(std::move(component));
 }
 
 /// An agent on a joint or a body means that one: it fills the type's first parameter that names such a thing.
@@ -133,16 +141,76 @@ void add_mates(Compilation& c, const state::ComponentDescription& component, con
   if (object != into) c.world.mates.push_back({object, into});
 }
 
+/// What there is of the kind that a parameter names; none where it names nothing.
+std::optional<std::vector<std::string>> named_by(const state::WorldDescription& world, state::Reference kind) {
+  switch (kind) {
+    case state::Reference::none:
+      break;
+    case state::Reference::body:
+      return names_of(world.bodies);
+    case state::Reference::joint:
+      return names_of(world.joints);
+    case state::Reference::agent:
+      return names_of(world.agents);
+    case state::Reference::activity:
+      return names_of(world.activities);
+    case state::Reference::quantity:
+      return names_of(world.quantities);
+    case state::Reference::machine:
+      return names_of(world.machines);
+  }
+  return std::nullopt;
+}
+
+std::string_view reference_word(state::Reference kind) {
+  static constexpr std::pair<state::Reference, std::string_view> kWords[] = {
+      {state::Reference::body, "body"},         {state::Reference::joint, "joint"},
+      {state::Reference::agent, "agent"},       {state::Reference::activity, "activity"},
+      {state::Reference::quantity, "quantity"}, {state::Reference::machine, "machine"}};
+  const auto found = std::ranges::find(kWords, kind, &std::pair<state::Reference, std::string_view>::first);
+  return found == std::end(kWords) ? "" : found->second;
+}
+
+/// Names that nothing has, each at its own line. True where all are good.
+bool names_are_known(Compilation& c, const state::ComponentDescription& component, const ComponentType& type,
+                     const std::string& where) {
+  bool good = true;
+  for (const ParameterType& parameter : type.parameters) {
+    const auto known = named_by(c.world, parameter.reference);
+    const auto value = component.parameters.find(std::string(parameter.name));
+    if (!known || value == component.parameters.end()) continue;
+    const auto* names = std::get_if<std::vector<std::string>>(&value->second);
+    for (const std::string& name : names != nullptr ? *names : std::vector<std::string>()) {
+      if (std::ranges::find(*known, name) != known->end()) continue;
+      good = false;
+      const std::string_view word = reference_word(parameter.reference);
+      c.problems.error(c.parameter_lines[{component.name, value->first}], where,
+                       fmt::format("{}: no {} is called '{}'", parameter.name, word, name),
+                       suggest(name, *known, fmt::format("the scenario has no {} at all: add one", word)));
+    }
+  }
+  return good;
+}
+
+/// The line of the parameter that an error speaks of: its words begin with the name.
+int line_of_fault(const Compilation& c, const state::ComponentDescription& component, const std::string& what) {
+  const auto line = c.parameter_lines.find({component.name, what.substr(0, what.find(' '))});
+  return line == c.parameter_lines.end() ? component.line : line->second;
+}
+
 void check_one(Compilation& c, const state::ComponentDescription& component, const ComponentType* type,
                std::string_view word) {
   if (type == nullptr) return;
+  const std::string where = fmt::format("{} {}", word, component.name);
+  if (!names_are_known(c, component, *type, where)) return;
   const auto parameters = state::Parameters::check(*type, component, c.world);
-  if (!parameters) {
-    c.problems.error(component.line, fmt::format("{} {}", word, component.name), parameters.error().what,
-                     parameters.error().remedy);
-    return;
-  }
-  add_mates(c, component, *parameters);
+  if (parameters) return add_mates(c, component, *parameters);
+  const Error& error = parameters.error();
+  // It is there, misspelt, and that has been said.
+  const bool said = std::ranges::any_of(c.misspelt_parameters, [&](const auto& meant) {
+    return meant.first == component.name && error.what == fmt::format("the parameter '{}' is missing", meant.second);
+  });
+  if (!said) c.problems.error(line_of_fault(c, component, error.what), where, error.what, error.remedy);
 }
 
 }  // namespace

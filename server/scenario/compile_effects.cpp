@@ -1,5 +1,6 @@
 // Viewpoints, and the effects that are seen and heard beside the bodies.
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -43,6 +44,35 @@ void check_unit(Compilation& c, const Fields& fields, const state::EffectDescrip
                    flow ? "name a quantity with the unit l/s, l/min, m3/s or kg/s" : "name a quantity with the unit m");
 }
 
+/// Whether a mesh file of the scenario's bodies has the node; says what is wrong where none has. Files that cannot be read have been
+/// spoken of with the bodies.
+bool node_is_there(Compilation& c, const Fields& fields, const std::string& node) {
+  std::vector<std::string> files;
+  std::optional<Error> missing;
+  for (const auto& [url, hash] : c.model_hashes) {
+    if (hash.empty()) continue;
+    const auto found = c.loader.find_node(c.document.path().parent_path() / url, node);
+    if (found) return true;
+    files.push_back(url);
+    if (!missing) missing = found.error();
+  }
+  if (!missing) return false;
+  c.problems.error(fields.line("node"), fields.where(),
+                   fmt::format("node '{}' of {}: {}", node, fmt::join(files, ", "), missing->what), missing->remedy);
+  return false;
+}
+
+/// Of a mesh file a display moves what bodies name, and what the file calls scenery or water; all else it does not even draw.
+void check_risen_node(Compilation& c, const Fields& fields, const std::string& node) {
+  if (!node_is_there(c, fields, node) || node == "SCENE" || node.starts_with("WATER_")) return;
+  const auto& bodies = c.world.bodies;
+  const auto shows = [&](const state::BodyDescription& body) { return body.mesh.node == node; };
+  if (std::any_of(bodies.begin(), bodies.end(), shows)) return;
+  c.problems.error(fields.line("node"), fields.where(),
+                   fmt::format("node '{}' is no water: a display does not raise it", node),
+                   fmt::format("name it WATER_{} in the model, and here", node));
+}
+
 state::EffectDescription read_effect(Compilation& c, const Metadata& set) {
   const Fields fields(&set, effect_table(), "effect " + set.name, c.problems);
   state::EffectDescription effect;
@@ -64,8 +94,14 @@ state::EffectDescription read_effect(Compilation& c, const Metadata& set) {
       effect.direction_B.normalize();
     }
   }
-  if (effect.kind == "level" && effect.node.empty())
+  if (effect.kind == "level" && effect.node.empty()) {
     c.problems.error(set.line, fields.where(), "nothing rises", "name the node of the mesh file in the key node");
+  } else if (effect.kind == "level") {
+    check_risen_node(c, fields, effect.node);
+  } else if (fields.given("kind") && fields.given("node")) {
+    c.problems.warning(fields.line("node"), fields.where(), fmt::format("a {} has no 'node'", effect.kind),
+                       "remove it: its place is that of body and point");
+  }
   check_unit(c, fields, effect);
   return effect;
 }

@@ -42,6 +42,9 @@ void check_source(Compilation& c, const std::string& source, int line, const std
   const std::string name = source.substr(0, dot);
   const std::string value = dot == std::string::npos ? "" : source.substr(dot + 1);
   const std::vector<std::string> values = values_of(c.world, name);
+  const bool has_no_type =
+      find_component(c.world.agents, name) != nullptr || find_component(c.world.machines, name) != nullptr;
+  if (values.empty() && has_no_type) return;  // which has been said
   if (values.empty()) {
     c.problems.error(line, where, fmt::format("the source '{}' names no agent, machine, joint or body", source),
                      suggest(name, all_sources(c.world), "add an agent or a machine"));

@@ -12,9 +12,6 @@ using Question = state::QuestionDescription;
 
 void read_choice(Compilation& c, const Fields& fields, std::map<std::string, state::Texts>& texts, Question& out) {
   const std::vector<std::string> names = fields.strings("answers");
-  if (names.size() < 2)
-    c.problems.error(fields.line("answers"), fields.where(), "a choice needs two answers or more",
-                     "name them in the key answers, like \"pitch\" \"speed\"");
   for (const std::string& name : names)
     out.answers.push_back({name, texts["answer:" + name]});
   out.correct = fields.string("correct");
@@ -42,7 +39,14 @@ Question read_question(Compilation& c, const Metadata& set, const std::string& a
   const Fields fields(&set, question_table(), fmt::format("{}, question {}", activity, set.name), c.problems);
   Question out;
   out.name = set.name;
+  // What is said of a kind that is none holds for all of the question.
+  if (!fields.given("kind")) return out;
   out.kind = fields.string("kind") == "scale" ? Question::Kind::scale : Question::Kind::choice;
+  if (out.kind == Question::Kind::choice && fields.strings("answers").size() < 2) {
+    c.problems.error(fields.line("answers"), fields.where(), "a choice needs two answers or more",
+                     "name them in the key answers, each in quotes of its own, like \"pitch\" \"speed\"");
+    return out;
+  }
   std::string allowed = out.kind == Question::Kind::scale ? "question low high" : "question";
   if (out.kind == Question::Kind::choice) {
     for (const std::string& answer : fields.strings("answers"))
@@ -50,7 +54,6 @@ Question read_question(Compilation& c, const Metadata& set, const std::string& a
   }
   auto texts = read_texts(c, fields.set("text"), fields.where() + ", text", allowed);
   out.question = texts["question"];
-  if (!fields.given("kind")) return out;
   if (out.kind == Question::Kind::scale) {
     read_scale(c, fields, texts, out);
   } else {
@@ -63,6 +66,7 @@ Question read_question(Compilation& c, const Metadata& set, const std::string& a
 
 std::vector<Question> read_questionnaire(Compilation& c, const Fields& activity) {
   std::vector<Question> questions;
+  std::vector<int>& lines = c.question_lines.emplace_back();
   const Metadata* tree = activity.set("questionnaire");
   if (tree == nullptr) return questions;
   for (const Metadata& set : tree->children) {
@@ -71,6 +75,7 @@ std::vector<Question> read_questionnaire(Compilation& c, const Fields& activity)
                        "write a MetadataSet");
     } else {
       questions.push_back(read_question(c, set, activity.where()));
+      lines.push_back(set.line);
     }
   }
   return questions;

@@ -46,16 +46,6 @@ void read_languages(Compilation& c, const Fields& fields) {
   }
 }
 
-std::vector<std::string> words_of(std::string_view list) {
-  std::vector<std::string> words;
-  while (!list.empty()) {
-    const std::size_t end = std::min(list.find(' '), list.size());
-    words.emplace_back(list.substr(0, end));
-    list.remove_prefix(std::min(end + 1, list.size()));
-  }
-  return words;
-}
-
 /// An X3D file of somebody else's: its bodies and joints move, and there is nothing to do. A file that has some of our metadata was
 /// meant to be more.
 void take_plain_file(Compilation& c) {
@@ -74,6 +64,16 @@ void take_plain_file(Compilation& c) {
   const std::string stem = c.document.path().stem().string();
   c.world.id = is_id(stem) ? stem : "scene";
   c.world.languages = {"en"};
+}
+
+/// ", like my-screw" for "My Screw"; empty where nothing is left of it.
+std::string like_it(const std::string& text) {
+  std::string id;
+  for (const char letter : text.substr(0, 64)) {
+    const char small = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    id += small == ' ' || small == '_' ? '-' : small;
+  }
+  return is_id(id) ? ", like " + id : std::string();
 }
 
 }  // namespace
@@ -108,7 +108,9 @@ std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* s
                              ? fmt::format("name it <what>.<language>, with what one of: {}", allowed)
                              : fmt::format("did you mean '{}.{}'?", near, language));
     } else if (std::find(known.begin(), known.end(), language) == known.end()) {
-      c.problems.warning(child.line, where, fmt::format("'{}' is not among the scenario's languages", language),
+      if (!c.foreign_languages.insert(language).second) continue;
+      c.problems.warning(child.line, where,
+                         fmt::format("'{}' is not among the scenario's languages: no text in it is shown", language),
                          fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
     } else {
       texts[what][language] = child.strings.front();
@@ -132,7 +134,7 @@ void compile_scenario(Compilation& c) {
   c.world.id = fields.string("id");
   if (fields.given("id") && !is_id(c.world.id)) {
     c.problems.error(fields.line("id"), fields.where(), fmt::format("'{}' cannot be an id", c.world.id.substr(0, 80)),
-                     "use small letters, digits and '-', 64 at most");
+                     fmt::format("use small letters, digits and '-', 64 at most{}", like_it(c.world.id)));
   }
   c.world.effort_scale = fields.number("effortScale");
   read_languages(c, fields);
@@ -169,7 +171,7 @@ Expected<std::string> hash_file(const std::filesystem::path& file) {
 }
 
 Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader, Problems& problems) {
-  Compilation c{document, loader, problems, {}, {}, {}, {}, {}, {}};
+  Compilation c{document, loader, problems, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   compile_all(c);
   if (problems.has_errors()) return tl::unexpected(problems.first_error());
   return std::move(c.world);

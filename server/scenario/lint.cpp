@@ -54,8 +54,10 @@ void check_all_texts(Compilation& c) {
     const std::string where = "activity " + activity.name;
     check_texts(c, activity.title, c.activity_lines[i], where, "title");
     if (!activity.goal.empty()) check_texts(c, activity.goal, c.activity_lines[i], where, "goal");
-    for (const state::QuestionDescription& question : activity.questionnaire)
-      check_question(c, question, c.activity_lines[i], where + ", question " + question.name);
+    for (std::size_t q = 0; q < activity.questionnaire.size(); ++q) {
+      const state::QuestionDescription& question = activity.questionnaire[q];
+      check_question(c, question, c.question_lines[i][q], where + ", question " + question.name);
+    }
   }
   for (std::size_t i = 0; i < c.world.steps.size(); ++i) {
     const StepDescription& step = c.world.steps[i];

@@ -95,6 +95,23 @@ bool is_number(const Metadata& m) {
   return m.kind == MetadataKind::numbers || m.kind == MetadataKind::integers;
 }
 
+/// What a value is: "2 numbers".
+std::string value_in_words(const Metadata& m) {
+  const auto count = [](std::size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); };
+  switch (m.kind) {
+    case MetadataKind::set:
+      return "a set";
+    case MetadataKind::strings:
+      return count(m.strings.size(), "string");
+    case MetadataKind::booleans:
+      return count(m.booleans.size(), "boolean");
+    case MetadataKind::numbers:
+    case MetadataKind::integers:
+      break;
+  }
+  return count(m.numbers.size(), "number");
+}
+
 /// Whether a value is of a kind.
 bool is_of_kind(ValueKind kind, const Metadata& m) {
   switch (kind) {
@@ -150,17 +167,25 @@ Fields::Fields(const Metadata* set, const Table& table, std::string where, Probl
 }
 
 void Fields::check(Problems& problems) {
+  std::vector<std::string> meant;
   for (const Metadata& child : set_->children) {
     const Key* key = table_.find(child.name);
     if (key == nullptr) {
+      const std::vector<std::string> known = candidates(table_, child.name);
+      // "triger" is near to "trigger:1" once it has a number too.
+      const bool numbered = child.name.find(':') == std::string::npos && nearest(child.name, known).empty();
+      const std::string word = child.name + (numbered ? ":1" : "");
       problems.unknown(child.line, where_, fmt::format("the key '{}' is not known here and does nothing", child.name),
-                       child.name, candidates(table_, child.name));
+                       word, known);
+      meant.push_back(nearest(word, known));
     } else if (check_value(*key, child, problems)) {
       good_[child.name] = &child;
     }
   }
   for (const Key& key : table_.keys) {
     if (!key.required || set_->find(key.name) != nullptr || has_like(key.unless)) continue;
+    // It is there, misspelt, and that has been said.
+    if (std::find(meant.begin(), meant.end(), key.name) != meant.end()) continue;
     problems.error(
         set_->line, where_, fmt::format("the key '{}' is missing", key.name),
         fmt::format("add it: {}{}", key.summary, key.example.empty() ? "" : fmt::format(", like {}", key.example)));
@@ -174,9 +199,12 @@ bool Fields::has_like(std::string_view pattern) const {
 
 bool Fields::check_value(const Key& key, const Metadata& value, Problems& problems) const {
   if (!is_of_kind(key.kind, value)) {
-    problems.error(value.line, where_, fmt::format("'{}' is of the wrong type or count", value.name),
-                   fmt::format("write a {}{}", kind_in_words(key.kind),
-                               key.example.empty() ? "" : fmt::format(", like {}", key.example)));
+    const bool comma = key.kind == ValueKind::number && is_number(value) && value.numbers.size() == 2;
+    problems.error(value.line, where_,
+                   fmt::format("'{}' is of the wrong type or count: it is {}", value.name, value_in_words(value)),
+                   fmt::format("write a {}{}{}", kind_in_words(key.kind),
+                               key.example.empty() ? "" : fmt::format(", like {}", key.example),
+                               comma ? "; decimals have a point, a comma parts two numbers" : ""));
     return false;
   }
   const std::string* text = key.kind == ValueKind::string ? &value.strings.front() : nullptr;

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "server/agents/registry.hpp"
-#include "server/base/assert.hpp"
 #include "server/machines/registry.hpp"
+#include "server/scenario/reference_example.hpp"
 #include "server/scenario/schema.hpp"
 #include "server/scenario/x3d_schema.hpp"
 #include "server/state/component_type.hpp"
@@ -58,156 +58,21 @@ A wheel on a post. A visitor takes its rim and turns it once. The mesh file has 
 ```xml
 )";
 
-constexpr std::string_view kExample = R"(<?xml version='1.0' encoding='UTF-8'?>
-<X3D profile='Interactive' version='4.0'>
-  <head>
-    <component name='RigidBodyPhysics' level='2'/>
-    <component name='Networking' level='2'/>
-  </head>
-  <Scene>
-    <WorldInfo title='A wheel'>
-      <MetadataSet containerField='metadata' name='mechane:scenario'>
-        <MetadataInteger containerField='value' name='format' value='1'/>
-        <MetadataString containerField='value' name='id' value='"wheel"'/>
-        <MetadataString containerField='value' name='languages' value='"en"'/>
-        <MetadataSet containerField='value' name='text'>
-          <MetadataString containerField='value' name='title.en' value='"The wheel"'/>
-        </MetadataSet>
-        <MetadataSet containerField='value' name='agents'>
-          <MetadataSet containerField='value' name='HOLD'>
-            <MetadataString containerField='value' name='type' value='"simulation.grasp"'/>
-            <MetadataString containerField='value' name='bodies' value='"WHEEL"'/>
-          </MetadataSet>
-        </MetadataSet>
-        <MetadataSet containerField='value' name='quantities'>
-          <MetadataString containerField='value' name='turns' value='"AXLE.turns"'/>
-        </MetadataSet>
-        <MetadataSet containerField='value' name='activities'>
-          <MetadataSet containerField='value' name='turn'>
-            <MetadataSet containerField='value' name='text'>
-              <MetadataString containerField='value' name='title.en' value='"Turn the wheel"'/>
-              <MetadataString containerField='value' name='goal.en' value='"A wheel turns easily about its axle."'/>
-            </MetadataSet>
-            <MetadataSet containerField='value' name='steps'>
-              <MetadataSet containerField='value' name='once'>
-                <MetadataSet containerField='value' name='text'>
-                  <MetadataString containerField='value' name='caption.en' value='"Take the rim and turn the wheel once."'/>
-                </MetadataSet>
-                <MetadataSet containerField='value' name='trigger:1'>
-                  <MetadataString containerField='value' name='quantity' value='"turns"'/>
-                  <MetadataString containerField='value' name='op' value='">"'/>
-                  <MetadataDouble containerField='value' name='value' value='1'/>
-                  <MetadataString containerField='value' name='next' value='"end"'/>
-                </MetadataSet>
-              </MetadataSet>
-            </MetadataSet>
-          </MetadataSet>
-        </MetadataSet>
-        <MetadataSet containerField='value' name='visits'>
-          <MetadataSet containerField='value' name='turning'>
-            <MetadataString containerField='value' name='activity' value='"turn"'/>
-            <MetadataSet containerField='value' name='move:1'>
-              <MetadataString containerField='value' name='kind' value='"reach"'/>
-              <MetadataString containerField='value' name='body' value='"WHEEL"'/>
-              <MetadataDouble containerField='value' name='grip' value='0 0.3 0'/>
-            </MetadataSet>
-            <MetadataSet containerField='value' name='move:2'>
-              <MetadataString containerField='value' name='kind' value='"grasp"'/>
-              <MetadataString containerField='value' name='body' value='"WHEEL"'/>
-            </MetadataSet>
-            <MetadataSet containerField='value' name='move:3'>
-              <MetadataString containerField='value' name='kind' value='"turn"'/>
-              <MetadataString containerField='value' name='joint' value='"AXLE"'/>
-              <MetadataDouble containerField='value' name='turns' value='1.2'/>
-            </MetadataSet>
-          </MetadataSet>
-        </MetadataSet>
-      </MetadataSet>
-    </WorldInfo>
-    <Viewpoint description='front' position='0 1 2.5'/>
-    <Inline DEF='MODEL' url='"wheel.glb"'/>
-    <RigidBodyCollection gravity='0 -9.81 0'>
-      <RigidBody DEF='POST' fixed='true'>
-        <MetadataSet containerField='metadata' name='mechane:body'>
-          <MetadataString containerField='value' name='model' value='"MODEL"'/>
-        </MetadataSet>
-      </RigidBody>
-      <RigidBody DEF='WHEEL' mass='2' inertia='0.05 0 0 0 0.05 0 0 0 0.09' position='0 1 0.1'>
-        <MetadataSet containerField='metadata' name='mechane'>
-          <MetadataSet containerField='value' name='mechane:body'>
-            <MetadataString containerField='value' name='model' value='"MODEL"'/>
-          </MetadataSet>
-          <MetadataSet containerField='value' name='mechane:haptic'>
-            <MetadataBoolean containerField='value' name='graspable' value='true'/>
-          </MetadataSet>
-        </MetadataSet>
-      </RigidBody>
-      <SingleAxisHingeJoint DEF='AXLE' anchorPoint='0 1 0.1' axis='0 0 1'>
-        <MetadataSet containerField='metadata' name='mechane:agent'>
-          <MetadataString containerField='value' name='type' value='"geometry.hinge"'/>
-        </MetadataSet>
-        <RigidBody containerField='body1' USE='POST'/>
-        <RigidBody containerField='body2' USE='WHEEL'/>
-      </SingleAxisHingeJoint>
-    </RigidBodyCollection>
-  </Scene>
-</X3D>
+constexpr std::string_view kMeshIntroduction = R"(
+## The mesh file
+
+A `.glb` (glTF 2.0 in one file), in metres, with y up, as Blender exports it. Its nodes are found by their names:
+
+| a node | what becomes of it |
+|---|---|
+| of a body's name, or the one that the body's `node` names | the body's shape, with all that lies below it. What counts is how the shape lies in the node; where the node lies in the file does not matter |
+| `part_*` below such a node | what a hand feels: a closed surface, best near to convex. Where a body has none, each mesh is such a part |
+| `SCENE` | ground and scenery: drawn where it stands in the file, touched by nobody |
+| `WATER_*` | drawn as water. A `level` effect raises it: let it lie at the floor |
+| any other | is not drawn |
+
+`mechane fit FILE.glb` shows how true each part feels.
 )";
-
-constexpr std::string_view kSignIntroduction = R"(
-## A sign to another exhibit
-
-A finger on a body, or a click on it, lets the kiosk go on to another scenario of the server. To make the post of the example such a sign:
-)";
-
-/// What is added to the example, with where it goes: before these lines.
-struct SignPiece {
-  std::string_view where;
-  std::string_view text;
-  std::string_view before;
-};
-
-constexpr SignPiece kSignPieces[] = {
-    {"in `agents`, who sees the finger", R"(<MetadataSet containerField='value' name='POINT'>
-  <MetadataString containerField='value' name='type' value='"simulation.point"'/>
-  <MetadataString containerField='value' name='body' value='"POST"'/>
-</MetadataSet>
-)",
-     R"(        </MetadataSet>
-        <MetadataSet containerField='value' name='quantities'>)"},
-    {"in `quantities`, a name for what it sees",
-     R"(<MetadataString containerField='value' name='at_sign' value='"POINT.pointed"'/>
-)",
-     R"(        </MetadataSet>
-        <MetadataSet containerField='value' name='activities'>)"},
-    {"in the step `once`, what leads away from it", R"(<MetadataSet containerField='value' name='trigger:2'>
-  <MetadataString containerField='value' name='quantity' value='"at_sign"'/>
-  <MetadataString containerField='value' name='op' value='">"'/>
-  <MetadataDouble containerField='value' name='value' value='0.5'/>
-  <MetadataString containerField='value' name='next' value='"to-screw"'/>
-</MetadataSet>
-)",
-     R"(              </MetadataSet>
-            </MetadataSet>
-          </MetadataSet>
-        </MetadataSet>
-        <MetadataSet containerField='value' name='visits'>)"},
-    {"in `steps`, the step that opens the other by its `id`; where the server has none of that id, the visitor is soon "
-     "back",
-     R"(<MetadataSet containerField='value' name='to-screw'>
-  <MetadataString containerField='value' name='opens' value='"archimedes-screw"'/>
-  <MetadataSet containerField='value' name='text'>
-    <MetadataString containerField='value' name='caption.en' value='"To the screw ..."'/>
-  </MetadataSet>
-  <MetadataDouble containerField='value' name='timeoutSeconds' value='6'/>
-  <MetadataString containerField='value' name='timeoutNext' value='"once"'/>
-</MetadataSet>
-)",
-     R"(            </MetadataSet>
-          </MetadataSet>
-        </MetadataSet>
-        <MetadataSet containerField='value' name='visits'>)"},
-};
 
 constexpr std::string_view kNodesIntroduction = R"(
 ## Nodes of X3D
@@ -307,6 +172,13 @@ std::string sentence(std::string_view words) {
   return text;
 }
 
+std::string variation_text(const Variation& variation) {
+  std::string text = fmt::format("\n## {}\n\n{}\n", variation.title, variation.introduction);
+  for (const Variation::Piece& piece : variation.pieces)
+    text += fmt::format("\n{}:\n\n```xml\n{}```\n", piece.where, piece.text);
+  return text;
+}
+
 std::string node_tables_text() {
   std::string text(kNodesIntroduction);
   for (const Table& table : node_tables()) {
@@ -387,27 +259,13 @@ std::string components_text(std::string_view title, std::string_view introductio
 
 }  // namespace
 
-std::string reference_example() {
-  return std::string(kExample);
-}
-
-std::string reference_sign_example() {
-  std::string text(kExample);
-  for (const SignPiece& piece : kSignPieces) {
-    const std::size_t at = text.find(piece.before);
-    MECHANE_ASSERT(at != std::string::npos);
-    text.insert(at, piece.text);
-  }
-  return text;
-}
-
 std::string reference_page() {
   std::string page(kIntroduction);
-  page += kExample;
+  page += reference_example();
   page += "```\n";
-  page += kSignIntroduction;
-  for (const SignPiece& piece : kSignPieces)
-    page += fmt::format("\n{}:\n\n```xml\n{}```\n", sentence(piece.where), piece.text);
+  page += kMeshIntroduction;
+  for (const Variation& variation : reference_variations())
+    page += variation_text(variation);
   page += node_tables_text();
   page += key_tables_text();
   page += components_text("Agents",

@@ -9,10 +9,4 @@ namespace mechane::scenario {
 /// Markdown.
 [[nodiscard]] std::string reference_page();
 
-/// The whole file that the page begins with: a scenario that checks without fault but for its mesh file.
-[[nodiscard]] std::string reference_example();
-
-/// The same with the page's sign in it, which leads to another exhibit.
-[[nodiscard]] std::string reference_sign_example();
-
 }  // namespace mechane::scenario

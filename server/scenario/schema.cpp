@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "server/scenario/problem.hpp"
 #include "server/state/description.hpp"
 
 namespace mechane::scenario {
@@ -531,6 +532,16 @@ std::string range_of(const Key& key) {
 
 }  // namespace
 
+std::vector<std::string> words_of(std::string_view list) {
+  std::vector<std::string> words;
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(' '), list.size());
+    words.emplace_back(list.substr(0, end));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return words;
+}
+
 std::string limits_of(const Key& key) {
   std::string words(key.unit);
   for (const std::string& more : {range_of(key), std::string(key.choices)}) {
@@ -542,8 +553,9 @@ std::string limits_of(const Key& key) {
 std::optional<BadValue> range_fault(const Key& key, std::span<const double> numbers, const std::string* text) {
   const std::string example = key.example.empty() ? std::string() : fmt::format(", like {}", key.example);
   if (text != nullptr && !key.choices.empty() && !one_of(*text, key.choices)) {
+    const std::string near = text->size() < 3 ? std::string() : nearest(*text, words_of(key.choices));
     return BadValue{fmt::format("'{}' is none of: {}", text->substr(0, 80), key.choices),
-                    "write one of them" + example};
+                    near.empty() ? "write one of them" + example : fmt::format("did you mean '{}'?", near)};
   }
   for (const double value : numbers) {
     if (value >= key.min && value <= key.max) continue;

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "server/scenario/values.hpp"
 
@@ -78,6 +79,8 @@ inline constexpr int kFormatVersion = 1;
 /// Null where Mechane reads nothing of such nodes.
 [[nodiscard]] const Table* find_node_table(std::string_view node_type);
 
+/// Words that are separated by single blanks, as a Key's choices are.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view list);
 /// Whether a word is one of a Key's choices.
 [[nodiscard]] bool one_of(std::string_view word, std::string_view choices);
 /// Whether a key's name is of a pattern: "trigger:1" of "trigger:*".

@@ -272,7 +272,7 @@ class Scanner {
     skip_spaces();
     if (at_ >= text_.size() || text_[at_] != '=') {
       return fail(begin, fmt::format("'{}' in the tag <{}> has no value", name.substr(0, 80), tag),
-                  at_ < text_.size() && (text_[at_] == '\'' || text_[at_] == '"')
+                  !apart || (at_ < text_.size() && (text_[at_] == '\'' || text_[at_] == '"'))
                       ? "the quote before it ended the value: write &apos; there, or &quot; for a double one"
                       : fmt::format("write {}='...', or close the tag before it", name.substr(0, 80)));
     }

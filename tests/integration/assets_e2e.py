@@ -1,10 +1,12 @@
 """A display whose assets lie on an HTTP server: the exhibit comes, stays without the server, and is never another's."""
 
+import contextlib
 import functools
 import http.server
 import json
 import signal
 import threading
+import time
 import unittest
 
 from harness import ROOT, EndToEnd, wait_until
@@ -32,6 +34,8 @@ class AssetServer:
                     self.wfile.write(whole[: len(whole) // 2])
                     self.wfile.flush()
                     outer.gate.wait()
+                    with contextlib.suppress(OSError):  # the display may be gone
+                        self.wfile.write(whole[len(whole) // 2:])
                     return
                 super().do_GET()
 
@@ -59,9 +63,9 @@ class Assets(EndToEnd):
         self.addCleanup(lambda: self.assets.close())
         self.server(records=False)
 
-    def display(self, prefix=()):
+    def display(self, *more, prefix=(), path="/archimedes-screw"):
         return self.start("display", "display", "--offscreen", "--size", "320x180", "--out", self.folder / "out", "--asset-cache",
-                          self.folder / "cache", "--assets", f"http://127.0.0.1:{self.assets.port}/archimedes-screw", prefix=prefix)
+                          self.folder / "cache", "--assets", f"http://127.0.0.1:{self.assets.port}{path}", *more, prefix=prefix)
 
     def kept(self):
         return [file for file in (self.folder / "cache").rglob("*") if file.is_file()]
@@ -107,6 +111,17 @@ class Assets(EndToEnd):
         self.assets = AssetServer(port)
         self.assertEqual(self.summary(display, f"{MODEL}: is here now")["missing_assets"], [])
 
+    def test_the_root_of_a_web_server_will_do_and_a_steps_picture_waits_for_its_model(self):
+        self.assets.gate = threading.Event()
+        display = self.display("--every-step", path="/")
+        wait_until(lambda: self.assets.asked, 60, "the model is on its way")
+        time.sleep(1.5)  # a picture would be taken half a second after the step began
+        self.assertNotIn("wrote ", display.text())
+        self.assets.gate.set()
+        wait_until(lambda: "wrote " in display.text(), 60, "the picture is taken")
+        self.assertIn(f"{MODEL}: is here", display.text().split("wrote ")[0])
+        self.assertEqual(display.stop(60), 0, display.text())
+
     def test_a_display_killed_half_way_leaves_nothing_half(self):
         self.assets.gate = threading.Event()
         display = self.display()
@@ -121,7 +136,7 @@ class Assets(EndToEnd):
         prefix = self.full_disk(self.folder / "cache")
         if prefix[0] != "unshare":
             self.skipTest("no small disk can be made here")
-        display = self.display(prefix)
+        display = self.display(prefix=prefix)
         self.assertEqual(self.summary(display, f"{MODEL}: is here")["missing_assets"], [])
         self.assertIn("files are fetched anew at each start", display.text())
 

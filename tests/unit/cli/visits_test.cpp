@@ -166,6 +166,32 @@ TEST_F(VisitsTest, ItIsChosenByScenarioKioskAndDate) {
   EXPECT_THAT(errors_, HasSubstr("last week: this is no date; write it as 2026-11-22"));
 }
 
+TEST_F(VisitsTest, AScenarioOrKioskThatNoSheetKnowsIsToldWithThoseThatAre) {
+  options_.scenario = "archimedes-scew";
+  keep({});
+  EXPECT_EQ(run("list"), 0) << "without a sheet nothing is known to be wrong";
+  auto sheets = ten_visits();
+  sheets[1].scenario = "archimedes-screw";
+  keep(sheets);
+  for (const char* verb : {"", "list"}) {
+    EXPECT_EQ(run(verb), 2);
+    EXPECT_THAT(out_, IsEmpty());
+    EXPECT_THAT(errors_, AllOf(HasSubstr("no sheet is of the scenario 'archimedes-scew'"),
+                               HasSubstr("did you mean 'archimedes-screw'?")));
+  }
+  options_.scenario = "pump";
+  EXPECT_EQ(run(""), 2);
+  EXPECT_THAT(errors_, HasSubstr("there is: archimedes-screw, machine"));
+  options_.scenario = "machine";
+  options_.kiosk = "desk";
+  EXPECT_EQ(run(""), 2);
+  EXPECT_THAT(errors_, AllOf(HasSubstr("no sheet is of the kiosk 'desk'"), HasSubstr("there is: kiosk-1")));
+  options_.kiosk.clear();
+  options_.since = "9998-01-01";
+  EXPECT_EQ(run(""), 0) << "a known scenario, of which there was no visit since";
+  EXPECT_THAT(out_, HasSubstr("0 visits"));
+}
+
 TEST_F(VisitsTest, TheListShowsTheNewestAndAPageAllOfOne) {
   keep(ten_visits());
   options_.last = 3;

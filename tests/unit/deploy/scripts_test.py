@@ -2,9 +2,12 @@
 
 import pathlib
 import subprocess
+import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "deploy/demo_lib"))
+import demo  # noqa: E402
 
 
 def run(script, *arguments):
@@ -38,6 +41,18 @@ class Scripts(unittest.TestCase):
                 self.assertEqual(result.returncode, 2)
                 self.assertIn("demo: ", result.stderr)
                 self.assertEqual(result.stdout, "")
+
+    def test_the_demo_tells_how_far_its_tour_is(self):
+        log = ("2026-11-22 13:00:00.000 info visitor: odometer: looking for a server\n"
+               "odometer  use: push\ncatapult  use: grasp\nodometer  use: done\nodometer  use: visit pushing: done, 31.2 s\n"
+               "catapult  use: visit shooting: not done, 60.0 s\nvillage  choose: gone on to odometer\ncatapult  use: wind\n"
+               "odometer                pushing                   3/3 steps    31.2 s  done\n")
+        self.assertEqual(demo.tour_progress(log, 22), "2 of 22 visits, 1 not done | catapult use: wind")
+        self.assertEqual(demo.tour_progress("", 22), "0 of 22 visits")
+
+    def test_the_demo_counts_the_visits_of_its_tour(self):
+        screw = ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d"
+        self.assertEqual(demo.count_visits([screw, screw]), 4)
 
 
 if __name__ == "__main__":

@@ -33,7 +33,17 @@ TEST(AssetAddress, no_name_leads_higher_than_beside_the_scenario) {
                            "//evil/x", "http://evil/x", "a//b", "a/", "a\nb", "../"}) {
     EXPECT_EQ(address_of("http://m/r/s", name), "refused") << name;
   }
-  EXPECT_EQ(address_of("http://m", "../x.glb"), "refused");
+  EXPECT_EQ(address_of("http://m", "../../x.glb"), "refused");
+}
+
+TEST(AssetAddress, the_root_of_a_web_server_serves_as_the_scenarios_folder_and_as_the_one_above_it) {
+  for (const char* root : {"http://m:8000", "http://m:8000/"}) {
+    EXPECT_EQ(address_of(root, "screw.glb"), "http://m:8000/screw.glb");
+    EXPECT_EQ(address_of(root, "../models/screw.glb"), "http://m:8000/models/screw.glb");
+    EXPECT_EQ(address_of(root, "a/../../models/./screw.glb"), "http://m:8000/models/screw.glb");
+    for (const char* name : {"..", ".", "../", "a/..", "../..", "../../x.glb", "../a/../../x.glb"})
+      EXPECT_EQ(address_of(root, name), "refused") << name;
+  }
 }
 
 TEST(AssetAddress, what_is_no_address_is_told) {
@@ -59,9 +69,10 @@ RC_GTEST_PROP(AssetAddress, whatever_a_scenario_names_is_refused_or_stays_below_
   for (const std::string& next : *rc::gen::container<std::vector<std::string>>(part))
     name += next + "/";
   name += *part;
-  const auto whole = AssetAddress::parse("http://m/root/scenario")->of(name);
+  const bool at_root = *rc::gen::arbitrary<bool>();
+  const auto whole = AssetAddress::parse(at_root ? "http://m/" : "http://m/root/scenario")->of(name);
   if (!whole) return;
-  RC_ASSERT(whole->starts_with("http://m/root/"));
+  RC_ASSERT(whole->starts_with(at_root ? "http://m/" : "http://m/root/"));
   RC_ASSERT((*whole + "/").find("/../") == std::string::npos);
   RC_ASSERT((*whole + "/").find("/./") == std::string::npos);
   RC_ASSERT(whole->find("//", 7) == std::string::npos);

@@ -96,6 +96,26 @@ TEST_F(AssetStoreTest, the_right_file_comes_once_and_stays) {
   EXPECT_EQ(text_of(wait_for("../models/a.glb", hash_, AssetState::here).file), body_);
 }
 
+TEST_F(AssetStoreTest, what_may_yet_come_is_awaited_with_patience) {
+  constexpr std::chrono::minutes kLong(5);
+  std::atomic<bool> there{false};
+  const SmallHttpServer server([&](const std::string&, const std::string&) {
+    return HttpReply{there ? 200 : 404, body_};
+  });
+  open(server);
+  EXPECT_FALSE(store_->is_awaited(kLong)) << "nothing was asked for";
+  EXPECT_EQ(store_->find("../../never.glb", hash_).state, AssetState::amiss);
+  EXPECT_FALSE(store_->is_awaited(kLong)) << "no name of ours: it will never come";
+  (void)store_->find("a.glb", hash_);
+  EXPECT_TRUE(store_->is_awaited(kLong));
+  wait_for("a.glb", hash_, AssetState::amiss);
+  EXPECT_TRUE(store_->is_awaited(kLong)) << "it is asked for again";
+  EXPECT_FALSE(store_->is_awaited(milliseconds(0)));
+  there = true;
+  wait_for("a.glb", hash_, AssetState::here);
+  EXPECT_FALSE(store_->is_awaited(kLong));
+}
+
 TEST_F(AssetStoreTest, wrong_bytes_are_not_used_and_are_asked_for_again) {
   std::atomic<bool> right{false};
   const SmallHttpServer server([&](const std::string&, const std::string&) {

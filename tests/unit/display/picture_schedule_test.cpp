@@ -52,6 +52,21 @@ TEST(PictureSchedule, a_step_too_short_is_told_as_missed_until_it_comes_again) {
   EXPECT_FALSE(schedule.missed().contains("use-blink"));
 }
 
+TEST(PictureSchedule, a_picture_waits_for_a_model_that_is_on_its_way_but_not_for_ever) {
+  PictureSchedule schedule;
+  const TimePoint start{};
+  constexpr bool kWhole = true;
+  EXPECT_FALSE(schedule.due(start, at("use", "grasp"), !kWhole));
+  EXPECT_FALSE(schedule.due(start + milliseconds(3000), at("use", "grasp"), !kWhole));
+  EXPECT_EQ(schedule.due(start + milliseconds(3001), at("use", "grasp"), kWhole), "use-grasp");
+  EXPECT_FALSE(schedule.due(start + milliseconds(4000), at("use", "turn"), !kWhole));
+  EXPECT_FALSE(schedule.due(start + milliseconds(4000) + PictureSchedule::kPatience - milliseconds(1),
+                            at("use", "turn"), !kWhole));
+  EXPECT_EQ(schedule.due(start + milliseconds(4000) + PictureSchedule::kPatience, at("use", "turn"), !kWhole),
+            "use-turn");
+  EXPECT_TRUE(schedule.missed().empty());
+}
+
 TEST(PictureSchedule, names_cannot_leave_the_folder) {
   EXPECT_EQ(file_name("../../etc/passwd"), "------etc-passwd");
   EXPECT_EQ(file_name("use_1-b"), "use_1-b");

@@ -1,5 +1,6 @@
 #include "server/scenario/checker.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
@@ -68,6 +69,36 @@ TEST(Check, ShippedExhibitsAreWithoutFault) {
   }
 }
 
+/// Whether some caption of a language holds all these words.
+bool a_caption_says(const state::WorldDescription& world, const std::string& language,
+                    const std::vector<std::string>& words) {
+  return std::ranges::any_of(world.steps, [&](const state::StepDescription& step) {
+    const std::string& caption = step.texts.at("caption").at(language);
+    return std::ranges::all_of(words, [&](const auto& word) { return caption.find(word) != std::string::npos; });
+  });
+}
+
+TEST(Check, ShippedExhibitsSayHowTheirForceAndTimeAreScaledAndHaveAPage) {
+  for (const auto& file : shipped_scenarios()) {
+    FakeLoader loader;
+    Problems problems(file.string());
+    const auto world = read_scenario(file, loader, problems);
+    ASSERT_TRUE(world) << world.error().to_string();
+    const std::string page = text_of(std::filesystem::path(file).replace_extension(".md"));
+    for (const char* words : {"## What is known", "`effort_scale`", "`time_scale`", "## Where it departs, and why"})
+      EXPECT_NE(page.find(words), std::string::npos) << file << ": the page lacks " << words;
+    if (world->id == "village") continue;  // a place to choose in: no machine works there
+    EXPECT_NE(page.find("## The model"), std::string::npos) << file;
+    EXPECT_TRUE(a_caption_says(*world, "en", {"our hand feels", "real"})) << file;
+    EXPECT_TRUE(a_caption_says(*world, "el", {"ο χέρι", "πραγματικ"})) << file;
+    EXPECT_TRUE(a_caption_says(*world, "en", {"time is real"}) || a_caption_says(*world, "en", {"times as fast"}))
+        << file;
+    EXPECT_TRUE(a_caption_says(*world, "el", {"ο χρόνος είναι ο πραγματικός"}) ||
+                a_caption_says(*world, "el", {"φορές πιο γρήγορα"}))
+        << file;
+  }
+}
+
 TEST(Check, ShippedExhibitsHoldAgainstTheStandardsSchema) {
   const auto schema = shared_folder() / "x3d/schema/x3d-4.0.xsd";
   if (!std::filesystem::exists(schema)) GTEST_SKIP() << "the standard's schema is not beside the project";
@@ -96,6 +127,101 @@ TEST(Check, WarnsOfWhatIsLikelyNotMeant) {
                  "can never fire");
   expect_warning("name='effortScale' value='0.045'/>\n        <MetadataSet",
                  "name='colour' value='1'/>\n        <MetadataSet", "not known here");
+}
+
+TEST(Check, AnEffectsNodeIsLookedForInTheMeshFile) {
+  const auto problems_of = [](const std::string& node) {
+    const EditedFile file("'\"WATER_BASIN\"'", "'\"" + node + "\"'");
+    std::vector<Problem> problems = check(file.path);
+    EXPECT_EQ(problems.size(), 1u) << "one fault, one message";
+    EXPECT_EQ(problems.at(0).severity, Severity::error);
+    EXPECT_EQ(problems[0].line, line_of(text_of(file.path), "'\"" + node + "\"'"));
+    EXPECT_NE(problems[0].node.find("effect "), std::string::npos);
+    return to_string(problems[0]);
+  };
+  EXPECT_NE(problems_of("WATER_BASN").find("the mesh file has no node of that name; did you mean 'WATER_BASIN'?"),
+            std::string::npos);
+  const std::string far = problems_of("POND");
+  EXPECT_NE(far.find("node 'POND' of ../models/archimedes-screw.glb"), std::string::npos) << far;
+  for (const char* name : {"OUTER", "INNER", "SCENE", "WATER_BASIN", "WATER_RIVER"})
+    EXPECT_NE(far.find(name), std::string::npos) << far;
+  EXPECT_NE(problems_of("visual_quay").find("name it WATER_visual_quay in the model"), std::string::npos);
+}
+
+TEST(Check, AQuestionsFaultIsToldOnceAtItsOwnLine) {
+  const std::string question =
+      "<MetadataSet containerField='value' name='questionnaire'>\n<MetadataSet containerField='value' name='liked'>\n"
+      "<MetadataString containerField='value' name='kind' value='\"scale\"'/>\n"
+      "<MetadataSet containerField='value' name='text'>\n"
+      "<MetadataString containerField='value' name='question.el' value='\"Σας άρεσε;\"'/>\n"
+      "<MetadataString containerField='value' name='question.en' value='\"Did you like it?\"'/>\n"
+      "<MetadataString containerField='value' name='low.el' value='\"λίγο\"'/>\n"
+      "<MetadataString containerField='value' name='low.en' value='\"a little\"'/>\n"
+      "<MetadataString containerField='value' name='high.el' value='\"πολύ\"'/>\n"
+      "<MetadataString containerField='value' name='high.en' "
+      "value='\"very\"'/>\n</MetadataSet></MetadataSet></MetadataSet>\n";
+  const std::string use = "          <MetadataSet containerField='value' name='use'>\n";
+  const auto only_problem = [&](const std::string& from, const std::string& to) {
+    std::string text = use + question;
+    text.replace(text.find(from), from.size(), to);
+    const EditedFile file(use, text);
+    const std::vector<Problem> problems = check(file.path);
+    EXPECT_EQ(problems.size(), 1u) << to;
+    for (const Problem& p : problems)
+      EXPECT_NE(p.node.find("activity use, question liked"), std::string::npos) << to_string(p);
+    return problems.empty() ? Problem{} : problems[0];
+  };
+  const int first = line_of(edited(use, use + question), "name='liked'");
+  const Problem kind = only_problem("\"scale\"", "\"scael\"");
+  EXPECT_EQ(kind.line, first + 1);
+  EXPECT_NE(kind.what.find("'scael' is none of: choice scale"), std::string::npos) << kind.what;
+  const Problem key = only_problem("name='kind'", "name='knid'");
+  EXPECT_EQ(key.line, first + 1);
+  EXPECT_EQ(key.remedy, "did you mean 'kind'?");
+  const Problem lacks =
+      only_problem("<MetadataString containerField='value' name='low.en' value='\"a little\"'/>\n", "");
+  EXPECT_EQ(lacks.line, first);
+  EXPECT_EQ(lacks.what, "the low is missing in: en");
+}
+
+TEST(Check, OneFaultIsOneMessageAtItsLine) {
+  struct Slip {
+    const char* from;
+    const char* to;
+    const char* said;
+  };
+  static constexpr Slip kSlips[] = {
+      {"'\"simulation.grasp\"'", "'\"simulation.gasp\"'", "did you mean 'simulation.grasp'?"},
+      {"name='diameter'", "name='diametre'", "did you mean 'diameter'?"},
+      {"name='bodies' value='\"INNER\"'", "name='bodies' value='\"INNR\"'",
+       "agent CARRY: bodies: no body is called 'INNR'; did you mean 'INNER'?"},
+      {"name='steps'>", "name='stepps'>", "did you mean 'steps'?"},
+      {"name='trigger:1'>", "name='triger'>", "did you mean 'trigger:1'?"},
+      {"name='tolerance' value='0.06 0.26'", "name='tolerance' value='0.06'", "tolerance has 1 numbers; write 2"},
+      {"value='\">\"'", "value='\">=\"'", "'>=' is none of: < = >; write one of them, like \">\""},
+      {"name='value' value='0.5'", "name='value' value='0,5'",
+       "it is 2 numbers; write a MetadataDouble with one number, like 40; decimals have a point"},
+      {"'\"archimedes-screw\"'", "'\"Archimedes Screw\"'", "64 at most, like archimedes-screw"},
+      {"'\"Bring the screw", "'\"Don't bring the screw", "write &apos; there"},
+  };
+  for (const Slip& slip : kSlips) {
+    const std::string text = edited(slip.from, slip.to);
+    const Outcome outcome = compile_text(text);
+    EXPECT_FALSE(outcome.world) << slip.to;
+    ASSERT_FALSE(outcome.problems.empty()) << slip.to;
+    EXPECT_NE(to_string(outcome.problems[0]).find(slip.said), std::string::npos) << to_string(outcome.problems[0]);
+    EXPECT_EQ(outcome.problems[0].line, line_of(text, slip.to)) << slip.to;
+    for (std::size_t i = 1; i < outcome.problems.size(); ++i)
+      ADD_FAILURE() << slip.to << " is also told so: " << to_string(outcome.problems[i]);
+  }
+}
+
+TEST(Check, ALanguageThatTheScenarioDoesNotNameIsToldOnce) {
+  const EditedFile file("name='languages' value='\"el\" \"en\"'", "name='languages' value='\"el\"'");
+  const std::vector<Problem> problems = check(file.path);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_NE(to_string(problems[0]).find("'en' is not among the scenario's languages: no text in it is shown"),
+            std::string::npos);
 }
 
 TEST(Check, WritesForPeopleAndForPrograms) {

@@ -170,7 +170,7 @@ const Fault kFaults[] = {
     {"value='\"geometry.snap\"'", "value='\"geometry.snop\"'", "geometry.snop", "did you mean 'geometry.snap'?"},
     {"name='model' value='\"MODEL\"'", "name='model' value='\"MODLE\"'", "MODLE", "did you mean 'MODEL'?"},
     {"../models/archimedes-screw.glb", "https://example.org/a.glb", "https://example.org", "relative path"},
-    {"name='joint' value='\"AXLE\"'", "name='joint' value='\"AXEL\"'", "name='COUNTER'", "AXEL"},
+    {"name='joint' value='\"AXLE\"'", "name='joint' value='\"AXEL\"'", "AXEL", "did you mean 'AXLE'?"},
     {"name='node' value='\"INNER\"'/>",
      "name='node' value='\"INNER\"'/>\n<MetadataBoolean containerField='value' name='touchable' value='false'/>"
      "<MetadataBoolean containerField='value' name='collides' value='true'/>",

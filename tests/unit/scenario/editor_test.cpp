@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "server/scenario/metadata.hpp"
-#include "server/scenario/reference.hpp"
+#include "server/scenario/reference_example.hpp"
 #include "server/scenario/text_edits.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/scenario/scenario_fixture.hpp"
