@@ -14,6 +14,7 @@ inline constexpr std::size_t kMaxHands = 16;
 inline constexpr std::size_t kMaxTexts = 64;
 inline constexpr std::size_t kMaxRopes = 64;
 inline constexpr std::size_t kMaxRopePoints = 1024;
+inline constexpr std::size_t kMaxWays = 4096;
 inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
 
 /// All of these return false, with `out` in no particular state, where the sample is of another protocol version, a number is not

@@ -42,6 +42,7 @@ struct DisplayOptions {
   AskWhen ask = AskWhen::after;  ///< an activity's questions
   OverlayStyle overlay;          ///< at the start; keys change it
   double home_after_s = 0;       ///< without anybody's motion or click: back to the server's first scenario; 0: never
+  bool touch = true;             ///< in a window: mouse, finger and keys are a hand of the kiosk
   SoundSettings sound;           ///< in a window; offscreen nothing is heard
 };
 

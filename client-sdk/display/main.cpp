@@ -70,6 +70,8 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--home-after", o.home_after_s,
                  "seconds without a hand's motion or a click after which the kiosk goes home; 0: never")
       ->check(CLI::Range(0.0, 86'400.0));
+  app.add_flag("!--no-touch", o.touch,
+               "mouse, finger and keys take nothing: the picture is for looking at, and for clicks on signs");
   app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

@@ -39,6 +39,7 @@ using WireQuestion = ::mechane_Question;
 using WireActivity = ::mechane_Activity;
 using WireView = ::mechane_View;
 using WireEffect = ::mechane_Effect;
+using WireWay = ::mechane_Way;
 using HandOwner = ::mechane_HandOwner;
 
 /// Where a topic's endpoints live.
