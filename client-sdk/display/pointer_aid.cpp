@@ -40,16 +40,19 @@ class DotPen {
   }
   /// As the hand goes round it, in the world.
   void circle(const WayLine& axle, const Vec3& p_WH, double radius_m) {
-    constexpr int kDots = 48;
     const Vec3 arm = p_WH - axle.p_W;
     const Vec3 across = arm - arm.dot(axle.a_W) * axle.a_W;
     if (across.norm() < 1e-6) return;
     const Vec3 x_W = radius_m * across.normalized();
     const Vec3 y_W = axle.a_W.cross(x_W);
-    for (int k = 0; k < kDots; ++k) {
-      const double angle = 2 * kPi * k / kDots;
+    // As far apart in the picture as there is room.
+    std::optional<PixelPlace> last;
+    for (int k = 0; k < 360; ++k) {
+      const double angle = 2 * kPi * k / 360;
       const auto at = pixel_of(sight_, axle.p_W + std::cos(angle) * x_W + std::sin(angle) * y_W);
-      if (at) dot(*at, 1.6F, kWater);
+      if (!at || (last && std::hypot(at->x - last->x, at->y - last->y) < 9.0 * unit_)) continue;
+      dot(*at, 1.6F, kWater);
+      last = at;
     }
   }
 

@@ -12,6 +12,9 @@ constexpr double kBefore_m = 0.06;
 // And goes so far in: the tip of a one-point hand is a ball of 8 mm, which shall touch with some of it.
 constexpr double kInto_m = 0.003;
 constexpr double kReachSpeed_m_per_s = 0.5;
+// What hangs loose swings away from a hand that comes faster before the hand has closed.
+constexpr double kTouchSpeed_m_per_s = 0.06;
+constexpr double kSlowing_per_s = 6;
 constexpr double kTravelSpeed_m_per_s = 2.0;
 constexpr double kDragSpeed_m_per_s = 1.2;
 constexpr double kTurnSpeed_rad_per_s = 1.5;
@@ -146,7 +149,9 @@ void PointerHand::reach(double dt_s, const PointerSenses& senses) {
     go_towards(before_W, kTravelSpeed_m_per_s, dt_s);
     return;
   }
-  go_towards(p_WT + kInto_m * away_W_, kReachSpeed_m_per_s, dt_s);
+  const Vec3 into_W = p_WT + kInto_m * away_W_;
+  const double gap_m = (into_W - X_WH_.p).norm();
+  go_towards(into_W, std::clamp(kSlowing_per_s * gap_m, kTouchSpeed_m_per_s, kReachSpeed_m_per_s), dt_s);
   if ((X_WH_.p - p_WT).norm() < kClosesAt_m && phase_s_ > kOpens_s) grasp_ = 1;
   if (senses.holding && grasp_ > 0) grip(senses);
 }

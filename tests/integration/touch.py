@@ -168,6 +168,17 @@ class TouchVisitor:
         goal = self.screen.pixel(add(numbers(move["position"]), turned(look, self.p_BH)))
         begin = self.at
         self.drag(lambda s: tuple(b + s * (g - b) for b, g in zip(begin, goal)), float(move.get("seconds", 1)))
+        self.look_until_there()
+
+    def look_until_there(self):
+        """As a person looks whether the hand has come to the finger, before going on; what is stuck, or has snapped, does not come."""
+        def there():
+            hand = self.screen.pixel(self.hand()["X_WS"][0]["p"])
+            return not self.holding() or math.dist(hand, self.at) < 0.03 * self.screen.height
+        try:
+            wait_until(there, 3, "the hand is under the finger")
+        except AssertionError:
+            pass
 
     def circle(self, joint):
         """The way round, as the display's dots show it: circle(angle) in pixels."""
