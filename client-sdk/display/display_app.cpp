@@ -238,8 +238,14 @@ RenderScene DisplayLoop::build(TimePoint now) const {
 }
 
 PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {
-  return {scene, library_->assets(), options_.stereo, context_.size(), have_frame_ ? &frame_ : nullptr,
-          objects_, status_ ? &*status_ : nullptr, presentation_.get()};
+  return {scene,
+          library_->assets(),
+          options_.stereo,
+          context_.size(),
+          have_frame_ ? &frame_ : nullptr,
+          objects_,
+          status_ ? &*status_ : nullptr,
+          presentation_.get()};
 }
 
 /// The display's own hand hears of everything that no button hears.

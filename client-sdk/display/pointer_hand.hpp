@@ -50,6 +50,9 @@ class PointerHand {
   void move(PixelPlace place);
   /// Takes what is carried away from the viewer, by the wheel's notches; below 0: nearer.
   void deepen(double notches);
+  /// What is carried stays no farther off than this, until the wheel says otherwise or it is near to where it belongs: it is dragged before
+  /// what the picture shows, not into it. None: nothing is behind it.
+  void keep_before(std::optional<double> depth_m);
   /// Turns what is held about its axle, positive as the viewer sees the hands of a clock go. Nothing where it has none.
   void turn(double angle_rad);
   void release();
@@ -82,24 +85,27 @@ class PointerHand {
   Touched touched_;
   Pose X_WH_;
   double grasp_ = 0;
-  double phase_s_ = 0;        // since the phase began
-  int fetched_ = 0;           // in this touch: how often it went back for what it lost
-  double empty_s_ = 0;        // holding: since the hand last held something
+  double phase_s_ = 0;          // since the phase began
+  int fetched_ = 0;             // in this touch: how often it went back for what it lost
+  double empty_s_ = 0;          // holding: since the hand last held something
   Vec3 away_W_ = Vec3::Zero();  // unit, along the pressed pixel's ray
-  std::optional<Vec3> p_BT_;  // what was pressed on, in the object's frame
-  Pose X_BH_;                 // of the hand in what it holds, as it was gripped
-  double depth_m_ = 0;        // carry: of the plane that the pointer drags in
+  std::optional<Vec3> p_BT_;    // what was pressed on, in the object's frame
+  Pose X_BH_;                   // of the hand in what it holds, as it was gripped
+  double depth_m_ = 0;          // carry: of the plane that the pointer drags in
   double gripped_depth_m_ = 0;
+  std::optional<double> before_m_;  // carry: see keep_before()
+  bool wheeled_ = false;            // carry: a person chose the depth
   std::optional<Vec3> p_WG_goal_;
   Quat R_WH_wanted_ = Quat::Identity();  // carry
-  WayLine line_;             // axle or track; its point is where the hand began, or the middle of its circle
-  double slid_from_m_ = 0;   // slide: of the pointer along the track when the hand gripped
+  WayLine line_;                // axle or track; its point is where the hand began, or the middle of its circle
+  double slid_from_m_ = 0;      // slide: of the pointer along the track when the hand gripped
   Vec3 from_W_ = Vec3::Zero();  // turn: from the axle to the hand when it gripped
-  double angle_rad_ = 0;     // turn: of the hand since then
-  double wanted_rad_ = 0;    // turn: of the pointer since then
-  double seen_rad_ = 0;      // turn: where the pointer stood last
-  Eigen::Matrix2d circle_ = Eigen::Matrix2d::Identity();   // turn: from the picture to the circle, flattened circles made rounder
-  PixelPlace middle_;        // turn: of the circle, in the picture
+  double angle_rad_ = 0;        // turn: of the hand since then
+  double wanted_rad_ = 0;       // turn: of the pointer since then
+  double seen_rad_ = 0;         // turn: where the pointer stood last
+  Eigen::Matrix2d circle_ =
+      Eigen::Matrix2d::Identity();  // turn: from the picture to the circle, flattened circles made rounder
+  PixelPlace middle_;               // turn: of the circle, in the picture
 };
 
 }  // namespace mechane::display

@@ -10,7 +10,7 @@ namespace {
 
 // Rays meet all triangles; a pointer that only hovers is worth some of them.
 constexpr Duration kLookUnderHover = std::chrono::milliseconds(100);
-constexpr double kFocusSpeed = 0.3;        // of the picture's height, a second
+constexpr double kFocusSpeed = 0.3;         // of the picture's height, a second
 constexpr double kKeyTurn_rad_per_s = 2.1;  // 20 turns a minute
 constexpr double kKeyNotches_per_s = 8;
 constexpr double kLongestPicture_s = 0.25;
@@ -64,7 +64,8 @@ void PointerInput::press(const PointerScene& scene, PixelPlace whole) {
 }
 
 void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
-  if (key == PointerKey::next || key == PointerKey::previous) return focus_next(scene, key == PointerKey::next ? 1 : -1);
+  if (key == PointerKey::next || key == PointerKey::previous)
+    return focus_next(scene, key == PointerKey::next ? 1 : -1);
   if (!focus_) focus_ = middle_of(scene.picture);
   if (key != PointerKey::take) return;
   const PointerView::Phase phase = link_.view().phase;
@@ -107,8 +108,13 @@ void PointerInput::update(const PointerScene& scene, TimePoint now) {
   const double dt_s = std::clamp(to_seconds(now - updated_), 0.0, kLongestPicture_s);
   updated_ = now;
   go_on_with_keys(scene, dt_s);
-  const bool idle = link_.view().phase == PointerView::Phase::resting;
+  const PointerView view = link_.view();
+  const bool idle = view.phase == PointerView::Phase::resting;
   if (idle) by_keys_ = false;
+  if (view.phase == PointerView::Phase::holding && view.drag == PointerView::Drag::carry) {
+    const auto whole = seen_place(scene.scene.camera, scene.stereo, scene.picture, middle_of(scene.picture));
+    if (whole) link_.keep_before(depth_before(scene, whole->sight, view.pointer, view.object, view.p_WH));
+  }
   const std::optional<PixelPlace> looks_at = focus_ ? focus_ : hover_;
   if (!idle || !looks_at || now - looked_ < kLookUnderHover) return;
   if (!hover_moved_ && !focus_) return;

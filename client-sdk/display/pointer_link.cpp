@@ -7,6 +7,7 @@
 #include <pthread.h>
 
 #include "server/log/log.hpp"
+#include "server/realtime/priority.hpp"
 
 namespace mechane::display {
 namespace {
@@ -15,10 +16,24 @@ using client::LinkState;
 
 // A sample older than 10 ms is stale to the server, and a thread of no priority wakes late.
 constexpr Duration kSendEvery = std::chrono::milliseconds(2);
+constexpr int kFifoPriority = 60;  // under the devices' loops
 constexpr int kLookEvery = 4;  // sends; frames come at 60 Hz
 constexpr int kStatusEvery = 25;
 constexpr Duration kStays = std::chrono::seconds(30);
 constexpr std::array<std::uint32_t, 3> kUsers{3, 2, 1};
+
+/// While it lives, drawing on the processor makes this thread no later: a hand that is silent for 50 ms lets go. A refusal does no harm.
+/// Threads that the network's library starts before or after stay ordinary.
+class Hurry {
+ public:
+  Hurry() { (void)realtime::take_fifo(kFifoPriority); }
+  Hurry(const Hurry&) = delete;
+  Hurry& operator=(const Hurry&) = delete;
+  ~Hurry() {
+    const sched_param ordinary{0};
+    (void)pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+  }
+};
 
 }  // namespace
 
@@ -41,8 +56,7 @@ struct PointerLink::Sensed {
     const std::optional<Pose> X_WB = pose_of(object);
     if (!X_WB || !presentation) return {};
     return PointerSenses{
-        *X_WB,
-        leeway_of(presentation->ways, enabled, object, [this](std::uint32_t other) { return pose_of(other); }),
+        *X_WB, leeway_of(presentation->ways, enabled, object, [this](std::uint32_t other) { return pose_of(other); }),
         holding};
   }
 };
@@ -75,6 +89,11 @@ void PointerLink::move(PixelPlace place) {
 void PointerLink::deepen(double notches) {
   const std::lock_guard lock(mutex_);
   hand_.deepen(notches);
+}
+
+void PointerLink::keep_before(std::optional<double> depth_m) {
+  const std::lock_guard lock(mutex_);
+  hand_.keep_before(depth_m);
 }
 
 void PointerLink::turn(double angle_rad) {
@@ -126,6 +145,7 @@ std::unique_ptr<client::Client> PointerLink::open() {
     config.role = client::Role::hand;
     config.program = "mechane-display";
     config.domain = domain_;
+    config.fifo_priority = kFifoPriority;
     auto client = client::Client::connect(config);
     if (!client) {
       log::error(client.error());
@@ -157,6 +177,7 @@ void PointerLink::look(client::Client& client, Sensed& sensed) const {
 }
 
 void PointerLink::serve(client::Client& client) {
+  const Hurry hurry;
   Sensed sensed;
   SystemClock clock;
   TimePoint last = clock.now();

@@ -12,6 +12,9 @@ namespace {
 constexpr std::array<double, 4> kFingertip{0.006, 0.012, 0.018, 0.024};
 constexpr int kRound = 12;
 constexpr std::size_t kTries = 28;
+// Between what is carried and what is behind it; of what is longer than this no more counts.
+constexpr double kApart_m = 0.03;
+constexpr double kLongest_m = 0.6;
 
 RenderScene only_takeable(const PointerScene& scene) {
   RenderScene out;
@@ -107,6 +110,27 @@ std::optional<Touched> takeable_at(const PointerScene& scene, const Sight& sight
     }
   }
   return {};
+}
+
+std::optional<double> depth_before(const PointerScene& scene, const Sight& sight, PixelPlace place,
+                                   std::uint32_t object, const Vec3& p_WH) {
+  double far_side_m = 0;
+  for (const Instance& instance : scene.scene.instances) {
+    if (instance.object != object) continue;
+    for (const Vec3f& p_M : scene.assets.meshes[instance.mesh].positions) {
+      const Vec3 p_W = (instance.X_WM * p_M).cast<double>();
+      far_side_m = std::max(far_side_m, depth_of(sight, p_W) - depth_of(sight, p_WH));
+    }
+  }
+  // Hands are drawn where they are, each with its occluders there.
+  const auto skip = [&](const Instance& instance) {
+    return instance.object == object || std::ranges::any_of(scene.scene.occluders, [&](const Occluder& occluder) {
+             return occluder.p_WO == instance.X_WM.translation();
+           });
+  };
+  const auto behind = picked_at(scene.scene, scene.assets, sight, place, skip);
+  if (!behind) return {};
+  return depth_of(sight, behind->p_WT) - std::min(far_side_m, kLongest_m) - kApart_m;
 }
 
 std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight) {

@@ -30,10 +30,8 @@ WorldDescription workshop() {
                       {"position", Numbers{0, 2, 0}},
                       {"rotation", Numbers{0, 3, 0, 0.5}}},
                      2};
-  world.agents[2] = {"CATCH",
-                     "simulation.lit",
-                     {{"body", Texts{"TORCH"}}, {"at", Numbers{0, 0, -0.3}}, {"flame", Texts{"FRAME"}}},
-                     3};
+  world.agents[2] = {
+      "CATCH", "simulation.lit", {{"body", Texts{"TORCH"}}, {"at", Numbers{0, 0, -0.3}}, {"flame", Texts{"FRAME"}}}, 3};
   return world;
 }
 
