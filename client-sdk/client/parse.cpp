@@ -143,6 +143,16 @@ bool parse_effect(const proto::WireEffect& wire, Effect& out) {
   return length > 0.99 && length < 1.01;
 }
 
+bool parse_way(const proto::WireWay& wire, Way& out) {
+  if (wire.kind > static_cast<std::uint32_t>(Way::Kind::brought) || wire.object >= kMaxObjects) return false;
+  if (wire.base >= static_cast<std::int32_t>(kMaxObjects)) return false;
+  out.kind = static_cast<Way::Kind>(wire.kind);
+  out.agent = clean_string(wire.agent);
+  out.object = wire.object;
+  if (wire.base >= 0) out.base = static_cast<std::uint32_t>(wire.base);
+  return parse_pose(wire.X_AJ, out.X_AJ) && parse_pose(wire.X_BJ, out.X_BJ);
+}
+
 }  // namespace
 
 bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
@@ -232,7 +242,8 @@ bool parse(const proto::WorldPresentation& wire, WorldPresentation& out) {
   return parse_strings(wire.languages, out.languages) &&
          parse_each(wire.activities, kMaxPresented, out.activities, parse_activity) &&
          parse_each(wire.views, kMaxPresented, out.views, parse_view) &&
-         parse_each(wire.effects, kMaxPresented, out.effects, parse_effect);
+         parse_each(wire.effects, kMaxPresented, out.effects, parse_effect) &&
+         parse_each(wire.ways, kMaxWays, out.ways, parse_way);
 }
 
 bool parse(const proto::Event& wire, WorldEvent& out) {

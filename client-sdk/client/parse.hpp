@@ -15,6 +15,7 @@ inline constexpr std::size_t kMaxHands = 16;
 inline constexpr std::size_t kMaxTexts = 64;
 inline constexpr std::size_t kMaxRopes = 64;
 inline constexpr std::size_t kMaxRopePoints = 1024;
+inline constexpr std::size_t kMaxWays = 4096;
 inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
 inline constexpr std::size_t kMaxSettings = 64;    ///< of one wish or status
 inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers of one status

@@ -13,6 +13,8 @@
 #include "client-sdk/display/mesh_files.hpp"
 #include "client-sdk/display/overlay_layout.hpp"
 #include "client-sdk/display/picking.hpp"
+#include "client-sdk/display/pointer_aid.hpp"
+#include "client-sdk/display/pointer_input.hpp"
 #include "server/base/assert.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/log/log.hpp"
@@ -66,7 +68,10 @@ class DisplayLoop {
         attract_(std::move(attract)),
         desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
         panel_(panel_settings(desk_.settings())),
-        spoken_(options.language) {}
+        spoken_(options.language) {
+    if (options.touch && !options.offscreen && source_.recorded == nullptr)
+      pointer_.emplace(options.kiosk, options.domain);
+  }
 
   Expected<DisplaySummary> run();
 
@@ -89,6 +94,8 @@ class DisplayLoop {
   void tend_kiosk(TimePoint now);
   void tend_attract(TimePoint now);
   void upload();
+  void take_pointer(TimePoint now);
+  [[nodiscard]] PointerScene under_pointer(const RenderScene& scene) const;
   void take_key(DisplayKey key, TimePoint now);
   void take_click(PixelPlace place, TimePoint now);
   [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
@@ -118,6 +125,7 @@ class DisplayLoop {
   std::unique_ptr<AttractLoop> attract_;  ///< null: none
   bool attracts_ = false;
   KioskDesk desk_;
+  std::optional<PointerInput> pointer_;
   VisitorPanel panel_;
   std::string spoken_;    ///< the language that all others know of
   OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
@@ -253,7 +261,42 @@ RenderScene DisplayLoop::build(TimePoint now) const {
   const PixelSize eye = eye_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
     scene.camera = for_screen(scene.camera, options_.screen, static_cast<double>(eye.width) / eye.height);
+  if (pointer_ && builder_ != nullptr && !attracts_) {
+    pointer_->write(scene.overlay, under_pointer(scene), spoken_);
+    if (const auto button = go_on_button(status_ ? &*status_ : nullptr, spoken_); button && !scene.overlay.panel)
+      scene.overlay.corner.insert(scene.overlay.corner.begin(), *button);
+  }
   return scene;
+}
+
+PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {
+  return {scene,
+          library_->assets(),
+          options_.stereo,
+          context_.size(),
+          have_frame_ ? &frame_ : nullptr,
+          objects_,
+          status_ ? &*status_ : nullptr,
+          presentation_.get()};
+}
+
+/// The display's own hand hears of everything that no button hears.
+void DisplayLoop::take_pointer(TimePoint now) {
+  const std::vector<PointerEvent> events = context_.take_pointer_events();
+  if (!pointer_ || builder_ == nullptr) return;
+  if (attracts_) {  // whoever comes ends the invitation, and takes nothing yet
+    if (!events.empty()) panel_.touch(now);
+    return;
+  }
+  const RenderScene scene = build(now);
+  const PointerScene under = under_pointer(scene);
+  for (const PointerEvent& event : events) {
+    const bool covered = event.kind == PointerEvent::Kind::press &&
+                         (shown_.panel.has_value() || pressed({event.x, event.y}).has_value());
+    pointer_->take(event, under, covered);
+  }
+  pointer_->update(under, now);
+  if (pointer_->take_stirred()) panel_.touch(now);
 }
 
 /// Before it is known what screen it is for.
@@ -271,6 +314,7 @@ void DisplayLoop::take_wishes(TimePoint now) {
   for (const DisplayKey key : context_.take_keys())
     take_key(key, now);
   if (const auto place = context_.take_click()) take_click(*place, now);
+  take_pointer(now);
   const auto server = client_.server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
   panel_.update({status_ ? &*status_ : nullptr, presentation_, have_frame_ ? &frame_ : nullptr, home}, now);
@@ -340,7 +384,9 @@ void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
 
 /// Buttons come first; what lies behind a panel of questions is not meant.
 void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
-  if (const auto action = pressed(place)) return panel_.press(*action, now);
+  const auto action = pressed(place);
+  if (action && action->kind == OverlayAction::Kind::activity) (void)client_.start_activity(action->value);
+  if (action) return panel_.press(*action, now);
   panel_.touch(now);
   if (attracts_) return;  // it means what is behind the invitation as little as a panel's
   if (!shown_.panel) click_object(place, now);

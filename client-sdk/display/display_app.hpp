@@ -46,6 +46,7 @@ struct DisplayOptions {
   double home_after_s = 0;       ///< without anybody's motion or click: back to the server's first scenario; 0: never
   std::string attract;           ///< file of a recording that is shown while nobody is there; empty: none
   double attract_after_s = 120;  ///< without anybody's motion, touch or click
+  bool touch = true;             ///< in a window: mouse, finger and keys are a hand of the kiosk
   SoundSettings sound;           ///< in a window; offscreen nothing is heard
   SourceOptions source;          ///< played instead of a server's, and recorded
   double film_fps =

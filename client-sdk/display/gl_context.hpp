@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client-sdk/display/pointer_event.hpp"
 #include "server/base/error.hpp"
 
 namespace mechane::display {
@@ -46,6 +47,8 @@ class GlContext {
   [[nodiscard]] virtual bool take_picture_wanted() = 0;
   /// Where the left button was pressed since the last call.
   [[nodiscard]] virtual std::optional<PixelPlace> take_click() { return {}; }
+  /// What was done with pointer and keys since the last call, in order; take_click() tells of presses as well.
+  [[nodiscard]] virtual std::vector<PointerEvent> take_pointer_events() { return {}; }
   /// Whether the window has a picture for each eye (Stereo::quad_buffer).
   [[nodiscard]] virtual bool has_quad_buffer() const { return false; }
   /// The keys pressed since the last call, in order.

@@ -7,12 +7,40 @@
 namespace mechane::display {
 namespace {
 
+/// More than anybody does between two pictures.
+constexpr std::size_t kMostEvents = 10'000;
+
+std::optional<PointerKey> pointer_key(int key, bool shifted) {
+  switch (key) {
+    case GLFW_KEY_LEFT:
+      return PointerKey::left;
+    case GLFW_KEY_RIGHT:
+      return PointerKey::right;
+    case GLFW_KEY_UP:
+      return PointerKey::up;
+    case GLFW_KEY_DOWN:
+      return PointerKey::down;
+    case GLFW_KEY_PAGE_UP:
+      return PointerKey::farther;
+    case GLFW_KEY_PAGE_DOWN:
+      return PointerKey::nearer;
+    case GLFW_KEY_SPACE:
+      return PointerKey::take;
+    case GLFW_KEY_TAB:
+      return shifted ? PointerKey::previous : PointerKey::next;
+    default:
+      return {};
+  }
+}
+
 class WindowContext final : public GlContext {
  public:
   explicit WindowContext(GLFWwindow* window) : window_(window) {
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
-      if (action == GLFW_PRESS) static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_key(key);
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int shifted) {
+      auto* const self = static_cast<WindowContext*>(glfwGetWindowUserPointer(w));
+      if (action == GLFW_PRESS) self->on_key(key);
+      if (action != GLFW_REPEAT) self->on_pointer_key(key, (shifted & GLFW_MOD_SHIFT) != 0, action == GLFW_PRESS);
     });
     // Where the plus is on a keyboard, only its own layout knows.
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int letter) {
@@ -20,8 +48,19 @@ class WindowContext final : public GlContext {
         static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->keys_.push_back(DisplayKey::large_text);
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-      if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
-        static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_click();
+      if (button == GLFW_MOUSE_BUTTON_LEFT)
+        static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_button(action == GLFW_PRESS);
+    });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+      static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->on_pointer(PointerEvent::Kind::move, x, y);
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double notches) {
+      static_cast<WindowContext*>(glfwGetWindowUserPointer(w))
+          ->events_.push_back({PointerEvent::Kind::wheel, 0, 0, notches});
+    });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int inside) {
+      if (inside == GLFW_FALSE)
+        static_cast<WindowContext*>(glfwGetWindowUserPointer(w))->events_.push_back({PointerEvent::Kind::left});
     });
   }
   WindowContext(const WindowContext&) = delete;
@@ -52,6 +91,7 @@ class WindowContext final : public GlContext {
     return has == GL_TRUE;
   }
   [[nodiscard]] std::optional<PixelPlace> take_click() override { return std::exchange(click_, std::nullopt); }
+  [[nodiscard]] std::vector<PointerEvent> take_pointer_events() override { return std::exchange(events_, {}); }
   [[nodiscard]] std::vector<DisplayKey> take_keys() override { return std::exchange(keys_, {}); }
 
  private:
@@ -63,13 +103,26 @@ class WindowContext final : public GlContext {
     if (key == GLFW_KEY_C) keys_.push_back(DisplayKey::high_contrast);
     if (key == GLFW_KEY_F11) toggle_full_screen();
   }
-  /// The cursor is told in the window's units; a picture may have more pixels than those.
-  void on_click() {
+  void on_button(bool pressed) {
     double x = 0, y = 0;
-    int width = 0, height = 0;
     glfwGetCursorPos(window_, &x, &y);
+    on_pointer(pressed ? PointerEvent::Kind::press : PointerEvent::Kind::release, x, y);
+    if (pressed && !events_.empty()) click_ = PixelPlace{events_.back().x, events_.back().y};
+  }
+  /// The cursor is told in the window's units; a picture may have more pixels than those.
+  void on_pointer(PointerEvent::Kind kind, double x, double y) {
+    int width = 0, height = 0;
     glfwGetWindowSize(window_, &width, &height);
-    if (width > 0 && height > 0) click_ = PixelPlace{x * size().width / width, y * size().height / height};
+    if (width <= 0 || height <= 0) return;
+    if (events_.size() >= kMostEvents) events_.erase(events_.begin());
+    events_.push_back({kind, x * size().width / width, y * size().height / height});
+  }
+  void on_pointer_key(int key, bool shifted, bool pressed) {
+    const auto meant = pointer_key(key, shifted);
+    if (!meant) return;
+    PointerEvent event{pressed ? PointerEvent::Kind::key_down : PointerEvent::Kind::key_up};
+    event.key = *meant;
+    events_.push_back(event);
   }
   void toggle_full_screen() {
     if (glfwGetWindowMonitor(window_) != nullptr) {
@@ -85,6 +138,7 @@ class WindowContext final : public GlContext {
   bool picture_wanted_ = false;
   std::vector<DisplayKey> keys_;
   std::optional<PixelPlace> click_;
+  std::vector<PointerEvent> events_;
 };
 
 std::string last_glfw_error() {

@@ -83,6 +83,8 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
   app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);
   app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
+  app.add_flag("!--no-touch", o.touch,
+               "mouse, finger and keys take nothing: the picture is for looking at, and for clicks on signs");
   app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

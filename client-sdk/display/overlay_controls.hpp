@@ -15,6 +15,7 @@ struct OverlayAction {
     answer,    ///< value: the answer's name, or the mark from 1 on
     skip,      ///< this question alone
     close,
+    activity,  ///< value: of the activity that begins
   };
   Kind kind = Kind::home;
   std::string value{};

@@ -11,16 +11,6 @@ struct Ray {
   Vec3f d = Vec3f::UnitZ();
 };
 
-Ray ray_through(const RenderScene& scene, PixelPlace place, Stereo stereo, PixelSize pictured) {
-  const EyePlace seen = eye_at(stereo, pictured, place);
-  const EyeView view = eye_view(scene.camera, seen.eye, seen.aspect);
-  const auto x = static_cast<float>(seen.x);
-  const auto y = static_cast<float>(seen.y);
-  const Eigen::Matrix4f X_WC = (view.P * view.V_CW).inverse();
-  const Vec3f near = (X_WC * Eigen::Vector4f(x, y, -1, 1)).hnormalized();
-  return {view.p_WE, (near - view.p_WE).normalized()};
-}
-
 /// How far along the ray the triangle is, either side of it (Moller and Trumbore 1997); infinite: it is missed.
 float distance_to(const Ray& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   constexpr float kMissed = std::numeric_limits<float>::infinity();
@@ -51,19 +41,28 @@ float distance_to(const Ray& ray_W, const Instance& instance, const MeshData& me
 
 }  // namespace
 
-std::optional<std::uint32_t> object_at(const RenderScene& scene, const SceneAssets& assets, PixelPlace place,
-                                       Stereo stereo, PixelSize pictured) {
-  if (pictured.width < 2 || pictured.height < 2) return {};
-  const Ray ray = ray_through(scene, place, stereo, pictured);
+std::optional<Picked> picked_at(const RenderScene& scene, const SceneAssets& assets, const Sight& sight,
+                                PixelPlace place, const SkipInstance& skip) {
+  const SightRay through = ray_through(sight, place);
+  const Ray ray{through.p_W.cast<float>(), through.d_W.cast<float>()};
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<std::uint32_t> object;
   for (const Instance& instance : scene.instances) {
+    if (skip && skip(instance)) continue;
     const float distance = distance_to(ray, instance, assets.meshes[instance.mesh]);
     if (distance >= nearest) continue;
     nearest = distance;
     object = instance.object;
   }
-  return object;
+  if (!std::isfinite(nearest)) return {};
+  return Picked{object, through.p_W + static_cast<double>(nearest) * through.d_W};
+}
+
+std::optional<std::uint32_t> object_at(const RenderScene& scene, const SceneAssets& assets, PixelPlace place,
+                                       Stereo stereo, PixelSize pictured) {
+  const auto seen = seen_place(scene.camera, stereo, pictured, place);
+  const auto picked = seen ? picked_at(scene, assets, seen->sight, seen->place) : std::nullopt;
+  return picked ? picked->object : std::nullopt;
 }
 
 }  // namespace mechane::display

@@ -110,6 +110,14 @@ struct Readout {
   std::string end;      ///< what the gauge's end stands for: "20"
 };
 
+/// Drawn under all panels, in pixels of one eye's picture; sRGB with straight alpha.
+struct OverlayDot {
+  float x = 0;
+  float y = 0;
+  float radius = 0;
+  Eigen::Vector4f colour = Eigen::Vector4f::Ones();
+};
+
 /// Everything that is written over the picture, in one language, UTF-8.
 struct OverlayContent {
   std::string title;
@@ -123,6 +131,7 @@ struct OverlayContent {
   std::vector<OverlayButton> corner;  ///< low on the right
   std::optional<OverlayPanel> panel;  ///< it stands before captions and readouts, which are not shown then
   OverlayStyle style;
+  std::vector<OverlayDot> dots{};  ///< of the display's own hand
 };
 
 /// A sphere that darkens what is near it: contact shading of the hand.

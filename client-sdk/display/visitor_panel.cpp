@@ -198,6 +198,8 @@ void VisitorPanel::press(const OverlayAction& action, TimePoint now) {
     case OverlayAction::Kind::close:
       if (settled) asking_.reset();
       return;
+    case OverlayAction::Kind::activity:
+      return;  // the display's, which can begin one
   }
 }
 

@@ -1,5 +1,6 @@
 #include "server/transport/presentation.hpp"
 
+#include "server/state/ways.hpp"
 #include "server/transport/wire_texts.hpp"
 #include <mechane/proto/convert.hpp>
 
@@ -15,6 +16,7 @@ Presentation::Presentation(const std::string& world, const state::WorldDescripti
   add_activities(description);
   add_views(description);
   add_effects(description);
+  add_ways(description);
   proto::set_text(wire_.world, world);
   wire_.protocol = proto::kProtocol;
   wire_.seq = 1;
@@ -23,6 +25,7 @@ Presentation::Presentation(const std::string& world, const state::WorldDescripti
   proto::look_into(wire_.activities, activities_);
   proto::look_into(wire_.views, views_);
   proto::look_into(wire_.effects, effects_);
+  proto::look_into(wire_.ways, ways_);
 }
 
 void Presentation::add_activities(const state::WorldDescription& description) {
@@ -78,6 +81,18 @@ void Presentation::add_effects(const state::WorldDescription& description) {
     wire.full = static_cast<float>(effect.full);
     wire.size_m = static_cast<float>(effect.size_m);
     wire.speed_m_per_s = static_cast<float>(effect.speed_m_per_s);
+  }
+}
+
+void Presentation::add_ways(const state::WorldDescription& description) {
+  for (const state::Way& way : state::ways_of(description)) {
+    proto::WireWay& wire = ways_.emplace_back();
+    wire.kind = static_cast<std::uint32_t>(way.kind);
+    wire.agent = way.agent ? proto::look_into(description.agents[way.agent.index()].name) : nullptr;
+    wire.object = static_cast<std::uint32_t>(way.object.index());
+    wire.base = way.base ? static_cast<std::int32_t>(way.base.index()) : -1;
+    proto::set_pose(wire.X_AJ, way.X_AJ);
+    proto::set_pose(wire.X_BJ, way.X_BJ);
   }
 }
 

@@ -24,6 +24,7 @@ class Presentation {
   void add_activities(const state::WorldDescription& description);
   void add_views(const state::WorldDescription& description);
   void add_effects(const state::WorldDescription& description);
+  void add_ways(const state::WorldDescription& description);
   [[nodiscard]] proto::WireQuestion question_of(const state::QuestionDescription& question);
   /// Lets a sequence of texts look into a copy kept here.
   template <class Sequence>
@@ -37,6 +38,7 @@ class Presentation {
   std::vector<proto::WireActivity> activities_;
   std::vector<proto::WireView> views_;
   std::vector<proto::WireEffect> effects_;
+  std::vector<proto::WireWay> ways_;
 };
 
 }  // namespace mechane::transport

@@ -42,6 +42,7 @@ using WireQuestion = ::mechane_Question;
 using WireActivity = ::mechane_Activity;
 using WireView = ::mechane_View;
 using WireEffect = ::mechane_Effect;
+using WireWay = ::mechane_Way;
 using HandOwner = ::mechane_HandOwner;
 using WireSetting = ::mechane_DisplaySetting;
 using WireWishAnswer = ::mechane_WishAnswer;

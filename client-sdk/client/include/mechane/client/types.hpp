@@ -179,6 +179,23 @@ struct Effect {
   double speed_m_per_s = 0;
 };
 
+/// What a hand can do with an object. A is the base's frame, or W; B the object's.
+struct Way {
+  enum class Kind : std::uint8_t {
+    taken,    ///< by a hand
+    turns,    ///< about z of its joint
+    slides,   ///< along x of its joint
+    placed,   ///< where X_BJ comes to X_AJ, it stays
+    brought,  ///< where the point of X_BJ comes to that of X_AJ, something happens
+  };
+  Kind kind = Kind::taken;
+  std::string agent;  ///< holds while WorldStatus::enabled_agents has it; empty: always
+  std::uint32_t object = 0;
+  std::optional<std::uint32_t> base;  ///< none: W
+  Pose X_AJ;
+  Pose X_BJ;
+};
+
 /// What a display shows of a world and that never changes.
 struct WorldPresentation {
   std::string world;
@@ -186,6 +203,7 @@ struct WorldPresentation {
   std::vector<Activity> activities;
   std::vector<View> views;  ///< the first is where a display stands
   std::vector<Effect> effects;
+  std::vector<Way> ways;
 };
 
 struct WorldEvent {

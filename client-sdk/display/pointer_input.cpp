@@ -1,0 +1,138 @@
+#include "client-sdk/display/pointer_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "client-sdk/display/pointer_aid.hpp"
+
+namespace mechane::display {
+namespace {
+
+// Rays meet all triangles; a pointer that only hovers is worth some of them.
+constexpr Duration kLookUnderHover = std::chrono::milliseconds(100);
+constexpr double kFocusSpeed = 0.3;         // of the picture's height, a second
+constexpr double kKeyTurn_rad_per_s = 2.1;  // 20 turns a minute
+constexpr double kKeyNotches_per_s = 8;
+constexpr double kLongestPicture_s = 0.25;
+
+PixelPlace middle_of(PixelSize picture) {
+  return {picture.width / 2.0, picture.height / 2.0};
+}
+
+}  // namespace
+
+void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bool covered) {
+  using Kind = PointerEvent::Kind;
+  const PixelPlace whole{event.x, event.y};
+  stirred_ = stirred_ || event.kind != Kind::left;
+  switch (event.kind) {
+    case Kind::press:
+      focus_.reset();
+      if (!covered) press(scene, whole);
+      return;
+    case Kind::release:
+      if (!by_keys_) link_.release();
+      return;
+    case Kind::move:
+      hover_ = whole;
+      hover_moved_ = true;
+      if (by_keys_) return;
+      if (const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, whole)) link_.move(seen->place);
+      return;
+    case Kind::wheel:
+      return link_.deepen(event.amount);
+    case Kind::left:
+      hover_.reset();
+      under_hover_.reset();
+      return;
+    case Kind::key_down:
+      held_[static_cast<std::size_t>(event.key)] = true;
+      return take_key(event.key, scene);
+    case Kind::key_up:
+      held_[static_cast<std::size_t>(event.key)] = false;
+      return;
+  }
+}
+
+void PointerInput::press(const PointerScene& scene, PixelPlace whole) {
+  const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, whole);
+  if (!seen) return;
+  const auto touched = takeable_at(scene, seen->sight, seen->place);
+  if (!touched) return;
+  by_keys_ = false;
+  link_.press(seen->sight, seen->place, *touched);
+}
+
+void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
+  if (key == PointerKey::next || key == PointerKey::previous)
+    return focus_next(scene, key == PointerKey::next ? 1 : -1);
+  if (!focus_) focus_ = middle_of(scene.picture);
+  if (key != PointerKey::take) return;
+  const PointerView::Phase phase = link_.view().phase;
+  if (phase == PointerView::Phase::reaching || phase == PointerView::Phase::holding) return link_.release();
+  press(scene, *focus_);
+  by_keys_ = link_.view().phase == PointerView::Phase::reaching;
+}
+
+void PointerInput::focus_next(const PointerScene& scene, int step) {
+  const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, middle_of(scene.picture));
+  if (!seen || by_keys_) return;
+  const std::vector<PixelPlace> places = places_to_take(scene, seen->sight);
+  if (places.empty()) return;
+  const double from = focus_ ? focus_->x : (step > 0 ? -1.0 : 1e9);
+  const auto after = std::ranges::find_if(places, [&](PixelPlace p) { return p.x > from + 1; });
+  const auto before = std::find_if(places.rbegin(), places.rend(), [&](PixelPlace p) { return p.x < from - 1; });
+  focus_ = step > 0 ? (after == places.end() ? places.front() : *after)
+                    : (before == places.rend() ? places.back() : *before);
+}
+
+void PointerInput::go_on_with_keys(const PointerScene& scene, double dt_s) {
+  using Key = PointerKey;
+  const double across = (held(Key::right) ? 1 : 0) - (held(Key::left) ? 1 : 0);
+  const double down = (held(Key::down) ? 1 : 0) - (held(Key::up) ? 1 : 0);
+  const double far = (held(Key::farther) ? 1 : 0) - (held(Key::nearer) ? 1 : 0);
+  if (!focus_ || (across == 0 && down == 0 && far == 0)) return;
+  stirred_ = true;
+  const PointerView view = link_.view();
+  const bool holding = view.phase == PointerView::Phase::holding && by_keys_;
+  if (holding && view.drag == PointerView::Drag::turn) return link_.turn((across + down) * kKeyTurn_rad_per_s * dt_s);
+  if (holding && far != 0) link_.deepen(far * kKeyNotches_per_s * dt_s);
+  const double step = kFocusSpeed * scene.picture.height * dt_s;
+  focus_->x = std::clamp(focus_->x + across * step, 0.0, scene.picture.width - 1.0);
+  focus_->y = std::clamp(focus_->y + down * step, 0.0, scene.picture.height - 1.0);
+  const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, *focus_);
+  if (seen && by_keys_) link_.move(seen->place);
+}
+
+void PointerInput::update(const PointerScene& scene, TimePoint now) {
+  const double dt_s = std::clamp(to_seconds(now - updated_), 0.0, kLongestPicture_s);
+  updated_ = now;
+  go_on_with_keys(scene, dt_s);
+  const PointerView view = link_.view();
+  const bool idle = view.phase == PointerView::Phase::resting;
+  if (idle) by_keys_ = false;
+  if (view.phase == PointerView::Phase::holding && view.drag == PointerView::Drag::carry) {
+    const auto whole = seen_place(scene.scene.camera, scene.stereo, scene.picture, middle_of(scene.picture));
+    if (whole) link_.keep_before(depth_before(scene, whole->sight, view.pointer, view.object, view.p_WH));
+  }
+  const std::optional<PixelPlace> looks_at = focus_ ? focus_ : hover_;
+  if (!idle || !looks_at || now - looked_ < kLookUnderHover) return;
+  if (!hover_moved_ && !focus_) return;
+  hover_moved_ = false;
+  looked_ = now;
+  const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, *looks_at);
+  under_hover_ = seen ? takeable_at(scene, seen->sight, seen->place) : std::nullopt;
+}
+
+void PointerInput::write(OverlayContent& content, const PointerScene& scene, const std::string& language) const {
+  const std::optional<PixelPlace> at = focus_ ? focus_ : hover_;
+  const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, at.value_or(middle_of(scene.picture)));
+  if (!seen || content.panel) return;
+  const PointerView view = link_.view();
+  PointerAid aid{seen->sight, view, {}, {}, link_.state()};
+  if (view.phase == PointerView::Phase::resting && under_hover_) aid.p_WT = under_hover_->p_WT;
+  if (focus_) aid.focus = seen->place;
+  add_pointer_aid(aid, language, content);
+}
+
+}  // namespace mechane::display

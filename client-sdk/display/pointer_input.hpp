@@ -1,0 +1,78 @@
+// From a window's events to the display's own hand, and what a person sees of it: a ring on what can be taken, the way that it goes, a word
+// on how. A mouse, one finger, or keys: Tab goes to what can be taken, Space takes it and lets it go, arrows move it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client-sdk/display/picking.hpp"
+#include "client-sdk/display/pointer_event.hpp"
+#include "client-sdk/display/pointer_link.hpp"
+
+namespace mechane::display {
+
+/// What lies under the pointer. Borrowed for the call.
+struct PointerScene {
+  const RenderScene& scene;
+  const SceneAssets& assets;
+  Stereo stereo = Stereo::mono;
+  PixelSize picture;
+  const client::Frame* frame = nullptr;
+  std::span<const client::SceneObject> objects;
+  const client::WorldStatus* status = nullptr;
+  const client::WorldPresentation* presentation = nullptr;
+
+  [[nodiscard]] std::optional<Pose> pose_of(std::uint32_t object) const;
+  [[nodiscard]] Leeway leeway(std::uint32_t object) const;
+  /// Hands may take it now, as far as a client knows.
+  [[nodiscard]] bool takeable(std::uint32_t object) const;
+};
+
+/// What a finger on this pixel means to take: what is seen there, or else within a fingertip's breadth.
+[[nodiscard]] std::optional<Touched> takeable_at(const PointerScene& scene, const Sight& sight, PixelPlace place);
+
+/// How far off a thing in a hand at p_WH may be carried lest it run into what is seen there behind it: as far as its own far side lets it.
+/// None: nothing is behind it.
+[[nodiscard]] std::optional<double> depth_before(const PointerScene& scene, const Sight& sight, PixelPlace place,
+                                                 std::uint32_t object, const Vec3& p_WH);
+
+/// One for each thing that can be taken and is seen: a pixel to take it by, from left to right. Slow; for a key.
+[[nodiscard]] std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight);
+
+/// On the display's thread.
+class PointerInput {
+ public:
+  PointerInput(const std::string& kiosk, std::uint32_t domain) : link_(kiosk, domain) {}
+
+  /// `covered`: a button or a panel lies there.
+  void take(const PointerEvent& event, const PointerScene& scene, bool covered);
+  /// Once a picture: goes on with keys that are held, and looks what lies under a pointer that moved.
+  void update(const PointerScene& scene, TimePoint now);
+  /// Adds what helps to find the way.
+  void write(OverlayContent& content, const PointerScene& scene, const std::string& language) const;
+  /// Somebody moved the hand since the last call.
+  [[nodiscard]] bool take_stirred() { return std::exchange(stirred_, false); }
+
+ private:
+  void press(const PointerScene& scene, PixelPlace whole);
+  void go_on_with_keys(const PointerScene& scene, double dt_s);
+  void take_key(PointerKey key, const PointerScene& scene);
+  void focus_next(const PointerScene& scene, int step);
+  [[nodiscard]] bool held(PointerKey key) const { return held_[static_cast<std::size_t>(key)]; }
+
+  PointerLink link_;
+  std::optional<PixelPlace> hover_;  ///< of the whole picture
+  bool hover_moved_ = false;
+  std::optional<Touched> under_hover_;
+  TimePoint looked_;
+  TimePoint updated_;
+  std::array<bool, 9> held_{};       ///< by PointerKey
+  std::optional<PixelPlace> focus_;  ///< of the keys, whole picture
+  bool by_keys_ = false;             ///< what is held is held by keys
+  bool stirred_ = false;
+};
+
+}  // namespace mechane::display

@@ -1,0 +1,92 @@
+#include "server/state/ways.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace mechane::state {
+namespace {
+
+const std::vector<std::string>* texts_of(const ComponentDescription& component, const char* name) {
+  const auto found = component.parameters.find(name);
+  return found == component.parameters.end() ? nullptr : std::get_if<std::vector<std::string>>(&found->second);
+}
+
+BodyId body_of(const WorldDescription& description, const ComponentDescription& component, const char* name) {
+  const auto* texts = texts_of(component, name);
+  return texts == nullptr || texts->empty() ? BodyId{} : description.find_body(texts->front());
+}
+
+/// As many as were asked for; zeros where the author wrote none.
+std::vector<double> numbers_of(const ComponentDescription& component, const char* name, std::size_t count) {
+  std::vector<double> out(count, 0.0);
+  const auto found = component.parameters.find(name);
+  const auto* written =
+      found == component.parameters.end() ? nullptr : std::get_if<std::vector<double>>(&found->second);
+  for (std::size_t i = 0; written != nullptr && i < std::min(count, written->size()); ++i)
+    out[i] = (*written)[i];
+  return out;
+}
+
+Vec3 point_of(const ComponentDescription& component, const char* name) {
+  const std::vector<double> p = numbers_of(component, name, 3);
+  return {p[0], p[1], p[2]};
+}
+
+void add_taken(const WorldDescription& description, AgentId agent, std::vector<Way>& out) {
+  const auto add = [&](BodyId body) {
+    if (body && !description.bodies[body.index()].fixed) out.push_back({Way::Kind::taken, agent, body, {}, {}, {}});
+  };
+  const auto* named = texts_of(description.agents[agent.index()], "bodies");
+  if (named == nullptr) {
+    for (std::size_t i = 0; i < description.bodies.size(); ++i)
+      add(BodyId(i));
+    return;
+  }
+  for (const std::string& name : *named)
+    add(description.find_body(name));
+}
+
+void add_place(const WorldDescription& description, AgentId agent, std::vector<Way>& out) {
+  const ComponentDescription& snap = description.agents[agent.index()];
+  const BodyId object = body_of(description, snap, "object");
+  if (!object) return;
+  const std::vector<double> turn = numbers_of(snap, "rotation", 4);
+  const Vec3 about(turn[0], turn[1], turn[2]);
+  Pose X_AJ{point_of(snap, "position"), Quat::Identity()};
+  if (about.norm() > 1e-9) X_AJ.R = Quat(Eigen::AngleAxisd(turn[3], about.normalized()));
+  out.push_back({Way::Kind::placed, agent, object, body_of(description, snap, "into"), X_AJ, {}});
+}
+
+void add_fire(const WorldDescription& description, AgentId agent, std::vector<Way>& out) {
+  const ComponentDescription& lit = description.agents[agent.index()];
+  const BodyId flame = body_of(description, lit, "flame");
+  const BodyId hearth = body_of(description, lit, "body");
+  if (!flame || !hearth) return;
+  const Pose at{point_of(lit, "at"), Quat::Identity()};
+  const Pose burns{point_of(lit, "flamePoint"), Quat::Identity()};
+  // A torch is brought to the fire as well as fire to the hearth.
+  const bool comes = description.bodies[flame.index()].fixed;
+  out.push_back(comes ? Way{Way::Kind::brought, agent, hearth, flame, burns, at}
+                      : Way{Way::Kind::brought, agent, flame, hearth, at, burns});
+}
+
+}  // namespace
+
+std::vector<Way> ways_of(const WorldDescription& description) {
+  std::vector<Way> out;
+  for (const JointDescription& joint : description.joints) {
+    if (joint.kind == JointKind::ball || !joint.body2) continue;
+    const Way::Kind kind = joint.kind == JointKind::hinge ? Way::Kind::turns : Way::Kind::slides;
+    out.push_back({kind, {}, joint.body2, joint.body1, joint.X_B1J, joint.X_B2J});
+  }
+  for (std::size_t i = 0; i < description.agents.size(); ++i) {
+    const std::string& type = description.agents[i].type;
+    if (type == "simulation.grasp") add_taken(description, AgentId(i), out);
+    if (type == "geometry.snap") add_place(description, AgentId(i), out);
+    if (type == "simulation.lit") add_fire(description, AgentId(i), out);
+  }
+  if (out.size() > kMaxWays) out.resize(kMaxWays);
+  return out;
+}
+
+}  // namespace mechane::state
