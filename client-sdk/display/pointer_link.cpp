@@ -17,7 +17,7 @@ using client::LinkState;
 // A sample older than 10 ms is stale to the server, and a thread of no priority wakes late.
 constexpr Duration kSendEvery = std::chrono::milliseconds(2);
 constexpr int kFifoPriority = 60;  // under the devices' loops
-constexpr int kLookEvery = 4;  // sends; frames come at 60 Hz
+constexpr int kLookEvery = 4;      // sends; frames come at 60 Hz
 constexpr int kStatusEvery = 25;
 constexpr Duration kStays = std::chrono::seconds(30);
 constexpr std::array<std::uint32_t, 3> kUsers{3, 2, 1};
