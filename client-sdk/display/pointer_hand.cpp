@@ -170,6 +170,7 @@ void PointerHand::grip(const PointerSenses& senses) {
   depth_m_ = gripped_depth_m_ = std::max(depth_of(sight_, X_WH_.p), kNearest_m);
   p_WG_goal_.reset();
   before_m_.reset();
+  gripped_at_ = pointer_;
   wheeled_ = false;
   drag_ = Drag::carry;
   if (senses.leeway.axle) begin_turn(*senses.leeway.axle);
@@ -258,8 +259,12 @@ Vec3 PointerHand::carried_to(const PointerSenses& senses) {
     meant = &goal;
   }
   double dragged_m = depth_m_;
-  if (before_m_ && !wheeled_)
-    dragged_m = std::clamp(*before_m_, std::min(depth_m_, kNearestDragged * gripped_depth_m_), depth_m_);
+  if (before_m_ && !wheeled_) {
+    const double before_m = std::clamp(*before_m_, std::min(depth_m_, kNearestDragged * gripped_depth_m_), depth_m_);
+    // Not at once: what is only held stays where it lies.
+    const double gone = std::hypot(pointer_.x - gripped_at_.x, pointer_.y - gripped_at_.y) / sight_.picture.height;
+    dragged_m = before_m + nearness(gone, kPlaceInner, kPlaceOuter) * (depth_m_ - before_m);
+  }
   if (!p_WG_goal_) return point_at(sight_, pointer_, dragged_m);
   const double near = nearness(nearest, kDepthInner, kDepthOuter);
   if (meant->turns_too) R_WH_wanted_ = Quat::Identity().slerp(near, meant->X_WB.R * X_BH_.R);

@@ -94,6 +94,7 @@ class PointerHand {
   double depth_m_ = 0;          // carry: of the plane that the pointer drags in
   double gripped_depth_m_ = 0;
   std::optional<double> before_m_;  // carry: see keep_before()
+  PixelPlace gripped_at_;           // carry: where the pointer was
   bool wheeled_ = false;            // carry: a person chose the depth
   std::optional<Vec3> p_WG_goal_;
   Quat R_WH_wanted_ = Quat::Identity();  // carry

@@ -15,6 +15,8 @@ constexpr std::size_t kTries = 28;
 // Between what is carried and what is behind it; of what is longer than this no more counts.
 constexpr double kApart_m = 0.03;
 constexpr double kLongest_m = 0.6;
+constexpr int kAround = 6;
+constexpr double kAroundShare = 0.08;
 
 RenderScene only_takeable(const PointerScene& scene) {
   RenderScene out;
@@ -128,9 +130,17 @@ std::optional<double> depth_before(const PointerScene& scene, const Sight& sight
              return occluder.p_WO == instance.X_WM.translation();
            });
   };
-  const auto behind = picked_at(scene.scene, scene.assets, sight, place, skip);
-  if (!behind) return {};
-  return depth_of(sight, behind->p_WT) - std::min(far_side_m, kLongest_m) - kApart_m;
+  // Around it too: what it is about to come before must not stand in its way.
+  std::optional<double> nearest;
+  for (int k = 0; k <= kAround; ++k) {
+    const double angle = 2 * kPi * k / kAround;
+    const double radius = k == kAround ? 0 : kAroundShare * sight.picture.height;
+    const PixelPlace here{place.x + radius * std::cos(angle), place.y + radius * std::sin(angle)};
+    const auto behind = picked_at(scene.scene, scene.assets, sight, here, skip);
+    if (behind) nearest = std::min(nearest.value_or(1e9), depth_of(sight, behind->p_WT));
+  }
+  if (!nearest) return {};
+  return *nearest - std::min(far_side_m, kLongest_m) - kApart_m;
 }
 
 std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight) {

@@ -157,6 +157,7 @@ class TouchVisitor:
             self.point((at[0] + aside[0], at[1] + aside[1]), "mousedown", 1)
             try:
                 wait_until(self.holding, 5, "it is held")
+                self.taken_at = self.at
                 self.p_BH = back(self.pose(body), self.hand()["X_WS"][0]["p"])
                 return True
             except AssertionError:
@@ -166,19 +167,23 @@ class TouchVisitor:
     def carry(self, body, move):
         look = numbers(move.get("orientation", "0 0 1 0"))
         goal = self.screen.pixel(add(numbers(move["position"]), turned(look, self.p_BH)))
-        begin = self.at
-        self.drag(lambda s: tuple(b + s * (g - b) for b, g in zip(begin, goal)), float(move.get("seconds", 1)))
-        self.look_until_there()
+        if not self.drag_straight(goal, float(move.get("seconds", 1))):
+            # It is stuck behind something: back, down the picture, which is towards oneself, and round.
+            self.story.append(f"{body} is stuck")
+            for way in (self.taken_at, (self.taken_at[0], self.taken_at[1] + 0.3 * self.screen.height), goal):
+                self.drag_straight(way, 2)
 
-    def look_until_there(self):
-        """As a person looks whether the hand has come to the finger, before going on; what is stuck, or has snapped, does not come."""
+    def drag_straight(self, goal, seconds):
+        """As a person, looks whether the hand has come to the finger, before going on; what is stuck does not come, and then this is False."""
+        begin = self.at
+        self.drag(lambda s: tuple(b + s * (g - b) for b, g in zip(begin, goal)), seconds)
         def there():
             hand = self.screen.pixel(self.hand()["X_WS"][0]["p"])
             return not self.holding() or math.dist(hand, self.at) < 0.03 * self.screen.height
         try:
-            wait_until(there, 3, "the hand is under the finger")
+            return wait_until(there, 3, "the hand is under the finger")
         except AssertionError:
-            pass
+            return False
 
     def circle(self, joint):
         """The way round, as the display's dots show it: circle(angle) in pixels."""
@@ -205,14 +210,16 @@ class TouchVisitor:
         if move["kind"] == "turn":
             whole = 2 * math.pi * float(move["turns"])
             rate = 2 * math.pi * float(move.get("rpm", 20)) / 60
-            angle = lambda t: math.copysign(min(rate * t, abs(whole)), whole)
+            angle = lambda t: math.copysign(rate * t, whole)
             seconds = abs(whole) / rate
         else:
             rate = 2 * math.pi * float(move.get("perMinute", 20)) / 60
             angle = lambda t: float(move["angle"]) * math.sin(rate * t)
             seconds = 2 * math.pi * float(move.get("cycles", 1)) / rate
-        began = time.monotonic()
-        while (t := time.monotonic() - began) < seconds and not self.done(activity):
+        began, step = time.monotonic(), self.status.now()["step"]
+        # A heavy crank comes after the finger: who sees that the step is not over goes on.
+        goes_on = lambda t: t < seconds or (t < 3 * seconds and self.status.now()["step"] == step)
+        while goes_on(t := time.monotonic() - began) and not self.done(activity):
             self.point(way(angle(t)))
             time.sleep(0.03)
 
