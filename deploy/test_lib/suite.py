@@ -42,7 +42,8 @@ TOO_SLOW_SANITIZED = ("Visit.test_(two|five|without|a_whole|a_click)", "Visits.t
                       "SameInputsGiveTheSameBits", "AllocatesNothingAndRepeats", "SeamsAreNotSampled", "Staves/Barrel",
                       "AFingerEntersABarrel", "WhateverItReturnsBounds", "AFileThatEatsMemory", "unit_geometry.Decompose", "ThinParts",
                       "AgainstBulletsBoxes", "PaperMap.(Smoothing|OnTheTwo)", "Fit.test_(a_fine_mesh|a_full_disk|a_mesh_becomes|faults_that_can|two_meshes)",
-                      "SameInputSameBits", "AStackOfThree", "AHeapOfAll", "AGearIsOneBrick", "ATrainOfThem", "^exhibits")
+                      "SameInputSameBits", "AStackOfThree", "AHeapOfAll", "AGearIsOneBrick", "ATrainOfThem", "^exhibits", "Film.test_",
+                      "PlacePictures.look_as", "PlantedFault")
 # What has threads of its own.
 THREADED = ("unit_realtime", "unit_record", "unit_transport", "unit_client", "unit_content", "unit_collision", "unit_world")
 
