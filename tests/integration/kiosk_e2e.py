@@ -163,7 +163,7 @@ class Kiosk(EndToEnd):
         self.assertIn("install libegl-mesa0 and libgl1-mesa-dri", result.stderr)
 
     def test_a_display_behind_a_router_with_delay_and_loss_follows_a_whole_visit(self):
-        link = Link(delay=20, jitter=2, loss=0.01)
+        link = Link(delay=40, jitter=2, loss=0.01)
         self.addCleanup(link.close)
         museum = {**self.environment, "CYCLONEDDS_URI": "file://" + str(ROOT / "deploy/cyclonedds/museum.xml"),
                   "MECHANE_SERVER": "10.77.1.2", "MECHANE_MUSEUM": self.environment["CYCLONEDDS_TEST_TAG"], "MECHANE_INTERFACE": "end-1"}
