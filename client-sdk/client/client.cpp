@@ -79,6 +79,7 @@ class ClientImpl final : public Client {
     const char* const time = when == AnswerTime::before ? "before" : "after";
     return send_command(6, fmt::format("{}:{}/{}={}", time, activity, question, answer));
   }
+  std::uint64_t tell_language(const std::string& language) override { return send_command(7, language); }
   [[nodiscard]] FrameTraffic frame_traffic() const override {
     const std::lock_guard lock(store_.mutex);
     return store_.traffic;

@@ -96,6 +96,7 @@ class DisplayLoop {
   void upload();
   void take_pointer(TimePoint now);
   [[nodiscard]] PointerScene under_pointer(const RenderScene& scene) const;
+  void tell_language();
   void take_key(DisplayKey key, TimePoint now);
   void take_click(PixelPlace place, TimePoint now);
   [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
@@ -127,7 +128,9 @@ class DisplayLoop {
   KioskDesk desk_;
   std::optional<PointerInput> pointer_;
   VisitorPanel panel_;
-  std::string spoken_;    ///< the language that all others know of
+  std::string spoken_;  ///< the language that all others know of
+  std::string told_language_;
+  std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told it
   OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
   std::optional<std::string> shown_inset_;
   std::string told_refusal_;
@@ -324,10 +327,23 @@ void DisplayLoop::take_wishes(TimePoint now) {
     if (client_.answer(given.when, given.activity, given.question, given.answer) == 0)
       log::warning("an answer to '" + given.question + "' was not sent: there is no world");
   }
+  tell_language();
   if (panel_.language() == spoken_) return;
   spoken_ = panel_.language();
   if (builder_) builder_->set_language(spoken_);
   if (sound_) sound_->set_language(spoken_);
+}
+
+/// The visit's sheet says in which language the visitor was shown the exhibit: told once a world, and when it changes.
+void DisplayLoop::tell_language() {
+  if (!presentation_ || presentation_->languages.empty() || client_.state() != LinkState::joined) return;
+  const auto& known = presentation_->languages;
+  const bool speaks_it = std::ranges::count(known, panel_.language()) > 0;
+  const std::string& shown = speaks_it ? panel_.language() : known.front();
+  if (told_presentation_ == presentation_ && told_language_ == shown) return;
+  if (client_.tell_language(shown) == 0) return;
+  told_presentation_ = presentation_;
+  told_language_ = shown;
 }
 
 /// The world's; an invitation's own assets go before.

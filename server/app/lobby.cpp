@@ -284,6 +284,8 @@ void Lobby::start_visits(Entry& entry, bool resumed) {
 
 void Lobby::take_answers() {
   for (auto& [name, entry] : worlds_) {
+    const auto language = entry->running.port->take_language();
+    if (language && entry->visits != nullptr) entry->visits->set_language(entry->description->languages[*language]);
     while (const auto given = entry->running.port->take_answer()) {
       if (entry->visits == nullptr) continue;
       if (auto kept = entry->visits->answer(sheet_answer(*entry->description, *given)); !kept)

@@ -273,8 +273,10 @@ void VisitObserver::sign(std::uint64_t tick) {
   last_sign_ = tick;
   touched_ = true;
   const auto hands = static_cast<std::uint32_t>(std::popcount(hands_seen_));
-  changed_ = changed_ || hands != sheet_->hands;
+  const std::string& language = language_.empty() ? sheet_->language : language_;
+  changed_ = changed_ || hands != sheet_->hands || language != sheet_->language;
   sheet_->hands = hands;
+  sheet_->language = language;
 }
 
 void VisitObserver::begin(std::uint64_t tick) {

@@ -50,7 +50,8 @@ class VisitObserver {
   void look(std::uint64_t tick, std::uint32_t lost);
   /// Errors: the activity does not ask that, or it is none of its answers.
   [[nodiscard]] Expected<void> answer(const VisitAnswer& answer);
-  /// In which the kiosk speaks from now on.
+  /// In which the kiosk speaks from now on. A visit's sheet takes it with the visitor's next sign: a kiosk that goes back to its own
+  /// language when the visitor has gone changes nothing.
   void set_language(std::string language) { language_ = std::move(language); }
   /// The world closes. `cut`: the server stops; else the visitor left, for `went_on_to` where that is not empty.
   void close(VisitEnding why, const std::string& went_on_to = {});

@@ -103,6 +103,13 @@ std::optional<std::uint32_t> WorldPort::take_wish() {
   return newest;
 }
 
+std::optional<std::uint32_t> WorldPort::take_language() {
+  std::optional<std::uint32_t> newest;
+  for (std::uint32_t language = 0; languages_.pop(language);)
+    newest = language;
+  return newest;
+}
+
 std::optional<VisitAnswer> WorldPort::take_answer() {
   VisitAnswer answer;
   return answers_.pop(answer) ? std::optional(answer) : std::nullopt;

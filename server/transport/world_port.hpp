@@ -91,6 +91,8 @@ class WorldPort {
   [[nodiscard]] std::optional<std::uint32_t> take_wish();
   /// The next answer of a visitor, in the order in which they came.
   [[nodiscard]] std::optional<VisitAnswer> take_answer();
+  /// The newest language that a display has told: by its place in the description's languages.
+  [[nodiscard]] std::optional<std::uint32_t> take_language();
   /// Lets go of lanes that the loop has stopped using. ServerTransport::poll() calls it.
   void collect();
 
@@ -108,6 +110,7 @@ class WorldPort {
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
   bool offer_wish(std::uint32_t scenario) noexcept { return wishes_.push(scenario); }             ///< command listener
   bool offer_answer(const VisitAnswer& answer) noexcept { return answers_.push(answer); }         ///< command listener
+  bool offer_language(std::uint32_t language) noexcept { return languages_.push(language); }      ///< command listener
   [[nodiscard]] const SceneSnapshot* take_snapshot() noexcept { return snapshots_.take(); }       ///< scene publisher
   bool take_event(state::Event& out) noexcept { return events_.pop(out); }                        ///< scene publisher
   [[nodiscard]] std::uint64_t events_lost() const noexcept { return events_lost_.load(std::memory_order_relaxed); }
@@ -146,6 +149,7 @@ class WorldPort {
   realtime::Ring<state::Command> commands_{kCommandCapacity};
   realtime::Ring<std::uint32_t> wishes_{8};
   realtime::Ring<VisitAnswer> answers_{64};
+  realtime::Ring<std::uint32_t> languages_{8};
   std::atomic<std::uint64_t> events_lost_{0};
 
   // Loop thread's.

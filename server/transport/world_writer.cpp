@@ -15,6 +15,7 @@ namespace {
 // Kinds of commands that are the main thread's, not the tick's.
 constexpr std::uint32_t kOpen = 5;
 constexpr std::uint32_t kAnswer = 6;
+constexpr std::uint32_t kLanguage = 7;
 
 std::uint64_t now_ns() {
   return to_ns(std::chrono::steady_clock::now());
@@ -90,6 +91,7 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
     command.id = wire.id;
     if (wire.kind == kOpen) return take_wish(proto::string_of(wire.argument), wire.id);
     if (wire.kind == kAnswer) return take_answer(proto::string_of(wire.argument), wire.id);
+    if (wire.kind == kLanguage) return take_language(proto::string_of(wire.argument), wire.id);
     if (wire.kind < 1 || wire.kind > 4) return refuse(wire.id);
     command.kind = static_cast<state::CommandKind>(wire.kind);
     if (command.kind == state::CommandKind::start_activity) {
@@ -114,6 +116,14 @@ void WorldWriter::take_wish(const std::string& scenario, std::uint64_t id) {
 void WorldWriter::take_answer(const std::string& argument, std::uint64_t id) {
   const auto answer = read_answer(argument, port_.description());
   if (!answer || !port_.offer_answer(*answer)) return refuse(id);
+  reply(id, state::EventKind::command_done);
+}
+
+void WorldWriter::take_language(const std::string& language, std::uint64_t id) {
+  const auto& known = port_.description().languages;
+  const auto found = std::find(known.begin(), known.end(), language);
+  if (found == known.end() || !port_.offer_language(static_cast<std::uint32_t>(found - known.begin())))
+    return refuse(id);
   reply(id, state::EventKind::command_done);
 }
 

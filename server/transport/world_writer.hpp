@@ -38,6 +38,7 @@ class WorldWriter {
   /// Whether a command was not heard before: a link that was cut and found again brings those of the last seconds twice.
   [[nodiscard]] bool is_new(std::uint64_t session, std::uint64_t id);
   void take_answer(const std::string& argument, std::uint64_t id);
+  void take_language(const std::string& language, std::uint64_t id);
   void refuse(std::uint64_t id);
   void reply(std::uint64_t id, state::EventKind kind);
   void set_ropes(const SceneSnapshot& snapshot);

@@ -145,6 +145,11 @@ class EchoServer {
     const std::lock_guard lock(mutex_);
     return answers_;
   }
+  /// What displays have told, by its place in the description.
+  [[nodiscard]] std::vector<std::uint32_t> languages() const {
+    const std::lock_guard lock(mutex_);
+    return languages_;
+  }
   [[nodiscard]] std::vector<transport::NewsKind> news() const {
     const std::lock_guard lock(mutex_);
     return news_;
@@ -159,6 +164,10 @@ class EchoServer {
       while (const auto answer = port_->take_answer()) {
         const std::lock_guard lock(mutex_);
         answers_.push_back(*answer);
+      }
+      if (const auto language = port_->take_language()) {
+        const std::lock_guard lock(mutex_);
+        languages_.push_back(*language);
       }
       never.wait(std::chrono::milliseconds(10));
     }
@@ -230,6 +239,7 @@ class EchoServer {
   std::vector<state::HandSample> samples_;
   std::vector<transport::NewsKind> news_;
   std::vector<transport::VisitAnswer> answers_;
+  std::vector<std::uint32_t> languages_;
   std::thread main_;
   std::thread loop_;
 };

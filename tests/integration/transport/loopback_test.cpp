@@ -156,6 +156,18 @@ TEST_F(Loopback, AWatcherLearnsWhatToShowAndItsVisitorAnswers) {
   }));
   EXPECT_EQ(server.answers().at(0).answer, 4U);
   EXPECT_TRUE(server.answers().at(0).after);
+
+  const std::uint64_t spoken = watcher->tell_language(shown.languages.at(0));
+  const std::uint64_t foreign = watcher->tell_language("tlh");
+  done = refused = false;
+  EXPECT_TRUE(eventually([&] {
+    for (const client::WorldEvent& event : watcher->take_events()) {
+      done = done || (event.kind == "command_done" && event.value == static_cast<double>(spoken));
+      refused = refused || (event.kind == "command_refused" && event.value == static_cast<double>(foreign));
+    }
+    return done && refused && server.languages().size() == 1;
+  }));
+  EXPECT_EQ(server.languages().at(0), 0U);
 }
 
 TEST_F(Loopback, TheFirstSessionKeepsTheHandAndTheNextHasItWhenTheFirstIsGone) {

@@ -130,6 +130,18 @@ TEST_F(VisitObserverTest, AVisitThatGoesWellIsDoneStepByStepWithItsTimes) {
   EXPECT_TRUE(s.done_alone());
 }
 
+TEST_F(VisitObserverTest, TheLanguageIsTheLastThatTheVisitorSawAndNotTheOneThatTheKioskGoesBackTo) {
+  observer_->set_language("el");
+  begin(2000);
+  EXPECT_EQ(sheet().language, "el");
+  observer_->set_language("en");
+  say(5000, EventKind::touched, 0);
+  EXPECT_EQ(sheet().language, "en");
+  observer_->set_language("el");
+  say(9000, EventKind::activity_done, 0);
+  EXPECT_EQ(sheet().language, "en");
+}
+
 TEST_F(VisitObserverTest, NobodyIsNoVisit) {
   say(1, EventKind::user_joined, 0);
   observer_->look(500'000, 0);

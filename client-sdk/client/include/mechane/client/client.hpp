@@ -94,6 +94,8 @@ class Client {
   /// name. command_refused where there is no such question or answer.
   virtual std::uint64_t answer(AnswerTime when, const std::string& activity, const std::string& question,
                                const std::string& answer) = 0;
+  /// A display tells in which language it shows this world from now on: one of WorldPresentation::languages. Kept with the visit.
+  virtual std::uint64_t tell_language(const std::string& language) = 0;
 
   // What follows concerns displays; a client that is none has nothing to say.
 
