@@ -150,7 +150,7 @@ TEST(Check, AnEffectsNodeIsLookedForInTheMeshFile) {
 
 TEST(Check, AQuestionsFaultIsToldOnceAtItsOwnLine) {
   const std::string question =
-      "<MetadataSet containerField='value' name='questionnaire'>\n<MetadataSet containerField='value' name='liked'>\n"
+      "<MetadataSet containerField='value' name='liked'>\n"
       "<MetadataString containerField='value' name='kind' value='\"scale\"'/>\n"
       "<MetadataSet containerField='value' name='text'>\n"
       "<MetadataString containerField='value' name='question.el' value='\"Σας άρεσε;\"'/>\n"
@@ -159,19 +159,19 @@ TEST(Check, AQuestionsFaultIsToldOnceAtItsOwnLine) {
       "<MetadataString containerField='value' name='low.en' value='\"a little\"'/>\n"
       "<MetadataString containerField='value' name='high.el' value='\"πολύ\"'/>\n"
       "<MetadataString containerField='value' name='high.en' "
-      "value='\"very\"'/>\n</MetadataSet></MetadataSet></MetadataSet>\n";
-  const std::string use = "          <MetadataSet containerField='value' name='use'>\n";
+      "value='\"very\"'/>\n</MetadataSet></MetadataSet>\n";
+  const std::string next = "              <MetadataSet containerField='value' name='lifts'>\n";
   const auto only_problem = [&](const std::string& from, const std::string& to) {
-    std::string text = use + question;
+    std::string text = question + next;
     text.replace(text.find(from), from.size(), to);
-    const EditedFile file(use, text);
+    const EditedFile file(next, text);
     const std::vector<Problem> problems = check(file.path);
     EXPECT_EQ(problems.size(), 1u) << to;
     for (const Problem& p : problems)
       EXPECT_NE(p.node.find("activity use, question liked"), std::string::npos) << to_string(p);
     return problems.empty() ? Problem{} : problems[0];
   };
-  const int first = line_of(edited(use, use + question), "name='liked'");
+  const int first = line_of(edited(next, question + next), "name='liked'");
   const Problem kind = only_problem("\"scale\"", "\"scael\"");
   EXPECT_EQ(kind.line, first + 1);
   EXPECT_NE(kind.what.find("'scael' is none of: choice scale"), std::string::npos) << kind.what;

@@ -152,7 +152,7 @@ TEST(Editor, MakesTheSetsOnItsWay) {
   Problems problems("test.x3d");
   const auto world = compile(editor.document(), loader, problems);
   ASSERT_TRUE(world) << world.error().to_string();
-  EXPECT_EQ(world->activities[1].questionnaire.at(0).question.at("en"), "Did it lift & \"pour\"?");
+  EXPECT_EQ(world->activities[1].questionnaire.back().question.at("en"), "Did it lift & \"pour\"?");
   EXPECT_EQ(world->bodies[1].mass_kg, 40.5);
   EXPECT_EQ(world->bodies[1].haptic.stiffness_n_per_m, 700);
   EXPECT_EQ(std::get<Numbers>(world->machines[0].parameters.at("basinCapacity")), Numbers{60});

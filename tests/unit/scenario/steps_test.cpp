@@ -84,11 +84,10 @@ TEST(Steps, SoundsAreNamedByLanguage) {
   EXPECT_EQ(fill_of(outcome).texts.at("audio").at("en"), "audio/fill.en.ogg");
 }
 
-/// The shipped file, with a questionnaire beside the steps of 'use'.
-Outcome with_questions(const std::string& inside) {
-  const std::string goal = "each turn brings it a little higher.\"'/>\n";
-  const std::string closing = goal + "            </MetadataSet>\n";
-  return compile_text(edited(closing, goal + "</MetadataSet>\n" + set_key("questionnaire", inside)));
+/// The shipped file, with more questions before those of 'use'.
+Outcome with_questions(const std::string& more) {
+  const std::string first = "<MetadataSet containerField='value' name='lifts'>\n";
+  return compile_text(edited(first, more + first));
 }
 
 TEST(Activities, HaveAGoalAndQuestions) {
@@ -109,7 +108,7 @@ TEST(Activities, HaveAGoalAndQuestions) {
   EXPECT_TRUE(outcome.problems.empty()) << to_string(outcome.problems[0]);
   const auto& use = outcome.world->activities[outcome.world->find_activity("use").index()];
   EXPECT_EQ(use.goal.at("en"), "To see how plain turning lifts water: each turn brings it a little higher.");
-  ASSERT_EQ(use.questionnaire.size(), 2u);
+  ASSERT_EQ(use.questionnaire.size(), 4u);
   const auto& why = use.questionnaire[0];
   EXPECT_EQ(why.kind, state::QuestionDescription::Kind::choice);
   ASSERT_EQ(why.answers.size(), 2u);
