@@ -13,6 +13,8 @@ namespace mechane::display {
 namespace {
 
 constexpr std::string_view kWaterPrefix = "WATER_";
+/// A material of this name is the land around: see MaterialData::land.
+constexpr std::string_view kLandMaterial = "earth";
 
 /// Adds the mesh to `into`, moved by X_BM.
 void merge(MeshData& into, const content::ImportedMesh& mesh, const Eigen::Affine3d& X_BM) {
@@ -163,6 +165,7 @@ void AssetLibrary::add_materials(const content::ImportedScene& scene, const std:
     to.roughness = from.roughness;
     to.alpha_cutoff = from.alpha_mode == content::AlphaMode::mask ? from.alpha_cutoff : 0.0F;
     to.double_sided = from.double_sided;
+    to.land = from.name.starts_with(kLandMaterial);
     to.base_colour_image = image(from.base_colour_texture, true);
     to.normal_image = image(from.normal_texture, false);
     to.metallic_roughness_image = image(from.metallic_roughness_texture, false);

@@ -115,33 +115,4 @@ Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double fi
   return camera;
 }
 
-Eigen::Matrix4f light_view(const Eigen::AlignedBox3f& box_W, const Vec3f& to_light_W) {
-  const Vec3f back = to_light_W.normalized();
-  Vec3f right = Vec3f::UnitY().cross(back);
-  if (right.norm() < 1e-4F) right = Vec3f::UnitX();
-  right.normalize();
-  Eigen::Matrix3f R_LW;
-  R_LW.row(0) = right;
-  R_LW.row(1) = back.cross(right);
-  R_LW.row(2) = back;
-  Eigen::AlignedBox3f box_L;
-  if (box_W.isEmpty()) {
-    box_L = Eigen::AlignedBox3f(Vec3f::Constant(-1), Vec3f::Constant(1));
-  } else {
-    for (int corner = 0; corner < 8; ++corner) {
-      box_L.extend(R_LW * box_W.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
-    }
-  }
-  const Vec3f half = 0.5F * box_L.sizes() + Vec3f::Constant(0.02F);
-  const Vec3f middle = box_L.center();
-  Eigen::Matrix4f M = Eigen::Matrix4f::Identity();
-  for (int axis = 0; axis < 3; ++axis) {
-    // OpenGL's depth grows away from the light.
-    const float sign = axis == 2 ? -1.0F : 1.0F;
-    M.block<1, 3>(axis, 0) = sign * R_LW.row(axis) / half(axis);
-    M(axis, 3) = -sign * middle(axis) / half(axis);
-  }
-  return M;
-}
-
 }  // namespace mechane::display

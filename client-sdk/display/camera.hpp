@@ -49,7 +49,4 @@ struct ScreenSetup {
 /// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a little room left below for captions.
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad);
 
-/// World to clip space of a light far away, covering the box.
-[[nodiscard]] Eigen::Matrix4f light_view(const Eigen::AlignedBox3f& box_W, const Vec3f& to_light_W);
-
 }  // namespace mechane::display

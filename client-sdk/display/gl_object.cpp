@@ -19,6 +19,9 @@ void delete_framebuffer(std::uint32_t name) noexcept {
 void delete_renderbuffer(std::uint32_t name) noexcept {
   glDeleteRenderbuffers(1, &name);
 }
+void delete_sampler(std::uint32_t name) noexcept {
+  glDeleteSamplers(1, &name);
+}
 void delete_program(std::uint32_t name) noexcept {
   glDeleteProgram(name);
 }
@@ -51,6 +54,12 @@ RenderbufferName make_renderbuffer() {
   GLuint name = 0;
   glGenRenderbuffers(1, &name);
   return RenderbufferName(name);
+}
+
+SamplerName make_sampler() {
+  GLuint name = 0;
+  glGenSamplers(1, &name);
+  return SamplerName(name);
 }
 
 void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes) {

@@ -43,6 +43,7 @@ void delete_buffer(std::uint32_t name) noexcept;
 void delete_vertex_array(std::uint32_t name) noexcept;
 void delete_framebuffer(std::uint32_t name) noexcept;
 void delete_renderbuffer(std::uint32_t name) noexcept;
+void delete_sampler(std::uint32_t name) noexcept;
 void delete_program(std::uint32_t name) noexcept;
 
 using TextureName = GlName<delete_texture>;
@@ -50,6 +51,7 @@ using BufferName = GlName<delete_buffer>;
 using VertexArrayName = GlName<delete_vertex_array>;
 using FramebufferName = GlName<delete_framebuffer>;
 using RenderbufferName = GlName<delete_renderbuffer>;
+using SamplerName = GlName<delete_sampler>;
 using ProgramName = GlName<delete_program>;
 
 [[nodiscard]] TextureName make_texture();
@@ -57,6 +59,7 @@ using ProgramName = GlName<delete_program>;
 [[nodiscard]] VertexArrayName make_vertex_array();
 [[nodiscard]] FramebufferName make_framebuffer();
 [[nodiscard]] RenderbufferName make_renderbuffer();
+[[nodiscard]] SamplerName make_sampler();
 
 /// Says how the vertices of the bound buffer lie: attribute i has sizes[i] floats, one attribute behind the other.
 void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes);

@@ -158,6 +158,12 @@ bool GpuAssets::is_clear(std::uint32_t material) const {
   return materials_[material].clear;
 }
 
+bool GpuAssets::is_land(std::uint32_t material) const {
+  MECHANE_ASSERT(material < materials_.size());
+  const MaterialData& m = materials_[material];
+  return m.land && m.base_colour_image && m.normal_image;
+}
+
 const std::vector<Vec3f>& GpuAssets::triangle_middles(std::uint32_t mesh) const {
   MECHANE_ASSERT(mesh < meshes_.size());
   return meshes_[mesh].middles_M;

@@ -53,6 +53,8 @@ class GpuAssets {
   [[nodiscard]] bool is_clear(std::uint32_t material) const;
   /// Of each triangle, in the mesh's frame.
   [[nodiscard]] const std::vector<Vec3f>& triangle_middles(std::uint32_t mesh) const;
+  /// Whether all its images for the plain are there.
+  [[nodiscard]] bool is_land(std::uint32_t material) const;
   /// Sets uniforms and texture units 0..3 of material.glsl, and face culling.
   void use_material(std::uint32_t material, const Program& program) const;
 

@@ -7,24 +7,9 @@
 namespace mechane::display {
 namespace {
 
-struct FingerSize {
-  std::array<double, 3> length_m;
-  std::array<double, 3> radius_m;
-};
-
-// A middle-sized hand, breadth 85 mm and length 189 mm: thumb, index, middle, ring, little.
-constexpr std::array<FingerSize, client::kFingers> kFingerSizes{{{{0.046, 0.034, 0.028}, {0.0115, 0.0105, 0.0095}},
-                                                                 {{0.045, 0.026, 0.020}, {0.0095, 0.0085, 0.0075}},
-                                                                 {{0.050, 0.030, 0.021}, {0.0095, 0.0085, 0.0075}},
-                                                                 {{0.046, 0.029, 0.021}, {0.0090, 0.0080, 0.0072}},
-                                                                 {{0.037, 0.021, 0.019}, {0.0085, 0.0075, 0.0065}}}};
-constexpr double kPalmHalfLength_m = 0.050;
-constexpr double kPalmHalfThickness_m = 0.014;
-constexpr double kPalmHalfBreadth_m = 0.043;
-constexpr double kIndexJointAhead_m = 0.048;  ///< of the palm's middle
-constexpr double kIndexJointAside_m = -0.031;
-/// The tip of a one-point device touches with 8 mm; it is drawn a little larger, or nobody finds it in a room.
-constexpr double kTipRadius_m = 0.012;
+/// How a one-point hand lies before the visitor, in the camera's frame: from below on the right, forwards and inwards.
+const Vec3 kReach_C = Vec3(-0.62, 0.42, -0.66).normalized();
+const Vec3 kBack_C = Vec3(0.40, 0.85, 0.32);
 
 Eigen::Affine3f placed(const Pose& X, double scale) {
   Eigen::Affine3f out = Eigen::Affine3f::Identity();
@@ -33,52 +18,104 @@ Eigen::Affine3f placed(const Pose& X, double scale) {
   return out;
 }
 
+/// Linen about the wrist, in the palm's frame: a wide tube with a hem, closed where the arm would go on.
+MeshData sleeve_mesh() {
+  struct Ring {
+    double x, half_y, half_z;
+  };
+  constexpr double kWrist = -kPalmMiddle_m;
+  constexpr std::array<Ring, 9> kRings{{{kWrist - 0.034, 0.0235, 0.0295},
+                                        {kWrist - 0.030, 0.0285, 0.0350},
+                                        {kWrist - 0.027, 0.0300, 0.0370},
+                                        {kWrist - 0.036, 0.0305, 0.0375},
+                                        {kWrist - 0.040, 0.0285, 0.0355},
+                                        {kWrist - 0.110, 0.0330, 0.0400},
+                                        {kWrist - 0.190, 0.0340, 0.0410},
+                                        {kWrist - 0.205, 0.0250, 0.0300},
+                                        {kWrist - 0.209, 0.0001, 0.0001}}};
+  constexpr int kSectors = 28;
+  MeshData mesh;
+  for (std::size_t i = 0; i < kRings.size(); ++i) {
+    const Ring& before = kRings[i == 0 ? 0 : i - 1];
+    const Ring& after = kRings[std::min(i + 1, kRings.size() - 1)];
+    const Ring& ring = kRings[i];
+    for (int sector = 0; sector <= kSectors; ++sector) {
+      const double a = 2 * kPi * sector / kSectors;
+      // Folds run along the arm.
+      const double fold = 1 + 0.025 * std::sin(7 * a);
+      mesh.positions.push_back(
+          Vec3(ring.x, fold * ring.half_y * std::sin(a), fold * ring.half_z * std::cos(a)).cast<float>());
+      const Vec3 along(after.x - before.x, (after.half_y - before.half_y) * std::sin(a),
+                       (after.half_z - before.half_z) * std::cos(a));
+      const Vec3 around(0, ring.half_y * std::cos(a), -ring.half_z * std::sin(a));
+      mesh.normals.push_back(Vec3(around.cross(along).normalized()).cast<float>());
+    }
+  }
+  const auto at = [](std::size_t ring, int sector) {
+    return static_cast<std::uint32_t>(ring * (kSectors + 1) + static_cast<std::size_t>(sector));
+  };
+  for (std::size_t i = 0; i + 1 < kRings.size(); ++i) {
+    for (int s = 0; s < kSectors; ++s) {
+      mesh.indices.insert(mesh.indices.end(),
+                          {at(i, s), at(i, s + 1), at(i + 1, s + 1), at(i, s), at(i + 1, s + 1), at(i + 1, s)});
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 double hand_scale(const client::HandPose& hand) {
   // The index finger's first phalanx sits half its length beyond the joint, wherever the joint has turned it.
+  const FingerSize& index = finger_sizes()[1];
   const Pose X_PS = hand.X_WS[0].inverse() * hand.X_WS[4];
-  const Vec3 unscaled =
-      Vec3(kIndexJointAhead_m, 0, kIndexJointAside_m) + X_PS.rotate(Vec3(0.5 * kFingerSizes[1].length_m[0], 0, 0));
+  const Vec3 unscaled = index.p_HF - Vec3(kPalmMiddle_m, 0, 0) + X_PS.rotate(Vec3(0.5 * index.length_m[0], 0, 0));
   const double scale = X_PS.p.norm() / std::max(unscaled.norm(), 1e-3);
   return std::clamp(scale, 0.5, 1.5);
 }
 
-HandModel::HandModel(AssetLibrary& library) {
-  MaterialData skin;
-  skin.base_colour = Eigen::Vector4f(0.66F, 0.40F, 0.28F, 1);
-  skin.roughness = 0.52F;
-  skin_ = library.add_material(skin);
-  MaterialData stale = skin;
-  stale.base_colour = Eigen::Vector4f(0.42F, 0.40F, 0.38F, 1);
-  stale_ = library.add_material(stale);
-  MaterialData tip;
-  tip.base_colour = Eigen::Vector4f(0.85F, 0.52F, 0.16F, 1);
-  tip.emissive = Vec3f(0.16F, 0.09F, 0.02F);
-  tip.roughness = 0.3F;
-  tip_material_ = library.add_material(tip);
-  tip_ = library.add_mesh(sphere_mesh(kTipRadius_m, 16, 24));
-  segments_[0] = library.add_mesh(
-      superquadric_mesh(Vec3(kPalmHalfLength_m, kPalmHalfThickness_m, kPalmHalfBreadth_m), 0.55, 0.6, 24, 32));
-  for (std::size_t f = 0; f < client::kFingers; ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      segments_[1 + 3 * f + k] = library.add_mesh(
-          phalanx_mesh(kFingerSizes[f].length_m[k], kFingerSizes[f].radius_m[k], k == 2 ? 0.22 : 0.10));
-    }
-  }
+SegmentPoses hand_at_tip(const Vec3& p_WT, bool holding, const Camera& camera) {
+  const SegmentPoses X_HS = place_hand(holding ? pinching_hand() : pointing_hand());
+  const Vec3 tip_H = holding ? Vec3(0.5 * (finger_tip(X_HS, 0) + finger_tip(X_HS, 1))) : finger_tip(X_HS, 1);
+  const Eigen::Matrix3d R_WC = eye_view(camera, Eye::middle, 1).V_CW.topLeftCorner<3, 3>().transpose().cast<double>();
+  const Vec3 x = R_WC * kReach_C;
+  const Vec3 back = R_WC * kBack_C;
+  Mat3 R_WH;
+  R_WH.col(0) = x;
+  R_WH.col(1) = (back - back.dot(x) * x).normalized();
+  R_WH.col(2) = R_WH.col(0).cross(R_WH.col(1));
+  const Quat R(R_WH);
+  const Pose X_WH{p_WT - R * tip_H, R};
+  SegmentPoses X_WS;
+  std::ranges::transform(X_HS, X_WS.begin(), [&](const Pose& X) { return X_WH * X; });
+  return X_WS;
 }
 
-void HandModel::draw(const client::HandPose& hand, RenderScene& out) const {
-  if (hand.kind == client::HandKind::one_point) {
-    out.instances.push_back({tip_, hand.stale ? stale_ : tip_material_, placed(hand.X_WS[0], 1), true});
-    out.occluders.push_back({hand.X_WS[0].p.cast<float>(), static_cast<float>(kTipRadius_m)});
-    return;
-  }
-  const double scale = hand_scale(hand);
+HandModel::HandModel(AssetLibrary& library) {
+  MaterialData skin;
+  skin.base_colour = Eigen::Vector4f(0.58F, 0.33F, 0.22F, 1);
+  skin.roughness = 0.50F;
+  skin_material_ = library.add_material(skin);
+  MaterialData stale = skin;
+  stale.base_colour = Eigen::Vector4f(0.42F, 0.40F, 0.38F, 1);
+  stale_material_ = library.add_material(stale);
+  MaterialData linen;
+  linen.base_colour = Eigen::Vector4f(0.36F, 0.30F, 0.22F, 1);
+  linen.roughness = 0.95F;
+  linen.double_sided = true;
+  sleeve_material_ = library.add_material(linen);
+  sleeve_ = library.add_mesh(sleeve_mesh());
+}
+
+void HandModel::draw(const client::HandPose& hand, const Camera& camera, RenderScene& out) const {
+  const bool glove = hand.kind == client::HandKind::glove;
+  const SegmentPoses X_WS = glove ? hand.X_WS : hand_at_tip(hand.X_WS[0].p, hand.holding, camera);
+  const double scale = glove ? hand_scale(hand) : 1;
+  out.soft_bodies.push_back({HandSkin::shared().follow(X_WS, scale), hand.stale ? stale_material_ : skin_material_});
+  out.instances.push_back({sleeve_, hand.stale ? stale_material_ : sleeve_material_, placed(X_WS[0], scale), true});
   for (std::size_t i = 0; i < client::kHandSegments; ++i) {
-    out.instances.push_back({segments_[i], hand.stale ? stale_ : skin_, placed(hand.X_WS[i], scale), true});
-    const double radius = i == 0 ? 0.030 : 0.013;
-    out.occluders.push_back({hand.X_WS[i].p.cast<float>(), static_cast<float>(scale * radius)});
+    const double radius = i == 0 ? 0.030 : 0.010;
+    out.occluders.push_back({X_WS[i].p.cast<float>(), static_cast<float>(scale * radius)});
   }
 }
 

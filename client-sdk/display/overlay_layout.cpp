@@ -100,8 +100,9 @@ void add_readout(Page& page, const Readout& readout, const ReadoutSizes& s, floa
   const float baseline = y + s.label + page.tx(s.narrow ? 24 : 30);
   if (!s.narrow) {
     page.add_text(x, y + page.tx(13), Face::regular, 15, c.quiet, readout.label);
-    page.add_text(right - page.measure(Face::regular, 13, readout.end), y + page.tx(13), Face::regular, 13, c.quiet,
-                  readout.end);
+    // What the whole bar stands for.
+    const std::string range = "0–" + readout.end;
+    page.add_text(right - page.measure(Face::regular, 13, range), y + page.tx(13), Face::regular, 13, c.quiet, range);
   }
   page.add_text(x, baseline, Face::bold, s.number, c.paper, readout.value);
   const float value_width = page.measure(Face::bold, s.number, readout.value);

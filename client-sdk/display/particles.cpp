@@ -243,12 +243,53 @@ void append_drops(const WaterStream& jet, double time_s, std::vector<Particle>& 
   }
 }
 
+void append_splash(const WaterStream& stream, std::uint32_t number, double time_s, std::vector<Particle>& out) {
+  if (!(stream.width_m > 0) || !stream.p_WS.allFinite() || !stream.v_W.allFinite()) return;
+  constexpr float kLife_s = 0.42F;
+  const float flight_s = flight_time_s(stream);
+  const Vec3f arriving = stream.v_W - Vec3f(0, kGravity_m_per_s2 * flight_s, 0);
+  const float speed = std::min(arriving.norm(), 6.0F);
+  Vec3f place = stream.p_WS + stream.v_W * flight_s;
+  place.y() = stream.landing_height_m;
+  // It sets in as the first water arrives thick enough to throw any up.
+  const auto drops = static_cast<std::uint32_t>(std::lround(110 * std::clamp(stream.width_m / 0.04F, 0.0F, 1.0F)));
+  for (std::uint32_t i = 0; i < drops; ++i) {
+    const Age age = age_of(i, time_s, kLife_s);
+    Chance chance(0x5B1A5U + number, i, age.life);
+    const float t = age.share * kLife_s;
+    const bool foam = i % 3 == 0;
+    Particle drop;
+    drop.seed = chance.draw();
+    drop.spin_rad = kTurn * chance.draw();
+    const Vec3f from = place + 0.6F * stream.width_m * on_disc(Vec3f::UnitY(), chance);
+    const Vec3f thrown =
+        speed * (0.20F * on_disc(Vec3f::UnitY(), chance) + (0.10F + 0.24F * chance.draw()) * Vec3f::UnitY());
+    drop.p_W = from + thrown * t;
+    drop.p_W.y() -= 0.5F * kGravity_m_per_s2 * t * t;
+    drop.colour = Vec3f(0.88F, 0.92F, 0.95F);
+    if (foam) {
+      // Bubbles drift away on the surface.
+      drop.p_W = from + Vec3f(thrown.x(), 0, thrown.z()) * 0.5F * t;
+      drop.p_W.y() = place.y() + 0.15F * stream.width_m;
+      drop.radius_m = stream.width_m * (0.35F + 0.9F * age.share);
+      drop.opacity = 0.34F * smooth(0, 0.15F, age.share) * (1 - age.share);
+    } else {
+      drop.shape = ParticleShape::drop;
+      drop.radius_m = 0.05F * stream.width_m * (0.6F + 1.4F * chance.draw());
+      drop.opacity = 0.8F * (1 - smooth(0.7F, 1, age.share));
+    }
+    if (drop.p_W.y() >= place.y()) out.push_back(drop);
+  }
+}
+
 std::vector<Particle> particles_of(const RenderScene& scene, const Vec3f& p_WE) {
   std::vector<Particle> out;
   for (std::uint32_t i = 0; i < scene.effects.size(); ++i)
     append_particles(scene.effects[i], i, scene.wind_W, scene.time_s, out);
-  for (const WaterStream& stream : scene.streams)
-    append_drops(stream, scene.time_s, out);
+  for (std::uint32_t i = 0; i < scene.streams.size(); ++i) {
+    append_drops(scene.streams[i], scene.time_s, out);
+    append_splash(scene.streams[i], i, scene.time_s, out);
+  }
   std::ranges::stable_sort(out, std::greater<>(),
                            [&](const Particle& particle) { return (particle.p_W - p_WE).squaredNorm(); });
   return out;

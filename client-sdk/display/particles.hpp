@@ -27,6 +27,9 @@ void append_particles(const ParticleEffect& effect, std::uint32_t number, const 
 /// The drops that a jet falls apart into; a stream that is no jet has none.
 void append_drops(const WaterStream& jet, double time_s, std::vector<Particle>& out);
 
+/// What is thrown up where falling water lands, and its foam. `number` tells one stream of a scene from another.
+void append_splash(const WaterStream& stream, std::uint32_t number, double time_s, std::vector<Particle>& out);
+
 /// All of a scene's, the farthest from the eye first.
 [[nodiscard]] std::vector<Particle> particles_of(const RenderScene& scene, const Vec3f& p_WE);
 

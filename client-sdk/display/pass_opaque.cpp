@@ -17,14 +17,14 @@ struct SolidPiece {
   std::uint32_t piece = 0;
 };
 
-/// What can be seen of all that is solid, the nearest first: what it hides need not be lit. Order is by whole steps of a distance that
+/// What can be seen of all that is solid, earth or all else, the nearest first: what it hides need not be lit. Order is by whole steps of a distance that
 /// doubles every two, so that pieces of one thing stay together and few change places while something moves.
-std::vector<SolidPiece> from_front_to_back(const PassInput& input) {
+std::vector<SolidPiece> from_front_to_back(const PassInput& input, bool land) {
   const Eigen::Matrix4f PV = input.view.P * input.view.V_CW;
   std::vector<SolidPiece> out;
   for (std::uint32_t i = 0; i < input.scene.instances.size(); ++i) {
     const Instance& instance = input.scene.instances[i];
-    if (input.assets.is_clear(instance.material)) continue;
+    if (input.assets.is_clear(instance.material) || input.assets.is_land(instance.material) != land) continue;
     const Eigen::Matrix4f PV_MC = PV * instance.X_WM.matrix();
     const std::vector<MeshPiece>& pieces = input.assets.pieces(instance.mesh);
     for (std::uint32_t k = 0; k < pieces.size(); ++k) {
@@ -39,6 +39,26 @@ std::vector<SolidPiece> from_front_to_back(const PassInput& input) {
   return out;
 }
 
+void begin_materials(const Program& program, const PassInput& input) {
+  program.use();
+  set_lighting(program, input);
+  set_material_units(program);
+}
+
+void draw_solid(const std::vector<SolidPiece>& solid, const Program& program, const PassInput& input) {
+  std::vector<std::uint32_t> run;
+  for (std::size_t first = 0; first < solid.size();) {
+    const std::uint32_t of = solid[first].instance;
+    run.clear();
+    for (; first < solid.size() && solid[first].instance == of; ++first)
+      run.push_back(solid[first].piece);
+    const Instance& instance = input.scene.instances[of];
+    set_model(program, instance.X_WM);
+    input.assets.use_material(instance.material, program);
+    input.assets.draw_pieces(instance.mesh, run);
+  }
+}
+
 }  // namespace
 
 Expected<OpaquePass> OpaquePass::create() {
@@ -47,11 +67,20 @@ Expected<OpaquePass> OpaquePass::create() {
   if (!surface) return tl::unexpected(surface.error());
   Expected<Program> rope = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "rope.frag"});
   if (!rope) return tl::unexpected(rope.error());
-  Expected<Program> ground = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "ground.frag"});
+  Expected<Program> ground =
+      Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "land.glsl", "ground.frag"});
   if (!ground) return tl::unexpected(ground.error());
   GpuAssets plain;
   SceneAssets assets;
   assets.meshes.push_back(disc_mesh(380, 64));
+  // Where no exhibit brings earth of its own: even grain, level ground.
+  assets.images.push_back({1, 1, {128, 128, 128, 255}, true});
+  assets.images.push_back({1, 1, {128, 128, 255, 255}, false});
+  MaterialData even;
+  even.land = true;
+  even.base_colour_image = 0;
+  even.normal_image = 1;
+  assets.materials.push_back(even);
   plain.upload(assets);
   return OpaquePass(std::move(*surface), std::move(*rope), std::move(*ground), std::move(plain));
 }
@@ -61,20 +90,12 @@ void OpaquePass::draw(const PassInput& input) const {
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  surface_.use();
-  set_lighting(surface_, input);
-  set_material_units(surface_);
-  const std::vector<SolidPiece> solid = from_front_to_back(input);
-  std::vector<std::uint32_t> run;
-  for (std::size_t first = 0; first < solid.size();) {
-    const std::uint32_t of = solid[first].instance;
-    run.clear();
-    for (; first < solid.size() && solid[first].instance == of; ++first)
-      run.push_back(solid[first].piece);
-    const Instance& instance = input.scene.instances[of];
-    set_model(surface_, instance.X_WM);
-    input.assets.use_material(instance.material, surface_);
-    input.assets.draw_pieces(instance.mesh, run);
+  begin_materials(surface_, input);
+  draw_solid(from_front_to_back(input, false), surface_, input);
+  for (std::size_t i = 0; i < input.scene.soft_bodies.size(); ++i) {
+    set_model(surface_, Eigen::Affine3f::Identity());
+    input.assets.use_material(input.scene.soft_bodies[i].material, surface_);
+    input.soft_bodies[i].draw();
   }
   if (!input.ropes.empty()) {
     glEnable(GL_CULL_FACE);
@@ -84,12 +105,23 @@ void OpaquePass::draw(const PassInput& input) const {
     input.ropes.draw();
   }
   glDisable(GL_CULL_FACE);
-  if (!input.scene.ground_height_m) return;
-  ground_.use();
-  set_lighting(ground_, input);
+  begin_materials(ground_, input);
+  draw_solid(from_front_to_back(input, true), ground_, input);
+  glDisable(GL_CULL_FACE);
+  if (input.scene.ground_height_m) draw_plain(input);
+}
+
+void OpaquePass::draw_plain(const PassInput& input) const {
   Eigen::Affine3f X_WM = Eigen::Affine3f::Identity();
   X_WM.translation() = Vec3f(input.view.p_WE.x(), *input.scene.ground_height_m, input.view.p_WE.z());
   set_model(ground_, X_WM);
+  const std::optional<std::uint32_t> land = input.scene.land_material;
+  if (land && input.assets.is_land(*land)) {
+    input.assets.use_material(*land, ground_);
+  } else {
+    plain_.use_material(0, ground_);
+  }
+  glDisable(GL_CULL_FACE);
   plain_.draw(0);
 }
 

@@ -2,11 +2,15 @@
 // leave the framebuffer bound that they drew to.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "client-sdk/display/camera.hpp"
 #include "client-sdk/display/gpu_assets.hpp"
 #include "client-sdk/display/render_scene.hpp"
 #include "client-sdk/display/render_target.hpp"
 #include "client-sdk/display/shader.hpp"
+#include "client-sdk/display/shadow_cascades.hpp"
 #include "client-sdk/display/sky_light.hpp"
 #include "client-sdk/display/stereo.hpp"
 
@@ -17,30 +21,34 @@ struct PassInput {
   const RenderScene& scene;
   const GpuAssets& assets;
   const StreamedMesh& ropes;
+  const std::vector<StreamedMesh>& soft_bodies;  ///< as the scene has them
   const EyeView& view;
   const SkyHarmonics& sky;
   const ShadowTarget& shadow;
-  Eigen::Matrix4f PV_light;
+  const ShadowSetup& shadow_setup;
   const HdrTarget& target;  ///< where they draw to
 };
 
-/// Depth from the sun, once for both eyes, and again only when something that throws a shadow has moved.
+/// Depth from the sun, once for both eyes, and a map again only when something has moved that throws a shadow there.
 class ShadowPass {
  public:
   [[nodiscard]] static Expected<ShadowPass> create(std::uint32_t map_size);
-  /// Returns world to clip space of the sun.
-  Eigen::Matrix4f draw(const RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes);
+  /// Returns where the maps lie.
+  ShadowSetup draw(const RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes,
+                   const std::vector<StreamedMesh>& soft_bodies);
   /// The meshes are others from now on.
-  void forget() { drawn_.clear(); }
-  /// How often the map was drawn anew.
+  void forget() { drawn_ = {}; }
+  /// How many maps were drawn.
   [[nodiscard]] std::uint64_t times_drawn() const { return times_drawn_; }
-  [[nodiscard]] const ShadowTarget& map() const { return map_; }
+  [[nodiscard]] const ShadowTarget& maps() const { return maps_; }
 
  private:
-  ShadowPass(Program program, ShadowTarget map) : program_(std::move(program)), map_(std::move(map)) {}
+  ShadowPass(Program program, ShadowTarget maps) : program_(std::move(program)), maps_(std::move(maps)) {}
+  void begin_map(const ShadowSetup& setup, std::size_t cascade) const;
+
   Program program_;
-  ShadowTarget map_;
-  std::vector<float> drawn_;  ///< all that the map depends on, as it was drawn
+  ShadowTarget maps_;
+  std::array<std::vector<float>, kMostCascades> drawn_;  ///< all that a map depends on, as it was drawn
   std::uint64_t times_drawn_ = 0;
 };
 
@@ -54,6 +62,8 @@ class OpaquePass {
  private:
   OpaquePass(Program surface, Program rope, Program ground, GpuAssets plain)
       : surface_(std::move(surface)), rope_(std::move(rope)), ground_(std::move(ground)), plain_(std::move(plain)) {}
+  void draw_plain(const PassInput& input) const;
+
   Program surface_;
   Program rope_;
   Program ground_;
@@ -112,11 +122,58 @@ class ParticlePass {
   BufferName buffer_;
 };
 
+/// A glow about what is too bright for the screen: fire, the sun on bronze.
+class BloomPass {
+ public:
+  [[nodiscard]] static Expected<BloomPass> create();
+  /// Errors: no memory for targets of this size.
+  [[nodiscard]] Expected<void> draw(const HdrTarget& from, float exposure);
+  /// A quarter of the size that was drawn last.
+  [[nodiscard]] const TextureName& glow() const { return levels_.front().colour; }
+
+ private:
+  BloomPass(Program bright, Program blur, VertexArrayName none)
+      : bright_(std::move(bright)), blur_(std::move(blur)), no_vertices_(std::move(none)) {}
+  [[nodiscard]] Expected<void> fit(PixelSize size);
+  void blur(const FloatTarget& from, const FloatTarget& to) const;
+
+  Program bright_;
+  Program blur_;
+  VertexArrayName no_vertices_;
+  std::vector<FloatTarget> levels_;  ///< each half as wide as the one before
+};
+
+/// Where things meet, little of the sky arrives: found from the depth of a picture in which all that is solid was drawn.
+class NookPass {
+ public:
+  [[nodiscard]] static Expected<NookPass> create();
+  /// Errors: no memory for targets of this size.
+  [[nodiscard]] Expected<void> draw(const HdrTarget& from, const EyeView& view);
+  /// Share of the sky that is open, at half of the size that was drawn last.
+  [[nodiscard]] const TextureName& openness() const { return even_->colour; }
+
+ private:
+  NookPass(Program nook, Program blur, VertexArrayName none)
+      : nook_(std::move(nook)), blur_(std::move(blur)), no_vertices_(std::move(none)) {}
+
+  Program nook_;
+  Program blur_;
+  VertexArrayName no_vertices_;
+  std::optional<FloatTarget> raw_;
+  std::optional<FloatTarget> even_;
+};
+
 /// From linear light with several samples a pixel to what a screen shows, into the bound framebuffer's viewport.
 class TonePass {
  public:
+  struct Extras {
+    const TextureName* glow = nullptr;  ///< null: none, nor nooks
+    const TextureName* openness = nullptr;
+    float glow_share = 0;
+    float nook_share = 0;
+  };
   [[nodiscard]] static Expected<TonePass> create();
-  void draw(const HdrTarget& from, float exposure) const;
+  void draw(const HdrTarget& from, float exposure, const Extras& extras) const;
 
  private:
   TonePass(Program program, VertexArrayName none) : program_(std::move(program)), no_vertices_(std::move(none)) {}
@@ -141,10 +198,7 @@ class CompositePass {
 void begin_blending();
 void end_blending();
 
-/// Sets the uniforms of sky.glsl and lighting.glsl; texture unit 4 holds the shadow map.
+/// Sets the uniforms of sky.glsl and lighting.glsl; texture units 4 and 6 hold the shadow maps.
 void set_lighting(const Program& program, const PassInput& input);
-
-/// Width of a shadow map's texel in the world, metres.
-[[nodiscard]] float shadow_texel_m(const Eigen::Matrix4f& PV_light, std::uint32_t map_size);
 
 }  // namespace mechane::display

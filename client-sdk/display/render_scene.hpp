@@ -41,6 +41,7 @@ struct MaterialData {
   float alpha_cutoff = 0;  ///< over 0: fragments with less opacity are left out
   bool clear = false;      ///< seen through by base_colour's opacity, drawn last and sorted; throws no shadow
   bool double_sided = false;
+  bool land = false;  ///< earth: looks like the plain around, whatever its own colours; its images give the grain
   std::optional<std::uint32_t> base_colour_image;
   std::optional<std::uint32_t> normal_image;
   std::optional<std::uint32_t> metallic_roughness_image;
@@ -82,6 +83,12 @@ struct WaterStream {
 struct RenderRope {
   std::vector<Vec3f> points_W;  ///< from end to end, taut between them
   float radius_m = 0;           ///< 0: none
+};
+
+/// What changes its shape from picture to picture: a hand's skin. In W.
+struct SoftBody {
+  MeshData mesh_W;
+  std::uint32_t material = 0;
 };
 
 /// Where steam leaves a nozzle, a fire burns, dust is whirled up. Follows from the scene's time alone: see particles.hpp.
@@ -153,15 +160,18 @@ struct RenderScene {
   std::vector<WaterInstance> waters;
   std::vector<WaterStream> streams;
   std::vector<RenderRope> ropes;
+  std::vector<SoftBody> soft_bodies;
   std::vector<ParticleEffect> effects;
   Vec3f wind_W = Vec3f(0.32F, 0, 0.10F);  ///< m/s; smoke drifts with it
   std::vector<Occluder> occluders;        ///< the first kMaxOccluders count
-  Eigen::AlignedBox3f shadow_box_W;       ///< what the shadow map has to cover
+  Eigen::AlignedBox3f shadow_box_W;       ///< what throws shadows
+  Eigen::AlignedBox3f focus_box_W;        ///< where they are to be sharpest; empty: everywhere alike
   Camera camera;
   Sun sun;
-  bool sky = true;                       ///< false: black, no light but the sun's
-  std::optional<float> ground_height_m;  ///< an endless plain of dry earth at this height
-  double time_s = 0;                     ///< of the world, for ripples: the frame's tick, never the client's clock
+  bool sky = true;                             ///< false: black, no light but the sun's
+  std::optional<float> ground_height_m;        ///< an endless plain of dry earth at this height
+  std::optional<std::uint32_t> land_material;  ///< whose images give the plain its grain; none: it has none
+  double time_s = 0;  ///< of the world, for ripples: the frame's tick, never the client's clock
   OverlayContent overlay;
   std::optional<Inset> inset;
 };

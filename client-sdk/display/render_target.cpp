@@ -67,15 +67,30 @@ void HdrTarget::resolve_depth() const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
 }
 
-Expected<ShadowTarget> ShadowTarget::create(std::uint32_t size) {
-  ShadowTarget target{make_framebuffer(), make_texture(), size};
-  attach_depth_texture(target.framebuffer, target.depth, {size, size});
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+Expected<ShadowTarget> ShadowTarget::create(std::uint32_t size, std::uint32_t layers) {
+  ShadowTarget target{make_framebuffer(), make_texture(), make_sampler(), size};
+  glBindTexture(GL_TEXTURE_2D_ARRAY, target.depth.get());
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT24, static_cast<GLsizei>(size), static_cast<GLsizei>(size),
+               static_cast<GLsizei>(layers), 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  no_filter(GL_TEXTURE_2D_ARRAY);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glSamplerParameteri(target.plain_depth.get(), filter, GL_NEAREST);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glSamplerParameteri(target.plain_depth.get(), wrap, GL_CLAMP_TO_EDGE);
+  target.bind_layer(0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
   if (auto ok = check_complete("shadow map", {size, size}); !ok) return tl::unexpected(ok.error());
   return target;
+}
+
+void ShadowTarget::bind_layer(std::uint32_t layer) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.get(), 0, static_cast<GLint>(layer));
 }
 
 Expected<PictureTarget> PictureTarget::create(PixelSize size) {
@@ -121,6 +136,11 @@ Expected<FloatTarget> FloatTarget::create(PixelSize size) {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
   if (auto ok = check_complete("half-float picture", size); !ok) return tl::unexpected(ok.error());
   return target;
+}
+
+void FloatTarget::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
 }
 
 std::vector<Vec3f> FloatTarget::read() const {

@@ -25,13 +25,16 @@ struct HdrTarget {
   void resolve_depth() const;
 };
 
-/// Square depth texture, read with comparison.
+/// Square depth textures, one a layer. Read with comparison; with `plain_depth` bound to the same unit, as the depths themselves.
 struct ShadowTarget {
   FramebufferName framebuffer;
   TextureName depth;
+  SamplerName plain_depth;
   std::uint32_t size = 0;
 
-  [[nodiscard]] static Expected<ShadowTarget> create(std::uint32_t size);
+  [[nodiscard]] static Expected<ShadowTarget> create(std::uint32_t size, std::uint32_t layers);
+  /// Draws go to this layer from now on.
+  void bind_layer(std::uint32_t layer) const;
 };
 
 /// The finished picture, sRGB values in 8 bits.
@@ -45,13 +48,15 @@ struct PictureTarget {
   [[nodiscard]] ImageData read() const;
 };
 
-/// One float picture without depth, for the sky's map. Radiance as RGB, rows from the zenith down.
+/// One float picture without depth: the sky's map (radiance, rows from the zenith down), or a step between a picture and another.
 struct FloatTarget {
   FramebufferName framebuffer;
   TextureName colour;
   PixelSize size;
 
   [[nodiscard]] static Expected<FloatTarget> create(PixelSize size);
+  /// Draws go to all of it from now on.
+  void bind() const;
   [[nodiscard]] std::vector<Vec3f> read() const;
 };
 

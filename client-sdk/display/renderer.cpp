@@ -59,15 +59,20 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& set
   if (!clear) return tl::unexpected(clear.error());
   Expected<ParticlePass> particle = ParticlePass::create();
   if (!particle) return tl::unexpected(particle.error());
+  Expected<BloomPass> bloom = BloomPass::create();
+  if (!bloom) return tl::unexpected(bloom.error());
+  Expected<NookPass> nook = NookPass::create();
+  if (!nook) return tl::unexpected(nook.error());
   Expected<TonePass> tone = TonePass::create();
   if (!tone) return tl::unexpected(tone.error());
   Expected<CompositePass> composite = CompositePass::create();
   if (!composite) return tl::unexpected(composite.error());
   Expected<OverlayPass> overlay = OverlayPass::create(settings.font_folder);
   if (!overlay) return tl::unexpected(overlay.error());
-  return std::unique_ptr<Renderer>(new Renderer(
-      settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water), std::move(*clear),
-                       std::move(*particle), std::move(*tone), std::move(*composite), std::move(*overlay)}));
+  return std::unique_ptr<Renderer>(
+      new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water),
+                                    std::move(*clear), std::move(*particle), std::move(*bloom), std::move(*nook),
+                                    std::move(*tone), std::move(*composite), std::move(*overlay)}));
 }
 
 Expected<void> Renderer::fit_targets(Stereo stereo, PixelSize picture, bool inset) {
@@ -102,19 +107,17 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   if (auto ok = fit_targets(stereo, size, scene.inset.has_value()); !ok) return ok;
   if (auto ok = fit_sky(scene.sun); !ok) return ok;
   mark(nullptr);
-  MeshData ropes;
-  for (const RenderRope& rope : scene.ropes)
-    append_rope(rope, ropes);
-  ropes_.upload(ropes);
-  const Eigen::Matrix4f PV_light = passes_.shadow.draw(scene, assets_, ropes_);
+  upload_moving(scene);
+  const ShadowSetup shadows = passes_.shadow.draw(scene, assets_, ropes_, soft_bodies_);
   mark("shadow");
   if (scene.inset) {
-    draw_view(scene, eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size)), PV_light, *inset_);
+    draw_view(scene, eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size)), shadows, *inset_);
   }
   const std::vector<Eye> eyes = eyes_of(stereo);
   for (std::size_t i = 0; i < eyes.size(); ++i) {
-    draw_view(scene, eye_view(scene.camera, eyes[i], aspect_of(eye_pixels)), PV_light, *hdr_);
-    finish_eye(scene, eye_pixels, target_of(stereo, i));
+    const EyeView view = eye_view(scene.camera, eyes[i], aspect_of(eye_pixels));
+    draw_view(scene, view, shadows, *hdr_);
+    if (auto ok = finish_eye(scene, view, eye_pixels, target_of(stereo, i)); !ok) return ok;
     mark("tone and words");
   }
   if (stereo == Stereo::anaglyph || stereo == Stereo::row_interleaved) {
@@ -125,6 +128,18 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   }
   last_ = stereo;
   return {};
+}
+
+/// What has another shape in each picture.
+void Renderer::upload_moving(const RenderScene& scene) {
+  MeshData ropes;
+  for (const RenderRope& rope : scene.ropes)
+    append_rope(rope, ropes);
+  ropes_.upload(ropes);
+  while (soft_bodies_.size() < scene.soft_bodies.size())
+    soft_bodies_.push_back(StreamedMesh::create());
+  for (std::size_t i = 0; i < scene.soft_bodies.size(); ++i)
+    soft_bodies_[i].upload(scene.soft_bodies[i].mesh_W);
 }
 
 void Renderer::mark(const char* pass) {
@@ -154,9 +169,9 @@ Renderer::EyeTarget Renderer::target_of(Stereo stereo, std::size_t eye) const {
   return {*picture_};
 }
 
-void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
+void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows,
                          const HdrTarget& target) {
-  const PassInput input{scene, assets_, ropes_, view, sky_, passes_.shadow.map(), PV_light, target};
+  const PassInput input{scene, assets_, ropes_, soft_bodies_, view, sky_, passes_.shadow.maps(), shadows, target};
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
   glViewport(0, 0, static_cast<GLsizei>(target.size.width), static_cast<GLsizei>(target.size.height));
   glDepthMask(GL_TRUE);
@@ -174,20 +189,26 @@ void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Ei
   mark("particles");
 }
 
-void Renderer::finish_eye(const RenderScene& scene, PixelSize eye, const EyeTarget& into) {
+Expected<void> Renderer::finish_eye(const RenderScene& scene, const EyeView& view, PixelSize eye,
+                                    const EyeTarget& into) {
+  if (auto ok = passes_.bloom.draw(*hdr_, settings_.exposure); !ok) return ok;
+  if (auto ok = passes_.nook.draw(*hdr_, view); !ok) return ok;
+  mark("glow and nooks");
   glBindFramebuffer(GL_FRAMEBUFFER, into.target.framebuffer.get());
   const auto width = static_cast<GLsizei>(eye.width);
   const auto height = static_cast<GLsizei>(eye.height);
   glViewport(into.x, into.y, width, height);
-  passes_.tone.draw(*hdr_, settings_.exposure);
+  passes_.tone.draw(*hdr_, settings_.exposure,
+                    {&passes_.bloom.glow(), &passes_.nook.openness(), settings_.glow, settings_.nooks});
   if (scene.inset) {
     const PixelRectangle place = inset_rectangle(eye);
     glViewport(into.x + static_cast<GLint>(place.x), into.y + height - static_cast<GLint>(place.y + place.height),
                static_cast<GLsizei>(place.width), static_cast<GLsizei>(place.height));
-    passes_.tone.draw(*inset_, settings_.exposure);
+    passes_.tone.draw(*inset_, settings_.exposure, {});
     glViewport(into.x, into.y, width, height);
   }
   passes_.overlay.draw(scene, eye);
+  return {};
 }
 
 ImageData Renderer::read_picture(Eye eye) const {

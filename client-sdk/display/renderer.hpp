@@ -18,6 +18,8 @@ struct RendererSettings {
   int samples = 4;  ///< a pixel, 1..8
   std::uint32_t shadow_map_size = 2048;
   float exposure = 1.15F;
+  float glow = 0.16F;            ///< of what is too bright for the screen, spread around it
+  float nooks = 0.75F;           ///< how much darker it is where things meet, 0..1
   bool profile = false;          ///< waits for each pass and keeps its time: pass_times()
   bool right_eye_first = false;  ///< row_interleaved: the screen's uppermost row is the right eye's
   std::string font_folder = default_font_folder();
@@ -42,7 +44,7 @@ class Renderer {
     assets_ = {};
     passes_.shadow.forget();
   }
-  /// How often the shadow map was drawn: not in each picture.
+  /// How many shadow maps were drawn: none in a picture in which nothing has moved.
   [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return passes_.shadow.times_drawn(); }
   /// Draws into the renderer's own picture. Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const RenderScene& scene, Stereo stereo, PixelSize size);
@@ -63,6 +65,8 @@ class Renderer {
     WaterPass water;
     ClearPass clear;
     ParticlePass particle;
+    BloomPass bloom;
+    NookPass nook;
     TonePass tone;
     CompositePass composite;
     OverlayPass overlay;
@@ -70,10 +74,10 @@ class Renderer {
   Renderer(const RendererSettings& settings, Passes passes) : settings_(settings), passes_(std::move(passes)) {}
   [[nodiscard]] Expected<void> fit_targets(Stereo stereo, PixelSize picture, bool inset);
   [[nodiscard]] Expected<void> fit_sky(const Sun& sun);
+  void upload_moving(const RenderScene& scene);
   /// Begins to measure; with a name: ends a pass and begins the next.
   void mark(const char* pass);
-  void draw_view(const RenderScene& scene, const EyeView& view, const Eigen::Matrix4f& PV_light,
-                 const HdrTarget& target);
+  void draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows, const HdrTarget& target);
   /// Where an eye's finished picture goes: into `target`, its lower left corner at (x, y).
   struct EyeTarget {
     const PictureTarget& target;
@@ -82,12 +86,14 @@ class Renderer {
   };
   [[nodiscard]] EyeTarget target_of(Stereo stereo, std::size_t eye) const;
   /// Tone, close-up and words of one eye.
-  void finish_eye(const RenderScene& scene, PixelSize eye, const EyeTarget& into);
+  [[nodiscard]] Expected<void> finish_eye(const RenderScene& scene, const EyeView& view, PixelSize eye,
+                                          const EyeTarget& into);
 
   RendererSettings settings_;
   Passes passes_;
   GpuAssets assets_;
   StreamedMesh ropes_ = StreamedMesh::create();
+  std::vector<StreamedMesh> soft_bodies_;  ///< the first of them are the scene's
   SkyHarmonics sky_{};
   std::optional<Sun> baked_sun_;
   std::optional<HdrTarget> hdr_;

@@ -13,8 +13,10 @@ namespace {
 constexpr double kLeastLevel_m = 0.002;
 /// Scenery larger than this is a landscape about what is to be touched, not a machine's stand.
 constexpr float kLandscape_m = 40;
-/// How far about the eye's foreground things throw shadows: one map covers them, farther off nobody misses them.
-constexpr float kShadowReach_m = 13;
+/// How far about what is touched things throw shadows: farther off, haze and distance take them.
+constexpr float kShadowReach_m = 70;
+/// What is touched has the sharpest shadows, as far as it is no larger than this.
+constexpr float kSharpReach_m = 2.5F;
 /// What is farther away than any place is large came loose from its world, or was never in it: it is not drawn, and its numbers go into
 /// no box.
 constexpr double kStray_m = 10'000;
@@ -135,11 +137,15 @@ void SceneBuilder::find_place() {
   box_W_.setEmpty();
   interest_W_.setEmpty();
   water_height_m_.reset();
+  land_material_.reset();
   for (const auto* list : {&objects_, &scenery_}) {
     for (const Placed& placed : *list) {
       if (is_stray(placed.object.X_WB.p)) continue;
       const Eigen::AlignedBox3f box_W = moved(placed.model->box_B, placed.object.X_WB);
       box_W_.extend(box_W);
+      for (const ModelPart& part : placed.model->parts) {
+        if (!part.water && library_.assets().materials[part.material].land) land_material_ = part.material;
+      }
       const bool rises = presentation_ && std::ranges::any_of(presentation_->effects, [&](const client::Effect& e) {
                            return e.kind == "level" && e.node == placed.object.mesh_node;
                          });
@@ -151,14 +157,16 @@ void SceneBuilder::find_place() {
   // A hand's breadth of air around what moves.
   if (!interest_W_.isEmpty()) interest_W_.extend(interest_W_.max() + Vec3(0, 0.10, 0.15));
   shadow_box_W_ = box_W_;
+  const Vec3f touched = interest_W_.isEmpty() ? Vec3f(Vec3f::Zero()) : Vec3f(interest_W_.center().cast<float>());
+  const Vec3f sharp = Vec3f::Constant(kSharpReach_m);
+  focus_box_W_ = interest_W_.cast<float>().intersection({touched - sharp, touched + sharp});
   // The plain lies under the modelled ground, which is never quite level.
   if (!box_W_.isEmpty()) ground_height_m_ = scenery_.empty() ? std::min(box_W_.min().y(), 0.0F) : -0.06F;
   camera_ = standpoint();
   if (box_W_.isEmpty() || box_W_.sizes().maxCoeff() < kLandscape_m) return;
   ground_height_m_ = box_W_.min().y();  // under its rivers too
-  const Vec3f middle = interest_W_.center().cast<float>() - Vec3f(0, 0, 0.7F * kShadowReach_m);
-  shadow_box_W_ =
-      box_W_.intersection({middle - Vec3f::Constant(kShadowReach_m), middle + Vec3f::Constant(kShadowReach_m)});
+  const Vec3f reach = Vec3f::Constant(kShadowReach_m);
+  shadow_box_W_ = box_W_.intersection({touched - reach, touched + reach});
 }
 
 Camera SceneBuilder::standpoint() const {
@@ -182,6 +190,8 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
   scene.camera = camera_;
   scene.ground_height_m = ground_height_m_;
   scene.shadow_box_W = shadow_box_W_;
+  scene.focus_box_W = focus_box_W_;
+  scene.land_material = land_material_;
   for (const Placed& placed : objects_) {
     const bool told = frame != nullptr && placed.object.index < frame->visible.size();
     if (told && frame->visible[placed.object.index] == 0) continue;
@@ -206,7 +216,7 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
 void SceneBuilder::add_what_moves(const client::Frame& frame, const client::WorldStatus* status, RenderScene& out) {
   out.time_s = static_cast<double>(frame.tick % 3'600'000) * kTickSeconds;
   for (const client::HandPose& hand : frame.hands) {
-    if (!is_stray(hand)) hand_.draw(hand, out);
+    if (!is_stray(hand)) hand_.draw(hand, camera_, out);
   }
   for (const client::RopeShape& rope : frame.ropes) {
     if (std::ranges::any_of(rope.points_W, [](const Vec3& p_W) { return is_stray(p_W); })) continue;

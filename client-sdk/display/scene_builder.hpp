@@ -56,7 +56,9 @@ class SceneBuilder {
   Camera camera_;
   Eigen::AlignedBox3f box_W_;
   Eigen::AlignedBox3f shadow_box_W_;
+  Eigen::AlignedBox3f focus_box_W_;
   std::optional<float> ground_height_m_;
+  std::optional<std::uint32_t> land_material_;
   std::shared_ptr<const client::WorldPresentation> presentation_;
   Eigen::AlignedBox3d interest_W_;       ///< what moves or fills, and a hand's breadth of air
   std::optional<float> water_height_m_;  ///< y in W where the risen surface was modelled

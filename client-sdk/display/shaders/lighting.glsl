@@ -3,10 +3,12 @@ uniform vec3 eye_W;
 uniform vec3 sun_irradiance;
 uniform vec3 sh[9];
 uniform float sky_on;  // 1, or 0: black
-uniform mat4 PV_light;
-uniform sampler2DShadow shadow_map;
-uniform float shadow_texel_m;
-uniform float shadow_blur_texels;
+uniform mat4 X_LW;  // to the sun's frame: x and y across its rays, z along them, metres
+uniform vec2 shadow_range;  // of z: where it begins, how much it is
+uniform vec4 cascades[3];  // xy: middle in L, z: half width, w: texel, metres; the narrowest first
+uniform int cascade_count;
+uniform sampler2DArrayShadow shadow_maps;
+uniform sampler2DArray shadow_depths;  // the same texture, read without comparison
 uniform vec4 occluders[32];  // xyz: middle in W, w: radius
 uniform int occluder_count;
 uniform vec4 occluder_bound;
@@ -27,25 +29,53 @@ vec3 irradiance_from_sky(vec3 n) {
                                      sh[6] * (3.0 * n.z * n.z - 1.0) + sh[7] * n.x * n.z + sh[8] * (n.x * n.x - n.y * n.y));
 }
 
-float shadow_tap(vec3 q, int i, vec2 texel) {
-  float r = sqrt((float(i) + 0.5) / 9.0);
-  float a = float(i) * 2.39996;
-  return texture(shadow_map, vec3(q.xy + r * vec2(cos(a), sin(a)) * texel, q.z - 0.0006));
+// The sun's disc as seen from here, half of its half degree as a tangent; a little more, for the eye's pleasure.
+const float kSunTangent = 0.0075;
+const mat2 kGoldenTurn = mat2(-0.737369, 0.675490, -0.675490, -0.737369);
+
+// Share of the sun that arrives, by one map. Edges are as soft as what throws them is far off (Fernando 2005). What is not `asked` costs
+// nothing: loops that are not entered are skipped even by a renderer that goes through both sides of every branch.
+float sunlight_of(int k, vec3 p_L, vec3 n_L, bool asked) {
+  vec4 c = cascades[k];
+  p_L += n_L * c.w * (1.0 + 2.5 * (1.0 - clamp(-n_L.z, 0.0, 1.0)));
+  float across = 0.5 / c.z;
+  vec3 q = vec3((p_L.xy - c.xy) * across + 0.5, (min(p_L.z - shadow_range.x, shadow_range.y) - 0.0015 - 0.5 * c.w) / shadow_range.y);
+  float search_m = clamp(0.05, 1.5 * c.w, 14.0 * c.w);
+  float blocked = 0.0;
+  float depth = 0.0;
+  vec2 turn = vec2(1.0, 0.0);
+  int taps = asked ? 7 : 0;
+  for (int i = 0; i < taps; ++i) {
+    float d = textureLod(shadow_depths, vec3(q.xy + turn * (sqrt((float(i) + 0.3) / 7.0) * search_m * across), float(k)), 0.0).r;
+    float is_blocked = d < q.z ? 1.0 : 0.0;
+    blocked += is_blocked;
+    depth += is_blocked * d;
+    turn = kGoldenTurn * turn;
+  }
+  // Where all agree, the finer look would too: it is never wider.
+  int fine = blocked > 0.5 && blocked < 6.5 ? 16 : 0;
+  float soft_m = clamp(kSunTangent * (q.z - depth / max(blocked, 1.0)) * shadow_range.y, 1.3 * c.w, search_m);
+  float sum = 0.0;
+  for (int i = 0; i < fine; ++i) {
+    sum += texture(shadow_maps, vec4(q.xy + turn * (sqrt((float(i) + 0.5) / 16.0) * soft_m * across), float(k), q.z));
+    turn = kGoldenTurn * turn;
+  }
+  return fine > 0 ? sum / 16.0 : blocked > 0.5 ? 0.0 : 1.0;
 }
 
-// Share of the sun that arrives: a disc of taps, each already filtered over four texels.
+// Share of the sun that arrives: by the narrowest map that reaches here, mixed with the next towards its edge. Beyond the widest lies open land.
 float sunlight(vec3 p_W, vec3 n_geometric) {
-  float slope = 1.0 - clamp(dot(n_geometric, to_sun), 0.0, 1.0);
-  vec3 p = p_W + n_geometric * shadow_texel_m * (1.0 + 2.5 * slope);
-  vec3 q = (PV_light * vec4(p, 1.0)).xyz * 0.5 + 0.5;
-  if (any(greaterThan(abs(q - 0.5), vec3(0.5)))) return 1.0;
-  vec2 texel = shadow_blur_texels / vec2(textureSize(shadow_map, 0));
-  // The outermost taps first: where they agree, the rest would too.
+  vec3 p_L = (X_LW * vec4(p_W, 1.0)).xyz;
+  vec3 n_L = mat3(X_LW) * n_geometric;
   float sum = 0.0;
-  for (int i = 5; i < 9; ++i) sum += shadow_tap(q, i, texel);
-  if (sum < 0.001 || sum > 3.999) return sum * 0.25;
-  for (int i = 0; i < 5; ++i) sum += shadow_tap(q, i, texel);
-  return sum / 9.0;
+  float rest = 1.0;
+  for (int k = 0; k < cascade_count && rest > 0.0; ++k) {
+    vec2 d = abs(p_L.xy - cascades[k].xy) / cascades[k].z;
+    float share = rest * (1.0 - smoothstep(0.90, 0.99, max(d.x, d.y)));
+    sum += share * sunlight_of(k, p_L, n_L, share > 0.0);
+    rest -= share;
+  }
+  return sum + rest;
 }
 
 // Share of the sky that small spheres leave open, by their solid angle about the normal.
@@ -132,7 +162,8 @@ vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
   return body + mirrored;
 }
 
+// Clear near by, and hazy from some hundred metres on.
 vec3 through_air(vec3 light, vec3 p_W) {
-  float share = 1.0 - exp(-distance(eye_W, p_W) * 0.0055);
-  return mix(light, haze_colour(), share * sky_on);
+  float far = distance(eye_W, p_W) * 0.0030;
+  return mix(light, haze_colour(), sky_on * (1.0 - exp(-far * sqrt(far))));
 }

@@ -9,6 +9,13 @@ float hills(vec3 d, float scale, float height) {
                    0.10 * value_noise(vec2(a * 8.3, 9.4)));
 }
 
+// Groves on the plain's rim: crowns beside each other, with gaps.
+float trees(vec3 d) {
+  float a = atan(d.x, -d.z);
+  float grove = smoothstep(0.46, 0.62, value_noise(vec2(a * 7.0, 21.0)));
+  return grove * 0.010 * (0.35 + 0.65 * value_noise(vec2(a * 170.0, 3.3))) - 0.002;
+}
+
 void main() {
   vec4 p = R_WP * vec4(place * 2.0 - 1.0, 1.0, 1.0);
   vec3 d = normalize(p.xyz / p.w);
@@ -21,10 +28,12 @@ void main() {
   }
   float elevation = d.y / max(length(d.xz), 1e-4);
   float soft = max(fwidth(elevation), 1e-5);
-  vec3 far_hills = mix(vec3(0.20, 0.23, 0.24), haze_colour(), 0.62);
-  vec3 near_hills = mix(vec3(0.15, 0.15, 0.10), haze_colour(), 0.34);
-  sky = mix(sky, far_hills, smoothstep(soft, -soft, elevation - hills(d, 5.0, 0.055)));
-  sky = mix(sky, near_hills, smoothstep(soft, -soft, elevation - hills(d, 9.0, 0.024)));
+  vec3 far_hills = mix(vec3(0.16, 0.21, 0.25), haze_colour(), 0.72);
+  vec3 near_hills = mix(vec3(0.15, 0.16, 0.09), haze_colour(), 0.52);
+  vec3 groves = mix(vec3(0.075, 0.095, 0.045), haze_colour(), 0.42);
+  sky = mix(sky, far_hills, smoothstep(soft, -soft, elevation - hills(d, 5.0, 0.062)));
+  sky = mix(sky, near_hills, smoothstep(soft, -soft, elevation - hills(d, 9.0, 0.026)));
+  sky = mix(sky, groves, smoothstep(soft, -soft, elevation - trees(d)));
   float disc = smoothstep(0.99985, 0.99995, dot(d, to_sun));
   colour = vec4(sky + disc * vec3(12.0, 10.5, 8.0), 1.0);
 }

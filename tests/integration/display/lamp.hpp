@@ -46,7 +46,8 @@ struct Lamp {
     assets.meshes.push_back(sphere_mesh(0.02, 24, 32));
     MaterialData glow;
     glow.base_colour = Eigen::Vector4f(0, 0, 0, 1);
-    glow.emissive = Vec3f(4, 4, 4);
+    // As bright as a screen shows: what is brighter has a glow about it.
+    glow.emissive = Vec3f::Constant(1.2F);
     assets.materials.push_back(glow);
     Instance lamp;
     lamp.X_WM.translation() = p_W.cast<float>();

@@ -47,15 +47,5 @@ RC_GTEST_PROP(Camera, a_framed_box_is_seen_whole, ()) {
   }
 }
 
-RC_GTEST_PROP(Camera, the_light_covers_the_box, ()) {
-  const Eigen::AlignedBox3f box(Vec3(any(-3, 0), -1, -2).cast<float>(), Vec3(any(0.1, 3), 1, 2).cast<float>());
-  const Vec3 to_light(any(-1, 1), any(0.1, 1), any(-1, 1));
-  const Eigen::Matrix4f PV = light_view(box, to_light.cast<float>());
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3f at = (PV * box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)).homogeneous()).head<3>();
-    RC_ASSERT(at.cwiseAbs().maxCoeff() <= 1.0F);
-  }
-}
-
 }  // namespace
 }  // namespace mechane::display

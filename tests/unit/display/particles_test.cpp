@@ -154,5 +154,34 @@ TEST(Particles, are_sorted_from_far_to_near_over_all_effects) {
     EXPECT_GE((all[i - 1].p_W - eye).norm(), (all[i].p_W - eye).norm());
 }
 
+TEST(Splash, is_thrown_up_where_the_water_lands) {
+  WaterStream stream;
+  stream.p_WS = Vec3f(1, 2, 3);
+  stream.v_W = Vec3f(0.5F, 0, 0);
+  stream.landing_height_m = 1;
+  std::vector<Particle> dry;
+  append_splash(stream, 0, 10, dry);
+  EXPECT_TRUE(dry.empty()) << "no water, no splash";
+  stream.width_m = 0.05F;
+  // One metre down in 0.4515 s.
+  const Vec3f place(1 + 0.5F * std::sqrt(2 / 9.81F), 1, 3);
+  for (const double time_s : {0.0, 7.3, 3599.9}) {
+    std::vector<Particle> drops;
+    append_splash(stream, 0, time_s, drops);
+    ASSERT_GT(drops.size(), 40U);
+    Vec3f middle = Vec3f::Zero();
+    for (const Particle& drop : drops) {
+      EXPECT_GE(drop.p_W.y(), 1.0F) << "above the water";
+      EXPECT_LT((drop.p_W - place).norm(), 0.8F);
+      middle += drop.p_W / static_cast<float>(drops.size());
+    }
+    EXPECT_LT((middle - place).cwiseProduct(Vec3f(1, 0, 1)).norm(), 0.08F) << "evenly about the place";
+    std::vector<Particle> again;
+    append_splash(stream, 0, time_s, again);
+    ASSERT_EQ(again.size(), drops.size());
+    EXPECT_EQ(again[5].p_W, drops[5].p_W) << "the world's time alone moves it";
+  }
+}
+
 }  // namespace
 }  // namespace mechane::display

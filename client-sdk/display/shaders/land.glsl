@@ -1,0 +1,24 @@
+// Dry open country in summer: dust, straw-coloured and green turf. By place alone, so that a modelled piece of earth goes over into the plain
+// about it without an edge. Images: a material's own, laid over the land by metres.
+const float kLandTile_m = 1.9;
+
+// What the light falls on. `far_m` from the eye: what is finer than a pixel there is left out.
+vec3 land_base(sampler2D image, vec2 q, float far_m) {
+  float fields = value_noise(q * 0.031 + 31.0);
+  float patches = value_noise(q * 0.21) * 0.6 + value_noise(q * 0.9 + 7.0) * 0.4;
+  patches = mix(patches, 0.5, smoothstep(40.0, 160.0, far_m));
+  float tufts = mix(value_noise(q * 3.7 + 3.0), 0.5, smoothstep(8.0, 30.0, far_m));
+  vec3 dust = vec3(0.40, 0.31, 0.20);
+  vec3 straw = vec3(0.42, 0.345, 0.165);
+  vec3 green = vec3(0.155, 0.185, 0.065);
+  vec3 base = mix(dust, straw, smoothstep(0.30, 0.62, patches * 0.7 + tufts * 0.3));
+  base = mix(base, green, 0.8 * smoothstep(0.46, 0.74, fields * 0.45 + patches * 0.30 + tufts * 0.25));
+  // The image's grain, without its own colour: relative to its mean, which is its smallest copy.
+  vec3 grain = texture(image, q / kLandTile_m).rgb / max(textureLod(image, vec2(0.5), 16.0).rgb, vec3(0.01));
+  return base * mix(vec3(1.0), grain, 0.85 * (1.0 - smoothstep(20.0, 70.0, far_m)));
+}
+
+vec3 land_normal(sampler2D image, vec2 q, vec3 n) {
+  vec2 m = texture(image, q / kLandTile_m).xy * 2.0 - 1.0;
+  return normalize(n + vec3(m.x, 0.0, m.y));
+}
