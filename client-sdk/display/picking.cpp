@@ -42,13 +42,12 @@ float distance_to(const Ray& ray_W, const Instance& instance, const MeshData& me
 }  // namespace
 
 std::optional<Picked> picked_at(const RenderScene& scene, const SceneAssets& assets, const Sight& sight,
-                                PixelPlace place, const SkipInstance& skip) {
+                                PixelPlace place) {
   const SightRay through = ray_through(sight, place);
   const Ray ray{through.p_W.cast<float>(), through.d_W.cast<float>()};
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<std::uint32_t> object;
   for (const Instance& instance : scene.instances) {
-    if (skip && skip(instance)) continue;
     const float distance = distance_to(ray, instance, assets.meshes[instance.mesh]);
     if (distance >= nearest) continue;
     nearest = distance;

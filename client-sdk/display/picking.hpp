@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 #include "client-sdk/display/gl_context.hpp"
@@ -18,12 +17,9 @@ struct Picked {
   Vec3 p_WT = Vec3::Zero();             ///< of its surface
 };
 
-/// What a ray goes through as if it were not there.
-using SkipInstance = std::function<bool(const Instance&)>;
-
 /// Through a pixel of one eye's picture; none: sky or ground. As slow as object_at().
 [[nodiscard]] std::optional<Picked> picked_at(const RenderScene& scene, const SceneAssets& assets, const Sight& sight,
-                                              PixelPlace place, const SkipInstance& skip = {});
+                                              PixelPlace place);
 
 /// The index of the object (Instance::object) that is seen there: the nearest of all, of scenery too. None: scenery, sky or ground.
 /// `pictured` is the whole picture's size. Takes as long as all triangles take once; for clicks, not for frames.

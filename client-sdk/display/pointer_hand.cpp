@@ -31,7 +31,6 @@ constexpr int kFetches = 5;
 constexpr double kLeaves_s = 0.25;
 constexpr double kNotch = 1.03;
 constexpr double kNearest_m = 0.2;
-constexpr double kNearestDragged = 0.5;  // of the depth where it was gripped
 // Around a goal, in shares of the picture's height: within the first the depth is the goal's own, beyond the second the hand's.
 constexpr double kDepthInner = 0.06, kDepthOuter = 0.30;
 // Likewise for the pixel itself: a finger is broad.
@@ -96,13 +95,7 @@ void PointerHand::move(PixelPlace place) {
 void PointerHand::deepen(double notches) {
   if (phase_ != Phase::holding || !std::isfinite(notches)) return;
   const double wanted = depth_m_ * std::pow(kNotch, std::clamp(notches, -100.0, 100.0));
-  wheeled_ = true;
   depth_m_ = std::clamp(wanted, std::max(kNearest_m, gripped_depth_m_ / 4), 4 * gripped_depth_m_);
-}
-
-void PointerHand::keep_before(std::optional<double> depth_m) {
-  if (depth_m && !std::isfinite(*depth_m)) return;
-  before_m_ = depth_m;
 }
 
 void PointerHand::turn(double angle_rad) {
@@ -169,9 +162,6 @@ void PointerHand::grip(const PointerSenses& senses) {
   X_BH_ = senses.X_WB.inverse() * X_WH_;
   depth_m_ = gripped_depth_m_ = std::max(depth_of(sight_, X_WH_.p), kNearest_m);
   p_WG_goal_.reset();
-  before_m_.reset();
-  gripped_at_ = pointer_;
-  wheeled_ = false;
   drag_ = Drag::carry;
   if (senses.leeway.axle) begin_turn(*senses.leeway.axle);
   if (drag_ == Drag::carry && senses.leeway.track) {
@@ -258,17 +248,10 @@ Vec3 PointerHand::carried_to(const PointerSenses& senses) {
     p_WG_goal_ = p_WG;
     meant = &goal;
   }
-  double dragged_m = depth_m_;
-  if (before_m_ && !wheeled_) {
-    const double before_m = std::clamp(*before_m_, std::min(depth_m_, kNearestDragged * gripped_depth_m_), depth_m_);
-    // Not at once: what is only held stays where it lies.
-    const double gone = std::hypot(pointer_.x - gripped_at_.x, pointer_.y - gripped_at_.y) / sight_.picture.height;
-    dragged_m = before_m + nearness(gone, kPlaceInner, kPlaceOuter) * (depth_m_ - before_m);
-  }
-  if (!p_WG_goal_) return point_at(sight_, pointer_, dragged_m);
+  if (!p_WG_goal_) return point_at(sight_, pointer_, depth_m_);
   const double near = nearness(nearest, kDepthInner, kDepthOuter);
   if (meant->turns_too) R_WH_wanted_ = Quat::Identity().slerp(near, meant->X_WB.R * X_BH_.R);
-  const double depth_m = dragged_m + near * (depth_of(sight_, *p_WG_goal_) - dragged_m);
+  const double depth_m = depth_m_ + near * (depth_of(sight_, *p_WG_goal_) - depth_m_);
   const Vec3 dragged_W = point_at(sight_, pointer_, depth_m);
   return dragged_W + nearness(nearest, kPlaceInner, kPlaceOuter) * (*p_WG_goal_ - dragged_W);
 }

@@ -50,9 +50,6 @@ class PointerHand {
   void move(PixelPlace place);
   /// Takes what is carried away from the viewer, by the wheel's notches; below 0: nearer.
   void deepen(double notches);
-  /// What is carried stays no farther off than this, until the wheel says otherwise or it is near to where it belongs: it is dragged before
-  /// what the picture shows, not into it. None: nothing is behind it.
-  void keep_before(std::optional<double> depth_m);
   /// Turns what is held about its axle, positive as the viewer sees the hands of a clock go. Nothing where it has none.
   void turn(double angle_rad);
   void release();
@@ -93,9 +90,6 @@ class PointerHand {
   Pose X_BH_;                   // of the hand in what it holds, as it was gripped
   double depth_m_ = 0;          // carry: of the plane that the pointer drags in
   double gripped_depth_m_ = 0;
-  std::optional<double> before_m_;  // carry: see keep_before()
-  PixelPlace gripped_at_;           // carry: where the pointer was
-  bool wheeled_ = false;            // carry: a person chose the depth
   std::optional<Vec3> p_WG_goal_;
   Quat R_WH_wanted_ = Quat::Identity();  // carry
   WayLine line_;                // axle or track; its point is where the hand began, or the middle of its circle

@@ -108,13 +108,8 @@ void PointerInput::update(const PointerScene& scene, TimePoint now) {
   const double dt_s = std::clamp(to_seconds(now - updated_), 0.0, kLongestPicture_s);
   updated_ = now;
   go_on_with_keys(scene, dt_s);
-  const PointerView view = link_.view();
-  const bool idle = view.phase == PointerView::Phase::resting;
+  const bool idle = link_.view().phase == PointerView::Phase::resting;
   if (idle) by_keys_ = false;
-  if (view.phase == PointerView::Phase::holding && view.drag == PointerView::Drag::carry) {
-    const auto whole = seen_place(scene.scene.camera, scene.stereo, scene.picture, middle_of(scene.picture));
-    if (whole) link_.keep_before(depth_before(scene, whole->sight, view.pointer, view.object, view.p_WH));
-  }
   const std::optional<PixelPlace> looks_at = focus_ ? focus_ : hover_;
   if (!idle || !looks_at || now - looked_ < kLookUnderHover) return;
   if (!hover_moved_ && !focus_) return;

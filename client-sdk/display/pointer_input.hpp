@@ -34,11 +34,6 @@ struct PointerScene {
 /// What a finger on this pixel means to take: what is seen there, or else within a fingertip's breadth.
 [[nodiscard]] std::optional<Touched> takeable_at(const PointerScene& scene, const Sight& sight, PixelPlace place);
 
-/// How far off a thing in a hand at p_WH may be carried lest it run into what is seen there behind it: as far as its own far side lets it.
-/// None: nothing is behind it.
-[[nodiscard]] std::optional<double> depth_before(const PointerScene& scene, const Sight& sight, PixelPlace place,
-                                                 std::uint32_t object, const Vec3& p_WH);
-
 /// One for each thing that can be taken and is seen: a pixel to take it by, from left to right. Slow; for a key.
 [[nodiscard]] std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight);
 

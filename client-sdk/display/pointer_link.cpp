@@ -91,11 +91,6 @@ void PointerLink::deepen(double notches) {
   hand_.deepen(notches);
 }
 
-void PointerLink::keep_before(std::optional<double> depth_m) {
-  const std::lock_guard lock(mutex_);
-  hand_.keep_before(depth_m);
-}
-
 void PointerLink::turn(double angle_rad) {
   const std::lock_guard lock(mutex_);
   hand_.turn(angle_rad);

@@ -35,7 +35,6 @@ class PointerLink {
   void press(const Sight& sight, PixelPlace place, const Touched& touched);
   void move(PixelPlace place);
   void deepen(double notches);
-  void keep_before(std::optional<double> depth_m);
   void turn(double angle_rad);
   void release();
 

@@ -12,11 +12,6 @@ namespace {
 constexpr std::array<double, 4> kFingertip{0.006, 0.012, 0.018, 0.024};
 constexpr int kRound = 12;
 constexpr std::size_t kTries = 28;
-// Between what is carried and what is behind it; of what is longer than this no more counts.
-constexpr double kApart_m = 0.03;
-constexpr double kLongest_m = 0.6;
-constexpr int kAround = 6;
-constexpr double kAroundShare = 0.08;
 
 RenderScene only_takeable(const PointerScene& scene) {
   RenderScene out;
@@ -112,35 +107,6 @@ std::optional<Touched> takeable_at(const PointerScene& scene, const Sight& sight
     }
   }
   return {};
-}
-
-std::optional<double> depth_before(const PointerScene& scene, const Sight& sight, PixelPlace place,
-                                   std::uint32_t object, const Vec3& p_WH) {
-  double far_side_m = 0;
-  for (const Instance& instance : scene.scene.instances) {
-    if (instance.object != object) continue;
-    for (const Vec3f& p_M : scene.assets.meshes[instance.mesh].positions) {
-      const Vec3 p_W = (instance.X_WM * p_M).cast<double>();
-      far_side_m = std::max(far_side_m, depth_of(sight, p_W) - depth_of(sight, p_WH));
-    }
-  }
-  // Hands are drawn where they are, each with its occluders there.
-  const auto skip = [&](const Instance& instance) {
-    return instance.object == object || std::ranges::any_of(scene.scene.occluders, [&](const Occluder& occluder) {
-             return occluder.p_WO == instance.X_WM.translation();
-           });
-  };
-  // Around it too: what it is about to come before must not stand in its way.
-  std::optional<double> nearest;
-  for (int k = 0; k <= kAround; ++k) {
-    const double angle = 2 * kPi * k / kAround;
-    const double radius = k == kAround ? 0 : kAroundShare * sight.picture.height;
-    const PixelPlace here{place.x + radius * std::cos(angle), place.y + radius * std::sin(angle)};
-    const auto behind = picked_at(scene.scene, scene.assets, sight, here, skip);
-    if (behind) nearest = std::min(nearest.value_or(1e9), depth_of(sight, behind->p_WT));
-  }
-  if (!nearest) return {};
-  return *nearest - std::min(far_side_m, kLongest_m) - kApart_m;
 }
 
 std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight) {

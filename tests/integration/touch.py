@@ -157,7 +157,6 @@ class TouchVisitor:
             self.point((at[0] + aside[0], at[1] + aside[1]), "mousedown", 1)
             try:
                 wait_until(self.holding, 5, "it is held")
-                self.taken_at = self.at
                 self.p_BH = back(self.pose(body), self.hand()["X_WS"][0]["p"])
                 return True
             except AssertionError:
@@ -167,16 +166,13 @@ class TouchVisitor:
     def carry(self, body, move):
         look = numbers(move.get("orientation", "0 0 1 0"))
         goal = self.screen.pixel(add(numbers(move["position"]), turned(look, self.p_BH)))
-        if not self.drag_straight(goal, float(move.get("seconds", 1))):
-            # It is stuck behind something: back, down the picture, which is towards oneself, and round.
-            self.story.append(f"{body} is stuck")
-            for way in (self.taken_at, (self.taken_at[0], self.taken_at[1] + 0.3 * self.screen.height), goal):
-                self.drag_straight(way, 2)
-
-    def drag_straight(self, goal, seconds):
-        """As a person, looks whether the hand has come to the finger, before going on; what is stuck does not come, and then this is False."""
         begin = self.at
-        self.drag(lambda s: tuple(b + s * (g - b) for b, g in zip(begin, goal)), seconds)
+        self.drag(lambda s: tuple(b + s * (g - b) for b, g in zip(begin, goal)), float(move.get("seconds", 1)))
+        if not self.arrives():
+            self.story.append(f"{body} lags")
+
+    def arrives(self):
+        """As a person, looks whether the hand has come to the finger, before going on; what is stuck does not come."""
         def there():
             hand = self.screen.pixel(self.hand()["X_WS"][0]["p"])
             return not self.holding() or math.dist(hand, self.at) < 0.03 * self.screen.height

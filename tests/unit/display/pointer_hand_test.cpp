@@ -187,23 +187,6 @@ TEST(PointerHand, NearToItsPlaceAThingGoesToThePlacesDepth) {
   EXPECT_LT(rotation_vector(thing.senses.X_WB.R * place.R.conjugate()).norm(), 0.02);
 }
 
-TEST(PointerHand, ItIsCarriedBeforeAWallUntilTheWheelSaysOtherwise) {
-  const Sight sight = sight_from({0, 1, 3}, {0, 1, 0});
-  PointerHand hand;
-  Thing thing;
-  take(hand, thing, sight, {0, 1, 0});
-  hand.keep_before(2.2);
-  hand.move({800, 360});
-  pass(hand, thing, 2);
-  EXPECT_NEAR(depth_of(sight, hand.view().p_WH), 2.2, 0.01);
-  hand.keep_before(0.1);
-  pass(hand, thing, 2);
-  EXPECT_NEAR(depth_of(sight, hand.view().p_WH), 1.5, 0.01) << "not into the viewer's face";
-  hand.deepen(1);
-  pass(hand, thing, 2);
-  EXPECT_NEAR(depth_of(sight, hand.view().p_WH), 3 * 1.03, 0.02);
-}
-
 TEST(PointerHand, ItSendsNothingBeforeATouchNorAfterIt) {
   const Sight sight = sight_from({0, 1, 3}, {0, 1, 0});
   PointerHand hand;
