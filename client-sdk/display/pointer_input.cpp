@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "client-sdk/display/pointer_aid.hpp"
 
@@ -117,6 +118,13 @@ void PointerInput::update(const PointerScene& scene, TimePoint now) {
   looked_ = now;
   const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, *looks_at);
   under_hover_ = seen ? takeable_at(scene, seen->sight, seen->place) : std::nullopt;
+}
+
+bool PointerInput::rests(TimePoint now) {
+  const bool stirs = by_keys_ || hover_moved_ || focus_ || stirred_ || std::ranges::any_of(held_, std::identity());
+  if (stirs || link_.view().phase != PointerView::Phase::resting) return false;
+  updated_ = now;
+  return true;
 }
 
 void PointerInput::write(OverlayContent& content, const PointerScene& scene, const std::string& language) const {

@@ -46,6 +46,8 @@ class PointerInput {
   void take(const PointerEvent& event, const PointerScene& scene, bool covered);
   /// Once a picture: goes on with keys that are held, and looks what lies under a pointer that moved.
   void update(const PointerScene& scene, TimePoint now);
+  /// Nothing is held, pressed, or to be looked for: this picture needs no update().
+  [[nodiscard]] bool rests(TimePoint now);
   /// Adds what helps to find the way.
   void write(OverlayContent& content, const PointerScene& scene, const std::string& language) const;
   /// Somebody moved the hand since the last call.

@@ -1,0 +1,437 @@
+#include "client-sdk/display/display_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "client-sdk/display/image_file.hpp"
+#include "client-sdk/display/overlay_layout.hpp"
+#include "client-sdk/display/picking.hpp"
+#include "client-sdk/display/pointer_aid.hpp"
+#include "server/content/mesh_import.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::display {
+namespace {
+
+using client::LinkState;
+
+/// Two frames of a world that sends sixty a second: so late the picture is, and so smooth.
+constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
+constexpr std::size_t kFrameTimesKept = 20'000;
+/// A picture of a step waits so long for a model from a server: with a server that does not answer, only the first one does.
+constexpr std::chrono::seconds kAssetPatience{15};
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at = std::lround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+/// Another world may bring another manifest, even of the same scenario.
+std::string scenario_key(const client::WorldStatus& status) {
+  return status.world + " " + status.scenario + " " + status.scenario_hash;
+}
+
+}  // namespace
+
+bool DisplayLoop::finished() const {
+  if (!status_ || !status_->done) return false;
+  return status_->activities.empty() || status_->activities.back() == status_->activity;
+}
+
+/// A film's time goes by its pictures, not by how long they take.
+TimePoint DisplayLoop::now() {
+  if (options_.film_fps <= 0) return clock_.now();
+  const double seconds = static_cast<double>(summary_.frames) / options_.film_fps;
+  return started_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
+bool DisplayLoop::stop_wanted(TimePoint now) const {
+  if (requests_.stop || context_.close_wanted()) return true;
+  if (options_.seconds > 0 && now - started_ >= std::chrono::duration<double>(options_.seconds)) return true;
+  if (options_.frames > 0 && summary_.frames >= options_.frames) return true;
+  if (source_.recorded != nullptr && source_.recorded->over()) return true;
+  const bool owes_picture = options_.every_step && !last_picture_taken_;
+  return options_.until_done && finished() && !owes_picture;
+}
+
+void DisplayLoop::open_scenario() {
+  scenario_ = scenario_key(*status_);
+  folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
+  if (!attracts_) renderer_.forget_assets();
+  // One for all scenarios: who comes back to one finds its files at once.
+  if (!store_) store_ = open_asset_store(options_);
+  mesh_files_ = store_ ? std::make_unique<MeshFiles>(store_.get(), catalogue_)
+                       : std::make_unique<MeshFiles>(std::filesystem::path(folder_), catalogue_);
+  library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {
+    const auto file = mesh_files_->find(uri);
+    if (!file) return tl::unexpected(file.error());
+    return content::import_mesh(*file);
+  });
+  builder_ = std::make_unique<SceneBuilder>(*library_, spoken_);
+  objects_.clear();
+  presentation_.reset();
+  have_frame_ = false;  // of the world before
+}
+
+/// Files that came from the server of assets take their placeholders' place.
+void DisplayLoop::take_arrived() {
+  if (!store_ || objects_.empty()) return;
+  bool any = false;
+  for (const std::string& name : store_->take_arrived())
+    any = library_->load_again(name) || any;
+  if (!any) return;
+  builder_->set_manifest(objects_);
+  upload();
+}
+
+/// Visitors see a calm picture; whoever looks after the kiosk needs the reason.
+void DisplayLoop::say_refusal() {
+  const std::string refusal = client_.state() == LinkState::refused ? client_.refusal() : std::string();
+  if (refusal == told_refusal_) return;
+  told_refusal_ = refusal;
+  if (!refusal.empty()) log::warning("no exhibit yet: " + refusal);
+}
+
+/// What came loose from its world is not drawn; once is enough.
+void DisplayLoop::say_stray() {
+  if (builder_ == nullptr || builder_->stray().empty() || builder_->stray() == told_stray_) return;
+  told_stray_ = builder_->stray();
+  log::warning(told_stray_ + " is kilometres away and not drawn: its world has come apart; begin the activity anew");
+}
+
+/// Status, manifest and frame as they are now.
+void DisplayLoop::take_news(TimePoint now) {
+  if (source_.recorded != nullptr) source_.recorded->advance(now);
+  if (auto status = client_.world_status()) {
+    status_ = std::move(status);
+    if (builder_ == nullptr || scenario_key(*status_) != scenario_) open_scenario();
+  }
+  if (builder_ != nullptr) {
+    if (auto presentation = client_.presentation(); presentation != presentation_) {
+      presentation_ = std::move(presentation);
+      builder_->set_presentation(presentation_);
+    }
+    std::vector<client::SceneObject> objects = client_.objects();
+    if (objects.size() != objects_.size()) {
+      objects_ = std::move(objects);
+      for (const client::SceneObject& object : objects_)
+        mesh_files_->expect(object.mesh_uri, object.mesh_hash);
+      builder_->set_manifest(objects_);
+      upload();
+    }
+    // Asked before what came is taken, lest something comes in between.
+    const bool whole = !store_ || (!objects_.empty() && !store_->is_awaited(kAssetPatience));
+    take_arrived();
+    if (options_.every_step && status_ && !due_) due_ = schedule_.due(now, *status_, whole);
+  }
+  record(now);
+  say_refusal();
+  // While the link is down the last frame stays.
+  client::Frame newer;
+  if (client_.state() == LinkState::joined && client_.interpolated_frame(now, kInterpolationDelay, newer)) {
+    frame_ = std::move(newer);
+    have_frame_ = true;
+  }
+}
+
+void DisplayLoop::record(TimePoint now) {
+  if (!source_.recorder || !status_ || client_.state() != LinkState::joined) return;
+  client::Frame newest;
+  const bool any = client_.newest_frame(newest);
+  source_.recorder->hear(now, *status_, presentation_.get(), objects_, any ? &newest : nullptr);
+}
+
+RenderScene DisplayLoop::build(TimePoint now) const {
+  RenderScene scene = attracts_ ? attract_->build(now, spoken_, panel_.settings().style) : build_for_one();
+  if (!attracts_) panel_.write(scene.overlay, now);
+  if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
+  const PixelSize eye = eye_size(options_.stereo, context_.size());
+  if (eye.width > 0 && eye.height > 0)
+    scene.camera = for_screen(scene.camera, options_.screen, static_cast<double>(eye.width) / eye.height);
+  if (pointer_ && builder_ != nullptr && !attracts_) {
+    pointer_->write(scene.overlay, under_pointer(scene), spoken_);
+    if (const auto button = go_on_button(status_ ? &*status_ : nullptr, spoken_); button && !scene.overlay.panel)
+      scene.overlay.corner.insert(scene.overlay.corner.begin(), *button);
+  }
+  return scene;
+}
+
+PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {
+  return {scene,
+          library_->assets(),
+          options_.stereo,
+          context_.size(),
+          have_frame_ ? &frame_ : nullptr,
+          objects_,
+          status_ ? &*status_ : nullptr,
+          presentation_.get()};
+}
+
+/// The display's own hand hears of everything that no button hears.
+void DisplayLoop::take_pointer(TimePoint now) {
+  const std::vector<PointerEvent> events = context_.take_pointer_events();
+  if (!pointer_ || builder_ == nullptr) return;
+  if (attracts_) {  // whoever comes ends the invitation, and takes nothing yet
+    if (!events.empty()) panel_.touch(now);
+    return;
+  }
+  if (events.empty() && pointer_->rests(now)) return;  // a scene is not built for nothing
+  const RenderScene scene = build(now);
+  const PointerScene under = under_pointer(scene);
+  for (const PointerEvent& event : events) {
+    const bool covered = event.kind == PointerEvent::Kind::press &&
+                         (shown_.panel.has_value() || pressed({event.x, event.y}).has_value());
+    pointer_->take(event, under, covered);
+  }
+  pointer_->update(under, now);
+  if (pointer_->take_stirred()) panel_.touch(now);
+}
+
+/// Before it is known what screen it is for.
+RenderScene DisplayLoop::build_for_one() const {
+  if (builder_ != nullptr)
+    return builder_->build(have_frame_ ? &frame_ : nullptr, status_ ? &*status_ : nullptr, client_.state());
+  RenderScene scene;
+  scene.ground_height_m = 0.0F;
+  scene.camera.p_WT = Vec3(0, 1.2, 0);
+  scene.overlay.note = link_note(client_.state(), false, spoken_);
+  return scene;
+}
+
+void DisplayLoop::take_wishes(TimePoint now) {
+  for (const DisplayKey key : context_.take_keys())
+    take_key(key, now);
+  if (const auto place = context_.take_click()) take_click(*place, now);
+  take_pointer(now);
+  const auto server = client_.server_status();
+  const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
+  panel_.update({status_ ? &*status_ : nullptr, presentation_, have_frame_ ? &frame_ : nullptr, home}, now);
+  const VisitorWishes wishes = panel_.take_wishes();
+  if (wishes.home) (void)client_.open_exhibit("");
+  for (const VisitorAnswer& given : wishes.answers) {
+    if (client_.answer(given.when, given.activity, given.question, given.answer) == 0)
+      log::warning("an answer to '" + given.question + "' was not sent: there is no world");
+  }
+  tell_language();
+  if (panel_.language() == spoken_) return;
+  spoken_ = panel_.language();
+  if (builder_) builder_->set_language(spoken_);
+  if (sound_) sound_->set_language(spoken_);
+}
+
+/// The visit's sheet says in which language the visitor was shown the exhibit: told once a world, and when it changes.
+void DisplayLoop::tell_language() {
+  if (!presentation_ || presentation_->languages.empty() || client_.state() != LinkState::joined) return;
+  const auto& known = presentation_->languages;
+  const bool speaks_it = std::ranges::count(known, panel_.language()) > 0;
+  const std::string& shown = speaks_it ? panel_.language() : known.front();
+  if (told_presentation_ == presentation_ && told_language_ == shown) return;
+  if (client_.tell_language(shown) == 0) return;
+  told_presentation_ = presentation_;
+  told_language_ = shown;
+}
+
+/// The world's; an invitation's own assets go before.
+void DisplayLoop::upload() {
+  if (!attracts_ && library_) renderer_.upload(library_->assets());
+}
+
+/// Nobody is there: a recorded visit invites. The world goes on behind it, so that whoever comes is in it at once.
+void DisplayLoop::tend_attract(TimePoint now) {
+  if (attract_ == nullptr) return;
+  const client::DisplaySettings& settings = desk_.settings();
+  const std::chrono::duration<double> alone = panel_.alone_for(now);
+  const bool before = std::exchange(attracts_, settings.attract && alone.count() >= settings.attract_after_s);
+  if (attracts_ && !before) attract_->rewind();
+  if (attracts_ ? attract_->advance(now) || !before : before) {
+    renderer_.forget_assets();
+    if (attracts_) renderer_.upload(attract_->assets());
+    upload();
+  }
+}
+
+/// What is wished from afar, and how the display is.
+void DisplayLoop::tend_kiosk(TimePoint now) {
+  if (desk_.take_wishes(panel_.settings().style)) {
+    const client::DisplaySettings& wished = desk_.settings();
+    panel_.change(panel_settings(wished));
+    if (!sound_ && !wished.muted && !options_.offscreen) sound_.emplace(options_.sound, spoken_);
+    if (sound_) sound_->set_levels({wished.volume, wished.muted});
+  }
+  if (!desk_.report_due(now)) return;
+  DisplayFacts facts;
+  facts.size = context_.size();
+  facts.world = status_ ? &*status_ : nullptr;
+  facts.missing = library_ ? &library_->missing() : nullptr;
+  if (sound_) facts.sound = sound_->state();
+  facts.attracts = attracts_;
+  desk_.report(facts, now);
+}
+
+void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
+  panel_.touch(now);
+  switch (key) {
+    case DisplayKey::home:
+      (void)client_.open_exhibit("");
+      return;
+    case DisplayKey::language:
+      return panel_.next_language(now);
+    case DisplayKey::large_text:
+      return panel_.toggle_large_text();
+    case DisplayKey::high_contrast:
+      return panel_.toggle_high_contrast();
+  }
+}
+
+/// Buttons come first; what lies behind a panel of questions is not meant.
+void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
+  const auto action = pressed(place);
+  if (action && action->kind == OverlayAction::Kind::activity) (void)client_.start_activity(action->value);
+  if (action) return panel_.press(*action, now);
+  panel_.touch(now);
+  if (attracts_) return;  // it means what is behind the invitation as little as a panel's
+  if (!shown_.panel) click_object(place, now);
+}
+
+std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
+  const PixelSize picture = context_.size();
+  const PixelSize eye = eye_size(options_.stereo, picture);
+  if (eye.width < 2 || eye.height < 2) return {};
+  const MeasureText measure = [this](Face face, int px, std::string_view text) {
+    return typesetter_.width(face, px, text);
+  };
+  const EyePlace seen = eye_at(options_.stereo, picture, place);
+  return action_at(lay_out(shown_, eye, measure, shown_inset_ ? &*shown_inset_ : nullptr), (1 + seen.x) / 2 * eye.width,
+                   (1 - seen.y) / 2 * eye.height);
+}
+
+/// A click on a sign is as good as a finger.
+void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
+  if (builder_ == nullptr) return;
+  const auto clicked = object_at(build(now), library_->assets(), place, options_.stereo, context_.size());
+  if (!clicked) return;
+  for (const client::SceneObject& object : objects_) {
+    if (object.index == *clicked) (void)client_.click(object.name);
+  }
+}
+
+Expected<void> DisplayLoop::draw(TimePoint now) {
+  const TimePoint began = clock_.now();
+  const RenderScene scene = build(now);
+  const PixelSize size = context_.size();
+  say_stray();
+  // A window that is minimised has no pixels.
+  if (size.width < 2 || size.height < 2) return {};
+  if (auto ok = renderer_.draw(scene, options_.stereo, size); !ok) return survive(ok.error());
+  if (options_.offscreen) {
+    renderer_.finish();
+  } else {
+    renderer_.copy_to_window(size);
+  }
+  context_.present();
+  shown_ = scene.overlay;
+  shown_inset_ = scene.inset ? std::optional(scene.inset->caption) : std::nullopt;
+  let_hear(scene.camera, now);
+  ++summary_.frames;
+  desk_.drawn(clock_.now() - began, clock_.now());
+  if (frame_ms_.size() < kFrameTimesKept) {
+    frame_ms_.push_back(std::chrono::duration<double, std::milli>(clock_.now() - began).count());
+  }
+  return {};
+}
+
+/// A window may be drawn to a size that the driver has no memory for, and back: it waits for that. Offscreen the size stays wrong.
+Expected<void> DisplayLoop::survive(const Error& error) {
+  if (options_.offscreen) return tl::unexpected(error);
+  if (told_draw_ != error.what) log::error(error);
+  told_draw_ = error.what;
+  context_.present();  // takes the window's events
+  return {};
+}
+
+void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
+  const std::vector<client::WorldEvent> events = client_.take_events();
+  if (source_.recorder) source_.recorder->hear(now, events);
+  if (!sound_) return;
+  const bool here = have_frame_ && client_.state() == LinkState::joined && !attracts_;
+  sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(), objects_,
+               events, folder_);
+}
+
+Expected<void> DisplayLoop::write_picture(const std::string& name) {
+  if (options_.out.empty()) return {};
+  const std::string path = fmt::format("{}/{}-{}.png", options_.out, name, stereo_name(options_.stereo));
+  if (auto ok = write_png(renderer_.read_picture(), path); !ok) return ok;
+  log::info("wrote " + path);
+  summary_.pictures.push_back(path);
+  return {};
+}
+
+/// For a person: a full disk costs the picture, and not the display.
+void DisplayLoop::write_requested() {
+  const auto written = write_picture(fmt::format("request-{:03}", ++requested_pictures_));
+  if (written) return desk_.picture_taken(summary_.pictures.empty() ? "" : summary_.pictures.back());
+  log::warning(written.error().to_string());
+  desk_.picture_failed(written.error());
+}
+
+void DisplayLoop::wait_for_next(TimePoint began) {
+  if (options_.film_fps > 0) return;
+  const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
+  const TimePoint now = clock_.now();
+  next_ = std::max(next_ + period, now);
+  // Drawing on the processor, a display leaves at least half of the time to the others on the machine. One picture a step leaves more
+  // than that, and must be back before a short step is over.
+  if (options_.offscreen && !options_.every_step)
+    next_ = std::max(next_, now + std::min<Duration>(now - began, std::chrono::seconds(1)));
+  clock_.sleep_until(next_);
+}
+
+Expected<DisplaySummary> DisplayLoop::run() {
+  started_ = next_ = clock_.now();
+  if (options_.sound.on && !options_.offscreen) sound_.emplace(options_.sound, spoken_);
+  while (!stop_wanted(now())) {
+    const TimePoint now = this->now();
+    take_news(now);
+    take_wishes(now);
+    tend_attract(now);
+    tend_kiosk(now);
+    const bool asked = requests_.picture.exchange(false);
+    const bool requested = context_.take_picture_wanted() || asked || desk_.picture_wanted();
+    const bool only_pictures = options_.offscreen && options_.every_step && options_.film_fps <= 0;
+    if (!only_pictures || due_ || requested) {
+      if (auto ok = draw(now); !ok) return tl::unexpected(ok.error());
+    }
+    std::vector<std::string> names;
+    if (due_) names.push_back(*std::exchange(due_, std::nullopt));
+    if (requested) write_requested();
+    if (options_.frames > 0 && summary_.frames == options_.frames) names.emplace_back("frame");
+    if (options_.film_fps > 0) names.push_back(fmt::format("film-{:05}", summary_.frames));
+    for (const std::string& name : names) {
+      if (auto ok = write_picture(name); !ok) return tl::unexpected(ok.error());
+      if (finished() && name.ends_with("-done")) last_picture_taken_ = true;
+    }
+    wait_for_next(now);
+  }
+  summary_.done = finished();
+  summary_.frame_ms_median = percentile(frame_ms_, 0.5);
+  summary_.frame_ms_p99 = percentile(frame_ms_, 0.99);
+  summary_.steps_missed.assign(schedule_.missed().begin(), schedule_.missed().end());
+  if (mesh_files_) summary_.differing_assets.assign(mesh_files_->differing().begin(), mesh_files_->differing().end());
+  if (library_) summary_.missing_assets.assign(library_->missing().begin(), library_->missing().end());
+  summary_.renderer = context_.renderer_name();
+  if (sound_) {
+    const SoundState heard = sound_->state();
+    summary_.sound = heard.sounding ? heard.device : heard.problem;
+  } else {
+    summary_.sound = "off";
+  }
+  return std::move(summary_);
+}
+
+}  // namespace mechane::display

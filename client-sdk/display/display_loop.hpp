@@ -1,0 +1,116 @@
+// The display's loop: hears of a kiosk's world, draws it, lets it be heard, and does what visitors and technicians wish.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client-sdk/display/display_app.hpp"
+#include "client-sdk/display/kiosk_setup.hpp"
+#include "client-sdk/display/mesh_files.hpp"
+#include "client-sdk/display/pointer_input.hpp"
+#include "server/base/clock.hpp"
+
+namespace mechane::display {
+
+/// One display's life. Made and run on one thread.
+class DisplayLoop {
+ public:
+  DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
+              DisplaySource& source, Typesetter& typesetter, const content::Catalogue* catalogue,
+              std::unique_ptr<AttractLoop> attract)
+      : options_(options),
+        requests_(requests),
+        context_(context),
+        renderer_(renderer),
+        source_(source),
+        client_(*source.client),
+        typesetter_(typesetter),
+        catalogue_(catalogue),
+        attract_(std::move(attract)),
+        desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
+        panel_(panel_settings(desk_.settings())),
+        spoken_(options.language) {
+    if (options.touch && !options.offscreen && source_.recorded == nullptr)
+      pointer_.emplace(options.kiosk, options.domain);
+  }
+
+  Expected<DisplaySummary> run();
+
+ private:
+  [[nodiscard]] TimePoint now();
+  [[nodiscard]] bool stop_wanted(TimePoint now) const;
+  [[nodiscard]] bool finished() const;
+  void take_news(TimePoint now);
+  void record(TimePoint now);
+  void open_scenario();
+  void take_arrived();
+  void say_refusal();
+  void say_stray();
+  Expected<void> draw(TimePoint now);
+  Expected<void> survive(const Error& error);
+  void let_hear(const Camera& ears, TimePoint now);
+  [[nodiscard]] RenderScene build(TimePoint now) const;
+  [[nodiscard]] RenderScene build_for_one() const;
+  void take_wishes(TimePoint now);
+  void tend_kiosk(TimePoint now);
+  void tend_attract(TimePoint now);
+  void upload();
+  void take_pointer(TimePoint now);
+  [[nodiscard]] PointerScene under_pointer(const RenderScene& scene) const;
+  void tell_language();
+  void take_key(DisplayKey key, TimePoint now);
+  void take_click(PixelPlace place, TimePoint now);
+  [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
+  void click_object(PixelPlace place, TimePoint now);
+  Expected<void> write_picture(const std::string& name);
+  void write_requested();
+  void wait_for_next(TimePoint began);
+
+  const DisplayOptions& options_;
+  DisplayRequests& requests_;
+  GlContext& context_;
+  Renderer& renderer_;
+  DisplaySource& source_;
+  client::Client& client_;
+  Typesetter& typesetter_;
+  SystemClock clock_;
+  const content::Catalogue* catalogue_;
+  std::unique_ptr<AssetStore> store_;      ///< where assets come from a server
+  std::unique_ptr<MeshFiles> mesh_files_;  ///< of the library
+  std::unique_ptr<AssetLibrary> library_;
+  std::unique_ptr<SceneBuilder> builder_;
+  std::optional<client::WorldStatus> status_;
+  std::shared_ptr<const client::WorldPresentation> presentation_;
+  client::Frame frame_;
+  bool have_frame_ = false;
+  std::optional<DisplaySound> sound_;
+  std::unique_ptr<AttractLoop> attract_;  ///< null: none
+  bool attracts_ = false;
+  KioskDesk desk_;
+  std::optional<PointerInput> pointer_;
+  VisitorPanel panel_;
+  std::string spoken_;  ///< the language that all others know of
+  std::string told_language_;
+  std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told it
+  OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
+  std::optional<std::string> shown_inset_;
+  std::string told_refusal_;
+  std::string told_stray_;
+  std::string told_draw_;
+  std::string folder_;
+  std::string scenario_;
+  std::vector<client::SceneObject> objects_;  ///< the manifest
+  PictureSchedule schedule_;
+  std::optional<std::string> due_;
+  bool last_picture_taken_ = false;
+  std::uint32_t requested_pictures_ = 0;
+  TimePoint started_;
+  TimePoint next_;
+  std::vector<double> frame_ms_;
+  DisplaySummary summary_;
+};
+
+}  // namespace mechane::display
