@@ -214,7 +214,7 @@ class TouchVisitor:
             seconds = 2 * math.pi * float(move.get("cycles", 1)) / rate
         began, step = time.monotonic(), self.status.now()["step"]
         # A heavy crank comes after the finger: who sees that the step is not over goes on.
-        goes_on = lambda t: t < seconds or (t < 3 * seconds and self.status.now()["step"] == step)
+        goes_on = lambda t: t < seconds or (t < 1.3 * seconds and self.status.now()["step"] == step)
         while goes_on(t := time.monotonic() - began) and not self.done(activity):
             self.point(way(angle(t)))
             time.sleep(0.03)
