@@ -262,7 +262,9 @@ void SceneBuilder::add_object(const Placed& placed, const Pose& X_WB, const clie
       if (level_m && *level_m < kLeastLevel_m) continue;
       out.waters.push_back({part.mesh, X, level_m ? 0.55F : 0.12F, level_m ? 0.6F : 1.0F});
     } else {
-      out.instances.push_back({part.mesh, part.material, X, true, placed.index});
+      // Land lies in the light; its rim would throw a shadow on itself, and the plain goes on where it ends.
+      const bool land = library_.assets().materials[part.material].land;
+      out.instances.push_back({part.mesh, part.material, X, !land, placed.index});
     }
   }
 }
