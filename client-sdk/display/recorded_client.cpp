@@ -113,9 +113,13 @@ bool RecordedClient::interpolated_frame(TimePoint at, Duration /*delay*/, client
   client::Frame to;
   if (!decode(after->content, to)) return true;
   const Duration played = settings_.from + std::chrono::duration_cast<Duration>((at - *began_) * settings_.speed);
-  const double share = to_seconds(played - frame_time_) / to_seconds(after->time - frame_time_);
+  const double share = std::clamp(to_seconds(played - frame_time_) / to_seconds(after->time - frame_time_), 0.0, 1.0);
   client::Frame between;
-  client::interpolate(*frame_, to, std::clamp(share, 0.0, 1.0), between);
+  client::interpolate(*frame_, to, share, between);
+  // The world's time goes with the poses, or water and smoke would go by jerks in slow motion. What is seen at all is the last frame's.
+  if (to.tick > frame_->tick)
+    between.tick = frame_->tick + static_cast<std::uint64_t>(share * static_cast<double>(to.tick - frame_->tick));
+  between.visible = frame_->visible;
   out = std::move(between);
   return true;
 }

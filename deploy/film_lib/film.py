@@ -33,7 +33,7 @@ class Place:
 
 PLACES = (
     Place("village", "choose", ("choose@0.62", 3), ("@0", "@0.5", "choose@0.8", "@1")),
-    Place("archimedes-screw", "use", ("fill@0.2", 4), ("@0", "turn@0", "turn@0.6", "@1")),
+    Place("archimedes-screw", "use", ("fill@0.2", 4), ("@0", "turn@0.5", "fill@0.5", "@1")),
     Place("ktesibios-pump", "use", ("steady@0.1", 4), ("@0", "stroke@0.5", "fill@0.5", "@1")),
     Place("pulley-crane", "use", ("lift@0.4", 4), ("@0", "lift@0.3", "guide@0.5", "@1"), whole_hand=False),
     Place("compound-pulley-crane", "use", ("lift@0.4", 4), ("@0", "lift@0.3", "guide@0.5", "@1")),

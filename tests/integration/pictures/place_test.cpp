@@ -70,7 +70,7 @@ class Place {
       EXPECT_TRUE(library_.missing().empty()) << *library_.missing().begin();
     }
     client::Frame frame;
-    EXPECT_TRUE(client_.interpolated_frame(now, Duration{0}, frame));
+    EXPECT_TRUE(client_.newest_frame(frame));  // nothing of the next moment's
     const auto status = client_.world_status();
     RenderScene out = builder_.build(&frame, &*status, client_.state());
     // Words have tests of their own, and would hide the machine in so small a picture.

@@ -50,6 +50,20 @@ TEST(RecordedClient, shows_what_was_at_each_moment_between_frames_too) {
   EXPECT_TRUE(client.take_events().empty());
 }
 
+TEST(RecordedClient, the_worlds_time_goes_with_the_poses) {
+  PlaySettings settings;
+  settings.speed = 0.1;
+  RecordedClient client(played({0, 40, 80}), settings);
+  client.advance(kPlayedFrom);
+  for (const int ms : {0, 7, 39, 40, 61}) {
+    const TimePoint now = kPlayedFrom + milliseconds(10 * ms);
+    client.advance(now);
+    client::Frame frame;
+    ASSERT_TRUE(client.interpolated_frame(now, Duration{0}, frame));
+    EXPECT_NEAR(static_cast<double>(frame.tick), ms, 1) << ms;
+  }
+}
+
 TEST(RecordedClient, stands_still_when_it_is_over_or_begins_anew) {
   RecordedClient once(played({0, 40, 80}), {});
   EXPECT_NEAR(bucket_height(once, kPlayedFrom), 0, 1e-6);
