@@ -22,14 +22,14 @@ Expected<double> read_number(const std::string& text, double least, double most)
 }
 
 /// How one setting is read and written.
-struct Way {
+struct SettingWay {
   DisplaySettingInfo info;
   bool (*read)(const std::string& text, DisplaySettings& into);
   std::string (*write)(const DisplaySettings& from);
 };
 
 template <double DisplaySettings::*kMember, int kLeast, int kMost>
-constexpr Way number_way(std::string_view name, std::string_view values) {
+constexpr SettingWay number_way(std::string_view name, std::string_view values) {
   return {{name, values},
           [](const std::string& text, DisplaySettings& into) {
             const auto number = read_number(text, kLeast, kMost);
@@ -40,7 +40,7 @@ constexpr Way number_way(std::string_view name, std::string_view values) {
 }
 
 template <bool DisplaySettings::*kMember>
-constexpr Way switch_way(std::string_view name) {
+constexpr SettingWay switch_way(std::string_view name) {
   return {{name, "on, off"},
           [](const std::string& text, DisplaySettings& into) {
             if (text != "on" && text != "off") return false;
@@ -51,7 +51,7 @@ constexpr Way switch_way(std::string_view name) {
 }
 
 template <std::string DisplaySettings::*kMember, const std::array<std::string_view, 3>& kWords>
-constexpr Way word_way(std::string_view name, std::string_view values) {
+constexpr SettingWay word_way(std::string_view name, std::string_view values) {
   return {{name, values},
           [](const std::string& text, DisplaySettings& into) {
             if (text.empty() || std::ranges::find(kWords, text) == kWords.end()) return false;
@@ -65,7 +65,7 @@ constexpr std::array<std::string_view, 3> kLanguages{"el", "en", ""};
 constexpr std::array<std::string_view, 3> kAsks{"none", "after", "both"};
 constexpr int kMostSeconds = static_cast<int>(kDay_s);
 
-constexpr std::array<Way, 9> kWays{{
+constexpr std::array<SettingWay, 9> kWays{{
     number_way<&DisplaySettings::volume, 0, 1>("volume", "0 to 1"),
     switch_way<&DisplaySettings::muted>("mute"),
     word_way<&DisplaySettings::language, kLanguages>("language", "el, en"),
@@ -90,7 +90,7 @@ std::string quoted(const std::string& text) {
 const std::vector<DisplaySettingInfo>& display_settings() {
   static const std::vector<DisplaySettingInfo> kAll = [] {
     std::vector<DisplaySettingInfo> all;
-    for (const Way& way : kWays)
+    for (const SettingWay& way : kWays)
       all.push_back(way.info);
     return all;
   }();
@@ -99,7 +99,7 @@ const std::vector<DisplaySettingInfo>& display_settings() {
 
 Expected<void> apply(const DisplaySetting& setting, DisplaySettings& settings) {
   std::string names;
-  for (const Way& way : kWays) {
+  for (const SettingWay& way : kWays) {
     names += (names.empty() ? "" : ", ") + std::string(way.info.name);
     if (way.info.name != setting.name) continue;
     if (way.read(setting.value, settings)) return {};
@@ -120,7 +120,7 @@ Expected<void> apply(const std::vector<DisplaySetting>& wished, DisplaySettings&
 
 std::vector<DisplaySetting> settings_of(const DisplaySettings& settings) {
   std::vector<DisplaySetting> all;
-  for (const Way& way : kWays)
+  for (const SettingWay& way : kWays)
     all.push_back({std::string(way.info.name), way.write(settings)});
   return all;
 }
