@@ -19,7 +19,7 @@ struct RendererSettings {
   std::uint32_t shadow_map_size = 2048;
   float exposure = 1.15F;
   float glow = 0.16F;            ///< of what is too bright for the screen, spread around it
-  float nooks = 0.75F;           ///< how much darker it is where things meet, 0..1
+  float nooks = 0.45F;           ///< how much darker it is where things meet, 0..1
   bool profile = false;          ///< waits for each pass and keeps its time: pass_times()
   bool right_eye_first = false;  ///< row_interleaved: the screen's uppermost row is the right eye's
   std::string font_folder = default_font_folder();

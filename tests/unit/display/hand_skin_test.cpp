@@ -101,8 +101,10 @@ RC_GTEST_PROP(HandModel, a_tip_has_a_hand_that_ends_in_it, ()) {
   const SegmentPoses holding = hand_at_tip(p_WT, true, camera);
   RC_ASSERT((0.5 * (finger_tip(holding, 0) + finger_tip(holding, 1)) - p_WT).norm() < 1e-6);
   RC_ASSERT((finger_tip(holding, 0) - finger_tip(holding, 1)).norm() < 0.025);
+  const Eigen::Vector4f ahead_W = -eye_view(camera, Eye::middle, 1).V_CW.row(2).transpose();
+  const auto depth = [&](const Vec3& p_W) { return ahead_W.head<3>().cast<double>().dot(p_W); };
   for (const SegmentPoses& hand : {pointing, holding})
-    RC_ASSERT((hand[0].p - camera.p_WC).norm() < (p_WT - camera.p_WC).norm());
+    RC_ASSERT(depth(hand[0].p) < depth(p_WT));
 }
 
 }  // namespace
