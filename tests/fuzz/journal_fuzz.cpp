@@ -1,4 +1,4 @@
-// The journal's reader takes any bytes. With the first byte odd, the rest is the content of a frame of ticks whose checksum is right:
+// The journal's reader takes any bytes. Unless they begin as a journal does, they are the content of a frame of ticks whose checksum is right:
 // a fuzzer would not get past the checksum else.
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ std::vector<std::byte> journal_with_frame(std::uint8_t kind, std::span<const std
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::byte> input = std::as_bytes(std::span(data, size));
-  const bool frame = size > 0 && data[0] % 2 == 1;
+  const bool frame = size > 0 && data[0] != 'M';  // a journal's own first byte
   const std::vector<std::byte> bytes =
       frame ? journal_with_frame(static_cast<std::uint8_t>(data[0] / 2 % 8), input.subspan(1))
             : std::vector<std::byte>(input.begin(), input.end());
