@@ -21,7 +21,7 @@ constexpr double kTurnSpeed_rad_per_s = 1.5;
 constexpr double kClosesAt_m = 0.02;
 // How far the hand may be ahead of what it holds: a grip is lost at 8 cm, and a pointer feels no force that would tell.
 constexpr double kLeash_m = 0.045;
-constexpr double kLongestStep_s = 0.02;
+constexpr double kLongestAdvance_s = 0.02;
 // What a snap, a step or a stone's weight took out of the hand is gone.
 constexpr double kNoticesLoss_s = 0.25;
 // An open hand counts as open after some 20 ms.
@@ -30,7 +30,7 @@ constexpr double kHome_m = 0.08;
 constexpr int kFetches = 5;
 constexpr double kLeaves_s = 0.25;
 constexpr double kNotch = 1.03;
-constexpr double kNearest_m = 0.2;
+constexpr double kNearestCarried_m = 0.2;
 // Around a goal, in shares of the picture's height: within the first the depth is the goal's own, beyond the second the hand's.
 constexpr double kDepthInner = 0.06, kDepthOuter = 0.30;
 // Likewise for the pixel itself: a finger is broad.
@@ -95,7 +95,7 @@ void PointerHand::move(PixelPlace place) {
 void PointerHand::deepen(double notches) {
   if (phase_ != Phase::holding || !std::isfinite(notches)) return;
   const double wanted = depth_m_ * std::pow(kNotch, std::clamp(notches, -100.0, 100.0));
-  depth_m_ = std::clamp(wanted, std::max(kNearest_m, gripped_depth_m_ / 4), 4 * gripped_depth_m_);
+  depth_m_ = std::clamp(wanted, std::max(kNearestCarried_m, gripped_depth_m_ / 4), 4 * gripped_depth_m_);
 }
 
 void PointerHand::turn(double angle_rad) {
@@ -118,7 +118,7 @@ void PointerHand::let_go() {
 
 std::optional<client::HandInput> PointerHand::advance(double dt_s, const PointerSenses& senses) {
   if (phase_ == Phase::resting || !(dt_s > 0)) return {};
-  const double dt = std::min(dt_s, kLongestStep_s);
+  const double dt = std::min(dt_s, kLongestAdvance_s);
   const Pose before = X_WH_;
   phase_s_ += dt;
   if (phase_ == Phase::reaching) {
@@ -160,7 +160,7 @@ void PointerHand::grip(const PointerSenses& senses) {
   phase_ = Phase::holding;
   phase_s_ = empty_s_ = 0;
   X_BH_ = senses.X_WB.inverse() * X_WH_;
-  depth_m_ = gripped_depth_m_ = std::max(depth_of(sight_, X_WH_.p), kNearest_m);
+  depth_m_ = gripped_depth_m_ = std::max(depth_of(sight_, X_WH_.p), kNearestCarried_m);
   p_WG_goal_.reset();
   drag_ = Drag::carry;
   if (senses.leeway.axle) begin_turn(*senses.leeway.axle);
@@ -267,7 +267,7 @@ Vec3 PointerHand::slid_to() const {
   if (std::abs(cosine) < kStraightAway) {
     along_m = (cosine * gap.dot(ray.d_W) - gap.dot(line_.a_W)) / (1 - cosine * cosine);
   } else {
-    const double depth_m = std::max(depth_of(sight_, line_.p_W), kNearest_m);
+    const double depth_m = std::max(depth_of(sight_, line_.p_W), kNearestCarried_m);
     const auto began = pixel_of(sight_, line_.p_W);
     const PixelPlace level{pointer_.x, began ? began->y : pointer_.y};
     const double up_m = (point_at(sight_, pointer_, depth_m) - point_at(sight_, level, depth_m)).norm();
