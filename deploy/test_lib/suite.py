@@ -38,7 +38,7 @@ SANITIZER_ENV = {
 # Under the address sanitizer a tick takes longer than its millisecond, so a visit played in real time would test the machine only; the
 # others fit, and sample, a thousand times what their neighbours fit and sample too, or need a limit on the address space. A display that draws
 # ends with two blocks of 56 bytes that the graphics driver has kept, and has unloaded itself by then, so that no suppression can name it.
-TOO_SLOW_SANITIZED = ("Visit.test_(two|five|without|a_whole|a_click)", "Visits.test_an_answer", "Assets.test_(a_|another|the_|without)", "Exhibits.test_", "Faults.test_a_(killed_visitor|full_disk)", "ArchimedesScrew.TenThousand",
+TOO_SLOW_SANITIZED = ("Visit.test_(two|five|without|a_whole|a_click)", "Visits.test_an_answer", "Assets.test_(a_|another|the_|without)", "Exhibits.test_", "Kiosk.test_", "Touch.test_", "Faults.test_a_(killed_visitor|full_disk)", "ArchimedesScrew.TenThousand",
                       "SameInputsGiveTheSameBits", "AllocatesNothingAndRepeats", "SeamsAreNotSampled", "Staves/Barrel",
                       "AFingerEntersABarrel", "WhateverItReturnsBounds", "AFileThatEatsMemory", "unit_geometry.Decompose", "ThinParts",
                       "AgainstBulletsBoxes", "PaperMap.(Smoothing|OnTheTwo)", "Fit.test_(a_fine_mesh|a_full_disk|a_mesh_becomes|faults_that_can|two_meshes)",

@@ -32,6 +32,8 @@ class Film(EndToEnd):
         wait_until(lambda: still.append(self.picture(display)) or still[-1] == still[-2], 30, "the picture stands still")
         self.assertEqual({self.picture(display) for _ in range(8)}, {still[-1]}, "and nothing in it moves any more")
         server.process.send_signal(signal.SIGCONT)
+        visitor.stop()  # its moves may be over by now; the next one's hand is seen to come
+        self.visitor("wall", "--activity", "use")
         wait_until(lambda: self.picture(display) != still[-1], 30, "it goes on with the server")
         self.assertEqual(display.stop(), 0, display.text())
 
