@@ -89,9 +89,8 @@ std::string quoted(const std::string& text) {
 
 const std::vector<DisplaySettingInfo>& display_settings() {
   static const std::vector<DisplaySettingInfo> kAll = [] {
-    std::vector<DisplaySettingInfo> all;
-    for (const SettingWay& way : kWays)
-      all.push_back(way.info);
+    std::vector<DisplaySettingInfo> all(kWays.size());
+    std::ranges::transform(kWays, all.begin(), &SettingWay::info);
     return all;
   }();
   return kAll;
@@ -120,6 +119,7 @@ Expected<void> apply(const std::vector<DisplaySetting>& wished, DisplaySettings&
 
 std::vector<DisplaySetting> settings_of(const DisplaySettings& settings) {
   std::vector<DisplaySetting> all;
+  all.reserve(kWays.size());
   for (const SettingWay& way : kWays)
     all.push_back({std::string(way.info.name), way.write(settings)});
   return all;
