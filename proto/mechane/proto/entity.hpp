@@ -106,6 +106,17 @@ class Reader {
   using OnData = std::function<void(ReaderView<T>)>;
 
   Reader() = default;
+  Reader(Reader&& other) noexcept = default;
+  /// What listens to the old entity ends before what it calls is gone; member by member it would be the other way round.
+  Reader& operator=(Reader&& other) noexcept {
+    if (this == &other) return *this;
+    reader_.reset();
+    topic_ = std::move(other.topic_);
+    on_data_ = std::move(other.on_data_);
+    reader_ = std::move(other.reader_);
+    return *this;
+  }
+  ~Reader() = default;
   /// Partition "": the default one. `on_data` may be empty: then take by polling. Errors: out of memory, or a broken participant.
   [[nodiscard]] static Expected<Reader> create(const Participant& participant, const std::string& partition,
                                                OnData on_data = {});
