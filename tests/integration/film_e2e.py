@@ -35,6 +35,7 @@ class Film(EndToEnd):
         visitor.stop()  # its moves may be over by now; the next one's hand is seen to come
         self.visitor("wall", "--activity", "use")
         wait_until(lambda: self.picture(display) != still[-1], 30, "it goes on with the server")
+        self.assertIsNone(server.process.poll(), "it lives through what it slept over: " + server.text())
         self.assertEqual(display.stop(), 0, display.text())
 
     def test_a_visit_is_recorded_and_shown_again_without_a_server(self):
