@@ -1,8 +1,6 @@
 #include "client-sdk/display/display_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,7 +8,6 @@
 #include "client-sdk/display/overlay_layout.hpp"
 #include "client-sdk/display/picking.hpp"
 #include "client-sdk/display/pointer_aid.hpp"
-#include "server/content/mesh_import.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -21,26 +18,12 @@ using client::LinkState;
 /// Two frames of a world that sends sixty a second: so late the picture is, and so smooth.
 constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
 constexpr std::size_t kFrameTimesKept = 20'000;
-/// A picture of a step waits so long for a model from a server: with a server that does not answer, only the first one does.
-constexpr std::chrono::seconds kAssetPatience{15};
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = std::lround(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
-
-/// Another world may bring another manifest, even of the same scenario.
-std::string scenario_key(const client::WorldStatus& status) {
-  return status.world + " " + status.scenario + " " + status.scenario_hash;
-}
-
 }  // namespace
 
 bool DisplayLoop::finished() const {
-  if (!status_ || !status_->done) return false;
-  return status_->activities.empty() || status_->activities.back() == status_->activity;
+  const client::WorldStatus* status = world_.status();
+  if (status == nullptr || !status->done) return false;
+  return status->activities.empty() || status->activities.back() == status->activity;
 }
 
 /// A film's time goes by its pictures, not by how long they take.
@@ -59,36 +42,6 @@ bool DisplayLoop::stop_wanted(TimePoint now) const {
   return options_.until_done && finished() && !owes_picture;
 }
 
-void DisplayLoop::open_scenario() {
-  scenario_ = scenario_key(*status_);
-  folder_ = options_.assets.empty() ? status_->scenario_folder : options_.assets;
-  if (!attracts_) renderer_.forget_assets();
-  // One for all scenarios: who comes back to one finds its files at once.
-  if (!store_) store_ = open_asset_store(options_);
-  mesh_files_ = store_ ? std::make_unique<MeshFiles>(store_.get(), catalogue_)
-                       : std::make_unique<MeshFiles>(std::filesystem::path(folder_), catalogue_);
-  library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {
-    const auto file = mesh_files_->find(uri);
-    if (!file) return tl::unexpected(file.error());
-    return content::import_mesh(*file);
-  });
-  builder_ = std::make_unique<SceneBuilder>(*library_, spoken_);
-  objects_.clear();
-  presentation_.reset();
-  have_frame_ = false;  // of the world before
-}
-
-/// Files that came from the server of assets take their placeholders' place.
-void DisplayLoop::take_arrived() {
-  if (!store_ || objects_.empty()) return;
-  bool any = false;
-  for (const std::string& name : store_->take_arrived())
-    any = library_->load_again(name) || any;
-  if (!any) return;
-  builder_->set_manifest(objects_);
-  upload();
-}
-
 /// Visitors see a calm picture; whoever looks after the kiosk needs the reason.
 void DisplayLoop::say_refusal() {
   const std::string refusal = client_.state() == LinkState::refused ? client_.refusal() : std::string();
@@ -99,36 +52,22 @@ void DisplayLoop::say_refusal() {
 
 /// What came loose from its world is not drawn; once is enough.
 void DisplayLoop::say_stray() {
-  if (builder_ == nullptr || builder_->stray().empty() || builder_->stray() == told_stray_) return;
-  told_stray_ = builder_->stray();
+  const std::string stray = world_.stray();
+  if (stray.empty() || stray == told_stray_) return;
+  told_stray_ = stray;
   log::warning(told_stray_ + " is kilometres away and not drawn: its world has come apart; begin the activity anew");
 }
 
 /// Status, manifest and frame as they are now.
 void DisplayLoop::take_news(TimePoint now) {
   if (source_.recorded != nullptr) source_.recorded->advance(now);
-  if (auto status = client_.world_status()) {
-    status_ = std::move(status);
-    if (builder_ == nullptr || scenario_key(*status_) != scenario_) open_scenario();
+  const ShownWorld::News news = world_.hear(client_);
+  if (news.another_world) {
+    if (!attracts_) renderer_.forget_assets();
+    have_frame_ = false;  // of the world before
   }
-  if (builder_ != nullptr) {
-    if (auto presentation = client_.presentation(); presentation != presentation_) {
-      presentation_ = std::move(presentation);
-      builder_->set_presentation(presentation_);
-    }
-    std::vector<client::SceneObject> objects = client_.objects();
-    if (objects.size() != objects_.size()) {
-      objects_ = std::move(objects);
-      for (const client::SceneObject& object : objects_)
-        mesh_files_->expect(object.mesh_uri, object.mesh_hash);
-      builder_->set_manifest(objects_);
-      upload();
-    }
-    // Asked before what came is taken, lest something comes in between.
-    const bool whole = !store_ || (!objects_.empty() && !store_->is_awaited(kAssetPatience));
-    take_arrived();
-    if (options_.every_step && status_ && !due_) due_ = schedule_.due(now, *status_, whole);
-  }
+  if (news.assets) upload();
+  if (options_.every_step && world_.known() && !due_) due_ = schedule_.due(now, *world_.status(), news.whole);
   record(now);
   say_refusal();
   // While the link is down the last frame stays.
@@ -140,22 +79,23 @@ void DisplayLoop::take_news(TimePoint now) {
 }
 
 void DisplayLoop::record(TimePoint now) {
-  if (!source_.recorder || !status_ || client_.state() != LinkState::joined) return;
+  if (!source_.recorder || !world_.known() || client_.state() != LinkState::joined) return;
   client::Frame newest;
   const bool any = client_.newest_frame(newest);
-  source_.recorder->hear(now, *status_, presentation_.get(), objects_, any ? &newest : nullptr);
+  source_.recorder->hear(now, *world_.status(), world_.presentation().get(), world_.objects(), any ? &newest : nullptr);
 }
 
 RenderScene DisplayLoop::build(TimePoint now) const {
-  RenderScene scene = attracts_ ? attract_->build(now, spoken_, panel_.settings().style) : build_for_one();
+  RenderScene scene = attracts_ ? attract_->build(now, spoken_, panel_.settings().style)
+                                : world_.build(have_frame_ ? &frame_ : nullptr, client_.state());
   if (!attracts_) panel_.write(scene.overlay, now);
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
   const PixelSize eye = eye_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
     scene.camera = for_screen(scene.camera, options_.screen, static_cast<double>(eye.width) / eye.height);
-  if (pointer_ && builder_ != nullptr && !attracts_) {
+  if (pointer_ && world_.known() && !attracts_) {
     pointer_->write(scene.overlay, under_pointer(scene), spoken_);
-    if (const auto button = go_on_button(status_ ? &*status_ : nullptr, spoken_); button && !scene.overlay.panel)
+    if (const auto button = go_on_button(world_.status(), spoken_); button && !scene.overlay.panel)
       scene.overlay.corner.insert(scene.overlay.corner.begin(), *button);
   }
   return scene;
@@ -163,19 +103,19 @@ RenderScene DisplayLoop::build(TimePoint now) const {
 
 PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {
   return {scene,
-          library_->assets(),
+          world_.assets(),
           options_.stereo,
           context_.size(),
           have_frame_ ? &frame_ : nullptr,
-          objects_,
-          status_ ? &*status_ : nullptr,
-          presentation_.get()};
+          world_.objects(),
+          world_.status(),
+          world_.presentation().get()};
 }
 
 /// The display's own hand hears of everything that no button hears.
 void DisplayLoop::take_pointer(TimePoint now) {
   const std::vector<PointerEvent> events = context_.take_pointer_events();
-  if (!pointer_ || builder_ == nullptr) return;
+  if (!pointer_ || !world_.known()) return;
   if (attracts_) {  // whoever comes ends the invitation, and takes nothing yet
     if (!events.empty()) panel_.touch(now);
     return;
@@ -192,17 +132,6 @@ void DisplayLoop::take_pointer(TimePoint now) {
   if (pointer_->take_stirred()) panel_.touch(now);
 }
 
-/// Before it is known what screen it is for.
-RenderScene DisplayLoop::build_for_one() const {
-  if (builder_ != nullptr)
-    return builder_->build(have_frame_ ? &frame_ : nullptr, status_ ? &*status_ : nullptr, client_.state());
-  RenderScene scene;
-  scene.ground_height_m = 0.0F;
-  scene.camera.p_WT = Vec3(0, 1.2, 0);
-  scene.overlay.note = link_note(client_.state(), false, spoken_);
-  return scene;
-}
-
 void DisplayLoop::take_wishes(TimePoint now) {
   for (const DisplayKey key : context_.take_keys())
     take_key(key, now);
@@ -210,7 +139,7 @@ void DisplayLoop::take_wishes(TimePoint now) {
   take_pointer(now);
   const auto server = client_.server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
-  panel_.update({status_ ? &*status_ : nullptr, presentation_, have_frame_ ? &frame_ : nullptr, home}, now);
+  panel_.update({world_.status(), world_.presentation(), have_frame_ ? &frame_ : nullptr, home}, now);
   const VisitorWishes wishes = panel_.take_wishes();
   if (wishes.home) (void)client_.open_exhibit("");
   for (const VisitorAnswer& given : wishes.answers) {
@@ -220,25 +149,26 @@ void DisplayLoop::take_wishes(TimePoint now) {
   tell_language();
   if (panel_.language() == spoken_) return;
   spoken_ = panel_.language();
-  if (builder_) builder_->set_language(spoken_);
+  world_.set_language(spoken_);
   if (sound_) sound_->set_language(spoken_);
 }
 
 /// The visit's sheet says in which language the visitor was shown the exhibit: told once a world, and when it changes.
 void DisplayLoop::tell_language() {
-  if (!presentation_ || presentation_->languages.empty() || client_.state() != LinkState::joined) return;
-  const auto& known = presentation_->languages;
+  const auto& presentation = world_.presentation();
+  if (!presentation || presentation->languages.empty() || client_.state() != LinkState::joined) return;
+  const auto& known = presentation->languages;
   const bool speaks_it = std::ranges::count(known, panel_.language()) > 0;
   const std::string& shown = speaks_it ? panel_.language() : known.front();
-  if (told_presentation_ == presentation_ && told_language_ == shown) return;
+  if (told_presentation_ == presentation && told_language_ == shown) return;
   if (client_.tell_language(shown) == 0) return;
-  told_presentation_ = presentation_;
+  told_presentation_ = presentation;
   told_language_ = shown;
 }
 
 /// The world's; an invitation's own assets go before.
 void DisplayLoop::upload() {
-  if (!attracts_ && library_) renderer_.upload(library_->assets());
+  if (!attracts_ && world_.known()) renderer_.upload(world_.assets());
 }
 
 /// Nobody is there: a recorded visit invites. The world goes on behind it, so that whoever comes is in it at once.
@@ -266,8 +196,8 @@ void DisplayLoop::tend_kiosk(TimePoint now) {
   if (!desk_.report_due(now)) return;
   DisplayFacts facts;
   facts.size = context_.size();
-  facts.world = status_ ? &*status_ : nullptr;
-  facts.missing = library_ ? &library_->missing() : nullptr;
+  facts.world = world_.status();
+  facts.missing = world_.missing();
   if (sound_) facts.sound = sound_->state();
   facts.attracts = attracts_;
   desk_.report(facts, now);
@@ -312,10 +242,10 @@ std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
 
 /// A click on a sign is as good as a finger.
 void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
-  if (builder_ == nullptr) return;
-  const auto clicked = object_at(build(now), library_->assets(), place, options_.stereo, context_.size());
+  if (!world_.known()) return;
+  const auto clicked = object_at(build(now), world_.assets(), place, options_.stereo, context_.size());
   if (!clicked) return;
-  for (const client::SceneObject& object : objects_) {
+  for (const client::SceneObject& object : world_.objects()) {
     if (object.index == *clicked) (void)client_.click(object.name);
   }
 }
@@ -359,8 +289,8 @@ void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
   if (source_.recorder) source_.recorder->hear(now, events);
   if (!sound_) return;
   const bool here = have_frame_ && client_.state() == LinkState::joined && !attracts_;
-  sound_->hear(ears, here ? &frame_ : nullptr, here && status_ ? &*status_ : nullptr, presentation_.get(), objects_,
-               events, folder_);
+  sound_->hear(ears, here ? &frame_ : nullptr, here ? world_.status() : nullptr, world_.presentation().get(),
+               world_.objects(), events, world_.folder());
 }
 
 Expected<void> DisplayLoop::write_picture(const std::string& name) {
@@ -422,8 +352,9 @@ Expected<DisplaySummary> DisplayLoop::run() {
   summary_.frame_ms_median = percentile(frame_ms_, 0.5);
   summary_.frame_ms_p99 = percentile(frame_ms_, 0.99);
   summary_.steps_missed.assign(schedule_.missed().begin(), schedule_.missed().end());
-  if (mesh_files_) summary_.differing_assets.assign(mesh_files_->differing().begin(), mesh_files_->differing().end());
-  if (library_) summary_.missing_assets.assign(library_->missing().begin(), library_->missing().end());
+  if (const auto* differing = world_.differing())
+    summary_.differing_assets.assign(differing->begin(), differing->end());
+  if (const auto* missing = world_.missing()) summary_.missing_assets.assign(missing->begin(), missing->end());
   summary_.renderer = context_.renderer_name();
   if (sound_) {
     const SoundState heard = sound_->state();

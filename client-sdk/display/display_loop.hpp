@@ -9,8 +9,8 @@
 
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/kiosk_setup.hpp"
-#include "client-sdk/display/mesh_files.hpp"
 #include "client-sdk/display/pointer_input.hpp"
+#include "client-sdk/display/shown_world.hpp"
 #include "server/base/clock.hpp"
 
 namespace mechane::display {
@@ -28,7 +28,7 @@ class DisplayLoop {
         source_(source),
         client_(*source.client),
         typesetter_(typesetter),
-        catalogue_(catalogue),
+        world_(open_assets(options, catalogue), options.language),
         attract_(std::move(attract)),
         desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
         panel_(panel_settings(desk_.settings())),
@@ -45,15 +45,12 @@ class DisplayLoop {
   [[nodiscard]] bool finished() const;
   void take_news(TimePoint now);
   void record(TimePoint now);
-  void open_scenario();
-  void take_arrived();
   void say_refusal();
   void say_stray();
   Expected<void> draw(TimePoint now);
   Expected<void> survive(const Error& error);
   void let_hear(const Camera& ears, TimePoint now);
   [[nodiscard]] RenderScene build(TimePoint now) const;
-  [[nodiscard]] RenderScene build_for_one() const;
   void take_wishes(TimePoint now);
   void tend_kiosk(TimePoint now);
   void tend_attract(TimePoint now);
@@ -77,13 +74,7 @@ class DisplayLoop {
   client::Client& client_;
   Typesetter& typesetter_;
   SystemClock clock_;
-  const content::Catalogue* catalogue_;
-  std::unique_ptr<AssetStore> store_;      ///< where assets come from a server
-  std::unique_ptr<MeshFiles> mesh_files_;  ///< of the library
-  std::unique_ptr<AssetLibrary> library_;
-  std::unique_ptr<SceneBuilder> builder_;
-  std::optional<client::WorldStatus> status_;
-  std::shared_ptr<const client::WorldPresentation> presentation_;
+  ShownWorld world_;
   client::Frame frame_;
   bool have_frame_ = false;
   std::optional<DisplaySound> sound_;
@@ -100,9 +91,6 @@ class DisplayLoop {
   std::string told_refusal_;
   std::string told_stray_;
   std::string told_draw_;
-  std::string folder_;
-  std::string scenario_;
-  std::vector<client::SceneObject> objects_;  ///< the manifest
   PictureSchedule schedule_;
   std::optional<std::string> due_;
   bool last_picture_taken_ = false;

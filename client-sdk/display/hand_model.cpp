@@ -23,7 +23,7 @@ MeshData sleeve_mesh() {
   struct Ring {
     double x, half_y, half_z;
   };
-  constexpr double kWrist = -kPalmMiddle_m;
+  constexpr double kWrist = -geometry::kPalmHalfLength_m;
   constexpr std::array<Ring, 9> kRings{{{kWrist - 0.034, 0.0235, 0.0295},
                                         {kWrist - 0.030, 0.0285, 0.0350},
                                         {kWrist - 0.027, 0.0300, 0.0370},
@@ -67,9 +67,10 @@ MeshData sleeve_mesh() {
 
 double hand_scale(const client::HandPose& hand) {
   // The index finger's first phalanx sits half its length beyond the joint, wherever the joint has turned it.
-  const FingerSize& index = finger_sizes()[1];
+  const geometry::FingerSize& index = finger_sizes()[1];
   const Pose X_PS = hand.X_WS[0].inverse() * hand.X_WS[4];
-  const Vec3 unscaled = index.p_HF - Vec3(kPalmMiddle_m, 0, 0) + X_PS.rotate(Vec3(0.5 * index.length_m[0], 0, 0));
+  const Vec3 unscaled =
+      index.p_HF - Vec3(geometry::kPalmHalfLength_m, 0, 0) + X_PS.rotate(Vec3(0.5 * index.length_m[0], 0, 0));
   const double scale = X_PS.p.norm() / std::max(unscaled.norm(), 1e-3);
   return std::clamp(scale, 0.5, 1.5);
 }

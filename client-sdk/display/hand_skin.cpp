@@ -43,7 +43,7 @@ class RestingHand {
   RestingHand() {
     const SegmentPoses X_HS = HandSkin::rest_poses();
     for (std::size_t f = 0; f < client::kFingers; ++f) {
-      const FingerSize& size = finger_sizes()[f];
+      const geometry::FingerSize& size = finger_sizes()[f];
       for (std::size_t k = 0; k < 3; ++k) {
         const Pose& X = X_HS[1 + 3 * f + k];
         const double half = 0.5 * size.length_m[k];

@@ -15,18 +15,19 @@ double seconds_of(Duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
-/// Of values in order.
-double at_share(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
-}
-
 std::string host_name() {
   char host[64] = {};
   return ::gethostname(host, sizeof(host) - 1) == 0 ? std::string(host) : std::string("unknown");
 }
 
 }  // namespace
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at = std::lround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
 
 void PictureMeter::drawn(Duration took, TimePoint now) {
   ++total_;
@@ -42,8 +43,7 @@ PictureMeter::Rate PictureMeter::rate(TimePoint now) const {
   }
   const double over_s = seconds_of(std::min<Duration>(kWindow, now - began_));
   if (took.empty() || over_s <= 0) return {};
-  std::ranges::sort(took);
-  return {static_cast<double>(took.size()) / over_s, at_share(took, 0.5), at_share(took, 0.99)};
+  return {static_cast<double>(took.size()) / over_s, percentile(took, 0.5), percentile(took, 0.99)};
 }
 
 TrafficMeter::Rate TrafficMeter::rate(const client::FrameTraffic& now_counted, TimePoint now) {

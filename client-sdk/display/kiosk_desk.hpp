@@ -17,6 +17,9 @@
 
 namespace mechane::display {
 
+/// The value below which `share` (0..1) of them lie; 0 of none.
+[[nodiscard]] double percentile(std::vector<double> values, double share);
+
 /// Pictures a second, and what one takes, of the last seconds.
 class PictureMeter {
  public:

@@ -4,6 +4,23 @@
 #include "server/log/log.hpp"
 
 namespace mechane::display {
+namespace {
+
+/// None where assets are a folder's.
+std::unique_ptr<AssetStore> open_asset_store(const DisplayOptions& display) {
+  if (!is_web_address(display.assets)) return nullptr;
+  AssetStoreOptions options;
+  options.cache_folder = display.asset_cache;
+  options.cache_bytes = std::uint64_t{display.asset_cache_mib} << 20U;
+  auto address = AssetAddress::parse(display.assets);
+  MECHANE_ASSERT(address.has_value());  // run_display() has read it
+  auto store = AssetStore::open(std::move(*address), options);
+  if (store) return std::move(*store);
+  log::error(store.error());
+  return nullptr;
+}
+
+}  // namespace
 
 client::DisplaySettings settings_at_start(const DisplayOptions& options) {
   client::DisplaySettings settings;
@@ -31,27 +48,14 @@ DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& cont
           options.fps,   !options.out.empty(), !options.attract.empty()};
 }
 
-std::unique_ptr<AssetStore> open_asset_store(const DisplayOptions& display) {
-  if (!is_web_address(display.assets)) return nullptr;
-  AssetStoreOptions options;
-  options.cache_folder = display.asset_cache;
-  options.cache_bytes = std::uint64_t{display.asset_cache_mib} << 20U;
-  auto address = AssetAddress::parse(display.assets);
-  MECHANE_ASSERT(address.has_value());  // run_display() has read it
-  auto store = AssetStore::open(std::move(*address), options);
-  if (store) return std::move(*store);
-  log::error(store.error());
-  return nullptr;
+AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue) {
+  return {options.assets, open_asset_store(options), catalogue};
 }
 
 Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,
                                                     const content::Catalogue* catalogue) {
   if (options.attract.empty()) return nullptr;
-  AttractAssets assets;
-  if (!is_web_address(options.assets)) assets.folder = options.assets;
-  assets.store = open_asset_store(options);
-  assets.catalogue = catalogue;
-  return AttractLoop::open(options.attract, std::move(assets));
+  return AttractLoop::open(options.attract, open_assets(options, catalogue));
 }
 
 }  // namespace mechane::display

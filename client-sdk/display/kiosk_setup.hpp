@@ -13,8 +13,8 @@ namespace mechane::display {
 [[nodiscard]] VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
 [[nodiscard]] DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context);
 
-/// None where assets are a folder's. The address has been read once already.
-[[nodiscard]] std::unique_ptr<AssetStore> open_asset_store(const DisplayOptions& options);
+/// The address has been read once already. `catalogue` may be null.
+[[nodiscard]] AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue);
 
 /// Null where none is wished for. Errors: those of FrameRecording.
 [[nodiscard]] Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,

@@ -25,7 +25,7 @@ geometry::Superquadric palm_shape(const HandSize& size, double scale) {
 }
 
 /// Frame S of a phalanx: x along the finger, y out of its back.
-geometry::Superquadric phalanx_shape(const FingerSize& finger, std::size_t k, double scale) {
+geometry::Superquadric phalanx_shape(const geometry::FingerSize& finger, std::size_t k, double scale) {
   geometry::Superquadric shape;
   // A phalanx reaches a little over its joints, so that a bent finger has no gaps.
   const double half_length = 0.5 * finger.length_m[k] + 0.5 * finger.radius_m[k];
@@ -33,18 +33,6 @@ geometry::Superquadric phalanx_shape(const FingerSize& finger, std::size_t k, do
   shape.e1 = kFingerExponent1;
   shape.e2 = kFingerExponent2;
   return shape;
-}
-
-/// Where the thumb points when it is flat, and how it bends: across the palm.
-Quat thumb_base() {
-  const Vec3 x = Vec3(0.62, -0.30, -0.72).normalized();
-  const Vec3 towards_palm(0.25, -0.75, 0.60);
-  const Vec3 y = -(towards_palm - x * x.dot(towards_palm)).normalized();
-  Mat3 R;
-  R.col(0) = x;
-  R.col(1) = y;
-  R.col(2) = x.cross(y);
-  return Quat(R);
 }
 
 Expected<void> check(const HandSize& size) {
@@ -73,12 +61,12 @@ Expected<HandModel> HandModel::create(const HandSize& size) {
   if (auto ok = check(size); !ok) return tl::unexpected(ok.error());
   HandModel model;
   model.size_ = size;
-  model.thumb_base_ = thumb_base();
+  model.thumb_stand_ = geometry::thumb_stand();
   for (std::size_t s = 0; s < kScales.size(); ++s) {
     const double scale = kScales[s];
     Sized& sized = model.sizes_[s];
     sized.segments.push_back(collision::make_superquadric_object(palm_shape(size, scale), size.sample_spacing_m));
-    for (const FingerSize& finger : size.fingers) {
+    for (const geometry::FingerSize& finger : size.fingers) {
       for (std::size_t k = 0; k < 3; ++k) {
         sized.segments.push_back(
             collision::make_superquadric_object(phalanx_shape(finger, k, scale), size.sample_spacing_m));
@@ -114,7 +102,7 @@ const collision::Object& HandModel::segment(const state::HandSample& sample, std
 double HandModel::reach_m(const state::HandSample& sample) const noexcept {
   if (sample.kind == HandKind::one_point) return size_.tip_radius_m * kScales.back();
   double reach = 2 * size_.palm_half_m.x();
-  for (const FingerSize& finger : size_.fingers) {
+  for (const geometry::FingerSize& finger : size_.fingers) {
     const double length = finger.length_m[0] + finger.length_m[1] + finger.length_m[2];
     reach = std::max(reach, finger.p_HF.norm() + length + finger.radius_m[0]);
   }
@@ -131,16 +119,9 @@ void HandModel::place(const state::HandSample& sample, const Pose& X_WH,
   const double scale = kScales[nearest_size(sample.hand_scale)];
   X_WS[0] = X_WH * Pose{Vec3(scale * size_.palm_half_m.x(), 0, 0), Quat::Identity()};
   for (std::size_t f = 0; f < state::kFingers; ++f) {
-    const FingerSize& finger = size_.fingers[f];
-    const double* angle = sample.joints.data() + 4 * f;
-    const Quat base = f == 0 ? thumb_base_ : Quat::Identity();
-    Pose X_WJ = X_WH * Pose{scale * finger.p_HF, base * Quat(Eigen::AngleAxisd(angle[0], Vec3::UnitY()))};
-    for (std::size_t k = 0; k < 3; ++k) {
-      X_WJ.R = X_WJ.R * Quat(Eigen::AngleAxisd(-angle[k + 1], Vec3::UnitZ()));
-      const double length = scale * finger.length_m[k];
-      X_WS[1 + 3 * f + k] = X_WJ * Pose{Vec3(0.5 * length, 0, 0), Quat::Identity()};
-      X_WJ.p = X_WJ * Vec3(length, 0, 0);
-    }
+    geometry::place_finger(size_.fingers[f], scale, f == 0 ? thumb_stand_ : Quat::Identity(),
+                           std::span<const double, 4>(sample.joints.data() + 4 * f, 4), X_WH,
+                           std::span<Pose, 3>(X_WS.data() + 1 + 3 * f, 3));
   }
 }
 

@@ -1,8 +1,6 @@
 // The virtual hand: 16 superquadrics (paper, equation 4), placed from a wrist pose and finger joint angles. A one-point device is a
 // single sphere at its tip.
-//
-// Frame H of a glove hand (a right hand): origin at the wrist, x towards the fingers, y out of the back of the hand, z to the right,
-// away from the thumb. The palm looks along -y. Angles: abduction turns about y, flexion about -z towards the palm; 0 is a flat hand.
+// Frames and angles of a glove hand: geometry/hand_skeleton.hpp.
 #pragma once
 
 #include <array>
@@ -11,28 +9,16 @@
 #include "server/base/error.hpp"
 #include "server/base/math.hpp"
 #include "server/collision/object.hpp"
+#include "server/geometry/hand_skeleton.hpp"
 #include "server/state/input.hpp"
 #include "server/state/limits.hpp"
 
 namespace mechane::haptics {
 
-/// One finger: where it starts on the palm, its three phalanges from the palm outwards.
-struct FingerSize {
-  Vec3 p_HF = Vec3::Zero();  ///< the first joint, in H, metres
-  std::array<double, 3> length_m{};
-  std::array<double, 3> radius_m{};
-};
-
-/// Sizes of a hand at scale 1: a grown person's middle-sized hand (breadth 85 mm, length 189 mm).
+/// Sizes of a hand at scale 1.
 struct HandSize {
-  Vec3 palm_half_m{0.050, 0.014, 0.043};
-  std::array<FingerSize, state::kFingers> fingers{{
-      {{0.030, -0.006, -0.040}, {0.046, 0.034, 0.028}, {0.0115, 0.0105, 0.0095}},
-      {{0.098, 0.000, -0.031}, {0.045, 0.026, 0.020}, {0.0095, 0.0085, 0.0075}},
-      {{0.102, 0.000, -0.010}, {0.050, 0.030, 0.021}, {0.0095, 0.0085, 0.0075}},
-      {{0.099, 0.000, 0.011}, {0.046, 0.029, 0.021}, {0.0090, 0.0080, 0.0072}},
-      {{0.091, 0.000, 0.031}, {0.037, 0.021, 0.019}, {0.0085, 0.0075, 0.0065}},
-  }};
+  Vec3 palm_half_m{geometry::kPalmHalfLength_m, 0.014, 0.043};
+  geometry::FingerSizes fingers = geometry::middle_sized_fingers();
   double tip_radius_m = 0.008;      ///< of a one-point device
   double sample_spacing_m = 0.004;  ///< of the points on its surface: under a third of a fingertip's breadth
 };
@@ -68,7 +54,7 @@ class HandModel {
   [[nodiscard]] static std::size_t nearest_size(double scale) noexcept;
 
   HandSize size_;
-  Quat thumb_base_ = Quat::Identity();  ///< how the flat thumb stands against the palm
+  Quat thumb_stand_ = Quat::Identity();
   std::array<Sized, kScales.size()> sizes_;
 };
 

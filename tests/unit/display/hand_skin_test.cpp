@@ -86,7 +86,7 @@ RC_GTEST_PROP(HandSkin, fingertips_end_where_the_server_touches, ()) {
   const SegmentPoses X_HS = place_hand(bend);
   const MeshData hand = skin().follow(X_HS, 1);
   for (std::size_t f = 0; f < client::kFingers; ++f) {
-    const FingerSize& size = finger_sizes()[f];
+    const geometry::FingerSize& size = finger_sizes()[f];
     const Vec3 end = X_HS[3 + 3 * f] * Vec3(0.5 * size.length_m[2] + 0.4 * size.radius_m[2], 0, 0);
     RC_ASSERT(away_from(hand.positions, end) < 0.004);
   }
