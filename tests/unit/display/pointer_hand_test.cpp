@@ -120,8 +120,8 @@ RC_GTEST_PROP(PointerHand, depth_stays_in_bounds_whatever_the_wheel_says, ()) {
   Thing thing;
   take(hand, thing, sight, {0.1, 1, 0});
   const double depth = depth_of(sight, hand.view().p_WH);
-  for (const int notches : *rc::gen::container<std::vector<int>>(8, rc::gen::inRange(-300, 300)))
-    hand.deepen(notches);
+  for (const int hundredths : *rc::gen::container<std::vector<int>>(8, rc::gen::inRange(-900, 900)))
+    hand.deepen(hundredths / 100.0);
   hand.deepen(std::numeric_limits<double>::quiet_NaN());
   hand.deepen(std::numeric_limits<double>::infinity());
   pass(hand, thing, 12);
