@@ -53,6 +53,16 @@ struct FingerDown {
   FingerId id = kMouse;
 };
 
+/// Where no window manager does it, a window that fills the screen must lie there before.
+void fill_screen(SDL_Window* window) {
+  SDL_Rect screen;
+  if (SDL_GetDisplayBounds(std::max(SDL_GetWindowDisplayIndex(window), 0), &screen) == 0) {
+    SDL_SetWindowPosition(window, screen.x, screen.y);
+    SDL_SetWindowSize(window, screen.w, screen.h);
+  }
+  SDL_SetWindowFullscreen(window, SDL_WINDOW_FULLSCREEN_DESKTOP);
+}
+
 /// Who made the window ends SDL with it: there is one window in a process.
 class WindowContext final : public GlContext {
  public:
@@ -92,6 +102,18 @@ class WindowContext final : public GlContext {
   [[nodiscard]] std::vector<PixelPlace> take_clicks() override { return std::exchange(clicks_, {}); }
   [[nodiscard]] std::vector<PointerEvent> take_pointer_events() override { return std::exchange(events_, {}); }
   [[nodiscard]] std::vector<DisplayKey> take_keys() override { return std::exchange(keys_, {}); }
+
+  void toggle_full_screen() {
+    if (!fills_screen()) {
+      SDL_GetWindowSize(window_, &small_.w, &small_.h);
+      SDL_GetWindowPosition(window_, &small_.x, &small_.y);
+      fill_screen(window_);
+      return;
+    }
+    SDL_SetWindowFullscreen(window_, 0);
+    SDL_SetWindowSize(window_, small_.w, small_.h);
+    SDL_SetWindowPosition(window_, small_.x, small_.y);
+  }
 
  private:
   void take(const SDL_Event& event) {
@@ -231,16 +253,6 @@ class WindowContext final : public GlContext {
   }
 
   [[nodiscard]] bool fills_screen() const { return (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0; }
-  void toggle_full_screen() {
-    if (!fills_screen()) {
-      SDL_GetWindowSize(window_, &small_width_, &small_height_);
-      SDL_SetWindowFullscreen(window_, SDL_WINDOW_FULLSCREEN_DESKTOP);
-      return;
-    }
-    SDL_SetWindowFullscreen(window_, 0);
-    // Without a window manager nobody else gives it its size back.
-    SDL_SetWindowSize(window_, small_width_, small_height_);
-  }
   void tend_cursor() {
     const bool rests = fills_screen() && SDL_GetTicks64() > mouse_ms_ + kCursorStays_ms;
     const bool shown = !touched_ && !rests;
@@ -251,7 +263,7 @@ class WindowContext final : public GlContext {
 
   SDL_Window* window_;
   SDL_GLContext context_;
-  int small_width_ = 1280, small_height_ = 720;  ///< when it does not fill the screen
+  SDL_Rect small_{80, 80, 1280, 720};  ///< when it does not fill the screen
   bool close_wanted_ = false;
   bool picture_wanted_ = false;
   bool cursor_shown_ = true;
@@ -308,7 +320,7 @@ struct OpenedWindow {
 };
 
 /// Both or none.
-OpenedWindow open_window(PixelSize size, const std::string& title, bool stereo, bool full_screen) {
+OpenedWindow open_window(PixelSize size, const std::string& title, bool stereo) {
   SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
   SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
   SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
@@ -319,8 +331,7 @@ OpenedWindow open_window(PixelSize size, const std::string& title, bool stereo, 
   SDL_GL_SetAttribute(SDL_GL_MULTISAMPLEBUFFERS, 0);
   // SDL opens no window at all where the driver lacks this.
   SDL_GL_SetAttribute(SDL_GL_STEREO, stereo ? 1 : 0);
-  std::uint32_t flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
-  if (full_screen) flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
+  const std::uint32_t flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
   OpenedWindow opened;
   opened.window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                    static_cast<int>(size.width), static_cast<int>(size.height), flags);
@@ -339,8 +350,8 @@ Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const s
     SDL_Quit();
     return tl::unexpected(ok.error());
   }
-  OpenedWindow opened = options.quad_buffer ? open_window(size, title, true, options.full_screen) : OpenedWindow{};
-  if (opened.window == nullptr) opened = open_window(size, title, false, options.full_screen);
+  OpenedWindow opened = options.quad_buffer ? open_window(size, title, true) : OpenedWindow{};
+  if (opened.window == nullptr) opened = open_window(size, title, false);
   if (opened.window == nullptr) {
     const std::string reason = SDL_GetError();
     SDL_Quit();
@@ -350,7 +361,9 @@ Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const s
   SDL_GL_SetSwapInterval(1);
   // A kiosk that nobody touches for a while shall still be seen.
   SDL_DisableScreenSaver();
-  return std::make_unique<WindowContext>(opened.window, opened.context);
+  auto context = std::make_unique<WindowContext>(opened.window, opened.context);
+  if (options.full_screen) context->toggle_full_screen();
+  return context;
 }
 
 }  // namespace mechane::display
