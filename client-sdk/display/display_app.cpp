@@ -65,9 +65,9 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   }
   // Before the context: the driver's own threads inherit it. A refusal does no harm.
   if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
-  auto context = options.offscreen
-                     ? make_offscreen_context(options.size)
-                     : make_window_context(options.size, "Mechane", options.stereo == Stereo::quad_buffer);
+  auto context = options.offscreen ? make_offscreen_context(options.size)
+                                   : make_window_context(options.size, "Mechane",
+                                                         {options.stereo == Stereo::quad_buffer, options.full_screen});
   if (!context) return tl::unexpected(context.error());
   DisplayOptions possible = options;
   if (options.stereo == Stereo::quad_buffer && !(*context)->has_quad_buffer()) {

@@ -25,6 +25,7 @@ struct DisplayOptions {
   std::uint32_t domain = 0;
   bool offscreen = false;
   PixelSize size{1280, 720};
+  bool full_screen = false;  ///< a window: fills the screen from the start
   Stereo stereo = Stereo::mono;
   ScreenSetup screen;           ///< that visitors stand before
   std::string language = "el";  ///< that it starts in, and comes back to when a visitor has gone

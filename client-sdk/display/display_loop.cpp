@@ -135,7 +135,8 @@ void DisplayLoop::take_pointer(TimePoint now) {
 void DisplayLoop::take_wishes(TimePoint now) {
   for (const DisplayKey key : context_.take_keys())
     take_key(key, now);
-  if (const auto place = context_.take_click()) take_click(*place, now);
+  for (const PixelPlace place : context_.take_clicks())
+    take_click(place, now);
   take_pointer(now);
   const auto server = client_.server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();

@@ -45,9 +45,9 @@ class GlContext {
   [[nodiscard]] virtual bool close_wanted() const = 0;
   /// A picture was asked for (key P) since the last call.
   [[nodiscard]] virtual bool take_picture_wanted() = 0;
-  /// Where the left button was pressed since the last call.
-  [[nodiscard]] virtual std::optional<PixelPlace> take_click() { return {}; }
-  /// What was done with pointer and keys since the last call, in order; take_click() tells of presses as well.
+  /// Where the left button or a finger was pressed since the last call, in order.
+  [[nodiscard]] virtual std::vector<PixelPlace> take_clicks() { return {}; }
+  /// What was done with pointer and keys since the last call, in order; take_clicks() tells of presses as well.
   [[nodiscard]] virtual std::vector<PointerEvent> take_pointer_events() { return {}; }
   /// Whether the window has a picture for each eye (Stereo::quad_buffer).
   [[nodiscard]] virtual bool has_quad_buffer() const { return false; }
@@ -58,8 +58,14 @@ class GlContext {
 /// EGL on Mesa's surfaceless platform: no screen, no X server. Errors: no EGL, no such platform, no OpenGL 3.3.
 [[nodiscard]] Expected<std::unique_ptr<GlContext>> make_offscreen_context(PixelSize size);
 
-/// A window with a context of its own; F11 fills the screen. `quad_buffer`: with a picture for each eye where the driver has such; has_quad_buffer() tells. Errors: no screen to open a window on, no OpenGL 3.3.
+struct WindowOptions {
+  bool quad_buffer = false;  ///< with a picture for each eye where the driver has such; has_quad_buffer() tells
+  bool full_screen = false;  ///< fills the screen from the start; F11 changes it
+};
+
+/// A window with a context of its own, the only one of the process. Filling the screen, it shows no cursor while the mouse rests; nor does it
+/// where fingers touch. While it lives no screen saver comes. Errors: no screen to open a window on, no OpenGL 3.3.
 [[nodiscard]] Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const std::string& title,
-                                                                       bool quad_buffer = false);
+                                                                       const WindowOptions& options = {});
 
 }  // namespace mechane::display

@@ -35,6 +35,8 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--domain", o.domain, "DDS domain")->capture_default_str();
   app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();
+  app.add_flag("--full-screen", o.full_screen,
+               "fill the screen from the start, without a cursor while the mouse rests; key F11");
   std::map<std::string, display::Stereo> stereo;
   std::string names;
   for (const auto& [name, mode] : display::stereo_names()) {

@@ -62,19 +62,30 @@ class DotPen {
   float unit_;
 };
 
-std::string held_note(PointerView::Drag drag, bool has_goal, bool greek) {
+std::string carried_note(PointerMeans means, bool greek) {
+  if (means == PointerMeans::fingers)
+    return greek ? "Σύρετε για να το μεταφέρετε· με δύο δάχτυλα το στρίβετε, το φέρνετε κοντά ή μακριά"
+                 : "Drag to carry it; two fingers turn it, bring it nearer or farther";
+  if (means == PointerMeans::keys)
+    return greek ? "Τα βέλη το μεταφέρουν· Q και E το στρίβουν, Page Up και Page Down το πάνε μακριά ή κοντά"
+                 : "Arrows carry it; Q and E turn it, Page Up and Page Down bring it farther or nearer";
+  return greek ? "Σύρετε για να το μεταφέρετε· το δεξί κουμπί το στρίβει, ο τροχός το πάει μακριά ή κοντά"
+               : "Drag to carry it; the right button turns it, the wheel brings it farther or nearer";
+}
+
+std::string held_note(PointerView::Drag drag, bool has_goal, PointerMeans means, bool greek) {
   if (drag == PointerView::Drag::turn)
     return greek ? "Κάντε κύκλους, όπως δείχνουν οι κουκκίδες" : "Drag round and round, along the dots";
   if (drag == PointerView::Drag::slide) return greek ? "Σύρετε κατά μήκος" : "Drag it along its way";
   if (has_goal) return greek ? "Φέρτε το στον γαλάζιο κύκλο" : "Bring it to the blue ring";
-  return greek ? "Σύρετε για να το μεταφέρετε, αφήστε για να πέσει" : "Drag to carry it; let go to put it down";
+  return carried_note(means, greek);
 }
 
 std::string note_of(const PointerAid& aid, bool greek) {
   using Phase = PointerView::Phase;
   if (aid.link == PointerLinkState::refused)
     return greek ? "Όλα τα χέρια είναι απασχολημένα" : "All hands are busy at the moment";
-  if (aid.view.phase == Phase::holding) return held_note(aid.view.drag, aid.view.p_WG.has_value(), greek);
+  if (aid.view.phase == Phase::holding) return held_note(aid.view.drag, aid.view.p_WG.has_value(), aid.means, greek);
   if (aid.view.phase == Phase::resting && aid.p_WT)
     return greek ? "Πατήστε και κρατήστε για να το πιάσετε" : "Press and hold to take it";
   return {};

@@ -9,12 +9,16 @@
 
 namespace mechane::display {
 
+/// What the visitor uses, as far as the words must know.
+enum class PointerMeans : std::uint8_t { mouse, fingers, keys };
+
 struct PointerAid {
   Sight sight;
   PointerView view;
   std::optional<Vec3> p_WT{};         ///< what could be taken here
   std::optional<PixelPlace> focus{};  ///< of the keys, in the eye's picture
   PointerLinkState link = PointerLinkState::none;
+  PointerMeans means = PointerMeans::mouse;
 };
 
 /// Adds dots, and a note where there is none. Words are Greek or English.

@@ -18,9 +18,17 @@ constexpr double kSlowing_per_s = 6;
 constexpr double kTravelSpeed_m_per_s = 2.0;
 constexpr double kDragSpeed_m_per_s = 1.2;
 constexpr double kTurnSpeed_rad_per_s = 1.5;
+constexpr double kTwistSpeed_rad_per_s = 3;  // where fingers say how
 constexpr double kClosesAt_m = 0.02;
 // How far the hand may be ahead of what it holds: a grip is lost at 8 cm, and a pointer feels no force that would tell.
 constexpr double kLeash_m = 0.045;
+// What rests so long within so little, so far from under the pointer, is kept by something.
+constexpr double kRests_s = 0.3, kRests_m = 0.01, kKept_m = 0.03;
+// It is drawn towards the viewer, pressed a little to where it shall go; when it has gone there, it is past.
+constexpr double kDrawn_m = 0.035, kPressed_m = 0.008, kPast_m = 0.03, kMostDrawn_m = 0.8;
+// A body that turns in the grip: the server lets it lag so far, and no farther.
+constexpr double kGripLag_rad = 0.6;
+constexpr double kGripFelt_s = 1.0;
 constexpr double kLongestAdvance_s = 0.02;
 // What a snap, a step or a stone's weight took out of the hand is gone.
 constexpr double kNoticesLoss_s = 0.25;
@@ -29,7 +37,6 @@ constexpr double kOpens_s = 0.1;
 constexpr double kHome_m = 0.08;
 constexpr int kFetches = 5;
 constexpr double kLeaves_s = 0.25;
-constexpr double kNotch = 1.03;
 constexpr double kNearestCarried_m = 0.2;
 // Around a goal, in shares of the picture's height: within the first the depth is the goal's own, beyond the second the hand's.
 constexpr double kDepthInner = 0.06, kDepthOuter = 0.30;
@@ -76,7 +83,6 @@ void PointerHand::press(const Sight& sight, PixelPlace place, const Touched& tou
   phase_s_ = 0;
   grasp_ = 0;
   away_W_ = ray_through(sight, place).d_W;
-  X_WH_.R = Quat::Identity();
   if (!here) X_WH_ = {touched.p_WT - kBefore_m * away_W_, Quat::Identity()};
 }
 
@@ -92,14 +98,22 @@ void PointerHand::move(PixelPlace place) {
   seen_rad_ = now;
 }
 
-void PointerHand::deepen(double notches) {
-  if (phase_ != Phase::holding || !std::isfinite(notches)) return;
-  const double wanted = depth_m_ * std::pow(kNotch, std::clamp(notches, -100.0, 100.0));
+void PointerHand::deepen(double amount) {
+  if (phase_ != Phase::holding || !std::isfinite(amount)) return;
+  const double wanted = depth_m_ * std::exp(std::clamp(amount, -3.0, 3.0));
   depth_m_ = std::clamp(wanted, std::max(kNearestCarried_m, gripped_depth_m_ / 4), 4 * gripped_depth_m_);
 }
 
 void PointerHand::turn(double angle_rad) {
-  if (phase_ != Phase::holding || drag_ != Drag::turn || !std::isfinite(angle_rad)) return;
+  if (phase_ != Phase::holding || !std::isfinite(angle_rad)) return;
+  if (drag_ == Drag::carry) {
+    const Vec3 away_W = X_WH_.p - sight_.view.p_WE.cast<double>();
+    if (away_W.norm() < 1e-6) return;
+    const Eigen::AngleAxisd turn(std::clamp(angle_rad, -kPi, kPi), away_W.normalized());
+    turned_W_ = (turn * turned_W_).normalized();
+    twisted_ = true;
+  }
+  if (drag_ != Drag::turn) return;
   const Vec3 to_eye = sight_.view.p_WE.cast<double>() - line_.p_W;
   const double clockwise = to_eye.dot(line_.a_W) > 0 ? -1 : 1;
   wanted_rad_ += clockwise * std::clamp(angle_rad, -kPi, kPi);
@@ -141,6 +155,7 @@ std::optional<client::HandInput> PointerHand::advance(double dt_s, const Pointer
 void PointerHand::reach(double dt_s, const PointerSenses& senses) {
   if (!p_BT_) p_BT_ = senses.X_WB.inverse() * touched_.p_WT;
   const Vec3 p_WT = senses.X_WB * *p_BT_;
+  turn_towards(Quat::Identity(), kTurnSpeed_rad_per_s, dt_s);
   // Not before it has come to the place before the surface: from elsewhere it would meet things on its way.
   const Vec3 before_W = p_WT - kBefore_m * away_W_;
   const double ahead = (p_WT - X_WH_.p).dot(away_W_);
@@ -162,6 +177,10 @@ void PointerHand::grip(const PointerSenses& senses) {
   X_BH_ = senses.X_WB.inverse() * X_WH_;
   depth_m_ = gripped_depth_m_ = std::max(depth_of(sight_, X_WH_.p), kNearestCarried_m);
   p_WG_goal_.reset();
+  R_WH_gripped_ = X_WH_.R;
+  turned_W_ = Quat::Identity();
+  twisted_ = false;
+  obstacle_ = {};
   drag_ = Drag::carry;
   if (senses.leeway.axle) begin_turn(*senses.leeway.axle);
   if (drag_ == Drag::carry && senses.leeway.track) {
@@ -214,9 +233,45 @@ void PointerHand::hold(double dt_s, const PointerSenses& senses) {
     X_WH_.p = turned_to(held_W, dt_s);
     return;
   }
-  const Vec3 goal_W = drag_ == Drag::slide ? slid_to() : carried_to(senses);
-  go_towards(leashed(goal_W, held_W), kDragSpeed_m_per_s, dt_s);
-  if (drag_ == Drag::carry) turn_towards(R_WH_wanted_, dt_s);
+  if (drag_ == Drag::slide) return go_towards(leashed(slid_to(), held_W), kDragSpeed_m_per_s, dt_s);
+  feel_grip(senses, dt_s);
+  go_towards(leashed(past_obstacle(carried_to(senses), held_W, dt_s), held_W), kDragSpeed_m_per_s, dt_s);
+  turn_towards(R_WH_wanted_, twisted_ ? kTwistSpeed_rad_per_s : kTurnSpeed_rad_per_s, dt_s);
+}
+
+/// What is knocked, or weighs on its end, turns in the grip: the hand learns how it holds it now.
+void PointerHand::feel_grip(const PointerSenses& senses, double dt_s) {
+  const Vec3 lag = rotation_vector(X_WH_.R * X_BH_.R.conjugate() * senses.X_WB.R.conjugate());
+  const double kept = std::min(1.0, kGripLag_rad / std::max(lag.norm(), 1e-9)) * std::exp(-dt_s / kGripFelt_s);
+  const Quat left = quat_from_rotation_vector(kept * lag);
+  X_BH_.R = (senses.X_WB.R.conjugate() * left.conjugate() * X_WH_.R).normalized();
+}
+
+/// The picture lacks a dimension: a thing that is dragged against another's flank would stay there. A person who sees that draws it out
+/// and passes before it, and so does the hand.
+Vec3 PointerHand::past_obstacle(const Vec3& goal_W, const Vec3& held_W, double dt_s) {
+  const Vec3 away_W = (held_W - sight_.view.p_WE.cast<double>()).normalized();
+  const Vec3 lag_W = goal_W - held_W;
+  const Vec3 aside_W = lag_W - lag_W.dot(away_W) * away_W;
+  Obstacle& o = obstacle_;
+  const Vec3 gone_W = held_W - o.from_W;
+  if (aside_W.norm() < kKept_m || (o.passing && gone_W.dot(o.aside_W) > kPast_m)) {
+    if (o.passing) depth_m_ = std::max(depth_of(sight_, held_W), kNearestCarried_m);
+    o = Obstacle();
+    o.rests_W = held_W;
+    return goal_W;
+  }
+  o.rests_s = (held_W - o.rests_W).norm() > kRests_m ? 0 : o.rests_s + dt_s;
+  if (o.rests_s == 0) o.rests_W = held_W;
+  if (!o.passing && !o.stays && o.rests_s > kRests_s) {
+    o.passing = true;
+    o.from_W = held_W;
+    o.aside_W = aside_W.normalized();
+  } else if (o.passing && -gone_W.dot(away_W) > kMostDrawn_m) {
+    o.passing = false;
+    o.stays = true;
+  }
+  return o.passing ? Vec3(held_W + kPressed_m * o.aside_W - kDrawn_m * away_W) : goal_W;
 }
 
 /// What has come to its place is meant to stay there. What slipped away is fetched again: the finger is still down.
@@ -235,7 +290,9 @@ void PointerHand::lose(const PointerSenses& senses) {
 /// In the plane that faces the viewer; near to where it belongs, to there.
 Vec3 PointerHand::carried_to(const PointerSenses& senses) {
   p_WG_goal_.reset();
-  R_WH_wanted_ = Quat::Identity();  // as it was gripped
+  // As it was laid out, or else gripped, and turned since.
+  const Quat R_WH_rest = senses.R_WB_rest ? *senses.R_WB_rest * X_BH_.R : R_WH_gripped_;
+  R_WH_wanted_ = turned_W_ * R_WH_rest;
   const WayGoal* meant = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
   for (const WayGoal& goal : senses.leeway.goals) {
@@ -249,8 +306,13 @@ Vec3 PointerHand::carried_to(const PointerSenses& senses) {
     meant = &goal;
   }
   if (!p_WG_goal_) return point_at(sight_, pointer_, depth_m_);
-  const double near = nearness(nearest, kDepthInner, kDepthOuter);
-  if (meant->turns_too) R_WH_wanted_ = Quat::Identity().slerp(near, meant->X_WB.R * X_BH_.R);
+  // A thing that is still elsewhere has its own depth: on its way there, things may stand.
+  const auto held = pixel_of(sight_, senses.X_WB * X_BH_.p);
+  const auto place = pixel_of(sight_, *p_WG_goal_);
+  const double apart =
+      held && place ? std::hypot(held->x - place->x, held->y - place->y) / sight_.picture.height : nearest;
+  const double near = nearness(std::max(nearest, apart), kDepthInner, kDepthOuter);
+  if (meant->turns_too) R_WH_wanted_ = R_WH_wanted_.slerp(near, meant->X_WB.R * X_BH_.R);
   const double depth_m = depth_m_ + near * (depth_of(sight_, *p_WG_goal_) - depth_m_);
   const Vec3 dragged_W = point_at(sight_, pointer_, depth_m);
   return dragged_W + nearness(nearest, kPlaceInner, kPlaceOuter) * (*p_WG_goal_ - dragged_W);
@@ -300,9 +362,9 @@ void PointerHand::go_towards(const Vec3& goal_W, double speed_m_per_s, double dt
   X_WH_.p += way.norm() > step_m ? Vec3(way.normalized() * step_m) : way;
 }
 
-void PointerHand::turn_towards(const Quat& goal_R_WH, double dt_s) {
+void PointerHand::turn_towards(const Quat& goal_R_WH, double speed_rad_per_s, double dt_s) {
   const Vec3 way = rotation_vector(goal_R_WH * X_WH_.R.conjugate());
-  const double share = std::min(1.0, kTurnSpeed_rad_per_s * dt_s / std::max(way.norm(), 1e-9));
+  const double share = std::min(1.0, speed_rad_per_s * dt_s / std::max(way.norm(), 1e-9));
   X_WH_.R = (quat_from_rotation_vector(share * way) * X_WH_.R).normalized();
 }
 

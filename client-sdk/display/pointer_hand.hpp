@@ -21,7 +21,8 @@ struct Touched {
 struct PointerSenses {
   Pose X_WB;  ///< the touched object's
   Leeway leeway;
-  bool holding = false;  ///< the server says so
+  bool holding = false;             ///< the server says so
+  std::optional<Quat> R_WB_rest{};  ///< as the exhibit laid it out; a wrist brings what is carried back to this
 };
 
 /// For the picture.
@@ -48,9 +49,9 @@ class PointerHand {
   /// Begins to reach. What was held before is let go.
   void press(const Sight& sight, PixelPlace place, const Touched& touched);
   void move(PixelPlace place);
-  /// Takes what is carried away from the viewer, by the wheel's notches; below 0: nearer.
-  void deepen(double notches);
-  /// Turns what is held about its axle, positive as the viewer sees the hands of a clock go. Nothing where it has none.
+  /// Takes what is carried away from the viewer: its distance grows by a factor of exp(amount); below 0: nearer.
+  void deepen(double amount);
+  /// Turns what is held about its axle, or what is carried about the line of sight; positive as the viewer sees the hands of a clock go.
   void turn(double angle_rad);
   void release();
 
@@ -68,12 +69,14 @@ class PointerHand {
   void leave(double dt_s);
   void let_go();
   [[nodiscard]] Vec3 carried_to(const PointerSenses& senses);
+  [[nodiscard]] Vec3 past_obstacle(const Vec3& goal_W, const Vec3& held_W, double dt_s);
+  void feel_grip(const PointerSenses& senses, double dt_s);
   [[nodiscard]] Vec3 slid_to() const;
   [[nodiscard]] Vec3 turned_to(const Vec3& p_WG, double dt_s);
   [[nodiscard]] double angle_seen(PixelPlace place) const;
   [[nodiscard]] double angle_of(const Vec3& p_W) const;
   void go_towards(const Vec3& goal_W, double speed_m_per_s, double dt_s);
-  void turn_towards(const Quat& goal_R_WH, double dt_s);
+  void turn_towards(const Quat& goal_R_WH, double speed_rad_per_s, double dt_s);
 
   Phase phase_ = Phase::resting;
   Drag drag_ = Drag::carry;
@@ -92,6 +95,18 @@ class PointerHand {
   double gripped_depth_m_ = 0;
   std::optional<Vec3> p_WG_goal_;
   Quat R_WH_wanted_ = Quat::Identity();  // carry
+  Quat R_WH_gripped_ = Quat::Identity();
+  Quat turned_W_ = Quat::Identity();  // carry: by the visitor, since it was gripped
+  bool twisted_ = false;              // carry: the visitor has
+  /// Carry: what keeps the thing from going on is passed on the viewer's side.
+  struct Obstacle {
+    Vec3 rests_W = Vec3::Zero();  // where the thing has been
+    double rests_s = 0;           // for so long
+    bool passing = false;
+    bool stays = false;  // it cannot be passed
+    Vec3 from_W = Vec3::Zero(), aside_W = Vec3::Zero();
+  };
+  Obstacle obstacle_;
   WayLine line_;                // axle or track; its point is where the hand began, or the middle of its circle
   double slid_from_m_ = 0;      // slide: of the pointer along the track when the hand gripped
   Vec3 from_W_ = Vec3::Zero();  // turn: from the axle to the hand when it gripped

@@ -13,6 +13,9 @@ namespace {
 constexpr Duration kLookUnderHover = std::chrono::milliseconds(100);
 constexpr double kFocusSpeed = 0.3;         // of the picture's height, a second
 constexpr double kKeyTurn_rad_per_s = 2.1;  // 20 turns a minute
+constexpr double kKeyTwist_rad_per_s = 1.2;
+constexpr double kNotch = 0.03;              // of the wheel: so much farther or nearer
+constexpr double kNotchTurn_rad = kPi / 18;  // with Shift
 constexpr double kKeyNotches_per_s = 8;
 constexpr double kLongestPicture_s = 0.25;
 
@@ -24,24 +27,27 @@ PixelPlace middle_of(PixelSize picture) {
 
 void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bool covered) {
   using Kind = PointerEvent::Kind;
-  const PixelPlace whole{event.x, event.y};
-  stirred_ = stirred_ || event.kind != Kind::left;
+  stirred_ = stirred_ || (event.kind != Kind::left && event.kind != Kind::gone);
   switch (event.kind) {
     case Kind::press:
       focus_.reset();
-      if (!covered) press(scene, whole);
-      return;
-    case Kind::release:
-      if (!by_keys_) link_.release();
+      if (!covered) take_fingers(event, scene);
       return;
     case Kind::move:
-      hover_ = whole;
-      hover_moved_ = true;
-      if (by_keys_) return;
-      if (const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, whole)) link_.move(seen->place);
-      return;
+      if (event.finger == kMouse) {
+        hover_ = PixelPlace{event.x, event.y};
+        hover_moved_ = true;
+      }
+      return take_fingers(event, scene);
+    case Kind::release:
+    case Kind::turn_press:
+    case Kind::turn_release:
+    case Kind::gone:
+      return take_fingers(event, scene);
     case Kind::wheel:
-      return link_.deepen(event.amount);
+      return link_.deepen(kNotch * event.amount);
+    case Kind::turn_wheel:
+      return link_.turn(kNotchTurn_rad * event.amount);
     case Kind::left:
       hover_.reset();
       under_hover_.reset();
@@ -55,24 +61,63 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
   }
 }
 
-void PointerInput::press(const PointerScene& scene, PixelPlace whole) {
+void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& scene) {
+  using Phase = PointerView::Phase;
+  if (event.kind == PointerEvent::Kind::press) {
+    means_ = event.finger == kMouse ? PointerMeans::mouse : PointerMeans::fingers;
+    if (event.finger != kMouse) {  // a finger hovers nowhere
+      hover_.reset();
+      under_hover_.reset();
+    }
+  }
+  if (event.kind == PointerEvent::Kind::gone && std::exchange(by_keys_, false)) link_.release();
+  const PointerView view = link_.view();
+  const bool holds = view.phase == Phase::holding;
+  follow(fingers_.take(event, {(holds || view.phase == Phase::reaching) && !by_keys_,
+                               holds && view.drag == PointerView::Drag::carry, scene.picture}),
+         scene);
+}
+
+void PointerInput::follow(const std::vector<HandWish>& wishes, const PointerScene& scene) {
+  for (const HandWish& wish : wishes) {
+    if (wish.kind == HandWish::Kind::take) {
+      if (!press(scene, wish.place)) fingers_.missed();
+    } else if (by_keys_) {
+      continue;
+    } else if (wish.kind == HandWish::Kind::move) {
+      const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, wish.place);
+      if (seen) link_.move(seen->place);
+    } else if (wish.kind == HandWish::Kind::twist) {
+      link_.turn(wish.amount);
+    } else if (wish.kind == HandWish::Kind::deepen) {
+      link_.deepen(wish.amount);
+    } else {
+      link_.release();
+    }
+  }
+}
+
+/// False: there is nothing to take.
+bool PointerInput::press(const PointerScene& scene, PixelPlace whole) {
   const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, whole);
-  if (!seen) return;
+  if (!seen) return false;
   const auto touched = takeable_at(scene, seen->sight, seen->place);
-  if (!touched) return;
+  if (!touched) return false;
   by_keys_ = false;
   link_.press(seen->sight, seen->place, *touched);
+  return true;
 }
 
 void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
   if (key == PointerKey::next || key == PointerKey::previous)
     return focus_next(scene, key == PointerKey::next ? 1 : -1);
+  if (key == PointerKey::turn_left || key == PointerKey::turn_right) return;  // what any hand holds
+  means_ = PointerMeans::keys;
   if (!focus_) focus_ = middle_of(scene.picture);
   if (key != PointerKey::take) return;
   const PointerView::Phase phase = link_.view().phase;
   if (phase == PointerView::Phase::reaching || phase == PointerView::Phase::holding) return link_.release();
-  press(scene, *focus_);
-  by_keys_ = link_.view().phase == PointerView::Phase::reaching;
+  by_keys_ = press(scene, *focus_);
 }
 
 void PointerInput::focus_next(const PointerScene& scene, int step) {
@@ -92,12 +137,15 @@ void PointerInput::go_on_with_keys(const PointerScene& scene, double dt_s) {
   const double across = (held(Key::right) ? 1 : 0) - (held(Key::left) ? 1 : 0);
   const double down = (held(Key::down) ? 1 : 0) - (held(Key::up) ? 1 : 0);
   const double far = (held(Key::farther) ? 1 : 0) - (held(Key::nearer) ? 1 : 0);
+  const double round = (held(Key::turn_right) ? 1 : 0) - (held(Key::turn_left) ? 1 : 0);
+  stirred_ = stirred_ || round != 0;
+  if (round != 0) link_.turn(round * kKeyTwist_rad_per_s * dt_s);
   if (!focus_ || (across == 0 && down == 0 && far == 0)) return;
   stirred_ = true;
   const PointerView view = link_.view();
   const bool holding = view.phase == PointerView::Phase::holding && by_keys_;
   if (holding && view.drag == PointerView::Drag::turn) return link_.turn((across + down) * kKeyTurn_rad_per_s * dt_s);
-  if (holding && far != 0) link_.deepen(far * kKeyNotches_per_s * dt_s);
+  if (holding && far != 0) link_.deepen(far * kNotch * kKeyNotches_per_s * dt_s);
   const double step = kFocusSpeed * scene.picture.height * dt_s;
   focus_->x = std::clamp(focus_->x + across * step, 0.0, scene.picture.width - 1.0);
   focus_->y = std::clamp(focus_->y + down * step, 0.0, scene.picture.height - 1.0);
@@ -106,9 +154,10 @@ void PointerInput::go_on_with_keys(const PointerScene& scene, double dt_s) {
 }
 
 void PointerInput::update(const PointerScene& scene, TimePoint now) {
-  const double dt_s = std::clamp(to_seconds(now - updated_), 0.0, kLongestPicture_s);
+  const double dt_s = std::max(to_seconds(now - updated_), 0.0);
   updated_ = now;
-  go_on_with_keys(scene, dt_s);
+  follow(fingers_.pass(dt_s), scene);
+  go_on_with_keys(scene, std::min(dt_s, kLongestPicture_s));
   const bool idle = link_.view().phase == PointerView::Phase::resting;
   if (idle) by_keys_ = false;
   const std::optional<PixelPlace> looks_at = focus_ ? focus_ : hover_;
@@ -132,7 +181,7 @@ void PointerInput::write(OverlayContent& content, const PointerScene& scene, con
   const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, at.value_or(middle_of(scene.picture)));
   if (!seen || content.panel) return;
   const PointerView view = link_.view();
-  PointerAid aid{seen->sight, view, {}, {}, link_.state()};
+  PointerAid aid{seen->sight, view, {}, {}, link_.state(), means_};
   if (view.phase == PointerView::Phase::resting && under_hover_) aid.p_WT = under_hover_->p_WT;
   if (focus_) aid.focus = seen->place;
   add_pointer_aid(aid, language, content);

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "client-sdk/display/picking.hpp"
+#include "client-sdk/display/pointer_aid.hpp"
 #include "client-sdk/display/pointer_event.hpp"
+#include "client-sdk/display/pointer_fingers.hpp"
 #include "client-sdk/display/pointer_link.hpp"
 
 namespace mechane::display {
@@ -54,21 +56,25 @@ class PointerInput {
   [[nodiscard]] bool take_stirred() { return std::exchange(stirred_, false); }
 
  private:
-  void press(const PointerScene& scene, PixelPlace whole);
+  void take_fingers(const PointerEvent& event, const PointerScene& scene);
+  void follow(const std::vector<HandWish>& wishes, const PointerScene& scene);
+  [[nodiscard]] bool press(const PointerScene& scene, PixelPlace whole);
   void go_on_with_keys(const PointerScene& scene, double dt_s);
   void take_key(PointerKey key, const PointerScene& scene);
   void focus_next(const PointerScene& scene, int step);
   [[nodiscard]] bool held(PointerKey key) const { return held_[static_cast<std::size_t>(key)]; }
 
   PointerLink link_;
+  PointerFingers fingers_;
   std::optional<PixelPlace> hover_;  ///< of the whole picture
   bool hover_moved_ = false;
   std::optional<Touched> under_hover_;
   TimePoint looked_;
   TimePoint updated_;
-  std::array<bool, 9> held_{};       ///< by PointerKey
-  std::optional<PixelPlace> focus_;  ///< of the keys, whole picture
-  bool by_keys_ = false;             ///< what is held is held by keys
+  std::array<bool, kPointerKeys> held_{};     ///< by PointerKey
+  std::optional<PixelPlace> focus_;           ///< of the keys, whole picture
+  bool by_keys_ = false;                      ///< what is held is held by keys
+  PointerMeans means_ = PointerMeans::mouse;  ///< what was used last
   bool stirred_ = false;
 };
 

@@ -57,7 +57,11 @@ struct PointerLink::Sensed {
     if (!X_WB || !presentation) return {};
     return PointerSenses{
         *X_WB, leeway_of(presentation->ways, enabled, object, [this](std::uint32_t other) { return pose_of(other); }),
-        holding};
+        holding, laid_out(object)};
+  }
+  [[nodiscard]] std::optional<Quat> laid_out(std::uint32_t object) const {
+    const auto known = std::ranges::find(objects, object, &client::SceneObject::index);
+    return known == objects.end() ? std::nullopt : std::optional(known->X_WB.R);
   }
 };
 

@@ -1,12 +1,14 @@
 """A display's own hand, driven as a person drives it: a real window on a screen without glass, a pointer, pixels."""
 
 import contextlib
+import math
 import sys
 import time
 import unittest
 
+from glass import Glass, NoGlass
 from harness import ROOT, EndToEnd, repeat_until, wait_until
-from touch import TouchVisitor
+from touch import TouchVisitor, dot, placed, sub, turned_by
 
 SIZE = (480, 270)
 
@@ -55,6 +57,61 @@ class Touch(EndToEnd):
     def test_a_load_is_lifted_and_guided_by_touch_alone(self):
         with self.visitor_at("pulley-crane") as visitor:
             self.assertTrue(visitor.play("use"), visitor.story)
+
+    def test_two_fingers_on_glass_carry_turn_and_bring_nearer(self):
+        self.server(scenario=scenario_of("aiolos-sphere"), records=False)
+        try:
+            glass = Glass(self.folder, self.environment)
+        except NoGlass as reason:
+            self.skipTest(str(reason))
+        self.addCleanup(glass.stop)
+        window = self.start("window", "display", "--kiosk", "wall", "--full-screen", "--size", "320x240", "--mute", "--ask", "none",
+                            environment=glass.environment)
+        visitor = TouchVisitor(scenario_of("aiolos-sphere"), "wall", glass.SIZE, glass.environment)
+        self.addCleanup(visitor.stop)
+        x, y = visitor.screen.pixel(placed(visitor.pose("TORCH"), [0, 0, 0.06]))
+
+        def take():
+            glass.lift(1)
+            glass.press(1, (x, y))
+        repeat_until(take, visitor.holding, 60, "one finger takes the torch")
+
+        def seen_turned():
+            """How far the torch has turned about the line of sight, as the hands of a clock go."""
+            level = turned_by(visitor.pose("TORCH")["q"], visitor.screen.right)
+            return math.degrees(math.atan2(-dot(level, visitor.screen.up), dot(level, visitor.screen.right)))
+
+        def depth():
+            return dot(sub(visitor.hand()["X_WS"][0]["p"], visitor.screen.eye), visitor.screen.ahead)
+
+        def seen_at():
+            return visitor.screen.pixel(visitor.hand()["X_WS"][0]["p"])
+        # Up into free air, and a second finger beside the first.
+        y -= 100
+        for k in range(21):
+            glass.move(1, (x, y + 100 - 5 * k))
+        wait_until(lambda: math.dist(seen_at(), (x, y)) < 15, 10, "it has come up")
+        self.assertLess(abs(seen_turned()), 8)
+        glass.press(2, (x + 80, y))
+        for k in range(1, 31):
+            angle = math.radians(2 * k)
+            for finger, side in ((1, -40), (2, 40)):
+                glass.move(finger, (x + 40 + side * math.cos(angle), y + side * math.sin(angle)))
+        wait_until(lambda: 45 < seen_turned() < 75, 10, "it turns as the fingers do")
+        before = depth()
+        for k in range(1, 31):
+            for finger, side in ((1, -40 - k / 3), (2, 40 + k / 3)):
+                glass.move(finger, (x + 40 + side * 0.5, y + side * 0.866))
+        wait_until(lambda: abs(depth() / before - 40 / 50) < 0.06, 10, "it comes as they spread")
+        # The first finger leaves: the other holds on, and nothing jumps.
+        there = seen_at()
+        glass.lift(1)
+        glass.move(2, (x + 40 + 25, y + 43 + 10))
+        wait_until(lambda: math.dist(seen_at(), (there[0], there[1] + 10)) < 6, 10, "the other finger goes on with it")
+        self.assertTrue(visitor.holding())
+        glass.lift(2)
+        wait_until(lambda: not visitor.holding(), 10, "no finger holds it")
+        self.assertEqual(window.stop(), 0, window.text())
 
 
 def tour(wanted):

@@ -55,6 +55,9 @@ struct Thing {
     return arm - arm.dot(axle.a_W) * axle.a_W;
   }
 
+  /// Turns in the grip, about its own place.
+  void slip(const Vec3& turn) { X_HB_.R = (quat_from_rotation_vector(turn) * X_HB_.R).normalized(); }
+
   double angle = 0;
 
  private:
@@ -120,8 +123,8 @@ RC_GTEST_PROP(PointerHand, depth_stays_in_bounds_whatever_the_wheel_says, ()) {
   Thing thing;
   take(hand, thing, sight, {0.1, 1, 0});
   const double depth = depth_of(sight, hand.view().p_WH);
-  for (const int notches : *rc::gen::container<std::vector<int>>(8, rc::gen::inRange(-300, 300)))
-    hand.deepen(notches);
+  for (const int hundredths : *rc::gen::container<std::vector<int>>(8, rc::gen::inRange(-900, 900)))
+    hand.deepen(hundredths / 100.0);
   hand.deepen(std::numeric_limits<double>::quiet_NaN());
   hand.deepen(std::numeric_limits<double>::infinity());
   pass(hand, thing, 12);
@@ -239,6 +242,84 @@ TEST(PointerHand, WhatIsHeavierThanAPointerFeelsIsNotTornFromTheHand) {
     ASSERT_TRUE(input);
     ASSERT_LT((input->X_WH.p - stuck.X_WB * thing.p_BG).norm(), 0.06);
   }
+}
+
+/// A wall that a carried thing cannot enter; it comes off it without friction.
+struct BeforeAWall {
+  double wall_x_m = 0;   // the thing stays on the right of it, while it is
+  double front_z_m = 0;  // behind this
+
+  void hold_up(Thing& thing, const Vec3& before_W) const {
+    Vec3& p_W = thing.senses.X_WB.p;
+    if (p_W.z() < front_z_m && before_W.x() >= wall_x_m) p_W.x() = std::max(p_W.x(), wall_x_m);
+  }
+};
+
+RC_GTEST_PROP(PointerHand, what_is_dragged_against_a_flank_is_drawn_out_and_passes_before_it, ()) {
+  const Sight sight = sight_from({0, drawn(1, 1.6), 3}, {0, 1, 0});
+  const BeforeAWall wall{drawn(-0.1, 0.3), drawn(0.1, 0.4)};
+  PointerHand hand;
+  Thing thing;
+  thing.senses.X_WB.p = {0.5, 1, 0};
+  take(hand, thing, sight, {0.5, 1, 0});
+  const PixelPlace to = *pixel_of(sight, {-0.5, 1, 0});
+  hand.move(to);
+  for (int k = 0; k < 3000; ++k) {
+    const auto input = hand.advance(kTick_s, thing.senses);
+    ASSERT_TRUE(input && input->X_WH.p.allFinite());
+    const Vec3 before_W = thing.senses.X_WB.p;
+    thing.follow(*input);
+    wall.hold_up(thing, before_W);
+    ASSERT_LT((input->X_WH.p - thing.senses.X_WB * thing.p_BG).norm(), 0.06) << "torn out of the hand";
+  }
+  RC_ASSERT(thing.senses.holding);
+  RC_ASSERT(pixels_off(sight, thing.senses.X_WB * thing.p_BG, to) < 20);
+}
+
+TEST(PointerHand, WhatCannotBePassedIsNotDrawnAwayForEver) {
+  const Sight sight = sight_from({0, 1.2, 3}, {0, 1, 0});
+  const BeforeAWall wall{0.3, 100};
+  PointerHand hand;
+  Thing thing;
+  thing.senses.X_WB.p = {0.5, 1, 0};
+  take(hand, thing, sight, {0.5, 1, 0});
+  hand.move(*pixel_of(sight, {-0.5, 1, 0}));
+  double nearest = 10;
+  for (int k = 0; k < 10'000; ++k) {
+    const auto input = hand.advance(kTick_s, thing.senses);
+    ASSERT_TRUE(input);
+    const Vec3 before_W = thing.senses.X_WB.p;
+    thing.follow(*input);
+    wall.hold_up(thing, before_W);
+    nearest = std::min(nearest, depth_of(sight, thing.senses.X_WB.p));
+  }
+  EXPECT_GT(nearest, 1.9) << "no more than a long arm";
+  EXPECT_TRUE(thing.senses.holding);
+}
+
+RC_GTEST_PROP(PointerHand, what_was_knocked_comes_back_to_how_it_was_laid_out, ()) {
+  const Sight sight = sight_from({0, 1, 3}, {0, 1, 0});
+  PointerHand hand;
+  Thing thing;
+  thing.senses.X_WB.p = {0, 1, 0};
+  const auto any_turn = [] { return quat_from_rotation_vector(Vec3(drawn(-1, 1), drawn(-1, 1), drawn(-1, 1))); };
+  thing.senses.R_WB_rest = any_turn();
+  thing.senses.X_WB.R = (any_turn() * *thing.senses.R_WB_rest).normalized();
+  take(hand, thing, sight, {0, 1, 0});
+  pass(hand, thing, 4);
+  RC_ASSERT(rotation_vector(thing.senses.X_WB.R * thing.senses.R_WB_rest->conjugate()).norm() < 0.05);
+}
+
+RC_GTEST_PROP(PointerHand, what_turned_in_the_grip_comes_upright_all_the_same, ()) {
+  const Sight sight = sight_from({0, 1, 3}, {0, 1, 0});
+  PointerHand hand;
+  Thing thing;
+  thing.senses.X_WB.p = {0, 1, 0};
+  thing.senses.R_WB_rest = Quat::Identity();
+  take(hand, thing, sight, {0, 1, 0});
+  thing.slip(Vec3(drawn(-1, 1), drawn(-1, 1), drawn(-1, 1)));
+  pass(hand, thing, 12);
+  RC_ASSERT(rotation_vector(thing.senses.X_WB.R).norm() < 0.05);
 }
 
 TEST(PointerHand, WhatSlippedIsFetchedAgainWhileTheFingerIsDown) {

@@ -1,5 +1,7 @@
 #include "client-sdk/display/pointer_input.hpp"
 
+#include <set>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -95,6 +97,23 @@ TEST(PointerAid, WordsAreInTheVisitorsLanguageAndNotOverAnothersNote) {
   EXPECT_FALSE(english.dots.empty());
   for (const OverlayDot& dot : english.dots)
     EXPECT_LT(std::hypot(dot.x - 640, dot.y - 360), 30);
+}
+
+TEST(PointerAid, WhatIsCarriedSaysHowItIsTurnedByWhatTheVisitorUses) {
+  const Shelf shelf({0, 0, 0});
+  PointerAid aid{shelf.sight(), {}, {}, {}, PointerLinkState::joined};
+  aid.view.phase = PointerView::Phase::holding;
+  std::set<std::string> notes;
+  for (const PointerMeans means : {PointerMeans::mouse, PointerMeans::fingers, PointerMeans::keys}) {
+    for (const char* language : {"en", "el"}) {
+      OverlayContent content;
+      aid.means = means;
+      add_pointer_aid(aid, language, content);
+      notes.insert(content.note);
+    }
+  }
+  EXPECT_EQ(notes.size(), 6U);
+  EXPECT_TRUE(notes.contains("Drag to carry it; two fingers turn it, bring it nearer or farther"));
 }
 
 TEST(PointerAid, NobodyTouchesNothingIsDrawn) {
