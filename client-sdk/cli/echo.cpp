@@ -296,6 +296,13 @@ Json to_json(const proto::DisplayWish& s) {
   return j;
 }
 
+Json to_json(const proto::ViewerHead& s) {
+  Json j = head(s);
+  j.update({{"kiosk", text(s.kiosk)}, {"display", text(s.display)}, {"session", s.session}, {"seen", s.seen}});
+  j["X_SV"] = pose(s.X_SV);
+  return j;
+}
+
 /// Whether a sample's key names the kiosk and world that were asked for.
 bool wanted(const Json& j, const EchoOptions& options) {
   const bool kiosk = options.kiosk.empty() || !j.contains("kiosk") || j["kiosk"] == options.kiosk;
@@ -415,7 +422,7 @@ int run_echo(const EchoOptions& options) {
       topic<proto::SceneObject>(), topic<proto::WorldStatus>(),       topic<proto::Event>(),
       topic<proto::Command>(),     topic<proto::WorldAssignment>(),   topic<proto::ServerStatus>(),
       topic<proto::KioskStatus>(), topic<proto::WorldPresentation>(), topic<proto::DisplayStatus>(),
-      topic<proto::DisplayWish>()};
+      topic<proto::DisplayWish>(), topic<proto::ViewerHead>()};
   for (const Topic& t : kTopics) {
     if (options.topic == t.name) return t.run(options);
   }

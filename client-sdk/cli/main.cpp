@@ -12,6 +12,7 @@
 #include "client-sdk/cli/displays.hpp"
 #include "client-sdk/cli/doctor.hpp"
 #include "client-sdk/cli/echo.hpp"
+#include "client-sdk/cli/head.hpp"
 #include "client-sdk/cli/open.hpp"
 #include "client-sdk/cli/sibling.hpp"
 #include "client-sdk/cli/visits.hpp"
@@ -85,6 +86,24 @@ CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
   for (CLI::App* command : {set, picture})
     command->fallthrough();  // --kiosk may stand behind the verb
   return displays;
+}
+
+CLI::App* add_head(CLI::App& app, cli::HeadOptions& o) {
+  CLI::App* head =
+      app.add_subcommand("head", "tell a kiosk's displays where the visitor's head is, for a tracker, or to try it");
+  head->add_option("--kiosk", o.kiosk, "whose displays")->capture_default_str();
+  head->add_option("--display", o.display, "only the display of this name; without: all of the kiosk");
+  head->add_option("--domain", o.domain, "DDS domain");
+  head->add_option("--at", o.at,
+                   "between the eyes, metres from the middle of the screen: right, up, towards the visitor")
+      ->expected(3);
+  head->add_option("--seconds", o.seconds, "with --at: how long it is told; 0: until Ctrl-C")
+      ->check(CLI::NonNegativeNumber);
+  head->footer(
+      "Without --at it reads lines from its standard input, one for each look of the tracker: 'x y z', or 'x y z qw qx "
+      "qy qz', or "
+      "'nobody'.");
+  return head;
 }
 
 void add_content_add(CLI::App& content, cli::ContentOptions& o) {
@@ -173,6 +192,8 @@ int add_and_parse(int argc, char** argv) {
   auto* open_command = add_open(app, open);
   cli::DisplaysOptions displays;
   auto* displays_command = add_displays(app, displays);
+  cli::HeadOptions head;
+  auto* head_command = add_head(app, head);
   cli::ContentOptions content;
   auto* content_command = add_content(app, content);
   cli::VisitsOptions visits;
@@ -205,6 +226,7 @@ int add_and_parse(int argc, char** argv) {
     const auto verbs = displays_command->get_subcommands();
     return cli::run_displays(verbs.empty() ? "" : verbs.front()->get_name(), displays);
   }
+  if (*head_command) return cli::run_head(head, std::cin, std::cerr);
   if (*content_command)
     return cli::run_content(content_command->get_subcommands().front()->get_name(), content, std::cout, std::cerr);
   if (*visits_command) {

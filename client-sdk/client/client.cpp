@@ -85,6 +85,9 @@ class ClientImpl final : public Client {
     return store_.traffic;
   }
   bool report(const DisplayStatus& status) override { return display_ && display_->report(status); }
+  [[nodiscard]] std::optional<ViewerHead> viewer_head() override {
+    return display_ ? display_->viewer_head() : std::nullopt;
+  }
   [[nodiscard]] std::vector<DisplayWish> take_display_wishes() override {
     return display_ ? display_->take_wishes() : std::vector<DisplayWish>();
   }

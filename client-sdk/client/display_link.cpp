@@ -66,7 +66,10 @@ Expected<std::unique_ptr<DisplayLink>> DisplayLink::create(const proto::Particip
   DisplayLink* const raw = made.get();
   auto reader = proto::Reader<proto::DisplayWish>::create(participant, "", [raw](auto view) { raw->take(view); });
   if (!reader) return tl::unexpected(reader.error());
-  made->reader_ = std::move(*reader);
+  made->wish_reader_ = std::move(*reader);
+  auto heads = proto::Reader<proto::ViewerHead>::create(participant, "", [raw](auto view) { raw->take(view); });
+  if (!heads) return tl::unexpected(heads.error());
+  made->head_reader_ = std::move(*heads);
   return made;
 }
 
@@ -91,17 +94,36 @@ bool DisplayLink::report(const DisplayStatus& status) {
   return statuses_.write(wire);
 }
 
+/// No display named: all of the kiosk.
+bool DisplayLink::is_meant(std::string_view kiosk, std::string_view display) const {
+  return kiosk == kiosk_ && (display.empty() || display == display_);
+}
+
 void DisplayLink::take(proto::ReaderView<proto::DisplayWish> view) {
   view.take_each([this](const proto::DisplayWish& wire, const proto::SampleInfo& info) {
-    if (!info.valid || proto::text_of(wire.kiosk) != kiosk_) return;
-    const std::string_view wanted = proto::text_of(wire.display);
-    if (!wanted.empty() && wanted != display_) return;
+    if (!info.valid || !is_meant(proto::text_of(wire.kiosk), proto::text_of(wire.display))) return;
     DisplayWish wish;
     if (!parse(wire, wish)) return;
     const std::lock_guard lock(mutex_);
     wishes_.push_back(std::move(wish));
     if (wishes_.size() > kWishes) wishes_.pop_front();
   });
+}
+
+void DisplayLink::take(proto::ReaderView<proto::ViewerHead> view) {
+  view.take_each([this](const proto::ViewerHead& wire, const proto::SampleInfo& info) {
+    if (!info.valid || !is_meant(proto::text_of(wire.kiosk), proto::text_of(wire.display))) return;
+    ViewerHead head;
+    if (!parse(wire, head)) return;
+    head.received = now_here();
+    const std::lock_guard lock(mutex_);
+    head_ = head;
+  });
+}
+
+std::optional<ViewerHead> DisplayLink::viewer_head() {
+  const std::lock_guard lock(mutex_);
+  return head_;
 }
 
 std::vector<DisplayWish> DisplayLink::take_wishes() {

@@ -87,6 +87,16 @@ bool parse(const proto::DisplayStatus& wire, DisplayStatus& out) {
   return parse_lists(wire, out);
 }
 
+bool parse(const proto::ViewerHead& wire, ViewerHead& out) {
+  if (wire.protocol != proto::kProtocol || !proto::is_name(proto::text_of(wire.kiosk))) return false;
+  out.seen = wire.seen;
+  out.X_SV = Pose{};
+  if (!wire.seen) return true;
+  if (!proto::all_finite(wire.X_SV)) return false;
+  out.X_SV = proto::to_pose(wire.X_SV);
+  return proto::normalise(out.X_SV);
+}
+
 bool parse(const proto::DisplayWish& wire, DisplayWish& out) {
   if (wire.protocol != proto::kProtocol || wire.id == 0) return false;
   out.id = wire.id;

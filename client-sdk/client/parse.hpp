@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <mechane/client/displays.hpp>
+#include <mechane/client/head.hpp>
 #include <mechane/client/types.hpp>
 #include <mechane/proto/topics.hpp>
 
@@ -34,6 +35,8 @@ inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers
 [[nodiscard]] bool parse(const proto::DisplayStatus& wire, DisplayStatus& out);
 /// What is wished is not checked: apply() does.
 [[nodiscard]] bool parse(const proto::DisplayWish& wire, DisplayWish& out);
+/// Of a kiosk with a name. Where the head is, whoever uses it limits.
+[[nodiscard]] bool parse(const proto::ViewerHead& wire, ViewerHead& out);
 
 /// What a WorldAssignment means for one kiosk.
 struct Assignment {

@@ -50,25 +50,26 @@ Window window_of(const Camera& camera, double aspect) {
 EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
   const Mat3 R_CW = axes_of(camera);
   const double side = eye == Eye::left ? -0.5 : eye == Eye::right ? 0.5 : 0.0;
-  const double shift = side * camera.eye_distance_m;
-  const Vec3 p_WE = camera.p_WC + shift * R_CW.row(0).transpose();
+  const Vec3 p_CE = camera.head_C + side * camera.eye_distance_m * camera.eyes_C;
+  const Vec3 p_WE = camera.p_WC + R_CW.transpose() * p_CE;
 
   const auto [half_tan, distance] = window_of(camera, aspect);
-  const double half_height = half_tan * camera.near_m;
+  // All frusta meet in the same rectangle, at the screen's distance from where the camera is without a head.
+  const double half_height = half_tan * distance;
   const double half_width = half_height * aspect;
-  // Both frusta meet in the same rectangle at the screen's distance.
-  const double offset = -shift * camera.near_m / std::max(distance, camera.near_m);
+  const double nearer = camera.near_m / std::max(distance - p_CE.z(), camera.near_m);
 
   EyeView view;
   view.V_CW.topLeftCorner<3, 3>() = R_CW.cast<float>();
   view.V_CW.topRightCorner<3, 1>() = (-R_CW * p_WE).cast<float>();
-  view.P = frustum(offset - half_width, offset + half_width, -half_height, half_height, camera.near_m, camera.far_m)
+  view.P = frustum(nearer * (-half_width - p_CE.x()), nearer * (half_width - p_CE.x()),
+                   nearer * (-half_height - p_CE.y()), nearer * (half_height - p_CE.y()), camera.near_m, camera.far_m)
                .cast<float>();
   view.p_WE = p_WE.cast<float>();
   return view;
 }
 
-Camera for_screen(const Camera& camera, const ScreenSetup& screen, double aspect) {
+Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPlace* head, double aspect) {
   Camera out = camera;
   const double eyes_m = screen.eye_distance_m > 0 ? screen.eye_distance_m : camera.eye_distance_m;
   out.eye_distance_m = eyes_m;
@@ -82,6 +83,10 @@ Camera for_screen(const Camera& camera, const ScreenSetup& screen, double aspect
   out.field_of_view_rad = 2 * std::atan(half_tan * distance_m / out.screen_distance_m);
   out.least_horizontal_rad = 0;
   out.eye_distance_m = scale * eyes_m;
+  if (head != nullptr) {  // S and C have the same axes
+    out.head_C = scale * (head->p_SV - Vec3(0, 0, screen.viewer_distance_m));
+    out.eyes_C = head->eyes_S;
+  }
   return out;
 }
 

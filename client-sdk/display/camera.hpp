@@ -22,6 +22,10 @@ struct Camera {
   double far_m = 400;
   double eye_distance_m = 0.064;
   double screen_distance_m = 0;  ///< 0: the distance of p_WT
+  /// Where the visitor's head is, in C, metres: 0 is p_WC. The rectangle in which the frusta meet stays where it is, as a window does that one
+  /// looks through from elsewhere.
+  Vec3 head_C = Vec3::Zero();
+  Vec3 eyes_C = Vec3::UnitX();  ///< from the left eye towards the right one, unit
 };
 
 /// What a shader needs to see through one eye. OpenGL clip space, depth -1..1.
@@ -41,10 +45,17 @@ struct ScreenSetup {
   double eye_distance_m = 0;     ///< 0: the camera's own
 };
 
+/// Where a head is before a screen. Frame S: the middle of the screen, x to the right, y up, z towards the visitor.
+struct HeadPlace {
+  Vec3 p_SV = Vec3::Zero();     ///< between the eyes, metres
+  Vec3 eyes_S = Vec3::UnitX();  ///< from the left eye towards the right one, unit
+};
+
 /// The camera for such a screen. What lay in the plane of p_WT stays in the screen, as large as it was; the eyes stand before it as the visitor
 /// stands before the screen, all at one scale: depth has its true proportions, and what is far away has no more parallax than eyes are apart.
-/// Without a width and a distance only the eyes' distance is taken over, in metres of the world.
-[[nodiscard]] Camera for_screen(const Camera& camera, const ScreenSetup& screen, double aspect);
+/// `head`: where the visitor stands instead; null: at the screen's viewer distance, before its middle.
+/// Without a width and a distance only the eyes' distance is taken over, in metres of the world, and no head.
+[[nodiscard]] Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPlace* head, double aspect);
 
 /// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a little room left below for captions.
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad);

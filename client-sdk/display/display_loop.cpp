@@ -78,6 +78,18 @@ void DisplayLoop::take_news(TimePoint now) {
   }
 }
 
+/// The visitor's head, where the museum has a tracker.
+void DisplayLoop::tend_head(TimePoint now) {
+  const bool before = head_.tracked();
+  head_.advance(client_.viewer_head(), now);
+  if (head_.tracked() == before) return;
+  const bool knows_screen = options_.screen.width_m > 0 && options_.screen.viewer_distance_m > 0;
+  if (!before && !std::exchange(told_head_, true) && !knows_screen)
+    log::warning(
+        "a tracker tells where the visitor's head is, and this display does not know its screen: give --screen-width "
+        "and --viewer-distance");
+}
+
 void DisplayLoop::record(TimePoint now) {
   if (!source_.recorder || !world_.known() || client_.state() != LinkState::joined) return;
   client::Frame newest;
@@ -92,7 +104,8 @@ RenderScene DisplayLoop::build(TimePoint now) const {
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
   const PixelSize eye = eye_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
-    scene.camera = for_screen(scene.camera, options_.screen, static_cast<double>(eye.width) / eye.height);
+    scene.camera =
+        for_screen(scene.camera, options_.screen, head_.place(), static_cast<double>(eye.width) / eye.height);
   if (pointer_ && world_.known() && !attracts_) {
     pointer_->write(scene.overlay, under_pointer(scene), spoken_);
     if (const auto button = go_on_button(world_.status(), spoken_); button && !scene.overlay.panel)
@@ -329,6 +342,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
   while (!stop_wanted(now())) {
     const TimePoint now = this->now();
     take_news(now);
+    tend_head(now);
     take_wishes(now);
     tend_attract(now);
     tend_kiosk(now);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client-sdk/display/display_app.hpp"
+#include "client-sdk/display/head_view.hpp"
 #include "client-sdk/display/kiosk_setup.hpp"
 #include "client-sdk/display/pointer_input.hpp"
 #include "client-sdk/display/shown_world.hpp"
@@ -29,6 +30,7 @@ class DisplayLoop {
         client_(*source.client),
         typesetter_(typesetter),
         world_(open_assets(options, catalogue), options.language),
+        head_(options.screen),
         attract_(std::move(attract)),
         desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
         panel_(panel_settings(desk_.settings())),
@@ -44,6 +46,7 @@ class DisplayLoop {
   [[nodiscard]] bool stop_wanted(TimePoint now) const;
   [[nodiscard]] bool finished() const;
   void take_news(TimePoint now);
+  void tend_head(TimePoint now);
   void record(TimePoint now);
   void say_refusal();
   void say_stray();
@@ -75,6 +78,8 @@ class DisplayLoop {
   Typesetter& typesetter_;
   SystemClock clock_;
   ShownWorld world_;
+  HeadView head_;
+  bool told_head_ = false;
   client::Frame frame_;
   bool have_frame_ = false;
   std::optional<DisplaySound> sound_;

@@ -199,6 +199,18 @@ void fuzz_wish(Bytes bytes) {
   must(client::apply(client::settings_of(now), again).has_value());
 }
 
+/// Where a tracker says that a head is: a display uses it for its picture.
+void fuzz_head(Bytes bytes) {
+  proto::ViewerHead wire{};
+  wire.protocol = proto::kProtocol;
+  std::memcpy(wire.kiosk, "kiosk-1", 8);
+  wire.seen = bytes.take<std::uint8_t>() % 4 != 0;
+  wire.X_SV = bytes.take<proto::WirePose>();
+  client::ViewerHead head;
+  if (!client::parse(wire, head)) return;
+  must(head.X_SV.p.allFinite() && std::abs(head.X_SV.R.norm() - 1) < 1e-6);
+}
+
 void fuzz_display(Bytes bytes) {
   proto::DisplayStatus wire{};
   wire.protocol = proto::kProtocol;
@@ -254,6 +266,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 2:
       fuzz_kiosk(rest);
+      break;
+    case 3:
+      fuzz_head(rest);
       break;
     default:
       fuzz_frame(rest);

@@ -56,6 +56,9 @@ Qos haptic_input_qos() {
 Qos haptic_output_qos() {
   return newest_value_stream();
 }
+Qos viewer_head_qos() {
+  return newest_value_stream();
+}
 Qos scene_frame_qos() {
   return newest_value_stream();
 }

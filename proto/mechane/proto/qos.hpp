@@ -50,5 +50,6 @@ class Qos {
 [[nodiscard]] Qos server_status_qos();
 [[nodiscard]] Qos kiosk_status_qos();
 [[nodiscard]] Qos display_status_qos();
+[[nodiscard]] Qos viewer_head_qos();
 
 }  // namespace mechane::proto

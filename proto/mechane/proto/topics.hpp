@@ -30,6 +30,7 @@ using ServerStatus = ::mechane_ServerStatus;
 using KioskStatus = ::mechane_KioskStatus;
 using DisplayStatus = ::mechane_DisplayStatus;
 using DisplayWish = ::mechane_DisplayWish;
+using ViewerHead = ::mechane_ViewerHead;
 using WirePose = ::mechane_Pose;
 using WireLocalContact = ::mechane_LocalContact;
 using WireBodyPose = ::mechane_BodyPose;
@@ -76,6 +77,7 @@ MECHANE_PROTO_TOPIC(ServerStatus, museum, server_status_qos);
 MECHANE_PROTO_TOPIC(KioskStatus, museum, kiosk_status_qos);
 MECHANE_PROTO_TOPIC(DisplayStatus, museum, display_status_qos);
 MECHANE_PROTO_TOPIC(DisplayWish, museum, command_qos);
+MECHANE_PROTO_TOPIC(ViewerHead, museum, viewer_head_qos);
 #undef MECHANE_PROTO_TOPIC
 // clang-format on
 

@@ -185,7 +185,7 @@ TEST_F(StereoPicture, before_a_known_screen_parallax_is_what_eyes_would_see_thro
   const double aspect = static_cast<double>(kSize.width) / kSize.height;
   const double world_m = 2 * 1.5 * std::tan(lamp.scene.camera.field_of_view_rad / 2) * aspect;
   const double scale = world_m / setup.width_m;
-  lamp.scene.camera = for_screen(lamp.scene.camera, setup, aspect);
+  lamp.scene.camera = for_screen(lamp.scene.camera, setup, nullptr, aspect);
   lamp.scene.instances[0].X_WM.translation() = Vec3f(0, 0, -1.5F - static_cast<float>(2.0 * scale));
   const PixelRectangle all{0, 0, kSize.width, kSize.height};
   const double left = blob(draw(lamp.assets, lamp.scene, Stereo::left_eye), all).middle.x();
@@ -196,6 +196,30 @@ TEST_F(StereoPicture, before_a_known_screen_parallax_is_what_eyes_would_see_thro
   const Eigen::Vector2d at = blob(draw(lamp.assets, lamp.scene), all).middle;
   EXPECT_LT((at - seen_at(Vec3(0.2, 0.1, -1.5), 0, 1.5, Camera{}.field_of_view_rad, kSize.width, kSize.height)).norm(),
             1);
+}
+
+TEST_F(StereoPicture, a_head_that_moves_sees_what_is_behind_the_screen_move_with_it) {
+  const ScreenSetup setup{1.2, 2.0, 0.064};
+  const double aspect = static_cast<double>(kSize.width) / kSize.height;
+  Lamp lamp(Vec3(0, 0, -1.5));
+  const Camera from = lamp.scene.camera;
+  const double scale = 2 * 1.5 * std::tan(from.field_of_view_rad / 2) * aspect / setup.width_m;
+  lamp.scene.instances[0].X_WM.translation() = Vec3f(0, 0, -1.5F - static_cast<float>(2.0 * scale));
+  const PixelRectangle all{0, 0, kSize.width, kSize.height};
+  // As far behind the screen as the head is before it: by similar triangles it moves half as far as the head, over the screen.
+  const HeadPlace head{Vec3(0.30, 0.10, 2.0), Vec3::UnitX()};
+  lamp.scene.camera = for_screen(from, setup, &head, aspect);
+  const Eigen::Vector2d middle(0.5 * kSize.width, 0.5 * kSize.height);
+  const Eigen::Vector2d moved = blob(draw(lamp.assets, lamp.scene), all).middle - middle;
+  EXPECT_NEAR(moved.x(), 0.15 / 1.2 * kSize.width, 0.5);
+  EXPECT_NEAR(moved.y(), -0.05 / 1.2 * kSize.width, 0.5);
+  // With the head on one side, eyes one above the other see it apart from each other along that line.
+  const HeadPlace tilted{Vec3(0, 0, 2.0), Vec3(0.6, 0.8, 0)};
+  lamp.scene.camera = for_screen(from, setup, &tilted, aspect);
+  const Eigen::Vector2d apart = blob(draw(lamp.assets, lamp.scene, Stereo::right_eye), all).middle -
+                                blob(draw(lamp.assets, lamp.scene, Stereo::left_eye), all).middle;
+  EXPECT_NEAR(apart.x(), 0.6 * 0.032 / 1.2 * kSize.width, 0.5);
+  EXPECT_NEAR(apart.y(), -0.8 * 0.032 / 1.2 * kSize.width, 0.5);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ class Place {
     RenderScene out = builder_.build(&frame, &*status, client_.state());
     // Words have tests of their own, and would hide the machine in so small a picture.
     out.overlay = {};
-    out.camera = for_screen(out.camera, {}, static_cast<double>(kPicture.width) / kPicture.height);
+    out.camera = for_screen(out.camera, {}, nullptr, static_cast<double>(kPicture.width) / kPicture.height);
     return out;
   }
   [[nodiscard]] const SceneAssets& assets() const { return library_.assets(); }

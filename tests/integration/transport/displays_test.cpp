@@ -158,6 +158,31 @@ TEST_F(Displays, APictureIsAnsweredWhenItIsWrittenAndKeysOfVisitorsAreTold) {
   }));
 }
 
+TEST_F(Displays, ATrackersHeadComesToTheScreensThatItIsBefore) {
+  Desk wall("wall");
+  Desk bystanders("bystanders");
+  const auto beside = client::HeadTracker::open("kiosk-1", "bystanders", kServerDomain);
+  ASSERT_TRUE(beside.has_value());
+  const Pose X_SV{Vec3(0.25, -0.5, 1.5), Quat(Eigen::AngleAxisd(0.2, Vec3::UnitZ()))};
+  const auto hears = [&](Desk& desk, const Vec3& p_SV) {
+    const auto head = desk.client->viewer_head();
+    return head && head->seen && head->X_SV.p == p_SV;
+  };
+  ASSERT_TRUE(eventually([&] { return hears(bystanders, X_SV.p); }, 10s, [&] { (void)(*beside)->tell(X_SV); }));
+  EXPECT_FALSE(wall.client->viewer_head().has_value());
+  EXPECT_LT(bystanders.client->viewer_head()->X_SV.R.angularDistance(X_SV.R), 1e-6);
+  const auto all = client::HeadTracker::open("kiosk-1", "", kServerDomain);
+  ASSERT_TRUE(all.has_value());
+  const Pose other{Vec3(0, 0, 2), Quat::Identity()};
+  ASSERT_TRUE(eventually([&] { return hears(wall, other.p) && hears(bystanders, other.p); }, 10s,
+                         [&] { (void)(*all)->tell(other); }));
+  EXPECT_FALSE((*all)->tell({Vec3(0, 0, std::nan("")), Quat::Identity()}));
+  EXPECT_FALSE((*all)->tell({Vec3::Zero(), Quat(0, 0, 0, 0)}));
+  EXPECT_TRUE(hears(wall, other.p)) << "what is no pose is not sent";
+  ASSERT_TRUE(eventually([&] { return !wall.client->viewer_head()->seen; }, 10s, [&] { (void)(*all)->tell_nobody(); }));
+  EXPECT_FALSE(client::HeadTracker::open("kiosk 1", "", kServerDomain).has_value());
+}
+
 TEST_F(Displays, OneThatEndedIsGone) {
   Desk wall("wall");
   ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));

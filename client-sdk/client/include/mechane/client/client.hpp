@@ -8,6 +8,7 @@
 
 #include "server/base/error.hpp"
 #include <mechane/client/displays.hpp>
+#include <mechane/client/head.hpp>
 #include <mechane/client/types.hpp>
 
 namespace mechane::client {
@@ -106,6 +107,8 @@ class Client {
   virtual bool report(const DisplayStatus& /*status*/) { return false; }
   /// Wishes to this display since the last call, oldest first. Each is to be answered in the next status.
   [[nodiscard]] virtual std::vector<DisplayWish> take_display_wishes() { return {}; }
+  /// Where a tracker saw the visitor's head last; none has told yet, or the client is no display.
+  [[nodiscard]] virtual std::optional<ViewerHead> viewer_head() { return {}; }
 };
 
 }  // namespace mechane::client
