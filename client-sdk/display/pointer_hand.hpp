@@ -22,7 +22,7 @@ struct PointerSenses {
   Pose X_WB;  ///< the touched object's
   Leeway leeway;
   bool holding = false;             ///< the server says so
-  std::optional<Quat> R_WB_rest{};  ///< as the exhibit laid it out; a wrist brings what is carried back to this
+  std::optional<Quat> R_WB_rest{};  ///< as the exhibit laid it out; a wrist brings what was knocked back to this
 };
 
 /// For the picture.
