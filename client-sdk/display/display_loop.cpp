@@ -130,7 +130,8 @@ void DisplayLoop::take_pointer(TimePoint now) {
   const std::vector<PointerEvent> events = context_.take_pointer_events();
   if (!pointer_ || !world_.known()) return;
   if (attracts_) {  // whoever comes ends the invitation, and takes nothing yet
-    if (!events.empty()) panel_.touch(now);
+    if (std::ranges::any_of(events, [](const PointerEvent& e) { return e.kind != PointerEvent::Kind::gone; }))
+      panel_.touch(now);
     return;
   }
   if (events.empty() && pointer_->rests(now)) return;  // a scene is not built for nothing

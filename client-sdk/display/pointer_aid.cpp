@@ -73,11 +73,18 @@ std::string carried_note(PointerMeans means, bool greek) {
                : "Drag to carry it; the right button turns it, the wheel brings it farther or nearer";
 }
 
+std::string goal_note(PointerMeans means, bool greek) {
+  const std::string bring = greek ? "Φέρτε το στον γαλάζιο κύκλο· " : "Bring it to the blue ring; ";
+  if (means == PointerMeans::fingers) return bring + (greek ? "με δύο δάχτυλα στρίβει" : "two fingers turn it");
+  if (means == PointerMeans::keys) return bring + (greek ? "με τα Q και E στρίβει" : "Q and E turn it");
+  return bring + (greek ? "με το δεξί κουμπί στρίβει" : "the right button turns it");
+}
+
 std::string held_note(PointerView::Drag drag, bool has_goal, PointerMeans means, bool greek) {
   if (drag == PointerView::Drag::turn)
     return greek ? "Κάντε κύκλους, όπως δείχνουν οι κουκκίδες" : "Drag round and round, along the dots";
   if (drag == PointerView::Drag::slide) return greek ? "Σύρετε κατά μήκος" : "Drag it along its way";
-  if (has_goal) return greek ? "Φέρτε το στον γαλάζιο κύκλο" : "Bring it to the blue ring";
+  if (has_goal) return goal_note(means, greek);
   return carried_note(means, greek);
 }
 

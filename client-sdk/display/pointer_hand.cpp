@@ -29,6 +29,8 @@ constexpr double kDrawn_m = 0.035, kPressed_m = 0.008, kPast_m = 0.03, kMostDraw
 // A body that turns in the grip: the server lets it lag so far, and no farther.
 constexpr double kGripLag_rad = 0.6;
 constexpr double kGripFelt_s = 1.0;
+// Less is how it happens to lie.
+constexpr double kAskew_rad = 0.2;
 constexpr double kLongestAdvance_s = 0.02;
 // What a snap, a step or a stone's weight took out of the hand is gone.
 constexpr double kNoticesLoss_s = 0.25;
@@ -181,6 +183,8 @@ void PointerHand::grip(const PointerSenses& senses) {
   turned_W_ = Quat::Identity();
   twisted_ = false;
   obstacle_ = {};
+  const Quat R_WB_rest = senses.R_WB_rest.value_or(senses.X_WB.R);
+  knocked_ = rotation_vector(senses.X_WB.R * R_WB_rest.conjugate()).norm() > kAskew_rad;
   drag_ = Drag::carry;
   if (senses.leeway.axle) begin_turn(*senses.leeway.axle);
   if (drag_ == Drag::carry && senses.leeway.track) {
@@ -239,9 +243,11 @@ void PointerHand::hold(double dt_s, const PointerSenses& senses) {
   turn_towards(R_WH_wanted_, twisted_ ? kTwistSpeed_rad_per_s : kTurnSpeed_rad_per_s, dt_s);
 }
 
-/// What is knocked, or weighs on its end, turns in the grip: the hand learns how it holds it now.
+/// What is knocked turns in the grip: the hand learns how it holds it now.
 void PointerHand::feel_grip(const PointerSenses& senses, double dt_s) {
   const Vec3 lag = rotation_vector(X_WH_.R * X_BH_.R.conjugate() * senses.X_WB.R.conjugate());
+  knocked_ = knocked_ || lag.norm() > kGripLag_rad;
+  if (!knocked_) return;  // what only swings is left to the grip: a hand that follows makes it swing more
   const double kept = std::min(1.0, kGripLag_rad / std::max(lag.norm(), 1e-9)) * std::exp(-dt_s / kGripFelt_s);
   const Quat left = quat_from_rotation_vector(kept * lag);
   X_BH_.R = (senses.X_WB.R.conjugate() * left.conjugate() * X_WH_.R).normalized();
@@ -291,7 +297,7 @@ void PointerHand::lose(const PointerSenses& senses) {
 Vec3 PointerHand::carried_to(const PointerSenses& senses) {
   p_WG_goal_.reset();
   // As it was laid out, or else gripped, and turned since.
-  const Quat R_WH_rest = senses.R_WB_rest ? *senses.R_WB_rest * X_BH_.R : R_WH_gripped_;
+  const Quat R_WH_rest = knocked_ && senses.R_WB_rest ? *senses.R_WB_rest * X_BH_.R : R_WH_gripped_;
   R_WH_wanted_ = turned_W_ * R_WH_rest;
   const WayGoal* meant = nullptr;
   double nearest = std::numeric_limits<double>::infinity();

@@ -22,7 +22,7 @@ struct PointerSenses {
   Pose X_WB;  ///< the touched object's
   Leeway leeway;
   bool holding = false;             ///< the server says so
-  std::optional<Quat> R_WB_rest{};  ///< as the exhibit laid it out; a wrist brings what is carried back to this
+  std::optional<Quat> R_WB_rest{};  ///< as the exhibit laid it out; a wrist brings what was knocked back to this
 };
 
 /// For the picture.
@@ -98,6 +98,7 @@ class PointerHand {
   Quat R_WH_gripped_ = Quat::Identity();
   Quat turned_W_ = Quat::Identity();  // carry: by the visitor, since it was gripped
   bool twisted_ = false;              // carry: the visitor has
+  bool knocked_ = false;              // carry: it lies otherwise than it was laid out, or has turned in the grip
   /// Carry: what keeps the thing from going on is passed on the viewer's side.
   struct Obstacle {
     Vec3 rests_W = Vec3::Zero();  // where the thing has been

@@ -143,7 +143,8 @@ class TouchVisitor:
         self.xdo("mousemove", round(at[0]), round(at[1]), *more)
 
     def drag(self, way, seconds):
-        """Along way(0..1), at some 25 places a second."""
+        """Along way(0..1), at some 25 places a second; slower where pictures come late, for a person waits for what is seen."""
+        seconds *= PATIENCE
         began = time.monotonic()
         while (share := (time.monotonic() - began) / seconds) < 1:
             self.point(way(share))

@@ -304,7 +304,9 @@ RC_GTEST_PROP(PointerHand, what_was_knocked_comes_back_to_how_it_was_laid_out, (
   thing.senses.X_WB.p = {0, 1, 0};
   const auto any_turn = [] { return quat_from_rotation_vector(Vec3(drawn(-1, 1), drawn(-1, 1), drawn(-1, 1))); };
   thing.senses.R_WB_rest = any_turn();
-  thing.senses.X_WB.R = (any_turn() * *thing.senses.R_WB_rest).normalized();
+  const Quat knock = any_turn();
+  RC_PRE(rotation_vector(knock).norm() > 0.25);
+  thing.senses.X_WB.R = (knock * *thing.senses.R_WB_rest).normalized();
   take(hand, thing, sight, {0, 1, 0});
   pass(hand, thing, 4);
   RC_ASSERT(rotation_vector(thing.senses.X_WB.R * thing.senses.R_WB_rest->conjugate()).norm() < 0.05);
@@ -317,7 +319,9 @@ RC_GTEST_PROP(PointerHand, what_turned_in_the_grip_comes_upright_all_the_same, (
   thing.senses.X_WB.p = {0, 1, 0};
   thing.senses.R_WB_rest = Quat::Identity();
   take(hand, thing, sight, {0, 1, 0});
-  thing.slip(Vec3(drawn(-1, 1), drawn(-1, 1), drawn(-1, 1)));
+  const Vec3 turn(drawn(-1, 1), drawn(-1, 1), drawn(-1, 1));
+  RC_PRE(turn.norm() > 0.7);
+  thing.slip(turn);
   pass(hand, thing, 12);
   RC_ASSERT(rotation_vector(thing.senses.X_WB.R).norm() < 0.05);
 }

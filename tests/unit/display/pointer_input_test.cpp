@@ -110,9 +110,14 @@ TEST(PointerAid, WhatIsCarriedSaysHowItIsTurnedByWhatTheVisitorUses) {
       aid.means = means;
       add_pointer_aid(aid, language, content);
       notes.insert(content.note);
+      OverlayContent with_goal;
+      aid.view.p_WG = Vec3::Zero();
+      add_pointer_aid(aid, language, with_goal);
+      aid.view.p_WG.reset();
+      notes.insert(with_goal.note);
     }
   }
-  EXPECT_EQ(notes.size(), 6U);
+  EXPECT_EQ(notes.size(), 12U);
   EXPECT_TRUE(notes.contains("Drag to carry it; two fingers turn it, bring it nearer or farther"));
 }
 
