@@ -23,7 +23,7 @@ struct PassInput {
   const StreamedMesh& ropes;
   const std::vector<StreamedMesh>& soft_bodies;  ///< as the scene has them
   const EyeView& view;
-  const SkyHarmonics& sky;
+  const SkyLight& sky;
   const ShadowTarget& shadow;
   const ShadowSetup& shadow_setup;
   const HdrTarget& target;  ///< where they draw to
@@ -198,7 +198,7 @@ class CompositePass {
 void begin_blending();
 void end_blending();
 
-/// Sets the uniforms of sky.glsl and lighting.glsl; texture units 4 and 6 hold the shadow maps.
+/// Sets the uniforms of sky.glsl and lighting.glsl; texture units 4 and 6 hold the shadow maps, 7 the sky.
 void set_lighting(const Program& program, const PassInput& input);
 
 }  // namespace mechane::display

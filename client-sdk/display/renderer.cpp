@@ -92,9 +92,9 @@ Expected<void> Renderer::fit_targets(Stereo stereo, PixelSize picture, bool inse
 
 Expected<void> Renderer::fit_sky(const Sun& sun) {
   if (baked_sun_ && baked_sun_->to_sun_W == sun.to_sun_W) return {};
-  Expected<SkyHarmonics> baked = bake_sky(sun);
+  Expected<SkyLight> baked = bake_sky(sun);
   if (!baked) return tl::unexpected(baked.error());
-  sky_ = *baked;
+  sky_ = std::move(*baked);
   baked_sun_ = sun;
   return {};
 }

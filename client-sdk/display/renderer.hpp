@@ -94,7 +94,7 @@ class Renderer {
   GpuAssets assets_;
   StreamedMesh ropes_ = StreamedMesh::create();
   std::vector<StreamedMesh> soft_bodies_;  ///< the first of them are the scene's
-  SkyHarmonics sky_{};
+  SkyLight sky_;
   std::optional<Sun> baked_sun_;
   std::optional<HdrTarget> hdr_;
   std::optional<HdrTarget> inset_;
