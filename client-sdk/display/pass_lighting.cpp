@@ -68,6 +68,7 @@ void set_lighting(const Program& program, const PassInput& input) {
   program.set("fires", fires);
   const Eigen::Matrix4f PV = input.view.P * input.view.V_CW;
   program.set("PV", PV);
+  program.set("clip_W", input.clip_W);
 }
 
 }  // namespace mechane::display

@@ -62,6 +62,7 @@ class Renderer {
     ShadowPass shadow;
     OpaquePass opaque;
     SkyPass sky;
+    MirrorPass mirror;
     WaterPass water;
     ClearPass clear;
     ParticlePass particle;
@@ -77,7 +78,8 @@ class Renderer {
   void upload_moving(const RenderScene& scene);
   /// Begins to measure; with a name: ends a pass and begins the next.
   void mark(const char* pass);
-  void draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows, const HdrTarget& target);
+  [[nodiscard]] Expected<void> draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows,
+                                         const HdrTarget& target);
   /// Where an eye's finished picture goes: into `target`, its lower left corner at (x, y).
   struct EyeTarget {
     const PictureTarget& target;
