@@ -9,6 +9,7 @@ namespace {
 constexpr double kLeastWidth_m = 0.004;  // under a drop's width nothing is seen
 constexpr double kMostWidth_m = 0.25;
 constexpr double kFastestJet_m_per_s = 15;
+constexpr double kFastestRiver_m_per_s = 5;
 
 /// m^3/s of a unit of flow; 1 for what is none.
 double flow_scale(const std::string& unit) {
@@ -75,6 +76,16 @@ std::optional<double> level_of(const client::WorldPresentation& presentation, co
     return std::clamp(frame.quantities[effect.quantity], 0.0, 5.0);
   }
   return std::nullopt;
+}
+
+Vec3 flow_of(const client::WorldPresentation& presentation, const std::string& node) {
+  for (const client::Effect& effect : presentation.effects) {
+    if (effect.kind != "flow" || effect.node != node) continue;
+    const Vec3 level_W(effect.direction_B.x(), 0, effect.direction_B.z());
+    if (level_W.norm() < 0.05) return Vec3::Zero();
+    return std::clamp(effect.speed_m_per_s, 0.0, kFastestRiver_m_per_s) * level_W.normalized();
+  }
+  return Vec3::Zero();
 }
 
 void add_effects(const client::WorldPresentation& presentation, const client::Frame& frame,

@@ -25,6 +25,9 @@ namespace mechane::display {
 [[nodiscard]] std::optional<double> level_of(const client::WorldPresentation& presentation, const client::Frame& frame,
                                              const std::string& node);
 
+/// With what velocity the water of a node flows, in W, level; zero where no effect lets it flow.
+[[nodiscard]] Vec3 flow_of(const client::WorldPresentation& presentation, const std::string& node);
+
 /// Adds streams, jets and particles. `pose_of` gives an object's pose in W; `landing_height_m` is where falling water ends.
 void add_effects(const client::WorldPresentation& presentation, const client::Frame& frame,
                  const client::WorldStatus& status, const std::function<Pose(std::uint32_t)>& pose_of,

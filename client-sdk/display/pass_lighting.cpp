@@ -9,6 +9,7 @@ namespace mechane::display {
 namespace {
 
 constexpr int kShadowUnit = 4;
+constexpr int kSkyUnit = 7;
 constexpr int kShadowDepthUnit = 6;
 /// A sphere outside of which the occluders darken nothing that an eye would see.
 Eigen::Vector4f bound_of(const std::vector<Occluder>& occluders) {
@@ -49,8 +50,11 @@ void set_lighting(const Program& program, const PassInput& input) {
   program.set("to_sun", Vec3f(scene.sun.to_sun_W.normalized()));
   program.set("sun_irradiance", scene.sun.irradiance);
   program.set("eye_W", input.view.p_WE);
-  program.set("sh", input.sky);
+  program.set("sh", input.sky.harmonics);
   program.set("sky_on", scene.sky ? 1.0F : 0.0F);
+  program.set("sky_cube", kSkyUnit);
+  glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + kSkyUnit));
+  glBindTexture(GL_TEXTURE_CUBE_MAP, input.sky.cube.get());
   set_shadows(program, input);
   std::vector<Eigen::Vector4f> occluders;
   for (const Occluder& o : scene.occluders) {
@@ -64,6 +68,7 @@ void set_lighting(const Program& program, const PassInput& input) {
   program.set("fires", fires);
   const Eigen::Matrix4f PV = input.view.P * input.view.V_CW;
   program.set("PV", PV);
+  program.set("clip_W", input.clip_W);
 }
 
 }  // namespace mechane::display

@@ -22,7 +22,6 @@ Expected<void> NookPass::draw(const HdrTarget& from, const EyeView& view) {
     if (!made) return tl::unexpected(made.error());
     target->emplace(std::move(*made));
   }
-  from.resolve_depth();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);

@@ -39,7 +39,6 @@ void ParticlePass::draw(const PassInput& input) const {
   glBindVertexArray(vertex_array_.get());
   glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(floats.size() * sizeof(float)), floats.data(), GL_STREAM_DRAW);
-  input.target.resolve_depth();
   begin_blending();
   program_.use();
   set_lighting(program_, input);

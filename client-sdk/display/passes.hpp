@@ -16,6 +16,12 @@
 
 namespace mechane::display {
 
+/// What a level water mirrors, seen by one eye: opacity is 0 where there is none.
+struct MirrorImage {
+  const TextureName* picture = nullptr;
+  float height_m = 0;  ///< y in W
+};
+
 /// What every pass over one eye's picture needs.
 struct PassInput {
   const RenderScene& scene;
@@ -23,10 +29,12 @@ struct PassInput {
   const StreamedMesh& ropes;
   const std::vector<StreamedMesh>& soft_bodies;  ///< as the scene has them
   const EyeView& view;
-  const SkyHarmonics& sky;
+  const SkyLight& sky;
   const ShadowTarget& shadow;
   const ShadowSetup& shadow_setup;
-  const HdrTarget& target;  ///< where they draw to
+  const HdrTarget& target;             ///< where they draw to
+  Eigen::Vector4f clip_W{0, 0, 0, 1};  ///< a plane: with GL_CLIP_DISTANCE0, what is below it is not drawn
+  std::optional<MirrorImage> mirror{};
 };
 
 /// Depth from the sun, once for both eyes, and a map again only when something has moved that throws a shadow there.
@@ -82,7 +90,27 @@ class SkyPass {
   VertexArrayName no_vertices_;
 };
 
-/// Surfaces of water and falling water, blended over what is solid.
+/// What stands about the water that fills most of the picture, mirrored in it: the solid things and the sky once more, from under the water,
+/// at half the size, and only where that water is. (A walk along the picture's own depth would cost less where there is much to draw, but a
+/// visitor looks down on the water: what it mirrors is mostly above the picture's edge or turned away.)
+class MirrorPass {
+ public:
+  [[nodiscard]] static Expected<MirrorPass> create();
+  /// None where no level water is in sight. The image is good until the next is drawn. Errors: no memory for targets of this size.
+  [[nodiscard]] Expected<std::optional<MirrorImage>> draw(const PassInput& input, const OpaquePass& opaque,
+                                                          const SkyPass& sky);
+
+ private:
+  explicit MirrorPass(Program program) : program_(std::move(program)) {}
+  void mark_water(const PassInput& input, float height_m) const;
+  [[nodiscard]] Expected<const MirrorTarget*> fit(PixelSize size);
+
+  static constexpr std::size_t kSizes = 2;  ///< a picture's and a close-up's
+  Program program_;
+  std::vector<MirrorTarget> targets_;
+};
+
+/// Surfaces of water and falling water, blended over what is solid. Wants the target's depth resolved.
 class WaterPass {
  public:
   [[nodiscard]] static Expected<WaterPass> create();
@@ -90,6 +118,7 @@ class WaterPass {
 
  private:
   WaterPass(Program surface, Program stream);
+  void draw_surfaces(const PassInput& input) const;
   void draw_stream(const WaterStream& stream);
 
   Program surface_;
@@ -108,7 +137,7 @@ class ClearPass {
   Program program_;
 };
 
-/// Steam, smoke, fire, dust, drops: over all else.
+/// Steam, smoke, fire, dust, drops: over all else. Wants the target's depth resolved.
 class ParticlePass {
  public:
   [[nodiscard]] static Expected<ParticlePass> create();
@@ -143,7 +172,7 @@ class BloomPass {
   std::vector<FloatTarget> levels_;  ///< each half as wide as the one before
 };
 
-/// Where things meet, little of the sky arrives: found from the depth of a picture in which all that is solid was drawn.
+/// Where things meet, little of the sky arrives: found from the resolved depth of a picture in which all that is solid was drawn.
 class NookPass {
  public:
   [[nodiscard]] static Expected<NookPass> create();
@@ -198,7 +227,7 @@ class CompositePass {
 void begin_blending();
 void end_blending();
 
-/// Sets the uniforms of sky.glsl and lighting.glsl; texture units 4 and 6 hold the shadow maps.
+/// Sets the uniforms of sky.glsl and lighting.glsl; texture units 4 and 6 hold the shadow maps, 7 the sky.
 void set_lighting(const Program& program, const PassInput& input);
 
 }  // namespace mechane::display

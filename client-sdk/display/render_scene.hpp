@@ -66,8 +66,10 @@ struct Instance {
 struct WaterInstance {
   std::uint32_t mesh = 0;
   Eigen::Affine3f X_WM = Eigen::Affine3f::Identity();
-  float clearness = 0.5F;  ///< 0 deep and muddy .. 1 a thin clear sheet
-  float ripple = 1;        ///< slope of the waves against a calm basin's
+  float clearness = 0.5F;        ///< 0 deep and muddy .. 1 a thin clear sheet
+  float ripple = 1;              ///< slope of the waves against a calm basin's
+  Vec3f flow_W = Vec3f::Zero();  ///< m/s, level: what is seen of its ripples goes with it
+  float width_m = 0;             ///< over 0: uv's x is the share of the way across, and its sides end softly
 };
 
 /// Falling water: a parabola from where it leaves, with any velocity, to where it lands.

@@ -67,6 +67,31 @@ void HdrTarget::resolve_depth() const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
 }
 
+Expected<MirrorTarget> MirrorTarget::create(PixelSize size) {
+  MirrorTarget target{make_framebuffer(), make_texture(), make_renderbuffer(), size};
+  const auto width = static_cast<GLsizei>(size.width);
+  const auto height = static_cast<GLsizei>(size.height);
+  glBindTexture(GL_TEXTURE_2D, target.colour.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  no_filter(GL_TEXTURE_2D);
+  glBindRenderbuffer(GL_RENDERBUFFER, target.depth.get());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, target.depth.get());
+  if (auto ok = check_complete("picture of what water mirrors", size); !ok) return tl::unexpected(ok.error());
+  return target;
+}
+
+void MirrorTarget::begin() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
+  glDepthMask(GL_TRUE);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
 Expected<ShadowTarget> ShadowTarget::create(std::uint32_t size, std::uint32_t layers) {
   ShadowTarget target{make_framebuffer(), make_texture(), make_sampler(), size};
   glBindTexture(GL_TEXTURE_2D_ARRAY, target.depth.get());

@@ -25,6 +25,18 @@ struct HdrTarget {
   void resolve_depth() const;
 };
 
+/// Half-float colour with depth and a stencil, one sample a pixel.
+struct MirrorTarget {
+  FramebufferName framebuffer;
+  TextureName colour;
+  RenderbufferName depth;
+  PixelSize size;
+
+  [[nodiscard]] static Expected<MirrorTarget> create(PixelSize size);
+  /// Draws go to all of it from now on; it is empty, and lets all through.
+  void begin() const;
+};
+
 /// Square depth textures, one a layer. Read with comparison; with `plain_depth` bound to the same unit, as the depths themselves.
 struct ShadowTarget {
   FramebufferName framebuffer;

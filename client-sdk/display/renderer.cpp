@@ -53,6 +53,8 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& set
   if (!opaque) return tl::unexpected(opaque.error());
   Expected<SkyPass> sky = SkyPass::create();
   if (!sky) return tl::unexpected(sky.error());
+  Expected<MirrorPass> mirror = MirrorPass::create();
+  if (!mirror) return tl::unexpected(mirror.error());
   Expected<WaterPass> water = WaterPass::create();
   if (!water) return tl::unexpected(water.error());
   Expected<ClearPass> clear = ClearPass::create();
@@ -70,9 +72,9 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& set
   Expected<OverlayPass> overlay = OverlayPass::create(settings.font_folder);
   if (!overlay) return tl::unexpected(overlay.error());
   return std::unique_ptr<Renderer>(
-      new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*water),
-                                    std::move(*clear), std::move(*particle), std::move(*bloom), std::move(*nook),
-                                    std::move(*tone), std::move(*composite), std::move(*overlay)}));
+      new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*mirror),
+                                    std::move(*water), std::move(*clear), std::move(*particle), std::move(*bloom),
+                                    std::move(*nook), std::move(*tone), std::move(*composite), std::move(*overlay)}));
 }
 
 Expected<void> Renderer::fit_targets(Stereo stereo, PixelSize picture, bool inset) {
@@ -92,9 +94,9 @@ Expected<void> Renderer::fit_targets(Stereo stereo, PixelSize picture, bool inse
 
 Expected<void> Renderer::fit_sky(const Sun& sun) {
   if (baked_sun_ && baked_sun_->to_sun_W == sun.to_sun_W) return {};
-  Expected<SkyHarmonics> baked = bake_sky(sun);
+  Expected<SkyLight> baked = bake_sky(sun);
   if (!baked) return tl::unexpected(baked.error());
-  sky_ = *baked;
+  sky_ = std::move(*baked);
   baked_sun_ = sun;
   return {};
 }
@@ -111,12 +113,13 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   const ShadowSetup shadows = passes_.shadow.draw(scene, assets_, ropes_, soft_bodies_);
   mark("shadow");
   if (scene.inset) {
-    draw_view(scene, eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size)), shadows, *inset_);
+    const EyeView view = eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size));
+    if (auto ok = draw_view(scene, view, shadows, *inset_); !ok) return ok;
   }
   const std::vector<Eye> eyes = eyes_of(stereo);
   for (std::size_t i = 0; i < eyes.size(); ++i) {
     const EyeView view = eye_view(scene.camera, eyes[i], aspect_of(eye_pixels));
-    draw_view(scene, view, shadows, *hdr_);
+    if (auto ok = draw_view(scene, view, shadows, *hdr_); !ok) return ok;
     if (auto ok = finish_eye(scene, view, eye_pixels, target_of(stereo, i)); !ok) return ok;
     mark("tone and words");
   }
@@ -169,9 +172,13 @@ Renderer::EyeTarget Renderer::target_of(Stereo stereo, std::size_t eye) const {
   return {*picture_};
 }
 
-void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows,
-                         const HdrTarget& target) {
-  const PassInput input{scene, assets_, ropes_, soft_bodies_, view, sky_, passes_.shadow.maps(), shadows, target};
+Expected<void> Renderer::draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows,
+                                   const HdrTarget& target) {
+  PassInput input{scene, assets_, ropes_, soft_bodies_, view, sky_, passes_.shadow.maps(), shadows, target};
+  const Expected<std::optional<MirrorImage>> mirror = passes_.mirror.draw(input, passes_.opaque, passes_.sky);
+  if (!mirror) return tl::unexpected(mirror.error());
+  input.mirror = *mirror;
+  mark("mirror");
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
   glViewport(0, 0, static_cast<GLsizei>(target.size.width), static_cast<GLsizei>(target.size.height));
   glDepthMask(GL_TRUE);
@@ -181,12 +188,14 @@ void Renderer::draw_view(const RenderScene& scene, const EyeView& view, const Sh
   mark("opaque");
   passes_.sky.draw(input);
   mark("sky");
+  target.resolve_depth();
   passes_.water.draw(input);
   mark("water");
   passes_.clear.draw(input);
   mark("clear");
   passes_.particle.draw(input);
   mark("particles");
+  return {};
 }
 
 Expected<void> Renderer::finish_eye(const RenderScene& scene, const EyeView& view, PixelSize eye,

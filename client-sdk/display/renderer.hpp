@@ -62,6 +62,7 @@ class Renderer {
     ShadowPass shadow;
     OpaquePass opaque;
     SkyPass sky;
+    MirrorPass mirror;
     WaterPass water;
     ClearPass clear;
     ParticlePass particle;
@@ -77,7 +78,8 @@ class Renderer {
   void upload_moving(const RenderScene& scene);
   /// Begins to measure; with a name: ends a pass and begins the next.
   void mark(const char* pass);
-  void draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows, const HdrTarget& target);
+  [[nodiscard]] Expected<void> draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows,
+                                         const HdrTarget& target);
   /// Where an eye's finished picture goes: into `target`, its lower left corner at (x, y).
   struct EyeTarget {
     const PictureTarget& target;
@@ -94,7 +96,7 @@ class Renderer {
   GpuAssets assets_;
   StreamedMesh ropes_ = StreamedMesh::create();
   std::vector<StreamedMesh> soft_bodies_;  ///< the first of them are the scene's
-  SkyHarmonics sky_{};
+  SkyLight sky_;
   std::optional<Sun> baked_sun_;
   std::optional<HdrTarget> hdr_;
   std::optional<HdrTarget> inset_;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "client-sdk/display/effect_builder.hpp"
+#include "client-sdk/display/river_reach.hpp"
 
 namespace mechane::display {
 namespace {
@@ -34,6 +35,14 @@ Eigen::Affine3f affine(const Pose& X) {
   out.linear() = X.R.toRotationMatrix().cast<float>();
   out.translation() = X.p.cast<float>();
   return out;
+}
+
+/// Deep and dark, standing or flowing.
+WaterInstance river_water(const Vec3f& flow_W) {
+  WaterInstance water;
+  water.clearness = 0.12F;
+  water.flow_W = flow_W;
+  return water;
 }
 
 /// The box, in W, around a box in B.
@@ -95,6 +104,7 @@ void SceneBuilder::set_manifest(const std::vector<client::SceneObject>& objects)
   }
   add_scenery(objects);
   find_place();
+  let_flow();
 }
 
 void SceneBuilder::add_scenery(const std::vector<client::SceneObject>& objects) {
@@ -131,6 +141,27 @@ void SceneBuilder::set_language(const std::string& language) {
 void SceneBuilder::set_presentation(std::shared_ptr<const client::WorldPresentation> presentation) {
   presentation_ = std::move(presentation);
   find_place();
+  let_flow();
+}
+
+/// Rivers go on beyond what was modelled of them, both ways, over the plain.
+void SceneBuilder::let_flow() {
+  for (Placed& placed : scenery_) {
+    placed.flow_W =
+        presentation_ ? flow_of(*presentation_, placed.object.mesh_node).cast<float>() : Vec3f(Vec3f::Zero());
+    if (placed.flow_W.isZero() || !placed.reaches.empty() || is_stray(placed.object.X_WB.p)) continue;
+    for (const ModelPart& part : placed.model->parts) {
+      if (!part.water) continue;
+      for (const float way : {-1.0F, 1.0F}) {
+        RiverReach reach =
+            river_reach(library_.assets().meshes[part.mesh], affine(placed.object.X_WB), way * placed.flow_W);
+        if (reach.mesh_W.indices.empty()) continue;
+        WaterInstance& water = placed.reaches.emplace_back(river_water(placed.flow_W));
+        water.width_m = reach.width_m;
+        water.mesh = library_.add_mesh(std::move(reach.mesh_W));
+      }
+    }
+  }
 }
 
 void SceneBuilder::find_place() {
@@ -260,13 +291,17 @@ void SceneBuilder::add_object(const Placed& placed, const Pose& X_WB, const clie
   for (const ModelPart& part : placed.model->parts) {
     if (part.water) {
       if (level_m && *level_m < kLeastLevel_m) continue;
-      out.waters.push_back({part.mesh, X, level_m ? 0.55F : 0.12F, level_m ? 0.6F : 1.0F});
+      WaterInstance water = level_m ? WaterInstance{0, {}, 0.55F, 0.6F} : river_water(placed.flow_W);
+      water.mesh = part.mesh;
+      water.X_WM = X;
+      out.waters.push_back(water);
     } else {
       // Land lies in the light; its rim would throw a shadow on itself, and the plain goes on where it ends.
       const bool land = library_.assets().materials[part.material].land;
       out.instances.push_back({part.mesh, part.material, X, !land, placed.index});
     }
   }
+  if (!placed.flow_W.isZero()) out.waters.insert(out.waters.end(), placed.reaches.begin(), placed.reaches.end());
 }
 
 }  // namespace mechane::display

@@ -36,9 +36,12 @@ class SceneBuilder {
     client::SceneObject object;
     const ObjectModel* model = nullptr;
     std::optional<std::uint32_t> index{};  ///< of the manifest; scenery has none
+    Vec3f flow_W = Vec3f::Zero();          ///< of its water, m/s
+    std::vector<WaterInstance> reaches{};  ///< of a river, beyond what was modelled
   };
   void add_scenery(const std::vector<client::SceneObject>& objects);
   void find_place();
+  void let_flow();
   /// Where a display stands: as the scenario says, or before what can be touched.
   [[nodiscard]] Camera standpoint() const;
   [[nodiscard]] std::optional<Inset> detail(const client::WorldStatus& status) const;

@@ -6,6 +6,7 @@
 
 #include "client-sdk/display/render_target.hpp"
 #include "client-sdk/display/shader.hpp"
+#include "client-sdk/display/sky_cube.hpp"
 #include "server/base/assert.hpp"
 
 namespace mechane::display {
@@ -68,24 +69,32 @@ Vec3f irradiance(const SkyHarmonics& sh, const Vec3f& n_W) {
   return sum.cwiseMax(0.0F);
 }
 
-Expected<SkyHarmonics> bake_sky(const Sun& sun) {
-  constexpr PixelSize kMap{96, 48};
+Expected<std::vector<Vec3f>> draw_sky_map(const Sun& sun, PixelSize size) {
   Expected<Program> program = Program::link({"fullscreen.vert"}, {"sky.glsl", "sky_map.frag"});
   if (!program) return tl::unexpected(program.error());
-  Expected<FloatTarget> target = FloatTarget::create(kMap);
+  Expected<FloatTarget> target = FloatTarget::create(size);
   if (!target) return tl::unexpected(target.error());
   const VertexArrayName no_vertices = make_vertex_array();
-  glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer.get());
-  glViewport(0, 0, kMap.width, kMap.height);
+  target->bind();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   program->use();
-  program->set("to_sun", sun.to_sun_W);
+  program->set("to_sun", Vec3f(sun.to_sun_W.normalized()));
   glBindVertexArray(no_vertices.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  const std::vector<Vec3f> pixels = target->read();
-  return project_sky(pixels, kMap);
+  return target->read();
+}
+
+Expected<SkyLight> bake_sky(const Sun& sun) {
+  constexpr PixelSize kMap{96, 48};
+  const Expected<std::vector<Vec3f>> map = draw_sky_map(sun, kMap);
+  if (!map) return tl::unexpected(map.error());
+  const Expected<TextureName> sharp = draw_sky_cube(sun);
+  if (!sharp) return tl::unexpected(sharp.error());
+  Expected<TextureName> cube = prefilter_sky(*sharp);
+  if (!cube) return tl::unexpected(cube.error());
+  return SkyLight{project_sky(*map, kMap), std::move(*cube)};
 }
 
 }  // namespace mechane::display

@@ -1,10 +1,13 @@
-// The ambient light of the procedural sky as nine spherical harmonics (Ramamoorthi & Hanrahan 2001), made once for a sun.
+// The light of the procedural sky, made once for a sun: what falls on a surface as nine spherical harmonics (Ramamoorthi & Hanrahan 2001), what is
+// mirrored as a cube map.
 #pragma once
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "client-sdk/display/gl_context.hpp"
+#include "client-sdk/display/gl_object.hpp"
 #include "client-sdk/display/render_scene.hpp"
 #include "server/base/error.hpp"
 
@@ -22,7 +25,15 @@ using SkyHarmonics = std::array<Vec3f, 9>;
 /// The irradiance on a surface with unit normal n_W: what lighting.glsl computes.
 [[nodiscard]] Vec3f irradiance(const SkyHarmonics& sh, const Vec3f& n_W);
 
-/// Draws the sky into a small map and projects it. Needs a current context.
-[[nodiscard]] Expected<SkyHarmonics> bake_sky(const Sun& sun);
+/// The sky of sky.glsl as such a map. Needs a current context.
+[[nodiscard]] Expected<std::vector<Vec3f>> draw_sky_map(const Sun& sun, PixelSize size);
+
+struct SkyLight {
+  SkyHarmonics harmonics{};
+  TextureName cube;  ///< see sky_cube.hpp
+};
+
+/// Needs a current context.
+[[nodiscard]] Expected<SkyLight> bake_sky(const Sun& sun);
 
 }  // namespace mechane::display

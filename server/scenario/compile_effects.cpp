@@ -1,5 +1,6 @@
 // Viewpoints, and the effects that are seen and heard beside the bodies.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -62,6 +63,27 @@ bool node_is_there(Compilation& c, const Fields& fields, const std::string& node
   return false;
 }
 
+/// A river needs a node that is drawn as water and a direction along its surface; no number drives it.
+void check_flow(Compilation& c, const Fields& fields, const state::EffectDescription& effect) {
+  if (effect.node.empty()) {
+    c.problems.error(fields.line("kind"), fields.where(), "nothing flows",
+                     "name the node of the mesh file in the key node");
+  } else if (node_is_there(c, fields, effect.node) && !effect.node.starts_with("WATER_")) {
+    c.problems.error(fields.line("node"), fields.where(),
+                     fmt::format("node '{}' is no water: a display does not let it flow", effect.node),
+                     fmt::format("name it WATER_{} in the model, and here", effect.node));
+  }
+  if (std::hypot(effect.direction_B.x(), effect.direction_B.z()) < 0.1) {
+    c.problems.error(fields.line(fields.given("direction") ? "direction" : "kind"), fields.where(),
+                     "the direction is not along the water", "write a level direction in W, like 0 0 1");
+  }
+  for (const char* key : {"quantity", "body"}) {
+    if (fields.given(key))
+      c.problems.warning(fields.line(key), fields.where(), fmt::format("a flow has no '{}'", key),
+                         "remove it: a river flows in W, always alike");
+  }
+}
+
 /// Of a mesh file a display moves what bodies name, and what the file calls scenery or water; all else it does not even draw.
 void check_risen_node(Compilation& c, const Fields& fields, const std::string& node) {
   if (!node_is_there(c, fields, node) || node == "SCENE" || node.starts_with("WATER_")) return;
@@ -98,9 +120,15 @@ state::EffectDescription read_effect(Compilation& c, const Metadata& set) {
     c.problems.error(set.line, fields.where(), "nothing rises", "name the node of the mesh file in the key node");
   } else if (effect.kind == "level") {
     check_risen_node(c, fields, effect.node);
+  } else if (effect.kind == "flow") {
+    check_flow(c, fields, effect);
   } else if (fields.given("kind") && fields.given("node")) {
     c.problems.warning(fields.line("node"), fields.where(), fmt::format("a {} has no 'node'", effect.kind),
                        "remove it: its place is that of body and point");
+  }
+  if (effect.kind != "flow" && fields.given("node") && !fields.given("quantity")) {
+    c.problems.error(set.line, fields.where(), fmt::format("nothing drives the {}", effect.kind),
+                     "name a quantity in the key quantity");
   }
   check_unit(c, fields, effect);
   return effect;

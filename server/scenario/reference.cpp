@@ -68,7 +68,7 @@ A `.glb` (glTF 2.0 in one file), in metres, with y up, as Blender exports it. It
 | of a body's name, or the one that the body's `node` names | the body's shape, with all that lies below it. What counts is how the shape lies in the node; where the node lies in the file does not matter |
 | `part_*` below such a node | what a hand feels: a closed surface, best near to convex. Where a body has none, each mesh is such a part |
 | `SCENE` | ground and scenery: drawn where it stands in the file, touched by nobody |
-| `WATER_*` | drawn as water. A `level` effect raises it: let it lie at the floor |
+| `WATER_*` | drawn as water. A `level` effect raises it: let it lie at the floor. A `flow` lets it flow, and carries it on over the plain where the model ends: let it reach the model's border, straight across |
 | any other | is not drawn |
 
 `mechane fit FILE.glb` shows how true each part feels.

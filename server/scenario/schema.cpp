@@ -289,21 +289,26 @@ constexpr Table kVisit{"visit", "a scripted hand", kVisitKeys};
 
 constexpr Key kEffectKeys[] = {
     {.name = "kind",
-     .summary = "what is seen or heard. level: a surface of water that rises; stream: water that runs out; jet: water "
-                "or steam "
-                "under pressure, its speed from flow and size; sound.NAME: a sound at that place",
+     .summary = "what is seen or heard. level: a surface of water that rises; flow: one that flows, as a river does; "
+                "stream: water that runs out; jet: water or steam under pressure, its speed from flow and size; "
+                "sound.NAME: a sound at that place",
      .example = "\"stream\"",
      .required = true,
      .choices = state::effect_kinds()},
     {.name = "quantity",
-     .summary = "what drives it: a flow (l/s, l/min) for stream and jet, a height in m for level, else any number",
+     .summary =
+         "what drives it: l/s or l/min for stream and jet, a height in m for level, else any number; a flow: none",
      .example = "\"flow\"",
      .required = true,
+     .unless = "node",
      .names = Names::quantity},
     {.name = "body", .summary = "what it stays with; none: fixed in W", .example = "\"BARREL\"", .names = Names::body},
-    {.name = "node", .summary = "level: the node of the mesh file that rises", .example = "\"WATER_BASIN\""},
+    {.name = "node", .summary = "level, flow: the mesh file's node that rises or flows", .example = "\"WATER_BASIN\""},
     {.name = "point", .kind = vector, .unit = "m", .summary = "where, in the body's frame", .example = "0 0.2 1.4"},
-    {.name = "direction", .kind = vector, .summary = "whither, in the body's frame; none: 0 1 0", .example = "0 0 1"},
+    {.name = "direction",
+     .kind = vector,
+     .summary = "whither, in the body's frame, of a flow in W; none: 0 1 0",
+     .example = "0 0 1"},
     {.name = "full",
      .kind = number,
      .summary = "the quantity's value at which it is at its strongest",
@@ -322,7 +327,7 @@ constexpr Key kEffectKeys[] = {
     {.name = "speed",
      .kind = number,
      .unit = "m/s",
-     .summary = "how fast water or steam leaves; of a jet of water the flow says so",
+     .summary = "how fast water or steam leaves, or a river flows; of a jet of water the flow says so",
      .example = "0.6",
      .default_number = 0.5,
      .min = 0,

@@ -199,18 +199,18 @@ struct EffectDescription {
   std::string name;
   std::string kind;  ///< one of effect_kinds()
   BodyId body;       ///< none: fixed in W
-  std::string node;  ///< `level`: the node of the mesh file that rises
+  std::string node;  ///< `level`, `flow`: the node of the mesh file that rises or flows
   Vec3 p_BE = Vec3::Zero();
   Vec3 direction_B = Vec3::UnitY();  ///< unit
-  QuantityId quantity;
-  double full = 1;  ///< value of the quantity at which it is at its strongest
+  QuantityId quantity;               ///< none: a `flow`
+  double full = 1;                   ///< value of the quantity at which it is at its strongest
   double size_m = 0.02;
   double speed_m_per_s = 0.5;
 };
 
 /// The kinds of effects that displays know, separated by blanks.
 [[nodiscard]] constexpr std::string_view effect_kinds() {
-  return "level stream jet spray steam smoke fire dust sound.water sound.wood sound.rope sound.stone sound.fire "
+  return "level flow stream jet spray steam smoke fire dust sound.water sound.wood sound.rope sound.stone sound.fire "
          "sound.steam "
          "sound.ratchet sound.bow";
 }

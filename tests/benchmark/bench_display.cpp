@@ -45,11 +45,19 @@ std::vector<client::SceneObject> objects_of(const state::WorldDescription& world
   return out;
 }
 
-/// Where a visitor's display stands.
+/// Where a visitor's display stands, and what flows there before anything moves.
 std::shared_ptr<const client::WorldPresentation> presentation_of(const state::WorldDescription& world) {
   auto out = std::make_shared<client::WorldPresentation>();
   for (const state::Viewpoint& view : world.viewpoints)
     out->views.push_back({view.name, view.X_WV, view.field_of_view_rad});
+  for (const state::EffectDescription& effect : world.effects) {
+    if (effect.kind != "flow") continue;
+    client::Effect& river = out->effects.emplace_back();
+    river.kind = effect.kind;
+    river.node = effect.node;
+    river.direction_B = effect.direction_B;
+    river.speed_m_per_s = effect.speed_m_per_s;
+  }
   return out;
 }
 

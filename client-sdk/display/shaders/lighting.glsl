@@ -1,7 +1,8 @@
-// Light on a surface: the sun with its shadow, the sky by spherical harmonics and by its own function, contact shading, haze.
+// Light on a surface: the sun with its shadow, the sky by spherical harmonics and mirrored by a cube map, contact shading, haze.
 uniform vec3 eye_W;
 uniform vec3 sun_irradiance;
 uniform vec3 sh[9];
+uniform samplerCube sky_cube;  // its levels are blurred for roughness, from 0 to 1
 uniform float sky_on;  // 1, or 0: black
 uniform mat4 X_LW;  // to the sun's frame: x and y across its rays, z along them, metres
 uniform vec2 shadow_range;  // of z: where it begins, how much it is
@@ -16,6 +17,7 @@ uniform vec4 fires[4];  // xyz: middle in W, w: irradiance at one metre
 uniform int fire_count;
 
 const float kPi = 3.14159265;
+const float kSkyLevels = 4.0;  // beyond the first
 
 struct Surface {
   vec3 base;
@@ -100,12 +102,7 @@ vec2 environment_factor(float roughness, float nv) {
   return vec2(-1.04, 1.04) * a + r.zw;
 }
 
-vec3 reflected_sky(vec3 r, float roughness) {
-  vec3 blurred = irradiance_from_sky(r) / kPi;
-  // Most of what is built is rough: the sharp sky, which costs more than all the rest, is not looked up for it.
-  if (roughness >= 0.75) return sky_on * blurred;
-  return sky_on * mix(sky_radiance(r), blurred, smoothstep(0.15, 0.75, roughness));
-}
+vec3 reflected_sky(vec3 r, float roughness) { return sky_on * textureLod(sky_cube, r, roughness * kSkyLevels).rgb; }
 
 // What fires near by send, without shadows; a normal of no length takes light from all around.
 vec3 fire_irradiance(vec3 p_W, vec3 n) {

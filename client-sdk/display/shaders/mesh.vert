@@ -6,6 +6,7 @@ layout(location = 3) in vec2 uv_in;
 uniform mat4 X_WM;
 uniform mat3 N_WM;  // inverse transpose of X_WM's linear part
 uniform mat4 PV;
+uniform vec4 clip_W;  // a plane: what is below it may be cut away
 
 out vec3 p_W;
 out vec3 n_W;
@@ -19,4 +20,5 @@ void main() {
   t_W = vec4(mat3(X_WM) * t_M.xyz, t_M.w);
   uv = uv_in;
   gl_Position = PV * p;
+  gl_ClipDistance[0] = dot(clip_W, p);
 }

@@ -17,7 +17,7 @@ void main() {
   streak = 0.6 * streak + 0.4 * value_noise(vec2(uv.x * 31.0, (uv.y - time_s) * 37.0));
   float fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);
   vec3 white = irradiance_from_sky(n) / kPi + sun_irradiance * 0.10 * (0.4 + 0.6 * max(dot(n, to_sun), 0.0));
-  vec3 light = white * (0.25 + 0.75 * smoothstep(0.35, 0.8, streak)) + sky_radiance(reflect(-v, n)) * fresnel * sky_on;
+  vec3 light = white * (0.25 + 0.75 * smoothstep(0.35, 0.8, streak)) + reflected_sky(reflect(-v, n), 0.1) * fresnel;
   float opacity = clamp(0.22 + 0.55 * smoothstep(0.3, 0.85, streak) + fresnel * 0.6, 0.0, 0.95);
   float gone = mix(-0.2, 1.2, smoothstep(0.55, 1.5, uv.y / broken_s));
   if (gone > 0.0) {

@@ -261,6 +261,22 @@ TEST_F(PlantedFault, lost_shadows_are_seen) {
   });
 }
 
+TEST_F(PlantedFault, a_river_that_ends_in_the_land_is_seen) {
+  expect_seen("archimedes-screw", [this](Place& place, RenderScene scene) {
+    EXPECT_EQ(std::erase_if(scene.waters, [](const WaterInstance& water) { return water.width_m > 0; }), 2U);
+    return draw(place.assets(), scene);
+  });
+}
+
+TEST_F(PlantedFault, water_that_mirrors_nothing_is_seen) {
+  expect_seen("village", [this](Place& place, RenderScene scene) {
+    // A little askew it is no mirror any more; elsewhere nobody would see it.
+    for (WaterInstance& water : scene.waters)
+      water.X_WM.prerotate(Eigen::AngleAxisf(0.002F, Vec3f::UnitX()));
+    return draw(place.assets(), scene);
+  });
+}
+
 /// The two halves of a picture side by side.
 ImageData halves_swapped(const ImageData& picture) {
   ImageData out = picture;

@@ -162,6 +162,42 @@ TEST(SceneBuilder, the_stream_carries_the_flow) {
   EXPECT_LT((slow.streams[0].v_W.cast<double>() - 0.5 * barrel.X_WB.rotate(Vec3::UnitZ())).norm(), 1e-6);
 }
 
+TEST(SceneBuilder, a_river_flows_and_goes_on_beyond_its_model_and_standing_water_does_not) {
+  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> {
+    content::ImportedScene scene = machine_file();
+    scene.nodes.back().name = "WATER_RIVER";
+    scene.nodes.back().meshes = {1};
+    return scene;
+  });
+  SceneBuilder builder(library, "en");
+  builder.set_manifest({object(0, "machine.glb", "OUTER")});
+  const auto waters = [&] { return builder.build(nullptr, nullptr, client::LinkState::joined).waters; };
+  ASSERT_EQ(waters().size(), 1U);
+  EXPECT_TRUE(waters()[0].flow_W.isZero());
+  auto presentation = std::make_shared<client::WorldPresentation>();
+  client::Effect river;
+  river.kind = "flow";
+  river.node = "WATER_RIVER";
+  river.direction_B = Vec3::UnitX();
+  river.speed_m_per_s = 0.3;
+  presentation->effects = {river};
+  builder.set_presentation(presentation);
+  const std::vector<WaterInstance> all = waters();
+  ASSERT_EQ(all.size(), 3U) << "the model's, upstream and downstream";
+  for (const WaterInstance& water : all)
+    EXPECT_TRUE(water.flow_W.isApprox(Vec3f(0.3F, 0, 0))) << water.flow_W.transpose();
+  EXPECT_EQ(all[0].width_m, 0);
+  EXPECT_GT(all[1].width_m, 3);
+  EXPECT_EQ(waters().size(), 3U) << "not more in each picture";
+  const std::size_t meshes = library.assets().meshes.size();
+  builder.set_presentation(presentation);
+  EXPECT_EQ(library.assets().meshes.size(), meshes);
+  presentation = std::make_shared<client::WorldPresentation>();
+  builder.set_presentation(presentation);
+  ASSERT_EQ(waters().size(), 1U) << "it stands again";
+  EXPECT_TRUE(waters()[0].flow_W.isZero());
+}
+
 TEST(SceneBuilder, a_jet_of_the_same_bore_is_faster_with_more_water) {
   int loads = 0;
   AssetLibrary library = library_of(loads);

@@ -22,6 +22,38 @@ TEST(Effects, AreReadFromTheShippedFile) {
   EXPECT_EQ(world.viewpoints[1].name, "BASIN_VIEW");
 }
 
+TEST(Effects, ARiverFlowsAndNothingDrivesIt) {
+  const state::WorldDescription world = *compile_text(text_of(shipped_file())).world;
+  const auto river =
+      std::find_if(world.effects.begin(), world.effects.end(), [](const auto& e) { return e.kind == "flow"; });
+  ASSERT_NE(river, world.effects.end());
+  EXPECT_EQ(river->node, "WATER_RIVER");
+  EXPECT_FALSE(river->quantity);
+  EXPECT_DOUBLE_EQ(river->speed_m_per_s, 0.35);
+  EXPECT_DOUBLE_EQ(river->direction_B.z(), 1);
+}
+
+TEST(Effects, FaultsOfARiverAreSaidWithTheirRemedy) {
+  const auto expect_problem = [](const std::string& from, const std::string& to, const std::string& words,
+                                 Severity severity) {
+    const Problem problem = compile_text(edited(from, to)).find(words);
+    EXPECT_EQ(problem.severity, severity) << to_string(problem);
+    EXPECT_GT(problem.line, 0);
+    EXPECT_FALSE(problem.remedy.empty());
+  };
+  const std::string node = "<MetadataString containerField='value' name='node' value='\"WATER_RIVER\"'/>";
+  const std::string way = "<MetadataDouble containerField='value' name='direction' value='0 0 1'/>";
+  expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", "node 'SCENE' is no water", Severity::error);
+  expect_problem(way, "", "the direction is not along the water", Severity::error);
+  expect_problem(way, "<MetadataDouble containerField='value' name='direction' value='0 1 0'/>",
+                 "the direction is not along the water", Severity::error);
+  expect_problem(node, node + "<MetadataString containerField='value' name='quantity' value='\"flow\"'/>",
+                 "a flow has no 'quantity'", Severity::warning);
+  expect_problem("<MetadataString containerField='value' name='kind' value='\"flow\"'/>",
+                 "<MetadataString containerField='value' name='kind' value='\"level\"'/>", "nothing drives the level",
+                 Severity::error);
+}
+
 TEST(Quantities, AnUnknownUnitIsWarnedOf) {
   const Problem slip = compile_text(edited("'\"rpm\"'", "'\"rmp\"'")).find("did you mean 'rpm'?");
   EXPECT_EQ(slip.severity, Severity::warning);
@@ -34,7 +66,7 @@ TEST(Effects, FaultsAreSaidWithTheirRemedy) {
     EXPECT_GT(problem.line, 0);
     EXPECT_FALSE(problem.remedy.empty());
   };
-  expect_error(compile_text(edited("'\"stream\"'", "'\"streem\"'")), "'streem' is none of: level stream");
+  expect_error(compile_text(edited("'\"stream\"'", "'\"streem\"'")), "'streem' is none of: level flow stream");
   const std::string body = "<MetadataString containerField='value' name='body' value=";
   expect_error(
       compile_text(edited(body + "'\"OUTER\"'/>\n            <MetadataDouble containerField='value' name='point'",

@@ -168,12 +168,12 @@ struct View {
 /// Something seen or heard of a machine's working, driven by a quantity of the frames.
 struct Effect {
   std::string name;
-  std::string kind;                     ///< level, stream, jet, spray, steam, smoke, fire, dust, or sound.NAME
+  std::string kind;                     ///< level, flow, stream, jet, spray, steam, smoke, fire, dust, or sound.NAME
   std::optional<std::uint32_t> object;  ///< that it stays with; none: fixed in W
-  std::string node;                     ///< level: the node of the mesh file that rises
+  std::string node;                     ///< level, flow: the node of the mesh file that rises or flows
   Vec3 p_BE = Vec3::Zero();             ///< in the object's frame
   Vec3 direction_B = Vec3::UnitY();     ///< unit
-  std::uint32_t quantity = 0;           ///< into Frame::quantities
+  std::uint32_t quantity = 0;           ///< into Frame::quantities; of a flow, which nothing drives, none of them
   double full = 1;                      ///< its value at which the effect is at its strongest
   double size_m = 0;
   double speed_m_per_s = 0;
