@@ -44,6 +44,7 @@ struct DisplayOptions {
   RendererSettings renderer;
   AskWhen ask = AskWhen::after;  ///< an activity's questions
   OverlayStyle overlay;          ///< at the start; keys change it
+  bool forces = false;           ///< hands have arrows of the force that they feel; at the start, a key changes it
   double home_after_s = 0;       ///< without anybody's motion or click: back to the server's first scenario; 0: never
   std::string attract;           ///< file of a recording that is shown while nobody is there; empty: none
   double attract_after_s = 120;  ///< without anybody's motion, touch or click

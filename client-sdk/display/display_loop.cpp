@@ -230,6 +230,9 @@ void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
       return panel_.toggle_large_text();
     case DisplayKey::high_contrast:
       return panel_.toggle_high_contrast();
+    case DisplayKey::forces:
+      forces_shown_ = !forces_shown_;
+      return world_.show_forces(forces_shown_);
   }
 }
 

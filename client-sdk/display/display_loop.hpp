@@ -35,6 +35,8 @@ class DisplayLoop {
         desk_(client_, identity_of(options, context), settings_at_start(options), clock_.now()),
         panel_(panel_settings(desk_.settings())),
         spoken_(options.language) {
+    forces_shown_ = options.forces;
+    world_.show_forces(forces_shown_);
     if (options.touch && !options.offscreen && source_.recorded == nullptr)
       pointer_.emplace(options.kiosk, options.domain);
   }
@@ -78,6 +80,7 @@ class DisplayLoop {
   Typesetter& typesetter_;
   SystemClock clock_;
   ShownWorld world_;
+  bool forces_shown_ = false;
   HeadView head_;
   bool told_head_ = false;
   client::Frame frame_;

@@ -30,6 +30,7 @@ enum class DisplayKey : std::uint8_t {
   language,       ///< L
   large_text,     ///< +
   high_contrast,  ///< C
+  forces,         ///< F
 };
 
 class GlContext {

@@ -164,6 +164,7 @@ class WindowContext final : public GlContext {
       if (key == SDL_SCANCODE_HOME) keys_.push_back(DisplayKey::home);
       if (key == SDL_SCANCODE_L) keys_.push_back(DisplayKey::language);
       if (key == SDL_SCANCODE_C) keys_.push_back(DisplayKey::high_contrast);
+      if (key == SDL_SCANCODE_F) keys_.push_back(DisplayKey::forces);
       if (key == SDL_SCANCODE_F11) toggle_full_screen();
     }
     const auto meant = pointer_key(key, (event.keysym.mod & KMOD_SHIFT) != 0);

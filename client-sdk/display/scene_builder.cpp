@@ -94,7 +94,7 @@ Camera above_caption(Camera camera) {
 }  // namespace
 
 SceneBuilder::SceneBuilder(AssetLibrary& library, const std::string& language)
-    : library_(library), hand_(library), writer_(language), language_(language) {}
+    : library_(library), hand_(library), arrow_(library), writer_(language), language_(language) {}
 
 void SceneBuilder::set_manifest(const std::vector<client::SceneObject>& objects) {
   objects_.clear();
@@ -247,7 +247,9 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
 void SceneBuilder::add_what_moves(const client::Frame& frame, const client::WorldStatus* status, RenderScene& out) {
   out.time_s = static_cast<double>(frame.tick % 3'600'000) * kTickSeconds;
   for (const client::HandPose& hand : frame.hands) {
-    if (!is_stray(hand)) hand_.draw(hand, camera_, out);
+    if (is_stray(hand)) continue;
+    hand_.draw(hand, camera_, out);
+    if (forces_shown_) arrow_.draw(hand, camera_, out);
   }
   for (const client::RopeShape& rope : frame.ropes) {
     if (std::ranges::any_of(rope.points_W, [](const Vec3& p_W) { return is_stray(p_W); })) continue;

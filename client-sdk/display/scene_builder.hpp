@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client-sdk/display/asset_library.hpp"
+#include "client-sdk/display/force_arrow.hpp"
 #include "client-sdk/display/hand_model.hpp"
 #include "client-sdk/display/overlay_text.hpp"
 #include "client-sdk/display/render_scene.hpp"
@@ -25,6 +26,8 @@ class SceneBuilder {
   void set_presentation(std::shared_ptr<const client::WorldPresentation> presentation);
   /// Of all words, from the next scene on.
   void set_language(const std::string& language);
+  /// Whether hands have an arrow of the force that they feel, from the next scene on.
+  void show_forces(bool shown) { forces_shown_ = shown; }
   /// The scene of a frame. `frame` may be null (nothing has come yet): then objects stand where the manifest has them.
   [[nodiscard]] RenderScene build(const client::Frame* frame, const client::WorldStatus* status,
                                   client::LinkState link);
@@ -51,6 +54,8 @@ class SceneBuilder {
 
   AssetLibrary& library_;
   HandModel hand_;
+  ForceArrow arrow_;
+  bool forces_shown_ = false;
   OverlayWriter writer_;
   std::string language_;
   std::string stray_;

@@ -27,6 +27,7 @@ void ShownWorld::begin() {
     return content::import_mesh(*file);
   });
   builder_ = std::make_unique<SceneBuilder>(*library_, language_);
+  builder_->show_forces(forces_shown_);
   objects_.clear();
   presentation_.reset();
 }
@@ -74,6 +75,11 @@ bool ShownWorld::take_arrived() {
 void ShownWorld::set_language(const std::string& language) {
   language_ = language;
   if (builder_) builder_->set_language(language);
+}
+
+void ShownWorld::show_forces(bool shown) {
+  forces_shown_ = shown;
+  if (builder_) builder_->show_forces(shown);
 }
 
 RenderScene ShownWorld::build(const client::Frame* frame, client::LinkState link) const {

@@ -42,6 +42,7 @@ class ShownWorld {
   [[nodiscard]] bool known() const { return builder_ != nullptr; }
 
   void set_language(const std::string& language);
+  void show_forces(bool shown);
   /// `frame` may be null: then things stand where the manifest has them. Before anything is known, a calm note.
   [[nodiscard]] RenderScene build(const client::Frame* frame, client::LinkState link) const;
 
@@ -66,6 +67,7 @@ class ShownWorld {
 
   AssetSource source_;
   std::string language_;
+  bool forces_shown_ = false;
   std::string key_;
   std::string folder_;
   std::unique_ptr<MeshFiles> files_;  ///< of the library

@@ -21,7 +21,7 @@ class Film(EndToEnd):
 
     def test_a_server_that_is_stopped_in_mid_turn_stops_the_picture(self):
         server = self.server(records=False)
-        display = self.display("--out", self.folder / "pictures")
+        display = self.display("--out", self.folder / "pictures", "--screen-width", 1.2, "--viewer-distance", 2)
         visitor = self.visitor("wall", "--activity", "use")
         wait_until(lambda: "use: turn" in visitor.text(), 60, "the visitor turns the crank")
         moving = [self.picture(display) for _ in range(3)]
@@ -31,6 +31,11 @@ class Film(EndToEnd):
         still = [self.picture(display)]
         wait_until(lambda: still.append(self.picture(display)) or still[-1] == still[-2], 30, "the picture stands still")
         self.assertEqual({self.picture(display) for _ in range(8)}, {still[-1]}, "and nothing in it moves any more")
+        # A head that moves looks at the same moment from elsewhere, and back.
+        head = self.start("head", "head", "--kiosk", "wall", "--at", 0.4, 0.1, 2)
+        wait_until(lambda: self.picture(display) != still[-1], 30, "the picture follows the head")
+        self.assertEqual(head.stop(), 0, head.text())
+        wait_until(lambda: self.picture(display) == still[-1], 60, "without a tracker it is as before")
         server.process.send_signal(signal.SIGCONT)
         visitor.stop()  # its moves may be over by now; the next one's hand is seen to come
         self.visitor("wall", "--activity", "use")

@@ -37,15 +37,15 @@ RC_GTEST_PROP(Camera, eyes_agree_at_the_screen_and_part_by_similar_triangles, ()
 RC_GTEST_PROP(Camera, a_head_that_moves_looks_through_the_same_window, ()) {
   Camera camera;
   camera.p_WC = Vec3(0, 0, any(0.5, 4));
-  camera.p_WT = Vec3::Zero();  // the middle of the window
-  camera.head_C = Vec3(any(-1, 1), any(-1, 1), any(-0.5, 0.3));
+  camera.p_WT = Vec3::Zero();                                                      // the middle of the window
+  camera.head_C = camera.p_WC.z() * Vec3(any(-1, 1), any(-1, 1), any(-0.5, 0.5));  // before the window
   camera.eyes_C = Vec3(any(0.5, 1), any(-0.4, 0.4), any(-0.4, 0.4)).normalized();
   const double aspect = any(0.5, 2.5);
   const double half_height = camera.p_WC.z() * std::tan(camera.field_of_view_rad / 2);
   for (const Eye eye : {Eye::left, Eye::right}) {
     const Vec3 p_WE =
         camera.p_WC + camera.head_C + (eye == Eye::left ? -0.5 : 0.5) * camera.eye_distance_m * camera.eyes_C;
-    const Vec3 p_WQ(any(-2, 2), any(-2, 2), any(-10, 0.1));
+    const Vec3 p_WQ(any(-2, 2), any(-2, 2), any(-10, 0.05));
     // Where the ray from the eye to the point crosses the window's plane, z = 0.
     const Vec3 p_WX = p_WE + (p_WQ - p_WE) * (p_WE.z() / (p_WE.z() - p_WQ.z()));
     const Eigen::Vector2d at = project(eye_view(camera, eye, aspect), p_WQ);

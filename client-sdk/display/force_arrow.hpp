@@ -1,0 +1,25 @@
+// The force that a hand feels, as an arrow before it: for who teaches, or tunes a device. Off unless it is asked for.
+#pragma once
+
+#include "client-sdk/display/asset_library.hpp"
+#include <mechane/client/types.hpp>
+
+namespace mechane::display {
+
+class ForceArrow {
+ public:
+  static constexpr double kLeast_n = 0.1;  ///< less is not shown
+  static constexpr double kMetresPerNewton = 0.02;
+  static constexpr double kLongest_m = 0.35;
+
+  explicit ForceArrow(AssetLibrary& library);
+  /// From beside the fingertip (a glove: the palm), where the hand does not hide it from the camera, along the force on the hand.
+  void draw(const client::HandPose& hand, const Camera& camera, RenderScene& out) const;
+
+ private:
+  std::uint32_t shaft_ = 0;
+  std::uint32_t head_ = 0;
+  std::uint32_t material_ = 0;
+};
+
+}  // namespace mechane::display
