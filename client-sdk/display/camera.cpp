@@ -57,7 +57,7 @@ EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
   // All frusta meet in the same rectangle, at the screen's distance from where the camera is without a head.
   const double half_height = half_tan * distance;
   const double half_width = half_height * aspect;
-  const double nearer = camera.near_m / std::max(distance - p_CE.z(), camera.near_m);
+  const double nearer = camera.near_m / std::max(distance + p_CE.z(), camera.near_m);
 
   EyeView view;
   view.V_CW.topLeftCorner<3, 3>() = R_CW.cast<float>();

@@ -213,6 +213,10 @@ TEST_F(StereoPicture, a_head_that_moves_sees_what_is_behind_the_screen_move_with
   const Eigen::Vector2d moved = blob(draw(lamp.assets, lamp.scene), all).middle - middle;
   EXPECT_NEAR(moved.x(), 0.15 / 1.2 * kSize.width, 0.5);
   EXPECT_NEAR(moved.y(), -0.05 / 1.2 * kSize.width, 0.5);
+  // Nearer to the screen by half, it moves two thirds of the head's way: it is twice as far behind as the head is before.
+  const HeadPlace nearer{Vec3(0.30, 0, 1.0), Vec3::UnitX()};
+  lamp.scene.camera = for_screen(from, setup, &nearer, aspect);
+  EXPECT_NEAR(blob(draw(lamp.assets, lamp.scene), all).middle.x() - middle.x(), 0.20 / 1.2 * kSize.width, 0.5);
   // With the head on one side, eyes one above the other see it apart from each other along that line.
   const HeadPlace tilted{Vec3(0, 0, 2.0), Vec3(0.6, 0.8, 0)};
   lamp.scene.camera = for_screen(from, setup, &tilted, aspect);
