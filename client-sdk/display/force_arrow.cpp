@@ -1,13 +1,14 @@
 #include "client-sdk/display/force_arrow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
 namespace mechane::display {
 namespace {
 
-constexpr double kHead_m = 0.035;
+constexpr double kHead = 0.030;     // of the distance, as the radii below
 constexpr double kAside_m = 0.045;  // more than a hand is thick
 constexpr int kSectors = 20;
 
@@ -42,8 +43,8 @@ MeshData turned(std::span<const Ring> rings) {
 }  // namespace
 
 ForceArrow::ForceArrow(AssetLibrary& library) {
-  constexpr std::array<Ring, 3> kShaft{{{0, 0}, {0, 0.0055F}, {1, 0.0055F}}};
-  constexpr std::array<Ring, 3> kPoint{{{0, 0}, {0, 0.015F}, {static_cast<float>(kHead_m), 0}}};
+  constexpr std::array<Ring, 3> kShaft{{{0, 0}, {0, 0.004F}, {1, 0.004F}}};
+  constexpr std::array<Ring, 3> kPoint{{{0, 0}, {0, 0.011F}, {static_cast<float>(kHead), 0}}};
   shaft_ = library.add_mesh(turned(kShaft));
   head_ = library.add_mesh(turned(kPoint));
   MaterialData material;
@@ -57,14 +58,18 @@ void ForceArrow::draw(const client::HandPose& hand, const Camera& camera, Render
   const double force_n = hand.force_W.norm();
   if (hand.stale || !(force_n >= kLeast_n)) return;
   const Vec3 direction_W = hand.force_W / force_n;
-  const double length_m = std::min(kMetresPerNewton * force_n, kLongest_m);
-  const Vec3 p_W = hand.X_WS[0].p + kAside_m * (camera.p_WC - hand.X_WS[0].p).normalized();
+  const Vec3 to_camera_W = camera.p_WC - hand.X_WS[0].p;
+  const double distance_m = std::max(to_camera_W.norm(), 0.1);
+  const double length_m = distance_m * std::min(kLengthPerNewton * force_n, kLongest);
+  const Vec3 p_W = hand.X_WS[0].p + (kAside_m / distance_m) * to_camera_W;
+  const auto scale = static_cast<float>(distance_m);
   Eigen::Affine3f X = Eigen::Affine3f::Identity();
-  X.linear() = Quat::FromTwoVectors(Vec3::UnitX(), direction_W).toRotationMatrix().cast<float>();
+  const Eigen::Matrix3f R = Quat::FromTwoVectors(Vec3::UnitX(), direction_W).toRotationMatrix().cast<float>();
+  X.linear() = scale * R;
   X.translation() = (p_W + length_m * direction_W).cast<float>();
   out.instances.push_back({head_, material_, X, false});
+  X.linear() = R * Eigen::DiagonalMatrix<float, 3>(static_cast<float>(length_m), scale, scale);
   X.translation() = p_W.cast<float>();
-  X.linear() = X.linear() * Eigen::DiagonalMatrix<float, 3>(static_cast<float>(length_m), 1, 1);
   out.instances.push_back({shaft_, material_, X, false});
 }
 

@@ -9,8 +9,9 @@ namespace mechane::display {
 class ForceArrow {
  public:
   static constexpr double kLeast_n = 0.1;  ///< less is not shown
-  static constexpr double kMetresPerNewton = 0.02;
-  static constexpr double kLongest_m = 0.35;
+  /// A force has no size of its own in the world: its arrow grows with the distance from which it is seen, and is as large in the picture.
+  static constexpr double kLengthPerNewton = 0.03;  ///< of that distance
+  static constexpr double kLongest = 0.25;
 
   explicit ForceArrow(AssetLibrary& library);
   /// From beside the fingertip (a glove: the palm), where the hand does not hide it from the camera, along the force on the hand.

@@ -69,7 +69,7 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_flag_callback(
       "--large-text", [&o] { o.overlay.text_scale = display::kLargeText; }, "words 1.35 times as large; key +");
   app.add_flag("--high-contrast", o.overlay.high_contrast, "white and yellow words on black; key C");
-  app.add_flag("--force-arrows", o.forces, "an arrow at each hand, of the force that it feels, 2 cm a newton; key F");
+  app.add_flag("--force-arrows", o.forces, "an arrow at each hand, of the force that it feels; key F");
   app.add_option("--assets", o.assets,
                  "folder, or address (http://server/scenario, or http://server:8000/ where its root is the scenarios' "
                  "folder), that mesh files are relative to; without: the scenario's folder");
