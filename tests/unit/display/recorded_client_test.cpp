@@ -12,25 +12,6 @@ using std::chrono::milliseconds;
 
 constexpr TimePoint kPlayedFrom = TimePoint(std::chrono::hours(7));
 
-/// Frames at these milliseconds, of one world; from `second_from` on of another.
-FrameRecording played(const std::vector<int>& times_ms, int second_from = 1 << 30) {
-  RecordingWriter writer;
-  std::string world;
-  std::uint64_t sequence = 0;
-  for (const int ms : times_ms) {
-    const std::string now_in = ms < second_from ? "world-1" : "world-2";
-    if (std::exchange(world, now_in) != now_in) {
-      writer.add(RecordKind::status, milliseconds(ms), encode(status_of_visit(world, "turn")));
-      writer.add(RecordKind::presentation, milliseconds(ms), encode(presentation_of_visit(world)));
-      writer.add(RecordKind::manifest, milliseconds(ms), encode(manifest_of_visit()));
-    }
-    writer.add(RecordKind::frame, milliseconds(ms), encode(frame_of_visit(++sequence, milliseconds(ms), {})));
-  }
-  writer.add(RecordKind::event, milliseconds(times_ms.back()), encode(client::WorldEvent{1, "placed", "a", "b", 0}));
-  writer.add(RecordKind::end, Duration{0}, {});
-  return FrameRecording::open_bytes(writer.take_bytes(), "played").value();
-}
-
 double bucket_height(RecordedClient& client, TimePoint now) {
   client.advance(now);
   client::Frame frame;

@@ -3,9 +3,12 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "client-sdk/display/frame_recording.hpp"
+#include "client-sdk/display/recording_codec.hpp"
 
 namespace mechane::display {
 
@@ -79,6 +82,27 @@ inline client::Frame frame_of_visit(std::uint64_t sequence, Duration at, TimePoi
   rope.points_W = {Vec3(0.25, 2, 0), Vec3(0.25, 0.5 * t, 0)};
   frame.ropes = {rope};
   return frame;
+}
+
+/// Frames at these milliseconds, of one world; from `second_from` on of another.
+inline FrameRecording played(const std::vector<int>& times_ms, int second_from = 1 << 30) {
+  RecordingWriter writer;
+  std::string world;
+  std::uint64_t sequence = 0;
+  for (const int ms : times_ms) {
+    const std::string now_in = ms < second_from ? "world-1" : "world-2";
+    if (std::exchange(world, now_in) != now_in) {
+      writer.add(RecordKind::status, std::chrono::milliseconds(ms), encode(status_of_visit(world, "turn")));
+      writer.add(RecordKind::presentation, std::chrono::milliseconds(ms), encode(presentation_of_visit(world)));
+      writer.add(RecordKind::manifest, std::chrono::milliseconds(ms), encode(manifest_of_visit()));
+    }
+    writer.add(RecordKind::frame, std::chrono::milliseconds(ms),
+               encode(frame_of_visit(++sequence, std::chrono::milliseconds(ms), {})));
+  }
+  writer.add(RecordKind::event, std::chrono::milliseconds(times_ms.back()),
+             encode(client::WorldEvent{1, "placed", "a", "b", 0}));
+  writer.add(RecordKind::end, Duration{0}, {});
+  return FrameRecording::open_bytes(writer.take_bytes(), "played").value();
 }
 
 }  // namespace mechane::display

@@ -1,0 +1,76 @@
+#include "client-sdk/display/shown_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include "client-sdk/display/recorded_client.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/unit/display/recording_samples.hpp"
+
+namespace mechane::display {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(ShownWorld, BeforeAnythingIsKnownACalmNoteStandsInThePicture) {
+  const ShownWorld world(AssetSource{}, "en");
+  EXPECT_FALSE(world.known());
+  EXPECT_EQ(world.status(), nullptr);
+  EXPECT_EQ(world.missing(), nullptr);
+  const RenderScene scene = world.build(nullptr, client::LinkState::searching);
+  EXPECT_FALSE(scene.overlay.note.empty());
+  EXPECT_TRUE(scene.instances.empty());
+}
+
+TEST(ShownWorld, AnotherWorldBeginsAnewAndTheSameOneDoesNot) {
+  const test::ScratchFolder empty;
+  RecordedClient client(played({0, 40, 80, 120, 160}, 100), {});
+  ShownWorld world(AssetSource{empty.path().string(), nullptr, nullptr}, "en");
+  const TimePoint began(std::chrono::hours(7));
+  client.advance(began);
+  const ShownWorld::News first = world.hear(client);
+  EXPECT_TRUE(first.another_world && first.assets && first.whole);
+  ASSERT_TRUE(world.known());
+  EXPECT_EQ(world.status()->world, "world-1");
+  EXPECT_EQ(world.objects().size(), 2U);
+  EXPECT_TRUE(world.missing()->contains("machine.glb")) << "boxes stand for what is not there";
+  client::Frame frame;
+  ASSERT_TRUE(client.interpolated_frame(began, Duration{0}, frame));
+  const RenderScene scene = world.build(&frame, client::LinkState::joined);
+  EXPECT_GE(scene.instances.size(), 2U);
+  EXPECT_EQ(scene.overlay.title, "The well");
+  world.set_language("el");
+  EXPECT_EQ(world.build(&frame, client::LinkState::joined).overlay.title, "Το πηγάδι");
+
+  client.advance(began + milliseconds(50));
+  const ShownWorld::News same = world.hear(client);
+  EXPECT_FALSE(same.another_world || same.assets);
+
+  client.advance(began + milliseconds(130));
+  const ShownWorld::News other = world.hear(client);
+  EXPECT_TRUE(other.another_world && other.assets);
+  EXPECT_EQ(world.status()->world, "world-2");
+  EXPECT_EQ(world.presentation()->world, "world-2");
+  EXPECT_EQ(world.build(nullptr, client::LinkState::joined).overlay.title, "Το πηγάδι") << "the language stays";
+}
+
+TEST(ShownWorld, ForcesAreShownWhereTheyAreAskedForInEveryWorld) {
+  const test::ScratchFolder empty;
+  RecordedClient client(played({0, 40, 80, 120, 160}, 100), {});
+  ShownWorld world(AssetSource{empty.path().string(), nullptr, nullptr}, "en");
+  const TimePoint began(std::chrono::hours(7));
+  const auto parts = [&](milliseconds at, bool shown) {
+    client.advance(began + at);
+    (void)world.hear(client);
+    world.show_forces(shown);
+    client::Frame frame;
+    EXPECT_TRUE(client.interpolated_frame(began + at, Duration{0}, frame));
+    return world.build(&frame, client::LinkState::joined).instances.size();
+  };
+  const std::size_t without = parts(milliseconds(0), false);
+  EXPECT_EQ(parts(milliseconds(20), true), without + 2);
+  EXPECT_EQ(parts(milliseconds(130), true), without + 2) << "the next world too";
+  EXPECT_EQ(parts(milliseconds(140), false), without);
+}
+
+}  // namespace
+}  // namespace mechane::display
