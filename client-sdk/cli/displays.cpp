@@ -18,7 +18,7 @@ using client::DisplayStatus;
 
 constexpr Duration kLook = std::chrono::milliseconds(50);
 /// Each reports once a second: when no new one was found for longer, all are known.
-constexpr Duration kQuiet = std::chrono::milliseconds(1500);
+constexpr Duration kStill = std::chrono::milliseconds(1500);
 /// A picture that is drawn on the processor takes its time.
 constexpr double kPictureSeconds = 20;
 
@@ -42,7 +42,7 @@ std::vector<DisplayStatus> find_all(client::DisplayWatch& watch, const DisplaysO
   const TimePoint until = clock.now() + duration_of(options.seconds);
   TimePoint changed = clock.now();
   std::vector<DisplayStatus> found;
-  while (clock.now() < until && (found.empty() || clock.now() - changed < kQuiet)) {
+  while (clock.now() < until && (found.empty() || clock.now() - changed < kStill)) {
     watch.wait(kLook);
     std::vector<DisplayStatus> now = watch.displays();
     if (now.size() != found.size()) changed = clock.now();

@@ -12,22 +12,22 @@ constexpr double kHead = 0.030;     // of the distance, as the radii below
 constexpr double kAside_m = 0.045;  // more than a hand is thick
 constexpr int kSectors = 20;
 
-struct Ring {
+struct ArrowRing {
   float x = 0, radius = 0;
 };
 
 /// Turned about x; each pair of rings has an edge of its own.
-MeshData turned(std::span<const Ring> rings) {
+MeshData turned(std::span<const ArrowRing> rings) {
   MeshData mesh;
   for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
-    const Ring& a = rings[i];
-    const Ring& b = rings[i + 1];
+    const ArrowRing& a = rings[i];
+    const ArrowRing& b = rings[i + 1];
     const Eigen::Vector2f out = Eigen::Vector2f(a.radius - b.radius, b.x - a.x).normalized();  // along x, and outwards
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int s = 0; s <= kSectors; ++s) {
       const float angle = 2 * static_cast<float>(kPi) * static_cast<float>(s) / kSectors;
       const Vec3f aside(0, std::cos(angle), std::sin(angle));
-      for (const Ring& ring : {a, b}) {
+      for (const ArrowRing& ring : {a, b}) {
         mesh.positions.emplace_back(ring.x * Vec3f::UnitX() + ring.radius * aside);
         mesh.normals.emplace_back(out.x() * Vec3f::UnitX() + out.y() * aside);
       }
@@ -43,8 +43,8 @@ MeshData turned(std::span<const Ring> rings) {
 }  // namespace
 
 ForceArrow::ForceArrow(AssetLibrary& library) {
-  constexpr std::array<Ring, 3> kShaft{{{0, 0}, {0, 0.004F}, {1, 0.004F}}};
-  constexpr std::array<Ring, 3> kPoint{{{0, 0}, {0, 0.011F}, {static_cast<float>(kHead), 0}}};
+  constexpr std::array<ArrowRing, 3> kShaft{{{0, 0}, {0, 0.004F}, {1, 0.004F}}};
+  constexpr std::array<ArrowRing, 3> kPoint{{{0, 0}, {0, 0.011F}, {static_cast<float>(kHead), 0}}};
   shaft_ = library.add_mesh(turned(kShaft));
   head_ = library.add_mesh(turned(kPoint));
   MaterialData material;

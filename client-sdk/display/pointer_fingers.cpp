@@ -12,10 +12,10 @@ constexpr double kGoneAfter_s = 30;
 constexpr double kLeastApart = 0.04;
 // The mouse's way across as much as the picture's height, with the right button held.
 constexpr double kMouseTurn_rad = std::numbers::pi;
-constexpr double kFarthest = 1e6;  // pixels
+constexpr double kFarthest_px = 1e6;
 
 bool is_place(const PointerEvent& event) {
-  return std::abs(event.x) <= kFarthest && std::abs(event.y) <= kFarthest;
+  return std::abs(event.x) <= kFarthest_px && std::abs(event.y) <= kFarthest_px;
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ std::vector<HandWish> PointerFingers::move_pair(Finger& moved, PixelPlace to, co
 }
 
 HandWish PointerFingers::go_by(double dx, double dy) {
-  hand_ = {std::clamp(hand_.x + dx, -kFarthest, kFarthest), std::clamp(hand_.y + dy, -kFarthest, kFarthest)};
+  hand_ = {std::clamp(hand_.x + dx, -kFarthest_px, kFarthest_px), std::clamp(hand_.y + dy, -kFarthest_px, kFarthest_px)};
   return {HandWish::Kind::move, hand_, 0};
 }
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import ceilings
 import includes
+import unity
 from functions import functions
 
 SOUND = {
@@ -20,6 +21,8 @@ SOUND = {
     "server/state/s.hpp": '#pragma once\n#include "server/base/a.hpp"\n',
     "server/world/CMakeLists.txt": "mechane_room(NAME world)\n",
     "server/world/w.cpp": '#include "server/dynamics/d.hpp"\n#include "server/base/a.hpp"\n#include "server/log/log.hpp"\n',
+    "server/world/v.hpp": "#pragma once\nstruct V {\n};\n",
+    "server/world/v.cpp": "namespace {\nstruct E {};\nconstexpr int kE = 1;\nint e(const int& x) {\n  return x;\n}\n}  // namespace\n",
     "proto/CMakeLists.txt": "\n",
     "proto/mechane/proto/p.hpp": "#pragma once\n#include <dds/dds.h>\n",
     "client-sdk/client/CMakeLists.txt": "mechane_room(NAME client)\n",
@@ -75,6 +78,10 @@ PLANTED = [
     ("folder-cmake", "server/agents/a.cpp", "int a();\n"),
     ("folder-cmake", "tests/property/p_test.cpp", "int a();\n"),
     ("fuzz-corpus", "tests/fuzz/wire_fuzz.cpp", "int a();\n"),
+    ("unity-name", "server/world/w.cpp", "namespace {\nenum class E { a };\n}  // namespace\n"),
+    ("unity-name", "server/world/w.cpp", "namespace {\nconstexpr double kE = 1;\n}  // namespace\n"),
+    ("unity-name", "server/world/w.cpp", "namespace {\nint e(const int& y) {\n  return y;\n}\n}  // namespace\n"),
+    ("unity-name", "server/world/w.cpp", "namespace {\nstruct V {\n};\n}  // namespace\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90 | long ago\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90\n"),
 ]
@@ -87,7 +94,7 @@ class Tree(unittest.TestCase):
             for name, text in {**SOUND, **changes}.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text)
-            return includes.check(root) + ceilings.check(root)
+            return includes.check(root) + ceilings.check(root) + unity.check(root)
 
     def test_sound_tree_has_no_faults(self):
         self.assertEqual([], [str(fault) for fault in self.faults({})])
@@ -103,6 +110,8 @@ class Tree(unittest.TestCase):
         innocent = {
             "server/base/a.cpp": '// #include "server/world/w.hpp"\n/* #include <dds/dds.h> */\nauto s = "using namespace";\n' + long_function(70),
             "server/base/a.hpp": "#pragma once\n// using namespace std;\n" + "int a();\n" * 348,
+            "server/world/w.cpp": "namespace {\nint e(double y) {\n  struct E {};\n  constexpr int kE = 2;\n  return kE;\n}\n}  // namespace\n",
+            "server/state/e.cpp": "namespace {\nstruct E {};\n}  // namespace\n",
             "tests/unit/base/a_test.cpp": "// sleep_" + "for(1ms) would hide a race\nauto p = \"server/root/x\";\n",
         }
         self.assertEqual([], [str(fault) for fault in self.faults(innocent)])
