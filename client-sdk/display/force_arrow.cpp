@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kHead = 0.030;     // of the distance, as the radii below
 constexpr double kAside_m = 0.045;  // more than a hand is thick
-constexpr int kSectors = 20;
+constexpr int kAround = 20;
 
 struct ArrowRing {
   float x = 0, radius = 0;
@@ -24,15 +24,15 @@ MeshData turned(std::span<const ArrowRing> rings) {
     const ArrowRing& b = rings[i + 1];
     const Eigen::Vector2f out = Eigen::Vector2f(a.radius - b.radius, b.x - a.x).normalized();  // along x, and outwards
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (int s = 0; s <= kSectors; ++s) {
-      const float angle = 2 * static_cast<float>(kPi) * static_cast<float>(s) / kSectors;
+    for (int s = 0; s <= kAround; ++s) {
+      const float angle = 2 * static_cast<float>(kPi) * static_cast<float>(s) / kAround;
       const Vec3f aside(0, std::cos(angle), std::sin(angle));
       for (const ArrowRing& ring : {a, b}) {
         mesh.positions.emplace_back(ring.x * Vec3f::UnitX() + ring.radius * aside);
         mesh.normals.emplace_back(out.x() * Vec3f::UnitX() + out.y() * aside);
       }
     }
-    for (std::uint32_t s = 0; s < kSectors; ++s) {
+    for (std::uint32_t s = 0; s < kAround; ++s) {
       const std::uint32_t at = first + 2 * s;
       mesh.indices.insert(mesh.indices.end(), {at, at + 1, at + 3, at, at + 3, at + 2});
     }

@@ -81,6 +81,7 @@ PLANTED = [
     ("unity-name", "server/world/w.cpp", "namespace {\nenum class E { a };\n}  // namespace\n"),
     ("unity-name", "server/world/w.cpp", "namespace {\nconstexpr double kE = 1;\n}  // namespace\n"),
     ("unity-name", "server/world/w.cpp", "namespace {\nint e(const int& y) {\n  return y;\n}\n}  // namespace\n"),
+    ("unity-name", "server/world/w.cpp", "int f() {\n  constexpr int kE = 2;\n  return kE;\n}\n"),
     ("unity-name", "server/world/w.cpp", "namespace {\nstruct V {\n};\n}  // namespace\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90 | long ago\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90\n"),
@@ -110,7 +111,7 @@ class Tree(unittest.TestCase):
         innocent = {
             "server/base/a.cpp": '// #include "server/world/w.hpp"\n/* #include <dds/dds.h> */\nauto s = "using namespace";\n' + long_function(70),
             "server/base/a.hpp": "#pragma once\n// using namespace std;\n" + "int a();\n" * 348,
-            "server/world/w.cpp": "namespace {\nint e(double y) {\n  struct E {};\n  constexpr int kE = 2;\n  return kE;\n}\n}  // namespace\n",
+            "server/world/w.cpp": "namespace {\nint e(double y) {\n  struct E {};\n  int kE = 2;\n  return kE;\n}\n}  // namespace\n",
             "server/state/e.cpp": "namespace {\nstruct E {};\n}  // namespace\n",
             "tests/unit/base/a_test.cpp": "// sleep_" + "for(1ms) would hide a race\nauto p = \"server/root/x\";\n",
         }

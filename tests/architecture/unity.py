@@ -16,6 +16,7 @@ TOPS = ("server", "proto", "client-sdk", "tests")
 _ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$|^namespace \{$(.*)", re.MULTILINE | re.DOTALL)
 _TYPE = re.compile(r"^(?:struct|class|union|enum class|enum) (\w+)\b[^;{(]*\{", re.MULTILINE)
 _VALUE = re.compile(r"^(?:inline |static |constexpr |const )+[^=({;]*?(?<![<\w:])(\w+)(?:\[\w*\])?(?: =|\{|;)", re.MULTILINE)
+_LOCAL = re.compile(r"^ +(?:static )?constexpr [^=({;]*?(?<![<\w:])(k[A-Z]\w*)(?:\[\w*\])?(?: =|\{|;)", re.MULTILINE)
 _FUNCTION = re.compile(r"^(?!using |struct |class |enum |namespace )[\w\[:][^;={}]*?(?<![\w:~])(\w+)\(([^;{}]*?)\)(?: const)?(?: noexcept)? \{",
                        re.MULTILINE)
 
@@ -48,8 +49,15 @@ def defined(text: str) -> list[tuple[str, int]]:
     return found
 
 
+def shadowing(text: str) -> list[tuple[str, int]]:
+    """The constants within its functions: where a source before it has one of that name outside, they hide it, which is a warning."""
+    plain = without_comments(text, strings=True)
+    return [(match.group(1), line_of(plain, match.start())) for match in _LOCAL.finditer(plain)]
+
+
 def check(root: Path) -> list[Fault]:
     homes: dict[tuple[Path, str], list[tuple[Path, int]]] = defaultdict(list)
+    hidden: list[tuple[Path, str, int]] = []
     for path in cpp_files(root, *TOPS):
         text = read(root / path)
         if path.suffix in HEADER_SUFFIXES:
@@ -59,6 +67,7 @@ def check(root: Path) -> list[Fault]:
             continue
         else:
             names = defined(text)
+            hidden += [(path, name, line) for name, line in shadowing(text)]
         for name, line in names:
             homes[path.parent, name].append((path, line))
     faults = []
@@ -69,6 +78,10 @@ def check(root: Path) -> list[Fault]:
             path, line = sources[-1]
             others = ", ".join(sorted({str(other) for other, _ in places if other != path}))
             faults.append(Fault("unity-name", str(path), line, f"'{name}' is also defined in {others}: give it a name of its own"))
+    for path, name, line in hidden:
+        sources = [other for other, _ in homes.get((path.parent, name), []) if other < path and other.suffix not in HEADER_SUFFIXES]
+        if sources:
+            faults.append(Fault("unity-name", str(path), line, f"'{name}' hides the one of {sources[0]}: give it a name of its own"))
     return faults
 
 
