@@ -1,6 +1,7 @@
 #include "client-sdk/display/display_loop.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -311,18 +312,28 @@ void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
                world_.objects(), events, world_.folder());
 }
 
+std::string DisplayLoop::picture_path(const std::string& name) const {
+  return fmt::format("{}/{}-{}.png", options_.out, name, stereo_name(options_.stereo));
+}
+
 Expected<void> DisplayLoop::write_picture(const std::string& name) {
   if (options_.out.empty()) return {};
-  const std::string path = fmt::format("{}/{}-{}.png", options_.out, name, stereo_name(options_.stereo));
+  const std::string path = picture_path(name);
   if (auto ok = write_png(renderer_.read_picture(), path); !ok) return ok;
   log::info("wrote " + path);
   summary_.pictures.push_back(path);
   return {};
 }
 
-/// For a person: a full disk costs the picture, and not the display.
+/// For a person: a full disk costs the picture, and not the display. What is in the folder already, of the display before a restart or of one
+/// beside it, stays.
 void DisplayLoop::write_requested() {
-  const auto written = write_picture(fmt::format("request-{:03}", ++requested_pictures_));
+  std::string name;
+  std::error_code unreadable;
+  do {
+    name = fmt::format("request-{:03}", ++requested_pictures_);
+  } while (std::filesystem::exists(picture_path(name), unreadable));
+  const auto written = write_picture(name);
   if (written) return desk_.picture_taken(summary_.pictures.empty() ? "" : summary_.pictures.back());
   log::warning(written.error().to_string());
   desk_.picture_failed(written.error());

@@ -67,6 +67,7 @@ class DisplayLoop {
   void take_click(PixelPlace place, TimePoint now);
   [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
   void click_object(PixelPlace place, TimePoint now);
+  [[nodiscard]] std::string picture_path(const std::string& name) const;
   Expected<void> write_picture(const std::string& name);
   void write_requested();
   void wait_for_next(TimePoint began);

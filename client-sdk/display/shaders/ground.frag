@@ -11,8 +11,12 @@ uniform sampler2D normal_image;
 void main() {
   vec3 n = normalize(n_W);
   if (!gl_FrontFacing) n = -n;
-  // Upwards where the land is seen from the side: a piece's own edge has no light of its own.
-  if (abs(n.y) < 0.35) n = vec3(0.0, 1.0, 0.0);
-  Surface s = Surface(land_base(base_image, p_W.xz, distance(eye_W, p_W)), 0.0, 0.95, land_normal(normal_image, p_W.xz, n));
+  vec2 q = p_W.xz;
+  // Where a piece of land is cut off, its side is seen as if the land went on over it: by the light from above, and by places further out.
+  if (abs(n.y) < 0.35) {
+    q -= p_W.y * n.xz;
+    n = vec3(0.0, 1.0, 0.0);
+  }
+  Surface s = Surface(land_base(base_image, q, distance(eye_W, p_W)), 0.0, 0.95, land_normal(normal_image, q, n));
   colour = vec4(through_air(shade(s, p_W, n), p_W), 1.0);
 }
