@@ -107,7 +107,8 @@ std::vector<HandWish> PointerFingers::move_pair(Finger& moved, PixelPlace to, co
 }
 
 HandWish PointerFingers::go_by(double dx, double dy) {
-  hand_ = {std::clamp(hand_.x + dx, -kFarthest_px, kFarthest_px), std::clamp(hand_.y + dy, -kFarthest_px, kFarthest_px)};
+  hand_ = {std::clamp(hand_.x + dx, -kFarthest_px, kFarthest_px),
+           std::clamp(hand_.y + dy, -kFarthest_px, kFarthest_px)};
   return {HandWish::Kind::move, hand_, 0};
 }
 
