@@ -98,6 +98,11 @@ std::uint32_t AssetLibrary::add_mesh(MeshData mesh) {
   return static_cast<std::uint32_t>(assets_.meshes.size() - 1);
 }
 
+std::uint32_t AssetLibrary::add_image(ImageData image) {
+  assets_.images.push_back(std::move(image));
+  return static_cast<std::uint32_t>(assets_.images.size() - 1);
+}
+
 std::uint32_t AssetLibrary::add_material(const MaterialData& material) {
   assets_.materials.push_back(material);
   return static_cast<std::uint32_t>(assets_.materials.size() - 1);
@@ -151,8 +156,7 @@ void AssetLibrary::add_materials(const content::ImportedScene& scene, const std:
     if (is_new) {
       const content::ImportedTexture& from = scene.textures[*texture];
       if (auto decoded = decode(from, srgb, uri + ", texture " + from.name)) {
-        assets_.images.push_back(std::move(*decoded));
-        entry->second = static_cast<std::uint32_t>(assets_.images.size() - 1);
+        entry->second = add_image(std::move(*decoded));
       }
     }
     return entry->second;

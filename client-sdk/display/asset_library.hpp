@@ -42,8 +42,9 @@ class AssetLibrary {
   bool load_again(const std::string& uri);
   /// The file itself, or null when it is missing.
   [[nodiscard]] const content::ImportedScene* file(const std::string& uri);
-  /// Adds a mesh or material of our own.
+  /// Adds a mesh, image or material of our own.
   std::uint32_t add_mesh(MeshData mesh);
+  std::uint32_t add_image(ImageData image);
   std::uint32_t add_material(const MaterialData& material);
 
   [[nodiscard]] const SceneAssets& assets() const { return assets_; }

@@ -55,7 +55,8 @@ EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
 
   const auto [half_tan, distance] = window_of(camera, aspect);
   // All frusta meet in the same rectangle, at the screen's distance from where the camera is without a head.
-  const double half_height = half_tan * distance;
+  const double half_height = camera.room_below * half_tan * distance;
+  const double middle_y = half_tan * distance - half_height;  // the upper edge stays where it is without room below
   const double half_width = half_height * aspect;
   const double nearer = camera.near_m / std::max(distance + p_CE.z(), camera.near_m);
 
@@ -63,7 +64,8 @@ EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
   view.V_CW.topLeftCorner<3, 3>() = R_CW.cast<float>();
   view.V_CW.topRightCorner<3, 1>() = (-R_CW * p_WE).cast<float>();
   view.P = frustum(nearer * (-half_width - p_CE.x()), nearer * (half_width - p_CE.x()),
-                   nearer * (-half_height - p_CE.y()), nearer * (half_height - p_CE.y()), camera.near_m, camera.far_m)
+                   nearer * (middle_y - half_height - p_CE.y()), nearer * (middle_y + half_height - p_CE.y()),
+                   camera.near_m, camera.far_m)
                .cast<float>();
   view.p_WE = p_WE.cast<float>();
   return view;

@@ -18,6 +18,9 @@ struct Camera {
   Vec3 up_W = Vec3::UnitY();
   double field_of_view_rad = kPi / 4;  ///< vertical
   double least_horizontal_rad = 0;     ///< narrow pictures widen until they show this much across
+  /// So many times as much is shown, below and to the sides: the upper edge stays, and what was seen goes up and in, for words that cover
+  /// what is below.
+  double room_below = 1;
   double near_m = 0.05;
   double far_m = 400;
   double eye_distance_m = 0.064;

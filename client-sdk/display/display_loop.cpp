@@ -66,6 +66,7 @@ void DisplayLoop::take_news(TimePoint now) {
   if (news.another_world) {
     if (!attracts_) renderer_.forget_assets();
     have_frame_ = false;  // of the world before
+    if (pointer_) pointer_->forget_world();
   }
   if (news.assets) upload();
   if (options_.every_step && world_.known() && !due_) due_ = schedule_.due(now, *world_.status(), news.whole);
@@ -79,13 +80,16 @@ void DisplayLoop::take_news(TimePoint now) {
   }
 }
 
+bool DisplayLoop::knows_screen() const {
+  return options_.screen.width_m > 0 && options_.screen.viewer_distance_m > 0;
+}
+
 /// The visitor's head, where the museum has a tracker.
 void DisplayLoop::tend_head(TimePoint now) {
   const bool before = head_.tracked();
   head_.advance(client_.viewer_head(), now);
   if (head_.tracked() == before) return;
-  const bool knows_screen = options_.screen.width_m > 0 && options_.screen.viewer_distance_m > 0;
-  if (!before && !std::exchange(told_head_, true) && !knows_screen)
+  if (!before && !std::exchange(told_head_, true) && !knows_screen())
     log::warning(
         "a tracker tells where the visitor's head is, and this display does not know its screen: give --screen-width "
         "and --viewer-distance");
@@ -103,10 +107,11 @@ RenderScene DisplayLoop::build(TimePoint now) const {
                                 : world_.build(have_frame_ ? &frame_ : nullptr, client_.state());
   if (!attracts_) panel_.write(scene.overlay, now);
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
-  const PixelSize eye = eye_size(options_.stereo, context_.size());
+  // Large words cover what they speak of. A picture in true proportions is a window, which stays where it is.
+  if (panel_.settings().style.text_scale > 1 && !knows_screen()) scene.camera.room_below = caption_room_.room_below();
+  const PixelSize eye = seen_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
-    scene.camera =
-        for_screen(scene.camera, options_.screen, head_.place(), static_cast<double>(eye.width) / eye.height);
+    scene.camera = for_screen(scene.camera, options_.screen, head_.place(), aspect_of(eye));
   if (pointer_ && world_.known() && !attracts_) {
     pointer_->write(scene.overlay, under_pointer(scene), spoken_);
     if (const auto button = go_on_button(world_.status(), spoken_); button && !scene.overlay.panel)
@@ -249,14 +254,18 @@ void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
 
 std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
   const PixelSize picture = context_.size();
-  const PixelSize eye = eye_size(options_.stereo, picture);
+  const PixelSize eye = seen_size(options_.stereo, picture);
   if (eye.width < 2 || eye.height < 2) return {};
+  const EyePlace seen = eye_at(options_.stereo, picture, place);
+  return action_at(laid_out(), (1 + seen.x) / 2 * eye.width, (1 - seen.y) / 2 * eye.height);
+}
+
+/// What the last picture had over it.
+OverlayLayout DisplayLoop::laid_out() const {
   const MeasureText measure = [this](Face face, int px, std::string_view text) {
     return typesetter_.width(face, px, text);
   };
-  const EyePlace seen = eye_at(options_.stereo, picture, place);
-  return action_at(lay_out(shown_, eye, measure, shown_inset_ ? &*shown_inset_ : nullptr), (1 + seen.x) / 2 * eye.width,
-                   (1 - seen.y) / 2 * eye.height);
+  return lay_out(shown_, seen_size(options_.stereo, context_.size()), measure, shown_inset_ ? &*shown_inset_ : nullptr);
 }
 
 /// A click on a sign is as good as a finger.
@@ -285,6 +294,7 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   context_.present();
   shown_ = scene.overlay;
   shown_inset_ = scene.inset ? std::optional(scene.inset->caption) : std::nullopt;
+  if (shown_.style.text_scale > 1 && !shown_.panel) caption_room_.see(laid_out().covered_below, now);
   let_hear(scene.camera, now);
   ++summary_.frames;
   desk_.drawn(clock_.now() - began, clock_.now());
@@ -339,6 +349,12 @@ void DisplayLoop::write_requested() {
   desk_.picture_failed(written.error());
 }
 
+/// Who named a folder and no moment gets what was seen last.
+void DisplayLoop::write_last() {
+  if (!options_.offscreen || !summary_.pictures.empty() || summary_.frames == 0) return;
+  if (const auto written = write_picture("last"); !written) log::warning(written.error().to_string());
+}
+
 void DisplayLoop::wait_for_next(TimePoint began) {
   if (options_.film_fps > 0) return;
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
@@ -378,6 +394,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
     }
     wait_for_next(now);
   }
+  write_last();
   summary_.done = finished();
   summary_.frame_ms_median = percentile(frame_ms_, 0.5);
   summary_.frame_ms_p99 = percentile(frame_ms_, 0.99);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "client-sdk/display/caption_room.hpp"
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/head_view.hpp"
 #include "client-sdk/display/kiosk_setup.hpp"
@@ -52,6 +53,8 @@ class DisplayLoop {
   void record(TimePoint now);
   void say_refusal();
   void say_stray();
+  [[nodiscard]] bool knows_screen() const;
+  [[nodiscard]] OverlayLayout laid_out() const;
   Expected<void> draw(TimePoint now);
   Expected<void> survive(const Error& error);
   void let_hear(const Camera& ears, TimePoint now);
@@ -70,6 +73,7 @@ class DisplayLoop {
   [[nodiscard]] std::string picture_path(const std::string& name) const;
   Expected<void> write_picture(const std::string& name);
   void write_requested();
+  void write_last();
   void wait_for_next(TimePoint began);
 
   const DisplayOptions& options_;
@@ -97,6 +101,7 @@ class DisplayLoop {
   std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told it
   OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
   std::optional<std::string> shown_inset_;
+  CaptionRoom caption_room_;
   std::string told_refusal_;
   std::string told_stray_;
   std::string told_draw_;

@@ -1,6 +1,8 @@
 #include "client-sdk/display/hand_model.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "client-sdk/display/procedural_mesh.hpp"
 
@@ -18,27 +20,33 @@ Eigen::Affine3f placed(const Pose& X, double scale) {
   return out;
 }
 
-/// Linen about the wrist, in the palm's frame: a wide tube with a hem, closed where the arm would go on.
-MeshData sleeve_mesh() {
-  struct Ring {
-    double x, half_y, half_z;
-  };
-  constexpr double kWrist = -geometry::kPalmHalfLength_m;
-  constexpr std::array<Ring, 9> kRings{{{kWrist - 0.034, 0.0235, 0.0295},
-                                        {kWrist - 0.030, 0.0285, 0.0350},
-                                        {kWrist - 0.027, 0.0300, 0.0370},
-                                        {kWrist - 0.036, 0.0305, 0.0375},
-                                        {kWrist - 0.040, 0.0285, 0.0355},
-                                        {kWrist - 0.110, 0.0330, 0.0400},
-                                        {kWrist - 0.190, 0.0340, 0.0410},
-                                        {kWrist - 0.205, 0.0250, 0.0300},
-                                        {kWrist - 0.209, 0.0001, 0.0001}}};
+struct SleeveRing {
+  double x, half_y, half_z;
+};
+
+// Linen about the wrist, in the palm's frame: a wide tube with a hem, closed, and its way on up the arm that is not there, where it fades.
+constexpr double kWrist = -geometry::kPalmHalfLength_m;
+constexpr std::array<SleeveRing, 7> kSleeve{{{kWrist - 0.034, 0.0235, 0.0295},
+                                             {kWrist - 0.030, 0.0285, 0.0350},
+                                             {kWrist - 0.027, 0.0300, 0.0370},
+                                             {kWrist - 0.036, 0.0305, 0.0375},
+                                             {kWrist - 0.040, 0.0285, 0.0355},
+                                             {kWrist - 0.080, 0.0313, 0.0381},
+                                             {kWrist - 0.084, 0.0001, 0.0001}}};
+constexpr std::array<SleeveRing, 4> kFadingSleeve{{{kWrist - 0.080, 0.0313, 0.0381},
+                                                   {kWrist - 0.110, 0.0330, 0.0400},
+                                                   {kWrist - 0.160, 0.0337, 0.0406},
+                                                   {kWrist - 0.230, 0.0345, 0.0415}}};
+
+/// A tube through rings; v of its image goes from the first to the last.
+MeshData sleeve_mesh(std::span<const SleeveRing> rings) {
   constexpr int kSectors = 28;
   MeshData mesh;
-  for (std::size_t i = 0; i < kRings.size(); ++i) {
-    const Ring& before = kRings[i == 0 ? 0 : i - 1];
-    const Ring& after = kRings[std::min(i + 1, kRings.size() - 1)];
-    const Ring& ring = kRings[i];
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const SleeveRing& before = rings[i == 0 ? 0 : i - 1];
+    const SleeveRing& after = rings[std::min(i + 1, rings.size() - 1)];
+    const SleeveRing& ring = rings[i];
+    const double v = (ring.x - rings.front().x) / (rings.back().x - rings.front().x);
     for (int sector = 0; sector <= kSectors; ++sector) {
       const double a = 2 * kPi * sector / kSectors;
       // Folds run along the arm.
@@ -49,18 +57,41 @@ MeshData sleeve_mesh() {
                        (after.half_z - before.half_z) * std::cos(a));
       const Vec3 around(0, ring.half_y * std::cos(a), -ring.half_z * std::sin(a));
       mesh.normals.push_back(Vec3(around.cross(along).normalized()).cast<float>());
+      mesh.uv.emplace_back(static_cast<float>(sector) / kSectors, static_cast<float>(v));
     }
   }
   const auto at = [](std::size_t ring, int sector) {
     return static_cast<std::uint32_t>(ring * (kSectors + 1) + static_cast<std::size_t>(sector));
   };
-  for (std::size_t i = 0; i + 1 < kRings.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
     for (int s = 0; s < kSectors; ++s) {
       mesh.indices.insert(mesh.indices.end(),
                           {at(i, s), at(i, s + 1), at(i + 1, s + 1), at(i, s), at(i + 1, s + 1), at(i + 1, s)});
     }
   }
   return mesh;
+}
+
+/// White, and less and less of it.
+ImageData fading_image() {
+  constexpr std::uint32_t kRows = 64;
+  ImageData image{1, kRows, {}, true};
+  for (std::uint32_t row = 0; row < kRows; ++row) {
+    // The last rows are empty, the first full: an image goes round from its end to its beginning.
+    const double gone = std::clamp((row - 2.0) / (kRows - 8.0), 0.0, 1.0);
+    const double left = 1 - gone * gone * (3 - 2 * gone);
+    image.rgba.insert(image.rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(std::lround(255 * left))});
+  }
+  return image;
+}
+
+/// Of the same cloth.
+MaterialData fading(MaterialData cloth, std::uint32_t image) {
+  cloth.base_colour_image = image;
+  cloth.clear = true;
+  cloth.double_sided = false;  // nobody looks into it
+  cloth.alpha_cutoff = 0.01F;
+  return cloth;
 }
 
 }  // namespace
@@ -104,8 +135,12 @@ HandModel::HandModel(AssetLibrary& library) {
   linen.base_colour = Eigen::Vector4f(0.36F, 0.30F, 0.22F, 1);
   linen.roughness = 0.95F;
   linen.double_sided = true;
-  sleeve_material_ = library.add_material(linen);
-  sleeve_ = library.add_mesh(sleeve_mesh());
+  stale.roughness = linen.roughness;
+  stale.double_sided = true;
+  const std::uint32_t image = library.add_image(fading_image());
+  sleeve_ = {library.add_mesh(sleeve_mesh(kSleeve)), library.add_material(linen), library.add_material(stale)};
+  fading_sleeve_ = {library.add_mesh(sleeve_mesh(kFadingSleeve)), library.add_material(fading(linen, image)),
+                    library.add_material(fading(stale, image))};
 }
 
 void HandModel::draw(const client::HandPose& hand, const Camera& camera, RenderScene& out) const {
@@ -113,7 +148,8 @@ void HandModel::draw(const client::HandPose& hand, const Camera& camera, RenderS
   const SegmentPoses X_WS = glove ? hand.X_WS : hand_at_tip(hand.X_WS[0].p, hand.holding, camera);
   const double scale = glove ? hand_scale(hand) : 1;
   out.soft_bodies.push_back({HandSkin::shared().follow(X_WS, scale), hand.stale ? stale_material_ : skin_material_});
-  out.instances.push_back({sleeve_, hand.stale ? stale_material_ : sleeve_material_, placed(X_WS[0], scale), true});
+  for (const Sleeve* sleeve : {&sleeve_, &fading_sleeve_})
+    out.instances.push_back({sleeve->mesh, hand.stale ? sleeve->stale : sleeve->fresh, placed(X_WS[0], scale), true});
   for (std::size_t i = 0; i < client::kHandSegments; ++i) {
     const double radius = i == 0 ? 0.030 : 0.010;
     out.occluders.push_back({X_WS[i].p.cast<float>(), static_cast<float>(scale * radius)});

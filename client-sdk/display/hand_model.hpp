@@ -19,8 +19,13 @@ class HandModel {
  private:
   std::uint32_t skin_material_ = 0;
   std::uint32_t stale_material_ = 0;
-  std::uint32_t sleeve_ = 0;
-  std::uint32_t sleeve_material_ = 0;
+  struct Sleeve {
+    std::uint32_t mesh = 0;
+    std::uint32_t fresh = 0;  ///< material
+    std::uint32_t stale = 0;  ///< of a hand whose device is silent
+  };
+  Sleeve sleeve_;
+  Sleeve fading_sleeve_;
 };
 
 /// The hand's scale against the middle-sized one, from the poses of palm and index finger.

@@ -44,7 +44,8 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
     names += (names.empty() ? "{" : ",") + std::string(name);
   }
   app.add_option("--stereo", o.stereo,
-                 "how two eyes see one picture: halves side by side or one above the other, red-cyan glasses, rows in "
+                 "how two eyes see one picture: halves side by side (sbs) or one above the other, for two screens or a "
+                 "wide one; the same squeezed, as a 3D television wants them; red-cyan glasses, rows in "
                  "turn, a driver's two "
                  "buffers; or one eye alone")
       ->transform(CLI::CheckedTransformer(stereo).description(names + "}"));
@@ -81,7 +82,9 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--catalogue", o.catalogue,
                  "catalogue (mechane content) in which mesh files are looked for first, by their content");
   app.add_option("--fonts", o.renderer.font_folder, "folder of the DejaVu fonts")->capture_default_str();
-  app.add_option("--out", o.out, "folder for pictures (PNG); SIGUSR1, or P in the window, asks for one");
+  app.add_option("--out", o.out,
+                 "folder for pictures (PNG); SIGUSR1, or P in the window, asks for one; offscreen, the last one where "
+                 "no other was written");
   app.add_flag("--every-step", o.every_step, "a picture of each step; offscreen, draw nothing else");
   app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
   app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);

@@ -215,6 +215,7 @@ void lay_out_captions(Page& page, const OverlayContent& content, const Box& corn
   if (!content.readouts.empty()) top = std::max(top, margin + 2 * readout.padding + readout.row + gap);
   if (!note.lines.empty()) top = note_above ? std::max(top, margin + note.height + gap) : top + note.height + gap;
   const Box caption = add_caption(page, content, caption_room(page, corner, top));
+  if (!caption.empty()) page.out.covered_below = 1 - caption.y / page.height;
   float low = page.height - margin + gap;
   for (const Box& box : {caption, corner})
     if (!box.empty()) low = std::min(low, box.y);

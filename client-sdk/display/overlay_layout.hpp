@@ -47,6 +47,7 @@ struct OverlayLayout {
   std::vector<OverlayShape> shapes;  ///< drawn first, in order
   std::vector<OverlayText> texts;
   std::vector<OverlayTarget> targets;  ///< none lies over another
+  float covered_below = 0;             ///< of the height, from below up to the caption's upper edge; 0: no caption
 };
 
 /// Width of a line, in pixels.

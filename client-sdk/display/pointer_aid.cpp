@@ -69,21 +69,31 @@ std::string carried_note(PointerMeans means, bool greek) {
   if (means == PointerMeans::keys)
     return greek ? "Τα βέλη το μεταφέρουν· Q και E το στρίβουν, Page Up και Page Down το πάνε μακριά ή κοντά"
                  : "Arrows carry it; Q and E turn it, Page Up and Page Down bring it farther or nearer";
-  return greek ? "Σύρετε για να το μεταφέρετε· το δεξί κουμπί το στρίβει, ο τροχός το πάει μακριά ή κοντά"
-               : "Drag to carry it; the right button turns it, the wheel brings it farther or nearer";
+  return greek ? "Σύρετε για να το μεταφέρετε· με το δεξί κουμπί πατημένο στρίβει, με τον τροχό πάει μακριά ή κοντά"
+               : "Drag to carry it; hold the right button to turn it; the wheel brings it farther or nearer";
 }
 
 std::string goal_note(PointerMeans means, bool greek) {
   const std::string bring = greek ? "Φέρτε το στον γαλάζιο κύκλο· " : "Bring it to the blue ring; ";
   if (means == PointerMeans::fingers) return bring + (greek ? "με δύο δάχτυλα στρίβει" : "two fingers turn it");
   if (means == PointerMeans::keys) return bring + (greek ? "με τα Q και E στρίβει" : "Q and E turn it");
-  return bring + (greek ? "με το δεξί κουμπί στρίβει" : "the right button turns it");
+  return bring + (greek ? "με το δεξί κουμπί πατημένο στρίβει, με τον τροχό πάει μακριά ή κοντά"
+                        : "hold the right button to turn it; the wheel brings it farther or nearer");
 }
 
 std::string held_note(PointerView::Drag drag, bool has_goal, PointerMeans means, bool greek) {
-  if (drag == PointerView::Drag::turn)
+  const bool keys = means == PointerMeans::keys;
+  if (drag == PointerView::Drag::turn) {
+    if (keys)
+      return greek ? "Τα βέλη το γυρίζουν· με το πλήκτρο διαστήματος το αφήνετε" : "Arrows turn it; Space lets go";
     return greek ? "Κάντε κύκλους, όπως δείχνουν οι κουκκίδες" : "Drag round and round, along the dots";
-  if (drag == PointerView::Drag::slide) return greek ? "Σύρετε κατά μήκος" : "Drag it along its way";
+  }
+  if (drag == PointerView::Drag::slide) {
+    if (keys)
+      return greek ? "Τα βέλη το σέρνουν· με το πλήκτρο διαστήματος το αφήνετε"
+                   : "Arrows move it along its way; Space lets go";
+    return greek ? "Σύρετε κατά μήκος" : "Drag it along its way";
+  }
   if (has_goal) return goal_note(means, greek);
   return carried_note(means, greek);
 }
@@ -93,6 +103,9 @@ std::string note_of(const PointerAid& aid, bool greek) {
   if (aid.link == PointerLinkState::refused)
     return greek ? "Όλα τα χέρια είναι απασχολημένα" : "All hands are busy at the moment";
   if (aid.view.phase == Phase::holding) return held_note(aid.view.drag, aid.view.p_WG.has_value(), aid.means, greek);
+  if (aid.view.phase == Phase::resting && aid.p_WT && aid.means == PointerMeans::keys)
+    return greek ? "Με το πλήκτρο διαστήματος το πιάνετε, με το Tab πάτε στο επόμενο"
+                 : "Space takes it; Tab goes to the next";
   if (aid.view.phase == Phase::resting && aid.p_WT)
     return greek ? "Πατήστε και κρατήστε για να το πιάσετε" : "Press and hold to take it";
   return {};

@@ -37,6 +37,10 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
       if (event.finger == kMouse) {
         hover_ = PixelPlace{event.x, event.y};
         hover_moved_ = true;
+        if (!by_keys_) {  // who moves the mouse has left the keys
+          focus_.reset();
+          means_ = PointerMeans::mouse;
+        }
       }
       return take_fingers(event, scene);
     case Kind::release:
@@ -59,6 +63,12 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
       held_[static_cast<std::size_t>(event.key)] = false;
       return;
   }
+}
+
+void PointerInput::forget_world() {
+  focus_.reset();
+  under_hover_.reset();
+  hover_moved_ = true;
 }
 
 void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& scene) {
@@ -109,10 +119,10 @@ bool PointerInput::press(const PointerScene& scene, PixelPlace whole) {
 }
 
 void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
-  if (key == PointerKey::next || key == PointerKey::previous)
-    return focus_next(scene, key == PointerKey::next ? 1 : -1);
   if (key == PointerKey::turn_left || key == PointerKey::turn_right) return;  // what any hand holds
   means_ = PointerMeans::keys;
+  if (key == PointerKey::next || key == PointerKey::previous)
+    return focus_next(scene, key == PointerKey::next ? 1 : -1);
   if (!focus_) focus_ = middle_of(scene.picture);
   if (key != PointerKey::take) return;
   const PointerView::Phase phase = link_.view().phase;

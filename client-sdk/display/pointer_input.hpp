@@ -50,6 +50,8 @@ class PointerInput {
   void update(const PointerScene& scene, TimePoint now);
   /// Nothing is held, pressed, or to be looked for: this picture needs no update().
   [[nodiscard]] bool rests(TimePoint now);
+  /// Another world is shown: what the keys pointed at is gone.
+  void forget_world();
   /// Adds what helps to find the way.
   void write(OverlayContent& content, const PointerScene& scene, const std::string& language) const;
   /// Somebody moved the hand since the last call.

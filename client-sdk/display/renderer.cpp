@@ -40,8 +40,12 @@ void copy_to_buffer(const PictureTarget& from, PixelSize window, GLenum buffer) 
                     GL_LINEAR);
 }
 
-double aspect_of(PixelSize size) {
-  return static_cast<double>(size.width) / size.height;
+/// The close-up's place in an eye's picture of so many pixels, which is seen in the proportions of `seen`.
+PixelRectangle inset_in(PixelSize pixels, PixelSize seen) {
+  const PixelRectangle place = inset_rectangle(seen);
+  const auto across = [&](std::uint32_t x) { return x * pixels.width / seen.width; };
+  const auto down = [&](std::uint32_t y) { return y * pixels.height / seen.height; };
+  return {across(place.x), down(place.y), across(place.width), down(place.height)};
 }
 
 }  // namespace
@@ -88,7 +92,7 @@ Expected<void> Renderer::fit_targets(Stereo stereo, PixelSize picture, bool inse
     }
   }
   if (auto ok = fit(hdr_, eye, settings_.samples); !ok) return ok;
-  const PixelRectangle place = inset_rectangle(eye);
+  const PixelRectangle place = inset_in(eye, seen_size(stereo, picture));
   return inset ? fit(inset_, {place.width, place.height}, settings_.samples) : Expected<void>();
 }
 
@@ -106,6 +110,7 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   if (eye_pixels.width == 0 || eye_pixels.height == 0) {
     return fail("the picture has no pixels", "display", "give a --size of at least 2x2");
   }
+  const PixelSize seen = seen_size(stereo, size);
   if (auto ok = fit_targets(stereo, size, scene.inset.has_value()); !ok) return ok;
   if (auto ok = fit_sky(scene.sun); !ok) return ok;
   mark(nullptr);
@@ -113,14 +118,15 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   const ShadowSetup shadows = passes_.shadow.draw(scene, assets_, ropes_, soft_bodies_);
   mark("shadow");
   if (scene.inset) {
-    const EyeView view = eye_view(scene.inset->camera, Eye::middle, aspect_of(inset_->size));
+    const PixelRectangle place = inset_rectangle(seen);
+    const EyeView view = eye_view(scene.inset->camera, Eye::middle, aspect_of({place.width, place.height}));
     if (auto ok = draw_view(scene, view, shadows, *inset_); !ok) return ok;
   }
   const std::vector<Eye> eyes = eyes_of(stereo);
   for (std::size_t i = 0; i < eyes.size(); ++i) {
-    const EyeView view = eye_view(scene.camera, eyes[i], aspect_of(eye_pixels));
+    const EyeView view = eye_view(scene.camera, eyes[i], aspect_of(seen));
     if (auto ok = draw_view(scene, view, shadows, *hdr_); !ok) return ok;
-    if (auto ok = finish_eye(scene, view, eye_pixels, target_of(stereo, i)); !ok) return ok;
+    if (auto ok = finish_eye(scene, view, target_of(stereo, i)); !ok) return ok;
     mark("tone and words");
   }
   if (stereo == Stereo::anaglyph || stereo == Stereo::row_interleaved) {
@@ -163,13 +169,12 @@ void Renderer::mark(const char* pass) {
 Renderer::EyeTarget Renderer::target_of(Stereo stereo, std::size_t eye) const {
   const PixelSize size = eye_size(stereo, picture_->size);
   const auto index = static_cast<std::int32_t>(eye);
-  if (is_put_together(stereo)) return {*eyes_[eye]};
-  if (stereo == Stereo::side_by_side) return {*picture_, index * static_cast<std::int32_t>(size.width), 0};
+  EyeTarget out{is_put_together(stereo) ? *eyes_[eye] : *picture_, size, seen_size(stereo, picture_->size)};
+  if (is_side_by_side(stereo)) out.x = index * static_cast<std::int32_t>(size.width);
   // OpenGL counts rows from below.
-  if (stereo == Stereo::top_bottom)
-    return {*picture_, 0,
-            static_cast<std::int32_t>(picture_->size.height) - (1 + index) * static_cast<std::int32_t>(size.height)};
-  return {*picture_};
+  if (is_top_bottom(stereo))
+    out.y = static_cast<std::int32_t>(picture_->size.height) - (1 + index) * static_cast<std::int32_t>(size.height);
+  return out;
 }
 
 Expected<void> Renderer::draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows,
@@ -198,25 +203,24 @@ Expected<void> Renderer::draw_view(const RenderScene& scene, const EyeView& view
   return {};
 }
 
-Expected<void> Renderer::finish_eye(const RenderScene& scene, const EyeView& view, PixelSize eye,
-                                    const EyeTarget& into) {
+Expected<void> Renderer::finish_eye(const RenderScene& scene, const EyeView& view, const EyeTarget& into) {
   if (auto ok = passes_.bloom.draw(*hdr_, settings_.exposure); !ok) return ok;
   if (auto ok = passes_.nook.draw(*hdr_, view); !ok) return ok;
   mark("glow and nooks");
   glBindFramebuffer(GL_FRAMEBUFFER, into.target.framebuffer.get());
-  const auto width = static_cast<GLsizei>(eye.width);
-  const auto height = static_cast<GLsizei>(eye.height);
+  const auto width = static_cast<GLsizei>(into.pixels.width);
+  const auto height = static_cast<GLsizei>(into.pixels.height);
   glViewport(into.x, into.y, width, height);
   passes_.tone.draw(*hdr_, settings_.exposure,
                     {&passes_.bloom.glow(), &passes_.nook.openness(), settings_.glow, settings_.nooks});
   if (scene.inset) {
-    const PixelRectangle place = inset_rectangle(eye);
+    const PixelRectangle place = inset_in(into.pixels, into.seen);
     glViewport(into.x + static_cast<GLint>(place.x), into.y + height - static_cast<GLint>(place.y + place.height),
                static_cast<GLsizei>(place.width), static_cast<GLsizei>(place.height));
     passes_.tone.draw(*inset_, settings_.exposure, {});
     glViewport(into.x, into.y, width, height);
   }
-  passes_.overlay.draw(scene, eye);
+  passes_.overlay.draw(scene, into.seen);
   return {};
 }
 

@@ -80,16 +80,18 @@ class Renderer {
   void mark(const char* pass);
   [[nodiscard]] Expected<void> draw_view(const RenderScene& scene, const EyeView& view, const ShadowSetup& shadows,
                                          const HdrTarget& target);
-  /// Where an eye's finished picture goes: into `target`, its lower left corner at (x, y).
+  /// Where an eye's finished picture goes: into `pixels` of `target`, the lower left corner at (x, y). What is laid out over it has the
+  /// proportions of `seen`.
   struct EyeTarget {
     const PictureTarget& target;
+    PixelSize pixels;
+    PixelSize seen;
     std::int32_t x = 0;
     std::int32_t y = 0;
   };
   [[nodiscard]] EyeTarget target_of(Stereo stereo, std::size_t eye) const;
   /// Tone, close-up and words of one eye.
-  [[nodiscard]] Expected<void> finish_eye(const RenderScene& scene, const EyeView& view, PixelSize eye,
-                                          const EyeTarget& into);
+  [[nodiscard]] Expected<void> finish_eye(const RenderScene& scene, const EyeView& view, const EyeTarget& into);
 
   RendererSettings settings_;
   Passes passes_;

@@ -130,11 +130,12 @@ void VisitorPanel::follow_run(const client::WorldStatus& status, TimePoint now) 
     asked_before_ = asked_after_ = false;
     goal_from_ = now;
   }
-  run_ = Run{status.world, status.activity, status.steps_done, status.done};
+  const bool was_done = run_ && run_->done && !anew;
+  run_ = Run{status.world, status.activity, status.steps_done, status.done, was_done ? run_->done_from : now};
   if (!at_beginning() && asking_ && asking_->when == client::AnswerTime::before) asking_.reset();
 }
 
-/// After an activity at once; before it as soon as somebody is there.
+/// After an activity once it has been looked at; before it as soon as somebody is there.
 void VisitorPanel::ask_or_end(TimePoint now) {
   const client::Activity* what = activity();
   if (asking_) {
@@ -143,7 +144,7 @@ void VisitorPanel::ask_or_end(TimePoint now) {
     return;
   }
   if (what == nullptr || what->questions.empty()) return;
-  if (run_->done && !asked_after_ && settings_.ask != AskWhen::none) {
+  if (run_->done && now - run_->done_from >= kAdmires && !asked_after_ && settings_.ask != AskWhen::none) {
     asked_after_ = true;
     asking_ = Asking{client::AnswerTime::after, 0, false, now, now};
   } else if (at_beginning() && !asked_before_ && settings_.ask == AskWhen::both && last_sign_) {

@@ -52,7 +52,9 @@ class VisitorPanel {
  public:
   static constexpr Duration kQuestionsWait =
       std::chrono::seconds(45);  ///< without a click: then nobody is there who answers
-  static constexpr Duration kFarewell = std::chrono::seconds(10);
+  static constexpr Duration kFarewell = std::chrono::seconds(6);
+  static constexpr Duration kAdmires =
+      std::chrono::seconds(4);  ///< what was done is looked at before anything is asked about it
   static constexpr Duration kSettles =
       std::chrono::milliseconds(400);  ///< the second tap of a double one answers nothing
   static constexpr Duration kGoal = std::chrono::seconds(8);
@@ -93,6 +95,7 @@ class VisitorPanel {
     std::string activity;
     std::uint32_t steps_done = 0;
     bool done = false;
+    TimePoint done_from;
   };
   struct Asking {
     client::AnswerTime when = client::AnswerTime::after;

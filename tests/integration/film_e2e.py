@@ -62,6 +62,8 @@ class Film(EndToEnd):
         again = self.run_command(*play, file, "--film-fps", "5", "--play-from", "turn@0.2", "--frames", "1", "--out", self.folder / "again")
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
         self.assertEqual((self.folder / "again/film-00001-mono.png").read_bytes(), pictures[0], "to the same picture")
+        last = self.run_command(*play, file, "--seconds", "1", "--out", self.folder / "last")
+        self.assertEqual(json.loads(last.stdout)["pictures"], [str(self.folder / "last/last-mono.png")], last.stderr)
         # It ends by itself, and a killed display's recording is shown as far as it goes.
         (self.folder / "cut.frames").write_bytes(file.read_bytes()[:20_000])
         cut = self.run_command(*play, self.folder / "cut.frames", "--film-fps", "0.2")

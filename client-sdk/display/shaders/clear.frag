@@ -9,7 +9,8 @@ void main() {
   vec3 mirrored;
   shade_apart(s, p_W, n, diffuse, mirrored);
   float nv = clamp(abs(dot(s.n, normalize(eye_W - p_W))), 0.0, 1.0);
-  float fresnel = 0.04 + 0.96 * pow(1.0 - nv, 5.0);
+  // What is rough has no glance at its edge, or cloth would leave a film of glass there.
+  float fresnel = 0.04 + max(0.96 - s.roughness, 0.0) * pow(1.0 - nv, 5.0);
   float cover = opacity + (1.0 - opacity) * fresnel;
   vec3 light = (diffuse * opacity + mirrored) / cover;
   colour = vec4(through_air(light, p_W) * cover + glow * opacity, cover);

@@ -83,6 +83,36 @@ TEST_F(StereoPicture, halves_are_each_eyes_own_picture) {
   EXPECT_EQ(differing(stacked, 0, flat.height, lower), 0U);
 }
 
+/// A 3D television stretches each half: a point of an eye's full picture lies at half its x, or y, in the squeezed one.
+TEST_F(StereoPicture, squeezed_halves_are_each_eyes_full_picture_at_half_its_width_or_height) {
+  const Parted parted;
+  for (const Stereo mode : {Stereo::side_by_side_squeezed, Stereo::top_bottom_squeezed}) {
+    const bool beside = mode == Stereo::side_by_side_squeezed;
+    const ImageData both = one(parted, mode, kSize);
+    for (const Stereo eye : {Stereo::left_eye, Stereo::right_eye}) {
+      const ImageData full = one(parted, eye, kSize);
+      const std::uint32_t x0 = beside && eye == Stereo::right_eye ? kSize.width / 2 : 0;
+      const std::uint32_t y0 = !beside && eye == Stereo::right_eye ? kSize.height / 2 : 0;
+      const std::uint32_t across = beside ? 2 : 1, down = beside ? 1 : 2;
+      double off = 0;
+      for (std::uint32_t y = 0; y < kSize.height / down; ++y) {
+        for (std::uint32_t x = 0; x < kSize.width / across; ++x) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            const auto at = [c](const ImageData& image, std::uint32_t i, std::uint32_t j) {
+              return static_cast<double>(image.rgba[4 * (std::size_t{j} * image.width + i) + c]);
+            };
+            const double stretched =
+                (at(full, across * x, down * y) + at(full, across * x + across - 1, down * y + down - 1)) / 2;
+            off += std::abs(at(both, x0 + x, y0 + y) - stretched);
+          }
+        }
+      }
+      off /= 3.0 * kSize.width * kSize.height / 2;
+      EXPECT_LT(off, 2.5) << stereo_name(mode) << ", " << stereo_name(eye);
+    }
+  }
+}
+
 TEST_F(StereoPicture, rows_take_turns_and_a_setting_says_which_eye_begins) {
   const Parted parted;
   const ImageData left = one(parted, Stereo::left_eye, kSize);

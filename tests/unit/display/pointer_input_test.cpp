@@ -121,6 +121,60 @@ TEST(PointerAid, WhatIsCarriedSaysHowItIsTurnedByWhatTheVisitorUses) {
   EXPECT_TRUE(notes.contains("Drag to carry it; two fingers turn it, bring it nearer or farther"));
 }
 
+TEST(PointerAid, WhoUsesKeysIsToldOfKeys) {
+  const Shelf shelf({0, 0, 0});
+  PointerAid aid{shelf.sight(), {}, Vec3(0, 0, 0.025), {}, PointerLinkState::joined, PointerMeans::keys};
+  OverlayContent resting;
+  add_pointer_aid(aid, "en", resting);
+  EXPECT_EQ(resting.note, "Space takes it; Tab goes to the next");
+  aid.view.phase = PointerView::Phase::holding;
+  for (const auto drag : {PointerView::Drag::turn, PointerView::Drag::slide}) {
+    aid.view.drag = drag;
+    OverlayContent content;
+    add_pointer_aid(aid, "en", content);
+    EXPECT_EQ(content.note.find("Arrows"), 0U) << content.note;
+    EXPECT_NE(content.note.find("Space lets go"), std::string::npos) << content.note;
+  }
+}
+
+/// Keys are at the thing; what then ends that.
+struct AtKeys {
+  Shelf shelf{Vec3(0.4, 0.1, 0)};
+  PointerInput input{"kiosk-1", 0};
+  AtKeys() {
+    PointerEvent tab;
+    tab.kind = PointerEvent::Kind::key_down;
+    tab.key = PointerKey::next;
+    input.take(tab, shelf.under(), false);
+    input.update(shelf.under(), TimePoint(std::chrono::seconds(1)));
+  }
+  [[nodiscard]] OverlayContent seen() {
+    OverlayContent content;
+    input.write(content, shelf.under(), "en");
+    return content;
+  }
+};
+
+TEST(PointerKeys, TabLeadsToWhatCanBeTakenAndSaysHow) {
+  AtKeys keys;
+  EXPECT_EQ(keys.seen().note, "Space takes it; Tab goes to the next");
+  EXPECT_FALSE(keys.seen().dots.empty());
+}
+
+TEST(PointerKeys, AnotherWorldOrAMouseThatMovesEndsThem) {
+  AtKeys another;
+  another.input.forget_world();
+  EXPECT_TRUE(another.seen().dots.empty()) << "a ring about nothing";
+  AtKeys mouse;
+  PointerEvent move;
+  move.kind = PointerEvent::Kind::move;
+  move.x = 100;
+  move.y = 100;
+  mouse.input.take(move, mouse.shelf.under(), false);
+  mouse.input.update(mouse.shelf.under(), TimePoint(std::chrono::seconds(2)));
+  EXPECT_TRUE(mouse.seen().dots.empty());
+}
+
 TEST(PointerAid, NobodyTouchesNothingIsDrawn) {
   const Shelf shelf({0, 0, 0});
   OverlayContent content;

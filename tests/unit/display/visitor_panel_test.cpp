@@ -51,6 +51,12 @@ class VisitorPanelTest : public testing::Test {
     panel.write(content, now);
     return content;
   }
+  /// The activity is done; the next look is the first at which something may be asked.
+  OverlayContent finish(VisitorPanel& panel) {
+    status.done = true;
+    (void)look(panel);
+    return look(panel, VisitorPanel::kAdmires - milliseconds(500));
+  }
   void press(VisitorPanel& panel, Press kind, const std::string& value = "") { panel.press({kind, value}, now); }
   void move_hand() { frame.hands[0].X_WS[0].p.x() += 0.05; }
 
@@ -147,7 +153,7 @@ TEST_F(VisitorPanelTest, questions_come_one_by_one_after_the_activity_with_a_far
   VisitorPanel panel({"en", AskWhen::after, {}});
   EXPECT_FALSE(look(panel).panel);
   status.steps_done = 3;
-  status.done = true;
+  EXPECT_FALSE(finish(panel).panel) << "first the visitor looks at what was done";
   const auto first = look(panel).panel;
   ASSERT_TRUE(first);
   EXPECT_EQ(first->text, "Which drum?");
@@ -178,8 +184,7 @@ TEST_F(VisitorPanelTest, questions_come_one_by_one_after_the_activity_with_a_far
 
 TEST_F(VisitorPanelTest, what_is_skipped_is_not_answered_and_not_thanked_for) {
   VisitorPanel panel({"en", AskWhen::after, {}});
-  status.done = true;
-  (void)look(panel);
+  (void)finish(panel);
   for (int i = 0; i < 2; ++i) {
     (void)look(panel);
     press(panel, Press::skip);
@@ -192,7 +197,7 @@ TEST_F(VisitorPanelTest, what_is_skipped_is_not_answered_and_not_thanked_for) {
 
 TEST_F(VisitorPanelTest, a_double_tap_answers_once_and_a_wrong_name_never) {
   VisitorPanel panel({"en", AskWhen::after, {}});
-  status.done = true;
+  (void)finish(panel);
   (void)look(panel);
   (void)look(panel);
   press(panel, Press::answer, "no such answer");
@@ -209,7 +214,7 @@ TEST_F(VisitorPanelTest, questions_go_when_nobody_clicks_or_the_visit_goes_on) {
   for (const char* reason : {"nobody", "anew", "another"}) {
     VisitorPanel panel({"en", AskWhen::after, {}});
     status.activity = "use";
-    status.done = true;
+    (void)finish(panel);
     ASSERT_TRUE(look(panel).panel) << reason;
     panel.touch(now += seconds(40));
     EXPECT_TRUE(look(panel, seconds(44)).panel) << reason;
@@ -221,7 +226,7 @@ TEST_F(VisitorPanelTest, questions_go_when_nobody_clicks_or_the_visit_goes_on) {
     if (reason == std::string("another")) status.activity = "rest";
     EXPECT_FALSE(look(panel).panel) << reason;
     status.activity = "use";
-    status.done = true;
+    (void)finish(panel);
     EXPECT_TRUE(look(panel).panel) << "the next visitor is asked";
   }
 }
@@ -243,9 +248,10 @@ TEST_F(VisitorPanelTest, asks_before_only_where_told_and_when_somebody_is_there)
   EXPECT_EQ(given[0].when, client::AnswerTime::before);
   status.steps_done = 1;
   EXPECT_FALSE(look(both).panel) << "who works is not asked";
-  status.done = true;
+  (void)finish(both);
   EXPECT_TRUE(look(both).panel);
   VisitorPanel none({"en", AskWhen::none, {}});
+  (void)finish(none);
   EXPECT_FALSE(look(none).panel);
 }
 
@@ -263,9 +269,10 @@ TEST_F(VisitorPanelTest, the_goal_stands_at_the_beginning_and_for_who_comes_late
 TEST_F(VisitorPanelTest, a_presentation_of_another_world_asks_nothing) {
   VisitorPanel panel({"en", AskWhen::after, {}});
   status.world = "w2";
-  status.done = true;
+  (void)finish(panel);
   EXPECT_FALSE(look(panel).panel);
   status.world = "w1";
+  (void)finish(panel);
   EXPECT_TRUE(look(panel).panel);
 }
 
