@@ -133,13 +133,13 @@ Expected<std::optional<Pose>> read_head(const std::string& line) {
 }
 
 int run_head(const HeadOptions& options, std::istream& in, std::ostream& err) {
-  const auto tell = [&err](Error error, int status) {
+  const auto tell = [&err](const Error& error, int status) {
     err << "mechane head: " << error.to_string() << "\n";
     return status;
   };
   std::optional<Pose> held;
   if (!options.at.empty()) {
-    auto read = read_head(fmt::format("{}", fmt::join(options.at, " ")));
+    const auto read = read_head(fmt::format("{}", fmt::join(options.at, " ")));
     if (!read) return tell({read.error().what, "--at", read.error().remedy}, 2);
     held = *read;
   }
