@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <map>
-#include <set>
-
-#include <fmt/format.h>
 
 #include "client-sdk/cli/displays_text.hpp"
 #include "server/base/clock.hpp"
@@ -52,18 +50,11 @@ std::vector<DisplayStatus> find_all(client::DisplayWatch& watch, const DisplaysO
 }
 
 Expected<std::vector<DisplayStatus>> find(client::DisplayWatch& watch, const DisplaysOptions& options) {
-  std::vector<DisplayStatus> all = find_all(watch, options);
-  std::set<std::string> names;
-  for (const DisplayStatus& display : all)
-    names.insert(display.kiosk + "/" + display.display);
-  std::erase_if(all, [&](const DisplayStatus& display) { return !meant(display, options); });
-  if (!all.empty()) return all;
-  if (names.empty()) {
-    return fail("no display answered", "network",
-                "start one with 'mechane display', in the same DDS domain and network (mechane doctor)");
-  }
-  return fail("there is no such display", options.kiosk + "/" + (options.display.empty() ? "*" : options.display),
-              fmt::format("there are: {}", fmt::join(names, ", ")));
+  const std::vector<DisplayStatus> all = find_all(watch, options);
+  std::vector<DisplayStatus> found;
+  std::ranges::copy_if(all, std::back_inserter(found), [&](const DisplayStatus& d) { return meant(d, options); });
+  if (found.empty()) return tl::unexpected(no_display(all, options.kiosk, options.display));
+  return found;
 }
 
 /// By session, of those that have answered.

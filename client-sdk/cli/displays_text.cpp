@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -92,6 +94,14 @@ std::vector<std::string> row_of(const DisplayStatus& display) {
           display.host};
 }
 
+std::string missing_remark(const DisplayStatus& display) {
+  return fmt::format("{}: {}{}; start it in the server's folder, or give --assets or --catalogue",
+                     display.missing_total == 1
+                         ? std::string("1 file is missing, a plain box stands in its place")
+                         : fmt::format("{} files are missing, plain boxes stand in their place", display.missing_total),
+                     fmt::join(display.missing, ", "), display.missing_total > display.missing.size() ? ", ..." : "");
+}
+
 bool shares_name(const DisplayStatus& display, const std::vector<DisplayStatus>& displays) {
   return std::ranges::count_if(displays, [&](const DisplayStatus& other) {
            return other.kiosk == display.kiosk && other.display == display.display;
@@ -107,6 +117,11 @@ std::vector<std::string> remarks_among(const DisplayStatus& display, const std::
                     display.process_id, display.host));
   }
   return remarks;
+}
+
+/// To three digits behind the point: a float of the wire has no more to say, and 0.8 is not 0.800000011920929.
+double rounded(double number) {
+  return std::round(1000 * number) / 1000;
 }
 
 nlohmann::ordered_json settings_json(const DisplayStatus& display) {
@@ -136,10 +151,7 @@ std::vector<std::string> remarks_of(const DisplayStatus& display) {
         100 * display.frames_lost));
   }
   if (display.missing_total > 0) {
-    remarks.push_back(
-        fmt::format("{} files are missing, plain boxes stand in their place: {}{}; see --assets and --catalogue",
-                    display.missing_total, fmt::join(display.missing, ", "),
-                    display.missing_total > display.missing.size() ? ", ..." : ""));
+    remarks.push_back(missing_remark(display));
   }
   const bool meant_silent = display.offscreen || setting_of(display, "mute") == "on";
   if (display.sound.empty() && !meant_silent && !display.sound_problem.empty())
@@ -148,6 +160,18 @@ std::vector<std::string> remarks_of(const DisplayStatus& display) {
     remarks.push_back(fmt::format("warning {} of {}: {}", display.warnings, display.warnings, display.last_warning));
   }
   return remarks;
+}
+
+Error no_display(const std::vector<DisplayStatus>& all, const std::string& kiosk, const std::string& display) {
+  if (all.empty()) {
+    return {"no display answered", "network",
+            "start one with 'mechane display', in the same DDS domain and network (mechane doctor)"};
+  }
+  std::set<std::string> names;
+  for (const DisplayStatus& other : all)
+    names.insert(name_of(other));
+  return {"there is no such display", kiosk + "/" + (display.empty() ? "*" : display),
+          fmt::format("there are: {}", fmt::join(names, ", "))};
 }
 
 std::string displays_table(const std::vector<DisplayStatus>& displays) {
@@ -179,10 +203,10 @@ std::string displays_json(const std::vector<DisplayStatus>& displays) {
         {"showing", d.showing},
         {"picture", {{"width", d.width}, {"height", d.height}, {"offscreen", d.offscreen}}},
         {"pictures", d.pictures},
-        {"pictures_per_s", d.pictures_per_s},
-        {"picture_ms", {{"median", d.picture_ms_median}, {"p99", d.picture_ms_p99}}},
-        {"frames_per_s", d.frames_per_s},
-        {"frames_lost", d.frames_lost},
+        {"pictures_per_s", rounded(d.pictures_per_s)},
+        {"picture_ms", {{"median", rounded(d.picture_ms_median)}, {"p99", rounded(d.picture_ms_p99)}}},
+        {"frames_per_s", rounded(d.frames_per_s)},
+        {"frames_lost", rounded(d.frames_lost)},
         {"missing_total", d.missing_total},
         {"missing", d.missing},
         {"renderer", d.renderer},

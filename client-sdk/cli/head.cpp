@@ -1,46 +1,102 @@
 #include "client-sdk/cli/head.hpp"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <istream>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "server/base/clock.hpp"
-#include <mechane/client/head.hpp>
+#include "client-sdk/cli/displays_text.hpp"
 
 namespace mechane::cli {
 namespace {
 
 constexpr Duration kTellEvery = std::chrono::milliseconds(16);
-constexpr std::size_t kLinesTold = 5;
+constexpr Duration kAudienceEvery = std::chrono::milliseconds(100);
+constexpr double kFarthest_m = 20;
+/// Seven numbers are shorter. What has no end at all is no tracker's, and must not fill the memory.
+constexpr std::size_t kLongestLine = 500;
+constexpr std::size_t kQuoted = 80;
 
 volatile std::sig_atomic_t head_interrupted = 0;
 
 /// The same place again and again, as a tracker would, until it is enough.
-int hold(client::HeadTracker& tracker, const Pose& X_SV, double seconds) {
+int hold(client::HeadTracker& tracker, const Pose& X_SV, double seconds, Audience& audience, std::ostream& err) {
   std::signal(SIGINT, [](int) { head_interrupted = 1; });
   std::signal(SIGTERM, [](int) { head_interrupted = 1; });
   SystemClock clock;
   const TimePoint began = clock.now();
   while (head_interrupted == 0 && (seconds <= 0 || to_seconds(clock.now() - began) < seconds)) {
     (void)tracker.tell(X_SV);
+    audience.look(clock.now(), err);
     clock.sleep_until(clock.now() + kTellEvery);
   }
   (void)tracker.tell_nobody();
   return 0;
 }
 
-int pass_on(client::HeadTracker& tracker, std::istream& in, std::ostream& err) {
-  std::size_t wrong = 0;
+/// Reads to the line's end; what is over the longest is left out.
+bool read_line(std::istream& in, std::string& line) {
+  using Traits = std::istream::traits_type;
+  line.clear();
+  int c = in.get();
+  if (c == Traits::eof()) return false;
+  for (; c != Traits::eof() && c != '\n'; c = in.get()) {
+    if (line.size() < kLongestLine) line.push_back(static_cast<char>(c));
+  }
+  return true;
+}
+
+/// As it may stand on a terminal, whatever the tracker sent.
+std::string quoted(const std::string& line) {
+  std::string out = line.substr(0, kQuoted);
+  std::ranges::replace_if(
+      out, [](char c) { return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f; }, '?');
+  return "'" + out + "'";
+}
+
+}  // namespace
+
+std::string BadLines::hear(std::size_t number, const Error& error, TimePoint now) {
+  ++count_;
+  if (said_ && now - *said_ < kEvery) {
+    ++unsaid_;
+    return {};
+  }
+  said_ = now;
+  const std::size_t others = std::exchange(unsaid_, 0);
+  return fmt::format("line {}: {}{}", number, error.to_string(),
+                     others == 0 ? "" : fmt::format(" ({} more were bad since the last that was told)", others));
+}
+
+void Audience::look(TimePoint now, std::ostream& err) {
+  if (known_ || (looked_ && now - *looked_ < kAudienceEvery)) return;
+  looked_ = now;
+  const std::vector<client::DisplayStatus> all = watch_.displays();
+  known_ = std::ranges::any_of(all, [this](const client::DisplayStatus& d) {
+    return d.kiosk == kiosk_ && (display_.empty() || d.display == display_);
+  });
+  if (known_ || now - began_ < kTime) return;
+  known_ = true;
+  err << "mechane head: " << no_display(all, kiosk_, display_).to_string() << ". It goes on, for one that comes later\n"
+      << std::flush;
+}
+
+int pass_on(client::HeadTracker& tracker, std::istream& in, std::ostream& err, Audience& audience, Clock& clock) {
+  BadLines bad;
   std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line; read_line(in, line);) {
     ++number;
+    const TimePoint now = clock.now();
+    audience.look(now, err);
     const auto head = read_head(line);
     if (!head) {
-      if (++wrong <= kLinesTold) err << "mechane head: line " << number << ": " << head.error().to_string() << "\n";
+      const std::string words = bad.hear(number, head.error(), now);
+      if (!words.empty()) err << "mechane head: " << words << "\n" << std::flush;
     } else if (*head) {
       (void)tracker.tell(**head);
     } else {
@@ -48,11 +104,12 @@ int pass_on(client::HeadTracker& tracker, std::istream& in, std::ostream& err) {
     }
   }
   (void)tracker.tell_nobody();
-  if (wrong > kLinesTold) err << "mechane head: " << wrong << " of " << number << " lines were wrong\n";
-  return wrong == 0 ? 0 : 1;
+  if (bad.count() > 1) err << "mechane head: " << bad.count() << " of " << number << " lines were bad\n";
+  // Few lines are soon read: whoever tries it with a name that is mistyped hears of that, too.
+  for (; number > 0 && !audience.is_known(); audience.look(clock.now(), err))
+    clock.sleep_until(clock.now() + kAudienceEvery);
+  return number > 0 && bad.count() == number ? 1 : 0;
 }
-
-}  // namespace
 
 Expected<std::optional<Pose>> read_head(const std::string& line) {
   constexpr const char* kRemedy = "write 'x y z' in metres, 'x y z qw qx qy qz', or 'nobody'";
@@ -64,23 +121,35 @@ Expected<std::optional<Pose>> read_head(const std::string& line) {
     ++count;
   words.clear();
   if (std::string rest; words >> rest || (count != 3 && count != 7))
-    return fail("no place of a head: '" + line.substr(0, 80) + "'", "tracker", kRemedy);
+    return fail("no place of a head: " + quoted(line), "tracker", kRemedy);
   const Pose X_SV{{numbers[0], numbers[1], numbers[2]}, Quat(numbers[3], numbers[4], numbers[5], numbers[6])};
   if (!X_SV.p.allFinite() || std::abs(X_SV.R.norm() - 1) > 0.01)
-    return fail("no rotation, or a number that is none: '" + line.substr(0, 80) + "'", "tracker", kRemedy);
+    return fail("no rotation, or a number that is none: " + quoted(line), "tracker", kRemedy);
+  if (!(X_SV.p.z() > 0) || X_SV.p.norm() > kFarthest_m) {
+    return fail(fmt::format("a head is before the screen, and within {} m: {}", kFarthest_m, quoted(line)), "tracker",
+                "write metres from the screen's middle: right, up, towards the visitor; the third is over 0");
+  }
   return std::optional<Pose>(X_SV);
 }
 
 int run_head(const HeadOptions& options, std::istream& in, std::ostream& err) {
+  const auto tell = [&err](const Error& error, int status) {
+    err << "mechane head: " << error.to_string() << "\n";
+    return status;
+  };
   std::optional<Pose> held;
   if (!options.at.empty()) {
     const auto read = read_head(fmt::format("{}", fmt::join(options.at, " ")));
-    if (!read) return err << "mechane head: " << read.error().to_string() << "\n", 2;
+    if (!read) return tell({read.error().what, "--at", read.error().remedy}, 2);
     held = *read;
   }
   auto tracker = client::HeadTracker::open(options.kiosk, options.display, options.domain);
-  if (!tracker) return err << "mechane head: " << tracker.error().to_string() << "\n", 1;
-  return held ? hold(**tracker, *held, options.seconds) : pass_on(**tracker, in, err);
+  if (!tracker) return tell(tracker.error(), 1);
+  auto watch = client::DisplayWatch::open(options.domain);
+  if (!watch) return tell(watch.error(), 1);
+  SystemClock clock;
+  Audience audience(options, **watch, clock.now());
+  return held ? hold(**tracker, *held, options.seconds, audience, err) : pass_on(**tracker, in, err, audience, clock);
 }
 
 }  // namespace mechane::cli

@@ -63,19 +63,33 @@ Expected<void> find_kiosk(const OpenOptions& options) {
   realtime::Wakeup news;
   auto reader = proto::Reader<proto::WorldAssignment>::create(*participant, "", [&news](auto) { news.signal(); });
   if (!reader) return tl::unexpected(reader.error());
+  auto servers = proto::Reader<proto::ServerStatus>::create(*participant, "", [&news](auto) { news.signal(); });
+  if (!servers) return tl::unexpected(servers.error());
   SystemClock clock;
-  const TimePoint until = clock.now() + seconds(options.seconds);
+  TimePoint until = clock.now() + seconds(options.seconds);
   std::set<std::string> kiosks;
+  bool server_here = false;
   do {
+    const bool server_before = server_here;
+    servers->view().take_each([&](const proto::ServerStatus&, const proto::SampleInfo& info) {
+      server_here = server_here || (info.valid && info.alive);
+    });
     reader->view().take_each([&](const proto::WorldAssignment& wire, const proto::SampleInfo& info) {
       if (info.valid && info.alive) kiosks.emplace(proto::text_of(wire.kiosk));
     });
     if (kiosks.contains(options.kiosk)) return {};
+    server_here = server_here || !kiosks.empty();
+    // Once a server is found, it tells of all its kiosks at about the same time.
+    if (server_here && !server_before) until = std::min(until, clock.now() + seconds(0.2 * options.seconds));
     news.wait(kLookEvery);
-  } while (clock.now() < until && (kiosks.empty() || clock.now() < until - seconds(0.8 * options.seconds)));
-  if (kiosks.empty()) {
-    return fail("no server answered, or it has no kiosk", options.kiosk,
+  } while (clock.now() < until);
+  if (!server_here) {
+    return fail("no server answered", options.kiosk,
                 "start one with 'mechane server', in the same DDS domain and network (mechane doctor)");
+  }
+  if (kiosks.empty()) {
+    return fail("a server is there, and nobody at any kiosk: no display, no device", options.kiosk,
+                fmt::format("start 'mechane display --kiosk {}' first", options.kiosk));
   }
   return fail("there is no kiosk of this name", options.kiosk, fmt::format("name one of: {}", fmt::join(kiosks, ", ")));
 }

@@ -1,8 +1,26 @@
 #include "client-sdk/display/display_source.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include "server/log/log.hpp"
 
 namespace mechane::display {
+namespace {
+
+bool same_file(const std::string& one, const std::string& other) {
+  std::error_code not_there;  // then there is nothing to lose
+  return !one.empty() && !other.empty() && std::filesystem::equivalent(one, other, not_there);
+}
+
+}  // namespace
+
+Expected<void> check_recordings(const SourceOptions& options, const std::string& attract) {
+  const bool played = same_file(options.record, options.play);
+  if (!played && !same_file(options.record, attract)) return {};
+  return fail(std::string("this is the file of ") + (played ? "--play" : "--attract") + ", and would be overwritten",
+              "--record " + options.record, "give --record another name");
+}
 
 Expected<DisplaySource> open_source(const SourceOptions& options, const client::ClientConfig& server) {
   DisplaySource source;

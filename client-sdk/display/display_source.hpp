@@ -27,6 +27,10 @@ struct DisplaySource {
   std::optional<FrameRecorder> recorder;
 };
 
+/// Errors: `record` is a recording that is read, too, by this name or another (a link, another spelling): it would be gone before it was shown.
+/// `attract`: file of the recording that is shown while nobody is there; empty: none.
+[[nodiscard]] Expected<void> check_recordings(const SourceOptions& options, const std::string& attract);
+
 /// Errors: those of Client::connect(), of FrameRecording and of FrameRecorder.
 [[nodiscard]] Expected<DisplaySource> open_source(const SourceOptions& options, const client::ClientConfig& server);
 

@@ -1,9 +1,13 @@
 // mechane-display: shows a kiosk's world, in a window or offscreen.
 #include <csignal>
 #include <cstdio>
-#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "client-sdk/display/display_app.hpp"
 #include "server/log/log.hpp"
@@ -13,6 +17,68 @@ namespace {
 using namespace mechane;
 
 display::DisplayRequests g_requests;  // what a signal handler may write
+
+/// An option that takes one of some words. CLI11's own way for an enum prints its values, which are no words, where a word is wrong.
+template <class Value>
+void add_words(CLI::App& app, const std::string& name, Value& value,
+               const std::vector<std::pair<std::string_view, Value>>& words, const std::string& help) {
+  std::vector<std::string> known;
+  std::string usual;
+  for (const auto& [word, meant] : words) {
+    known.emplace_back(word);
+    if (meant == value) usual = word;
+  }
+  app.add_option_function<std::string>(
+         name,
+         [&value, words](const std::string& given) {
+           for (const auto& [word, meant] : words)
+             if (word == given) value = meant;
+         },
+         help)
+      ->check(CLI::IsMember(known))
+      ->default_str(usual);
+}
+
+/// A length. Who writes 65 between the eyes means millimetres, and hears what that is here.
+CLI::Validator metres(double least, double most) {
+  const std::string range = fmt::format("{} to {} metres", least, most);
+  return {[=](std::string& text) {
+            double length = 0;
+            const bool is_number = CLI::detail::lexical_cast(text, length);
+            if (is_number && length >= least && length <= most) return std::string();
+            return fmt::format("{} is no length of {}; 65 mm is 0.065", text, range);
+          },
+          range};
+}
+
+/// Of two eyes before a screen.
+void add_stereo_options(CLI::App& app, display::DisplayOptions& o) {
+  add_words(
+      app, "--stereo", o.stereo, display::stereo_names(),
+      "how two eyes see one picture: whole halves side by side (sbs) or one above the other; the same squeezed, as a "
+      "3D television wants them; red-cyan glasses, rows in turn, a driver's two buffers; or one eye alone");
+  app.add_flag("--right-eye-first", o.renderer.right_eye_first,
+               "with --stereo rows: the uppermost row is the right eye's");
+  auto* width = app.add_option("--screen-width", o.screen.width_m,
+                               "of the picture that one eye sees; with --viewer-distance, depth has its true "
+                               "proportions")
+                    ->check(metres(0.05, 50));
+  auto* distance =
+      app.add_option("--viewer-distance", o.screen.viewer_distance_m, "from the visitor's eyes to the screen")
+          ->check(metres(0.1, 50));
+  width->needs(distance);
+  distance->needs(width);
+  app.add_option("--eye-separation", o.screen.eye_distance_m, "between the visitor's eyes; without: 0.064")
+      ->check(metres(0.01, 0.2));
+}
+
+/// What one option means only together with another.
+void check_together(const display::DisplayOptions& o) {
+  if (o.renderer.right_eye_first && o.stereo != display::Stereo::row_interleaved)
+    throw CLI::RequiresError("--right-eye-first", "--stereo rows");
+  if (const auto ok = display::check_recordings(o.source, o.attract); !ok)
+    throw CLI::ValidationError(ok.error().to_string());
+}
 
 /// Of its life at a kiosk, from morning to evening.
 void add_kiosk_options(CLI::App& app, display::DisplayOptions& o) {
@@ -37,36 +103,14 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();
   app.add_flag("--full-screen", o.full_screen,
                "fill the screen from the start, without a cursor while the mouse rests; key F11");
-  std::map<std::string, display::Stereo> stereo;
-  std::string names;
-  for (const auto& [name, mode] : display::stereo_names()) {
-    stereo.emplace(name, mode);
-    names += (names.empty() ? "{" : ",") + std::string(name);
-  }
-  app.add_option("--stereo", o.stereo,
-                 "how two eyes see one picture: halves side by side (sbs) or one above the other, for two screens or a "
-                 "wide one; the same squeezed, as a 3D television wants them; red-cyan glasses, rows in "
-                 "turn, a driver's two "
-                 "buffers; or one eye alone")
-      ->transform(CLI::CheckedTransformer(stereo).description(names + "}"));
-  app.add_flag("--right-eye-first", o.renderer.right_eye_first,
-               "with --stereo rows: the uppermost row is the right eye's");
-  app.add_option("--screen-width", o.screen.width_m,
-                 "of the picture that one eye sees, metres; with --viewer-distance, depth has its true proportions")
-      ->check(CLI::Range(0.05, 50.0));
-  app.add_option("--viewer-distance", o.screen.viewer_distance_m, "from the visitor's eyes to the screen, metres")
-      ->check(CLI::Range(0.1, 50.0));
-  app.add_option("--eye-separation", o.screen.eye_distance_m, "between the visitor's eyes, metres; without: 0.064")
-      ->check(CLI::Range(0.01, 0.2));
   app.add_option("--language", o.language,
                  "language of all words; visitors may change it (key L), without them it comes back")
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();
-  app.add_option("--ask", o.ask, "when visitors are asked an activity's questions")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, display::AskWhen>{{"none", display::AskWhen::none},
-                                                                                  {"after", display::AskWhen::after},
-                                                                                  {"both", display::AskWhen::both}})
-                      .description("{none,after,both}"));
+  add_words<display::AskWhen>(
+      app, "--ask", o.ask,
+      {{"none", display::AskWhen::none}, {"after", display::AskWhen::after}, {"both", display::AskWhen::both}},
+      "when visitors are asked an activity's questions");
   app.add_flag_callback(
       "--large-text", [&o] { o.overlay.text_scale = display::kLargeText; }, "words 1.35 times as large; key +");
   app.add_flag("--high-contrast", o.overlay.high_contrast, "white and yellow words on black; key C");
@@ -89,12 +133,15 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
   app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);
   app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
-  app.add_flag("!--no-touch", o.touch,
-               "mouse, finger and keys take nothing: the picture is for looking at, and for clicks on signs");
+  // As callbacks: of a flag that sets false, CLI11's help would say --no-touch{false}.
+  app.add_flag_callback(
+      "--no-touch", [&o] { o.touch = false; },
+      "mouse, finger and keys take nothing: the picture is for looking at, and for clicks on signs");
   app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_flag("!--mute", o.sound.on, "let nothing be heard");
+  app.add_flag_callback(
+      "--mute", [&o] { o.sound.on = false; }, "let nothing be heard");
   app.add_option("--narration", o.sound.narration,
                  "folder of deploy/narration; without: that beside the programs, where they were built");
   app.add_option("--fps", o.fps, "frames a second, at most")->check(CLI::Range(0.1, 240.0))->capture_default_str();
@@ -133,10 +180,12 @@ int main(int argc, char** argv) {
   std::string size = "1280x720";
   CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
   add_options(app, options, size);
+  add_stereo_options(app, options);
   add_kiosk_options(app, options);
   add_recording_options(app, options);
   try {
     app.parse(argc, argv);
+    check_together(options);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
   }

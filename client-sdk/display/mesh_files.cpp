@@ -35,8 +35,10 @@ Expected<std::filesystem::path> MeshFiles::find(const std::string& uri) {
   }
   if (store_ != nullptr) return from_store(uri, wanted);
   if (other.empty()) {
-    return fail("no file of this name, and none of this content in a catalogue", (folder_ / uri).string(),
-                "mechane content export on the server's machine; then give its catalogue with --catalogue");
+    const std::string here = folder_.is_relative() ? "start the display in the server's folder, or " : "";
+    return fail(
+        "no file of this name, and none of this content in a catalogue", (folder_ / uri).string(),
+        here + "give --assets FOLDER, or --catalogue of what 'mechane content export' wrote on the server's machine");
   }
   differing_.insert(uri);
   log::warning(

@@ -16,7 +16,7 @@ namespace mechane::display {
 /// One scenario's. Called from the display's thread only: it reads files whole.
 class MeshFiles {
  public:
-  /// `catalogue` may be null, and must outlive this.
+  /// A relative `folder` is in this program's own. `catalogue` may be null, and must outlive this.
   MeshFiles(std::filesystem::path folder, const content::Catalogue* catalogue)
       : folder_(std::move(folder)), catalogue_(catalogue) {}
   /// In place of a folder, a server. Both must outlive this; `catalogue` may be null.

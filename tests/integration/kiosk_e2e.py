@@ -120,7 +120,7 @@ class Kiosk(EndToEnd):
         display = self.display("--assets", self.folder, "--out", out)
         told = self.wait_for_displays(lambda told: told and told["wall"]["missing_total"] > 0, 40, "the missing model is told")["wall"]
         self.assertIn("archimedes-screw.glb", told["missing"][0])
-        self.assertTrue(any("plain boxes stand in their place" in remark for remark in told["remarks"]), told["remarks"])
+        self.assertTrue(any("1 file is missing, a plain box stands in its place" in remark for remark in told["remarks"]), told["remarks"])
         self.assertRegex(told["last_warning"], "archimedes-screw.glb.*a plain box is shown")
         # A folder that is gone costs the picture alone.
         out.rmdir()
@@ -156,6 +156,50 @@ class Kiosk(EndToEnd):
         self.run_command("displays", "set", "--kiosk", "kiosk-1", "attract=off")
         self.wait_for_displays(showing("world"), 10, "it is switched off from afar")
         self.assertEqual(wall.stop(), 0, wall.text())
+
+    def test_wrong_arguments_of_a_display_say_what_is_right(self):
+        film = self.folder / "visit.seen"
+        film.write_text("a recorded visit")
+        other_name = self.folder / "other.seen"
+        other_name.symlink_to(film)
+        for arguments, said in (
+                (("--play", film, "--record", film), "this is the file of --play"),
+                (("--attract", film, "--record", other_name), "this is the file of --attract"),
+                (("--stereo", "side-by-side"), "side-by-side not in {mono,sbs,top-bottom,anaglyph,rows,quad,left,right}"),
+                (("--ask", "wrong"), "wrong not in {none,after,both}"),
+                (("--screen-width", "1.2"), "--screen-width requires --viewer-distance"),
+                (("--viewer-distance", "2"), "--viewer-distance requires --screen-width"),
+                (("--right-eye-first",), "--right-eye-first requires --stereo rows"),
+                (("--right-eye-first", "--stereo", "sbs"), "--right-eye-first requires --stereo rows"),
+                (("--screen-width", "1200", "--viewer-distance", "2"), "1200 is no length of 0.05 to 50 metres; 65 mm is 0.065"),
+                (("--screen-width", "1.2", "--viewer-distance", "2m"), "2m is no length of 0.1 to 50 metres"),
+                (("--eye-separation", "65"), "65 is no length of 0.01 to 0.2 metres; 65 mm is 0.065")):
+            result = self.run_command("display", "--offscreen", "--frames", "1", *arguments)
+            self.assertEqual(result.returncode, 2, (arguments, result.stdout + result.stderr))
+            self.assertIn(said, result.stderr, arguments)
+            self.assertNotRegex(result.stdout + result.stderr, r"[\x00-\x09\x0b-\x1f]", arguments)
+        self.assertEqual(film.read_text(), "a recorded visit")
+
+    def test_the_help_of_a_display_tells_what_is_usual(self):
+        told = " ".join(self.run_command("display", "--help").stdout.split())
+        self.assertRegex(told, r"--ask TEXT:\{none,after,both\}=after ")
+        self.assertRegex(told, r"--stereo TEXT:\{mono,\S+\}=mono ")
+        self.assertRegex(told, r"--mute let nothing be heard")
+        self.assertRegex(told, r"--no-touch mouse, finger")
+
+    def test_a_head_of_no_kiosk_and_lines_that_are_none(self):
+        for at in (("0", "0", "-1"), ("0", "0", "0"), ("0", "0", "600")):
+            result = self.run_command("head", "--at", *at)
+            self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+            self.assertIn("--at: a head is before the screen, and within 20 m", result.stderr)
+        result = self.run_command("head", "--kiosk", "kiosk-7", "--at", "0", "0", "1", "--seconds", "4")
+        self.assertEqual((result.returncode, result.stderr.count("no display answered")), (0, 1), result.stderr)
+        self.display()
+        self.wait_for_displays(lambda told: told and told["wall"]["pictures"] > 0, 30, "a display draws")
+        result = self.run_command("head", "--kiosk", "kiosk-7", "--at", "0", "0", "1", "--seconds", "4")
+        self.assertIn("kiosk-7/*: there is no such display; there are: kiosk-1/wall", result.stderr)
+        result = self.run_command("head", "--kiosk", "kiosk-1", "--at", "0", "0", "1", "--seconds", "4")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
 
     def test_a_file_that_is_no_recorded_visit_is_told_at_the_start(self):
         result = self.run_command("display", "--offscreen", "--attract", SCENARIO, "--frames", "1")

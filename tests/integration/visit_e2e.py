@@ -165,6 +165,16 @@ class Visit(EndToEnd):
         self.assertEqual(result.returncode, 2)
         self.assertIn("a kiosk has a name", result.stderr)
 
+    def test_who_opens_where_nobody_is_hears_whether_a_server_is_there(self):
+        result = self.run_command("open", "archimedes-screw", "--kiosk", "kiosk-9")
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertIn("kiosk-9: no server answered; start one with 'mechane server'", result.stderr)
+        self.server(records=False)
+        result = self.run_command("open", "archimedes-screw", "--kiosk", "kiosk-9")
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertIn("a server is there, and nobody at any kiosk", result.stderr)
+        self.assertIn("start 'mechane display --kiosk kiosk-9' first", result.stderr)
+
     def test_wrong_arguments_end_with_one_status(self):
         for command in (("visitor", "--kios", "a"), ("fit",), ("echo", "--count", "x"), ("haptic", "--device"), ("replay", "--fast", "x"),
                         ("display", "--what"), ("server", "--what"), ("check",)):

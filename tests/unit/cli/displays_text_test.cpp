@@ -59,6 +59,12 @@ TEST(DisplaysText, each_fault_has_its_remark_and_says_what_to_do) {
               }),
               HasSubstr("9 files are missing, plain boxes stand in their place: a.glb, b.glb, ..."));
   EXPECT_THAT(remark([](auto& d) {
+                d.missing_total = 1;
+                d.missing = {"a.glb"};
+              }),
+              "1 file is missing, a plain box stands in its place: a.glb; start it in the server's folder, or give "
+              "--assets or --catalogue");
+  EXPECT_THAT(remark([](auto& d) {
                 d.sound.clear();
                 d.sound_problem = "there is no device for sound";
               }),
@@ -108,6 +114,21 @@ TEST(DisplaysText, a_line_of_json_a_display) {
   EXPECT_EQ(json["settings"]["volume"], "0.8");
   EXPECT_EQ(json["link"], "joined");
   EXPECT_EQ(json["remarks"].size(), 1U);
+}
+
+TEST(DisplaysText, numbers_of_the_wire_are_rounded_to_what_they_mean) {
+  client::DisplayStatus display = well();
+  display.frames_lost = static_cast<double>(0.8F);  // as they come
+  display.picture_ms_p99 = static_cast<double>(16.7F);
+  const std::string json = displays_json({display});
+  EXPECT_THAT(json, HasSubstr("\"frames_lost\":0.8,"));
+  EXPECT_THAT(json, HasSubstr("\"p99\":16.7}"));
+}
+
+TEST(DisplaysText, who_names_no_display_hears_which_there_are) {
+  EXPECT_THAT(no_display({}, "kiosk-2", "").to_string(), HasSubstr("no display answered"));
+  EXPECT_EQ(no_display({well(), well()}, "kiosk-2", "").to_string(),
+            "kiosk-2/*: there is no such display; there are: kiosk-1/wall");
 }
 
 }  // namespace

@@ -80,5 +80,12 @@ TEST_F(MeshFilesTest, WhatIsNowhereIsAnError) {
   EXPECT_EQ(find(&*catalogue_, std::string(32, 'a'), "not on this machine"), "nowhere");
 }
 
+TEST(MeshFiles, WhereAFolderIsRelativeTheRemedyBeginsWithTheServersFolder) {
+  const auto remedy = [](const char* folder) { return MeshFiles(folder, nullptr).find("screw.glb").error().remedy; };
+  EXPECT_THAT(remedy("scenarios/of-nobody"),
+              testing::StartsWith("start the display in the server's folder, or give --assets FOLDER, or --catalogue"));
+  EXPECT_THAT(remedy("/of-nobody"), testing::StartsWith("give --assets FOLDER"));
+}
+
 }  // namespace
 }  // namespace mechane::display
