@@ -146,6 +146,12 @@ class EndToEnd(unittest.TestCase):
         return subprocess.run([*self.command_prefix, str(BIN / "mechane"), *map(str, arguments)], capture_output=True, text=True,
                               timeout=limit_s * PATIENCE, env=self.environment, stdin=subprocess.DEVNULL)
 
+    def displays(self, *arguments):
+        """What `mechane displays` tells, by name."""
+        result = self.run_command("displays", "--json", *arguments)
+        told = [json.loads(line) for line in result.stdout.splitlines()]
+        return {display["display"]: display for display in told}
+
     @staticmethod
     def full_disk(folder):
         """Runs a command with a disk of its own in `folder`, soon full; where that is not allowed, with a limit on each file."""

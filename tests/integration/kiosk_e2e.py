@@ -44,12 +44,6 @@ class Kiosk(EndToEnd):
         return self.start(name, "display", "--offscreen", "--kiosk", "kiosk-1", "--name", name, "--size", "160x90", "--fps", "10",
                           *arguments, prefix=prefix, environment=environment)
 
-    def displays(self, *arguments):
-        """What `mechane displays` tells, by name."""
-        result = self.run_command("displays", "--json", *arguments)
-        told = [json.loads(line) for line in result.stdout.splitlines()]
-        return {display["display"]: display for display in told}
-
     def wait_for_displays(self, wanted, limit_s, what):
         told = {}
 
