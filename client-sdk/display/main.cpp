@@ -22,9 +22,8 @@ display::DisplayRequests g_requests;  // what a signal handler may write
 /// Images and meshes of an exhibit go when the next one comes. glibc raises its threshold for blocks of their own with each that is freed, keeps
 /// them in one heap instead, and what lies between them holds the heap up: through all exhibits and back it held some 90 MiB more.
 void give_large_blocks_back() {
-  constexpr int kMiB = 1 << 20;
-  (void)::mallopt(M_MMAP_THRESHOLD, kMiB);
-  (void)::mallopt(M_TRIM_THRESHOLD, kMiB);
+  (void)::mallopt(M_MMAP_THRESHOLD, 256 << 10);
+  (void)::mallopt(M_TRIM_THRESHOLD, 1 << 20);
 }
 
 /// An option that takes one of some words. CLI11's own way for an enum prints its values, which are no words, where a word is wrong.
