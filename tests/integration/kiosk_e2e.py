@@ -159,7 +159,7 @@ class Kiosk(EndToEnd):
         for arguments, said in (
                 (("--play", film, "--record", film), "this is the file of --play"),
                 (("--attract", film, "--record", other_name), "this is the file of --attract"),
-                (("--stereo", "side-by-side"), "side-by-side not in {mono,sbs,top-bottom,anaglyph,rows,quad,left,right}"),
+                (("--stereo", "side-by-side"), "side-by-side not in {mono,sbs,top-bottom,sbs-squeezed,top-bottom-squeezed,anaglyph,rows,quad,left,right}"),
                 (("--ask", "wrong"), "wrong not in {none,after,both}"),
                 (("--screen-width", "1.2"), "--screen-width requires --viewer-distance"),
                 (("--viewer-distance", "2"), "--viewer-distance requires --screen-width"),
