@@ -9,6 +9,7 @@
 #include "client-sdk/display/overlay_layout.hpp"
 #include "client-sdk/display/picking.hpp"
 #include "client-sdk/display/pointer_aid.hpp"
+#include "client-sdk/display/spare_memory.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -189,7 +190,9 @@ void DisplayLoop::tell_language() {
 
 /// The world's; an invitation's own assets go before.
 void DisplayLoop::upload() {
-  if (!attracts_ && world_.known()) renderer_.upload(world_.assets());
+  if (attracts_ || !world_.known()) return;
+  renderer_.upload(world_.assets());
+  give_spare_memory_back();
 }
 
 /// Nobody is there: a recorded visit invites. The world goes on behind it, so that whoever comes is in it at once.

@@ -8,9 +8,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include "client-sdk/display/display_app.hpp"
+#include "client-sdk/display/spare_memory.hpp"
 #include "server/log/log.hpp"
 
 namespace {
@@ -18,13 +18,6 @@ namespace {
 using namespace mechane;
 
 display::DisplayRequests g_requests;  // what a signal handler may write
-
-/// Images and meshes of an exhibit go when the next one comes. glibc raises its threshold for blocks of their own with each that is freed, keeps
-/// them in one heap instead, and what lies between them holds the heap up: through all exhibits and back it held some 90 MiB more.
-void give_large_blocks_back() {
-  (void)::mallopt(M_MMAP_THRESHOLD, 256 << 10);
-  (void)::mallopt(M_TRIM_THRESHOLD, 1 << 20);
-}
 
 /// An option that takes one of some words. CLI11's own way for an enum prints its values, which are no words, where a word is wrong.
 template <class Value>
@@ -184,7 +177,7 @@ void add_recording_options(CLI::App& app, display::DisplayOptions& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  give_large_blocks_back();
+  display::keep_large_blocks_apart();
   display::DisplayOptions options;
   std::string size = "1280x720";
   CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
