@@ -29,11 +29,6 @@ Duration duration_of(double s) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(s));
 }
 
-bool meant(const DisplayStatus& display, const DisplaysOptions& options) {
-  return (options.kiosk.empty() || display.kiosk == options.kiosk) &&
-         (options.display.empty() || display.display == options.display);
-}
-
 /// All that live, once no new one is found any more.
 std::vector<DisplayStatus> find_all(client::DisplayWatch& watch, const DisplaysOptions& options) {
   SystemClock clock;
@@ -52,7 +47,8 @@ std::vector<DisplayStatus> find_all(client::DisplayWatch& watch, const DisplaysO
 Expected<std::vector<DisplayStatus>> find(client::DisplayWatch& watch, const DisplaysOptions& options) {
   const std::vector<DisplayStatus> all = find_all(watch, options);
   std::vector<DisplayStatus> found;
-  std::ranges::copy_if(all, std::back_inserter(found), [&](const DisplayStatus& d) { return meant(d, options); });
+  std::ranges::copy_if(all, std::back_inserter(found),
+                       [&](const DisplayStatus& d) { return is_meant(d, options.kiosk, options.display); });
   if (found.empty()) return tl::unexpected(no_display(all, options.kiosk, options.display));
   return found;
 }

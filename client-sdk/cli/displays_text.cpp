@@ -162,6 +162,10 @@ std::vector<std::string> remarks_of(const DisplayStatus& display) {
   return remarks;
 }
 
+bool is_meant(const DisplayStatus& display, const std::string& kiosk, const std::string& name) {
+  return (kiosk.empty() || display.kiosk == kiosk) && (name.empty() || display.display == name);
+}
+
 Error no_display(const std::vector<DisplayStatus>& all, const std::string& kiosk, const std::string& display) {
   if (all.empty()) {
     return {"no display answered", "network",

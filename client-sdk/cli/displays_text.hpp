@@ -12,6 +12,9 @@ namespace mechane::cli {
 /// What is not as it should be with one display, and what to do; empty: all is well.
 [[nodiscard]] std::vector<std::string> remarks_of(const client::DisplayStatus& display);
 
+/// This kiosk's, and this display of it; empty names mean any.
+[[nodiscard]] bool is_meant(const client::DisplayStatus& display, const std::string& kiosk, const std::string& name);
+
 /// Why no display is meant by this kiosk's name and this display's (empty: any), where `all` live.
 [[nodiscard]] Error no_display(const std::vector<client::DisplayStatus>& all, const std::string& kiosk,
                                const std::string& display);

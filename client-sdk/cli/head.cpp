@@ -77,9 +77,7 @@ void Audience::look(TimePoint now, std::ostream& err) {
   if (known_ || (looked_ && now - *looked_ < kAudienceEvery)) return;
   looked_ = now;
   const std::vector<client::DisplayStatus> all = watch_.displays();
-  known_ = std::ranges::any_of(all, [this](const client::DisplayStatus& d) {
-    return d.kiosk == kiosk_ && (display_.empty() || d.display == display_);
-  });
+  known_ = std::ranges::any_of(all, [this](const client::DisplayStatus& d) { return is_meant(d, kiosk_, display_); });
   if (known_ || now - began_ < kTime) return;
   known_ = true;
   err << "mechane head: " << no_display(all, kiosk_, display_).to_string() << ". It goes on, for one that comes later\n"

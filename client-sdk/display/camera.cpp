@@ -75,7 +75,7 @@ Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPla
   Camera out = camera;
   const double eyes_m = screen.eye_distance_m > 0 ? screen.eye_distance_m : camera.eye_distance_m;
   out.eye_distance_m = eyes_m;
-  if (!(screen.width_m > 0) || !(screen.viewer_distance_m > 0)) return out;
+  if (!screen.known()) return out;
   const auto [half_tan, distance_m] = window_of(camera, aspect);
   const double scale = 2 * half_tan * distance_m * aspect / screen.width_m;
   const Vec3 back = (camera.p_WC - camera.p_WT).normalized();

@@ -46,6 +46,9 @@ struct ScreenSetup {
   double width_m = 0;            ///< of what one eye's picture fills; 0: not known
   double viewer_distance_m = 0;  ///< from the eyes to the screen; 0: not known
   double eye_distance_m = 0;     ///< 0: the camera's own
+
+  /// Depth can have its true proportions: the picture is a window, which stays where it is.
+  [[nodiscard]] bool known() const { return width_m > 0 && viewer_distance_m > 0; }
 };
 
 /// Where a head is before a screen. Frame S: the middle of the screen, x to the right, y up, z towards the visitor.
@@ -57,7 +60,7 @@ struct HeadPlace {
 /// The camera for such a screen. What lay in the plane of p_WT stays in the screen, as large as it was; the eyes stand before it as the visitor
 /// stands before the screen, all at one scale: depth has its true proportions, and what is far away has no more parallax than eyes are apart.
 /// `head`: where the visitor stands instead; null: at the screen's viewer distance, before its middle.
-/// Without a width and a distance only the eyes' distance is taken over, in metres of the world, and no head.
+/// For a screen that is not known only the eyes' distance is taken over, in metres of the world, and no head.
 [[nodiscard]] Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPlace* head, double aspect);
 
 /// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a little room left below for captions.

@@ -35,7 +35,7 @@ void HeadView::advance(const std::optional<client::ViewerHead>& head, TimePoint 
   const double dt_s = advanced_ ? std::clamp(to_seconds(now - *advanced_), 0.0, 0.25) : 0.0;
   advanced_ = now;
   tracked_ = head && head->seen && now - head->received < kSilence;
-  if (!(screen_.width_m > 0) || !(screen_.viewer_distance_m > 0)) return;
+  if (!screen_.known()) return;
   if (!tracked_ && !away_) return;
   const HeadPlace goal = tracked_ ? limited(head->X_SV) : home_;
   const Vec3 way_S = goal.p_SV - place_.p_SV;

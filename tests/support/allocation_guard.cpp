@@ -3,17 +3,7 @@
 #include <cerrno>
 #include <cstddef>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define MECHANE_COUNT_ALLOCATIONS 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define MECHANE_COUNT_ALLOCATIONS 0
-#else
-#define MECHANE_COUNT_ALLOCATIONS 1
-#endif
-#else
-#define MECHANE_COUNT_ALLOCATIONS 1
-#endif
+#include "server/base/sanitized.hpp"
 
 namespace {
 
@@ -23,7 +13,7 @@ thread_local constinit std::uint64_t free_count = 0;
 
 }  // namespace
 
-#if MECHANE_COUNT_ALLOCATIONS
+#if !MECHANE_SANITIZED
 // glibc's own entry points, under the names that it keeps for interposers.
 extern "C" {
 void* __libc_malloc(std::size_t size);
@@ -79,7 +69,7 @@ std::uint64_t AllocationGuard::frees() const noexcept {
 }
 
 bool AllocationGuard::available() noexcept {
-  return MECHANE_COUNT_ALLOCATIONS != 0;
+  return !kSanitized;
 }
 
 }  // namespace mechane::test

@@ -12,20 +12,10 @@
 #include <sys/resource.h>
 #include <sys/syscall.h>
 
+#include "server/base/sanitized.hpp"
+
 namespace mechane::content {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-#else
-constexpr bool kSanitized = false;
-#endif
 
 bool limit(int resource, std::uint64_t soft, std::uint64_t hard) {
   const rlimit wanted{soft, hard};

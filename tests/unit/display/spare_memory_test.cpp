@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "server/base/sanitized.hpp"
+
 namespace mechane::display {
 namespace {
 
@@ -23,13 +25,7 @@ TEST(SpareMemory, WhatLiesBetweenThingsThatStayGoesBack) {
 #ifndef __GLIBC__
   GTEST_SKIP() << "another allocator";
 #endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "the sanitizer's allocator";
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-  GTEST_SKIP() << "the sanitizer's allocator";
-#endif
-#endif
+  if (kSanitized) GTEST_SKIP() << "the sanitizer's allocator";
   constexpr std::size_t kBlock = 64 << 10;
   constexpr std::size_t kBlocks = 1600;  // 100 MiB
   std::vector<std::unique_ptr<char[]>> blocks;
