@@ -1,4 +1,4 @@
-// Large words cover what they speak of: the view then makes room above them. Pure: all that is timed takes the display's clock as an argument.
+// Many or large words cover what they speak of: the view then makes room above them. Pure: all that is timed takes the display's clock as an argument.
 #pragma once
 
 #include <optional>

@@ -78,8 +78,6 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   }
   auto renderer = Renderer::create(options.renderer);
   if (!renderer) return tl::unexpected(renderer.error());
-  auto typesetter = Typesetter::create(options.renderer.font_folder);
-  if (!typesetter) return tl::unexpected(typesetter.error());
   client::ClientConfig config;
   config.kiosk = options.kiosk;
   config.program = "mechane-display";
@@ -90,8 +88,8 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   auto attract = open_attract(options, catalogue ? &*catalogue : nullptr);
   if (!attract) return tl::unexpected(attract.error());
   if (source->recorded != nullptr) possible.ask = AskWhen::none;  // nobody is there who answers
-  return DisplayLoop(possible, requests, **context, **renderer, *source, **typesetter,
-                     catalogue ? &*catalogue : nullptr, std::move(*attract))
+  return DisplayLoop(possible, requests, **context, **renderer, *source, catalogue ? &*catalogue : nullptr,
+                     std::move(*attract))
       .run();
 }
 

@@ -81,8 +81,9 @@ void DisplayLoop::take_news(TimePoint now) {
   }
 }
 
-bool DisplayLoop::knows_screen() const {
-  return options_.screen.width_m > 0 && options_.screen.viewer_distance_m > 0;
+/// Many or large words cover what they speak of. A picture in true proportions is a window, which stays where it is.
+bool DisplayLoop::makes_room() const {
+  return !options_.screen.known();
 }
 
 /// The visitor's head, where the museum has a tracker.
@@ -90,7 +91,7 @@ void DisplayLoop::tend_head(TimePoint now) {
   const bool before = head_.tracked();
   head_.advance(client_.viewer_head(), now);
   if (head_.tracked() == before) return;
-  if (!before && !std::exchange(told_head_, true) && !knows_screen())
+  if (!before && !std::exchange(told_head_, true) && !options_.screen.known())
     log::warning(
         "a tracker tells where the visitor's head is, and this display does not know its screen: give --screen-width "
         "and --viewer-distance");
@@ -108,8 +109,7 @@ RenderScene DisplayLoop::build(TimePoint now) const {
                                 : world_.build(have_frame_ ? &frame_ : nullptr, client_.state());
   if (!attracts_) panel_.write(scene.overlay, now);
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
-  // Large words cover what they speak of. A picture in true proportions is a window, which stays where it is.
-  if (panel_.settings().style.text_scale > 1 && !knows_screen()) scene.camera.room_below = caption_room_.room_below();
+  if (makes_room()) scene.camera.room_below = caption_room_.room_below();
   const PixelSize eye = seen_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
     scene.camera = for_screen(scene.camera, options_.screen, head_.place(), aspect_of(eye));
@@ -145,8 +145,8 @@ void DisplayLoop::take_pointer(TimePoint now) {
   const RenderScene scene = build(now);
   const PointerScene under = under_pointer(scene);
   for (const PointerEvent& event : events) {
-    const bool covered = event.kind == PointerEvent::Kind::press &&
-                         (shown_.panel.has_value() || pressed({event.x, event.y}).has_value());
+    const bool covered =
+        event.kind == PointerEvent::Kind::press && (panel_shown_ || pressed({event.x, event.y}).has_value());
     pointer_->take(event, under, covered);
   }
   pointer_->update(under, now);
@@ -252,7 +252,7 @@ void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
   if (action) return panel_.press(*action, now);
   panel_.touch(now);
   if (attracts_) return;  // it means what is behind the invitation as little as a panel's
-  if (!shown_.panel) click_object(place, now);
+  if (!panel_shown_) click_object(place, now);
 }
 
 std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
@@ -260,15 +260,7 @@ std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
   const PixelSize eye = seen_size(options_.stereo, picture);
   if (eye.width < 2 || eye.height < 2) return {};
   const EyePlace seen = eye_at(options_.stereo, picture, place);
-  return action_at(laid_out(), (1 + seen.x) / 2 * eye.width, (1 - seen.y) / 2 * eye.height);
-}
-
-/// What the last picture had over it.
-OverlayLayout DisplayLoop::laid_out() const {
-  const MeasureText measure = [this](Face face, int px, std::string_view text) {
-    return typesetter_.width(face, px, text);
-  };
-  return lay_out(shown_, seen_size(options_.stereo, context_.size()), measure, shown_inset_ ? &*shown_inset_ : nullptr);
+  return action_at(renderer_.overlay(), (1 + seen.x) / 2 * eye.width, (1 - seen.y) / 2 * eye.height);
 }
 
 /// A click on a sign is as good as a finger.
@@ -295,9 +287,8 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
     renderer_.copy_to_window(size);
   }
   context_.present();
-  shown_ = scene.overlay;
-  shown_inset_ = scene.inset ? std::optional(scene.inset->caption) : std::nullopt;
-  if (shown_.style.text_scale > 1 && !shown_.panel) caption_room_.see(laid_out().covered_below, now);
+  panel_shown_ = scene.overlay.panel.has_value();
+  if (makes_room() && !panel_shown_) caption_room_.see(renderer_.overlay().covered_below, now);
   let_hear(scene.camera, now);
   ++summary_.frames;
   desk_.drawn(clock_.now() - began, clock_.now());

@@ -21,15 +21,13 @@ namespace mechane::display {
 class DisplayLoop {
  public:
   DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
-              DisplaySource& source, Typesetter& typesetter, const content::Catalogue* catalogue,
-              std::unique_ptr<AttractLoop> attract)
+              DisplaySource& source, const content::Catalogue* catalogue, std::unique_ptr<AttractLoop> attract)
       : options_(options),
         requests_(requests),
         context_(context),
         renderer_(renderer),
         source_(source),
         client_(*source.client),
-        typesetter_(typesetter),
         world_(open_assets(options, catalogue), options.language),
         head_(options.screen),
         attract_(std::move(attract)),
@@ -53,8 +51,7 @@ class DisplayLoop {
   void record(TimePoint now);
   void say_refusal();
   void say_stray();
-  [[nodiscard]] bool knows_screen() const;
-  [[nodiscard]] OverlayLayout laid_out() const;
+  [[nodiscard]] bool makes_room() const;
   Expected<void> draw(TimePoint now);
   Expected<void> survive(const Error& error);
   void let_hear(const Camera& ears, TimePoint now);
@@ -82,7 +79,6 @@ class DisplayLoop {
   Renderer& renderer_;
   DisplaySource& source_;
   client::Client& client_;
-  Typesetter& typesetter_;
   SystemClock clock_;
   ShownWorld world_;
   bool forces_shown_ = false;
@@ -99,8 +95,7 @@ class DisplayLoop {
   std::string spoken_;  ///< the language that all others know of
   std::string told_language_;
   std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told it
-  OverlayContent shown_;  ///< in the last picture: what a visitor clicks at
-  std::optional<std::string> shown_inset_;
+  bool panel_shown_ = false;                                            ///< in the last picture
   CaptionRoom caption_room_;
   std::string told_refusal_;
   std::string told_stray_;

@@ -77,11 +77,11 @@ void OverlayPass::draw(const RenderScene& scene, PixelSize size) {
   const MeasureText measure = [this](Face face, int px, std::string_view text) {
     return typesetter_->width(face, px, text);
   };
-  const OverlayLayout layout = lay_out(scene.overlay, size, measure, inset_caption);
+  layout_ = lay_out(scene.overlay, size, measure, inset_caption);
   std::vector<Vertex> vertices;
-  for (const OverlayShape& shape : layout.shapes)
+  for (const OverlayShape& shape : layout_.shapes)
     add_shape(vertices, shape);
-  for (const OverlayText& text : layout.texts) {
+  for (const OverlayText& text : layout_.texts) {
     const SetLine line = typesetter_->set_line(text.face, text.size_px, text.text);
     for (const PlacedGlyph& g : line.glyphs) {
       const Quad quad{std::round(text.x) + g.x, text.baseline + g.y, g.width, g.height, g.u0, g.v0, g.u1, g.v1};

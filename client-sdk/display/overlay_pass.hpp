@@ -11,6 +11,8 @@ class OverlayPass {
  public:
   [[nodiscard]] static Expected<OverlayPass> create(const std::string& font_folder);
   void draw(const RenderScene& scene, PixelSize size);
+  /// What was drawn last, and where.
+  [[nodiscard]] const OverlayLayout& layout() const { return layout_; }
 
  private:
   OverlayPass(Program program, std::unique_ptr<Typesetter> typesetter);
@@ -22,6 +24,7 @@ class OverlayPass {
   std::uint64_t atlas_revision_ = 0;
   VertexArrayName array_;
   BufferName vertices_;
+  OverlayLayout layout_;
 };
 
 }  // namespace mechane::display

@@ -52,6 +52,8 @@ class Renderer {
   [[nodiscard]] ImageData read_picture(Eye eye = Eye::left) const;
   /// Of the last picture, in the order drawn; both eyes' stand one after the other. Empty without RendererSettings::profile.
   [[nodiscard]] const std::vector<PassTime>& pass_times() const { return pass_times_; }
+  /// What the last picture has over it, in pixels of one eye's.
+  [[nodiscard]] const OverlayLayout& overlay() const { return passes_.overlay.layout(); }
   /// Waits until the last picture is drawn.
   static void finish();
   /// Copies the last picture into the window; after quad_buffer, into both of its pictures.
