@@ -10,7 +10,8 @@ namespace mechane::display {
 
 void keep_large_blocks_apart() {
 #ifdef __GLIBC__
-  (void)::mallopt(M_MMAP_THRESHOLD, 256 << 10);
+  // So large are the blocks in which Mesa's rasteriser on the processor keeps a picture's triangles.
+  (void)::mallopt(M_MMAP_THRESHOLD, 64 << 10);
   (void)::mallopt(M_TRIM_THRESHOLD, 1 << 20);
 #endif
 }
