@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "client-sdk/display/chance.hpp"
 #include "client-sdk/display/procedural_mesh.hpp"
 
 namespace mechane::display {
@@ -117,21 +118,6 @@ constexpr std::array<Habit, 5> kHabits{{
      {0.85F, 0.9F, 0.95F},
      ParticleShape::drop},
 }};
-
-/// Draws of a particle in one of its lives: 0..1 each, always the same (PCG's output permutation; O'Neill 2014).
-class Chance {
- public:
-  Chance(std::uint32_t effect, std::uint32_t particle, std::uint32_t life)
-      : state_((effect * 0x9E3779B9U) ^ (particle * 0x85EBCA6BU) ^ (life * 0xC2B2AE35U)) {}
-  float draw() {
-    state_ = state_ * 747796405U + 2891336453U;
-    const std::uint32_t word = ((state_ >> ((state_ >> 28U) + 4U)) ^ state_) * 277803737U;
-    return static_cast<float>(((word >> 22U) ^ word) >> 8U) / static_cast<float>(1U << 24U);
-  }
-
- private:
-  std::uint32_t state_;
-};
 
 /// A point of the unit disc across `along`.
 Vec3f on_disc(const Vec3f& along, Chance& chance) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "client-sdk/display/country.hpp"
 #include "client-sdk/display/effect_builder.hpp"
 #include "client-sdk/display/river_reach.hpp"
 
@@ -16,6 +17,9 @@ constexpr double kLeastLevel_m = 0.002;
 constexpr float kLandscape_m = 40;
 /// How far about what is touched things throw shadows: farther off, haze and distance take them.
 constexpr float kShadowReach_m = 70;
+/// About all scenery, and from the middle: nothing grows where people stand and stones fly.
+constexpr float kClearing_m = 13;
+constexpr float kLeastClearing_m = 20;
 /// What is touched has the sharpest shadows, as far as it is no larger than this.
 constexpr float kSharpReach_m = 2.5F;
 /// What is farther away than any place is large came loose from its world, or was never in it: it is not drawn, and its numbers go into
@@ -105,6 +109,7 @@ void SceneBuilder::set_manifest(const std::vector<client::SceneObject>& objects)
   add_scenery(objects);
   find_place();
   let_flow();
+  let_grow();
 }
 
 void SceneBuilder::add_scenery(const std::vector<client::SceneObject>& objects) {
@@ -142,6 +147,7 @@ void SceneBuilder::set_presentation(std::shared_ptr<const client::WorldPresentat
   presentation_ = std::move(presentation);
   find_place();
   let_flow();
+  let_grow();
 }
 
 /// Rivers go on beyond what was modelled of them, both ways, over the plain.
@@ -162,6 +168,32 @@ void SceneBuilder::let_flow() {
       }
     }
   }
+}
+
+bool SceneBuilder::is_landscape() const {
+  return !box_W_.isEmpty() && box_W_.sizes().maxCoeff() >= kLandscape_m;
+}
+
+/// Trees about modelled earth. Once, as what the library has been given stays in it; and by scenery alone, since a manifest comes object by object.
+void SceneBuilder::let_grow() {
+  if (!country_.empty() || presentation_ == nullptr || !land_material_ || is_landscape()) return;
+  Eigen::AlignedBox3f things_W(Vec3f(camera_.p_WC.cast<float>()));
+  CountryPlan plan;
+  for (const Placed& placed : scenery_) {
+    if (is_stray(placed.object.X_WB.p)) continue;
+    things_W.extend(moved(placed.model->box_B, placed.object.X_WB));
+    for (const ModelPart& part : placed.model->parts)
+      if (part.water) add_water(library_.assets().meshes[part.mesh], affine(placed.object.X_WB), plan);
+    for (const WaterInstance& reach : placed.reaches)
+      add_water(library_.assets().meshes[reach.mesh], reach.X_WM, plan);
+  }
+  plan.middle_W = things_W.center();
+  plan.middle_W.y() = *ground_height_m_;
+  const Vec3f sizes = things_W.sizes();
+  plan.clearing_m = std::max(std::hypot(sizes.x(), sizes.z()) / 2 + kClearing_m, kLeastClearing_m);
+  plan.to_sun_W = Sun{}.to_sun_W;
+  plan.seed = static_cast<std::uint32_t>(100 * sizes.norm());
+  country_ = grow(plan, plants_of(plan), library_);
 }
 
 void SceneBuilder::find_place() {
@@ -194,7 +226,7 @@ void SceneBuilder::find_place() {
   // The plain lies under the modelled ground, which is never quite level.
   if (!box_W_.isEmpty()) ground_height_m_ = scenery_.empty() ? std::min(box_W_.min().y(), 0.0F) : -0.06F;
   camera_ = standpoint();
-  if (box_W_.isEmpty() || box_W_.sizes().maxCoeff() < kLandscape_m) return;
+  if (!is_landscape()) return;
   ground_height_m_ = box_W_.min().y();  // under its rivers too
   const Vec3f reach = Vec3f::Constant(kShadowReach_m);
   shadow_box_W_ = box_W_.intersection({touched - reach, touched + reach});
@@ -203,8 +235,7 @@ void SceneBuilder::find_place() {
 Camera SceneBuilder::standpoint() const {
   if (presentation_ && !presentation_->views.empty() && !is_stray(presentation_->views.front().X_WV.p))
     return above_caption(camera_at(presentation_->views.front(), interest_W_));
-  const bool landscape = !box_W_.isEmpty() && box_W_.sizes().maxCoeff() >= kLandscape_m;
-  return landscape ? look_over(interest_W_) : frame_box(interest_W_, Vec3(0.20, 0.27, 1.0), 40.0 * kPi / 180);
+  return is_landscape() ? look_over(interest_W_) : frame_box(interest_W_, Vec3(0.20, 0.27, 1.0), 40.0 * kPi / 180);
 }
 
 Pose SceneBuilder::pose_of(const Placed& placed, const client::Frame* frame) const {
@@ -235,6 +266,7 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
   }
   for (const Placed& placed : scenery_)
     add_object(placed, placed.object.X_WB, frame, scene);
+  scene.instances.insert(scene.instances.end(), country_.begin(), country_.end());
   if (frame != nullptr) add_what_moves(*frame, status, scene);
   if (status != nullptr) {
     scene.inset = detail(*status);

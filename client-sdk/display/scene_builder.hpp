@@ -45,6 +45,8 @@ class SceneBuilder {
   void add_scenery(const std::vector<client::SceneObject>& objects);
   void find_place();
   void let_flow();
+  void let_grow();
+  [[nodiscard]] bool is_landscape() const;
   /// Where a display stands: as the scenario says, or before what can be touched.
   [[nodiscard]] Camera standpoint() const;
   [[nodiscard]] std::optional<Inset> detail(const client::WorldStatus& status) const;
@@ -59,8 +61,9 @@ class SceneBuilder {
   OverlayWriter writer_;
   std::string language_;
   std::string stray_;
-  std::vector<Placed> objects_;  ///< of the manifest
-  std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
+  std::vector<Placed> objects_;    ///< of the manifest
+  std::vector<Placed> scenery_;    ///< parts of the same files that no object names: SCENE, WATER_...
+  std::vector<Instance> country_;  ///< once made, it stays
   Camera camera_;
   Eigen::AlignedBox3f box_W_;
   Eigen::AlignedBox3f shadow_box_W_;

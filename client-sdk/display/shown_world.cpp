@@ -44,8 +44,9 @@ ShownWorld::News ShownWorld::hear(const client::Client& client) {
   if (auto presentation = client.presentation(); presentation != presentation_) {
     presentation_ = std::move(presentation);
     builder_->set_presentation(presentation_);
+    news.assets = true;  // it lets rivers go on, and trees grow
   }
-  news.assets = take_manifest(client.objects());
+  news.assets = take_manifest(client.objects()) || news.assets;
   // Asked before what came is taken, lest something comes in between.
   news.whole = !source_.store || (!objects_.empty() && !source_.store->is_awaited(kAssetPatience));
   news.assets = take_arrived() || news.assets;

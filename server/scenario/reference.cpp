@@ -71,6 +71,9 @@ A `.glb` (glTF 2.0 in one file), in metres, with y up, as Blender exports it. It
 | `WATER_*` | drawn as water. A `level` effect raises it: let it lie at the floor. A `flow` lets it flow, and carries it on over the plain where the model ends: let it reach the model's border, straight across |
 | any other | is not drawn |
 
+What a material named `earth` paints looks like the plain that a display lays about the exhibit, whatever its own colours: its edge is not seen, and
+trees grow around it, from 13 m beyond `SCENE` on (unless the model is a landscape, over 40 m wide).
+
 `mechane fit FILE.glb` shows how true each part feels.
 )";
 

@@ -266,6 +266,30 @@ TEST(SceneBuilder, a_landscape_is_seen_over_what_is_touched) {
   EXPECT_LE(*scene.ground_height_m, -0.75F) << "the plain hides nothing of the modelled land";
 }
 
+TEST(SceneBuilder, trees_stand_about_an_exhibit_on_earth_once_and_not_about_a_landscape) {
+  for (const double half_m : {2.0, 80.0}) {
+    AssetLibrary library([&](const std::string&) -> Expected<content::ImportedScene> {
+      content::ImportedScene scene = machine_file();
+      scene.meshes[1] = imported(box_mesh(Vec3(half_m, 0.1, half_m)));
+      scene.meshes[1].material = 1;
+      scene.materials[1].name = "earth";
+      return scene;
+    });
+    SceneBuilder builder(library, "en");
+    builder.set_manifest({object(0, "machine.glb", "OUTER")});
+    const auto instances = [&] { return builder.build(nullptr, nullptr, client::LinkState::joined).instances.size(); };
+    const std::size_t bare = instances();
+    const auto presentation = std::make_shared<client::WorldPresentation>();
+    builder.set_presentation(presentation);
+    const std::size_t grown = instances();
+    EXPECT_EQ(grown > bare, half_m < 10) << half_m;
+    const std::size_t meshes = library.assets().meshes.size();
+    builder.set_presentation(presentation);
+    EXPECT_EQ(instances(), grown);
+    EXPECT_EQ(library.assets().meshes.size(), meshes) << "not more with each word of the server";
+  }
+}
+
 TEST(SceneBuilder, nothing_moves_but_what_the_frame_says) {
   int loads = 0;
   AssetLibrary library = library_of(loads);
