@@ -48,6 +48,10 @@ class AssetLibrary {
   std::uint32_t add_material(const MaterialData& material);
 
   [[nodiscard]] const SceneAssets& assets() const { return assets_; }
+  /// How much there is: another number, and there is something to upload.
+  [[nodiscard]] std::size_t size() const {
+    return assets_.meshes.size() + assets_.materials.size() + assets_.images.size();
+  }
   /// "uri" or "uri#node", in order of name.
   [[nodiscard]] const std::set<std::string>& missing() const { return missing_; }
 

@@ -1,4 +1,4 @@
-// Draws that are always the same, on every machine: pictures must not depend on a library's generator.
+// Draws that are always the same: pictures must not depend on a library's generator.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,8 @@
 namespace mechane::display {
 namespace {
 
-constexpr float kBrushland_m = 40;  ///< beyond the clearing
-constexpr float kCountry_m = 190;   ///< beyond it haze has all
+constexpr float kBrushland_m = 40;  ///< beyond the clearing, as the next
+constexpr float kCountry_m = 190;   ///< then haze has all
 constexpr int kBrush = 70;
 constexpr int kTrees = 140;
 constexpr int kCypresses = 9;
@@ -240,18 +240,19 @@ bool is_wet(const CountryPlan& plan, const Vec3f& p_W) {
       if (distance_to_segment_m(p, a, b) < kBank_m) return true;
       side[k] = (b - a).x() * (p - a).y() - (b - a).y() * (p - a).x();
     }
-    return (side[0] > 0) == (side[1] > 0) && (side[1] > 0) == (side[2] > 0);
+    return std::ranges::all_of(side, [](float s) { return s > 0; }) ||
+           std::ranges::all_of(side, [](float s) { return s < 0; });
   });
 }
 
 void scatter(const CountryPlan& plan, Plant::Kind kind, int count, float reach_m, std::vector<Plant>& out) {
-  Dice dice(17 + plan.seed, static_cast<std::uint32_t>(kind));
+  Dice dice(plan.seed, 1 + static_cast<std::uint32_t>(kind));
   for (int tries = 0, made = 0; made < count && tries < 20 * count; ++tries) {
     // More of them near, where each is seen alone.
     const float away = plan.clearing_m + reach_m * std::pow(dice.within(0, 1), 1.15F);
     const float a = dice.within(0, kWholeTurn);
     Plant plant{kind, plan.middle_W + away * Vec3f(std::cos(a), 0, std::sin(a)), 1,
-                static_cast<std::uint32_t>(1 + tries)};
+                1000 * plan.seed + static_cast<std::uint32_t>(tries)};
     const float size = dice.within(0, 1);
     plant.height_m = kind == Plant::Kind::olive     ? 3.0F + 1.4F * size
                      : kind == Plant::Kind::cypress ? 6.5F + 3 * size
@@ -301,8 +302,12 @@ std::vector<Instance> grow(const CountryPlan& plan, const std::vector<Plant>& pl
   std::vector<Instance> out;
   const auto add = [&](Growth& growth, const MaterialData& material) {
     if (growth.empty()) return;
-    out.push_back(
-        {library.add_mesh(growth.take()), library.add_material(material), Eigen::Affine3f::Identity(), false});
+    out.push_back({library.add_mesh(growth.take()),
+                   library.add_material(material),
+                   Eigen::Affine3f::Identity(),
+                   false,
+                   {},
+                   false});
   };
   add(grown.bark, leaf(0.200F, 0.165F, 0.125F));
   add(grown.pale, leaf(0.265F, 0.295F, 0.165F));

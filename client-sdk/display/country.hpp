@@ -11,7 +11,6 @@
 
 namespace mechane::display {
 
-/// One plant, by its place alone.
 struct Plant {
   enum class Kind : std::uint8_t { olive, cypress, brush };
   Kind kind = Kind::olive;
@@ -22,14 +21,14 @@ struct Plant {
 
 /// Where things may grow.
 struct CountryPlan {
-  Vec3f middle_W = Vec3f::Zero();  ///< on the ground, amid what is touched
+  Vec3f middle_W = Vec3f::Zero();  ///< on the ground, amid scenery and viewpoint
   float clearing_m = 0;            ///< about the middle, nothing grows: there people stand, stones fly
   Vec3f to_sun_W = Vec3f::UnitY();
-  std::uint32_t seed = 0;                        ///< another place has other trees
+  std::uint32_t seed = 0;                        ///< another number, other trees
   std::vector<std::array<Vec3f, 3>> waters_W{};  ///< triangles: nothing grows in them, nor on their banks
 };
 
-/// Adds the triangles of a water's mesh.
+/// Adds the triangles of a water's mesh, of some hundreds: each place is held against each.
 void add_water(const MeshData& mesh_M, const Eigen::Affine3f& X_WM, CountryPlan& plan);
 
 /// The same plan has the same plants, the nearest not always first.

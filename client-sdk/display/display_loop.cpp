@@ -81,9 +81,13 @@ void DisplayLoop::take_news(TimePoint now) {
   }
 }
 
-/// Many or large words cover what they speak of. A picture in true proportions is a window, which stays where it is.
-bool DisplayLoop::makes_room() const {
-  return !options_.screen.known();
+/// Many or large words cover what they speak of. A picture in true proportions is a window, which stays where it is; and what a pointer drags must stay
+/// under it.
+void DisplayLoop::make_room(RenderScene& scene, TimePoint now) {
+  if (options_.screen.known()) return;
+  const bool may_move = !scene.overlay.panel && (!pointer_ || pointer_->is_away());
+  if (may_move) caption_room_.see(renderer_.lay_out(scene, options_.stereo, context_.size()).covered_below, now);
+  scene.camera.room_below = caption_room_.room_below();
 }
 
 /// The visitor's head, where the museum has a tracker.
@@ -109,7 +113,7 @@ RenderScene DisplayLoop::build(TimePoint now) const {
                                 : world_.build(have_frame_ ? &frame_ : nullptr, client_.state());
   if (!attracts_) panel_.write(scene.overlay, now);
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
-  if (makes_room()) scene.camera.room_below = caption_room_.room_below();
+  if (!options_.screen.known()) scene.camera.room_below = caption_room_.room_below();  // as it was seen last
   const PixelSize eye = seen_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
     scene.camera = for_screen(scene.camera, options_.screen, head_.place(), aspect_of(eye));
@@ -260,7 +264,8 @@ std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
   const PixelSize eye = seen_size(options_.stereo, picture);
   if (eye.width < 2 || eye.height < 2) return {};
   const EyePlace seen = eye_at(options_.stereo, picture, place);
-  return action_at(renderer_.overlay(), (1 + seen.x) / 2 * eye.width, (1 - seen.y) / 2 * eye.height);
+  const OverlayLayout& shown = renderer_.overlay();
+  return action_at(shown, (1 + seen.x) / 2 * shown.size.width, (1 - seen.y) / 2 * shown.size.height);
 }
 
 /// A click on a sign is as good as a finger.
@@ -275,11 +280,12 @@ void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
 
 Expected<void> DisplayLoop::draw(TimePoint now) {
   const TimePoint began = clock_.now();
-  const RenderScene scene = build(now);
+  RenderScene scene = build(now);
   const PixelSize size = context_.size();
   say_stray();
   // A window that is minimised has no pixels.
   if (size.width < 2 || size.height < 2) return {};
+  make_room(scene, now);
   if (auto ok = renderer_.draw(scene, options_.stereo, size); !ok) return survive(ok.error());
   if (options_.offscreen) {
     renderer_.finish();
@@ -288,7 +294,6 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   }
   context_.present();
   panel_shown_ = scene.overlay.panel.has_value();
-  if (makes_room() && !panel_shown_) caption_room_.see(renderer_.overlay().covered_below, now);
   let_hear(scene.camera, now);
   ++summary_.frames;
   desk_.drawn(clock_.now() - began, clock_.now());

@@ -51,7 +51,7 @@ class DisplayLoop {
   void record(TimePoint now);
   void say_refusal();
   void say_stray();
-  [[nodiscard]] bool makes_room() const;
+  void make_room(RenderScene& scene, TimePoint now);
   Expected<void> draw(TimePoint now);
   Expected<void> survive(const Error& error);
   void let_hear(const Camera& ears, TimePoint now);

@@ -259,6 +259,7 @@ std::vector<std::string> break_lines(std::string_view text, float width,
 OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const MeasureText& measure,
                       const std::string* inset_caption) {
   Page page(size, content.style, measure);
+  page.out.size = size;
   for (const OverlayDot& dot : content.dots)
     page.add_shape({dot.x - dot.radius, dot.y - dot.radius, 2 * dot.radius, 2 * dot.radius}, dot.radius, dot.colour);
   Box inset;

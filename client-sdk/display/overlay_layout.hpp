@@ -44,6 +44,7 @@ struct OverlayTarget {
 };
 
 struct OverlayLayout {
+  PixelSize size;                    ///< of the picture
   std::vector<OverlayShape> shapes;  ///< drawn first, in order
   std::vector<OverlayText> texts;
   std::vector<OverlayTarget> targets;  ///< none lies over another

@@ -72,12 +72,16 @@ void OverlayPass::upload_atlas() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-void OverlayPass::draw(const RenderScene& scene, PixelSize size) {
+const OverlayLayout& OverlayPass::lay_out(const RenderScene& scene, PixelSize size) {
   const std::string* inset_caption = scene.inset ? &scene.inset->caption : nullptr;
   const MeasureText measure = [this](Face face, int px, std::string_view text) {
     return typesetter_->width(face, px, text);
   };
-  layout_ = lay_out(scene.overlay, size, measure, inset_caption);
+  layout_ = display::lay_out(scene.overlay, size, measure, inset_caption);
+  return layout_;
+}
+
+void OverlayPass::draw() {
   std::vector<Vertex> vertices;
   for (const OverlayShape& shape : layout_.shapes)
     add_shape(vertices, shape);
@@ -94,7 +98,8 @@ void OverlayPass::draw(const RenderScene& scene, PixelSize size) {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   program_.use();
-  program_.set("size", Eigen::Vector2f(static_cast<float>(size.width), static_cast<float>(size.height)));
+  program_.set("size",
+               Eigen::Vector2f(static_cast<float>(layout_.size.width), static_cast<float>(layout_.size.height)));
   program_.set("atlas", 0);
   upload_atlas();
   glBindVertexArray(array_.get());

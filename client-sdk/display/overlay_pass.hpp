@@ -10,9 +10,11 @@ namespace mechane::display {
 class OverlayPass {
  public:
   [[nodiscard]] static Expected<OverlayPass> create(const std::string& font_folder);
-  void draw(const RenderScene& scene, PixelSize size);
-  /// What was drawn last, and where.
+  /// Where all of the scene's words go in an eye's picture of this size.
+  const OverlayLayout& lay_out(const RenderScene& scene, PixelSize size);
   [[nodiscard]] const OverlayLayout& layout() const { return layout_; }
+  /// What was laid out last.
+  void draw();
 
  private:
   OverlayPass(Program program, std::unique_ptr<Typesetter> typesetter);

@@ -106,6 +106,8 @@ void OpaquePass::draw(const PassInput& input) const {
   }
   glDisable(GL_CULL_FACE);
   begin_materials(ground_, input);
+  constexpr float kNone_m = -1e6F;
+  ground_.set("plain_height_m", input.scene.ground_height_m.value_or(kNone_m));
   draw_solid(from_front_to_back(input, true), ground_, input);
   glDisable(GL_CULL_FACE);
   if (input.scene.ground_height_m) draw_plain(input);

@@ -48,6 +48,7 @@ std::optional<Picked> picked_at(const RenderScene& scene, const SceneAssets& ass
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<std::uint32_t> object;
   for (const Instance& instance : scene.instances) {
+    if (!instance.near) continue;
     const float distance = distance_to(ray, instance, assets.meshes[instance.mesh]);
     if (distance >= nearest) continue;
     nearest = distance;

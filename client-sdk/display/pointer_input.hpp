@@ -50,6 +50,8 @@ class PointerInput {
   void update(const PointerScene& scene, TimePoint now);
   /// Nothing is held, pressed, or to be looked for: this picture needs no update().
   [[nodiscard]] bool rests(TimePoint now);
+  /// The hand is nowhere: it reaches for nothing and holds nothing.
+  [[nodiscard]] bool is_away() const { return link_.view().phase == PointerView::Phase::resting; }
   /// Another world is shown: what the keys pointed at is gone.
   void forget_world();
   /// Adds what helps to find the way.

@@ -60,6 +60,7 @@ struct Instance {
   Eigen::Affine3f X_WM = Eigen::Affine3f::Identity();
   bool casts_shadow = true;
   std::optional<std::uint32_t> object{};  ///< of the manifest, where somebody may click on it
+  bool near = true;                       ///< false: too far away to hide what somebody points at
 };
 
 /// A surface of water: drawn after all that is opaque, with ripples of its own normals.

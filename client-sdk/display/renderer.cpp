@@ -122,6 +122,7 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
     const EyeView view = eye_view(scene.inset->camera, Eye::middle, aspect_of({place.width, place.height}));
     if (auto ok = draw_view(scene, view, shadows, *inset_); !ok) return ok;
   }
+  lay_out(scene, stereo, size);
   const std::vector<Eye> eyes = eyes_of(stereo);
   for (std::size_t i = 0; i < eyes.size(); ++i) {
     const EyeView view = eye_view(scene.camera, eyes[i], aspect_of(seen));
@@ -220,7 +221,7 @@ Expected<void> Renderer::finish_eye(const RenderScene& scene, const EyeView& vie
     passes_.tone.draw(*inset_, settings_.exposure, {});
     glViewport(into.x, into.y, width, height);
   }
-  passes_.overlay.draw(scene, into.seen);
+  passes_.overlay.draw();
   return {};
 }
 

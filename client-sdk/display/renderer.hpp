@@ -52,6 +52,10 @@ class Renderer {
   [[nodiscard]] ImageData read_picture(Eye eye = Eye::left) const;
   /// Of the last picture, in the order drawn; both eyes' stand one after the other. Empty without RendererSettings::profile.
   [[nodiscard]] const std::vector<PassTime>& pass_times() const { return pass_times_; }
+  /// Where the scene's words go, before it is drawn.
+  const OverlayLayout& lay_out(const RenderScene& scene, Stereo stereo, PixelSize size) {
+    return passes_.overlay.lay_out(scene, seen_size(stereo, size));
+  }
   /// What the last picture has over it, in pixels of one eye's.
   [[nodiscard]] const OverlayLayout& overlay() const { return passes_.overlay.layout(); }
   /// Waits until the last picture is drawn.

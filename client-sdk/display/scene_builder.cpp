@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "client-sdk/display/country.hpp"
 #include "client-sdk/display/effect_builder.hpp"
@@ -20,6 +21,8 @@ constexpr float kShadowReach_m = 70;
 /// About all scenery, and from the middle: nothing grows where people stand and stones fly.
 constexpr float kClearing_m = 13;
 constexpr float kLeastClearing_m = 20;
+/// Farther off, nobody sees a tree.
+constexpr float kMostClearing_m = 120;
 /// What is touched has the sharpest shadows, as far as it is no larger than this.
 constexpr float kSharpReach_m = 2.5F;
 /// What is farther away than any place is large came loose from its world, or was never in it: it is not drawn, and its numbers go into
@@ -58,6 +61,14 @@ Eigen::AlignedBox3f moved(const Eigen::AlignedBox3f& box_B, const Pose& X_WB) {
     box_W.extend(X * box_B.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
   }
   return box_W;
+}
+
+bool is_earth(const ModelPart& part, const SceneAssets& assets) {
+  return !part.water && assets.materials[part.material].land;
+}
+
+bool has_earth(const ObjectModel& model, const SceneAssets& assets) {
+  return std::ranges::any_of(model.parts, [&](const ModelPart& part) { return is_earth(part, assets); });
 }
 
 /// Stands before what is to be touched, at a grown person's height, and sees the land beyond over it.
@@ -113,7 +124,7 @@ void SceneBuilder::set_manifest(const std::vector<client::SceneObject>& objects)
 }
 
 void SceneBuilder::add_scenery(const std::vector<client::SceneObject>& objects) {
-  scenery_.clear();
+  const std::vector<Placed> before = std::exchange(scenery_, {});
   std::set<std::pair<std::string, std::string>> named;
   std::set<std::string> files;
   for (const client::SceneObject& object : objects) {
@@ -134,6 +145,10 @@ void SceneBuilder::add_scenery(const std::vector<client::SceneObject>& objects) 
       const Eigen::Affine3d X_FN = content::pose_in(*file, static_cast<std::uint32_t>(&node - file->nodes.data()), {});
       object.X_WB = {X_FN.translation(), Quat(X_FN.rotation())};
       scenery_.push_back({object, &library_.model(uri, node.name)});
+      const auto same = std::ranges::find_if(before, [&](const Placed& placed) {
+        return placed.object.mesh_uri == uri && placed.object.mesh_node == node.name;
+      });
+      if (same != before.end() && !same->model->missing) scenery_.back().reaches = same->reaches;
     }
   }
 }
@@ -174,26 +189,30 @@ bool SceneBuilder::is_landscape() const {
   return !box_W_.isEmpty() && box_W_.sizes().maxCoeff() >= kLandscape_m;
 }
 
-/// Trees about modelled earth. Once, as what the library has been given stays in it; and by scenery alone, since a manifest comes object by object.
+/// Trees about scenery that stands on earth: by scenery and the viewpoint alone, since bodies come one by one, and fly about.
 void SceneBuilder::let_grow() {
-  if (!country_.empty() || presentation_ == nullptr || !land_material_ || is_landscape()) return;
-  Eigen::AlignedBox3f things_W(Vec3f(camera_.p_WC.cast<float>()));
+  if (presentation_ == nullptr || !ground_height_m_) return;
+  Eigen::AlignedBox3f scenery_W;
+  bool earth = false;
   CountryPlan plan;
   for (const Placed& placed : scenery_) {
     if (is_stray(placed.object.X_WB.p)) continue;
-    things_W.extend(moved(placed.model->box_B, placed.object.X_WB));
-    for (const ModelPart& part : placed.model->parts)
-      if (part.water) add_water(library_.assets().meshes[part.mesh], affine(placed.object.X_WB), plan);
+    scenery_W.extend(moved(placed.model->box_B, placed.object.X_WB));
+    earth = earth || has_earth(*placed.model, library_.assets());
     for (const WaterInstance& reach : placed.reaches)
       add_water(library_.assets().meshes[reach.mesh], reach.X_WM, plan);
   }
-  plan.middle_W = things_W.center();
+  if (!earth) return;
+  if (!presentation_->views.empty()) scenery_W.extend(Vec3f(camera_.p_WC.cast<float>()));
+  if (grown_about_W_.isApprox(scenery_W)) return;  // what the library has been given stays in it
+  grown_about_W_ = scenery_W;
+  const Vec3f sizes = scenery_W.sizes();
+  plan.middle_W = scenery_W.center();
   plan.middle_W.y() = *ground_height_m_;
-  const Vec3f sizes = things_W.sizes();
   plan.clearing_m = std::max(std::hypot(sizes.x(), sizes.z()) / 2 + kClearing_m, kLeastClearing_m);
   plan.to_sun_W = Sun{}.to_sun_W;
   plan.seed = static_cast<std::uint32_t>(100 * sizes.norm());
-  country_ = grow(plan, plants_of(plan), library_);
+  country_ = plan.clearing_m < kMostClearing_m ? grow(plan, plants_of(plan), library_) : std::vector<Instance>();
 }
 
 void SceneBuilder::find_place() {
@@ -207,7 +226,7 @@ void SceneBuilder::find_place() {
       const Eigen::AlignedBox3f box_W = moved(placed.model->box_B, placed.object.X_WB);
       box_W_.extend(box_W);
       for (const ModelPart& part : placed.model->parts) {
-        if (!part.water && library_.assets().materials[part.material].land) land_material_ = part.material;
+        if (is_earth(part, library_.assets())) land_material_ = part.material;
       }
       const bool rises = presentation_ && std::ranges::any_of(presentation_->effects, [&](const client::Effect& e) {
                            return e.kind == "level" && e.node == placed.object.mesh_node;
@@ -266,7 +285,7 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
   }
   for (const Placed& placed : scenery_)
     add_object(placed, placed.object.X_WB, frame, scene);
-  scene.instances.insert(scene.instances.end(), country_.begin(), country_.end());
+  if (!is_landscape()) scene.instances.insert(scene.instances.end(), country_.begin(), country_.end());
   if (frame != nullptr) add_what_moves(*frame, status, scene);
   if (status != nullptr) {
     scene.inset = detail(*status);

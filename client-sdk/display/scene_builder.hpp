@@ -61,9 +61,10 @@ class SceneBuilder {
   OverlayWriter writer_;
   std::string language_;
   std::string stray_;
-  std::vector<Placed> objects_;    ///< of the manifest
-  std::vector<Placed> scenery_;    ///< parts of the same files that no object names: SCENE, WATER_...
-  std::vector<Instance> country_;  ///< once made, it stays
+  std::vector<Placed> objects_;  ///< of the manifest
+  std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
+  std::vector<Instance> country_;
+  Eigen::AlignedBox3f grown_about_W_;  ///< empty: not yet
   Camera camera_;
   Eigen::AlignedBox3f box_W_;
   Eigen::AlignedBox3f shadow_box_W_;

@@ -41,36 +41,35 @@ ShownWorld::News ShownWorld::hear(const client::Client& client) {
     if (news.another_world) begin();
   }
   if (!known()) return news;
+  const std::size_t before = news.another_world ? 0 : library_->size();
   if (auto presentation = client.presentation(); presentation != presentation_) {
     presentation_ = std::move(presentation);
-    builder_->set_presentation(presentation_);
-    news.assets = true;  // it lets rivers go on, and trees grow
+    builder_->set_presentation(presentation_);  // it may let rivers go on, and trees grow
   }
-  news.assets = take_manifest(client.objects()) || news.assets;
+  take_manifest(client.objects());
   // Asked before what came is taken, lest something comes in between.
   news.whole = !source_.store || (!objects_.empty() && !source_.store->is_awaited(kAssetPatience));
-  news.assets = take_arrived() || news.assets;
+  take_arrived();
+  news.assets = library_->size() != before;
   return news;
 }
 
 /// It only grows, object by object as they arrive.
-bool ShownWorld::take_manifest(std::vector<client::SceneObject> objects) {
-  if (objects.size() == objects_.size()) return false;
+void ShownWorld::take_manifest(std::vector<client::SceneObject> objects) {
+  if (objects.size() == objects_.size()) return;
   objects_ = std::move(objects);
   for (const client::SceneObject& object : objects_)
     files_->expect(object.mesh_uri, object.mesh_hash);
   builder_->set_manifest(objects_);
-  return true;
 }
 
 /// Files that came from the server of assets take their placeholders' place.
-bool ShownWorld::take_arrived() {
-  if (!source_.store || objects_.empty()) return false;
+void ShownWorld::take_arrived() {
+  if (!source_.store || objects_.empty()) return;
   bool any = false;
   for (const std::string& name : source_.store->take_arrived())
     any = library_->load_again(name) || any;
   if (any) builder_->set_manifest(objects_);
-  return any;
 }
 
 void ShownWorld::set_language(const std::string& language) {

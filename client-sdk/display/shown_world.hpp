@@ -62,8 +62,8 @@ class ShownWorld {
 
  private:
   void begin();
-  bool take_manifest(std::vector<client::SceneObject> objects);
-  bool take_arrived();
+  void take_manifest(std::vector<client::SceneObject> objects);
+  void take_arrived();
 
   AssetSource source_;
   std::string language_;

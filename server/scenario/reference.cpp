@@ -72,7 +72,7 @@ A `.glb` (glTF 2.0 in one file), in metres, with y up, as Blender exports it. It
 | any other | is not drawn |
 
 What a material named `earth` paints looks like the plain that a display lays about the exhibit, whatever its own colours: its edge is not seen, and
-trees grow around it, from 13 m beyond `SCENE` on (unless the model is a landscape, over 40 m wide).
+trees grow about `SCENE`, 13 m beyond it and its viewpoint (unless the model is a landscape, 40 m or more in any direction).
 
 `mechane fit FILE.glb` shows how true each part feels.
 )";

@@ -7,6 +7,7 @@ out vec4 colour;
 
 uniform sampler2D base_image;
 uniform sampler2D normal_image;
+uniform float plain_height_m;
 
 void main() {
   vec3 n = normalize(n_W);
@@ -17,6 +18,8 @@ void main() {
     q -= p_W.y * n.xz;
     n = vec3(0.0, 1.0, 0.0);
   }
+  // Where it goes under the plain it is as level as that: a rim that slopes would be seen by its light.
+  n = normalize(mix(n, vec3(0.0, 1.0, 0.0), 1.0 - smoothstep(0.02, 0.12, abs(p_W.y - plain_height_m))));
   Surface s = Surface(land_base(base_image, q, distance(eye_W, p_W)), 0.0, 0.95, land_normal(normal_image, q, n));
   colour = vec4(through_air(shade(s, p_W, n), p_W), 1.0);
 }

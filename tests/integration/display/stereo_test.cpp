@@ -228,6 +228,35 @@ TEST_F(StereoPicture, before_a_known_screen_parallax_is_what_eyes_would_see_thro
             1);
 }
 
+TEST_F(StereoPicture, a_button_is_pressed_where_it_is_seen_in_every_kind) {
+  Lamp lamp(Vec3(0, 0, -1.5));
+  for (auto kind = Stereo::mono; kind <= Stereo::right_eye; kind = static_cast<Stereo>(static_cast<int>(kind) + 1)) {
+    lamp.scene.overlay.corner.clear();
+    const ImageData bare = draw(lamp.assets, lamp.scene, kind);
+    const OverlayAction home{OverlayAction::Kind::home, ""};
+    lamp.scene.overlay.corner = {{home, "Home"}};
+    const ImageData with = draw(lamp.assets, lamp.scene, kind);
+    const OverlayLayout& layout = renderer_->overlay();
+    EXPECT_EQ(layout.size, seen_size(kind, kSize));
+    std::size_t seen = 0;
+    for (std::uint32_t y = 0; y < kSize.height; y += 3) {
+      for (std::uint32_t x = 0; x < kSize.width; x += 3) {
+        if (std::abs(brightness(with, x, y) - brightness(bare, x, y)) < 20) continue;
+        ++seen;
+        const EyePlace at = eye_at(kind, kSize, {x + 0.5, y + 0.5});
+        // A pixel of a squeezed picture is two of what is seen.
+        bool pressed = false;
+        for (const double off : {-2.0, 0.0, 2.0}) {
+          pressed = pressed || action_at(layout, (1 + at.x) / 2 * layout.size.width + off,
+                                         (1 - at.y) / 2 * layout.size.height + off) == home;
+        }
+        EXPECT_TRUE(pressed) << stereo_name(kind) << " " << x << " " << y;
+      }
+    }
+    EXPECT_GT(seen, 30U) << stereo_name(kind);
+  }
+}
+
 TEST_F(StereoPicture, a_head_that_moves_sees_what_is_behind_the_screen_move_with_it) {
   const ScreenSetup setup{1.2, 2.0, 0.064};
   const double aspect = static_cast<double>(kSize.width) / kSize.height;

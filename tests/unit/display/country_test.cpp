@@ -44,6 +44,22 @@ TEST(Country, grows_about_the_clearing_and_not_in_the_river) {
   EXPECT_GT(right_of_river, 10U);
 }
 
+TEST(Country, water_without_an_area_wets_nothing) {
+  CountryPlan plan = plan_by_a_river();
+  plan.waters_W.assign(3, {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()});
+  EXPECT_GT(plants_of(plan).size(), 150U);
+}
+
+TEST(Country, another_place_has_other_trees) {
+  CountryPlan plan = plan_by_a_river();
+  const std::vector<Plant> here = plants_of(plan);
+  ++plan.seed;
+  const std::vector<Plant> there = plants_of(plan);
+  ASSERT_FALSE(there.empty());
+  EXPECT_NE(here[0].p_W, there[0].p_W);
+  EXPECT_NE(here[0].seed, there[0].seed);
+}
+
 TEST(Country, is_the_same_each_time) {
   const std::vector<Plant> once = plants_of(plan_by_a_river());
   const std::vector<Plant> again = plants_of(plan_by_a_river());
@@ -61,6 +77,7 @@ TEST(Country, its_meshes_are_whole_and_their_faces_look_along_their_normals) {
   for (const Instance& instance : grow(plan, plants_of(plan), library)) {
     EXPECT_FALSE(instance.casts_shadow);
     EXPECT_FALSE(instance.object) << "nobody takes a tree";
+    EXPECT_FALSE(instance.near) << "nor looks for one under a finger";
     const MeshData& mesh = library.assets().meshes[instance.mesh];
     triangles += mesh.indices.size() / 3;
     ASSERT_EQ(mesh.normals.size(), mesh.positions.size());

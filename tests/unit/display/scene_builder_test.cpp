@@ -191,7 +191,9 @@ TEST(SceneBuilder, a_river_flows_and_goes_on_beyond_its_model_and_standing_water
   EXPECT_EQ(waters().size(), 3U) << "not more in each picture";
   const std::size_t meshes = library.assets().meshes.size();
   builder.set_presentation(presentation);
-  EXPECT_EQ(library.assets().meshes.size(), meshes);
+  builder.set_manifest({object(0, "machine.glb", "OUTER"), object(1, "machine.glb", "OUTER")});
+  EXPECT_EQ(library.assets().meshes.size(), meshes) << "nor with each object that is told";
+  EXPECT_EQ(waters().size(), 3U);
   presentation = std::make_shared<client::WorldPresentation>();
   builder.set_presentation(presentation);
   ASSERT_EQ(waters().size(), 1U) << "it stands again";
@@ -285,9 +287,59 @@ TEST(SceneBuilder, trees_stand_about_an_exhibit_on_earth_once_and_not_about_a_la
     EXPECT_EQ(grown > bare, half_m < 10) << half_m;
     const std::size_t meshes = library.assets().meshes.size();
     builder.set_presentation(presentation);
-    EXPECT_EQ(instances(), grown);
+    builder.set_manifest({object(0, "machine.glb", "OUTER"), object(1, "machine.glb", "OUTER")});
+    EXPECT_EQ(instances(), grown + 1);
     EXPECT_EQ(library.assets().meshes.size(), meshes) << "not more with each word of the server";
   }
+}
+
+TEST(SceneBuilder, trees_keep_off_a_river_that_goes_on_and_earth_of_a_body_has_none) {
+  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> {
+    content::ImportedScene scene = machine_file();
+    scene.meshes[1].material = 1;
+    scene.materials[1].name = "earth";
+    scene.nodes.back().name = "WATER_RIVER";
+    scene.nodes.back().meshes = {3};
+    scene.meshes.push_back(imported(box_mesh(Vec3(2, 0.1, 1))));
+    return scene;
+  });
+  auto presentation = std::make_shared<client::WorldPresentation>();
+  client::Effect river;
+  river.kind = "flow";
+  river.node = "WATER_RIVER";
+  river.direction_B = Vec3::UnitX();
+  river.speed_m_per_s = 0.3;
+  presentation->effects = {river};
+  SceneBuilder builder(library, "en");
+  builder.set_manifest({object(0, "machine.glb", "OUTER")});
+  builder.set_presentation(presentation);
+  const RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
+  std::vector<Vec3f> on_water;
+  for (const WaterInstance& water : scene.waters) {
+    if (water.width_m <= 0) continue;
+    const std::vector<Vec3f>& p_W = library.assets().meshes[water.mesh].positions;
+    for (std::size_t i = 0; i + 1 < p_W.size(); i += 2)
+      on_water.push_back((p_W[i] + p_W[i + 1]) / 2);
+  }
+  ASSERT_FALSE(on_water.empty());
+  std::size_t trees = 0;
+  for (const Instance& instance : scene.instances) {
+    // What is under a river's bed: the foot of each trunk is a fifth of a metre under the plain.
+    if (instance.near || library.assets().materials[instance.material].clear) continue;
+    for (const Vec3f& p_W : library.assets().meshes[instance.mesh].positions) {
+      if (p_W.y() > *scene.ground_height_m - 0.19F) continue;
+      ++trees;
+      for (const Vec3f& water_W : on_water)
+        ASSERT_GT(std::hypot(p_W.x() - water_W.x(), p_W.z() - water_W.z()), 2) << p_W.transpose();
+    }
+  }
+  EXPECT_GT(trees, 100U);
+
+  SceneBuilder bodies(library, "en");
+  bodies.set_manifest({object(0, "machine.glb", "SCENE")});
+  bodies.set_presentation(std::make_shared<client::WorldPresentation>());
+  for (const Instance& instance : bodies.build(nullptr, nullptr, client::LinkState::joined).instances)
+    EXPECT_TRUE(instance.near) << "a body of earth may fly: no trees keep clear of it";
 }
 
 TEST(SceneBuilder, nothing_moves_but_what_the_frame_says) {

@@ -57,23 +57,32 @@ TEST(ShownWorld, APresentationThatComesAfterTheManifestMayBringMeshes) {
   RecordingWriter writer;
   const auto at = [](int ms) { return Duration(milliseconds(ms)); };
   writer.add(RecordKind::status, at(0), encode(status_of_visit("world-1", "turn")));
-  writer.add(RecordKind::manifest, at(0), encode(manifest_of_visit()));
+  client::SceneObject barrel;
+  barrel.mesh_uri = "archimedes-screw.glb";
+  barrel.mesh_node = "OUTER";
+  writer.add(RecordKind::manifest, at(0), encode(std::vector{barrel}));
   writer.add(RecordKind::frame, at(0), encode(frame_of_visit(1, at(0), {})));
   writer.add(RecordKind::presentation, at(40), encode(presentation_of_visit("world-1")));
   writer.add(RecordKind::frame, at(80), encode(frame_of_visit(2, at(80), {})));
   writer.add(RecordKind::end, at(0), {});
   RecordedClient client(FrameRecording::open_bytes(writer.take_bytes(), "late").value(), {});
-  const test::ScratchFolder empty;
-  ShownWorld world(AssetSource{empty.path().string(), nullptr, nullptr}, "en");
+  ShownWorld world(AssetSource{std::string(MECHANE_SOURCE_DIR) + "/scenarios/models", nullptr, nullptr}, "en");
   const TimePoint began(std::chrono::hours(7));
   client.advance(began);
   ASSERT_TRUE(world.hear(client).assets);
+  ASSERT_TRUE(world.missing()->empty());
   ASSERT_EQ(world.presentation(), nullptr);
   EXPECT_FALSE(world.hear(client).assets);
   client.advance(began + milliseconds(60));
-  EXPECT_TRUE(world.hear(client).assets) << "rivers go on, trees grow: what is drawn next must have been uploaded";
+  EXPECT_TRUE(world.hear(client).assets) << "trees grow: what is drawn next must have been uploaded";
   EXPECT_NE(world.presentation(), nullptr);
   EXPECT_FALSE(world.hear(client).assets);
+  client.rewind();
+  client.advance(began + milliseconds(200));
+  (void)world.hear(client);
+  client.advance(began + milliseconds(300));
+  const ShownWorld::News again = world.hear(client);
+  EXPECT_FALSE(again.another_world || again.assets) << "an attract loop's second round brings nothing new";
 }
 
 TEST(ShownWorld, ForcesAreShownWhereTheyAreAskedForInEveryWorld) {
