@@ -21,6 +21,7 @@ constexpr float kBank_m = 2.5F;
 constexpr float kShadeHeight_m = 0.09F;
 
 constexpr float kWholeTurn = 2 * static_cast<float>(kPi);
+constexpr float kGoldenShare = 0.61803399F;
 
 class Dice {
  public:
@@ -38,9 +39,11 @@ class Dice {
 };
 
 /// Groves are thick here and thin there.
-float thickness(const Vec3f& p_W) {
-  return 0.5F + 0.25F * (std::sin(0.071F * p_W.x() + 1.3F) + std::sin(0.058F * p_W.z() - 0.4F) +
-                         0.6F * std::sin(0.041F * (p_W.x() - p_W.z())));
+float thickness(const CountryPlan& plan, const Vec3f& p_W) {
+  const Vec3f q = p_W - plan.middle_W;
+  const auto phase = static_cast<float>(plan.seed % 628) / 100;
+  return 0.55F + 0.22F * (std::sin(0.071F * q.x() + phase) + std::sin(0.058F * q.z() - phase) +
+                          0.6F * std::sin(0.041F * (q.x() - q.z()) + phase));
 }
 
 /// All that grows of one material.
@@ -247,18 +250,21 @@ bool is_wet(const CountryPlan& plan, const Vec3f& p_W) {
 
 void scatter(const CountryPlan& plan, Plant::Kind kind, int count, float reach_m, std::vector<Plant>& out) {
   Dice dice(plan.seed, 1 + static_cast<std::uint32_t>(kind));
+  const float turn = dice.within(0, 1);
   for (int tries = 0, made = 0; made < count && tries < 20 * count; ++tries) {
     // More of them near, where each is seen alone.
-    const float away = plan.clearing_m + reach_m * std::pow(dice.within(0, 1), 1.15F);
-    const float a = dice.within(0, kWholeTurn);
+    const float away = plan.clearing_m + reach_m * std::pow(dice.within(0, 1), 1.35F);
+    // Spread evenly all round, whichever of them are left out.
+    const float a =
+        kWholeTurn * std::fmod(kGoldenShare * static_cast<float>(tries) + turn + dice.within(0, 0.02F), 1.0F);
     Plant plant{kind, plan.middle_W + away * Vec3f(std::cos(a), 0, std::sin(a)), 1,
                 1000 * plan.seed + static_cast<std::uint32_t>(tries)};
     const float size = dice.within(0, 1);
     plant.height_m = kind == Plant::Kind::olive     ? 3.0F + 1.4F * size
                      : kind == Plant::Kind::cypress ? 6.5F + 3 * size
                                                     : 0.35F + 0.4F * size;
-    const float wanted = kind == Plant::Kind::olive ? dice.within(0.15F, 0.95F) : 0;
-    if (thickness(plant.p_W) < wanted || is_wet(plan, plant.p_W)) continue;
+    const float wanted = kind == Plant::Kind::olive ? dice.within(0.15F, 0.85F) : 0;
+    if (thickness(plan, plant.p_W) < wanted || is_wet(plan, plant.p_W)) continue;
     out.push_back(plant);
     ++made;
   }
