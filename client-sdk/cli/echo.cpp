@@ -124,6 +124,7 @@ Json to_json(const proto::SceneObject& s) {
       {{"parent", proto::string_of(s.parent)}, {"X_WB", pose(s.X_WB)}, {"movable", s.movable}, {"visible", s.visible}});
   j.update({{"stiffness_n_per_m", s.stiffness_n_per_m}, {"damping_ns_per_m", s.damping_ns_per_m}});
   j.update({{"static_friction", s.static_friction}, {"dynamic_friction", s.dynamic_friction}});
+  j.update({{"title", texts(s.title)}});
   return j;
 }
 

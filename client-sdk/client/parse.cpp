@@ -210,7 +210,7 @@ bool parse(const proto::SceneObject& wire, SceneObject& out) {
   out.mesh_node = clean_string(wire.mesh_node);
   out.parent = clean_string(wire.parent);
   out.movable = wire.movable;
-  return true;
+  return parse_texts(wire.title, out.title);
 }
 
 bool parse(const proto::WorldStatus& wire, WorldStatus& out) {

@@ -10,6 +10,7 @@
 #include "client-sdk/display/picking.hpp"
 #include "client-sdk/display/pointer_aid.hpp"
 #include "client-sdk/display/spare_memory.hpp"
+#include "client-sdk/display/thing_names.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -122,7 +123,17 @@ RenderScene DisplayLoop::build(TimePoint now) const {
     if (const auto button = go_on_button(world_.status(), spoken_); button && !scene.overlay.panel)
       scene.overlay.corner.insert(scene.overlay.corner.begin(), *button);
   }
+  if (!attracts_) name_what_is_meant(scene);
   return scene;
+}
+
+/// By the display's own pointer, or else by a hand. Words lie in the screen, for both eyes alike.
+void DisplayLoop::name_what_is_meant(RenderScene& scene) const {
+  const auto pointed = pointer_ ? pointer_->pointed_at() : std::nullopt;
+  const auto meant = pointed ? pointed : scene.near_hand;
+  const PixelSize eye = seen_size(options_.stereo, context_.size());
+  const auto seen = seen_place(scene.camera, Stereo::mono, eye, {});
+  if (meant && seen) scene.overlay.label = label_of(scene.named, *meant, seen->sight);
 }
 
 PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {

@@ -61,6 +61,7 @@ class DisplayLoop {
   void tend_attract(TimePoint now);
   void upload();
   void take_pointer(TimePoint now);
+  void name_what_is_meant(RenderScene& scene) const;
   [[nodiscard]] PointerScene under_pointer(const RenderScene& scene) const;
   void tell_language();
   void take_key(DisplayKey key, TimePoint now);

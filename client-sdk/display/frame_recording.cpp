@@ -186,10 +186,11 @@ Expected<void> FrameRecording::read(const std::string& name) {
   const std::span<const std::byte> all(bytes_);
   if (all.size() < kPreamble || std::memcmp(all.data(), kMagic, sizeof kMagic) != 0)
     return fail("is not a recording of frames", name, "give a file that 'mechane display --record' wrote");
-  if (const auto version = ByteSource(all.subspan(sizeof kMagic)).get<std::uint32_t>(); version != kRecordingVersion) {
+  if (const auto version = ByteSource(all.subspan(sizeof kMagic)).get<std::uint32_t>();
+      version == 0 || version > kRecordingVersion) {
     return fail(
-        fmt::format("is a recording of version {}, and this program reads version {}", version, kRecordingVersion),
-        name, "use the release that wrote it, or record anew");
+        fmt::format("is a recording of version {}, and this program reads up to {}", version, kRecordingVersion), name,
+        "use the release that wrote it, or record anew");
   }
   std::size_t at = kPreamble;
   for (std::uint64_t number = 0; at < all.size() && cut_off_; ++number) {

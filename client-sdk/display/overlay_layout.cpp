@@ -15,6 +15,7 @@ constexpr float kGoalSize = 21;
 constexpr float kCaptionSize = 27;
 constexpr float kHintSize = 20;
 constexpr float kNoteSize = 20;
+constexpr float kLabelSize = 21;
 
 /// What a caption panel holds, from top to bottom under its title.
 struct CaptionPart {
@@ -161,6 +162,29 @@ Box add_note(Page& page, const Note& note, float y) {
   return box;
 }
 
+bool overlap(const Box& a, const Box& b) {
+  return !a.empty() && !b.empty() && a.shares_columns(b) && a.y < b.below() && b.y < a.below();
+}
+
+/// Above its thing, or under it. Where all else lies, there is no room: what a panel says matters more.
+void add_label(Page& page, const OverlayLabel& label, const std::vector<Box>& others) {
+  const float room = page.width - 2 * page.margin();
+  const auto lines = page.lines(Face::bold, kLabelSize, label.text, room);
+  if (lines.empty()) return;
+  const float padding = page.tx(14);
+  const float width = std::min(page.measure(Face::bold, kLabelSize, lines.front()) + 2 * padding, room);
+  const float height = page.tx(38);
+  const float lowest = page.height - page.margin() - height;
+  const float x = std::round(std::clamp(label.x - width / 2, page.margin(), page.width - page.margin() - width));
+  for (const float y : {label.top - page.px(8) - height, label.bottom + page.px(8)}) {
+    const Box box{x, std::round(y), width, height};
+    const auto covers = [&](const Box& other) { return overlap(box, other); };
+    if (box.y < page.margin() || box.y > lowest || std::ranges::any_of(others, covers)) continue;
+    page.add_shape(box, page.tx(10), page.colours.ink);
+    return page.add_text(x + padding, box.y + page.tx(26), Face::bold, kLabelSize, page.colours.paper, lines.front());
+  }
+}
+
 Box inset_box(PixelSize size) {
   const PixelRectangle inset = inset_rectangle(size);
   return {static_cast<float>(inset.x), static_cast<float>(inset.y), static_cast<float>(inset.width),
@@ -221,7 +245,8 @@ void lay_out_captions(Page& page, const OverlayContent& content, const Box& corn
     if (!box.empty()) low = std::min(low, box.y);
   Box said;
   if (!note.lines.empty()) said = add_note(page, note, note_above ? margin : low - gap - note.height);
-  add_readouts(page, content, {caption, corner, said});
+  const Box numbers = add_readouts(page, content, {caption, corner, said});
+  if (content.label) add_label(page, *content.label, {caption, corner, said, inset, numbers});
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
       return link_.turn(kNotchTurn_rad * event.amount);
     case Kind::left:
       hover_.reset();
-      under_hover_.reset();
+      under_hover_ = {};
       return;
     case Kind::key_down:
       held_[static_cast<std::size_t>(event.key)] = true;
@@ -67,7 +67,7 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
 
 void PointerInput::forget_world() {
   focus_.reset();
-  under_hover_.reset();
+  under_hover_ = {};
   hover_moved_ = true;
 }
 
@@ -77,7 +77,7 @@ void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& s
     means_ = event.finger == kMouse ? PointerMeans::mouse : PointerMeans::fingers;
     if (event.finger != kMouse) {  // a finger hovers nowhere
       hover_.reset();
-      under_hover_.reset();
+      under_hover_ = {};
     }
   }
   if (event.kind == PointerEvent::Kind::gone && std::exchange(by_keys_, false)) link_.release();
@@ -111,7 +111,7 @@ void PointerInput::follow(const std::vector<HandWish>& wishes, const PointerScen
 bool PointerInput::press(const PointerScene& scene, PixelPlace whole) {
   const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, whole);
   if (!seen) return false;
-  const auto touched = takeable_at(scene, seen->sight, seen->place);
+  const auto touched = under_finger(scene, seen->sight, seen->place).takeable;
   if (!touched) return false;
   by_keys_ = false;
   link_.press(seen->sight, seen->place, *touched);
@@ -176,7 +176,12 @@ void PointerInput::update(const PointerScene& scene, TimePoint now) {
   hover_moved_ = false;
   looked_ = now;
   const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, *looks_at);
-  under_hover_ = seen ? takeable_at(scene, seen->sight, seen->place) : std::nullopt;
+  under_hover_ = seen ? under_finger(scene, seen->sight, seen->place) : UnderFinger{};
+}
+
+std::optional<std::uint32_t> PointerInput::pointed_at() const {
+  if (!is_away()) return {};
+  return under_hover_.takeable ? std::optional(under_hover_.takeable->object) : under_hover_.object;
 }
 
 bool PointerInput::rests(TimePoint now) {
@@ -192,7 +197,7 @@ void PointerInput::write(OverlayContent& content, const PointerScene& scene, con
   if (!seen || content.panel) return;
   const PointerView view = link_.view();
   PointerAid aid{seen->sight, view, {}, {}, link_.state(), means_};
-  if (view.phase == PointerView::Phase::resting && under_hover_) aid.p_WT = under_hover_->p_WT;
+  if (view.phase == PointerView::Phase::resting && under_hover_.takeable) aid.p_WT = under_hover_.takeable->p_WT;
   if (focus_) aid.focus = seen->place;
   add_pointer_aid(aid, language, content);
 }

@@ -33,8 +33,12 @@ struct PointerScene {
   [[nodiscard]] bool takeable(std::uint32_t object) const;
 };
 
-/// What a finger on this pixel means to take: what is seen there, or else within a fingertip's breadth.
-[[nodiscard]] std::optional<Touched> takeable_at(const PointerScene& scene, const Sight& sight, PixelPlace place);
+/// What a pixel is of, and what a finger on it means to take: what is seen there, or else within a fingertip's breadth.
+struct UnderFinger {
+  std::optional<std::uint32_t> object{};  ///< of the manifest
+  std::optional<Touched> takeable{};
+};
+[[nodiscard]] UnderFinger under_finger(const PointerScene& scene, const Sight& sight, PixelPlace place);
 
 /// One for each thing that can be taken and is seen: a pixel to take it by, from left to right. Slow; for a key.
 [[nodiscard]] std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight);
@@ -52,6 +56,8 @@ class PointerInput {
   [[nodiscard]] bool rests(TimePoint now);
   /// The hand is nowhere: it reaches for nothing and holds nothing.
   [[nodiscard]] bool is_away() const { return link_.view().phase == PointerView::Phase::resting; }
+  /// The object that the pointer would take, or else is on; none while it takes one.
+  [[nodiscard]] std::optional<std::uint32_t> pointed_at() const;
   /// Another world is shown: what the keys pointed at is gone.
   void forget_world();
   /// Adds what helps to find the way.
@@ -72,7 +78,7 @@ class PointerInput {
   PointerFingers fingers_;
   std::optional<PixelPlace> hover_;  ///< of the whole picture
   bool hover_moved_ = false;
-  std::optional<Touched> under_hover_;
+  UnderFinger under_hover_;
   TimePoint looked_;
   TimePoint updated_;
   std::array<bool, kPointerKeys> held_{};     ///< by PointerKey

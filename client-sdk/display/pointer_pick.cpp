@@ -28,6 +28,24 @@ RenderScene only_takeable(const PointerScene& scene) {
   return out;
 }
 
+/// Within a fingertip's breadth.
+std::optional<Touched> takeable_about(const PointerScene& scene, const Sight& sight, PixelPlace place) {
+  const RenderScene these = only_takeable(scene);
+  if (these.instances.empty()) return {};
+  for (const double share : kFingertip) {
+    for (int k = 0; k < kRound; ++k) {
+      const double angle = 2 * kPi * k / kRound;
+      const double radius = share * sight.picture.height;
+      const PixelPlace near{place.x + radius * std::cos(angle), place.y + radius * std::sin(angle)};
+      const auto one = picked_at(these, scene.assets, sight, near);
+      if (!one) continue;
+      const auto seen = picked_at(scene.scene, scene.assets, sight, near);
+      if (seen && seen->object == one->object) return Touched{*one->object, one->p_WT};
+    }
+  }
+  return {};
+}
+
 /// Some places of an object's surface, spread over its triangles.
 std::vector<Vec3> places_of(const PointerScene& scene, std::uint32_t object) {
   std::vector<Vec3> out;
@@ -90,23 +108,11 @@ bool PointerScene::takeable(std::uint32_t object) const {
   return known != objects.end() && known->movable && leeway(object).taken;
 }
 
-std::optional<Touched> takeable_at(const PointerScene& scene, const Sight& sight, PixelPlace place) {
+UnderFinger under_finger(const PointerScene& scene, const Sight& sight, PixelPlace place) {
   const auto picked = picked_at(scene.scene, scene.assets, sight, place);
-  if (picked && picked->object && scene.takeable(*picked->object)) return Touched{*picked->object, picked->p_WT};
-  const RenderScene these = only_takeable(scene);
-  if (these.instances.empty()) return {};
-  for (const double share : kFingertip) {
-    for (int k = 0; k < kRound; ++k) {
-      const double angle = 2 * kPi * k / kRound;
-      const double radius = share * sight.picture.height;
-      const PixelPlace near{place.x + radius * std::cos(angle), place.y + radius * std::sin(angle)};
-      const auto one = picked_at(these, scene.assets, sight, near);
-      if (!one) continue;
-      const auto seen = picked_at(scene.scene, scene.assets, sight, near);
-      if (seen && seen->object == one->object) return Touched{*one->object, one->p_WT};
-    }
-  }
-  return {};
+  if (!picked || !picked->object) return {{}, takeable_about(scene, sight, place)};
+  if (scene.takeable(*picked->object)) return {picked->object, Touched{*picked->object, picked->p_WT}};
+  return {picked->object, takeable_about(scene, sight, place)};
 }
 
 std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight) {

@@ -122,6 +122,7 @@ class FieldReader {
   void must(bool holds) {
     if (!holds) in_.fail();
   }
+  [[nodiscard]] bool at_end() const { return in_.remaining() == 0; }
   [[nodiscard]] bool all_read() const { return in_.ok() && in_.remaining() == 0; }
 
  private:
@@ -277,7 +278,11 @@ std::vector<std::byte> encode(const client::WorldPresentation& presentation) {
 }
 
 std::vector<std::byte> encode(const std::vector<client::SceneObject>& manifest) {
-  return written([&](FieldWriter& f) { f.each(manifest, [&](auto& object) { object_fields(f, object); }); });
+  return written([&](FieldWriter& f) {
+    f.each(manifest, [&](auto& object) { object_fields(f, object); });
+    for (const client::SceneObject& object : manifest)
+      f.texts(object.title);
+  });
 }
 
 std::vector<std::byte> encode(const client::Frame& frame) {
@@ -297,7 +302,12 @@ bool decode(std::span<const std::byte> bytes, client::WorldPresentation& out) {
 }
 
 bool decode(std::span<const std::byte> bytes, std::vector<client::SceneObject>& out) {
-  return read_whole(bytes, [&](FieldReader& f) { f.each(out, [&](auto& object) { object_fields(f, object); }); });
+  return read_whole(bytes, [&](FieldReader& f) {
+    f.each(out, [&](auto& object) { object_fields(f, object); });
+    if (f.at_end()) return;  // version 1 has no titles
+    for (client::SceneObject& object : out)
+      f.texts(object.title);
+  });
 }
 
 bool decode(std::span<const std::byte> bytes, client::Frame& out) {

@@ -128,6 +128,14 @@ struct OverlayDot {
   Eigen::Vector4f colour = Eigen::Vector4f::Ones();
 };
 
+/// What a thing is called, above it where there is room. The thing's place is in pixels of one eye's picture.
+struct OverlayLabel {
+  std::string text;
+  float x = 0;  ///< its middle
+  float top = 0;
+  float bottom = 0;
+};
+
 /// Everything that is written over the picture, in one language, UTF-8.
 struct OverlayContent {
   std::string title;
@@ -141,13 +149,22 @@ struct OverlayContent {
   std::vector<OverlayButton> corner;  ///< low on the right
   std::optional<OverlayPanel> panel;  ///< it stands before captions and readouts, which are not shown then
   OverlayStyle style;
-  std::vector<OverlayDot> dots{};  ///< of the display's own hand
+  std::vector<OverlayDot> dots{};       ///< of the display's own hand
+  std::optional<OverlayLabel> label{};  ///< of what is pointed at
 };
 
 /// A sphere that darkens what is near it: contact shading of the hand.
 struct Occluder {
   Vec3f p_WO = Vec3f::Zero();
   float radius_m = 0;
+};
+
+/// A thing that visitors have a name for, and where it is.
+struct NamedThing {
+  std::uint32_t object = 0;  ///< of the manifest
+  std::string name;          ///< in the visitor's language
+  Eigen::Affine3f X_WB = Eigen::Affine3f::Identity();
+  Eigen::AlignedBox3f box_B;
 };
 
 /// A close-up in a corner of the picture, for what the main view shows too small. Flat: the same for both eyes.
@@ -175,6 +192,8 @@ struct RenderScene {
   std::optional<float> ground_height_m;        ///< an endless plain of dry earth at this height
   std::optional<std::uint32_t> land_material;  ///< whose images give the plain its grain; none: it has none
   double time_s = 0;  ///< of the world, for ripples: the frame's tick, never the client's clock
+  std::vector<NamedThing> named;
+  std::optional<std::uint32_t> near_hand;  ///< the object, of those that are named, that a free hand is about to touch
   OverlayContent overlay;
   std::optional<Inset> inset;
 };

@@ -8,6 +8,7 @@
 #include "client-sdk/display/country.hpp"
 #include "client-sdk/display/effect_builder.hpp"
 #include "client-sdk/display/river_reach.hpp"
+#include "client-sdk/display/thing_names.hpp"
 
 namespace mechane::display {
 namespace {
@@ -281,6 +282,7 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
       if (stray_.empty()) stray_ = placed.object.name;
     } else {
       add_object(placed, X_WB, frame, scene);
+      add_name(placed, X_WB, scene);
     }
   }
   for (const Placed& placed : scenery_)
@@ -295,6 +297,12 @@ RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldS
   return scene;
 }
 
+void SceneBuilder::add_name(const Placed& placed, const Pose& X_WB, RenderScene& out) const {
+  std::string name = text_in(placed.object.title, language_);
+  if (name.empty() || placed.model->box_B.isEmpty()) return;
+  out.named.push_back({placed.object.index, std::move(name), affine(X_WB), placed.model->box_B});
+}
+
 void SceneBuilder::add_what_moves(const client::Frame& frame, const client::WorldStatus* status, RenderScene& out) {
   out.time_s = static_cast<double>(frame.tick % 3'600'000) * kTickSeconds;
   for (const client::HandPose& hand : frame.hands) {
@@ -302,6 +310,7 @@ void SceneBuilder::add_what_moves(const client::Frame& frame, const client::Worl
     hand_.draw(hand, camera_, out);
     if (forces_shown_) arrow_.draw(hand, camera_, out);
   }
+  out.near_hand = named_near(out.named, frame.hands);
   for (const client::RopeShape& rope : frame.ropes) {
     if (std::ranges::any_of(rope.points_W, [](const Vec3& p_W) { return is_stray(p_W); })) continue;
     RenderRope& drawn = out.ropes.emplace_back();

@@ -52,6 +52,7 @@ class SceneBuilder {
   [[nodiscard]] std::optional<Inset> detail(const client::WorldStatus& status) const;
   [[nodiscard]] Pose pose_of(const Placed& placed, const client::Frame* frame) const;
   void add_object(const Placed& placed, const Pose& X_WB, const client::Frame* frame, RenderScene& out) const;
+  void add_name(const Placed& placed, const Pose& X_WB, RenderScene& out) const;
   void add_what_moves(const client::Frame& frame, const client::WorldStatus* status, RenderScene& out);
 
   AssetLibrary& library_;

@@ -37,6 +37,7 @@ struct Compilation {
   state::WorldDescription world;
   std::optional<Metadata> scenario;                 ///< the tree of the WorldInfo
   std::map<std::string, std::string> model_hashes;  ///< by url as written
+  std::vector<int> body_lines;                      ///< by BodyId
   std::vector<int> activity_lines;                  ///< by ActivityId
   std::vector<int> step_lines;                      ///< by StepId
   std::vector<std::vector<int>> question_lines;     ///< by ActivityId, then as in its questionnaire

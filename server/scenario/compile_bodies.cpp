@@ -51,6 +51,7 @@ void read_shape(Compilation& c, NodeId id, Attributes& attributes, state::BodyDe
     return;
   }
   const Fields fields(&*set, body_table(), "mechane:body of " + body.name, c.problems);
+  body.title = read_texts(c, fields.set("text"), fields.where() + ", text", "title")["title"];
   const std::string url = model_url(c, fields);
   if (url.empty()) return;
   body.mesh = {url, c.model_hashes[url], fields.given("node") ? fields.string("node") : body.name};
@@ -128,6 +129,7 @@ void compile_body(Compilation& c, NodeId id) {
   read_haptic(c, id, body);
   read_shape(c, id, attributes, body);
   c.world.bodies.push_back(std::move(body));
+  c.body_lines.push_back(c.document[id].line);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ Expected<std::string> hash_file(const std::filesystem::path& file) {
 }
 
 Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader, Problems& problems) {
-  Compilation c{document, loader, problems, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Compilation c{document, loader, problems, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   compile_all(c);
   if (problems.has_errors()) return tl::unexpected(problems.first_error());
   return std::move(c.world);

@@ -45,6 +45,8 @@ Wordings wordings_of(const state::WorldDescription& world) {
     if (!activity.goal.empty()) add_wording(wordings, fmt::format("activity {}, goal", activity.name), activity.goal);
     add_questions(wordings, activity);
   }
+  for (const state::BodyDescription& body : world.bodies)
+    if (!body.title.empty()) add_wording(wordings, fmt::format("body {}, title", body.name), body.title);
   for (const state::StepDescription& step : world.steps) {
     if (!step.texts.contains("caption")) add_wording(wordings, fmt::format("step {}, caption", step.name), {});
     for (const auto& [what, texts] : step.texts)

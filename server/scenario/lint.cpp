@@ -49,6 +49,10 @@ void check_sounds(Compilation& c) {
 
 void check_all_texts(Compilation& c) {
   check_texts(c, c.world.title, c.scenario->line, "mechane:scenario", "title");
+  for (std::size_t i = 0; i < c.world.bodies.size(); ++i) {
+    const state::BodyDescription& body = c.world.bodies[i];
+    if (!body.title.empty()) check_texts(c, body.title, c.body_lines[i], "mechane:body of " + body.name, "title");
+  }
   for (std::size_t i = 0; i < c.world.activities.size(); ++i) {
     const state::ActivityDescription& activity = c.world.activities[i];
     const std::string where = "activity " + activity.name;

@@ -446,6 +446,10 @@ constexpr Key kBodyKeys[] = {
      .example = "0.2",
      .min = 0,
      .max = 1},
+    {.name = "text",
+     .kind = set,
+     .summary = "title.LANGUAGE: what it is called; displays write it above what a hand comes near or points at",
+     .inner = &kText},
 };
 constexpr Table kBody{"mechane:body", "on a RigidBody: its shape in a mesh file", kBodyKeys};
 

@@ -51,7 +51,8 @@ struct BodyDescription {
   bool graspable = false;
   bool collides = false;  ///< with other bodies that do; see dynamics::DynamicsWorld for those that never meet
   double restitution =
-      0;  ///< share of the approach speed that a collision gives back, 0 to 1; of a pair: the geometric mean
+      0;        ///< share of the approach speed that a collision gives back, 0 to 1; of a pair: the geometric mean
+  Texts title;  ///< what visitors call it; empty: `name` is not for them
 };
 
 /// Two bodies that never collide, for one is made to sit in the other, closer than distance maps are exact.

@@ -171,6 +171,8 @@ void WorldWriter::write_manifest() {
     o.damping_ns_per_m = static_cast<float>(body.haptic.damping_ns_per_m);
     o.static_friction = static_cast<float>(body.haptic.static_friction);
     o.dynamic_friction = static_cast<float>(body.haptic.dynamic_friction);
+    std::vector<proto::WireText> title = wire_texts(body.title);
+    proto::look_into(o.title, title);
     count(objects_.write(o));
   }
   count(presentation_.write(Presentation(port_.world(), world).wire()));

@@ -1,6 +1,8 @@
 // The village: its visits lead to a machine's step; each sign to its own; and what is not a finger on a sign leads nowhere.
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -145,6 +147,22 @@ TEST_P(EachSign, LeadsToItsOwnStep) {
   EXPECT_EQ(world.steps[step.index()].opens, GetParam().opens);
   const std::filesystem::path scenarios = std::filesystem::path(world.folder) / "..";
   EXPECT_TRUE(std::filesystem::exists(scenarios / GetParam().opens / (std::string(GetParam().opens) + ".x3d")));
+}
+
+/// The first words of this key in an exhibit's file: those of its title, which stands before all others.
+std::string words_of(const std::string& exhibit, const std::string& key) {
+  std::ifstream in(std::filesystem::path(village().description().folder) / ".." / exhibit / (exhibit + ".x3d"));
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string before = "name='" + key + "' value='\"";
+  const std::size_t from = text.find(before) + before.size();
+  return text.substr(from, text.find("\"'", from) - from);
+}
+
+TEST_P(EachSign, IsCalledAsTheExhibitThatItOpens) {
+  const state::Texts& title = village().description().bodies[body_of(GetParam()).index()].title;
+  EXPECT_EQ(title, (state::Texts{{"el", words_of(GetParam().opens, "title.el")},
+                                 {"en", words_of(GetParam().opens, "title.en")}}));
+  EXPECT_FALSE(title.at("en").empty());
 }
 
 TEST_P(EachSign, IsChosenOnMostOfItsBoardAndNotBesideIt) {

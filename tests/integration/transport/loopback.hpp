@@ -66,6 +66,7 @@ class LoopbackDomain {
     body.fixed = i == 0;
     body.X_WB.p = Vec3(static_cast<double>(i), 0, 0);
     body.mesh = {"models/small.glb", "abcd", body.name};
+    if (i == 1) body.title = {{"el", "Η μανιβέλα"}, {"en", "The crank"}};
     world->bodies.push_back(body);
   }
   state::QuestionDescription liked;

@@ -137,6 +137,9 @@ TEST_F(Loopback, AWatcherLearnsWhatToShowAndItsVisitorAnswers) {
   EXPECT_EQ(shown.activities[0].questions[0].high.at("en"), "much");
   EXPECT_TRUE(eventually([&] { return watcher->world_status()->detail == "NEAR"; }));
   EXPECT_EQ(watcher->world_status()->narration.at("en"), "A crank has an arm.");
+  ASSERT_TRUE(eventually([&] { return watcher->objects().size() == 3; }));
+  EXPECT_EQ(watcher->objects()[1].title, (client::Texts{{"el", "Η μανιβέλα"}, {"en", "The crank"}}));
+  EXPECT_TRUE(watcher->objects()[2].title.empty());
 
   client::Frame frame;
   ASSERT_TRUE(eventually([&] { return watcher->newest_frame(frame) && frame.ropes.size() == 1; }));

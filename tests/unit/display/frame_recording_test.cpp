@@ -97,6 +97,28 @@ TEST(FrameRecording, what_it_holds_is_what_was_heard) {
   EXPECT_EQ(encode(status), encode(status_of_visit("w", "s")));
 }
 
+TEST(FrameRecording, of_a_former_version_is_read_without_titles) {
+  std::vector<client::SceneObject> manifest;
+  ASSERT_TRUE(decode(encode(manifest_of_visit()), manifest));
+  ASSERT_EQ(manifest.size(), 2U);
+  EXPECT_TRUE(manifest[0].title.empty());
+  EXPECT_EQ(manifest[1].title, manifest_of_visit()[1].title);
+  std::vector<client::SceneObject> untitled = manifest_of_visit();
+  untitled[1].title.clear();
+  std::vector<std::byte> former = encode(untitled);
+  former.resize(former.size() - 2);  // a title of no words is a byte
+  ASSERT_TRUE(decode(former, manifest));
+  EXPECT_EQ(manifest[1].name, "BUCKET");
+  EXPECT_TRUE(manifest[1].title.empty());
+  former.pop_back();
+  EXPECT_FALSE(decode(former, manifest));
+  std::vector<std::byte> file = a_recording();
+  file[8] = std::byte{1};
+  EXPECT_TRUE(FrameRecording::open_bytes(file, "x"));
+  file[8] = std::byte{0};
+  EXPECT_FALSE(FrameRecording::open_bytes(file, "x"));
+}
+
 TEST(FrameRecording, what_cannot_be_drawn_is_refused) {
   client::Frame out;
   const auto refused = [&](auto&& spoil) {

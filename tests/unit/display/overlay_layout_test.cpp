@@ -307,6 +307,53 @@ TEST(OverlayLayout, large_text_is_larger) {
               kLargeText * static_cast<float>(usual), 1);
 }
 
+// Wherever a thing is seen, its name lies within the picture, and over no panel; where there is room beside its thing, it is there.
+RC_GTEST_PROP(OverlayLayout, a_name_lies_over_nothing, ()) {
+  OverlayContent content;
+  content.title = "Archimedes' screw";
+  content.caption = "Turn the crank.";
+  content.readouts = {{"Water", "12.4", "litres", 0.6, "20"}};
+  content.corner = {{{OverlayAction::Kind::language, "el"}, "EL"}};
+  if (*rc::gen::arbitrary<bool>()) content.note = "Press and hold to take it";
+  content.style.text_scale = *rc::gen::element(1.0F, kLargeText);
+  const PixelSize size = *rc::gen::element(PixelSize{1280, 720}, PixelSize{640, 720}, PixelSize{3840, 2160});
+  const std::size_t shapes = lay_out(content, size, half_square).shapes.size();
+  const auto pixel = [](int low, std::uint32_t high) {
+    return static_cast<float>(*rc::gen::inRange(low, static_cast<int>(high) + 200));
+  };
+  OverlayLabel label{"The barrel", pixel(-200, size.width), pixel(-200, size.height), 0};
+  label.bottom = label.top + pixel(1, size.height / 4);
+  content.label = label;
+  const OverlayLayout layout = lay_out(content, size, half_square);
+  if (layout.shapes.size() == shapes) {
+    // In the middle of a broad picture there always is room.
+    const float unit = static_cast<float>(size.height) / 720;
+    RC_ASSERT(size.width < 900 || label.top < 290 * unit || label.top > 400 * unit);
+    return;
+  }
+  RC_ASSERT(layout.shapes.size() == shapes + 1);
+  RC_ASSERT(layout.texts.back().text == "The barrel");
+  const OverlayShape& chip = layout.shapes.back();
+  RC_ASSERT(chip.x >= 0 && chip.y >= 0);
+  RC_ASSERT(chip.x + chip.width <= static_cast<float>(size.width));
+  RC_ASSERT(chip.y + chip.height <= static_cast<float>(size.height));
+  RC_ASSERT(chip.y + chip.height <= label.top || chip.y >= label.bottom);
+  for (std::size_t i = 0; i + 1 < layout.shapes.size(); ++i) {
+    const OverlayShape& other = layout.shapes[i];
+    const bool beside = other.x >= chip.x + chip.width || chip.x >= other.x + other.width;
+    RC_ASSERT(beside || other.y >= chip.y + chip.height || chip.y >= other.y + other.height);
+  }
+}
+
+TEST(OverlayLayout, a_name_goes_away_before_questions) {
+  OverlayContent content;
+  content.label = OverlayLabel{"The barrel", 640, 300, 400};
+  EXPECT_EQ(lay_out(content, {1280, 720}, half_square).texts.size(), 1U);
+  content.panel.emplace().text = "Did you like it?";
+  for (const OverlayText& text : lay_out(content, {1280, 720}, half_square).texts)
+    EXPECT_NE(text.text, "The barrel");
+}
+
 TEST(OverlayLayout, nothing_to_say_draws_nothing) {
   const OverlayLayout layout = lay_out({}, {1280, 720}, half_square);
   EXPECT_TRUE(layout.shapes.empty());

@@ -56,7 +56,7 @@ RC_GTEST_PROP(PointerPick, a_finger_within_its_breadth_of_a_thing_means_it, ()) 
   // The thing is at least 12 pixels wide to each side of its middle; a fingertip is 17.
   at.x += 18 * std::cos(angle);
   at.y += 18 * std::sin(angle);
-  const auto touched = takeable_at(shelf.under(), shelf.sight(), at);
+  const auto touched = under_finger(shelf.under(), shelf.sight(), at).takeable;
   RC_ASSERT(touched.has_value());
   RC_ASSERT(touched->object == 1U);
   RC_ASSERT((touched->p_WT - p_W).norm() < 0.1);
@@ -64,15 +64,46 @@ RC_GTEST_PROP(PointerPick, a_finger_within_its_breadth_of_a_thing_means_it, ()) 
 
 TEST(PointerPick, WhatNoStepLetsOneTakeIsNotTaken) {
   Shelf shelf({0, 0, 0});
-  EXPECT_TRUE(takeable_at(shelf.under(), shelf.sight(), {640, 360}));
-  EXPECT_FALSE(takeable_at(shelf.under(), shelf.sight(), {240, 360})) << "the wall";
+  EXPECT_TRUE(under_finger(shelf.under(), shelf.sight(), {640, 360}).takeable);
+  EXPECT_FALSE(under_finger(shelf.under(), shelf.sight(), {240, 360}).takeable) << "the wall";
   shelf.status.enabled_agents.clear();
-  EXPECT_FALSE(takeable_at(shelf.under(), shelf.sight(), {640, 360}));
+  EXPECT_FALSE(under_finger(shelf.under(), shelf.sight(), {640, 360}).takeable);
+}
+
+TEST(PointerPick, WhatCannotBeTakenIsSeenAllTheSame) {
+  const Shelf shelf({0, 0, 0});
+  EXPECT_EQ(under_finger(shelf.under(), shelf.sight(), {640, 360}).object, 1U);
+  EXPECT_EQ(under_finger(shelf.under(), shelf.sight(), {240, 360}).object, 0U) << "the wall";
+}
+
+TEST(PointerInput, PointsAtWhatItWouldTakeOrIsOn) {
+  const Shelf shelf({0, 0, 0});
+  PointerInput input("kiosk-1", 0);
+  TimePoint now{std::chrono::seconds(10)};
+  EXPECT_FALSE(input.pointed_at());
+  const auto hover = [&](double x) {
+    PointerEvent event;
+    event.kind = PointerEvent::Kind::move;
+    event.finger = kMouse;
+    event.x = x;
+    event.y = 360;
+    input.take(event, shelf.under(), false);
+    input.update(shelf.under(), now += std::chrono::seconds(1));
+    return input.pointed_at();
+  };
+  EXPECT_EQ(hover(240), 0U);
+  EXPECT_EQ(hover(640), 1U);
+  const PixelPlace edge = *pixel_of(shelf.sight(), Vec3(0.025, 0, 0.025));
+  EXPECT_EQ(hover(edge.x + 8), 1U) << "a fingertip beside it, before the wall";
+  PointerEvent left;
+  left.kind = PointerEvent::Kind::left;
+  input.take(left, shelf.under(), false);
+  EXPECT_FALSE(input.pointed_at());
 }
 
 TEST(PointerPick, WhatIsHiddenIsNotTaken) {
   Shelf shelf({0, 0, -2});
-  EXPECT_FALSE(takeable_at(shelf.under(), shelf.sight(), {640, 360}));
+  EXPECT_FALSE(under_finger(shelf.under(), shelf.sight(), {640, 360}).takeable);
   EXPECT_TRUE(places_to_take(shelf.under(), shelf.sight()).empty());
 }
 
@@ -80,7 +111,7 @@ TEST(PointerPick, KeysFindAPlaceToTakeEachThingBy) {
   const Shelf shelf({0.4, 0.1, 0});
   const auto places = places_to_take(shelf.under(), shelf.sight());
   ASSERT_EQ(places.size(), 1U);
-  EXPECT_TRUE(takeable_at(shelf.under(), shelf.sight(), places[0]));
+  EXPECT_TRUE(under_finger(shelf.under(), shelf.sight(), places[0]).takeable);
 }
 
 TEST(PointerAid, WordsAreInTheVisitorsLanguageAndNotOverAnothersNote) {

@@ -58,6 +58,7 @@ inline std::vector<client::SceneObject> manifest_of_visit() {
     objects[i].mesh_node = "OUTER";
     objects[i].movable = true;
   }
+  objects[1].title = {{"el", "Ο κάδος"}, {"en", "The bucket"}};
   return objects;
 }
 

@@ -200,6 +200,33 @@ TEST(SceneBuilder, a_river_flows_and_goes_on_beyond_its_model_and_standing_water
   EXPECT_TRUE(waters()[0].flow_W.isZero());
 }
 
+TEST(SceneBuilder, what_has_a_title_and_is_shown_is_named_in_the_visitors_language) {
+  int loads = 0;
+  AssetLibrary library = library_of(loads);
+  SceneBuilder builder(library, "en");
+  std::vector<client::SceneObject> objects(3, object(0, "machine.glb", "OUTER"));
+  for (std::uint32_t i = 0; i < 3; ++i)
+    objects[i].index = i;
+  objects[0].title = {{"el", "Το βαρέλι"}, {"en", "The barrel"}};
+  objects[1].title = {{"el", "Κρυμμένο"}, {"en", "Hidden"}};
+  builder.set_manifest(objects);
+  client::Frame frame;
+  frame.visible = {1, 0, 1};
+  frame.bodies = {{0, {Vec3(0, 2, 0), Quat::Identity()}}};
+  client::HandPose hand;
+  hand.X_WS[0].p = Vec3(0, 2, 0.55);
+  frame.hands = {hand};
+  const RenderScene scene = builder.build(&frame, nullptr, client::LinkState::joined);
+  ASSERT_EQ(scene.named.size(), 1U);
+  EXPECT_EQ(scene.named[0].name, "The barrel");
+  EXPECT_TRUE(scene.named[0].X_WB.translation().isApprox(Vec3f(0, 2, 0))) << "where it is now";
+  EXPECT_EQ(scene.near_hand, 0U);
+  builder.set_language("el");
+  EXPECT_EQ(builder.build(&frame, nullptr, client::LinkState::joined).named[0].name, "Το βαρέλι");
+  frame.hands[0].X_WS[0].p = Vec3(0, 0, 0.55);
+  EXPECT_FALSE(builder.build(&frame, nullptr, client::LinkState::joined).near_hand) << "it stood there at the start";
+}
+
 TEST(SceneBuilder, a_jet_of_the_same_bore_is_faster_with_more_water) {
   int loads = 0;
   AssetLibrary library = library_of(loads);

@@ -215,6 +215,27 @@ TEST(Compiler, BodiesCollideWhenAskedToAndWhatSnapsTogetherIsMated) {
   EXPECT_EQ(outcome.world->mates[0].body2, outer);
 }
 
+TEST(Compiler, ABodyHasATitleForVisitorsWhereTheAuthorGivesOne) {
+  const auto titled = [](const std::string& texts) {
+    return compile_text(edited("name='node' value='\"INNER\"'/>",
+                               "name='node' value='\"INNER\"'/>\n<MetadataSet containerField='value' name='text'>" +
+                                   texts + "</MetadataSet>"));
+  };
+  const auto text = [](const std::string& name, const std::string& words) {
+    return "<MetadataString containerField='value' name='" + name + "' value='\"" + words + "\"'/>";
+  };
+  const Outcome both = titled(text("title.el", "Ο κοχλίας") + text("title.en", "The screw"));
+  ASSERT_TRUE(both.world) << both.world.error().to_string();
+  EXPECT_TRUE(both.problems.empty()) << to_string(both.problems.front());
+  const auto& bodies = both.world->bodies;
+  EXPECT_EQ(bodies[both.world->find_body("INNER").index()].title,
+            (state::Texts{{"el", "Ο κοχλίας"}, {"en", "The screw"}}));
+  EXPECT_TRUE(bodies[both.world->find_body("OUTER").index()].title.empty());
+  const Outcome one = titled(text("title.en", "The screw"));
+  EXPECT_NE(to_string(one.find("the title is missing in: el")).find("mechane:body of INNER"), std::string::npos);
+  EXPECT_FALSE(titled(text("titel.en", "The screw")).find("is shown nowhere").what.empty());
+}
+
 TEST(Compiler, SlidersAndBallsStandWhereTheirBodiesDo) {
   const std::string joints =
       "<SliderJoint DEF='SLIDE' axis='0 1 0' minSeparation='0' maxSeparation='2'><RigidBody containerField='body1' "

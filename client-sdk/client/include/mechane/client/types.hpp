@@ -92,6 +92,9 @@ struct Frame {
   std::vector<RopeShape> ropes;
 };
 
+/// Text by language code.
+using Texts = std::map<std::string, std::string>;
+
 /// One object of the manifest.
 struct SceneObject {
   std::uint32_t index = 0;
@@ -102,15 +105,13 @@ struct SceneObject {
   std::string parent;
   Pose X_WB;  ///< at the start; bodies that never move stay here
   bool movable = false;
+  Texts title;  ///< what visitors call it; empty: `name` is not for them
 };
 
 struct QuantityInfo {
   std::string name;
   std::string unit;
 };
-
-/// Text by language code.
-using Texts = std::map<std::string, std::string>;
 
 /// Where the visit is.
 struct WorldStatus {

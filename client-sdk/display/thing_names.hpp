@@ -1,0 +1,22 @@
+// What things are called, for who points at them. Pure.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "client-sdk/display/render_scene.hpp"
+#include "client-sdk/display/sight.hpp"
+#include <mechane/client/types.hpp>
+
+namespace mechane::display {
+
+/// What a fingertip is about to touch: the nearest of all things within a hand's breadth. A hand that holds something, or whose device is
+/// silent, asks for no name.
+[[nodiscard]] std::optional<std::uint32_t> named_near(std::span<const NamedThing> things,
+                                                      std::span<const client::HandPose> hands);
+
+/// The name of a thing, where it is seen. None where it has none, or a part of it is not before the eye.
+[[nodiscard]] std::optional<OverlayLabel> label_of(std::span<const NamedThing> things, std::uint32_t object,
+                                                   const Sight& sight);
+
+}  // namespace mechane::display

@@ -1,0 +1,95 @@
+#include "client-sdk/display/thing_names.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::display {
+namespace {
+
+/// A board of 20 cm, 2 cm thick, turned a quarter about y.
+NamedThing board(std::uint32_t object, const Vec3f& p_W) {
+  NamedThing out;
+  out.object = object;
+  out.name = "Board " + std::to_string(object);
+  out.X_WB = Eigen::Translation3f(p_W) * Eigen::AngleAxisf(static_cast<float>(kPi / 2), Vec3f::UnitY());
+  out.box_B = Eigen::AlignedBox3f(Vec3f(-0.1F, -0.1F, -0.01F), Vec3f(0.1F, 0.1F, 0.01F));
+  return out;
+}
+
+client::HandPose hand_at(const Vec3& p_WT) {
+  client::HandPose hand;
+  hand.X_WS[0].p = p_WT;
+  return hand;
+}
+
+Sight sight_from(const Vec3& p_WC) {
+  Camera camera;
+  camera.p_WC = p_WC;
+  return seen_place(camera, Stereo::mono, {1280, 720}, {})->sight;
+}
+
+/// Metres, this much to each side.
+float some(float reach_m) {
+  return reach_m * static_cast<float>(*rc::gen::inRange(-10'000, 10'001)) / 10'000;
+}
+
+TEST(ThingNames, a_free_finger_near_a_thing_means_the_nearest) {
+  const std::vector<NamedThing> things{board(3, {0, 0, 0}), board(4, {0, 0, 0.3F})};
+  // Turned, a board reaches from z = -0.1 to 0.1, and is thin along x.
+  EXPECT_EQ(named_near(things, std::vector{hand_at({0.05, 0, 0})}), 3U);
+  EXPECT_EQ(named_near(things, std::vector{hand_at({0.03, 0, 0.16})}), 4U);
+  EXPECT_EQ(named_near(things, std::vector{hand_at({0.03, 0, 0.14})}), 3U);
+  EXPECT_FALSE(named_near(things, std::vector{hand_at({0.12, 0, 0})})) << "farther than a hand is broad";
+  EXPECT_EQ(named_near(things, std::vector{hand_at({1, 1, 1}), hand_at({0.02, 0, 0.3})}), 4U) << "of any hand";
+  EXPECT_FALSE(named_near({}, std::vector{hand_at({0, 0, 0})}));
+  EXPECT_FALSE(named_near(things, std::vector{hand_at({std::nan(""), 0, 0})}));
+}
+
+TEST(ThingNames, a_hand_that_holds_or_whose_device_is_silent_asks_for_none) {
+  const std::vector<NamedThing> things{board(3, {0, 0, 0})};
+  std::vector hands{hand_at({0.02, 0, 0})};
+  ASSERT_TRUE(named_near(things, hands));
+  hands[0].holding = true;
+  EXPECT_FALSE(named_near(things, hands));
+  hands[0].holding = false;
+  hands[0].stale = true;
+  EXPECT_FALSE(named_near(things, hands));
+}
+
+TEST(ThingNames, a_gloves_index_is_what_points) {
+  const std::vector<NamedThing> things{board(3, {0, 0, 0})};
+  client::HandPose glove;
+  glove.kind = client::HandKind::glove;
+  for (Pose& X_WS : glove.X_WS)
+    X_WS.p = Vec3(2, 2, 2);
+  EXPECT_FALSE(named_near(things, std::vector{glove}));
+  glove.X_WS[6].p = Vec3(0.03, 0, 0);  // the index finger's end
+  EXPECT_EQ(named_near(things, std::vector{glove}), 3U);
+}
+
+RC_GTEST_PROP(ThingNames, a_name_is_over_its_thing, ()) {
+  const NamedThing thing = board(3, Vec3f(some(1), some(0.5F), some(1)));
+  const Sight sight = sight_from({0, 0.2, 3});
+  const auto label = label_of(std::vector{thing}, 3, sight);
+  RC_ASSERT(label.has_value());
+  RC_ASSERT(label->text == "Board 3");
+  const auto middle = pixel_of(sight, thing.X_WB.translation().cast<double>());
+  RC_ASSERT(std::abs(static_cast<double>(label->x) - middle->x) < 20);
+  RC_ASSERT(static_cast<double>(label->top) < middle->y);
+  RC_ASSERT(static_cast<double>(label->bottom) > middle->y);
+  for (const float y : {-0.1F, 0.1F}) {
+    const auto edge = pixel_of(sight, (thing.X_WB * Vec3f(0, y, 0)).cast<double>());
+    RC_ASSERT(static_cast<double>(label->top) <= edge->y + 0.01);
+    RC_ASSERT(static_cast<double>(label->bottom) >= edge->y - 0.01);
+  }
+}
+
+TEST(ThingNames, what_has_no_name_or_is_behind_the_eye_has_no_label) {
+  const std::vector<NamedThing> things{board(3, {0, 0, 0})};
+  EXPECT_FALSE(label_of(things, 4, sight_from({0, 0, 3})));
+  EXPECT_FALSE(label_of(things, 3, sight_from({0, 0, -3}))) << "the camera looks along -z";
+  EXPECT_FALSE(label_of(things, 3, sight_from({0, 0, 0.05}))) << "a part of it is behind the eye";
+}
+
+}  // namespace
+}  // namespace mechane::display
