@@ -23,6 +23,7 @@ std::optional<std::uint32_t> named_near(std::span<const NamedThing> things, std:
   for (const client::HandPose& hand : hands) {
     if (hand.stale || hand.holding) continue;
     const Vec3f p_WT = index_tip(hand).cast<float>();
+    if (!p_WT.allFinite()) continue;  // to Eigen it is in every box
     for (const NamedThing& thing : things) {
       const float apart = thing.box_B.exteriorDistance(Vec3f(thing.X_WB.inverse() * p_WT));
       if (!(apart < least)) continue;
