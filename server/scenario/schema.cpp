@@ -511,12 +511,8 @@ std::span<const Table* const> all_tables() {
 }
 
 bool one_of(std::string_view word, std::string_view choices) {
-  while (!choices.empty()) {
-    const std::size_t end = std::min(choices.find(' '), choices.size());
-    if (choices.substr(0, end) == word) return true;
-    choices.remove_prefix(std::min(end + 1, choices.size()));
-  }
-  return false;
+  const std::vector<std::string> words = words_of(choices);
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 bool matches(std::string_view pattern, std::string_view name) {

@@ -22,7 +22,7 @@ client::HandPose hand_at(const Vec3& p_WT) {
   return hand;
 }
 
-Sight sight_from(const Vec3& p_WC, const Vec3& p_WT = Vec3::Zero()) {
+Sight label_sight(const Vec3& p_WC, const Vec3& p_WT = Vec3::Zero()) {
   Camera camera;
   camera.p_WC = p_WC;
   camera.p_WT = p_WT;
@@ -70,7 +70,7 @@ TEST(ThingNames, a_gloves_index_is_what_points) {
 
 RC_GTEST_PROP(ThingNames, a_name_is_over_its_thing, ()) {
   const NamedThing thing = board(3, Vec3f(some(1), some(0.5F), some(1)));
-  const Sight sight = sight_from({0, 0.2, 3});
+  const Sight sight = label_sight({0, 0.2, 3});
   const auto label = label_of(std::vector{thing}, 3, sight);
   RC_ASSERT(label.has_value());
   RC_ASSERT(label->text == "Board 3");
@@ -87,9 +87,9 @@ RC_GTEST_PROP(ThingNames, a_name_is_over_its_thing, ()) {
 
 TEST(ThingNames, what_has_no_name_or_is_behind_the_eye_has_no_label) {
   const std::vector<NamedThing> things{board(3, {0, 0, 0})};
-  EXPECT_FALSE(label_of(things, 4, sight_from({0, 0, 3})));
-  EXPECT_FALSE(label_of(things, 3, sight_from({0, 0, 3}, {0, 0, 6}))) << "it lies behind";
-  EXPECT_FALSE(label_of(things, 3, sight_from({0, 0, 0.05}))) << "a part of it is behind the eye";
+  EXPECT_FALSE(label_of(things, 4, label_sight({0, 0, 3})));
+  EXPECT_FALSE(label_of(things, 3, label_sight({0, 0, 3}, {0, 0, 6}))) << "it lies behind";
+  EXPECT_FALSE(label_of(things, 3, label_sight({0, 0, 0.05}))) << "a part of it is behind the eye";
 }
 
 }  // namespace
