@@ -11,14 +11,6 @@ class Film(EndToEnd):
     def display(self, *arguments, size="320x180"):
         return self.start("display", "display", "--kiosk", "wall", "--language", "en", "--offscreen", "--size", size, *arguments)
 
-    def picture(self, display):
-        """Of this moment, as bytes."""
-        self.pictures = getattr(self, "pictures", 0) + 1
-        file = self.folder / f"pictures/request-{self.pictures:03}-mono.png"
-        display.process.send_signal(signal.SIGUSR1)
-        wait_until(file.exists, 20, f"picture {self.pictures} was taken")
-        return file.read_bytes()
-
     def test_a_server_that_is_stopped_in_mid_turn_stops_the_picture(self):
         server = self.server(records=False)
         display = self.display("--out", self.folder / "pictures", "--screen-width", 1.2, "--viewer-distance", 2)
@@ -29,18 +21,17 @@ class Film(EndToEnd):
         server.process.send_signal(signal.SIGSTOP)
         # The calm word about the link comes two seconds later; the bounded extrapolation was over long before it.
         wait_until(lambda: {d["link"] for d in self.displays().values()} == {"lost"}, 30, "the display knows of no server")
-        still = [self.picture(display)]
-        wait_until(lambda: still.append(self.picture(display)) or still[-1] == still[-2], 30, "the picture stands still")
-        self.assertEqual({self.picture(display) for _ in range(8)}, {still[-1]}, "and nothing in it moves any more")
+        still = self.still_picture(display)
+        self.assertEqual({self.picture(display) for _ in range(8)}, {still}, "and nothing in it moves any more")
         # A head that moves looks at the same moment from elsewhere, and back.
         head = self.start("head", "head", "--kiosk", "wall", "--at", 0.4, 0.1, 2)
-        wait_until(lambda: self.picture(display) != still[-1], 30, "the picture follows the head")
+        wait_until(lambda: self.picture(display) != still, 30, "the picture follows the head")
         self.assertEqual(head.stop(), 0, head.text())
-        wait_until(lambda: self.picture(display) == still[-1], 60, "without a tracker it is as before")
+        wait_until(lambda: self.picture(display) == still, 60, "without a tracker it is as before")
         server.process.send_signal(signal.SIGCONT)
         visitor.stop()  # its moves may be over by now; the next one's hand is seen to come
         self.visitor("wall", "--activity", "use")
-        wait_until(lambda: self.picture(display) != still[-1], 30, "it goes on with the server")
+        wait_until(lambda: self.picture(display) != still, 30, "it goes on with the server")
         self.assertIsNone(server.process.poll(), "it lives through what it slept over: " + server.text())
         self.assertEqual(display.stop(), 0, display.text())
 

@@ -130,6 +130,28 @@ class EndToEnd(unittest.TestCase):
             server.kill()
             server.wait()
 
+    def picture(self, display):
+        """What a display that writes to the folder `pictures` shows at this moment, as bytes."""
+        self.pictures = getattr(self, "pictures", 0) + 1
+        file = self.folder / f"pictures/request-{self.pictures:03}-mono.png"
+        display.process.send_signal(signal.SIGUSR1)
+        wait_until(file.exists, 20, f"picture {self.pictures} was taken")
+        return file.read_bytes()
+
+    def still_picture(self, display, seconds=0):
+        """Once it has stayed the same for so long, two pictures at least."""
+        still, since = self.picture(display), time.monotonic()
+
+        def stays():
+            nonlocal still, since
+            newer = self.picture(display)
+            if newer != still:
+                still, since = newer, time.monotonic()
+                return False
+            return time.monotonic() - since >= seconds
+        wait_until(stays, 30 + seconds, "the picture stands still")
+        return still
+
     def report_of(self, visitor):
         return json.loads(visitor.report_file.read_text())
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+import signal
 import sys
 import time
 import unittest
@@ -57,6 +58,33 @@ class Touch(EndToEnd):
     def test_a_load_is_lifted_and_guided_by_touch_alone(self):
         with self.visitor_at("pulley-crane") as visitor:
             self.assertTrue(visitor.play("use"), visitor.story)
+
+    def test_a_sign_under_the_pointer_has_its_name_written_above_it(self):
+        server = self.server(scenario=scenario_of("village"), records=False)
+        size = "x".join(map(str, SIZE))
+        with self.screen(size) as environment:
+            window = self.start("window", "display", "--kiosk", "wall", "--size", size, "--mute", "--out", self.folder / "pictures", environment=environment)
+            visitor = TouchVisitor(scenario_of("village"), "wall", SIZE, environment)
+            self.addCleanup(visitor.stop)
+            wait_until(lambda: {d["link"] for d in self.displays().values()} == {"joined"}, 30, "the window shows the village")
+            # In a world that stands still, only the pointer changes a picture.
+            server.process.send_signal(signal.SIGSTOP)
+            wait_until(lambda: {d["link"] for d in self.displays().values()} == {"lost"}, 30, "the window knows of no server")
+
+            def seen(body, p):
+                visitor.point(visitor.screen.pixel(placed(visitor.pose(body), p)))
+            wall, board = [0, 0.6, 0.5], [0, -0.106, 0.01]
+            seen("STAND", wall)
+            shown = [self.still_picture(window, 9)]  # the goal is said for 8 s to who comes
+            for body, p in (("SIGN_SCREW", board), ("SIGN_PUMP", board), ("STAND", wall), ("SIGN_SCREW", board)):
+                seen(body, p)
+                wait_until(lambda: self.picture(window) != shown[-1], 10, f"another picture over {body}")
+                shown.append(self.still_picture(window))
+            self.assertEqual(len(set(shown)), 3, "each name is another")
+            self.assertEqual(shown[3], shown[0], "what has no name shows none")
+            self.assertEqual(shown[4], shown[1])
+            server.process.send_signal(signal.SIGCONT)
+            self.assertEqual(window.stop(), 0, window.text())
 
     def test_two_fingers_on_glass_carry_turn_and_bring_nearer(self):
         self.server(scenario=scenario_of("aiolos-sphere"), records=False)
