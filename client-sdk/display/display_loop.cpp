@@ -129,11 +129,12 @@ RenderScene DisplayLoop::build(TimePoint now) const {
 
 /// By the display's own pointer, or else by a hand. Words lie in the screen, for both eyes alike.
 void DisplayLoop::name_what_is_meant(RenderScene& scene) const {
-  const auto pointed = pointer_ ? pointer_->pointed_at() : std::nullopt;
-  const auto meant = pointed ? pointed : scene.near_hand;
   const PixelSize eye = seen_size(options_.stereo, context_.size());
   const auto seen = seen_place(scene.camera, Stereo::mono, eye, {});
-  if (meant && seen) scene.overlay.label = label_of(scene.named, *meant, seen->sight);
+  if (!seen) return;
+  for (const auto& meant : {pointer_ ? pointer_->pointed_at() : std::nullopt, scene.near_hand}) {
+    if (meant && !scene.overlay.label) scene.overlay.label = label_of(scene.named, *meant, seen->sight);
+  }
 }
 
 PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {

@@ -11,12 +11,6 @@
 
 namespace mechane::display {
 
-/// What was pressed on.
-struct Touched {
-  std::uint32_t object = 0;
-  Vec3 p_WT = Vec3::Zero();  ///< of its surface, under the pixel
-};
-
 /// What the hand can see and feel of the touched object.
 struct PointerSenses {
   Pose X_WB;  ///< the touched object's

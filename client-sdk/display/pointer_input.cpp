@@ -179,9 +179,9 @@ void PointerInput::update(const PointerScene& scene, TimePoint now) {
   under_hover_ = seen ? under_finger(scene, seen->sight, seen->place) : UnderFinger{};
 }
 
-std::optional<std::uint32_t> PointerInput::pointed_at() const {
+std::optional<Touched> PointerInput::pointed_at() const {
   if (!is_away()) return {};
-  return under_hover_.takeable ? std::optional(under_hover_.takeable->object) : under_hover_.object;
+  return under_hover_.takeable ? under_hover_.takeable : under_hover_.seen;
 }
 
 bool PointerInput::rests(TimePoint now) {

@@ -35,7 +35,7 @@ struct PointerScene {
 
 /// What a pixel is of, and what a finger on it means to take: what is seen there, or else within a fingertip's breadth.
 struct UnderFinger {
-  std::optional<std::uint32_t> object{};  ///< of the manifest
+  std::optional<Touched> seen{};  ///< none: scenery, sky or ground
   std::optional<Touched> takeable{};
 };
 [[nodiscard]] UnderFinger under_finger(const PointerScene& scene, const Sight& sight, PixelPlace place);
@@ -57,7 +57,7 @@ class PointerInput {
   /// The hand is nowhere: it reaches for nothing and holds nothing.
   [[nodiscard]] bool is_away() const { return link_.view().phase == PointerView::Phase::resting; }
   /// The object that the pointer would take, or else is on; none while it takes one.
-  [[nodiscard]] std::optional<std::uint32_t> pointed_at() const;
+  [[nodiscard]] std::optional<Touched> pointed_at() const;
   /// Another world is shown: what the keys pointed at is gone.
   void forget_world();
   /// Adds what helps to find the way.

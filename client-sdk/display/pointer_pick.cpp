@@ -109,10 +109,12 @@ bool PointerScene::takeable(std::uint32_t object) const {
 }
 
 UnderFinger under_finger(const PointerScene& scene, const Sight& sight, PixelPlace place) {
+  UnderFinger under;
   const auto picked = picked_at(scene.scene, scene.assets, sight, place);
-  if (!picked || !picked->object) return {{}, takeable_about(scene, sight, place)};
-  if (scene.takeable(*picked->object)) return {picked->object, Touched{*picked->object, picked->p_WT}};
-  return {picked->object, takeable_about(scene, sight, place)};
+  if (picked && picked->object) under.seen = Touched{*picked->object, picked->p_WT};
+  const bool this_one = under.seen && scene.takeable(under.seen->object);
+  under.takeable = this_one ? under.seen : takeable_about(scene, sight, place);
+  return under;
 }
 
 std::vector<PixelPlace> places_to_take(const PointerScene& scene, const Sight& sight) {

@@ -159,6 +159,12 @@ struct Occluder {
   float radius_m = 0;
 };
 
+/// What a pointer or a finger is on.
+struct Touched {
+  std::uint32_t object = 0;  ///< of the manifest
+  Vec3 p_WT = Vec3::Zero();  ///< there
+};
+
 /// A thing that visitors have a name for, and where it is.
 struct NamedThing {
   std::uint32_t object = 0;  ///< of the manifest
@@ -193,7 +199,7 @@ struct RenderScene {
   std::optional<std::uint32_t> land_material;  ///< whose images give the plain its grain; none: it has none
   double time_s = 0;  ///< of the world, for ripples: the frame's tick, never the client's clock
   std::vector<NamedThing> named;
-  std::optional<std::uint32_t> near_hand;  ///< the object, of those that are named, that a free hand is about to touch
+  std::optional<Touched> near_hand;  ///< what a free hand is about to touch, of those that are named
   OverlayContent overlay;
   std::optional<Inset> inset;
 };

@@ -12,11 +12,12 @@ namespace mechane::display {
 
 /// What a fingertip is about to touch: the nearest of all things within a hand's breadth. A hand that holds something, or whose device is
 /// silent, asks for no name.
-[[nodiscard]] std::optional<std::uint32_t> named_near(std::span<const NamedThing> things,
-                                                      std::span<const client::HandPose> hands);
+[[nodiscard]] std::optional<Touched> named_near(std::span<const NamedThing> things,
+                                                std::span<const client::HandPose> hands);
 
-/// The name of a thing, where it is seen. None where it has none, or a part of it is not before the eye.
-[[nodiscard]] std::optional<OverlayLabel> label_of(std::span<const NamedThing> things, std::uint32_t object,
+/// The name of what is meant, where it is seen; of a large thing, about the place that is pointed at. None where it has no name, or what is
+/// meant is not before the eye.
+[[nodiscard]] std::optional<OverlayLabel> label_of(std::span<const NamedThing> things, const Touched& meant,
                                                    const Sight& sight);
 
 }  // namespace mechane::display

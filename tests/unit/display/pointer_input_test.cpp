@@ -72,8 +72,8 @@ TEST(PointerPick, WhatNoStepLetsOneTakeIsNotTaken) {
 
 TEST(PointerPick, WhatCannotBeTakenIsSeenAllTheSame) {
   const Shelf shelf({0, 0, 0});
-  EXPECT_EQ(under_finger(shelf.under(), shelf.sight(), {640, 360}).object, 1U);
-  EXPECT_EQ(under_finger(shelf.under(), shelf.sight(), {240, 360}).object, 0U) << "the wall";
+  EXPECT_EQ(under_finger(shelf.under(), shelf.sight(), {640, 360}).seen->object, 1U);
+  EXPECT_EQ(under_finger(shelf.under(), shelf.sight(), {240, 360}).seen->object, 0U) << "the wall";
 }
 
 TEST(PointerInput, PointsAtWhatItWouldTakeOrIsOn) {
@@ -89,7 +89,7 @@ TEST(PointerInput, PointsAtWhatItWouldTakeOrIsOn) {
     event.y = 360;
     input.take(event, shelf.under(), false);
     input.update(shelf.under(), now += std::chrono::seconds(1));
-    return input.pointed_at();
+    return input.pointed_at()->object;
   };
   EXPECT_EQ(hover(240), 0U);
   EXPECT_EQ(hover(640), 1U);

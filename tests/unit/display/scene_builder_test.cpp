@@ -220,7 +220,9 @@ TEST(SceneBuilder, what_has_a_title_and_is_shown_is_named_in_the_visitors_langua
   ASSERT_EQ(scene.named.size(), 1U);
   EXPECT_EQ(scene.named[0].name, "The barrel");
   EXPECT_TRUE(scene.named[0].X_WB.translation().isApprox(Vec3f(0, 2, 0))) << "where it is now";
-  EXPECT_EQ(scene.near_hand, 0U);
+  ASSERT_TRUE(scene.near_hand);
+  EXPECT_EQ(scene.near_hand->object, 0U);
+  EXPECT_TRUE(scene.near_hand->p_WT.isApprox(hand.X_WS[0].p, 1e-6));
   builder.set_language("el");
   EXPECT_EQ(builder.build(&frame, nullptr, client::LinkState::joined).named[0].name, "Το βαρέλι");
   frame.hands[0].X_WS[0].p = Vec3(0, 0, 0.55);

@@ -216,24 +216,24 @@ TEST(Compiler, BodiesCollideWhenAskedToAndWhatSnapsTogetherIsMated) {
 }
 
 TEST(Compiler, ABodyHasATitleForVisitorsWhereTheAuthorGivesOne) {
-  const auto titled = [](const std::string& texts) {
-    return compile_text(edited("name='node' value='\"INNER\"'/>",
-                               "name='node' value='\"INNER\"'/>\n<MetadataSet containerField='value' name='text'>" +
-                                   texts + "</MetadataSet>"));
+  const std::string greek = "<MetadataString containerField='value' name='title.el' value='\"Ο κύλινδρος\"'/>";
+  const std::string english = "<MetadataString containerField='value' name='title.en' value='\"The barrel\"'/>";
+  const auto title_of = [](const Outcome& outcome) {
+    return outcome.world ? outcome.world->bodies[outcome.world->find_body("OUTER").index()].title : state::Texts{};
   };
-  const auto text = [](const std::string& name, const std::string& words) {
-    return "<MetadataString containerField='value' name='" + name + "' value='\"" + words + "\"'/>";
-  };
-  const Outcome both = titled(text("title.el", "Ο κοχλίας") + text("title.en", "The screw"));
-  ASSERT_TRUE(both.world) << both.world.error().to_string();
-  EXPECT_TRUE(both.problems.empty()) << to_string(both.problems.front());
-  const auto& bodies = both.world->bodies;
-  EXPECT_EQ(bodies[both.world->find_body("INNER").index()].title,
-            (state::Texts{{"el", "Ο κοχλίας"}, {"en", "The screw"}}));
-  EXPECT_TRUE(bodies[both.world->find_body("OUTER").index()].title.empty());
-  const Outcome one = titled(text("title.en", "The screw"));
-  EXPECT_NE(to_string(one.find("the title is missing in: el")).find("mechane:body of INNER"), std::string::npos);
-  EXPECT_FALSE(titled(text("titel.en", "The screw")).find("is shown nowhere").what.empty());
+  EXPECT_EQ(title_of(compile_text(text_of(shipped_file()))),
+            (state::Texts{{"el", "Ο κύλινδρος"}, {"en", "The barrel"}}));
+  const Outcome one = compile_text(edited(greek, ""));
+  EXPECT_EQ(title_of(one), (state::Texts{{"en", "The barrel"}}));
+  EXPECT_NE(to_string(one.find("the title is missing in: el")).find("mechane:body of OUTER"), std::string::npos);
+  std::string none = edited(greek, "");
+  none.replace(none.find(english), english.size(), "");
+  const Outcome untitled = compile_text(none);
+  EXPECT_TRUE(untitled.world && title_of(untitled).empty());
+  EXPECT_TRUE(untitled.problems.empty()) << "not every body is one for visitors";
+  EXPECT_FALSE(compile_text(edited("name='title.el' value='\"Ο κύλινδρος", "name='titel.el' value='\"Ο κύλινδρος"))
+                   .find("is shown nowhere")
+                   .what.empty());
 }
 
 TEST(Compiler, SlidersAndBallsStandWhereTheirBodiesDo) {
