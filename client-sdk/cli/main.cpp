@@ -1,4 +1,5 @@
 // `mechane`: one command for people. Short tasks run here; long-running programs take its place.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iostream>
@@ -19,6 +20,7 @@
 #include "server/log/log.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/merge.hpp"
+#include "server/scenario/problem.hpp"
 #include "server/scenario/reference.hpp"
 #include <mechane/client/displays.hpp>
 
@@ -179,6 +181,17 @@ CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
   return visits;
 }
 
+/// What to say to a first word that is no command; empty: it is one, or an option.
+std::string unknown_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::count(known, word) > 0) return {};
+  const std::string near = scenario::nearest(word, known);
+  return "mechane: there is no command '" + word.substr(0, 80) + "'" +
+         (near.empty() ? "" : ": did you mean '" + near + "'?") + " (mechane --help lists them)\n";
+}
+
 int add_and_parse(int argc, char** argv) {
   CLI::App app{"Mechane: touch, assemble and work the machines of ancient Greek engineers."};
   app.set_version_flag("--version", std::string("mechane ") + MECHANE_VERSION);
@@ -215,6 +228,10 @@ int add_and_parse(int argc, char** argv) {
   auto* doctor_command = app.add_subcommand("doctor", "tell whether this machine can hold 1 kHz");
   doctor_command->add_flag("--json", doctor_json, "as JSON");
   doctor_command->add_option("--probe-seconds", probe_s, "how long wake-ups are measured");
+  if (const std::string fault = argc > 1 ? unknown_command(app, argv[1]) : std::string(); !fault.empty()) {
+    std::cerr << fault;
+    return 2;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -29,7 +29,7 @@ struct OverlayButton {
 
 /// One question, or a farewell: one panel in the middle of the picture.
 struct OverlayPanel {
-  std::string title;  ///< the activity's
+  std::string title;  ///< the exhibit's and the activity's
   std::string goal;   ///< under the title; empty: none
   std::string text;
   std::string more;  ///< under the text; empty: none

@@ -141,10 +141,10 @@ struct Note {
   float width = 0, height = 0;
 };
 
-Note measure_note(const Page& page, const std::string& text) {
+Note measure_note(const Page& page, const std::string& text, float most) {
   Note note;
   const float padding = page.tx(20);
-  note.lines = page.lines(Face::regular, kNoteSize, text, page.width - 2 * page.margin() - 2 * padding);
+  note.lines = page.lines(Face::regular, kNoteSize, text, most - 2 * padding);
   for (const std::string& line : note.lines)
     note.width = std::max(note.width, page.measure(Face::regular, kNoteSize, line) + 2 * padding);
   if (!note.lines.empty()) note.height = page.tx(18) + static_cast<float>(note.lines.size()) * page.tx(28);
@@ -166,20 +166,42 @@ bool overlap(const Box& a, const Box& b) {
   return !a.empty() && !b.empty() && a.shares_columns(b) && a.y < b.below() && b.y < a.below();
 }
 
+/// The corners of a thing: which one is meant, where several stand close together.
+void add_corners(Page& page, const Box& thing) {
+  const float line = page.px(page.high_contrast ? 8 : 3);
+  const float arm = std::max(std::round(0.22F * std::min(thing.width, thing.height)), line);
+  for (const float x : {thing.x, thing.right() - arm}) {
+    for (const float y : {thing.y, thing.below() - line})
+      page.add_shape({x, y, arm, line}, 0, page.colours.gold);
+  }
+  for (const float x : {thing.x, thing.right() - line}) {
+    for (const float y : {thing.y, thing.below() - arm})
+      page.add_shape({x, y, line, arm}, 0, page.colours.gold);
+  }
+}
+
 /// Above its thing, or under it. Where all else lies, there is no room: what a panel says matters more.
 void add_label(Page& page, const OverlayLabel& label, const std::vector<Box>& others) {
   const float room = page.width - 2 * page.margin();
   const auto lines = page.lines(Face::bold, kLabelSize, label.text, room);
   if (lines.empty()) return;
+  const Box sheet{0, 0, page.width, page.height};
+  const auto is_free = [&](const Box& box) {
+    const bool within = box.x >= 0 && box.y >= 0 && box.right() <= sheet.width && box.below() <= sheet.height;
+    return within && std::ranges::none_of(others, [&](const Box& other) { return overlap(box, other); });
+  };
+  const float gap = page.px(6);
+  const Box thing{std::round(label.left - gap), std::round(label.top - gap),
+                  std::round(label.right - label.left + 2 * gap), std::round(label.bottom - label.top + 2 * gap)};
+  if (label.framed && is_free(thing)) add_corners(page, thing);
   const float padding = page.tx(14);
   const float width = std::min(page.measure(Face::bold, kLabelSize, lines.front()) + 2 * padding, room);
   const float height = page.tx(38);
-  const float lowest = page.height - page.margin() - height;
-  const float x = std::round(std::clamp(label.x - width / 2, page.margin(), page.width - page.margin() - width));
-  for (const float y : {label.top - page.px(8) - height, label.bottom + page.px(8)}) {
+  const float middle = (label.left + label.right) / 2;
+  const float x = std::round(std::clamp(middle - width / 2, page.margin(), page.width - page.margin() - width));
+  for (const float y : {thing.y - page.px(4) - height, thing.below() + page.px(4)}) {
     const Box box{x, std::round(y), width, height};
-    const auto covers = [&](const Box& other) { return overlap(box, other); };
-    if (box.y < page.margin() || box.y > lowest || std::ranges::any_of(others, covers)) continue;
+    if (!is_free(box)) continue;
     page.add_shape(box, page.tx(10), page.colours.ink);
     return page.add_text(x + padding, box.y + page.tx(26), Face::bold, kLabelSize, page.colours.paper, lines.front());
   }
@@ -218,22 +240,26 @@ Box caption_room(const Page& page, const Box& corner, float top) {
   return {margin, top, fits ? std::min(wanted, beside) : wanted, below - top};
 }
 
-void lay_out_panel(Page& page, const OverlayContent& content, const Box& corner, const Note& note) {
+void lay_out_panel(Page& page, const OverlayContent& content, const Box& corner) {
   const float margin = page.margin();
+  const Note note = measure_note(page, content.note, page.width - 2 * margin);
   float top = margin;
   if (!note.lines.empty()) top = add_note(page, note, top).below() + page.gap();
   const float below = corner.empty() ? page.height - margin : corner.y - page.gap();
   add_question_panel(page, *content.panel, {margin, top, page.width - 2 * margin, below - top});
 }
 
-void lay_out_captions(Page& page, const OverlayContent& content, const Box& corner, const Note& note,
-                      const Box& inset) {
+void lay_out_captions(Page& page, const OverlayContent& content, const Box& corner, const Box& inset) {
   const float gap = page.gap();
   const float margin = page.margin();
   const ReadoutSizes readout = readout_sizes(page);
   const float readouts = page.width - margin - (content.readouts.empty() ? 0 : readout.width + gap);
-  const bool note_above =
-      (page.width + note.width) / 2 <= readouts && (page.width - note.width) / 2 >= inset.right() + gap;
+  // At the top, in the middle, in few lines; else above the caption.
+  const float middle = page.width / 2;
+  const float room = 2 * std::min(readouts - middle, middle - (inset.empty() ? margin : inset.right() + gap));
+  Note note = measure_note(page, content.note, std::max(room, page.tx(240)));
+  const bool note_above = note.width <= room && note.lines.size() <= 3;
+  if (!note_above) note = measure_note(page, content.note, page.width - 2 * margin);
   float top = inset.empty() ? margin : inset.below() + gap;
   // One number at least has its place before many words have theirs.
   if (!content.readouts.empty()) top = std::max(top, margin + 2 * readout.padding + readout.row + gap);
@@ -294,11 +320,10 @@ OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const Measu
   }
   if (content.panel) page.add_shape({0, 0, page.width, page.height}, 0, page.colours.veil);
   const Box corner = add_corner(page, content.corner);
-  const Note note = measure_note(page, content.note);
   if (content.panel) {
-    lay_out_panel(page, content, corner, note);
+    lay_out_panel(page, content, corner);
   } else {
-    lay_out_captions(page, content, corner, note, inset);
+    lay_out_captions(page, content, corner, inset);
   }
   return std::move(page.out);
 }

@@ -131,9 +131,8 @@ struct OverlayDot {
 /// What a thing is called, above it where there is room. The thing's place is in pixels of one eye's picture.
 struct OverlayLabel {
   std::string text;
-  float x = 0;  ///< its middle
-  float top = 0;
-  float bottom = 0;
+  float left = 0, top = 0, right = 0, bottom = 0;
+  bool framed = false;  ///< its corners are marked: all of it is there
 };
 
 /// Everything that is written over the picture, in one language, UTF-8.

@@ -44,14 +44,17 @@ std::optional<OverlayLabel> label_of(std::span<const NamedThing> things, const T
   const Eigen::Vector2f middle(static_cast<float>(at->x), static_cast<float>(at->y));
   const Eigen::Vector2f reach = Eigen::Vector2f::Constant(kReadTogether * static_cast<float>(sight.picture.height));
   Eigen::AlignedBox2f seen;
+  bool whole = true;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3f p_W = thing->X_WB * thing->box_B.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner));
-    if (const auto pixel = pixel_of(sight, p_W.cast<double>()))
-      seen.extend(Eigen::Vector2f(static_cast<float>(pixel->x), static_cast<float>(pixel->y)));
+    const auto pixel = pixel_of(sight, p_W.cast<double>());
+    whole = whole && pixel;
+    if (pixel) seen.extend(Eigen::Vector2f(static_cast<float>(pixel->x), static_cast<float>(pixel->y)));
   }
-  const Eigen::AlignedBox2f about = seen.intersection({middle - reach, middle + reach});
-  if (about.isEmpty()) return OverlayLabel{thing->name, middle.x(), middle.y(), middle.y()};
-  return OverlayLabel{thing->name, about.center().x(), about.min().y(), about.max().y()};
+  whole = whole && (seen.sizes().array() <= 2 * reach.array()).all();
+  Eigen::AlignedBox2f about = whole ? seen : seen.intersection({middle - reach, middle + reach});
+  if (about.isEmpty()) about = Eigen::AlignedBox2f(middle);
+  return OverlayLabel{thing->name, about.min().x(), about.min().y(), about.max().x(), about.max().y(), whole};
 }
 
 }  // namespace mechane::display

@@ -156,6 +156,7 @@ void VisitorPanel::ask_or_end(TimePoint now) {
 void VisitorPanel::update(const VisitorNews& news, TimePoint now) {
   if (!std::exchange(began_, true)) stirred_ = now;
   presentation_ = news.presentation;
+  if (news.status != nullptr) exhibit_ = news.status->title;
   home_ = news.status != nullptr && news.home != news.status->scenario ? news.home : std::string();
   if (news.status != nullptr) follow_run(*news.status, now);
   notice_hands(news.frame, now);
@@ -245,7 +246,9 @@ void VisitorPanel::change(const VisitorPanelSettings& settings) {
 OverlayPanel VisitorPanel::panel_of(const client::Activity& activity) const {
   const PanelWords& words = words_in(language_);
   OverlayPanel panel;
-  panel.title = text_in(activity.title, language_);
+  panel.title = text_in(exhibit_, language_);
+  const std::string task = text_in(activity.title, language_);
+  if (!task.empty() && task != panel.title) panel.title += (panel.title.empty() ? "" : " · ") + task;
   panel.questions = static_cast<std::uint32_t>(activity.questions.size());
   panel.asked = static_cast<std::uint32_t>(asking_->next);
   if (asking_->next >= activity.questions.size()) {

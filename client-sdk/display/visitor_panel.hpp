@@ -125,7 +125,8 @@ class VisitorPanel {
   VisitorPanelSettings settings_;
   std::string language_;
   std::shared_ptr<const client::WorldPresentation> presentation_;
-  std::string home_;  ///< empty: the visitor is there, or it is not known
+  client::Texts exhibit_;  ///< its title
+  std::string home_;       ///< empty: the visitor is there, or it is not known
   std::optional<Run> run_;
   TimePoint goal_from_;
   std::optional<Asking> asking_;

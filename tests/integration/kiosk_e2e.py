@@ -174,6 +174,14 @@ class Kiosk(EndToEnd):
             self.assertNotRegex(result.stdout + result.stderr, r"[\x00-\x09\x0b-\x1f]", arguments)
         self.assertEqual(film.read_text(), "a recorded visit")
 
+    def test_a_command_that_is_none_is_told_with_the_nearest(self):
+        for words, said in ((["displya"], "there is no command 'displya': did you mean 'display'? (mechane --help"),
+                            (["xyzzy", "--kiosk", "wall"], "there is no command 'xyzzy' (mechane --help"),
+                            ([], "A subcommand is required"), (["--no-such"], "--no-such")):
+            result = self.run_command(*words)
+            self.assertEqual(result.returncode, 2, (words, result.stdout + result.stderr))
+            self.assertIn(said, result.stderr, words)
+
     def test_the_help_of_a_display_tells_what_is_usual(self):
         told = " ".join(self.run_command("display", "--help").stdout.split())
         self.assertRegex(told, r"--ask TEXT:\{none,after,both\}=after ")

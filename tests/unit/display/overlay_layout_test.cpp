@@ -321,7 +321,11 @@ RC_GTEST_PROP(OverlayLayout, a_name_lies_over_nothing, ()) {
   const auto pixel = [](int low, std::uint32_t high) {
     return static_cast<float>(*rc::gen::inRange(low, static_cast<int>(high) + 200));
   };
-  OverlayLabel label{"The barrel", pixel(-200, size.width), pixel(-200, size.height), 0};
+  OverlayLabel label;
+  label.text = "The barrel";
+  label.left = pixel(-200, size.width);
+  label.right = label.left + pixel(1, size.width / 8);
+  label.top = pixel(-200, size.height);
   label.bottom = label.top + pixel(1, size.height / 4);
   content.label = label;
   const OverlayLayout layout = lay_out(content, size, half_square);
@@ -345,9 +349,46 @@ RC_GTEST_PROP(OverlayLayout, a_name_lies_over_nothing, ()) {
   }
 }
 
+TEST(OverlayLayout, the_corners_of_what_is_meant_are_about_it_or_nowhere) {
+  OverlayContent content;
+  content.caption = "Turn the crank.";
+  const std::size_t bare = lay_out(content, {1280, 720}, half_square).shapes.size();
+  content.label = OverlayLabel{"The barrel", 600, 300, 680, 400, true};
+  const OverlayLayout layout = lay_out(content, {1280, 720}, half_square);
+  ASSERT_EQ(layout.shapes.size(), bare + 9) << "eight arms and the name";
+  float left = 1e9F, top = 1e9F, right = 0, bottom = 0;
+  for (std::size_t i = bare; i < bare + 8; ++i) {
+    const OverlayShape& arm = layout.shapes[i];
+    left = std::min(left, arm.x), top = std::min(top, arm.y);
+    right = std::max(right, arm.x + arm.width), bottom = std::max(bottom, arm.y + arm.height);
+    const bool over = arm.x < 680 && arm.x + arm.width > 600 && arm.y < 400 && arm.y + arm.height > 300;
+    EXPECT_FALSE(over) << "it is to be seen";
+  }
+  EXPECT_EQ(Eigen::Vector4f(left, top, right, bottom), Eigen::Vector4f(594, 294, 686, 406));
+  content.label->bottom = 690;  // behind the caption
+  EXPECT_EQ(lay_out(content, {1280, 720}, half_square).shapes.size(), bare + 1);
+}
+
+TEST(OverlayLayout, a_long_note_is_at_the_top_in_two_lines_and_not_over_what_it_speaks_of) {
+  OverlayContent content;
+  content.caption = "Put the two pistons into the cylinders.";
+  content.readouts = {{"Water", "12.4", "litres", 0.6, "20"}};
+  content.note = "Bring it to the blue ring; hold the right button to turn it; the wheel brings it farther or nearer";
+  const std::string inset = "Close up";
+  for (const std::string* close_up : {static_cast<const std::string*>(nullptr), &inset}) {
+    int lines = 0;
+    for (const OverlayText& text : lay_out(content, {1280, 720}, real_letters(), close_up).texts) {
+      if (content.note.find(text.text) == std::string::npos) continue;
+      ++lines;
+      EXPECT_LT(text.baseline, 120) << text.text;
+    }
+    EXPECT_EQ(lines, 2);
+  }
+}
+
 TEST(OverlayLayout, a_name_goes_away_before_questions) {
   OverlayContent content;
-  content.label = OverlayLabel{"The barrel", 640, 300, 400};
+  content.label = OverlayLabel{"The barrel", 600, 300, 680, 400, true};
   EXPECT_EQ(lay_out(content, {1280, 720}, half_square).texts.size(), 1U);
   content.panel.emplace().text = "Did you like it?";
   for (const OverlayText& text : lay_out(content, {1280, 720}, half_square).texts)

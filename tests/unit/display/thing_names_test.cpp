@@ -84,8 +84,9 @@ RC_GTEST_PROP(ThingNames, a_name_is_over_its_thing, ()) {
   const auto label = label_of(std::vector{thing}, {3, p_WT}, sight);
   RC_ASSERT(label.has_value());
   RC_ASSERT(label->text == "Board 3");
+  RC_ASSERT(label->framed);
   const auto middle = pixel_of(sight, p_WT);
-  RC_ASSERT(std::abs(static_cast<double>(label->x) - middle->x) < 20);
+  RC_ASSERT(std::abs((label->left + label->right) / 2.0 - middle->x) < 20);
   RC_ASSERT(static_cast<double>(label->top) < middle->y);
   RC_ASSERT(static_cast<double>(label->bottom) > middle->y);
   for (const float y : {-0.1F, 0.1F}) {
@@ -103,7 +104,9 @@ TEST(ThingNames, of_a_large_thing_the_name_is_where_one_points) {
     const auto label = label_of(std::vector{ship}, {3, p_WT}, sight);
     ASSERT_TRUE(label);
     const auto at = pixel_of(sight, p_WT);
-    EXPECT_NEAR(label->x, at->x, 120) << p_WT.transpose();
+    EXPECT_FALSE(label->framed);
+    EXPECT_NEAR(label->left, at->x, 120) << p_WT.transpose();
+    EXPECT_NEAR(label->right, at->x, 120);
     EXPECT_NEAR(label->top, at->y, 120);
     EXPECT_NEAR(label->bottom, at->y, 120);
   }

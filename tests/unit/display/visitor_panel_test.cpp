@@ -66,6 +66,16 @@ class VisitorPanelTest : public testing::Test {
   TimePoint now{seconds(1000)};
 };
 
+TEST_F(VisitorPanelTest, questions_say_of_which_exhibit_and_task_they_are) {
+  VisitorPanel panel({"en", AskWhen::after, {}});
+  status.title = {{"en", "Vitruvius' odometer"}};
+  EXPECT_EQ(finish(panel).panel->title, "Vitruvius' odometer · Measure");
+  status.title = {{"en", "Measure"}};
+  EXPECT_EQ(look(panel).panel->title, "Measure") << "once";
+  status.title.clear();
+  EXPECT_EQ(look(panel).panel->title, "Measure");
+}
+
 TEST_F(VisitorPanelTest, the_way_home_is_offered_where_it_leads_elsewhere) {
   VisitorPanel panel({"en", AskWhen::after, {}});
   const OverlayContent away = look(panel);
