@@ -34,7 +34,8 @@ bool draws_on_processor(const std::string& renderer) {
 std::string link_remark(const DisplayStatus& display) {
   switch (display.link) {
     case 0:
-      return "it looks for a server: start one, or look at the cable and CYCLONEDDS_URI (mechane doctor)";
+      return "it looks for a server: start one (its first start takes minutes), or look at the cable and "
+             "CYCLONEDDS_URI (mechane doctor)";
     case 2:
       return "the server refuses: " + display.refusal;
     case 3:

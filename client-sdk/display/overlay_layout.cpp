@@ -185,9 +185,8 @@ void add_label(Page& page, const OverlayLabel& label, const std::vector<Box>& ot
   const float room = page.width - 2 * page.margin();
   const auto lines = page.lines(Face::bold, kLabelSize, label.text, room);
   if (lines.empty()) return;
-  const Box sheet{0, 0, page.width, page.height};
   const auto is_free = [&](const Box& box) {
-    const bool within = box.x >= 0 && box.y >= 0 && box.right() <= sheet.width && box.below() <= sheet.height;
+    const bool within = box.x >= 0 && box.y >= 0 && box.right() <= page.width && box.below() <= page.height;
     return within && std::ranges::none_of(others, [&](const Box& other) { return overlap(box, other); });
   };
   const float gap = page.px(6);

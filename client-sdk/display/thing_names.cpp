@@ -21,8 +21,8 @@ Vec3 index_tip(const client::HandPose& hand) {
 
 std::optional<Touched> named_near(std::span<const NamedThing> things, std::span<const client::HandPose> hands) {
   std::optional<Touched> nearest;
-  std::pair<float, float> least{kHandsBreadth_m,
-                                0};  // how far, and how large: of things in each other the inner one is meant
+  // How far, and how large: of things in each other the inner one is meant.
+  std::pair<float, float> least{kHandsBreadth_m, 0};
   for (const client::HandPose& hand : hands) {
     if (hand.stale || hand.holding) continue;
     const Vec3f p_WT = index_tip(hand).cast<float>();
