@@ -177,7 +177,7 @@ class Kiosk(EndToEnd):
     def test_a_command_that_is_none_is_told_with_the_nearest(self):
         for words, said in ((["displya"], "there is no command 'displya': did you mean 'display'? (mechane --help"),
                             (["xyzzy", "--kiosk", "wall"], "there is no command 'xyzzy' (mechane --help"),
-                            ([], "A subcommand is required"), (["--no-such"], "--no-such")):
+                            ([], "A subcommand is required"), (["--no-such"], "A subcommand is required")):
             result = self.run_command(*words)
             self.assertEqual(result.returncode, 2, (words, result.stdout + result.stderr))
             self.assertIn(said, result.stderr, words)
