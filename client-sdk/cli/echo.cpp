@@ -140,6 +140,10 @@ Json to_json(const proto::WorldStatus& s) {
   for (const auto& q : proto::elements(s.quantities)) {
     quantities.push_back({{"name", proto::string_of(q.name)}, {"unit", proto::string_of(q.unit)}});
   }
+  Json goals = Json::array();
+  for (const auto& goal : proto::elements(s.goals))
+    goals.push_back({{"quantity", goal.quantity}, {"value", goal.value}, {"from_above", goal.from_above}});
+  j["goals"] = goals;
   j.update({{"enabled_agents", strings(s.enabled_agents)}, {"quantities", quantities}, {"title", texts(s.title)}});
   j.update({{"caption", texts(s.caption)}, {"hint_text", texts(s.hint_text)}, {"activities", strings(s.activities)}});
   j.update({{"narration", texts(s.narration)}, {"audio", texts(s.audio)}, {"detail", proto::string_of(s.detail)}});

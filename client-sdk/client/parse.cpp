@@ -230,6 +230,12 @@ bool parse(const proto::WorldStatus& wire, WorldStatus& out) {
   out.quantities.clear();
   for (const proto::WireQuantity& q : quantities)
     out.quantities.push_back({clean_string(q.name), clean_string(q.unit)});
+  const auto goals = proto::elements(wire.goals);
+  if (goals.size() > quantities.size()) return false;
+  for (const proto::WireQuantityGoal& goal : goals) {
+    if (goal.quantity >= out.quantities.size() || !std::isfinite(goal.value)) return false;
+    out.quantities[goal.quantity].goal = {goal.value, goal.from_above};
+  }
   return parse_strings(wire.enabled_agents, out.enabled_agents) && parse_texts(wire.title, out.title) &&
          parse_texts(wire.caption, out.caption) && parse_texts(wire.hint_text, out.hint_text) &&
          parse_strings(wire.activities, out.activities) && parse_texts(wire.narration, out.narration) &&

@@ -95,6 +95,13 @@ ReadoutSizes readout_sizes(const Page& page) {
           narrow ? 28.F : 34.F};
 }
 
+/// A mark across the bar.
+void add_goal(Page& page, float x, float middle) {
+  const float width = page.tx(page.high_contrast ? 8 : 4);
+  const float height = page.tx(page.high_contrast ? 24 : 18);
+  page.add_shape({x - width / 2, middle - height / 2, width, height}, width / 2, page.colours.gold);
+}
+
 void add_readout(Page& page, const Readout& readout, const ReadoutSizes& s, float x, float y) {
   const Palette& c = page.colours;
   const float right = x + s.width - 2 * s.padding;
@@ -114,6 +121,7 @@ void add_readout(Page& page, const Readout& readout, const ReadoutSizes& s, floa
   page.add_shape({x, bar_y, full, bar}, bar / 2, c.faint);
   const float filled = full * static_cast<float>(std::clamp(readout.fraction, 0.0, 1.0));
   if (filled >= bar) page.add_shape({x, bar_y, filled, bar}, bar / 2, c.water);
+  if (readout.goal) add_goal(page, x + full * static_cast<float>(std::clamp(*readout.goal, 0.0, 1.0)), bar_y + bar / 2);
 }
 
 /// As many as have room above `below`, the first of them first.

@@ -96,11 +96,12 @@ OverlayContent OverlayWriter::write(const client::WorldStatus& status, const cli
     // One readout a unit, the first of its kind: three numbers are a panel, six are an instrument.
     if (!unit || !std::isfinite(value) || !shown.insert(info.unit).second) continue;
     double& end = gauge_end_.try_emplace(info.name, unit->first_end).first->second;
-    if (std::abs(value) > end) end = round_up(std::abs(value));
-    content.readouts.push_back({std::string(greek ? unit->label_el : unit->label_en),
-                                number(value, unit->decimals, greek),
-                                std::string(greek ? unit->unit_el : unit->unit_en), std::abs(value) / end,
-                                number(end, end < 1 ? 1 : 0, greek)});
+    const double goal = info.goal ? std::abs(info.goal->value) : 0;
+    if (const double most = std::max(std::abs(value), goal); most > end) end = round_up(most);
+    content.readouts.push_back(
+        {std::string(greek ? unit->label_el : unit->label_en), number(value, unit->decimals, greek),
+         std::string(greek ? unit->unit_el : unit->unit_en), std::abs(value) / end, number(end, end < 1 ? 1 : 0, greek),
+         info.goal && !status.done ? std::optional(goal / end) : std::nullopt});
   }
   return content;
 }

@@ -15,8 +15,8 @@ namespace mechane::display {
 /// A calm word when there is no link or no hand; empty when all is well.
 [[nodiscard]] std::string link_note(client::LinkState state, bool had_world, const std::string& language);
 
-/// Caption, steps and readouts. A quantity is shown when its unit is one that visitors read (l, rpm, N, degC, km/h ...). Gauges grow: their end is
-/// kept by name from call to call.
+/// Caption, steps and readouts. A quantity is shown when its unit is one that visitors read (l, rpm, N, degC, km/h ...). Gauges grow, so that
+/// what is shown and what the step waits for are on them: their end is kept by name from call to call.
 class OverlayWriter {
  public:
   explicit OverlayWriter(std::string language) : language_(std::move(language)) {}

@@ -148,6 +148,19 @@ void status_fields(Fields& f, Status& s) {
     f.texts(*texts);
 }
 
+/// Beside the quantities: recordings of former versions end before.
+template <class Fields, class Status>
+void goal_fields(Fields& f, Status& s) {
+  for (auto& quantity : s.quantities) {
+    bool there = quantity.goal.has_value();
+    f.flag(there);
+    if (!there) continue;
+    if constexpr (!std::is_const_v<Status>) quantity.goal.emplace();
+    f.wide(quantity.goal->value);
+    f.flag(quantity.goal->from_above);
+  }
+}
+
 template <class Fields, class Question>
 void question_fields(Fields& f, Question& q) {
   f.text(q.name);
@@ -270,7 +283,10 @@ bool read_whole(std::span<const std::byte> bytes, Read&& read) {
 }  // namespace
 
 std::vector<std::byte> encode(const client::WorldStatus& status) {
-  return written([&](FieldWriter& f) { status_fields(f, status); });
+  return written([&](FieldWriter& f) {
+    status_fields(f, status);
+    goal_fields(f, status);
+  });
 }
 
 std::vector<std::byte> encode(const client::WorldPresentation& presentation) {
@@ -294,7 +310,10 @@ std::vector<std::byte> encode(const client::WorldEvent& event) {
 }
 
 bool decode(std::span<const std::byte> bytes, client::WorldStatus& out) {
-  return read_whole(bytes, [&](FieldReader& f) { status_fields(f, out); });
+  return read_whole(bytes, [&](FieldReader& f) {
+    status_fields(f, out);
+    if (!f.at_end()) goal_fields(f, out);  // versions 1 and 2 have none
+  });
 }
 
 bool decode(std::span<const std::byte> bytes, client::WorldPresentation& out) {

@@ -113,11 +113,12 @@ struct Sun {
 
 /// A number that visitors read.
 struct Readout {
-  std::string label;    ///< "Water lifted"
-  std::string value;    ///< "12,4"
-  std::string unit;     ///< "l"
-  double fraction = 0;  ///< of the gauge's end, 0..1
-  std::string end;      ///< what the gauge's end stands for: "20"
+  std::string label;             ///< "Water lifted"
+  std::string value;             ///< "12,4"
+  std::string unit;              ///< "l"
+  double fraction = 0;           ///< of the gauge's end, 0..1
+  std::string end;               ///< what the gauge's end stands for: "20"
+  std::optional<double> goal{};  ///< where on the gauge the step's goal is, 0..1
 };
 
 /// Drawn under all panels, in pixels of one eye's picture; sRGB with straight alpha.

@@ -33,6 +33,22 @@ const Item* item_at(const std::vector<Item>& items, IdType id) {
   return id && id.index() < items.size() ? &items[id.index()] : nullptr;
 }
 
+/// What the step's first trigger waits for, where that is more or less of something; the others lead aside, or back.
+std::vector<proto::WireQuantityGoal> goals_of(const state::StepDescription* step) {
+  std::vector<proto::WireQuantityGoal> goals;
+  const auto add = [&](const auto& rule) {
+    const auto quantity = static_cast<std::uint32_t>(rule.quantity.index());
+    const bool known = std::ranges::find(goals, quantity, &proto::WireQuantityGoal::quantity) != goals.end();
+    if (known || rule.comparison == state::Comparison::equal) return;
+    goals.push_back({quantity, rule.value, rule.comparison == state::Comparison::less});
+  };
+  if (step == nullptr || step->triggers.empty()) return goals;
+  add(step->triggers.front());
+  for (const state::RuleDescription& rule : step->triggers.front().more)
+    add(rule);
+  return goals;
+}
+
 bool same_progress(const SceneSnapshot& a, const SceneSnapshot& b) {
   const state::Progress& p = a.progress;
   const state::Progress& q = b.progress;
@@ -282,6 +298,7 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
   std::vector<proto::WireQuantity> quantities;
   for (const auto& q : world.quantities)
     quantities.push_back({proto::look_into(q.name), proto::look_into(q.unit)});
+  std::vector<proto::WireQuantityGoal> goals = goals_of(step);
   auto title = wire_texts(world.title);
   auto caption = wire_texts(texts_of(step, "caption"));
   auto hint = wire_texts(texts_of(step, "hint"));
@@ -308,6 +325,7 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
   status.hint = progress.hint_shown;
   proto::look_into(status.enabled_agents, agents);
   proto::look_into(status.quantities, quantities);
+  proto::look_into(status.goals, goals);
   proto::look_into(status.title, title);
   proto::look_into(status.caption, caption);
   proto::look_into(status.hint_text, hint);

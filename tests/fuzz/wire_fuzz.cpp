@@ -155,6 +155,26 @@ void fuzz_presentation(Bytes bytes) {
     must(way.X_AJ.p.allFinite() && std::abs(way.X_BJ.R.norm() - 1) < 1e-6 && way.kind <= client::Way::Kind::brought);
 }
 
+/// What a step waits for, of quantities that are there or not.
+void fuzz_status(Bytes bytes) {
+  std::vector<proto::WireQuantity> quantities(bytes.take<std::uint8_t>() % 4);
+  std::vector<proto::WireQuantityGoal> goals(bytes.take<std::uint8_t>() % 6);
+  for (auto& goal : goals) {
+    goal.quantity = bytes.take<std::uint8_t>();
+    goal.value = bytes.take<double>();
+    goal.from_above = bytes.take<std::uint8_t>() % 2 == 1;
+  }
+  proto::WorldStatus wire{};
+  wire.protocol = proto::kProtocol;
+  proto::look_into(wire.quantities, quantities);
+  proto::look_into(wire.goals, goals);
+  client::WorldStatus status;
+  if (!client::parse(wire, status)) return;
+  must(status.quantities.size() == quantities.size() && goals.size() <= quantities.size());
+  for (const auto& quantity : status.quantities)
+    must(!quantity.goal || std::isfinite(quantity.goal->value));
+}
+
 /// A scenario with one question of each kind, and the argument of a command.
 void fuzz_answer(const std::uint8_t* data, std::size_t size) {
   state::WorldDescription world;
@@ -247,6 +267,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else {
       fuzz_display(rest);
     }
+    return 0;
+  }
+  if (data[0] >= 0xe0) {
+    fuzz_status(rest);
     return 0;
   }
   if (data[0] >= 0x80) {

@@ -37,6 +37,7 @@ using WireBodyPose = ::mechane_BodyPose;
 using WireHandPose = ::mechane_HandPose;
 using WireText = ::mechane_Text;
 using WireQuantity = ::mechane_Quantity;
+using WireQuantityGoal = ::mechane_QuantityGoal;
 using WireRope = ::mechane_RopeShape;
 using WireAnswer = ::mechane_Answer;
 using WireQuestion = ::mechane_Question;

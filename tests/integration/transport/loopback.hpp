@@ -92,6 +92,12 @@ class LoopbackDomain {
   step.texts["caption"] = {{"en", "Turn the crank"}};
   step.texts["narration"] = {{"en", "A crank has an arm."}};
   step.detail = "NEAR";
+  state::TriggerDescription full, spilt;
+  full.quantity = spilt.quantity = QuantityId(0);
+  full.value = 15;
+  full.more = {{QuantityId(0), state::Comparison::less, 16, 0}};
+  spilt.value = 40;
+  step.triggers = {full, spilt};
   world->steps.push_back(step);
   world->quantities.push_back({"water", "PUMP.basin_l", "l"});
   return world;

@@ -89,6 +89,11 @@ TEST_F(Loopback, AWatcherLearnsManifestStatusFramesAndCommandsAreAnswered) {
   EXPECT_EQ(watcher->world_status()->title.at("el"), "Μικρός κόσμος");
   EXPECT_EQ(watcher->world_status()->caption.at("en"), "Turn the crank");
   EXPECT_EQ(watcher->world_status()->steps_total, 1u);
+  const std::vector<client::QuantityInfo> quantities = watcher->world_status()->quantities;
+  ASSERT_EQ(quantities.size(), 1u);
+  ASSERT_TRUE(quantities[0].goal) << "what the step's first trigger says first";
+  EXPECT_EQ(quantities[0].goal->value, 15);
+  EXPECT_FALSE(quantities[0].goal->from_above);
   EXPECT_TRUE(eventually([&] { return watcher->server_status() && watcher->server_status()->version == "1.2.3"; }));
 
   client::Frame frame;

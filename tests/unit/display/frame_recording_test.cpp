@@ -97,6 +97,24 @@ TEST(FrameRecording, what_it_holds_is_what_was_heard) {
   EXPECT_EQ(encode(status), encode(status_of_visit("w", "s")));
 }
 
+TEST(FrameRecording, of_a_former_version_is_read_without_goals) {
+  client::WorldStatus status;
+  ASSERT_TRUE(decode(encode(status_of_visit("w", "s")), status));
+  ASSERT_TRUE(status.quantities[0].goal);
+  EXPECT_EQ(status.quantities[0].goal->value, 1.5);
+  EXPECT_TRUE(status.quantities[0].goal->from_above);
+  EXPECT_FALSE(status.quantities[1].goal);
+  client::WorldStatus without = status;
+  without.quantities[0].goal.reset();
+  std::vector<std::byte> former = encode(without);
+  former.resize(former.size() - 2);  // that a quantity has none is a byte
+  ASSERT_TRUE(decode(former, status));
+  EXPECT_EQ(status.quantities[1].name, "flow");
+  EXPECT_FALSE(status.quantities[0].goal);
+  former.pop_back();
+  EXPECT_FALSE(decode(former, status));
+}
+
 TEST(FrameRecording, of_a_former_version_is_read_without_titles) {
   std::vector<client::SceneObject> manifest;
   ASSERT_TRUE(decode(encode(manifest_of_visit()), manifest));

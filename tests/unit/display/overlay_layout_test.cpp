@@ -284,7 +284,7 @@ TEST(OverlayLayout, high_contrast_is_opaque_black_under_white_and_yellow_words) 
   content.caption = "caption";
   content.hint = "hint";
   content.goal = "goal";
-  content.readouts = {{"Νερό", "12,4", "λίτρα", 0.6, "20"}};
+  content.readouts = {{"Νερό", "12,4", "λίτρα", 0.6, "20", 0.75}};
   const OverlayLayout layout = lay_out(content, {1280, 720}, real_letters());
   EXPECT_EQ(layout.shapes.front().colour, Eigen::Vector4f(0, 0, 0, 1));
   for (const OverlayShape& shape : layout.shapes) {
@@ -296,6 +296,20 @@ TEST(OverlayLayout, high_contrast_is_opaque_black_under_white_and_yellow_words) 
     const float luminance = 0.2126F * text.colour.x() + 0.7152F * text.colour.y() + 0.0722F * text.colour.z();
     EXPECT_GT(luminance, 0.75F) << text.text;
   }
+}
+
+TEST(OverlayLayout, a_goal_is_a_mark_on_its_gauge) {
+  OverlayContent content;
+  content.readouts = {{"Water", "12.4", "litres", 0.5, "20"}};
+  const std::vector<OverlayShape> without = lay_out(content, {1280, 720}, real_letters()).shapes;
+  content.readouts[0].goal = 0.75;
+  const std::vector<OverlayShape> with = lay_out(content, {1280, 720}, real_letters()).shapes;
+  ASSERT_EQ(with.size(), without.size() + 1);
+  const OverlayShape &gauge = with[with.size() - 3], &filled = with[with.size() - 2], &mark = with.back();
+  EXPECT_NEAR(mark.x + mark.width / 2, gauge.x + 0.75F * gauge.width, 0.5);
+  EXPECT_NEAR(filled.width, 0.5F * gauge.width, 0.5);
+  EXPECT_NEAR(mark.y + mark.height / 2, gauge.y + gauge.height / 2, 0.5);
+  EXPECT_GT(mark.height, 2 * gauge.height);
 }
 
 TEST(OverlayLayout, large_text_is_larger) {

@@ -43,6 +43,28 @@ TEST(OverlayText, a_gauge_grows_and_does_not_shrink) {
   }
 }
 
+TEST(OverlayText, a_gauge_has_room_for_what_the_step_waits_for_and_marks_it) {
+  client::WorldStatus status;
+  status.quantities = {{"basin", "l"}, {"speed", "rpm"}};
+  status.quantities[0].goal = {15, false};
+  client::Frame frame;
+  frame.quantities = {0.5, 30};
+  OverlayWriter writer("en");
+  const OverlayContent filling = writer.write(status, &frame);
+  ASSERT_EQ(filling.readouts.size(), 2U);
+  EXPECT_EQ(filling.readouts[0].end, "20");
+  EXPECT_EQ(filling.readouts[0].goal, 0.75);
+  EXPECT_FALSE(filling.readouts[1].goal);
+  status.quantities[0].goal.reset();
+  status.quantities[1].goal = {-120, true};  // a wheel that turns backwards: its speed is shown without a sign
+  const OverlayContent stopping = writer.write(status, &frame);
+  EXPECT_FALSE(stopping.readouts[0].goal);
+  EXPECT_EQ(stopping.readouts[1].goal, 0.6);
+  EXPECT_EQ(stopping.readouts[1].end, "200");
+  status.done = true;
+  EXPECT_FALSE(writer.write(status, &frame).readouts[1].goal) << "what is done waits for nothing";
+}
+
 TEST(OverlayText, numbers_that_are_none_are_left_out) {
   client::WorldStatus status;
   status.quantities = {{"basin", "l"}, {"speed", "rpm"}};

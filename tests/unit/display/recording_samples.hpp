@@ -20,6 +20,7 @@ inline client::WorldStatus status_of_visit(const std::string& world, const std::
   status.step = step;
   status.steps_total = 3;
   status.quantities = {{"level", "m"}, {"flow", "l/s"}};
+  status.quantities[0].goal = {1.5, true};
   status.title = {{"el", "Το πηγάδι"}, {"en", "The well"}};
   status.activities = {"use"};
   return status;

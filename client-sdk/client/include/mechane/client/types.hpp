@@ -109,8 +109,14 @@ struct SceneObject {
 };
 
 struct QuantityInfo {
+  /// What the step waits for.
+  struct Goal {
+    double value = 0;
+    bool from_above = false;  ///< the quantity must fall below it; else it must rise above it
+  };
   std::string name;
   std::string unit;
+  std::optional<Goal> goal{};
 };
 
 /// Where the visit is.
