@@ -122,6 +122,7 @@ RenderScene DisplayLoop::build(TimePoint now) const {
     pointer_->write(scene.overlay, under_pointer(scene), spoken_);
     if (const auto button = go_on_button(world_.status(), spoken_); button && !scene.overlay.panel)
       scene.overlay.corner.insert(scene.overlay.corner.begin(), *button);
+    if (const auto at = pointer_->hovers_at()) scene.overlay.meant = pressed(*at);
   }
   if (!attracts_) name_what_is_meant(scene);
   return scene;

@@ -99,7 +99,8 @@ ReadoutSizes readout_sizes(const Page& page) {
 void add_goal(Page& page, float x, float middle) {
   const float width = page.tx(page.high_contrast ? 8 : 4);
   const float height = page.tx(page.high_contrast ? 24 : 18);
-  page.add_shape({x - width / 2, middle - height / 2, width, height}, width / 2, page.colours.gold);
+  page.add_shape({x - width / 2, middle - height / 2, width, height}, width / 2,
+                 page.high_contrast ? page.colours.paper : page.colours.gold);  // there what is filled is gold
 }
 
 void add_readout(Page& page, const Readout& readout, const ReadoutSizes& s, float x, float y) {
@@ -318,6 +319,7 @@ OverlayLayout lay_out(const OverlayContent& content, PixelSize size, const Measu
                       const std::string* inset_caption) {
   Page page(size, content.style, measure);
   page.out.size = size;
+  page.meant = content.meant;
   for (const OverlayDot& dot : content.dots)
     page.add_shape({dot.x - dot.radius, dot.y - dot.radius, 2 * dot.radius, 2 * dot.radius}, dot.radius, dot.colour);
   Box inset;

@@ -61,6 +61,7 @@ class Page {
   float height;
   float scale;  ///< of words
   bool high_contrast;
+  std::optional<OverlayAction> meant;  ///< this button is lit
   Palette colours;
   OverlayLayout out;
 

@@ -15,21 +15,17 @@ constexpr float kAnswerText = 24;
 constexpr float kMarkText = 30;
 constexpr float kEndText = 20;
 
-/// A face that can be pressed, its words in the middle; with a frame as thick as a finger is clumsy where contrast is wanted.
-void add_button_face(Page& page, const Box& box, const Eigen::Vector4f& face) {
-  const float radius = page.px(12);
-  if (!page.high_contrast) {
-    page.add_shape(box, radius, face);
-    return;
-  }
-  const float frame = std::max(page.px(4), 2.0F);
-  page.add_shape(box, radius, page.colours.gold);
-  page.add_shape({box.x + frame, box.y + frame, box.width - 2 * frame, box.height - 2 * frame}, radius - frame,
-                 page.colours.ink);
-}
-
-void add_target(Page& page, const Box& box, const OverlayAction& action) {
+/// What can be pressed: its face, framed where contrast is wanted or a mouse is on it. Its words are the caller's.
+void add_button(Page& page, const Box& box, const Eigen::Vector4f& face, const OverlayAction& action) {
   page.out.targets.push_back({box.x, box.y, box.width, box.height, action});
+  const bool meant = page.meant == action;
+  const float radius = page.px(12);
+  if (!page.high_contrast && !meant) return page.add_shape(box, radius, face);
+  const float frame = std::max(page.px(page.high_contrast && meant ? 8 : page.high_contrast ? 4 : 3), 2.0F);
+  Eigen::Vector4f within = page.high_contrast ? page.colours.ink : face;
+  within.w() = 1;  // or the frame's colour shone through
+  page.add_shape(box, radius, page.colours.gold);
+  page.add_shape({box.x + frame, box.y + frame, box.width - 2 * frame, box.height - 2 * frame}, radius - frame, within);
 }
 
 /// A house as wide as high: the roof row by row, as shapes have no slopes.
@@ -122,9 +118,8 @@ class QuestionPanel {
     }
     for (std::size_t i = 0; i < count; ++i) {
       const Box box{left() + static_cast<float>(i) * (width + gap), at_, width, height};
-      add_button_face(page_, box, page_.colours.button);
+      add_button(page_, box, page_.colours.button, panel_.answers[first + i].action);
       add_centred(page_, box, face, design, page_.colours.paper, lines[i]);
-      add_target(page_, box, panel_.answers[first + i].action);
     }
     at_ += height + gap;
   }
@@ -164,9 +159,8 @@ class QuestionPanel {
     const Box box{std::floor(left() + inner_ - width), at_, width, height};
     Eigen::Vector4f face = page_.colours.button;  // of less weight than an answer's
     face.w() *= 0.45F;
-    add_button_face(page_, box, face);
+    add_button(page_, box, face, leave.action);
     add_centred(page_, box, Face::regular, kEndText, page_.colours.gold, lines);
-    add_target(page_, box, leave.action);
     at_ += height;
   }
 
@@ -203,7 +197,7 @@ Box add_corner(Page& page, const std::vector<OverlayButton>& buttons) {
     const float text = page.measure(Face::bold, kCornerText, button.text);
     const float width = std::max(height, std::ceil(icon + text + 2 * padding));
     const Box box{right - width, y, width, height};
-    add_button_face(page, box, page.colours.ink);
+    add_button(page, box, page.colours.ink, button.action);
     if (home) {
       Eigen::Vector4f door = page.colours.ink;
       door.w() = 1;
@@ -211,7 +205,6 @@ Box add_corner(Page& page, const std::vector<OverlayButton>& buttons) {
     }
     add_centred(page, {box.x + icon, y, width - icon, height}, Face::bold, kCornerText, page.colours.paper,
                 {button.text});
-    add_target(page, box, button.action);
     right = box.x - page.px(12);
   }
   const float left = right + page.px(12);

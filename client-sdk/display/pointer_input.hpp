@@ -58,6 +58,8 @@ class PointerInput {
   [[nodiscard]] bool is_away() const { return link_.view().phase == PointerView::Phase::resting; }
   /// The object that the pointer would take, or else is on; none while it takes one.
   [[nodiscard]] std::optional<Touched> pointed_at() const;
+  /// Where a mouse rests that holds nothing, in pixels of the whole picture.
+  [[nodiscard]] std::optional<PixelPlace> hovers_at() const { return is_away() && !focus_ ? hover_ : std::nullopt; }
   /// Another world is shown: what the keys pointed at is gone.
   void forget_world();
   /// Adds what helps to find the way.

@@ -149,8 +149,9 @@ struct OverlayContent {
   std::vector<OverlayButton> corner;  ///< low on the right
   std::optional<OverlayPanel> panel;  ///< it stands before captions and readouts, which are not shown then
   OverlayStyle style;
-  std::vector<OverlayDot> dots{};       ///< of the display's own hand
-  std::optional<OverlayLabel> label{};  ///< of what is pointed at
+  std::vector<OverlayDot> dots{};        ///< of the display's own hand
+  std::optional<OverlayLabel> label{};   ///< of what is pointed at
+  std::optional<OverlayAction> meant{};  ///< of the button under the mouse: it is lit
 };
 
 /// A sphere that darkens what is near it: contact shading of the hand.

@@ -35,7 +35,7 @@ endif()
 
 if(CMAKE_UNITY_BUILD)
   # Several sources in one: a class in a .cpp file looks as if a header had it.
-  add_compile_options(-Wno-subobject-linkage -Wno-unknown-warning-option)
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage> -Wno-unknown-warning-option)
 endif()
 
 set(MECHANE_WARNINGS

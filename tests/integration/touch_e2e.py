@@ -59,7 +59,7 @@ class Touch(EndToEnd):
         with self.visitor_at("pulley-crane") as visitor:
             self.assertTrue(visitor.play("use"), visitor.story)
 
-    def test_a_sign_under_the_pointer_has_its_name_written_above_it(self):
+    def test_what_is_under_the_pointer_is_named_or_lit(self):
         server = self.server(scenario=scenario_of("village"), records=False)
         size = "x".join(map(str, SIZE))
         with self.screen(size) as environment:
@@ -83,6 +83,9 @@ class Touch(EndToEnd):
             self.assertEqual(len(set(shown)), 3, "each name is another")
             self.assertEqual(shown[3], shown[0], "what has no name shows none")
             self.assertEqual(shown[4], shown[1])
+            visitor.point((round(0.945 * SIZE[0]), round(0.906 * SIZE[1])))  # the button of the other language
+            wait_until(lambda: self.picture(window) not in shown, 10, "the button under the pointer is lit")
+            self.assertNotIn(self.still_picture(window), shown)
             server.process.send_signal(signal.SIGCONT)
             self.assertEqual(window.stop(), 0, window.text())
 

@@ -312,6 +312,49 @@ TEST(OverlayLayout, a_goal_is_a_mark_on_its_gauge) {
   EXPECT_GT(mark.height, 2 * gauge.height);
 }
 
+/// How wide the frame is round what can be pressed; 0: it has none.
+float frame_of(const OverlayLayout& layout, const OverlayTarget& target) {
+  const auto outer = std::ranges::find_if(layout.shapes, [&](const OverlayShape& shape) {
+    return shape.x == target.x && shape.y == target.y && shape.width == target.width && shape.height == target.height;
+  });
+  if (outer == layout.shapes.end() || std::next(outer) == layout.shapes.end()) return 0;
+  const OverlayShape& inner = *std::next(outer);
+  const bool within = std::abs(2 * inner.x + inner.width - 2 * outer->x - outer->width) < 1 && inner.y >= outer->y;
+  return within ? inner.x - outer->x : 0;
+}
+
+TEST(OverlayLayout, the_button_under_the_mouse_has_a_thicker_frame_and_nothing_moves) {
+  OverlayContent content;
+  content.panel.emplace();
+  content.panel->text = "What lifts the water?";
+  content.panel->answers = {{{OverlayAction::Kind::answer, "a"}, "Pockets"},
+                            {{OverlayAction::Kind::answer, "b"}, "Air"}};
+  content.corner = {{{OverlayAction::Kind::language, "el"}, "EL"}};
+  for (const bool high_contrast : {false, true}) {
+    content.style.high_contrast = high_contrast;
+    content.meant.reset();
+    const OverlayLayout resting = lay_out(content, {1280, 720}, real_letters());
+    ASSERT_EQ(resting.targets.size(), 3U);
+    for (std::size_t chosen = 0; chosen < 3; ++chosen) {
+      content.meant = resting.targets[chosen].action;
+      const OverlayLayout meant = lay_out(content, {1280, 720}, real_letters());
+      ASSERT_EQ(meant.targets.size(), 3U);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float before = frame_of(resting, resting.targets[i]);
+        EXPECT_EQ(meant.targets[i].y, resting.targets[i].y);
+        if (i == chosen) {
+          EXPECT_GE(frame_of(meant, meant.targets[i]), before + 2) << i << (high_contrast ? ", high contrast" : "");
+        } else {
+          EXPECT_EQ(frame_of(meant, meant.targets[i]), before) << i;
+        }
+      }
+      ASSERT_EQ(meant.texts.size(), resting.texts.size());
+      for (std::size_t i = 0; i < meant.texts.size(); ++i)
+        EXPECT_EQ(meant.texts[i].baseline, resting.texts[i].baseline);
+    }
+  }
+}
+
 TEST(OverlayLayout, large_text_is_larger) {
   OverlayContent content;
   content.title = "title";
