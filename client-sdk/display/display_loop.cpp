@@ -18,8 +18,6 @@ namespace {
 
 using client::LinkState;
 
-/// Two frames of a world that sends sixty a second: so late the picture is, and so smooth.
-constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
 constexpr std::size_t kFrameTimesKept = 20'000;
 }  // namespace
 

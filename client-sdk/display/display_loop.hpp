@@ -17,6 +17,9 @@
 
 namespace mechane::display {
 
+/// Two frames of a world that sends sixty a second: so late the picture is, and so smooth.
+inline constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
+
 /// One display's life. Made and run on one thread.
 class DisplayLoop {
  public:

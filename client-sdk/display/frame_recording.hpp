@@ -31,8 +31,8 @@
 
 namespace mechane::display {
 
-inline constexpr std::uint32_t kRecordingVersion =
-    3;  ///< what is written; 1, without titles of objects, and 2, without goals, are read too
+/// What is written; 1, without titles of objects, and 2, without goals, are read too.
+inline constexpr std::uint32_t kRecordingVersion = 3;
 inline constexpr std::uint64_t kMaxRecordingBytes = std::uint64_t{1} << 30U;
 
 enum class RecordKind : std::uint8_t { status = 1, presentation, manifest, frame, event, end };

@@ -21,7 +21,8 @@ void add_button(Page& page, const Box& box, const Eigen::Vector4f& face, const O
   const bool meant = page.meant == action;
   const float radius = page.px(12);
   if (!page.high_contrast && !meant) return page.add_shape(box, radius, face);
-  const float frame = std::max(page.px(page.high_contrast && meant ? 8 : page.high_contrast ? 4 : 3), 2.0F);
+  const float thin = page.high_contrast ? 4 : 3;
+  const float frame = std::max(page.px(page.high_contrast && meant ? 2 * thin : thin), 2.0F);
   Eigen::Vector4f within = page.high_contrast ? page.colours.ink : face;
   within.w() = 1;  // or the frame's colour shone through
   page.add_shape(box, radius, page.colours.gold);

@@ -1,4 +1,5 @@
-"""What a picture costs: by pass, by size, for one eye and for two of full size. On a machine without a graphics card the processor draws."""
+"""What a picture costs: by pass, by size, for one eye and for two of full size; how long after a frame's receipt its picture is done; memory.
+On a machine without a graphics card the processor draws."""
 
 from peers import Measured, Missing, own
 from plots import bars, number
@@ -58,10 +59,10 @@ def table(name: str, metrics: dict[str, float]) -> str:
     keys = [_key(scene, stereo, height) for scene in SCENES for stereo, _, height in PICTURES]
     keys = [key for key in keys if f"{key}.frame.cpu_ms.median" in metrics]
     passes = sorted({metric.split(".")[2] for metric in metrics if metric.endswith(".cpu_ms.median")} - {"frame"})
-    rows = [["CPU ms, all threads", "frame", "p99", *passes, "wall ms", "triangles"]]
+    rows = [["CPU ms, all threads", "frame", "p99", *passes, "wall ms", "triangles", "frame to picture ms", "p99", "peak MiB"]]
     for key in keys:
         shown = [f"{key}.frame.cpu_ms.median", f"{key}.frame.cpu_ms.p99", *(f"{key}.{one}.cpu_ms.median" for one in passes), f"{key}.frame.wall_ms.median",
-                 f"{key}.triangles"]
+                 f"{key}.triangles", f"{key}.latency_ms.median", f"{key}.latency_ms.p99", f"{key}.peak_mib"]
         rows.append([key, *(number(metrics[metric]) if metric in metrics else "-" for metric in shown)])
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     text = [f"\n{name}", *("  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in rows)]

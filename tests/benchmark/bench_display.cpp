@@ -1,5 +1,5 @@
 // How long a display takes for a picture of a scenario, pass by pass, offscreen: at the start of the visit, nobody there. Wall time, and the
-// processor's (all threads: a software renderer's cost, however busy the machine is).
+// processor's (all threads: a software renderer's cost, however busy the machine is). From a frame's receipt to its picture. Memory.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -8,14 +8,20 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <sys/resource.h>
 
+#include "client-sdk/client/frame_history.hpp"
+#include "client-sdk/client/parse.hpp"
+#include "client-sdk/display/display_loop.hpp"
 #include "client-sdk/display/image_file.hpp"
 #include "client-sdk/display/renderer.hpp"
 #include "client-sdk/display/scene_builder.hpp"
+#include "server/base/clock.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/scenario/compiler.hpp"
 #include "server/scenario/file_finder.hpp"
 #include "tests/benchmark/bench_stats.hpp"
+#include <mechane/proto/convert.hpp>
 
 namespace mechane::benchmark {
 namespace {
@@ -66,24 +72,83 @@ double quantile(std::vector<double> values, double share) {
   return values.empty() ? 0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-Expected<void> measure(const Config& config, const display::RenderScene& scene, const display::SceneAssets& assets,
-                       Report& report) {
-  auto context = display::make_offscreen_context({config.width, config.height});
-  if (!context) return tl::unexpected(context.error());
+/// What a server sends of a world in which everything movable moves a little.
+class FrameSource {
+ public:
+  explicit FrameSource(const state::WorldDescription& world) : world_(world), visible_(world.bodies.size(), 1) {}
+
+  /// The next frame, a sixtieth of a second on. It looks into this object.
+  const proto::SceneFrame& next() {
+    ++frame_.seq;
+    frame_.protocol = proto::kProtocol;
+    frame_.sent_ns = frame_.seq * 16'666'667;
+    bodies_.clear();
+    for (std::uint32_t i = 0; i < world_.bodies.size(); ++i) {
+      if (world_.bodies[i].fixed) continue;
+      Pose X_WB = world_.bodies[i].X_WB;
+      X_WB.p.y() += 0.001 * static_cast<double>(frame_.seq % 2);
+      bodies_.emplace_back().object = i;
+      proto::set_pose(bodies_.back().X_WB, X_WB);
+    }
+    proto::look_into(frame_.bodies, bodies_);
+    proto::look_into(frame_.visible, visible_);
+    return frame_;
+  }
+
+ private:
+  const state::WorldDescription& world_;
+  std::vector<std::uint8_t> visible_;
+  std::vector<proto::WireBodyPose> bodies_;
+  proto::SceneFrame frame_{};
+};
+
+/// From a frame as it comes from the network to the finished picture of it. A display shows each frame kInterpolationDelay after its receipt:
+/// this is counted, the wait for the screen is not.
+Expected<void> measure_latency(const Config& config, display::Stereo stereo, const state::WorldDescription& world,
+                               display::SceneBuilder& builder, const display::SceneAssets& assets, Report& report) {
+  auto renderer = display::Renderer::create({});
+  if (!renderer) return tl::unexpected(renderer.error());
+  (*renderer)->upload(assets);
+  FrameSource source(world);
+  client::FrameHistory history;
+  client::Frame frame;
+  Samples latency(static_cast<std::size_t>(config.frames));
+  for (int i = -2; i < config.frames; ++i) {
+    const proto::SceneFrame& wire = source.next();
+    const TimePoint received = std::chrono::steady_clock::now();
+    if (!client::parse(wire, frame)) return fail("a frame was refused", config.scenario, "mend this benchmark");
+    frame.received = received;
+    history.add(frame, wire.sent_ns);
+    (void)history.at(received, frame);
+    const display::RenderScene scene = builder.build(&frame, nullptr, client::LinkState::joined);
+    if (auto ok = (*renderer)->draw(scene, stereo, {config.width, config.height}); !ok) return ok;
+    display::Renderer::finish();
+    if (i >= 0) latency.add(std::chrono::steady_clock::now() - received + display::kInterpolationDelay);
+  }
+  report.metric("latency_ms.median", latency.quantile_us(0.5) / 1000);
+  report.metric("latency_ms.p99", latency.quantile_us(0.99) / 1000);
+  return {};
+}
+
+/// The most that this process has held so far; on a graphics card textures and meshes are there, and not counted.
+double peak_mib() {
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<double>(usage.ru_maxrss) / 1024 : 0;
+}
+
+Expected<void> measure_passes(const Config& config, display::Stereo stereo, const display::RenderScene& scene,
+                              const display::SceneAssets& assets, Report& report) {
   display::RendererSettings settings;
   settings.profile = true;
   auto renderer = display::Renderer::create(settings);
   if (!renderer) return tl::unexpected(renderer.error());
-  const auto stereo =
-      std::ranges::find(display::stereo_names(), config.stereo, &std::pair<std::string_view, display::Stereo>::first);
-  if (stereo == display::stereo_names().end()) return fail("no such mode", config.stereo, "see mechane display --help");
   (*renderer)->upload(assets);
   std::map<std::string, std::vector<double>> wall_ms;
   std::map<std::string, std::vector<double>> cpu_ms;
   display::RenderScene moving = scene;
   for (int frame = -2; frame < config.frames; ++frame) {
     moving.time_s += 1.0 / 60;
-    if (auto ok = (*renderer)->draw(moving, stereo->second, {config.width, config.height}); !ok) return ok;
+    if (auto ok = (*renderer)->draw(moving, stereo, {config.width, config.height}); !ok) return ok;
     std::map<std::string, display::PassTime> sums;
     for (const display::PassTime& time : (*renderer)->pass_times()) {
       for (const std::string& name : {std::string(time.pass), std::string("frame")}) {
@@ -102,8 +167,29 @@ Expected<void> measure(const Config& config, const display::RenderScene& scene, 
     report.metric(name + ".cpu_ms.median", quantile(cpu_ms[name], 0.5));
     report.metric(name + ".cpu_ms.p99", quantile(cpu_ms[name], 0.99));
   }
-  report.note((*context)->renderer_name());
   return config.out.empty() ? Expected<void>() : display::write_png((*renderer)->read_picture(), config.out);
+}
+
+Expected<void> measure(const Config& config, const state::WorldDescription& world, display::AssetLibrary& library,
+                       Report& report) {
+  const auto stereo =
+      std::ranges::find(display::stereo_names(), config.stereo, &std::pair<std::string_view, display::Stereo>::first);
+  if (stereo == display::stereo_names().end()) return fail("no such mode", config.stereo, "see mechane display --help");
+  display::SceneBuilder builder(library, "en");
+  builder.set_manifest(objects_of(world));
+  builder.set_presentation(presentation_of(world));
+  const display::RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
+  std::size_t triangles = 0;
+  for (const display::Instance& instance : scene.instances)
+    triangles += library.assets().meshes[instance.mesh].indices.size() / 3;
+  report.metric("instances", static_cast<double>(scene.instances.size()));
+  report.metric("triangles", static_cast<double>(triangles));
+  auto context = display::make_offscreen_context({config.width, config.height});
+  if (!context) return tl::unexpected(context.error());
+  report.note((*context)->renderer_name());
+  if (auto ok = measure_latency(config, stereo->second, world, builder, library.assets(), report); !ok) return ok;
+  report.metric("peak_mib", peak_mib());
+  return measure_passes(config, stereo->second, scene, library.assets(), report);
 }
 
 int main_of(const Config& config) {
@@ -116,17 +202,8 @@ int main_of(const Config& config) {
   }
   const std::filesystem::path folder = std::filesystem::path(config.scenario).parent_path();
   display::AssetLibrary library([&](const std::string& uri) { return content::import_mesh(folder / uri); });
-  display::SceneBuilder builder(library, "en");
-  builder.set_manifest(objects_of(*world));
-  builder.set_presentation(presentation_of(*world));
-  const display::RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
-  std::size_t triangles = 0;
-  for (const display::Instance& instance : scene.instances)
-    triangles += library.assets().meshes[instance.mesh].indices.size() / 3;
   Report report;
-  report.metric("instances", static_cast<double>(scene.instances.size()));
-  report.metric("triangles", static_cast<double>(triangles));
-  if (auto ok = measure(config, scene, library.assets(), report); !ok) {
+  if (auto ok = measure(config, *world, library, report); !ok) {
     std::cerr << "bench_display: " << ok.error().to_string() << "\n";
     return 1;
   }
@@ -141,7 +218,8 @@ int main(int argc, char** argv) {
   mechane::benchmark::Config config;
   CLI::App app{"Draws a scenario as a display does, and times each pass"};
   app.add_option("scenario", config.scenario, "X3D file")->required()->check(CLI::ExistingFile);
-  app.add_option("--frames", config.frames, "pictures that count")->check(CLI::Range(1, 10'000));
+  app.add_option("--frames", config.frames, "pictures that count, by pass and of the latency")
+      ->check(CLI::Range(1, 10'000));
   app.add_option("--width", config.width, "pixels")->check(CLI::Range(16, 8192));
   app.add_option("--height", config.height, "pixels")->check(CLI::Range(16, 8192));
   app.add_option("--stereo", config.stereo, "as mechane display has it");
