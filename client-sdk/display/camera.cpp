@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace mechane::display {
 namespace {
@@ -33,6 +34,9 @@ Mat3 axes_of(const Camera& camera) {
   return R_CW;
 }
 
+/// Nobody works nearer to the eyes, whatever a box says.
+constexpr double kArm_m = 0.3;
+
 /// Half the picture's height at one metre, and how far off the plane lies that has no parallax.
 struct Window {
   double half_tan = 0;
@@ -43,6 +47,17 @@ Window window_of(const Camera& camera, double aspect) {
   return {std::max(std::tan(camera.field_of_view_rad / 2),
                    std::tan(std::min(camera.least_horizontal_rad, 3.0) / 2) / aspect),
           camera.screen_distance_m > 0 ? camera.screen_distance_m : (camera.p_WT - camera.p_WC).norm()};
+}
+
+/// The eyes no farther apart than the depth budget allows: for what is infinitely far, and for what is nearest.
+double comfortable_eyes_m(const Camera& camera, double wanted_m, double aspect) {
+  const auto [half_tan, distance_m] = window_of(camera, aspect);
+  const double width_m = 2 * half_tan * distance_m * aspect;
+  double most_m = kMostParallaxBehind * width_m;
+  // A thing nearer by n than the screen at d has d / n - 1 times the eyes' distance of parallax.
+  if (camera.nearest_m > 0 && camera.nearest_m < distance_m)
+    most_m = std::min(most_m, kMostParallaxBefore * width_m * camera.nearest_m / (distance_m - camera.nearest_m));
+  return std::min(wanted_m, most_m);
 }
 
 }  // namespace
@@ -74,7 +89,7 @@ EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
 Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPlace* head, double aspect) {
   Camera out = camera;
   const double eyes_m = screen.eye_distance_m > 0 ? screen.eye_distance_m : camera.eye_distance_m;
-  out.eye_distance_m = eyes_m;
+  out.eye_distance_m = screen.known() ? eyes_m : comfortable_eyes_m(camera, eyes_m, aspect);
   if (!screen.known()) return out;
   const auto [half_tan, distance_m] = window_of(camera, aspect);
   const double scale = 2 * half_tan * distance_m * aspect / screen.width_m;
@@ -90,6 +105,18 @@ Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPla
     out.eyes_C = head->eyes_S;
   }
   return out;
+}
+
+double nearest_of(const Eigen::AlignedBox3d& box_W, const Camera& camera) {
+  if (box_W.isEmpty()) return 0;
+  const Vec3 ahead_W = (camera.p_WT - camera.p_WC).normalized();
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const auto corner :
+       {Eigen::AlignedBox3d::BottomLeftFloor, Eigen::AlignedBox3d::BottomRightFloor, Eigen::AlignedBox3d::TopLeftFloor,
+        Eigen::AlignedBox3d::TopRightFloor, Eigen::AlignedBox3d::BottomLeftCeil, Eigen::AlignedBox3d::BottomRightCeil,
+        Eigen::AlignedBox3d::TopLeftCeil, Eigen::AlignedBox3d::TopRightCeil})
+    nearest_m = std::min(nearest_m, ahead_W.dot(box_W.corner(corner) - camera.p_WC));
+  return std::max(nearest_m, kArm_m);
 }
 
 Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad) {
@@ -119,6 +146,7 @@ Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double fi
   camera.p_WT = middle - kDrop * distance * t * up;
   camera.p_WC = camera.p_WT + distance * from_W.normalized();
   camera.least_horizontal_rad = 2 * std::atan(tan_across);
+  camera.nearest_m = nearest_of(box_W, camera);
   return camera;
 }
 

@@ -25,6 +25,7 @@ struct Camera {
   double far_m = 400;
   double eye_distance_m = 0.064;
   double screen_distance_m = 0;  ///< 0: the distance of p_WT
+  double nearest_m = 0;          ///< of what visitors look at, along the axis; 0: not known
   /// Where the visitor's head is, in C, metres: 0 is p_WC. The rectangle in which the frusta meet stays where it is, as a window does that one
   /// looks through from elsewhere.
   Vec3 head_C = Vec3::Zero();
@@ -57,11 +58,20 @@ struct HeadPlace {
   Vec3 eyes_S = Vec3::UnitX();  ///< from the left eye towards the right one, unit
 };
 
+/// Of the picture's width, how far apart an eye's picture of a thing may lie from the other's: behind the screen 60 mm on a wall of three
+/// metres, less than eyes are apart; before it about the percentage rule of stereoscopic film.
+inline constexpr double kMostParallaxBehind = 0.02;
+inline constexpr double kMostParallaxBefore = 0.03;
+
 /// The camera for such a screen. What lay in the plane of p_WT stays in the screen, as large as it was; the eyes stand before it as the visitor
 /// stands before the screen, all at one scale: depth has its true proportions, and what is far away has no more parallax than eyes are apart.
 /// `head`: where the visitor stands instead; null: at the screen's viewer distance, before its middle.
-/// For a screen that is not known only the eyes' distance is taken over, in metres of the world, and no head.
+/// For a screen that is not known only the eyes' distance is taken over, in metres of the world, and no head: as much of it as keeps the depth
+/// comfortable.
 [[nodiscard]] Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPlace* head, double aspect);
+
+/// For Camera::nearest_m, where visitors look at what is in the box; 0 of an empty one.
+[[nodiscard]] double nearest_of(const Eigen::AlignedBox3d& box_W, const Camera& camera);
 
 /// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), a little room left below for captions.
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad);

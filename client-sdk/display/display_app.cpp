@@ -88,7 +88,7 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   auto attract = open_attract(options, catalogue ? &*catalogue : nullptr);
   if (!attract) return tl::unexpected(attract.error());
   if (source->recorded != nullptr) possible.ask = AskWhen::none;  // nobody is there who answers
-  return DisplayLoop(possible, requests, **context, **renderer, *source, catalogue ? &*catalogue : nullptr,
+  return DisplayLoop(possible, requests, **context, std::move(*renderer), *source, catalogue ? &*catalogue : nullptr,
                      std::move(*attract))
       .run();
 }

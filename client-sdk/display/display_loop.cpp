@@ -19,6 +19,8 @@ namespace {
 using client::LinkState;
 
 constexpr std::size_t kFrameTimesKept = 20'000;
+/// After so long without a graphics card, who started the display shall try.
+constexpr Duration kCardComesBack = std::chrono::seconds(60);
 }  // namespace
 
 bool DisplayLoop::finished() const {
@@ -64,7 +66,7 @@ void DisplayLoop::take_news(TimePoint now) {
   if (source_.recorded != nullptr) source_.recorded->advance(now);
   const ShownWorld::News news = world_.hear(client_);
   if (news.another_world) {
-    if (!attracts_) renderer_.forget_assets();
+    if (!attracts_) renderer_->forget_assets();
     have_frame_ = false;  // of the world before
     if (pointer_) pointer_->forget_world();
   }
@@ -85,7 +87,7 @@ void DisplayLoop::take_news(TimePoint now) {
 void DisplayLoop::make_room(RenderScene& scene, TimePoint now) {
   if (options_.screen.known()) return;
   const bool may_move = !scene.overlay.panel && (!pointer_ || pointer_->is_away());
-  if (may_move) caption_room_.see(renderer_.lay_out(scene, options_.stereo, context_.size()).covered_below, now);
+  if (may_move) caption_room_.see(renderer_->lay_out(scene, options_.stereo, context_.size()).covered_below, now);
   scene.camera.room_below = caption_room_.room_below();
 }
 
@@ -123,6 +125,8 @@ RenderScene DisplayLoop::build(TimePoint now) const {
     if (const auto at = pointer_->hovers_at()) scene.overlay.meant = pressed(*at);
   }
   if (!attracts_) name_what_is_meant(scene);
+  // What the pointer, or the link, has to say is more urgent.
+  if (scene.overlay.note.empty() && !scene.overlay.panel) scene.overlay.note = subtitles_.at(now);
   return scene;
 }
 
@@ -206,7 +210,7 @@ void DisplayLoop::tell_language() {
 /// The world's; an invitation's own assets go before.
 void DisplayLoop::upload() {
   if (attracts_ || !world_.known()) return;
-  renderer_.upload(world_.assets());
+  renderer_->upload(world_.assets());
   give_spare_memory_back();
 }
 
@@ -218,8 +222,8 @@ void DisplayLoop::tend_attract(TimePoint now) {
   const bool before = std::exchange(attracts_, settings.attract && alone.count() >= settings.attract_after_s);
   if (attracts_ && !before) attract_->rewind();
   if (attracts_ ? attract_->advance(now) || !before : before) {
-    renderer_.forget_assets();
-    if (attracts_) renderer_.upload(attract_->assets());
+    renderer_->forget_assets();
+    if (attracts_) renderer_->upload(attract_->assets());
     upload();
   }
 }
@@ -275,7 +279,7 @@ std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
   const PixelSize eye = seen_size(options_.stereo, picture);
   if (eye.width < 2 || eye.height < 2) return {};
   const EyePlace seen = eye_at(options_.stereo, picture, place);
-  const OverlayLayout& shown = renderer_.overlay();
+  const OverlayLayout& shown = renderer_->overlay();
   return action_at(shown, (1 + seen.x) / 2 * shown.size.width, (1 - seen.y) / 2 * shown.size.height);
 }
 
@@ -289,19 +293,28 @@ void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
   }
 }
 
+/// The visitor's world is seen and heard: no invitation before it, no link that was lost.
+bool DisplayLoop::is_there() const {
+  return have_frame_ && client_.state() == LinkState::joined && !attracts_;
+}
+
 Expected<void> DisplayLoop::draw(TimePoint now) {
   const TimePoint began = clock_.now();
+  subtitles_.hear(is_there() ? world_.status() : nullptr, spoken_, now);
   RenderScene scene = build(now);
   const PixelSize size = context_.size();
   say_stray();
+  if (context_.lost()) {
+    if (auto ok = recover(); !ok) return ok;
+  }
   // A window that is minimised has no pixels.
   if (size.width < 2 || size.height < 2) return {};
   make_room(scene, now);
-  if (auto ok = renderer_.draw(scene, options_.stereo, size); !ok) return survive(ok.error());
+  if (auto ok = renderer_->draw(scene, options_.stereo, size); !ok) return survive(ok.error());
   if (options_.offscreen) {
-    renderer_.finish();
+    Renderer::finish();
   } else {
-    renderer_.copy_to_window(size);
+    renderer_->copy_to_window(size);
   }
   context_.present();
   panel_shown_ = scene.overlay.panel.has_value();
@@ -316,6 +329,7 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
 
 /// A window may be drawn to a size that the driver has no memory for, and back: it waits for that. Offscreen the size stays wrong.
 Expected<void> DisplayLoop::survive(const Error& error) {
+  if (context_.lost()) return recover();
   if (options_.offscreen) return tl::unexpected(error);
   if (told_draw_ != error.what) log::error(error);
   told_draw_ = error.what;
@@ -323,11 +337,37 @@ Expected<void> DisplayLoop::survive(const Error& error) {
   return {};
 }
 
+Expected<std::unique_ptr<Renderer>> DisplayLoop::begin_drawing() {
+  if (auto ok = context_.renew(); !ok) return tl::unexpected(ok.error());
+  if (context_.lost())
+    return fail("the graphics card is not back yet", "display", "see the system's log for its driver");
+  return Renderer::create(options_.renderer);
+}
+
+/// What was uploaded is gone, and comes again. The world went on meanwhile.
+Expected<void> DisplayLoop::recover() {
+  log::warning(
+      "the graphics card has lost all (its driver was reset, or the machine slept): the display begins to draw anew");
+  renderer_.reset();
+  const TimePoint lost = clock_.now();
+  auto renderer = begin_drawing();
+  while (!renderer && !requests_.stop && clock_.now() - lost < kCardComesBack) {
+    clock_.sleep_until(clock_.now() + std::chrono::seconds(1));
+    renderer = begin_drawing();
+  }
+  if (!renderer) return tl::unexpected(renderer.error());
+  renderer_ = std::move(*renderer);
+  if (attracts_) renderer_->upload(attract_->assets());
+  upload();
+  log::info("the graphics card is back");
+  return {};
+}
+
 void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
   const std::vector<client::WorldEvent> events = client_.take_events();
   if (source_.recorder) source_.recorder->hear(now, events);
   if (!sound_) return;
-  const bool here = have_frame_ && client_.state() == LinkState::joined && !attracts_;
+  const bool here = is_there();
   sound_->hear(ears, here ? &frame_ : nullptr, here ? world_.status() : nullptr, world_.presentation().get(),
                world_.objects(), events, world_.folder());
 }
@@ -339,7 +379,7 @@ std::string DisplayLoop::picture_path(const std::string& name) const {
 Expected<void> DisplayLoop::write_picture(const std::string& name) {
   if (options_.out.empty()) return {};
   const std::string path = picture_path(name);
-  if (auto ok = write_png(renderer_.read_picture(), path); !ok) return ok;
+  if (auto ok = write_png(renderer_->read_picture(), path); !ok) return ok;
   log::info("wrote " + path);
   summary_.pictures.push_back(path);
   return {};

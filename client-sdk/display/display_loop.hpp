@@ -13,6 +13,7 @@
 #include "client-sdk/display/kiosk_setup.hpp"
 #include "client-sdk/display/pointer_input.hpp"
 #include "client-sdk/display/shown_world.hpp"
+#include "client-sdk/display/subtitles.hpp"
 #include "server/base/clock.hpp"
 
 namespace mechane::display {
@@ -23,12 +24,13 @@ inline constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
 /// One display's life. Made and run on one thread.
 class DisplayLoop {
  public:
-  DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context, Renderer& renderer,
-              DisplaySource& source, const content::Catalogue* catalogue, std::unique_ptr<AttractLoop> attract)
+  DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context,
+              std::unique_ptr<Renderer> renderer, DisplaySource& source, const content::Catalogue* catalogue,
+              std::unique_ptr<AttractLoop> attract)
       : options_(options),
         requests_(requests),
         context_(context),
-        renderer_(renderer),
+        renderer_(std::move(renderer)),
         source_(source),
         client_(*source.client),
         world_(open_assets(options, catalogue), options.language),
@@ -55,8 +57,11 @@ class DisplayLoop {
   void say_refusal();
   void say_stray();
   void make_room(RenderScene& scene, TimePoint now);
+  [[nodiscard]] bool is_there() const;
   Expected<void> draw(TimePoint now);
   Expected<void> survive(const Error& error);
+  Expected<void> recover();
+  Expected<std::unique_ptr<Renderer>> begin_drawing();
   void let_hear(const Camera& ears, TimePoint now);
   [[nodiscard]] RenderScene build(TimePoint now) const;
   void take_wishes(TimePoint now);
@@ -80,7 +85,7 @@ class DisplayLoop {
   const DisplayOptions& options_;
   DisplayRequests& requests_;
   GlContext& context_;
-  Renderer& renderer_;
+  std::unique_ptr<Renderer> renderer_;  ///< of the context as it is now
   DisplaySource& source_;
   client::Client& client_;
   SystemClock clock_;
@@ -101,6 +106,7 @@ class DisplayLoop {
   std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told it
   bool panel_shown_ = false;                                            ///< in the last picture
   CaptionRoom caption_room_;
+  Subtitles subtitles_;
   std::string told_refusal_;
   std::string told_stray_;
   std::string told_draw_;

@@ -63,10 +63,24 @@ void fill_screen(SDL_Window* window) {
   SDL_SetWindowFullscreen(window, SDL_WINDOW_FULLSCREEN_DESKTOP);
 }
 
+/// Told of resets where the driver can tell, and made current. Null: none, see SDL_GetError().
+SDL_GLContext make_context(SDL_Window* window) {
+  SDL_GLContext context = nullptr;
+  for (const bool told : {true, false}) {
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_FLAGS, told ? SDL_GL_CONTEXT_ROBUST_ACCESS_FLAG : 0);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_RESET_NOTIFICATION,
+                        told ? SDL_GL_CONTEXT_RESET_LOSE_CONTEXT : SDL_GL_CONTEXT_RESET_NO_NOTIFICATION);
+    if (context == nullptr) context = SDL_GL_CreateContext(window);
+  }
+  if (context != nullptr) SDL_GL_SetSwapInterval(1);
+  return context;
+}
+
 /// Who made the window ends SDL with it: there is one window in a process.
 class WindowContext final : public GlContext {
  public:
-  WindowContext(SDL_Window* window, SDL_GLContext context) : window_(window), context_(context) {}
+  WindowContext(SDL_Window* window, SDL_GLContext context)
+      : window_(window), context_(context), name_(reinterpret_cast<const char*>(glGetString(GL_RENDERER))) {}
   WindowContext(const WindowContext&) = delete;
   WindowContext& operator=(const WindowContext&) = delete;
   ~WindowContext() override {
@@ -75,8 +89,14 @@ class WindowContext final : public GlContext {
     SDL_Quit();
   }
 
-  [[nodiscard]] std::string renderer_name() const override {
-    return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  [[nodiscard]] std::string renderer_name() const override { return name_; }
+  [[nodiscard]] bool lost() const override { return driver_was_reset(); }
+  [[nodiscard]] Expected<void> renew() override {
+    SDL_GL_DeleteContext(context_);
+    context_ = make_context(window_);
+    if (context_ == nullptr)
+      return fail(std::string("no OpenGL 3.3: ") + SDL_GetError(), "display, window", "wait for the graphics driver");
+    return {};
   }
   [[nodiscard]] PixelSize size() const override {
     int width = 0;
@@ -264,6 +284,7 @@ class WindowContext final : public GlContext {
 
   SDL_Window* window_;
   SDL_GLContext context_;
+  std::string name_;
   SDL_Rect small_{80, 80, 1280, 720};  ///< when it does not fill the screen
   bool close_wanted_ = false;
   bool picture_wanted_ = false;
@@ -337,7 +358,7 @@ OpenedWindow open_window(PixelSize size, const std::string& title, bool stereo) 
   opened.window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                    static_cast<int>(size.width), static_cast<int>(size.height), flags);
   if (opened.window == nullptr) return {};
-  opened.context = SDL_GL_CreateContext(opened.window);
+  opened.context = make_context(opened.window);
   if (opened.context != nullptr) return opened;
   SDL_DestroyWindow(opened.window);
   return {};
@@ -359,7 +380,6 @@ Expected<std::unique_ptr<GlContext>> make_window_context(PixelSize size, const s
     return fail("no window with OpenGL 3.3: " + reason, "display, window",
                 "install a graphics driver, or give --offscreen");
   }
-  SDL_GL_SetSwapInterval(1);
   // A kiosk that nobody touches for a while shall still be seen.
   SDL_DisableScreenSaver();
   auto context = std::make_unique<WindowContext>(opened.window, opened.context);

@@ -77,6 +77,7 @@ Camera look_over(const Eigen::AlignedBox3d& interest_W) {
   Camera camera;
   camera.p_WC = Vec3(interest_W.center().x(), 1.6, interest_W.max().z() + 1.2);
   camera.p_WT = camera.p_WC + Vec3(0, -0.26, -1);
+  camera.nearest_m = nearest_of(interest_W, camera);
   camera.field_of_view_rad = 54 * kPi / 180;
   camera.least_horizontal_rad = 60 * kPi / 180;
   return camera;
@@ -89,6 +90,7 @@ Camera camera_at(const client::View& view, const Eigen::AlignedBox3d& interest_W
   const Vec3 ahead_W = view.X_WV.rotate(-Vec3::UnitZ());
   const double distance = interest_W.isEmpty() ? 1.5 : ahead_W.dot(interest_W.center() - camera.p_WC);
   camera.p_WT = camera.p_WC + std::clamp(distance, 0.5, 5.0) * ahead_W;
+  camera.nearest_m = nearest_of(interest_W, camera);
   camera.up_W = view.X_WV.rotate(Vec3::UnitY());
   camera.field_of_view_rad = view.field_of_view_rad;
   camera.least_horizontal_rad = view.field_of_view_rad;

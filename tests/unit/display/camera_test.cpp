@@ -54,6 +54,29 @@ RC_GTEST_PROP(Camera, a_head_that_moves_looks_through_the_same_window, ()) {
   }
 }
 
+RC_GTEST_PROP(Camera, depth_stays_within_its_budget_on_a_screen_that_is_not_known, ()) {
+  Camera camera;
+  camera.p_WC = Vec3(0, 0, any(0.4, 6));
+  camera.p_WT = Vec3::Zero();
+  camera.eye_distance_m = any(0.05, 0.075);
+  camera.nearest_m = any(0.2, 1.2) * camera.p_WC.z();
+  const double aspect = any(0.8, 2.5);
+  const Camera shown = for_screen(camera, {}, nullptr, aspect);
+  RC_ASSERT(shown.eye_distance_m <= camera.eye_distance_m);
+  const auto parallax = [&](double depth_m) {  // of the picture's width, uncrossed above 0
+    const Vec3 p_WQ = shown.p_WC - depth_m * Vec3::UnitZ();
+    return (project(eye_view(shown, Eye::right, aspect), p_WQ).x() -
+            project(eye_view(shown, Eye::left, aspect), p_WQ).x()) /
+           2;
+  };
+  RC_ASSERT(parallax(300) <= kMostParallaxBehind + 1e-4);
+  RC_ASSERT(parallax(camera.nearest_m) >= -kMostParallaxBefore - 1e-4);
+  // Not flatter than it must be.
+  const bool at_limit =
+      parallax(300) > 0.98 * kMostParallaxBehind - 0.0005 || parallax(camera.nearest_m) < -0.99 * kMostParallaxBefore;
+  RC_ASSERT(at_limit || shown.eye_distance_m == camera.eye_distance_m);
+}
+
 RC_GTEST_PROP(Camera, a_framed_box_is_seen_whole, ()) {
   Eigen::AlignedBox3d box(Vec3(any(-3, 0), any(-1, 0), any(-2, 0)), Vec3(any(0.1, 3), any(0.1, 2), any(0.1, 2)));
   const Camera camera = frame_box(box, Vec3(any(-0.5, 0.5), any(0.05, 0.8), 1), any(0.4, 1.0));

@@ -1,0 +1,104 @@
+// A whole display without a server: a recording is played and drawn, and what it would do on a museum's wall is seen in its pictures.
+#include "client-sdk/display/display_app.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include "client-sdk/display/frame_recording.hpp"
+#include "client-sdk/display/recording_codec.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace mechane::display {
+namespace {
+
+const std::filesystem::path kSource = MECHANE_SOURCE_DIR;
+
+/// A well-behaved driver, but for one moment.
+int g_asked = 0;
+int g_reset_at = 0;
+GLenum reset_once() {
+  return ++g_asked == g_reset_at ? GL_UNKNOWN_CONTEXT_RESET : GL_NO_ERROR;
+}
+
+class PlayedDisplay : public testing::Test {
+ protected:
+  /// The pictures of a recording, by file; two of them.
+  std::vector<std::string> pictures_of(const std::filesystem::path& recording, const std::string& folder) {
+    DisplayOptions options;
+    options.offscreen = true;
+    options.size = {320, 180};
+    options.language = "en";
+    options.assets = (kSource / "scenarios/aiolos-sphere").string();
+    options.out = (scratch_.path() / folder).string();
+    options.source.play = recording.string();
+    options.film_fps = 2;
+    options.frames = 2;
+    DisplayRequests requests;
+    const auto summary = run_display(options, requests);
+    EXPECT_TRUE(summary.has_value()) << (summary ? "" : summary.error().to_string());
+    std::vector<std::string> pictures;
+    if (!summary) return pictures;
+    EXPECT_EQ(summary->frames, 2U);
+    EXPECT_TRUE(summary->missing_assets.empty());
+    for (const std::string& file : summary->pictures) {
+      std::ifstream in(file, std::ios::binary);
+      pictures.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    }
+    return pictures;
+  }
+
+  test::ScratchFolder scratch_;
+};
+
+TEST_F(PlayedDisplay, goes_on_with_the_same_pictures_when_its_graphics_card_forgets_all) {
+  const std::filesystem::path recording = kSource / "tests/golden/scenes/aiolos-sphere.frames";
+  const std::vector<std::string> whole = pictures_of(recording, "whole");
+  ASSERT_FALSE(whole.empty());
+  const auto real = epoxy_glGetGraphicsResetStatus;
+  epoxy_glGetGraphicsResetStatus = reset_once;
+  for (const int picture : {1, 2}) {
+    g_asked = 0;
+    g_reset_at = picture;
+    EXPECT_EQ(pictures_of(recording, "reset-" + std::to_string(picture)), whole);
+    EXPECT_GT(g_asked, picture) << "the new context was asked, too";
+  }
+  epoxy_glGetGraphicsResetStatus = real;
+}
+
+/// The recording, with another narration in each step.
+void write_with_narration(const std::string& text, const std::filesystem::path& file) {
+  const auto recorded = FrameRecording::open_file(kSource / "tests/golden/scenes/aiolos-sphere.frames").value();
+  RecordingWriter writer;
+  for (const FrameRecording::Record& record : recorded.records()) {
+    client::WorldStatus status;
+    if (record.kind != RecordKind::status) {
+      writer.add(record.kind, record.time, record.content);
+      continue;
+    }
+    ASSERT_TRUE(decode(record.content, status));
+    status.narration = {{"en", text}};
+    writer.add(record.kind, record.time, encode(status));
+  }
+  writer.add(RecordKind::end, Duration{0}, {});
+  const std::vector<std::byte> bytes = writer.take_bytes();
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+TEST_F(PlayedDisplay, writes_what_is_read_aloud) {
+  const auto silent = scratch_.path() / "silent.frames", speaks = scratch_.path() / "speaks.frames";
+  write_with_narration("", silent);
+  write_with_narration("Steam leaves the two bent pipes.", speaks);
+  const std::vector<std::string> without = pictures_of(silent, "without");
+  const std::vector<std::string> with = pictures_of(speaks, "with");
+  ASSERT_EQ(without.size(), with.size());
+  ASSERT_FALSE(with.empty());
+  EXPECT_NE(without.front(), with.front());
+}
+
+}  // namespace
+}  // namespace mechane::display
