@@ -19,6 +19,8 @@ namespace {
 using client::LinkState;
 
 constexpr std::size_t kFrameTimesKept = 20'000;
+/// After so long without being named, an object has no manifest.
+constexpr Duration kManifestComes = std::chrono::seconds(5);
 /// After so long without a graphics card, who started the display shall try.
 constexpr Duration kCardComesBack = std::chrono::seconds(60);
 }  // namespace
@@ -59,6 +61,17 @@ void DisplayLoop::say_stray() {
   if (stray.empty() || stray == told_stray_) return;
   told_stray_ = stray;
   log::warning(told_stray_ + " is kilometres away and not drawn: its world has come apart; begin the activity anew");
+}
+
+/// For a moment it is a manifest that is still on its way.
+void DisplayLoop::say_unknown(TimePoint now) {
+  const auto unknown = world_.unknown();
+  if (!unknown) return unknown_since_.reset();
+  if (!unknown_since_) unknown_since_ = now;
+  if (now - *unknown_since_ < kManifestComes || std::exchange(told_unknown_, unknown) == unknown) return;
+  log::warning(fmt::format(
+      "object {} moves, and no manifest names it: it is not drawn; is the server of this display's version?",
+      *unknown));
 }
 
 /// Status, manifest and frame as they are now.
@@ -304,12 +317,14 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   RenderScene scene = build(now);
   const PixelSize size = context_.size();
   say_stray();
+  say_unknown(now);
   if (context_.lost()) {
     if (auto ok = recover(); !ok) return ok;
   }
   // A window that is minimised has no pixels.
   if (size.width < 2 || size.height < 2) return {};
   make_room(scene, now);
+  renderer_->begin_at_row(context_.first_row());
   if (auto ok = renderer_->draw(scene, options_.stereo, size); !ok) return survive(ok.error());
   if (options_.offscreen) {
     Renderer::finish();

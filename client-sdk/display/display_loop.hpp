@@ -56,6 +56,7 @@ class DisplayLoop {
   void record(TimePoint now);
   void say_refusal();
   void say_stray();
+  void say_unknown(TimePoint now);
   void make_room(RenderScene& scene, TimePoint now);
   [[nodiscard]] bool is_there() const;
   Expected<void> draw(TimePoint now);
@@ -109,6 +110,8 @@ class DisplayLoop {
   Subtitles subtitles_;
   std::string told_refusal_;
   std::string told_stray_;
+  std::optional<TimePoint> unknown_since_;
+  std::optional<std::uint32_t> told_unknown_;
   std::string told_draw_;
   PictureSchedule schedule_;
   std::optional<std::string> due_;

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 
-#include "client-sdk/display/overlay_text.hpp"
+#include <fmt/format.h>
+
+#include "server/log/log.hpp"
 
 namespace mechane::display {
 namespace {
@@ -91,7 +93,16 @@ void DisplaySound::hear(const Camera& ears, const client::Frame* frame, const cl
   if (status != nullptr && !status->done) {
     // Looked for once a step: the disk is not asked at every picture.
     const std::string id = narration_id(*status) + " " + language_;
-    if (id != narration_.id) narration_ = {id, narration_file(*status, language_, scenario_folder, narration_folder_)};
+    if (id != narration_.id) {
+      narration_ = {id, narration_file(*status, language_, scenario_folder, narration_folder_)};
+      const auto said = status->narration.find(language_);
+      if (narration_.file.empty() && said != status->narration.end() && told_.insert(id).second)
+        log::warning(
+            fmt::format("step '{}' has no narration in '{}' here: its words are shown, and not heard; let "
+                        "deploy/narration speak it, or "
+                        "give --narration FOLDER",
+                        status->step, language_));
+    }
     if (!narration_.file.empty()) scene.narration = narration_;
   }
   player_.play(std::move(scene));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,7 @@ class DisplaySound {
   std::string language_;
   std::optional<client::Frame> before_;
   Narration narration_;
+  std::set<std::string> told_;  ///< steps that have none
   SoundPlayer player_;
 };
 

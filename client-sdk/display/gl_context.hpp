@@ -40,6 +40,8 @@ class GlContext {
   [[nodiscard]] virtual std::string renderer_name() const = 0;
   /// Size of the window's picture, in pixels; offscreen: what was asked for.
   [[nodiscard]] virtual PixelSize size() const = 0;
+  /// The screen's row that the picture's uppermost is; 0 where nobody can tell (Wayland).
+  [[nodiscard]] virtual int first_row() const { return 0; }
   /// Shows the picture and takes the window's events. Offscreen: nothing.
   virtual void present() = 0;
   /// The graphics card has forgotten all (its driver was reset, it was unplugged, the machine slept): nothing more is drawn in this context.

@@ -104,6 +104,11 @@ class WindowContext final : public GlContext {
     SDL_GL_GetDrawableSize(window_, &width, &height);
     return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};
   }
+  [[nodiscard]] int first_row() const override {
+    int x = 0, y = 0;
+    SDL_GetWindowPosition(window_, &x, &y);
+    return y;
+  }
   void present() override {
     SDL_GL_SwapWindow(window_);
     SDL_Event event;

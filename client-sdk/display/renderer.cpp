@@ -133,7 +133,7 @@ Expected<void> Renderer::draw(const RenderScene& scene, Stereo stereo, PixelSize
   if (stereo == Stereo::anaglyph || stereo == Stereo::row_interleaved) {
     glBindFramebuffer(GL_FRAMEBUFFER, picture_->framebuffer.get());
     glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
-    passes_.composite.draw(*eyes_[0], *eyes_[1], stereo, settings_.right_eye_first);
+    passes_.composite.draw(*eyes_[0], *eyes_[1], stereo, settings_.right_eye_first != odd_row_);
     mark("composite");
   }
   last_ = stereo;

@@ -46,6 +46,8 @@ class Renderer {
   }
   /// How many shadow maps were drawn: none in a picture in which nothing has moved.
   [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return passes_.shadow.times_drawn(); }
+  /// Row-interleaved screens have a row for each eye in turn, wherever a window begins: the screen's row of the pictures' uppermost from now on.
+  void begin_at_row(int row) { odd_row_ = row % 2 != 0; }
   /// Draws into the renderer's own picture. Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const RenderScene& scene, Stereo stereo, PixelSize size);
   /// The last picture, upper row first. Waits for the graphics card. Of quad_buffer, that eye's.
@@ -99,6 +101,7 @@ class Renderer {
   /// Tone, close-up and words of one eye.
   [[nodiscard]] Expected<void> finish_eye(const RenderScene& scene, const EyeView& view, const EyeTarget& into);
 
+  bool odd_row_ = false;
   RendererSettings settings_;
   Passes passes_;
   GpuAssets assets_;

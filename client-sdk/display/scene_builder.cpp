@@ -116,7 +116,9 @@ SceneBuilder::SceneBuilder(AssetLibrary& library, const std::string& language)
 
 void SceneBuilder::set_manifest(const std::vector<client::SceneObject>& objects) {
   objects_.clear();
+  named_.clear();
   for (const client::SceneObject& object : objects) {
+    named_.insert(object.index);
     if (object.mesh_uri.empty()) continue;
     objects_.push_back({object, &library_.model(object.mesh_uri, object.mesh_node), object.index});
   }
@@ -268,9 +270,16 @@ Pose SceneBuilder::pose_of(const Placed& placed, const client::Frame* frame) con
   return moves ? body->X_WB : placed.object.X_WB;
 }
 
+std::optional<std::uint32_t> SceneBuilder::first_unknown(const client::Frame& frame) const {
+  const auto body =
+      std::ranges::find_if(frame.bodies, [this](const client::BodyPose& b) { return !named_.contains(b.object); });
+  return body == frame.bodies.end() ? std::nullopt : std::optional(body->object);
+}
+
 RenderScene SceneBuilder::build(const client::Frame* frame, const client::WorldStatus* status, client::LinkState link) {
   RenderScene scene;
   stray_.clear();
+  unknown_ = frame == nullptr ? std::nullopt : first_unknown(*frame);
   scene.camera = camera_;
   scene.ground_height_m = ground_height_m_;
   scene.shadow_box_W = shadow_box_W_;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ class SceneBuilder {
                                   client::LinkState link);
   /// Name of an object that the last scene left out because it lies kilometres away; empty: there was none.
   [[nodiscard]] const std::string& stray() const { return stray_; }
+  /// A body of the last scene's frame that the manifest does not name: it is not drawn. While a manifest comes, or a world begins anew in
+  /// mid-frame, there may be some for a moment.
+  [[nodiscard]] std::optional<std::uint32_t> unknown() const { return unknown_; }
 
  private:
   struct Placed {
@@ -50,6 +54,7 @@ class SceneBuilder {
   /// Where a display stands: as the scenario says, or before what can be touched.
   [[nodiscard]] Camera standpoint() const;
   [[nodiscard]] std::optional<Inset> detail(const client::WorldStatus& status) const;
+  [[nodiscard]] std::optional<std::uint32_t> first_unknown(const client::Frame& frame) const;
   [[nodiscard]] Pose pose_of(const Placed& placed, const client::Frame* frame) const;
   void add_object(const Placed& placed, const Pose& X_WB, const client::Frame* frame, RenderScene& out) const;
   void add_name(const Placed& placed, const Pose& X_WB, RenderScene& out) const;
@@ -61,7 +66,9 @@ class SceneBuilder {
   bool forces_shown_ = false;
   OverlayWriter writer_;
   std::string language_;
+  std::set<std::uint32_t> named_;  ///< by the manifest
   std::string stray_;
+  std::optional<std::uint32_t> unknown_;
   std::vector<Placed> objects_;  ///< of the manifest
   std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
   std::vector<Instance> country_;

@@ -56,6 +56,7 @@ class ShownWorld {
   [[nodiscard]] const std::string& folder() const { return folder_; }
   /// Name of an object that the last scene left out; see SceneBuilder. Empty: none.
   [[nodiscard]] std::string stray() const { return builder_ ? builder_->stray() : std::string(); }
+  [[nodiscard]] std::optional<std::uint32_t> unknown() const { return builder_ ? builder_->unknown() : std::nullopt; }
   /// Mesh files that are missing, or are not those of the server. Null before anything is known.
   [[nodiscard]] const std::set<std::string>* missing() const { return library_ ? &library_->missing() : nullptr; }
   [[nodiscard]] const std::set<std::string>* differing() const { return files_ ? &files_->differing() : nullptr; }

@@ -16,7 +16,7 @@ std::string known_sources(const state::WorldDescription& description, const stat
   for (const auto& joint : description.joints)
     names.push_back(joint.name + ".angle|rate|turns|position");
   for (const auto& body : description.bodies)
-    names.push_back(body.name + ".position.x|y|z");
+    names.push_back(body.name + ".position.x|y|z, .speed");
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
     list += (i == 0 ? "" : ", ") + names[i];
@@ -42,6 +42,7 @@ Expected<Quantities::Source> Quantities::resolve(const state::WorldDescription& 
     for (int axis = 0; axis < 3; ++axis) {
       if (value == std::string("position.") + "xyz"[axis]) return Source{From::body_position, body.index(), axis, 1};
     }
+    if (value == "speed") return Source{From::body_speed, body.index(), 0, 1};
   }
   return fail("the source '" + quantity.source + "' does not exist", "quantity " + quantity.name,
               "use one of: " + known_sources(description, layout));
@@ -73,6 +74,9 @@ void Quantities::update(state::WorldState& state) const noexcept {
         break;
       case From::body_position:
         value = state.bodies[source.index].X_WB.p[source.axis];
+        break;
+      case From::body_speed:
+        value = state.bodies[source.index].V_WB.v.norm();
         break;
     }
     state.quantities[i] = source.factor * value;

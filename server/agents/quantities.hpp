@@ -20,7 +20,7 @@ class Quantities {
   void update(state::WorldState& state) const noexcept;
 
  private:
-  enum class From { memory, joint_position, joint_velocity, body_position };
+  enum class From { memory, joint_position, joint_velocity, body_position, body_speed };
   struct Source {
     From from = From::memory;
     std::size_t index = 0;

@@ -26,7 +26,7 @@ std::vector<std::string> values_of(const state::WorldDescription& world, const s
   if (const auto* agent = find_component(world.agents, name)) add_values(find_agent_type(agent->type), values);
   if (const auto* machine = find_component(world.machines, name)) add_values(find_machine_type(machine->type), values);
   if (world.find_joint(name)) values.insert(values.end(), {"position", "angle", "rate", "turns"});
-  if (world.find_body(name)) values.insert(values.end(), {"position.x", "position.y", "position.z"});
+  if (world.find_body(name)) values.insert(values.end(), {"position.x", "position.y", "position.z", "speed"});
   return values;
 }
 

@@ -287,6 +287,7 @@ std::string reference_page() {
   page += row({"`JOINT.turns`", "", "the angle in turns"});
   page += row({"`JOINT.rate`", "rad/s or m/s", "how fast it moves; with the unit `rpm`, turns a minute"});
   page += row({"`BODY.position.x`, `.y`, `.z`", "m", "where the body's origin is in the world"});
+  page += row({"`BODY.speed`", "m/s", "how fast the body's origin moves: of what falls, or is thrown"});
   return page;
 }
 

@@ -136,8 +136,8 @@ double peak_mib() {
   return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<double>(usage.ru_maxrss) / 1024 : 0;
 }
 
-Expected<void> measure_passes(const Config& config, display::Stereo stereo, const display::RenderScene& scene,
-                              const display::SceneAssets& assets, Report& report) {
+Expected<void> measure_passes(const Config& config, display::Stereo stereo, const state::WorldDescription& world,
+                              display::SceneBuilder& builder, const display::SceneAssets& assets, Report& report) {
   display::RendererSettings settings;
   settings.profile = true;
   auto renderer = display::Renderer::create(settings);
@@ -145,10 +145,14 @@ Expected<void> measure_passes(const Config& config, display::Stereo stereo, cons
   (*renderer)->upload(assets);
   std::map<std::string, std::vector<double>> wall_ms;
   std::map<std::string, std::vector<double>> cpu_ms;
-  display::RenderScene moving = scene;
+  FrameSource source(world);
+  client::Frame moved;
   for (int frame = -2; frame < config.frames; ++frame) {
-    moving.time_s += 1.0 / 60;
-    if (auto ok = (*renderer)->draw(moving, stereo, {config.width, config.height}); !ok) return ok;
+    if (!client::parse(source.next(), moved))
+      return fail("a frame was refused", config.scenario, "mend this benchmark");
+    display::RenderScene scene = builder.build(&moved, nullptr, client::LinkState::joined);
+    scene.time_s += frame / 60.0;
+    if (auto ok = (*renderer)->draw(scene, stereo, {config.width, config.height}); !ok) return ok;
     std::map<std::string, display::PassTime> sums;
     for (const display::PassTime& time : (*renderer)->pass_times()) {
       for (const std::string& name : {std::string(time.pass), std::string("frame")}) {
@@ -189,7 +193,7 @@ Expected<void> measure(const Config& config, const state::WorldDescription& worl
   report.note((*context)->renderer_name());
   if (auto ok = measure_latency(config, stereo->second, world, builder, library.assets(), report); !ok) return ok;
   report.metric("peak_mib", peak_mib());
-  return measure_passes(config, stereo->second, scene, library.assets(), report);
+  return measure_passes(config, stereo->second, world, builder, library.assets(), report);
 }
 
 int main_of(const Config& config) {

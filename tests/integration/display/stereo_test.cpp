@@ -113,6 +113,21 @@ TEST_F(StereoPicture, squeezed_halves_are_each_eyes_full_picture_at_half_its_wid
   }
 }
 
+TEST_F(StereoPicture, rows_are_the_screens_and_not_the_windows) {
+  const Parted parted;
+  const ImageData even = one(parted, Stereo::row_interleaved, kSize);
+  renderer_->begin_at_row(101);
+  const ImageData odd = one(parted, Stereo::row_interleaved, kSize);
+  RendererSettings settings;
+  settings.shadow_map_size = 1024;
+  settings.right_eye_first = true;
+  make_renderer(settings);
+  EXPECT_EQ(one(parted, Stereo::row_interleaved, kSize).rgba, odd.rgba);
+  EXPECT_NE(even.rgba, odd.rgba);
+  renderer_->begin_at_row(-1);
+  EXPECT_EQ(one(parted, Stereo::row_interleaved, kSize).rgba, even.rgba) << "a window that hangs over the upper edge";
+}
+
 TEST_F(StereoPicture, rows_take_turns_and_a_setting_says_which_eye_begins) {
   const Parted parted;
   const ImageData left = one(parted, Stereo::left_eye, kSize);

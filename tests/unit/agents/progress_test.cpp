@@ -21,7 +21,8 @@ state::WorldDescription two_activities() {
                   {"GRASP", "simulation.grasp", {}, 11},
                   {"SNAP", "geometry.snap", {{"object", text({"PART"})}, {"tolerance", number({0.01, 0.01})}}, 12}};
   world.quantities = {{"height", "PART.position.y", "m"}, {"x", "PART.position.x", "m"},  {"turns", "AXLE.turns", ""},
-                      {"rate", "HINGE.rate", "rpm"},      {"angle", "AXLE.angle", "deg"}, {"held", "GRASP.active", ""}};
+                      {"rate", "HINGE.rate", "rpm"},      {"angle", "AXLE.angle", "deg"}, {"held", "GRASP.active", ""},
+                      {"falls", "PART.speed", "m/s"}};
   world.activities = {{"assemble", StepId(0), {}}, {"use", StepId(2), {}}};
   world.steps.resize(3);
   world.steps[0] = {
@@ -220,6 +221,7 @@ RC_GTEST_PROP(Progress, RestartingAtAnyTimeGivesTheSameWorldAsAtFirst, ()) {
 TEST(Quantities, ReadMemoryJointsAndBodiesInTheirUnits) {
   Stage stage(two_activities());
   stage.state->bodies[1].X_WB.p = Vec3(0.25, 0.5, 0);
+  stage.state->bodies[1].V_WB.v = Vec3(0, -4, 3);
   stage.state->joints[0].position = 3 * kPi;
   stage.state->joints[0].velocity = kPi;
   stage.tick();
@@ -228,6 +230,7 @@ TEST(Quantities, ReadMemoryJointsAndBodiesInTheirUnits) {
   EXPECT_DOUBLE_EQ(stage.state->quantities[2], 1.5);
   EXPECT_DOUBLE_EQ(stage.state->quantities[3], 30) << "rad/s shown as turns a minute";
   EXPECT_DOUBLE_EQ(stage.state->quantities[4], 540) << "rad shown as degrees";
+  EXPECT_DOUBLE_EQ(stage.state->quantities[6], 5);
 }
 
 TEST(Quantities, AnUnknownSourceIsAnErrorThatListsWhatExists) {

@@ -452,6 +452,10 @@ TEST(SceneBuilder, of_ten_thousand_objects_each_is_where_it_belongs) {
   frame.bodies.push_back({kMany + 5, {}});
   const RenderScene scene = builder.build(&frame, nullptr, client::LinkState::joined);
   ASSERT_EQ(scene.instances.size(), kMany / 2 + 1) << "with the scenery";
+  EXPECT_EQ(builder.unknown(), kMany + 5);
+  frame.bodies.pop_back();
+  (void)builder.build(&frame, nullptr, client::LinkState::joined);
+  EXPECT_EQ(builder.unknown(), std::nullopt);
   for (const Instance& instance : scene.instances) {
     if (!instance.object) continue;
     const float height = *instance.object % 3 != 0 ? 0.001F * static_cast<float>(*instance.object) : 0.0F;
