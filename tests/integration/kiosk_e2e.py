@@ -161,11 +161,14 @@ class Kiosk(EndToEnd):
             self.assertEqual(display.stop(), 0, display.text())
 
     def test_without_a_picture_for_each_eye_it_shows_one_for_both_and_says_so(self):
-        out = self.folder / "out"
-        result = self.run_command("display", "--offscreen", "--stereo", "quad", "--frames", "1", "--size", "160x90", "--out", out)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.assertIn("no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs", result.stdout + result.stderr)
-        self.assertEqual([file.name for file in out.iterdir()], ["frame-mono.png"])
+        with self.screen("320x240") as environment:
+            for place, arguments in (("offscreen", ("--offscreen",)), ("window", ())):
+                out = self.folder / place
+                display = self.start(place, "display", *arguments, "--stereo", "quad", "--frames", "1", "--size", "160x90", "--mute", "--out", out,
+                                     environment=environment)
+                self.assertEqual(display.wait(60), 0, display.text())
+                self.assertIn("no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs", display.text())
+                self.assertEqual([file.name for file in out.iterdir()], ["frame-mono.png"])
 
     def test_what_a_display_lacks_is_told_and_it_goes_on(self):
         self.server(records=False)
