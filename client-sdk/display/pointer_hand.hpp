@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "client-sdk/display/pointer_ways.hpp"
+#include "client-sdk/display/render_scene.hpp"
 #include "client-sdk/display/sight.hpp"
 #include <mechane/client/types.hpp>
 

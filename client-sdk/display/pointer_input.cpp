@@ -49,9 +49,9 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
     case Kind::gone:
       return take_fingers(event, scene);
     case Kind::wheel:
-      return link_.deepen(kNotch * event.amount);
+      return link_->deepen(kNotch * event.amount);
     case Kind::turn_wheel:
-      return link_.turn(kNotchTurn_rad * event.amount);
+      return link_->turn(kNotchTurn_rad * event.amount);
     case Kind::left:
       hover_.reset();
       under_hover_ = {};
@@ -80,8 +80,8 @@ void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& s
       under_hover_ = {};
     }
   }
-  if (event.kind == PointerEvent::Kind::gone && std::exchange(by_keys_, false)) link_.release();
-  const PointerView view = link_.view();
+  if (event.kind == PointerEvent::Kind::gone && std::exchange(by_keys_, false)) link_->release();
+  const PointerView view = link_->view();
   const bool holds = view.phase == Phase::holding;
   follow(fingers_.take(event, {(holds || view.phase == Phase::reaching) && !by_keys_,
                                holds && view.drag == PointerView::Drag::carry, scene.picture}),
@@ -96,13 +96,13 @@ void PointerInput::follow(const std::vector<HandWish>& wishes, const PointerScen
       continue;
     } else if (wish.kind == HandWish::Kind::move) {
       const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, wish.place);
-      if (seen) link_.move(seen->place);
+      if (seen) link_->move(seen->place);
     } else if (wish.kind == HandWish::Kind::twist) {
-      link_.turn(wish.amount);
+      link_->turn(wish.amount);
     } else if (wish.kind == HandWish::Kind::deepen) {
-      link_.deepen(wish.amount);
+      link_->deepen(wish.amount);
     } else {
-      link_.release();
+      link_->release();
     }
   }
 }
@@ -114,7 +114,7 @@ bool PointerInput::press(const PointerScene& scene, PixelPlace whole) {
   const auto touched = under_finger(scene, seen->sight, seen->place).takeable;
   if (!touched) return false;
   by_keys_ = false;
-  link_.press(seen->sight, seen->place, *touched);
+  link_->press(seen->sight, seen->place, *touched);
   return true;
 }
 
@@ -125,8 +125,8 @@ void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
     return focus_next(scene, key == PointerKey::next ? 1 : -1);
   if (!focus_) focus_ = middle_of(scene.picture);
   if (key != PointerKey::take) return;
-  const PointerView::Phase phase = link_.view().phase;
-  if (phase == PointerView::Phase::reaching || phase == PointerView::Phase::holding) return link_.release();
+  const PointerView::Phase phase = link_->view().phase;
+  if (phase == PointerView::Phase::reaching || phase == PointerView::Phase::holding) return link_->release();
   by_keys_ = press(scene, *focus_);
 }
 
@@ -149,18 +149,18 @@ void PointerInput::go_on_with_keys(const PointerScene& scene, double dt_s) {
   const double far = (held(Key::farther) ? 1 : 0) - (held(Key::nearer) ? 1 : 0);
   const double round = (held(Key::turn_right) ? 1 : 0) - (held(Key::turn_left) ? 1 : 0);
   stirred_ = stirred_ || round != 0;
-  if (round != 0) link_.turn(round * kKeyTwist_rad_per_s * dt_s);
+  if (round != 0) link_->turn(round * kKeyTwist_rad_per_s * dt_s);
   if (!focus_ || (across == 0 && down == 0 && far == 0)) return;
   stirred_ = true;
-  const PointerView view = link_.view();
+  const PointerView view = link_->view();
   const bool holding = view.phase == PointerView::Phase::holding && by_keys_;
-  if (holding && view.drag == PointerView::Drag::turn) return link_.turn((across + down) * kKeyTurn_rad_per_s * dt_s);
-  if (holding && far != 0) link_.deepen(far * kNotch * kKeyNotches_per_s * dt_s);
+  if (holding && view.drag == PointerView::Drag::turn) return link_->turn((across + down) * kKeyTurn_rad_per_s * dt_s);
+  if (holding && far != 0) link_->deepen(far * kNotch * kKeyNotches_per_s * dt_s);
   const double step = kFocusSpeed * scene.picture.height * dt_s;
   focus_->x = std::clamp(focus_->x + across * step, 0.0, scene.picture.width - 1.0);
   focus_->y = std::clamp(focus_->y + down * step, 0.0, scene.picture.height - 1.0);
   const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, *focus_);
-  if (seen && by_keys_) link_.move(seen->place);
+  if (seen && by_keys_) link_->move(seen->place);
 }
 
 void PointerInput::update(const PointerScene& scene, TimePoint now) {
@@ -168,7 +168,7 @@ void PointerInput::update(const PointerScene& scene, TimePoint now) {
   updated_ = now;
   follow(fingers_.pass(dt_s), scene);
   go_on_with_keys(scene, std::min(dt_s, kLongestPicture_s));
-  const bool idle = link_.view().phase == PointerView::Phase::resting;
+  const bool idle = link_->view().phase == PointerView::Phase::resting;
   if (idle) by_keys_ = false;
   const std::optional<PixelPlace> looks_at = focus_ ? focus_ : hover_;
   if (!idle || !looks_at || now - looked_ < kLookUnderHover) return;
@@ -186,7 +186,7 @@ std::optional<Touched> PointerInput::pointed_at() const {
 
 bool PointerInput::rests(TimePoint now) {
   const bool stirs = by_keys_ || hover_moved_ || focus_ || stirred_ || std::ranges::any_of(held_, std::identity());
-  if (stirs || link_.view().phase != PointerView::Phase::resting) return false;
+  if (stirs || link_->view().phase != PointerView::Phase::resting) return false;
   updated_ = now;
   return true;
 }
@@ -195,8 +195,8 @@ void PointerInput::write(OverlayContent& content, const PointerScene& scene, con
   const std::optional<PixelPlace> at = focus_ ? focus_ : hover_;
   const auto seen = seen_place(scene.scene.camera, scene.stereo, scene.picture, at.value_or(middle_of(scene.picture)));
   if (!seen || content.panel) return;
-  const PointerView view = link_.view();
-  PointerAid aid{seen->sight, view, {}, {}, link_.state(), means_};
+  const PointerView view = link_->view();
+  PointerAid aid{seen->sight, view, {}, {}, link_->state(), means_};
   if (view.phase == PointerView::Phase::resting && under_hover_.takeable) aid.p_WT = under_hover_.takeable->p_WT;
   if (focus_) aid.focus = seen->place;
   add_pointer_aid(aid, language, content);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,7 +47,10 @@ struct UnderFinger {
 /// On the display's thread.
 class PointerInput {
  public:
-  PointerInput(const std::string& kiosk, std::uint32_t domain) : link_(kiosk, domain) {}
+  PointerInput(const std::string& kiosk, std::uint32_t domain)
+      : PointerInput(std::make_unique<PointerLink>(kiosk, domain)) {}
+  /// Moves another hand than a kiosk's; a test its own.
+  explicit PointerInput(std::unique_ptr<PointerTouch> hand) : link_(std::move(hand)) {}
 
   /// `covered`: a button or a panel lies there.
   void take(const PointerEvent& event, const PointerScene& scene, bool covered);
@@ -55,7 +59,7 @@ class PointerInput {
   /// Nothing is held, pressed, or to be looked for: this picture needs no update().
   [[nodiscard]] bool rests(TimePoint now);
   /// The hand is nowhere: it reaches for nothing and holds nothing.
-  [[nodiscard]] bool is_away() const { return link_.view().phase == PointerView::Phase::resting; }
+  [[nodiscard]] bool is_away() const { return link_->view().phase == PointerView::Phase::resting; }
   /// The object that the pointer would take, or else is on; none while it takes one.
   [[nodiscard]] std::optional<Touched> pointed_at() const;
   /// Where a mouse rests that holds nothing, in pixels of the whole picture.
@@ -76,7 +80,7 @@ class PointerInput {
   void focus_next(const PointerScene& scene, int step);
   [[nodiscard]] bool held(PointerKey key) const { return held_[static_cast<std::size_t>(key)]; }
 
-  PointerLink link_;
+  std::unique_ptr<PointerTouch> link_;
   PointerFingers fingers_;
   std::optional<PixelPlace> hover_;  ///< of the whole picture
   bool hover_moved_ = false;

@@ -22,24 +22,37 @@ enum class PointerLinkState : std::uint8_t {
   refused,  ///< every hand of the kiosk has an owner
 };
 
+/// A hand that a pointer moves.
+class PointerTouch {
+ public:
+  virtual ~PointerTouch() = default;
+  virtual void press(const Sight& sight, PixelPlace place, const Touched& touched) = 0;
+  virtual void move(PixelPlace place) = 0;
+  virtual void deepen(double notches) = 0;
+  virtual void turn(double angle_rad) = 0;
+  virtual void release() = 0;
+  [[nodiscard]] virtual PointerView view() const = 0;
+  [[nodiscard]] virtual PointerLinkState state() const = 0;
+};
+
 /// The session opens with the first press and ends when nobody has touched for half a minute, so that a picture that is only looked at
 /// takes no hand of the world. It takes the kiosk's last free hand: devices count from the first. Between touches nothing is sent.
 /// The functions are one thread's, the display's; none of them waits for the network.
-class PointerLink {
+class PointerLink final : public PointerTouch {
  public:
   PointerLink(std::string kiosk, std::uint32_t domain);
   PointerLink(const PointerLink&) = delete;
   PointerLink& operator=(const PointerLink&) = delete;
-  ~PointerLink();
+  ~PointerLink() override;
 
-  void press(const Sight& sight, PixelPlace place, const Touched& touched);
-  void move(PixelPlace place);
-  void deepen(double notches);
-  void turn(double angle_rad);
-  void release();
+  void press(const Sight& sight, PixelPlace place, const Touched& touched) override;
+  void move(PixelPlace place) override;
+  void deepen(double notches) override;
+  void turn(double angle_rad) override;
+  void release() override;
 
-  [[nodiscard]] PointerView view() const;
-  [[nodiscard]] PointerLinkState state() const;
+  [[nodiscard]] PointerView view() const override;
+  [[nodiscard]] PointerLinkState state() const override;
 
  private:
   using Lock = std::unique_lock<std::mutex>;

@@ -3,8 +3,11 @@
 import contextlib
 import json
 import pathlib
+import re
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
 from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, wait_until
@@ -108,6 +111,65 @@ class Kiosk(EndToEnd):
         displays[1].kill()
         self.wait_for_displays(lambda told: set(told) == {"wall"}, 20, "one that was killed is not listed any more")
 
+    def test_what_is_set_from_afar_is_seen(self):
+        server = self.server(records=False)
+        self.display("--out", self.folder / "out")
+        self.wait_for_displays(lambda told: told and told["wall"]["link"] == "joined" and told["wall"]["missing_total"] == 0, 30, "it has joined")
+        # In a world that stands still, only a setting changes a picture.
+        server.process.send_signal(signal.SIGSTOP)
+        self.wait_for_displays(lambda told: told and told["wall"]["link"] == "lost", 30, "the display knows of no server")
+
+        def command(*words):
+            result = self.run_command("displays", *words, "--kiosk", "kiosk-1")
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            return result.stdout
+
+        def picture():
+            return pathlib.Path(command("picture").strip().split(":")[-1].strip()).read_bytes()
+
+        def still():
+            """Larger words make room for themselves, and then it stands still."""
+            last, since = picture(), time.monotonic()
+            while time.monotonic() - since < 2:
+                newer = picture()
+                if newer != last:
+                    last, since = newer, time.monotonic()
+            return last
+        seen = [still()]
+        for setting in ("language=en", "large-text=on", "high-contrast=on"):
+            self.assertEqual(command("set", setting), "kiosk-1/wall: done\n")
+            seen.append(still())
+            self.assertFalse(seen[-1] == seen[-2], f"{setting} is not seen")
+        server.process.send_signal(signal.SIGCONT)
+
+    def test_a_kiosk_that_nobody_touches_goes_home(self):
+        scenarios = [ROOT / "scenarios/village/village.x3d", SCENARIO]
+        server = self.server("--worlds", "2", scenario=scenarios, records=False)
+        left = self.display("--home-after", "6")
+        kept = self.start("kept", "display", "--offscreen", "--kiosk", "kiosk-2", "--name", "kept", "--size", "160x90", "--fps", "10")
+        opened = lambda kiosk: re.findall(rf"opened for {kiosk}: (\S+)", server.text())
+        for kiosk in ("kiosk-2", "kiosk-1"):
+            wait_until(lambda: opened(kiosk) == ["village"], 30, f"{kiosk} has a world")
+            began = time.monotonic()
+            result = self.run_command("open", "archimedes-screw", "--kiosk", kiosk)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        wait_until(lambda: opened("kiosk-1") == ["village", "archimedes-screw", "village"], 40, "nobody is there: it is at home")
+        self.assertGreater(time.monotonic() - began, 5.5, "who looks for a moment is not sent home")
+        self.wait_for_displays(lambda told: told["wall"]["scenario"] == "village", 20, "and so is its picture")
+        self.assertEqual(opened("kiosk-2"), ["village", "archimedes-screw"], "without the option it stays")
+        for display in (left, kept):
+            self.assertEqual(display.stop(), 0, display.text())
+
+    def test_without_a_picture_for_each_eye_it_shows_one_for_both_and_says_so(self):
+        with self.screen("320x240") as environment:
+            for place, arguments in (("offscreen", ("--offscreen",)), ("window", ())):
+                out = self.folder / place
+                display = self.start(place, "display", *arguments, "--stereo", "quad", "--frames", "1", "--size", "160x90", "--mute", "--out", out,
+                                     environment=environment)
+                self.assertEqual(display.wait(60), 0, display.text())
+                self.assertIn("no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs", display.text())
+                self.assertEqual([file.name for file in out.iterdir()], ["frame-mono.png"])
+
     def test_what_a_display_lacks_is_told_and_it_goes_on(self):
         self.server(records=False)
         out = self.folder / "out"
@@ -150,6 +212,21 @@ class Kiosk(EndToEnd):
         self.run_command("displays", "set", "--kiosk", "kiosk-1", "attract=off")
         self.wait_for_displays(showing("world"), 10, "it is switched off from afar")
         self.assertEqual(wall.stop(), 0, wall.text())
+
+    def test_who_comes_to_the_window_ends_the_invitation(self):
+        self.server(records=False)
+        film = ROOT / "tests/golden/scenes/archimedes-screw.frames"
+        showing = lambda what: lambda told: told and told["wall"]["showing"] == what
+        with self.screen("160x120") as environment:
+            for arguments, ways in (((), (("mousemove", "40", "30"), ("key", "space"), ("key", "c"))),
+                                    (("--no-touch",), (("mousemove", "50", "40", "click", "1"), ("key", "c")))):
+                wall = self.start("wall", "display", "--kiosk", "kiosk-1", "--name", "wall", "--size", "160x120", "--mute", "--attract", film,
+                                  "--attract-after", "8", *arguments, environment=environment)
+                for way in ways:
+                    self.wait_for_displays(showing("attract"), 40, f"nobody is there, before {way}")
+                    subprocess.run(["xdotool", *way], env=environment, stderr=subprocess.DEVNULL, check=True)
+                    self.wait_for_displays(showing("world"), 7, f"{way} means that somebody came")
+                self.assertEqual(wall.stop(), 0, wall.text())
 
     def test_wrong_arguments_of_a_display_say_what_is_right(self):
         film = self.folder / "visit.seen"

@@ -1,6 +1,7 @@
 #include "client-sdk/display/pointer_input.hpp"
 
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -168,21 +169,97 @@ TEST(PointerAid, WhoUsesKeysIsToldOfKeys) {
   }
 }
 
-/// Keys are at the thing; what then ends that.
+/// A hand without a server, and the thing that it takes, which goes along wherever its leeway lets it.
+class HandNearby final : public PointerTouch {
+ public:
+  PointerSenses senses;
+  double turned_rad = 0;  // about the axle, where there is one
+
+  void press(const Sight& sight, PixelPlace place, const Touched& touched) override {
+    hand_.press(sight, place, touched);
+  }
+  void move(PixelPlace place) override { hand_.move(place); }
+  void deepen(double notches) override { hand_.deepen(notches); }
+  void turn(double angle_rad) override { hand_.turn(angle_rad); }
+  void release() override { hand_.release(); }
+  [[nodiscard]] PointerView view() const override { return hand_.view(); }
+  [[nodiscard]] PointerLinkState state() const override { return PointerLinkState::joined; }
+
+  void pass(double seconds) {
+    constexpr double kStep_s = 0.002;
+    for (int k = 0; k < static_cast<int>(std::lround(seconds / kStep_s)); ++k) {
+      const auto input = hand_.advance(kStep_s, senses);
+      if (input) follow(*input);
+    }
+  }
+
+ private:
+  void follow(const client::HandInput& input) {
+    const bool held = std::exchange(senses.holding, input.grasp_intent > 0.5);
+    const Pose X_before = std::exchange(X_WH_, input.X_WH);
+    if (!held || !senses.holding) return;
+    if (!senses.leeway.axle) {
+      senses.X_WB = X_WH_ * X_before.inverse() * senses.X_WB;
+      return;
+    }
+    const auto& [p_W, a_W] = *senses.leeway.axle;
+    const Vec3 from = X_before.p - p_W, to = X_WH_.p - p_W;
+    const double angle = std::atan2(from.cross(to).dot(a_W), from.dot(to) - from.dot(a_W) * to.dot(a_W));
+    const Quat turn(Eigen::AngleAxisd(angle, a_W));
+    senses.X_WB = {p_W + turn * (senses.X_WB.p - p_W), turn * senses.X_WB.R};
+    turned_rad += angle;
+  }
+
+  PointerHand hand_;
+  Pose X_WH_;
+};
+
+/// Keys are at the thing; what they then do, and what ends that.
 struct AtKeys {
   Shelf shelf{Vec3(0.4, 0.1, 0)};
-  PointerInput input{"kiosk-1", 0};
-  AtKeys() {
-    PointerEvent tab;
-    tab.kind = PointerEvent::Kind::key_down;
-    tab.key = PointerKey::next;
-    input.take(tab, shelf.under(), false);
-    input.update(shelf.under(), TimePoint(std::chrono::seconds(1)));
+  HandNearby* hand = nullptr;
+  PointerInput input;
+  TimePoint now{std::chrono::seconds(1)};
+
+  AtKeys() : AtKeys(std::make_unique<HandNearby>()) {}
+  explicit AtKeys(std::unique_ptr<HandNearby> nearby) : hand(nearby.get()), input(std::move(nearby)) {
+    hand->senses.X_WB = shelf.objects[1].X_WB;
+    hand->senses.leeway = shelf.under().leeway(1);
+    say(PointerEvent::Kind::key_down, PointerKey::next);
+    input.update(shelf.under(), now);
   }
   [[nodiscard]] OverlayContent seen() {
     OverlayContent content;
     input.write(content, shelf.under(), "en");
     return content;
+  }
+  void say(PointerEvent::Kind kind, PointerKey key) {
+    PointerEvent event;
+    event.kind = kind;
+    event.key = key;
+    input.take(event, shelf.under(), false);
+  }
+  /// Twenty-five pictures a second.
+  void pass(double seconds) {
+    constexpr double kPicture_s = 0.04;
+    for (int k = 0; k < static_cast<int>(std::lround(seconds / kPicture_s)); ++k) {
+      input.update(shelf.under(), now += std::chrono::milliseconds(40));
+      hand->pass(kPicture_s);
+    }
+  }
+  void hold(PointerKey key, double seconds) {
+    say(PointerEvent::Kind::key_down, key);
+    pass(seconds);
+    say(PointerEvent::Kind::key_up, key);
+    pass(1);
+  }
+  void take() {
+    hold(PointerKey::take, 1);
+    ASSERT_EQ(hand->view().phase, PointerView::Phase::holding);
+  }
+  /// Where a point of the thing is seen.
+  [[nodiscard]] PixelPlace thing_at(const Vec3& p_B = Vec3::Zero()) const {
+    return *pixel_of(shelf.sight(), hand->senses.X_WB * p_B);
   }
 };
 
@@ -190,6 +267,77 @@ TEST(PointerKeys, TabLeadsToWhatCanBeTakenAndSaysHow) {
   AtKeys keys;
   EXPECT_EQ(keys.seen().note, "Space takes it; Tab goes to the next");
   EXPECT_FALSE(keys.seen().dots.empty());
+}
+
+TEST(PointerKeys, SpaceTakesWhatTheyAreAtAndLetsItGo) {
+  AtKeys keys;
+  EXPECT_TRUE(keys.input.is_away());
+  keys.take();
+  EXPECT_TRUE(keys.hand->senses.holding);
+  EXPECT_LT((keys.hand->view().p_WH - keys.hand->senses.X_WB.p).norm(), 0.1);
+  keys.hold(PointerKey::take, 1);
+  EXPECT_FALSE(keys.hand->senses.holding);
+  EXPECT_TRUE(keys.input.is_away());
+}
+
+TEST(PointerKeys, ArrowsCarryWhatTheyHoldWhileTheyAreDown) {
+  for (const auto& [key, right, down] : {std::tuple(PointerKey::right, 1, 0), std::tuple(PointerKey::left, -1, 0),
+                                         std::tuple(PointerKey::down, 0, 1), std::tuple(PointerKey::up, 0, -1)}) {
+    AtKeys keys;
+    keys.take();
+    const PixelPlace from = keys.thing_at();
+    keys.hold(key, 0.4);
+    const PixelPlace to = keys.thing_at();
+    const double way = 0.4 * 0.3 * kGlass.height;
+    EXPECT_NEAR(to.x - from.x, right * way, 8) << static_cast<int>(key);
+    EXPECT_NEAR(to.y - from.y, down * way, 8) << static_cast<int>(key);
+    keys.pass(1);
+    EXPECT_NEAR(std::hypot(keys.thing_at().x - to.x, keys.thing_at().y - to.y), 0, 1) << "no key is down";
+  }
+}
+
+TEST(PointerKeys, ArrowsTurnACrankAsAClockGoesAndBack) {
+  for (const double facing : {1.0, -1.0}) {  // the axle's own sense means nothing to who sees the crank
+    for (const auto& [key, clockwise] : {std::pair(PointerKey::right, 1), std::pair(PointerKey::down, 1),
+                                         std::pair(PointerKey::left, -1), std::pair(PointerKey::up, -1)}) {
+      AtKeys keys;
+      keys.hand->senses.leeway.axle = WayLine{{0.4, 0.4, 0}, {0, 0, facing}};
+      keys.take();
+      keys.hold(key, 0.8);
+      EXPECT_NEAR(keys.hand->turned_rad, -facing * clockwise * 0.8 * 2 * kPi / 3, 0.15) << static_cast<int>(key);
+    }
+  }
+}
+
+TEST(PointerKeys, PageUpTakesItFartherAndPageDownNearer) {
+  for (const auto& [key, farther] : {std::pair(PointerKey::farther, 1), std::pair(PointerKey::nearer, -1)}) {
+    AtKeys keys;
+    keys.take();
+    const double depth_m = depth_of(keys.shelf.sight(), keys.hand->senses.X_WB.p);
+    const PixelPlace from = keys.thing_at();
+    keys.hold(key, 0.8);
+    EXPECT_NEAR(std::log(depth_of(keys.shelf.sight(), keys.hand->senses.X_WB.p) / depth_m), farther * 0.19, 0.02);
+    EXPECT_NEAR(std::hypot(keys.thing_at().x - from.x, keys.thing_at().y - from.y), 0, 5) << "under the ring";
+  }
+}
+
+TEST(PointerKeys, QAndETurnWhatTheyHoldAsItIsSeen) {
+  for (const auto& [key, clockwise] : {std::pair(PointerKey::turn_right, 1), std::pair(PointerKey::turn_left, -1)}) {
+    AtKeys keys;
+    keys.take();
+    keys.hold(key, 0.4);
+    const PixelPlace middle = keys.thing_at(), end = keys.thing_at(Vec3(0.02, 0, 0));
+    EXPECT_NEAR(std::atan2(end.y - middle.y, end.x - middle.x), clockwise * 0.4 * 1.2, 0.08);
+  }
+}
+
+TEST(PointerKeys, ArrowsLeadTheRingWhereNothingIsHeldAndSpaceTakesNothingThere) {
+  AtKeys keys;
+  const float from = keys.seen().dots.front().x;
+  keys.hold(PointerKey::right, 0.8);
+  EXPECT_NEAR(keys.seen().dots.front().x - from, 0.8 * 0.3 * kGlass.height, 2);
+  keys.hold(PointerKey::take, 1);
+  EXPECT_TRUE(keys.input.is_away());
 }
 
 TEST(PointerKeys, AnotherWorldOrAMouseThatMovesEndsThem) {

@@ -86,8 +86,8 @@ inline client::Frame frame_of_visit(std::uint64_t sequence, Duration at, TimePoi
   return frame;
 }
 
-/// Frames at these milliseconds, of one world; from `second_from` on of another.
-inline FrameRecording played(const std::vector<int>& times_ms, int second_from = 1 << 30) {
+/// The file of frames at these milliseconds, of one world; from `second_from` on of another.
+inline std::vector<std::byte> file_of_visit(const std::vector<int>& times_ms, int second_from = 1 << 30) {
   RecordingWriter writer;
   std::string world;
   std::uint64_t sequence = 0;
@@ -104,7 +104,11 @@ inline FrameRecording played(const std::vector<int>& times_ms, int second_from =
   writer.add(RecordKind::event, std::chrono::milliseconds(times_ms.back()),
              encode(client::WorldEvent{1, "placed", "a", "b", 0}));
   writer.add(RecordKind::end, Duration{0}, {});
-  return FrameRecording::open_bytes(writer.take_bytes(), "played").value();
+  return writer.take_bytes();
+}
+
+inline FrameRecording played(const std::vector<int>& times_ms, int second_from = 1 << 30) {
+  return FrameRecording::open_bytes(file_of_visit(times_ms, second_from), "played").value();
 }
 
 }  // namespace mechane::display

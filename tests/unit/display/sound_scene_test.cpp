@@ -72,6 +72,24 @@ TEST_F(SoundSceneTest, an_effect_sounds_at_its_object_as_loud_as_its_quantity) {
   EXPECT_THAT(sources(), IsEmpty());
 }
 
+TEST_F(SoundSceneTest, each_effect_sounds_as_what_it_is_and_higher_the_more_there_is_of_it) {
+  for (const auto& [kind, sound] :
+       {std::pair("sound.water", SoundKind::water), std::pair("sound.wood", SoundKind::creak),
+        std::pair("sound.rope", SoundKind::rope), std::pair("sound.stone", SoundKind::scrape),
+        std::pair("sound.fire", SoundKind::fire), std::pair("sound.steam", SoundKind::steam),
+        std::pair("sound.ratchet", SoundKind::ratchet)}) {
+    effects_ = {effect(kind, 1, 0, 1)};
+    now_.quantities = {0.1};
+    ASSERT_THAT(sources(), SizeIs(1)) << kind;
+    const SoundSource little = sources()[0];
+    EXPECT_EQ(little.kind, sound) << kind;
+    now_.quantities = {1};
+    EXPECT_GT(sources()[0].pitch, 1.05 * little.pitch) << kind;
+  }
+  effects_ = {effect("sound.bow", 1, 0, 1), effect("sound.of-a-later-server", 1, 0, 1)};
+  EXPECT_THAT(sources(), IsEmpty()) << "a string sounds when it is let go";
+}
+
 TEST_F(SoundSceneTest, an_effect_of_what_is_hidden_or_not_there_is_silent) {
   effects_ = {effect("sound.fire", 1, 0, 1), effect("sound.fire", 7, 0, 1), effect("sound.fire", 0, 4, 1),
               effect("smoke", 0, 0, 1), effect("sound.fire", 0, 0, 0)};
