@@ -174,6 +174,8 @@ void AssetLibrary::add_materials(const content::ImportedScene& scene, const std:
     to.normal_image = image(from.normal_texture, false);
     to.metallic_roughness_image = image(from.metallic_roughness_texture, false);
     to.emissive_image = image(from.emissive_texture, true);
+    to.occlusion_image = image(from.occlusion_texture, false);
+    to.occlusion_strength = from.occlusion_strength;
     // Many tools write BLEND for what nobody can see through; sorting it would cost time, and its shadow.
     const bool clear_image = to.base_colour_image && is_clear(assets_.images[*to.base_colour_image]);
     to.clear = from.alpha_mode == content::AlphaMode::blend && (from.base_colour.w() < 1 || clear_image);

@@ -12,6 +12,8 @@ namespace {
 
 /// Triangles of a piece: fewer are culled more finely, and cost more calls.
 constexpr std::uint32_t kPiece = 1000;
+/// Texture units of material.glsl's images, in the order of their bits; light has those between.
+constexpr std::array<std::uint8_t, 5> kImageUnits{0, 1, 2, 3, 8};
 
 TextureName upload_image(const ImageData& image) {
   TextureName texture = make_texture();
@@ -177,15 +179,16 @@ void GpuAssets::use_material(std::uint32_t material, const Program& program) con
   program.set("metallic", m.metallic);
   program.set("roughness", m.roughness);
   program.set("alpha_cutoff", m.alpha_cutoff);
-  const std::array<std::optional<std::uint32_t>, 4> images{m.base_colour_image, m.normal_image,
-                                                           m.metallic_roughness_image, m.emissive_image};
+  program.set("occlusion_strength", m.occlusion_strength);
+  const std::array<std::optional<std::uint32_t>, kImageUnits.size()> images{
+      m.base_colour_image, m.normal_image, m.metallic_roughness_image, m.emissive_image, m.occlusion_image};
   int bits = 0;
-  for (std::uint32_t unit = 0; unit < images.size(); ++unit) {
-    if (!images[unit]) continue;
-    MECHANE_ASSERT(*images[unit] < images_.size());
-    bits |= 1 << unit;
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, images_[*images[unit]].get());
+  for (std::uint32_t k = 0; k < images.size(); ++k) {
+    if (!images[k]) continue;
+    MECHANE_ASSERT(*images[k] < images_.size());
+    bits |= 1 << k;
+    glActiveTexture(GL_TEXTURE0 + kImageUnits[k]);
+    glBindTexture(GL_TEXTURE_2D, images_[*images[k]].get());
   }
   program.set("images", bits);
   if (m.double_sided) {
@@ -196,10 +199,10 @@ void GpuAssets::use_material(std::uint32_t material, const Program& program) con
 }
 
 void set_material_units(const Program& program) {
-  program.set("base_image", 0);
-  program.set("normal_image", 1);
-  program.set("metallic_roughness_image", 2);
-  program.set("emissive_image", 3);
+  constexpr std::array<const char*, kImageUnits.size()> kNames{"base_image", "normal_image", "metallic_roughness_image",
+                                                               "emissive_image", "occlusion_image"};
+  for (std::size_t k = 0; k < kNames.size(); ++k)
+    program.set(kNames[k], static_cast<int>(kImageUnits[k]));
 }
 
 void set_model(const Program& program, const Eigen::Affine3f& X_WM) {

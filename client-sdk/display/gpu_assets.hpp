@@ -55,7 +55,7 @@ class GpuAssets {
   [[nodiscard]] const std::vector<Vec3f>& triangle_middles(std::uint32_t mesh) const;
   /// Whether all its images for the plain are there.
   [[nodiscard]] bool is_land(std::uint32_t material) const;
-  /// Sets uniforms and texture units 0..3 of material.glsl, and face culling.
+  /// Sets uniforms and texture units of material.glsl, and face culling.
   void use_material(std::uint32_t material, const Program& program) const;
 
  private:

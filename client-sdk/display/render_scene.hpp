@@ -38,14 +38,16 @@ struct MaterialData {
   Vec3f emissive = Vec3f::Zero();
   float metallic = 0;
   float roughness = 0.8F;
-  float alpha_cutoff = 0;  ///< over 0: fragments with less opacity are left out
-  bool clear = false;      ///< seen through by base_colour's opacity, drawn last and sorted; throws no shadow
+  float occlusion_strength = 1;  ///< how much of its occlusion image counts, 0..1
+  float alpha_cutoff = 0;        ///< over 0: fragments with less opacity are left out
+  bool clear = false;            ///< seen through by base_colour's opacity, drawn last and sorted; throws no shadow
   bool double_sided = false;
   bool land = false;  ///< earth: looks like the plain around, whatever its own colours; its images give the grain
   std::optional<std::uint32_t> base_colour_image;
   std::optional<std::uint32_t> normal_image;
   std::optional<std::uint32_t> metallic_roughness_image;
   std::optional<std::uint32_t> emissive_image;
+  std::optional<std::uint32_t> occlusion_image;  ///< red: share of the sky's light that arrives
 };
 
 struct SceneAssets {
