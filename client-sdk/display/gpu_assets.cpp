@@ -4,8 +4,11 @@
 #include <array>
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
+#include "client-sdk/display/procedural_mesh.hpp"
 #include "server/base/assert.hpp"
+#include "server/log/log.hpp"
 
 namespace mechane::display {
 namespace {
@@ -14,6 +17,18 @@ namespace {
 constexpr std::uint32_t kPiece = 1000;
 /// Texture units of material.glsl's images, in the order of their bits; light has those between.
 constexpr std::array<std::uint8_t, 5> kImageUnits{0, 1, 2, 3, 8};
+
+/// None, or the first of those since this was last asked.
+GLenum first_error() {
+  GLenum first = GL_NO_ERROR;
+  // A lost context may answer without end.
+  for (int i = 0; i < 8; ++i) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR) break;
+    if (first == GL_NO_ERROR) first = error;
+  }
+  return first;
+}
 
 TextureName upload_image(const ImageData& image) {
   TextureName texture = make_texture();
@@ -106,26 +121,62 @@ void StreamedMesh::draw() const {
 
 void GpuAssets::upload(const SceneAssets& assets) {
   while (images_.size() < assets.images.size())
-    images_.push_back(upload_image(assets.images[images_.size()]));
+    images_.push_back(image_or_none(assets.images[images_.size()]));
   while (materials_.size() < assets.materials.size())
     materials_.push_back(assets.materials[materials_.size()]);
-  while (meshes_.size() < assets.meshes.size()) {
-    const MeshData& mesh = assets.meshes[meshes_.size()];
-    const std::vector<float> vertices = interleave(mesh);
-    PiecedIndices cut = cut_up(mesh, kPiece);
-    GpuMesh gpu{make_vertex_array(),   make_buffer(),
-                make_buffer(),         static_cast<std::int32_t>(cut.indices.size()),
-                std::move(cut.pieces), middles_of(mesh, cut.indices)};
-    glBindVertexArray(gpu.vertex_array.get());
-    glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
-                 GL_STATIC_DRAW);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices.get());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(cut.indices.size() * sizeof(std::uint32_t)),
-                 cut.indices.data(), GL_STATIC_DRAW);
-    describe_vertices();
-    meshes_.push_back(std::move(gpu));
-  }
+  while (meshes_.size() < assets.meshes.size())
+    meshes_.push_back(mesh_or_placeholder(assets.meshes[meshes_.size()]));
+}
+
+TextureName GpuAssets::image_or_none(const ImageData& image) {
+  (void)first_error();  // what was before is not this image's
+  TextureName texture = upload_image(image);
+  const GLenum error = first_error();
+  if (error == GL_NO_ERROR) return texture;
+  refuse(image.name, fmt::format("an image of {} x {} pixels", image.width, image.height), error,
+         "its material is shown without it");
+  return {};
+}
+
+GpuAssets::GpuMesh GpuAssets::mesh_or_placeholder(const MeshData& mesh) {
+  (void)first_error();
+  GpuMesh gpu = upload_mesh(mesh);
+  const GLenum error = first_error();
+  if (error == GL_NO_ERROR) return gpu;
+  refuse(mesh.name, fmt::format("a mesh of {} triangles", mesh.indices.size() / 3), error,
+         "a plain box is shown in its place");
+  gpu = upload_mesh(placeholder_mesh());
+  // Where there is no room for a box either, nothing stands there.
+  return first_error() == GL_NO_ERROR ? std::move(gpu) : upload_mesh({});
+}
+
+GpuAssets::GpuMesh GpuAssets::upload_mesh(const MeshData& mesh) {
+  const std::vector<float> vertices = interleave(mesh);
+  PiecedIndices cut = cut_up(mesh, kPiece);
+  GpuMesh gpu{make_vertex_array(),   make_buffer(),
+              make_buffer(),         static_cast<std::int32_t>(cut.indices.size()),
+              std::move(cut.pieces), middles_of(mesh, cut.indices)};
+  glBindVertexArray(gpu.vertex_array.get());
+  glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
+               GL_STATIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices.get());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(cut.indices.size() * sizeof(std::uint32_t)),
+               cut.indices.data(), GL_STATIC_DRAW);
+  describe_vertices();
+  return gpu;
+}
+
+void GpuAssets::refuse(const std::string& name, const std::string& what, std::uint32_t error,
+                       const std::string& instead) {
+  const std::string whose = name.empty() ? "the display's own " + what : name;
+  const bool no_room = error == GL_OUT_OF_MEMORY;
+  const Error said{fmt::format("the graphics card {} {}", no_room ? "has no room for" : "does not take", what), whose,
+                   no_room
+                       ? "simplify the model or make its images smaller, or give the display a card with more memory"
+                       : "make it smaller"};
+  log::warning(said.to_string() + "; " + instead);
+  refused_.insert(whose);
 }
 
 void GpuAssets::draw(std::uint32_t mesh) const {
@@ -163,7 +214,7 @@ bool GpuAssets::is_clear(std::uint32_t material) const {
 bool GpuAssets::is_land(std::uint32_t material) const {
   MECHANE_ASSERT(material < materials_.size());
   const MaterialData& m = materials_[material];
-  return m.land && m.base_colour_image && m.normal_image;
+  return m.land && m.base_colour_image && m.normal_image && images_[*m.base_colour_image] && images_[*m.normal_image];
 }
 
 const std::vector<Vec3f>& GpuAssets::triangle_middles(std::uint32_t mesh) const {
@@ -186,6 +237,7 @@ void GpuAssets::use_material(std::uint32_t material, const Program& program) con
   for (std::uint32_t k = 0; k < images.size(); ++k) {
     if (!images[k]) continue;
     MECHANE_ASSERT(*images[k] < images_.size());
+    if (!images_[*images[k]]) continue;
     bits |= 1 << k;
     glActiveTexture(GL_TEXTURE0 + kImageUnits[k]);
     glBindTexture(GL_TEXTURE_2D, images_[*images[k]].get());

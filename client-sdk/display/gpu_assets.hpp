@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "client-sdk/display/culling.hpp"
@@ -40,8 +42,11 @@ class StreamedMesh {
 
 class GpuAssets {
  public:
-  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged.
+  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged. What the card does not take is logged; a
+  /// plain box stands for such a mesh, and a material goes without such an image.
   void upload(const SceneAssets& assets);
+  /// Names of the meshes and images that the card did not take.
+  [[nodiscard]] const std::set<std::string>& refused() const { return refused_; }
   /// Draws the triangles; the program, with its uniforms, must be in use.
   void draw(std::uint32_t mesh) const;
   /// What the mesh is cut into, so that what is out of sight need not be drawn.
@@ -67,9 +72,15 @@ class GpuAssets {
     std::vector<MeshPiece> pieces;
     std::vector<Vec3f> middles_M;  ///< of the triangles
   };
+  [[nodiscard]] static GpuMesh upload_mesh(const MeshData& mesh);
+  [[nodiscard]] GpuMesh mesh_or_placeholder(const MeshData& mesh);
+  [[nodiscard]] TextureName image_or_none(const ImageData& image);
+  void refuse(const std::string& name, const std::string& what, std::uint32_t error, const std::string& instead);
+
   std::vector<GpuMesh> meshes_;
-  std::vector<TextureName> images_;
+  std::vector<TextureName> images_;  ///< none: the card did not take it
   std::vector<MaterialData> materials_;
+  std::set<std::string> refused_;
 };
 
 /// Says which texture units GpuAssets::use_material fills. The program must be in use.

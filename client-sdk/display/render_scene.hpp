@@ -22,6 +22,7 @@ struct MeshData {
   std::vector<Eigen::Vector4f> tangents;  ///< xyz along +u; w is the sign of the bitangent
   std::vector<Eigen::Vector2f> uv;        ///< (0, 0) is the image's upper left corner
   std::vector<std::uint32_t> indices;     ///< three a triangle, counter-clockwise seen from outside
+  std::string name{};                     ///< for a person: "machine.glb#WHEEL"; empty: the display's own
 };
 
 /// Eight bits a channel, upper row first.
@@ -29,7 +30,8 @@ struct ImageData {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::uint8_t> rgba;
-  bool srgb = true;  ///< colour; false: numbers such as normals
+  bool srgb = true;    ///< colour; false: numbers such as normals
+  std::string name{};  ///< for a person: "machine.glb, texture oak"; empty: the display's own
 };
 
 /// Metallic-roughness, as glTF has it. Textures index SceneAssets::images.
