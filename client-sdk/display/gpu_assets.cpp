@@ -53,18 +53,45 @@ std::vector<Vec3f> middles_of(const MeshData& mesh, const std::vector<std::uint3
   return out;
 }
 
+const void* place_of(const MeshPiece& range) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): where a buffer is bound, OpenGL takes an offset for a pointer
+  return reinterpret_cast<const void*>(std::size_t{range.first_index} * sizeof(std::uint32_t));
+}
+
 /// Draws parts of the index buffer, in the order given.
 void draw_ranges(const VertexArrayName& vertex_array, const std::vector<MeshPiece>& ranges) {
   std::vector<GLsizei> counts;
-  std::vector<const void*> offsets;
+  std::vector<const void*> places;
   for (const MeshPiece& range : ranges) {
     counts.push_back(static_cast<GLsizei>(range.index_count));
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): where a buffer is bound, OpenGL takes an offset for a pointer
-    offsets.push_back(reinterpret_cast<const void*>(std::size_t{range.first_index} * sizeof(std::uint32_t)));
+    places.push_back(place_of(range));
   }
   glBindVertexArray(vertex_array.get());
-  glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
-                      static_cast<GLsizei>(counts.size()));
+  glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, places.data(), static_cast<GLsizei>(counts.size()));
+}
+
+void draw_ranges(const VertexArrayName& vertex_array, const std::vector<MeshPiece>& ranges, GLsizei instances) {
+  glBindVertexArray(vertex_array.get());
+  for (const MeshPiece& range : ranges)
+    glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(range.index_count), GL_UNSIGNED_INT, place_of(range),
+                            instances);
+}
+
+/// Of mesh.vert and depth.vert; as many as every driver has room for.
+constexpr std::size_t kMostInstances = 32;
+
+void set_models(const Program& program, std::span<const Eigen::Affine3f> X_WM) {
+  std::vector<Eigen::Matrix4f> models;
+  std::vector<Eigen::Matrix3f> normals;
+  for (const Eigen::Affine3f& X : X_WM) {
+    models.emplace_back(X.matrix());
+    // A mesh squeezed flat has no inverse; its normals then stay as they are.
+    const Eigen::Matrix3f linear = X.linear();
+    normals.emplace_back(std::abs(linear.determinant()) > 1e-12F ? Eigen::Matrix3f(linear.inverse().transpose())
+                                                                 : Eigen::Matrix3f(Eigen::Matrix3f::Identity()));
+  }
+  program.set("X_WM", models);
+  program.set("N_WM", normals);
 }
 
 }  // namespace
@@ -190,12 +217,29 @@ const std::vector<MeshPiece>& GpuAssets::pieces(std::uint32_t mesh) const {
   return meshes_[mesh].pieces;
 }
 
-void GpuAssets::draw_pieces(std::uint32_t mesh, std::span<const std::uint32_t> pieces) const {
-  MECHANE_ASSERT(mesh < meshes_.size());
+void GpuAssets::draw(const InstanceRun& run, const Program& program) const {
+  MECHANE_ASSERT(run.mesh < meshes_.size());
+  const GpuMesh& mesh = meshes_[run.mesh];
   std::vector<MeshPiece> ranges;
-  for (const std::uint32_t piece : pieces)
-    ranges.push_back(meshes_[mesh].pieces[piece]);
-  draw_ranges(meshes_[mesh].vertex_array, ranges);
+  for (const std::uint32_t k : run.pieces) {
+    const MeshPiece& piece = mesh.pieces[k];
+    if (!ranges.empty() && ranges.back().first_index + ranges.back().index_count == piece.first_index) {
+      ranges.back().index_count += piece.index_count;
+    } else {
+      ranges.push_back(piece);
+    }
+  }
+  // One call draws one range of many instances, or many ranges of one.
+  const std::size_t together = ranges.size() < run.X_WM.size() ? kMostInstances : 1;
+  for (std::size_t first = 0; first < run.X_WM.size(); first += together) {
+    const std::span some = std::span(run.X_WM).subspan(first, std::min(together, run.X_WM.size() - first));
+    set_models(program, some);
+    if (some.size() == 1) {
+      draw_ranges(mesh.vertex_array, ranges);
+    } else {
+      draw_ranges(mesh.vertex_array, ranges, static_cast<GLsizei>(some.size()));
+    }
+  }
 }
 
 void GpuAssets::draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const {
@@ -258,12 +302,7 @@ void set_material_units(const Program& program) {
 }
 
 void set_model(const Program& program, const Eigen::Affine3f& X_WM) {
-  program.set("X_WM", X_WM.matrix());
-  // A mesh squeezed flat has no inverse; its normals then stay as they are.
-  const Eigen::Matrix3f linear = X_WM.linear();
-  const Eigen::Matrix3f normal = std::abs(linear.determinant()) > 1e-12F ? Eigen::Matrix3f(linear.inverse().transpose())
-                                                                         : Eigen::Matrix3f(Eigen::Matrix3f::Identity());
-  program.set("N_WM", normal);
+  set_models(program, {&X_WM, 1});
 }
 
 }  // namespace mechane::display

@@ -9,6 +9,7 @@
 
 #include "client-sdk/display/culling.hpp"
 #include "client-sdk/display/gl_object.hpp"
+#include "client-sdk/display/instance_runs.hpp"
 #include "client-sdk/display/render_scene.hpp"
 #include "client-sdk/display/shader.hpp"
 
@@ -51,8 +52,8 @@ class GpuAssets {
   void draw(std::uint32_t mesh) const;
   /// What the mesh is cut into, so that what is out of sight need not be drawn.
   [[nodiscard]] const std::vector<MeshPiece>& pieces(std::uint32_t mesh) const;
-  /// Draws some of the pieces.
-  void draw_pieces(std::uint32_t mesh, std::span<const std::uint32_t> pieces) const;
+  /// Draws them, where they are: sets what set_model() sets. The program must be in use.
+  void draw(const InstanceRun& run, const Program& program) const;
   /// Draws some of the triangles, in the order given.
   void draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] bool is_clear(std::uint32_t material) const;
