@@ -155,7 +155,9 @@ void AssetLibrary::add_materials(const content::ImportedScene& scene, const std:
     const auto [entry, is_new] = images.try_emplace({*texture, srgb});
     if (is_new) {
       const content::ImportedTexture& from = scene.textures[*texture];
-      if (auto decoded = decode(from, srgb, uri + ", texture " + from.name)) {
+      const std::string name = uri + ", texture " + from.name;
+      if (auto decoded = decode(from, srgb, name)) {
+        decoded->name = name;
         entry->second = add_image(std::move(*decoded));
       }
     }
@@ -174,6 +176,8 @@ void AssetLibrary::add_materials(const content::ImportedScene& scene, const std:
     to.normal_image = image(from.normal_texture, false);
     to.metallic_roughness_image = image(from.metallic_roughness_texture, false);
     to.emissive_image = image(from.emissive_texture, true);
+    to.occlusion_image = image(from.occlusion_texture, false);
+    to.occlusion_strength = from.occlusion_strength;
     // Many tools write BLEND for what nobody can see through; sorting it would cost time, and its shadow.
     const bool clear_image = to.base_colour_image && is_clear(assets_.images[*to.base_colour_image]);
     to.clear = from.alpha_mode == content::AlphaMode::blend && (from.base_colour.w() < 1 || clear_image);
@@ -203,6 +207,7 @@ ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node)
   ObjectModel model;
   for (auto& [key, mesh] : merged) {
     fill_normals(mesh);
+    mesh.name = node.empty() ? uri : uri + "#" + node;
     for (const Vec3f& p : mesh.positions)
       model.box_B.extend(p);
     model.parts.push_back({add_mesh(std::move(mesh)), file.first_material + key.second, key.first});
@@ -216,14 +221,13 @@ ObjectModel AssetLibrary::placeholder(const std::string& name, const std::string
     missing_.insert(name);
     log::warning(fmt::format("{}: {}; a plain box is shown in its place", name, why));
   }
-  constexpr float kHalf_m = 0.12F;
   MaterialData material;
   material.base_colour = Eigen::Vector4f(0.62F, 0.55F, 0.44F, 1);
   material.roughness = 0.9F;
   ObjectModel model;
   model.missing = true;
-  model.parts.push_back({add_mesh(box_mesh(Vec3::Constant(double{kHalf_m}))), add_material(material), false});
-  model.box_B = Eigen::AlignedBox3f(Vec3f::Constant(-kHalf_m), Vec3f::Constant(kHalf_m));
+  model.parts.push_back({add_mesh(placeholder_mesh()), add_material(material), false});
+  model.box_B = Eigen::AlignedBox3f(Vec3f::Constant(-kPlaceholderHalf_m), Vec3f::Constant(kPlaceholderHalf_m));
   return model;
 }
 

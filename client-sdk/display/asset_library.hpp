@@ -54,6 +54,8 @@ class AssetLibrary {
   }
   /// "uri" or "uri#node", in order of name.
   [[nodiscard]] const std::set<std::string>& missing() const { return missing_; }
+  /// What the graphics card did not take is missing, too: GpuAssets::refused().
+  void add_missing(const std::set<std::string>& names) { missing_.insert(names.begin(), names.end()); }
 
  private:
   struct File {

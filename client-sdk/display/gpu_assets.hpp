@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "client-sdk/display/culling.hpp"
 #include "client-sdk/display/gl_object.hpp"
+#include "client-sdk/display/instance_runs.hpp"
 #include "client-sdk/display/render_scene.hpp"
 #include "client-sdk/display/shader.hpp"
 
@@ -40,14 +43,17 @@ class StreamedMesh {
 
 class GpuAssets {
  public:
-  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged.
+  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged. What the card does not take is logged; a
+  /// plain box stands for such a mesh, and a material goes without such an image.
   void upload(const SceneAssets& assets);
+  /// Names of the meshes and images that the card did not take.
+  [[nodiscard]] const std::set<std::string>& refused() const { return refused_; }
   /// Draws the triangles; the program, with its uniforms, must be in use.
   void draw(std::uint32_t mesh) const;
   /// What the mesh is cut into, so that what is out of sight need not be drawn.
   [[nodiscard]] const std::vector<MeshPiece>& pieces(std::uint32_t mesh) const;
-  /// Draws some of the pieces.
-  void draw_pieces(std::uint32_t mesh, std::span<const std::uint32_t> pieces) const;
+  /// Draws them, where they are: sets what set_model() sets. The program must be in use.
+  void draw(const InstanceRun& run, const Program& program) const;
   /// Draws some of the triangles, in the order given.
   void draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] bool is_clear(std::uint32_t material) const;
@@ -55,7 +61,7 @@ class GpuAssets {
   [[nodiscard]] const std::vector<Vec3f>& triangle_middles(std::uint32_t mesh) const;
   /// Whether all its images for the plain are there.
   [[nodiscard]] bool is_land(std::uint32_t material) const;
-  /// Sets uniforms and texture units 0..3 of material.glsl, and face culling.
+  /// Sets uniforms and texture units of material.glsl, and face culling.
   void use_material(std::uint32_t material, const Program& program) const;
 
  private:
@@ -67,9 +73,15 @@ class GpuAssets {
     std::vector<MeshPiece> pieces;
     std::vector<Vec3f> middles_M;  ///< of the triangles
   };
+  [[nodiscard]] static GpuMesh upload_mesh(const MeshData& mesh);
+  [[nodiscard]] GpuMesh mesh_or_placeholder(const MeshData& mesh);
+  [[nodiscard]] TextureName image_or_none(const ImageData& image);
+  void refuse(const std::string& name, const std::string& what, std::uint32_t error, const std::string& instead);
+
   std::vector<GpuMesh> meshes_;
-  std::vector<TextureName> images_;
+  std::vector<TextureName> images_;  ///< none: the card did not take it
   std::vector<MaterialData> materials_;
+  std::set<std::string> refused_;
 };
 
 /// Says which texture units GpuAssets::use_material fills. The program must be in use.

@@ -46,16 +46,14 @@ void begin_materials(const Program& program, const PassInput& input) {
 }
 
 void draw_solid(const std::vector<SolidPiece>& solid, const Program& program, const PassInput& input) {
-  std::vector<std::uint32_t> run;
-  for (std::size_t first = 0; first < solid.size();) {
-    const std::uint32_t of = solid[first].instance;
-    run.clear();
-    for (; first < solid.size() && solid[first].instance == of; ++first)
-      run.push_back(solid[first].piece);
-    const Instance& instance = input.scene.instances[of];
-    set_model(program, instance.X_WM);
-    input.assets.use_material(instance.material, program);
-    input.assets.draw_pieces(instance.mesh, run);
+  std::vector<ShownPieces> shown;
+  for (const SolidPiece& one : solid) {
+    if (shown.empty() || shown.back().instance != one.instance) shown.push_back({one.steps_away, one.instance, {}});
+    shown.back().pieces.push_back(one.piece);
+  }
+  for (const InstanceRun& run : runs_of(input.scene.instances, shown)) {
+    input.assets.use_material(run.material, program);
+    input.assets.draw(run, program);
   }
 }
 

@@ -5,23 +5,17 @@
 namespace mechane::display {
 namespace {
 
-/// One instance's pieces that a map shows.
-struct Thrower {
-  std::uint32_t instance = 0;
-  std::vector<std::uint32_t> pieces;
-};
-
 /// What throws shadows that this map is looked at for.
-std::vector<Thrower> throwers(const RenderScene& scene, const GpuAssets& assets, const ShadowSetup& setup,
-                              std::size_t cascade) {
+std::vector<ShownPieces> throwers(const RenderScene& scene, const GpuAssets& assets, const ShadowSetup& setup,
+                                  std::size_t cascade) {
   const Eigen::Matrix4f PV = setup.PV(cascade);
-  std::vector<Thrower> out;
+  std::vector<ShownPieces> out;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     if (!instance.casts_shadow || assets.is_clear(instance.material)) continue;
     const Eigen::Matrix4f PV_M = PV * instance.X_WM.matrix();
     const std::vector<MeshPiece>& pieces = assets.pieces(instance.mesh);
-    Thrower thrower{i, {}};
+    ShownPieces thrower{0, i, {}};
     for (std::uint32_t k = 0; k < pieces.size(); ++k) {
       const Eigen::AlignedBox3f& box_M = pieces[k].box_M;
       if (!is_outside(PV_M, box_M) && !is_shadow_within(setup, cascade, instance.X_WM, box_M))
@@ -42,11 +36,11 @@ bool throws_into(const std::vector<Vec3f>& points_W, const ShadowSetup& setup, s
 }
 
 /// Everything that a map shows, as numbers.
-std::vector<float> shadows_of(const RenderScene& scene, const std::vector<Thrower>& solid, const ShadowSetup& setup,
+std::vector<float> shadows_of(const RenderScene& scene, const std::vector<ShownPieces>& solid, const ShadowSetup& setup,
                               std::size_t cascade) {
   const Eigen::Matrix4f PV = setup.PV(cascade);
   std::vector<float> out(PV.data(), PV.data() + PV.size());
-  for (const Thrower& thrower : solid) {
+  for (const ShownPieces& thrower : solid) {
     const Instance& instance = scene.instances[thrower.instance];
     out.push_back(static_cast<float>(instance.mesh));
     out.insert(out.end(), instance.X_WM.data(), instance.X_WM.data() + 16);
@@ -82,17 +76,14 @@ ShadowSetup ShadowPass::draw(const RenderScene& scene, const GpuAssets& assets, 
                              const std::vector<StreamedMesh>& soft_bodies) {
   ShadowSetup setup = shadow_setup(scene.focus_box_W, scene.shadow_box_W, scene.sun.to_sun_W, maps_.size);
   for (std::size_t cascade = 0; cascade < setup.cascades.size(); ++cascade) {
-    const std::vector<Thrower> solid = throwers(scene, assets, setup, cascade);
+    const std::vector<ShownPieces> solid = throwers(scene, assets, setup, cascade);
     std::vector<float> wanted = shadows_of(scene, solid, setup, cascade);
     if (wanted == drawn_[cascade]) continue;
     drawn_[cascade] = std::move(wanted);
     ++times_drawn_;
     begin_map(setup, cascade);
-    for (const Thrower& thrower : solid) {
-      const Instance& instance = scene.instances[thrower.instance];
-      program_.set("X_WM", instance.X_WM.matrix());
-      assets.draw_pieces(instance.mesh, thrower.pieces);
-    }
+    for (const InstanceRun& run : runs_of(scene.instances, solid))
+      assets.draw(run, program_);
     program_.set("X_WM", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
     ropes.draw();
     for (std::size_t i = 0; i < scene.soft_bodies.size(); ++i) {

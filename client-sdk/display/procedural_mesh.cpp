@@ -92,6 +92,10 @@ MeshData box_mesh(const Vec3& half_m) {
   return mesh;
 }
 
+MeshData placeholder_mesh() {
+  return box_mesh(Vec3::Constant(double{kPlaceholderHalf_m}));
+}
+
 MeshData disc_mesh(double radius_m, int sectors) {
   MeshData mesh;
   mesh.positions.emplace_back(0.0F, 0.0F, 0.0F);

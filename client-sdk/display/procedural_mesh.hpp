@@ -17,6 +17,10 @@ namespace mechane::display {
 /// A box about the origin, with flat faces.
 [[nodiscard]] MeshData box_mesh(const Vec3& half_m);
 
+/// The plain box that stands for a mesh which is not there.
+inline constexpr float kPlaceholderHalf_m = 0.12F;
+[[nodiscard]] MeshData placeholder_mesh();
+
 /// A level disc about the origin that looks up.
 [[nodiscard]] MeshData disc_mesh(double radius_m, int sectors);
 

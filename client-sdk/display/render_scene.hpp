@@ -22,6 +22,7 @@ struct MeshData {
   std::vector<Eigen::Vector4f> tangents;  ///< xyz along +u; w is the sign of the bitangent
   std::vector<Eigen::Vector2f> uv;        ///< (0, 0) is the image's upper left corner
   std::vector<std::uint32_t> indices;     ///< three a triangle, counter-clockwise seen from outside
+  std::string name{};                     ///< for a person: "machine.glb#WHEEL"; empty: the display's own
 };
 
 /// Eight bits a channel, upper row first.
@@ -29,7 +30,8 @@ struct ImageData {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::uint8_t> rgba;
-  bool srgb = true;  ///< colour; false: numbers such as normals
+  bool srgb = true;    ///< colour; false: numbers such as normals
+  std::string name{};  ///< for a person: "machine.glb, texture oak"; empty: the display's own
 };
 
 /// Metallic-roughness, as glTF has it. Textures index SceneAssets::images.
@@ -38,14 +40,16 @@ struct MaterialData {
   Vec3f emissive = Vec3f::Zero();
   float metallic = 0;
   float roughness = 0.8F;
-  float alpha_cutoff = 0;  ///< over 0: fragments with less opacity are left out
-  bool clear = false;      ///< seen through by base_colour's opacity, drawn last and sorted; throws no shadow
+  float occlusion_strength = 1;  ///< how much of its occlusion image counts, 0..1
+  float alpha_cutoff = 0;        ///< over 0: fragments with less opacity are left out
+  bool clear = false;            ///< seen through by base_colour's opacity, drawn last and sorted; throws no shadow
   bool double_sided = false;
   bool land = false;  ///< earth: looks like the plain around, whatever its own colours; its images give the grain
   std::optional<std::uint32_t> base_colour_image;
   std::optional<std::uint32_t> normal_image;
   std::optional<std::uint32_t> metallic_roughness_image;
   std::optional<std::uint32_t> emissive_image;
+  std::optional<std::uint32_t> occlusion_image;  ///< red: share of the sky's light that arrives
 };
 
 struct SceneAssets {

@@ -6,6 +6,8 @@
 #include <ctime>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "client-sdk/display/overlay_pass.hpp"
 #include "client-sdk/display/passes.hpp"
@@ -39,6 +41,8 @@ class Renderer {
 
   /// Uploads what is new in `assets`.
   void upload(const SceneAssets& assets) { assets_.upload(assets); }
+  /// Of all that was uploaded, what the graphics card did not take: see GpuAssets.
+  [[nodiscard]] const std::set<std::string>& refused() const { return assets_.refused(); }
   /// Frees all that was uploaded: another scenario begins.
   void forget_assets() {
     assets_ = {};

@@ -107,6 +107,16 @@ void Program::set(const char* name, const std::vector<Eigen::Vector4f>& values) 
   if (values.empty()) return;
   glUniform4fv(glGetUniformLocation(name_.get(), name), static_cast<GLsizei>(values.size()), values.front().data());
 }
+void Program::set(const char* name, const std::vector<Eigen::Matrix3f>& values) const {
+  if (values.empty()) return;
+  glUniformMatrix3fv(glGetUniformLocation(name_.get(), name), static_cast<GLsizei>(values.size()), GL_FALSE,
+                     values.front().data());
+}
+void Program::set(const char* name, const std::vector<Eigen::Matrix4f>& values) const {
+  if (values.empty()) return;
+  glUniformMatrix4fv(glGetUniformLocation(name_.get(), name), static_cast<GLsizei>(values.size()), GL_FALSE,
+                     values.front().data());
+}
 void Program::set(const char* name, const std::array<Vec3f, 9>& values) const {
   glUniform3fv(glGetUniformLocation(name_.get(), name), 9, values.front().data());
 }

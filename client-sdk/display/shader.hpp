@@ -34,6 +34,8 @@ class Program {
   void set(const char* name, const Eigen::Matrix3f& value) const;
   void set(const char* name, const Eigen::Matrix4f& value) const;
   void set(const char* name, const std::vector<Eigen::Vector4f>& values) const;
+  void set(const char* name, const std::vector<Eigen::Matrix3f>& values) const;
+  void set(const char* name, const std::vector<Eigen::Matrix4f>& values) const;
   void set(const char* name, const std::array<Vec3f, 9>& values) const;
 
  private:

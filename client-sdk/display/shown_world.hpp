@@ -59,6 +59,10 @@ class ShownWorld {
   [[nodiscard]] std::optional<std::uint32_t> unknown() const { return builder_ ? builder_->unknown() : std::nullopt; }
   /// Mesh files that are missing, or are not those of the server. Null before anything is known.
   [[nodiscard]] const std::set<std::string>* missing() const { return library_ ? &library_->missing() : nullptr; }
+  /// What the graphics card did not take: Renderer::refused(). Nothing before anything is known.
+  void add_missing(const std::set<std::string>& names) {
+    if (library_) library_->add_missing(names);
+  }
   [[nodiscard]] const std::set<std::string>* differing() const { return files_ ? &files_->differing() : nullptr; }
 
  private:

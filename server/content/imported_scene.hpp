@@ -51,10 +51,12 @@ struct ImportedMaterial {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;  ///< for AlphaMode::mask
   bool double_sided = false;
+  float occlusion_strength = 1;                             ///< how much of the occlusion image counts, 0..1
   std::optional<std::uint32_t> base_colour_texture;         ///< sRGB, alpha is opacity
   std::optional<std::uint32_t> normal_texture;              ///< tangent space, linear
   std::optional<std::uint32_t> metallic_roughness_texture;  ///< green is roughness, blue is metallic, linear
   std::optional<std::uint32_t> emissive_texture;            ///< sRGB
+  std::optional<std::uint32_t> occlusion_texture;           ///< red: share of the light from all around, linear
 };
 
 enum class TextureEncoding : std::uint8_t { png, jpeg, rgba8 };

@@ -12,7 +12,6 @@
 #include "server/collision/object_io.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
-#include "server/content/scene_codec.hpp"
 #include "server/content/whole_file.hpp"
 #include "server/log/log.hpp"
 
@@ -29,7 +28,7 @@ std::string cache_name(const std::string& file_hash, const std::string& node, co
       "part file {} build {} import {} mesh {} node {}:{} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} {} "
       "maps {}{} bounds {} resolution {} "
       "spacing {:a} samples {} seam {:a} seed {}",
-      collision::kPartFileVersion, kObjectBuildVersion, kSceneCodecVersion, file_hash, node.size(), node,
+      collision::kPartFileVersion, kObjectBuildVersion, kObjectImportVersion, file_hash, node.size(), node,
       config.max_error_share, config.max_error_m, config.miss_share, config.probe_depth_m,
       static_cast<int>(config.parts), config.max_concavity, config.max_pieces, config.grid_cells, config.radial_maps,
       config.bricks, static_cast<int>(config.bounds), config.map_resolution, config.sample_spacing_m,

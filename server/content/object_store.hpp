@@ -18,6 +18,9 @@ namespace mechane::content {
 
 /// Raised when the builder makes other objects from the same meshes: the cache then builds them again.
 inline constexpr int kObjectBuildVersion = 5;
+/// Raised when the import makes other triangles of the same file. How these come here (kSceneCodecVersion) does not matter: a material's new
+/// field shall not cost a museum minutes.
+inline constexpr int kObjectImportVersion = 1;
 
 /// $XDG_CACHE_HOME/mechane, or ~/.cache/mechane, or a folder under the system's temporary one when there is no home.
 [[nodiscard]] std::filesystem::path default_cache_folder();

@@ -80,12 +80,14 @@ Expected<void> check_nodes(const ImportedScene& scene) {
 Expected<void> check_looks(const ImportedScene& scene) {
   for (const ImportedMaterial& material : scene.materials) {
     const std::string where = "material " + material.name;
-    for (const auto& texture : {material.base_colour_texture, material.normal_texture,
-                                material.metallic_roughness_texture, material.emissive_texture}) {
+    for (const auto& texture :
+         {material.base_colour_texture, material.normal_texture, material.metallic_roughness_texture,
+          material.emissive_texture, material.occlusion_texture}) {
       if (texture && *texture >= scene.textures.size())
         return fail("names a texture that does not exist", where, kExportAgain);
     }
-    const Eigen::Vector3f factors(material.metallic, material.roughness, material.alpha_cutoff);
+    const Eigen::Vector4f factors(material.metallic, material.roughness, material.alpha_cutoff,
+                                  material.occlusion_strength);
     if (!material.base_colour.allFinite() || !material.emissive.allFinite() || !factors.allFinite()) {
       return fail("has a number that is not finite", where, kExportAgain);
     }

@@ -165,6 +165,8 @@ void put(Writer& out, const ImportedMaterial& m) {
   out.put(m.normal_texture);
   out.put(m.metallic_roughness_texture);
   out.put(m.emissive_texture);
+  out.put(m.occlusion_texture);
+  out.put(m.occlusion_strength);
 }
 
 AlphaMode alpha_mode(std::uint8_t value) {
@@ -184,6 +186,8 @@ void get(Reader& in, ImportedMaterial& m) {
   m.normal_texture = in.index();
   m.metallic_roughness_texture = in.index();
   m.emissive_texture = in.index();
+  m.occlusion_texture = in.index();
+  m.occlusion_strength = in.get<float>();
 }
 
 void put(Writer& out, const ImportedTexture& texture) {

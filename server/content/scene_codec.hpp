@@ -24,7 +24,7 @@
 
 namespace mechane::content {
 
-inline constexpr std::uint32_t kSceneCodecVersion = 1;
+inline constexpr std::uint32_t kSceneCodecVersion = 2;  // 2: occlusion images
 inline constexpr std::size_t kSceneHeaderBytes = 32;
 
 /// A whole message, header included.

@@ -1,4 +1,4 @@
 layout(location = 0) in vec3 p_M;
-uniform mat4 X_WM;
+uniform mat4 X_WM[32];  // of each instance
 uniform mat4 PV;
-void main() { gl_Position = PV * (X_WM * vec4(p_M, 1.0)); }
+void main() { gl_Position = PV * (X_WM[gl_InstanceID] * vec4(p_M, 1.0)); }

@@ -20,6 +20,6 @@ void main() {
   }
   // Where it goes under the plain it is as level as that: a rim that slopes would be seen by its light.
   n = normalize(mix(n, vec3(0.0, 1.0, 0.0), 1.0 - smoothstep(0.02, 0.12, abs(p_W.y - plain_height_m))));
-  Surface s = Surface(land_base(base_image, q, distance(eye_W, p_W)), 0.0, 0.95, land_normal(normal_image, q, n));
+  Surface s = Surface(land_base(base_image, q, distance(eye_W, p_W)), 0.0, 0.95, land_normal(normal_image, q, n), 1.0);
   colour = vec4(through_air(shade(s, p_W, n), p_W), 1.0);
 }

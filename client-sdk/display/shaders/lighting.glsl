@@ -24,6 +24,7 @@ struct Surface {
   float metallic;
   float roughness;
   vec3 n;  // shading normal, unit, in W
+  float open;  // share of the sky that its own hollows leave open
 };
 
 vec3 irradiance_from_sky(vec3 n) {
@@ -143,6 +144,8 @@ void shade_apart(Surface s, vec3 p_W, vec3 n_geometric, out vec3 body, out vec3 
     mirrored += ggx * visible * f * arriving;
   }
   vec2 split = environment_factor(s.roughness, nv);
+  // Hollows that an image tells of keep out the sky; the sun's share has the shadow maps.
+  open *= s.open;
   body += diffuse / kPi * irradiance_from_sky(s.n) * open;
   mirrored += reflected_sky(reflect(-v, s.n), s.roughness) * (f0 * split.x + split.y) * open;
   if (fire_count > 0) {

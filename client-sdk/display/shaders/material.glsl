@@ -10,11 +10,13 @@ uniform vec3 emissive;
 uniform float metallic;
 uniform float roughness;
 uniform float alpha_cutoff;
-uniform int images;  // bits: 1 base colour, 2 normal, 4 metallic-roughness, 8 emissive
+uniform float occlusion_strength;
+uniform int images;  // bits: 1 base colour, 2 normal, 4 metallic-roughness, 8 emissive, 16 occlusion
 uniform sampler2D base_image;
 uniform sampler2D normal_image;
 uniform sampler2D metallic_roughness_image;
 uniform sampler2D emissive_image;
+uniform sampler2D occlusion_image;
 
 // Discards what is cut out. `n` is the geometry's normal, towards the eye's side.
 Surface material(out vec3 n, out float opacity, out vec3 glow) {
@@ -24,7 +26,7 @@ Surface material(out vec3 n, out float opacity, out vec3 glow) {
   opacity = base.a;
   n = normalize(n_W);
   if (!gl_FrontFacing) n = -n;
-  Surface s = Surface(base.rgb, metallic, roughness, n);
+  Surface s = Surface(base.rgb, metallic, roughness, n, 1.0);
   if ((images & 4) != 0) {
     vec3 mr = texture(metallic_roughness_image, uv).rgb;
     s.roughness *= mr.g;
@@ -36,6 +38,7 @@ Surface material(out vec3 n, out float opacity, out vec3 glow) {
     vec3 m = texture(normal_image, uv).xyz * 2.0 - 1.0;
     s.n = normalize(t * m.x + cross(n, t) * t_W.w * m.y + n * m.z);
   }
+  if ((images & 16) != 0) s.open = 1.0 + occlusion_strength * (texture(occlusion_image, uv).r - 1.0);
   glow = emissive;
   if ((images & 8) != 0) glow *= texture(emissive_image, uv).rgb;
   return s;

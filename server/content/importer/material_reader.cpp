@@ -44,7 +44,20 @@ class MaterialReader {
     if (auto t = texture(from, {aiTextureType_NORMALS}, to.normal_texture); !t) return t;
     if (auto t = texture(from, {aiTextureType_UNKNOWN}, to.metallic_roughness_texture); !t)
       return t;  // glTF's place for it
-    return texture(from, {aiTextureType_EMISSIVE}, to.emissive_texture);
+    if (auto t = texture(from, {aiTextureType_EMISSIVE}, to.emissive_texture); !t) return t;
+    return read_occlusion(from, to);
+  }
+
+  /// Baked occlusion is often laid out by a second set of uv, of which we have none: by the first it would be stains.
+  Expected<void> read_occlusion(const aiMaterial& from, ImportedMaterial& to) {
+    constexpr aiTextureType kPlace = aiTextureType_LIGHTMAP;  // where assimp has glTF's occlusionTexture
+    aiString path;
+    unsigned uv = 0;
+    if (from.GetTexture(kPlace, 0, &path, nullptr, &uv) != AI_SUCCESS || uv != 0) return {};
+    float strength = 1;
+    if (from.Get(AI_MATKEY_GLTF_TEXTURE_STRENGTH(kPlace, 0), strength) == AI_SUCCESS)
+      to.occlusion_strength = std::clamp(strength, 0.0F, 1.0F);
+    return texture(from, {kPlace}, to.occlusion_texture);
   }
 
   static void read_factors(const aiMaterial& from, ImportedMaterial& to) {

@@ -1,8 +1,10 @@
 // What a display may be asked to draw, and survives.
 #include <algorithm>
 
+#include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
+#include "server/log/log.hpp"
 #include "tests/integration/display/drawn_picture.hpp"
 
 namespace mechane::display {
@@ -53,6 +55,117 @@ TEST_F(DrawnPicture, ten_thousand_objects_are_all_drawn) {
     lit += brightness(picture, at.x(), at.y()) > 200 ? 1 : 0;
   }
   EXPECT_EQ(lit, 10'000);
+}
+
+/// While there is one, the driver says of every mesh and image of over 100 kB that it has no memory.
+class SmallCard {
+ public:
+  SmallCard() {
+    (void)glGetError();  // epoxy looks a function up at its first call, and would take the planted one's place
+    real_buffer_data = epoxy_glBufferData;
+    real_tex_image = epoxy_glTexImage2D;
+    real_get_error = epoxy_glGetError;
+    epoxy_glBufferData = [](GLenum target, GLsizeiptr size, const void* data, GLenum usage) {
+      if (is_full(size)) return;
+      real_buffer_data(target, size, data, usage);
+    };
+    epoxy_glTexImage2D = [](GLenum target, GLint level, GLint kept, GLsizei width, GLsizei height, GLint border,
+                            GLenum format, GLenum type, const void* data) {
+      if (data != nullptr && is_full(GLsizeiptr{4} * width * height)) return;  // what is drawn into has none
+      real_tex_image(target, level, kept, width, height, border, format, type, data);
+    };
+    epoxy_glGetError = [] {
+      return std::exchange(full, false) ? static_cast<GLenum>(GL_OUT_OF_MEMORY) : real_get_error();
+    };
+  }
+  SmallCard(const SmallCard&) = delete;
+  SmallCard& operator=(const SmallCard&) = delete;
+  ~SmallCard() {
+    epoxy_glBufferData = real_buffer_data;
+    epoxy_glTexImage2D = real_tex_image;
+    epoxy_glGetError = real_get_error;
+  }
+
+ private:
+  static bool is_full(GLsizeiptr bytes) {
+    full = full || bytes > 100'000;
+    return bytes > 100'000;
+  }
+  static inline PFNGLBUFFERDATAPROC real_buffer_data = nullptr;
+  static inline PFNGLTEXIMAGE2DPROC real_tex_image = nullptr;
+  static inline PFNGLGETERRORPROC real_get_error = nullptr;
+  static inline bool full = false;
+};
+
+/// What the log told last.
+log::Trouble trouble() {
+  static const bool kCounts = [] {
+    log::start("gl_display", log::Level::warning);
+    return true;
+  }();
+  return kCounts ? log::trouble() : log::Trouble{};
+}
+
+/// A ball of many triangles on the left, a box on the right, in the dark.
+struct BallAndBox {
+  SceneAssets assets = one_box(0.3);
+  RenderScene scene = many_boxes(0, 0);
+
+  BallAndBox() {
+    assets.meshes.push_back(sphere_mesh(0.8, 200, 300));
+    assets.meshes.back().name = "huge.glb#BALL";
+    scene.sky = false;
+    scene.sun.irradiance = Vec3f::Zero();
+    add_instance(scene, 1, 0, Vec3f(-1, 0, 0));
+    add_instance(scene, 0, 0, Vec3f(1, 0, 0));
+  }
+};
+
+TEST_F(DrawnPicture, a_mesh_that_the_card_has_no_room_for_is_a_box_and_said_once) {
+  const BallAndBox huge;
+  const auto lit = [&](const ImageData& picture, double x) {
+    const Eigen::Vector2d at = pixel_of(huge.scene, Vec3(x, 0, 0));
+    return mean(picture, at.x(), at.y(), 1) > 200;
+  };
+  {
+    const SmallCard card;
+    const std::uint64_t before = trouble().count;
+    (void)draw(huge.assets, huge.scene);
+    const ImageData picture = draw(huge.assets, huge.scene);
+    EXPECT_TRUE(lit(picture, 1)) << "it goes on with what there is room for";
+    EXPECT_TRUE(lit(picture, -1));
+    EXPECT_FALSE(lit(picture, -0.6));
+    EXPECT_THAT(renderer_->refused(), testing::ElementsAre("huge.glb#BALL"));
+    EXPECT_EQ(trouble().count, before + 1);
+    EXPECT_THAT(trouble().last, testing::AllOf(testing::HasSubstr("huge.glb#BALL"), testing::HasSubstr("no room"),
+                                               testing::HasSubstr("simplify"), testing::HasSubstr("plain box")));
+  }
+  renderer_->forget_assets();
+  EXPECT_TRUE(lit(draw(huge.assets, huge.scene), -0.6));
+  EXPECT_TRUE(renderer_->refused().empty());
+}
+
+TEST_F(DrawnPicture, an_image_that_the_card_does_not_take_is_left_out) {
+  BallAndBox dark;
+  dark.assets.meshes[1] = sphere_mesh(0.8, 12, 16);
+  MaterialData& material = dark.assets.materials[0];
+  material.emissive_image = 0;
+  const auto brightness_with = [&](PixelSize size) {
+    dark.assets.images = {
+        {size.width, size.height, std::vector<std::uint8_t>(std::size_t{4} * size.width * size.height), true, "soot"}};
+    renderer_->forget_assets();
+    const Eigen::Vector2d at = pixel_of(dark.scene, Vec3(-1, 0, 0));
+    return mean(draw(dark.assets, dark.scene), at.x(), at.y(), 1);
+  };
+  EXPECT_LT(brightness_with({256, 256}), 100);
+  EXPECT_TRUE(renderer_->refused().empty());
+  EXPECT_GT(brightness_with({1'000'000, 1}), 200) << "wider than the driver has them";
+  EXPECT_THAT(renderer_->refused(), testing::ElementsAre("soot"));
+  EXPECT_THAT(trouble().last, testing::AllOf(testing::HasSubstr("1000000 x 1"), testing::HasSubstr("smaller")));
+  const SmallCard card;
+  EXPECT_GT(brightness_with({256, 256}), 200);
+  EXPECT_THAT(renderer_->refused(), testing::ElementsAre("soot"));
+  EXPECT_THAT(trouble().last, testing::HasSubstr("no room for an image of 256 x 256"));
 }
 
 }  // namespace

@@ -93,6 +93,21 @@ TEST_F(MeshImport, KeepsNodesMaterialsAndImagesOfAGlb) {
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()), kPng);
 }
 
+TEST_F(MeshImport, KeepsTheOcclusionImageOfAGlb) {
+  const auto material_with = [&](const std::string& texture) {
+    const auto scene = import("cube.glb", cube_glb(-1, R"("occlusionTexture":{)" + texture + "},"));
+    EXPECT_TRUE(scene) << scene.error().to_string();
+    return scene ? scene->materials.at(0) : ImportedMaterial{};
+  };
+  const ImportedMaterial half = material_with(R"("index":0,"strength":0.5)");
+  EXPECT_EQ(half.occlusion_texture, half.base_colour_texture) << "one image, however often it is used";
+  EXPECT_FLOAT_EQ(half.occlusion_strength, 0.5F);
+  EXPECT_FLOAT_EQ(material_with(R"("index":0)").occlusion_strength, 1);
+  EXPECT_FLOAT_EQ(material_with(R"("index":0,"strength":7)").occlusion_strength, 1) << "no light below none";
+  EXPECT_FALSE(material_with(R"("index":0,"texCoord":1)").occlusion_texture) << "it lies by other uv than ours";
+  EXPECT_FALSE(import("cube.glb", cube_glb())->materials.at(0).occlusion_texture);
+}
+
 TEST_F(MeshImport, AMirroredPartIsTurnedOutwardsAgain) {
   const auto scene = import("cube.glb", cube_glb());
   ASSERT_TRUE(scene);

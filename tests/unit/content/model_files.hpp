@@ -78,27 +78,30 @@ inline std::string glb(std::string json, std::string binary) {
 inline const std::string kPng = "\x89PNG\r\n\x1a\n not decoded by the import";
 
 /// A cube under nodes BODY (shifted by 1 m along x) > part_block and BODY > trimming (the same mesh, shrunk and mirrored), with a
-/// material and an image. `vertex` stands for the buffer's first coordinate, to plant a fault.
-inline std::string cube_glb(float vertex = -1) {
+/// material and an image. `vertex` stands for the buffer's first coordinate, to plant a fault; `looks` are more fields of the material.
+inline std::string cube_glb(float vertex = -1, const std::string& looks = "") {
   std::string binary(reinterpret_cast<const char*>(kCube), sizeof kCube);
   std::memcpy(binary.data(), &vertex, sizeof vertex);
   binary.append(reinterpret_cast<const char*>(kCubeFaces), sizeof kCubeFaces);
   const std::size_t image = binary.size();
   binary += kPng;
-  const std::string json = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[
 {"name":"BODY","translation":[1,0,0],"children":[1,2]},{"name":"part_block","mesh":0},
 {"name":"trimming","mesh":0,"scale":[-0.5,0.5,0.5]}],
 "meshes":[{"name":"cube","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
-"materials":[{"name":"bronze","doubleSided":true,"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[0.8,0.5,0.2,0.9],
+"materials":[{)" +
+      looks +
+      R"("name":"bronze","doubleSided":true,"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[0.8,0.5,0.2,0.9],
 "metallicFactor":0.75,"roughnessFactor":0.25,"baseColorTexture":{"index":0}}}],
 "textures":[{"source":0}],"images":[{"name":"patina","mimeType":"image/png","bufferView":2}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[-1,-1,-1],"max":[1,1,1]},
 {"bufferView":1,"componentType":5123,"count":36,"type":"SCALAR"}],
 "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":72},
 {"buffer":0,"byteOffset":)" +
-                           std::to_string(image) + R"(,"byteLength":)" + std::to_string(kPng.size()) + R"(}],
+      std::to_string(image) + R"(,"byteLength":)" + std::to_string(kPng.size()) + R"(}],
 "buffers":[{"byteLength":)" +
-                           std::to_string(binary.size()) + "}]}";
+      std::to_string(binary.size()) + "}]}";
   return glb(json, binary);
 }
 

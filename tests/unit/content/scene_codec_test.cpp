@@ -25,6 +25,8 @@ rc::Gen<ImportedScene> any_scene() {
     m.alpha_mode = *rc::gen::element(AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend);
     m.double_sided = *rc::gen::arbitrary<bool>();
     if (*rc::gen::arbitrary<bool>()) m.normal_texture = 0;
+    if (*rc::gen::arbitrary<bool>()) m.occlusion_texture = 0;
+    m.occlusion_strength = number();
     for (int i = 0; i < meshes; ++i) {
       auto& mesh = scene.meshes.emplace_back();
       const int vertices = *rc::gen::inRange(3, 12);
@@ -63,6 +65,8 @@ RC_GTEST_PROP(SceneCodec, CarriesASceneWhole, ()) {
   RC_ASSERT(back->nodes.back().name == scene.nodes.back().name);
   RC_ASSERT(back->meshes.front().positions == scene.meshes.front().positions);
   RC_ASSERT(back->materials.front().normal_texture == scene.materials.front().normal_texture);
+  RC_ASSERT(back->materials.front().occlusion_texture == scene.materials.front().occlusion_texture);
+  RC_ASSERT(back->materials.front().occlusion_strength == scene.materials.front().occlusion_strength);
 }
 
 RC_GTEST_PROP(SceneCodec, RefusesAnyChangedByte, ()) {

@@ -71,5 +71,27 @@ TEST(AssetLibrary, an_image_with_clear_places_makes_a_blended_material_clear) {
   }
 }
 
+TEST(AssetLibrary, an_occlusion_image_is_numbers_even_where_the_same_image_is_colour) {
+  AssetLibrary library([&](const std::string&) -> Expected<content::ImportedScene> {
+    content::ImportedMaterial material = material_of(content::AlphaMode::opaque, 1);
+    material.base_colour_texture = material.metallic_roughness_texture = material.occlusion_texture = 0;
+    material.occlusion_strength = 0.25F;
+    content::ImportedScene scene = file_with({material});
+    content::ImportedTexture& texture = scene.textures.emplace_back();
+    texture.encoding = content::TextureEncoding::rgba8;
+    texture.width = texture.height = 1;
+    texture.bytes = std::vector<std::byte>(4, std::byte{200});
+    return scene;
+  });
+  (void)library.model("stone.glb", "");
+  const SceneAssets& assets = library.assets();
+  const MaterialData& stone = assets.materials.front();
+  ASSERT_TRUE(stone.occlusion_image && stone.base_colour_image);
+  EXPECT_FALSE(assets.images[*stone.occlusion_image].srgb);
+  EXPECT_TRUE(assets.images[*stone.base_colour_image].srgb);
+  EXPECT_EQ(stone.occlusion_image, stone.metallic_roughness_image) << "on the card once";
+  EXPECT_FLOAT_EQ(stone.occlusion_strength, 0.25F);
+}
+
 }  // namespace
 }  // namespace mechane::display

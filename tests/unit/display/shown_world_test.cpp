@@ -12,8 +12,9 @@ namespace {
 using std::chrono::milliseconds;
 
 TEST(ShownWorld, BeforeAnythingIsKnownACalmNoteStandsInThePicture) {
-  const ShownWorld world(AssetSource{}, "en");
+  ShownWorld world(AssetSource{}, "en");
   EXPECT_FALSE(world.known());
+  world.add_missing({"wall.glb"});
   EXPECT_EQ(world.status(), nullptr);
   EXPECT_EQ(world.missing(), nullptr);
   const RenderScene scene = world.build(nullptr, client::LinkState::searching);
@@ -33,6 +34,8 @@ TEST(ShownWorld, AnotherWorldBeginsAnewAndTheSameOneDoesNot) {
   EXPECT_EQ(world.status()->world, "world-1");
   EXPECT_EQ(world.objects().size(), 2U);
   EXPECT_TRUE(world.missing()->contains("machine.glb")) << "boxes stand for what is not there";
+  world.add_missing({"wall.glb, texture plaster"});
+  EXPECT_TRUE(world.missing()->contains("wall.glb, texture plaster")) << "the graphics card had no room for it";
   client::Frame frame;
   ASSERT_TRUE(client.interpolated_frame(began, Duration{0}, frame));
   const RenderScene scene = world.build(&frame, client::LinkState::joined);
