@@ -40,7 +40,8 @@ class DrawCalls {
 
 constexpr std::uint32_t kBalls = 70;  // more than one call draws
 
-/// Eggs, each turned and drawn out in its own way, over a pool that mirrors them and a floor that they shade. Of one mesh, or of one each.
+/// Eggs of two colours, each turned and drawn out in its own way, over a pool that mirrors them and a floor that they shade; the picture's edges
+/// cut some. Of one mesh, or of one each.
 struct Eggs {
   SceneAssets assets;
   RenderScene scene;
@@ -48,14 +49,16 @@ struct Eggs {
   explicit Eggs(bool one_mesh) {
     assets.meshes = {box_mesh(Vec3(4, 0.05, 4)), disc_mesh(3, 24)};
     for (std::uint32_t i = 0; i < (one_mesh ? 1 : kBalls); ++i)
-      assets.meshes.push_back(sphere_mesh(0.1, 12, 16));
-    assets.materials.resize(2);
+      assets.meshes.push_back(sphere_mesh(0.1, 24, 48));
+    assets.materials.resize(3);
     assets.materials[1].base_colour = Eigen::Vector4f(0.7F, 0.2F, 0.1F, 1);
     assets.materials[1].roughness = 0.3F;
+    assets.materials[2].base_colour = Eigen::Vector4f(0.1F, 0.3F, 0.6F, 1);
     add_instance(scene, 0, 0, Vec3f(0, -0.35F, 0));
     for (std::uint32_t i = 0; i < kBalls; ++i) {
       const auto at = static_cast<float>(i);
-      add_instance(scene, one_mesh ? 2 : 2 + i, 1, Vec3f(0.3F * (at / 7 - 5), 0.25F, 0.3F * (std::fmod(at, 7.0F) - 3)));
+      add_instance(scene, one_mesh ? 2 : 2 + i, 1 + i % 2,
+                   Vec3f(0.45F * (at / 7 - 5), 0.25F, 0.3F * (std::fmod(at, 7.0F) - 3)));
       scene.instances.back().X_WM.rotate(Eigen::AngleAxisf(at, Vec3f(1, 2, 3).normalized()));
       scene.instances.back().X_WM.scale(Vec3f(1, 1.6F, 0.5F + 0.01F * at));
     }
