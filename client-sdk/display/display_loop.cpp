@@ -224,6 +224,7 @@ void DisplayLoop::tell_language() {
 void DisplayLoop::upload() {
   if (attracts_ || !world_.known()) return;
   renderer_->upload(world_.assets());
+  world_.add_missing(renderer_->refused());
   give_spare_memory_back();
 }
 
