@@ -30,8 +30,13 @@ bool begins_sentence(std::string_view text) {
   return second >= 0x86 && second <= 0xab;
 }
 
-bool ends_sentence(char c) {
-  return c == '.' || c == '!' || c == '?' || c == ';';  // the last asks, in Greek
+/// The text ends with a mark that ends a sentence. A word of one letter or two before a full stop is an abbreviation's: "c.", "B.C.", "αι.".
+bool ends_sentence(std::string_view text) {
+  const char mark = text.back();
+  if (mark == '!' || mark == '?' || mark == ';') return true;  // the last asks, in Greek
+  if (mark != '.') return false;
+  text.remove_suffix(1);
+  return letters_in(text.substr(text.find_last_of(" .") + 1)) > 2;
 }
 
 }  // namespace
@@ -40,7 +45,8 @@ std::vector<std::string> sentences_of(std::string_view text) {
   std::vector<std::string> sentences;
   std::size_t from = 0;
   for (std::size_t at = 0; at + 1 < text.size(); ++at) {
-    const bool ends = ends_sentence(text[at]) && text[at + 1] == ' ' && begins_sentence(text.substr(at + 2));
+    const bool ends =
+        text[at + 1] == ' ' && begins_sentence(text.substr(at + 2)) && ends_sentence(text.substr(from, at + 1 - from));
     if (!ends || at + 1 - from < kFewWords) continue;
     sentences.emplace_back(text.substr(from, at + 1 - from));
     from = at + 2;

@@ -10,7 +10,7 @@
 
 namespace mechane::display {
 
-/// UTF-8. One of few words stays with the next; an end without a capital behind it is an abbreviation's.
+/// UTF-8. One of few words stays with the next; abbreviations end none.
 [[nodiscard]] std::vector<std::string> sentences_of(std::string_view text);
 
 /// Calm and clear: 14 letters a second, and a breath.
