@@ -207,7 +207,8 @@ ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node)
   ObjectModel model;
   for (auto& [key, mesh] : merged) {
     fill_normals(mesh);
-    mesh.name = node.empty() ? uri : uri + "#" + node;
+    mesh.name = uri;
+    if (!node.empty()) mesh.name.append("#").append(node);
     for (const Vec3f& p : mesh.positions)
       model.box_B.extend(p);
     model.parts.push_back({add_mesh(std::move(mesh)), file.first_material + key.second, key.first});

@@ -155,7 +155,7 @@ void goal_fields(Fields& f, Status& s) {
     bool there = quantity.goal.has_value();
     f.flag(there);
     if (!there) continue;
-    if constexpr (!std::is_const_v<Status>) quantity.goal.emplace();
+    if constexpr (!std::is_const_v<Status>) quantity.goal = client::QuantityInfo::Goal{};
     f.wide(quantity.goal->value);
     f.flag(quantity.goal->from_above);
   }

@@ -8,6 +8,18 @@
 #include "server/record/snapshot_file.hpp"
 
 namespace mechane::record {
+namespace {
+
+// Before each record in the ring: its tick's number.
+constexpr std::size_t kNumberSize = 8;
+
+std::uint64_t number_of(std::span<const std::byte> record) {
+  ByteSource number(record);
+  return number.get<std::uint64_t>();
+}
+
+}  // namespace
+
 Lane::Lane(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
            std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after)
     : ring_(ring_bytes),
@@ -18,6 +30,7 @@ Lane::Lane(const JournalHeader& header, std::filesystem::path journal, std::file
       }),
       encoded_{},
       through_tick_(header.first_tick),
+      taken_through_(header.first_tick),
       header_(header),
       journal_path_(std::move(journal)),
       snapshot_path_(std::move(snapshot)),
@@ -32,8 +45,8 @@ void Lane::push(const TickRecord& record) noexcept {
   const std::span<std::byte> buffer(encoded_);
   SpanSink number(buffer);
   put(number, record.tick);
-  const std::size_t size = encode_tick(record, buffer.subspan(8));
-  if (!ring_.push(buffer.first(8 + size))) {
+  const std::size_t size = encode_tick(record, buffer.subspan(kNumberSize));
+  if (!ring_.push(buffer.first(kNumberSize + size))) {
     refused_.store(refused_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
   through_tick_.store(record.tick + 1, std::memory_order_release);
@@ -54,15 +67,18 @@ void Lane::drain(TimePoint now) {
 // From the ring to the writer. Ticks that the ring had no room for, or that the disk refused before, are a gap that the writer finds.
 void Lane::gather() {
   for (auto front = ring_.front(); front.found; front = ring_.front()) {
-    ByteSource number(front.record);
-    writer_.add_encoded(number.get<std::uint64_t>(), front.record.subspan(8));
+    const std::uint64_t tick = number_of(front.record);
+    writer_.add_encoded(tick, front.record.subspan(kNumberSize));
+    taken_through_ = tick + 1;
     ring_.pop();
   }
 }
 
 void Lane::discard() {
-  while (ring_.front().found)
+  for (auto front = ring_.front(); front.found; front = ring_.front()) {
+    taken_through_ = number_of(front.record) + 1;
     ring_.pop();
+  }
 }
 
 void Lane::store(TimePoint now) {
@@ -126,8 +142,9 @@ const std::string& Lane::problem() const {
 }
 
 std::uint64_t Lane::ticks_lost() const {
+  // What is in the ring still may be stored yet: the disk can have room again before its turn comes.
   if (journal_problem_.empty()) return writer_.lost_ticks();
-  return writer_.lost_ticks() + (through_tick() - stored_.next_tick);
+  return writer_.lost_ticks() + (taken_through_ - stored_.next_tick);
 }
 
 void Lane::finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_snapshot) {
@@ -136,10 +153,15 @@ void Lane::finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_
     std::error_code ignored;  // it may never have been written
     std::filesystem::remove(snapshot_path_, ignored);
   }
-  if (given_up_) return discard();
+  if (given_up_) {
+    discard();
+    taken_through_ = through_tick();
+    return;
+  }
   // One last try, whether the disk rests or not.
   gather();
-  writer_.close(hash, through_tick());
+  taken_through_ = through_tick();
+  writer_.close(hash, taken_through_);
   store(now);
   sync();
   file_.close();

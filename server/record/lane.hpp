@@ -65,7 +65,8 @@ class Lane {
   std::atomic<std::uint64_t> refused_{0};
 
   // The disk side's own.
-  JournalHeader header_;  // its snapshot moves into the file's first bytes
+  std::uint64_t taken_through_;  // the first tick that may still be in the ring
+  JournalHeader header_;         // its snapshot moves into the file's first bytes
   std::filesystem::path journal_path_;
   std::filesystem::path snapshot_path_;
   Duration retry_after_;

@@ -157,8 +157,10 @@ TEST_F(DrawnPicture, an_image_that_the_card_does_not_take_is_left_out) {
     const Eigen::Vector2d at = pixel_of(dark.scene, Vec3(-1, 0, 0));
     return mean(draw(dark.assets, dark.scene), at.x(), at.y(), 1);
   };
+  const std::uint64_t before = trouble().count;
   EXPECT_LT(brightness_with({256, 256}), 100);
   EXPECT_TRUE(renderer_->refused().empty());
+  EXPECT_EQ(trouble().count, before);
   EXPECT_GT(brightness_with({1'000'000, 1}), 200) << "wider than the driver has them";
   EXPECT_THAT(renderer_->refused(), testing::ElementsAre("soot"));
   EXPECT_THAT(trouble().last, testing::AllOf(testing::HasSubstr("1000000 x 1"), testing::HasSubstr("smaller")));
@@ -166,6 +168,7 @@ TEST_F(DrawnPicture, an_image_that_the_card_does_not_take_is_left_out) {
   EXPECT_GT(brightness_with({256, 256}), 200);
   EXPECT_THAT(renderer_->refused(), testing::ElementsAre("soot"));
   EXPECT_THAT(trouble().last, testing::HasSubstr("no room for an image of 256 x 256"));
+  EXPECT_EQ(trouble().count, before + 2);
 }
 
 }  // namespace
