@@ -139,8 +139,15 @@ RenderScene DisplayLoop::build(TimePoint now) const {
   }
   if (!attracts_) name_what_is_meant(scene);
   // What the pointer, or the link, has to say is more urgent.
-  if (scene.overlay.note.empty() && !scene.overlay.panel) scene.overlay.note = subtitles_.at(now);
+  if (scene.overlay.note.empty() && !scene.overlay.panel && is_there()) scene.overlay.note = heard_in_writing(now);
   return scene;
+}
+
+std::string DisplayLoop::heard_in_writing(TimePoint now) const {
+  std::string said = subtitles_.at(now);
+  const std::string sounds = sound_captions_.at(now, spoken_);
+  if (!said.empty() && !sounds.empty()) said += ' ';
+  return said + sounds;
 }
 
 /// By the display's own pointer, or else by a hand. Words lie in the screen, for both eyes alike.
@@ -382,10 +389,11 @@ Expected<void> DisplayLoop::recover() {
 void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
   const std::vector<client::WorldEvent> events = client_.take_events();
   if (source_.recorder) source_.recorder->hear(now, events);
-  if (!sound_) return;
   const bool here = is_there();
-  sound_->hear(ears, here ? &frame_ : nullptr, here ? world_.status() : nullptr, world_.presentation().get(),
-               world_.objects(), events, world_.folder());
+  std::vector<SoundSource> sources =
+      sounds_.hear(here ? &frame_ : nullptr, world_.presentation().get(), world_.objects(), events);
+  sound_captions_.hear(sources, now);
+  if (sound_) sound_->hear(ears, std::move(sources), here ? world_.status() : nullptr, world_.folder());
 }
 
 std::string DisplayLoop::picture_path(const std::string& name) const {

@@ -13,6 +13,7 @@
 #include "client-sdk/display/kiosk_setup.hpp"
 #include "client-sdk/display/pointer_input.hpp"
 #include "client-sdk/display/shown_world.hpp"
+#include "client-sdk/display/sound_captions.hpp"
 #include "client-sdk/display/subtitles.hpp"
 #include "server/base/clock.hpp"
 
@@ -65,6 +66,7 @@ class DisplayLoop {
   Expected<std::unique_ptr<Renderer>> begin_drawing();
   void let_hear(const Camera& ears, TimePoint now);
   [[nodiscard]] RenderScene build(TimePoint now) const;
+  [[nodiscard]] std::string heard_in_writing(TimePoint now) const;
   void take_wishes(TimePoint now);
   void tend_kiosk(TimePoint now);
   void tend_attract(TimePoint now);
@@ -108,6 +110,8 @@ class DisplayLoop {
   bool panel_shown_ = false;                                            ///< in the last picture
   CaptionRoom caption_room_;
   Subtitles subtitles_;
+  WorldSounds sounds_;
+  SoundCaptions sound_captions_;
   std::string told_refusal_;
   std::string told_stray_;
   std::optional<TimePoint> unknown_since_;

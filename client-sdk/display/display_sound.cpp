@@ -27,17 +27,6 @@ std::string if_there(const fs::path& file) {
   return fs::is_regular_file(file, error) ? file.string() : std::string();
 }
 
-std::vector<SoundEffect> heard_effects(const client::WorldPresentation* presentation) {
-  std::vector<SoundEffect> heard;
-  if (presentation == nullptr) return heard;
-  for (const client::Effect& effect : presentation->effects) {
-    if (!effect.kind.starts_with("sound.")) continue;
-    heard.push_back({effect.name, effect.kind, effect.object ? static_cast<std::int32_t>(*effect.object) : -1,
-                     effect.p_BE, static_cast<std::int32_t>(effect.quantity), effect.full, effect.size_m});
-  }
-  return heard;
-}
-
 SoundListener at(const Camera& camera) {
   return {camera.p_WC, (camera.p_WT - camera.p_WC).normalized(), camera.up_W};
 }
@@ -78,18 +67,9 @@ DisplaySound::DisplaySound(const SoundSettings& settings, std::string language)
       language_(std::move(language)),
       player_(options_of(settings)) {}
 
-void DisplaySound::hear(const Camera& ears, const client::Frame* frame, const client::WorldStatus* status,
-                        const client::WorldPresentation* presentation, std::span<const client::SceneObject> objects,
-                        std::span<const client::WorldEvent> events, const std::string& scenario_folder) {
-  SoundScene scene;
-  scene.listener = at(ears);
-  if (frame != nullptr) {
-    const std::vector<SoundEffect> effects = heard_effects(presentation);
-    scene.sources = sound_sources({before_ ? &*before_ : nullptr, frame, events, objects, effects});
-    before_ = *frame;
-  } else {
-    before_.reset();
-  }
+void DisplaySound::hear(const Camera& ears, std::vector<SoundSource> sources, const client::WorldStatus* status,
+                        const std::string& scenario_folder) {
+  SoundScene scene{at(ears), std::move(sources), {}};
   if (status != nullptr && !status->done) {
     // Looked for once a step: the disk is not asked at every picture.
     const std::string id = narration_id(*status) + " " + language_;

@@ -1,10 +1,8 @@
-// What a display lets be heard: the effects of the frame, knocks of events, and each step's narration.
+// What a display lets be heard: what sounds in the frame, and each step's narration.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -33,10 +31,9 @@ class DisplaySound {
  public:
   DisplaySound(const SoundSettings& settings, std::string language);
 
-  /// Once a picture. `frame` and `status` may be null: nothing is heard then.
-  void hear(const Camera& ears, const client::Frame* frame, const client::WorldStatus* status,
-            const client::WorldPresentation* presentation, std::span<const client::SceneObject> objects,
-            std::span<const client::WorldEvent> events, const std::string& scenario_folder);
+  /// Once a picture. `status` may be null: nobody speaks then.
+  void hear(const Camera& ears, std::vector<SoundSource> sources, const client::WorldStatus* status,
+            const std::string& scenario_folder);
   /// From the next picture on: what is read aloud begins anew in it.
   void set_language(const std::string& language) { language_ = language; }
   void set_levels(const SoundLevels& levels) { player_.set_levels(levels); }
@@ -45,7 +42,6 @@ class DisplaySound {
  private:
   std::string narration_folder_;
   std::string language_;
-  std::optional<client::Frame> before_;
   Narration narration_;
   std::set<std::string> told_;  ///< steps that have none
   SoundPlayer player_;

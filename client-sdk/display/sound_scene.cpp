@@ -153,6 +153,17 @@ void add_event(const WorldEvent& event, std::size_t number, const SoundInput& in
   if (gain >= kLeastGain) out.push_back({id, sound->sound, *p_W, gain, sound->pitch, kNearest_m, false});
 }
 
+std::vector<SoundEffect> heard_effects(const client::WorldPresentation* presentation) {
+  std::vector<SoundEffect> heard;
+  if (presentation == nullptr) return heard;
+  for (const client::Effect& effect : presentation->effects) {
+    if (!effect.kind.starts_with("sound.")) continue;
+    heard.push_back({effect.name, effect.kind, effect.object ? static_cast<std::int32_t>(*effect.object) : -1,
+                     effect.p_BE, static_cast<std::int32_t>(effect.quantity), effect.full, effect.size_m});
+  }
+  return heard;
+}
+
 }  // namespace
 
 std::vector<SoundSource> sound_sources(const SoundInput& input) {
@@ -161,6 +172,19 @@ std::vector<SoundSource> sound_sources(const SoundInput& input) {
   add_effects(input, sources);
   for (std::size_t i = 0; i < input.events.size(); ++i)
     add_event(input.events[i], i, input, sources);
+  return sources;
+}
+
+std::vector<SoundSource> WorldSounds::hear(const client::Frame* frame, const client::WorldPresentation* presentation,
+                                           std::span<const client::SceneObject> objects,
+                                           std::span<const client::WorldEvent> events) {
+  if (frame == nullptr) {
+    before_.reset();
+    return {};
+  }
+  const std::vector<SoundEffect> effects = heard_effects(presentation);
+  std::vector<SoundSource> sources = sound_sources({before_ ? &*before_ : nullptr, frame, events, objects, effects});
+  before_ = *frame;
   return sources;
 }
 

@@ -69,6 +69,18 @@ struct SoundInput {
 /// its object's. sound.bow sounds once, when its object (any, where it has none) is fired.
 [[nodiscard]] std::vector<SoundSource> sound_sources(const SoundInput& input);
 
+/// The same picture by picture, from what the client library has: keeps the frame of the picture before.
+class WorldSounds {
+ public:
+  /// A null frame: nothing sounds.
+  [[nodiscard]] std::vector<SoundSource> hear(const client::Frame* frame, const client::WorldPresentation* presentation,
+                                              std::span<const client::SceneObject> objects,
+                                              std::span<const client::WorldEvent> events);
+
+ private:
+  std::optional<client::Frame> before_;
+};
+
 /// The id of the step that a visit is at; empty before it has one. A new id: its narration begins.
 [[nodiscard]] std::string narration_id(const client::WorldStatus& status);
 

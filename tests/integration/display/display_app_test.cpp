@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 #include <epoxy/gl.h>
@@ -69,24 +70,30 @@ TEST_F(PlayedDisplay, goes_on_with_the_same_pictures_when_its_graphics_card_forg
   epoxy_glGetGraphicsResetStatus = real;
 }
 
-/// The recording, with another narration in each step.
-void write_with_narration(const std::string& text, const std::filesystem::path& file) {
+/// What is written in a record's place.
+using Rewrite = std::function<void(const FrameRecording::Record&, RecordingWriter&)>;
+
+void write_again(const Rewrite& rewrite, const std::filesystem::path& file) {
   const auto recorded = FrameRecording::open_file(kSource / "tests/golden/scenes/aiolos-sphere.frames").value();
   RecordingWriter writer;
-  for (const FrameRecording::Record& record : recorded.records()) {
-    client::WorldStatus status;
-    if (record.kind != RecordKind::status) {
-      writer.add(record.kind, record.time, record.content);
-      continue;
-    }
-    ASSERT_TRUE(decode(record.content, status));
-    status.narration = {{"en", text}};
-    writer.add(record.kind, record.time, encode(status));
-  }
+  for (const FrameRecording::Record& record : recorded.records())
+    rewrite(record, writer);
   writer.add(RecordKind::end, Duration{0}, {});
   const std::vector<std::byte> bytes = writer.take_bytes();
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// Another narration in each step.
+void write_with_narration(const std::string& text, const std::filesystem::path& file) {
+  const auto narrate = [&](const FrameRecording::Record& record, RecordingWriter& writer) {
+    client::WorldStatus status;
+    if (record.kind != RecordKind::status) return writer.add(record.kind, record.time, record.content);
+    ASSERT_TRUE(decode(record.content, status));
+    status.narration = {{"en", text}};
+    writer.add(record.kind, record.time, encode(status));
+  };
+  write_again(narrate, file);
 }
 
 TEST_F(PlayedDisplay, writes_what_is_read_aloud) {
@@ -98,6 +105,28 @@ TEST_F(PlayedDisplay, writes_what_is_read_aloud) {
   ASSERT_EQ(without.size(), with.size());
   ASSERT_FALSE(with.empty());
   EXPECT_NE(without.front(), with.front());
+}
+
+/// With each frame something happens.
+void write_with_event(const std::string& kind, const std::filesystem::path& file) {
+  const auto happen = [&](const FrameRecording::Record& record, RecordingWriter& writer) {
+    writer.add(record.kind, record.time, record.content);
+    const client::WorldEvent event{1, kind, "", "", 0};
+    if (record.kind == RecordKind::frame) writer.add(RecordKind::event, record.time, encode(event));
+  };
+  write_again(happen, file);
+}
+
+TEST_F(PlayedDisplay, writes_what_sounds) {
+  const auto silent = scratch_.path() / "silent.frames", sounds = scratch_.path() / "sounds.frames";
+  write_with_event("looked", silent);
+  write_with_event("broke", sounds);
+  const std::vector<std::string> without = pictures_of(silent, "without");
+  const std::vector<std::string> with = pictures_of(sounds, "with");
+  ASSERT_EQ(without.size(), 2U);
+  ASSERT_EQ(with.size(), 2U);
+  EXPECT_EQ(without.front(), with.front()) << "it is heard from this picture on";
+  EXPECT_NE(without.back(), with.back());
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ class HeardWorld {
     return true;
   }
   void hear(const std::vector<client::WorldEvent>& events) {
-    sound.hear({}, here ? &frame_ : nullptr, &status_, &presentation_, objects_, events, "");
+    sound.hear({}, sounds_.hear(here ? &frame_ : nullptr, &presentation_, objects_, events), &status_, "");
   }
   void flow(double water, double fire) { frame_.quantities = {water, fire}; }
 
@@ -102,6 +102,7 @@ class HeardWorld {
   DisplaySound sound{{}, "en"};
 
  private:
+  WorldSounds sounds_;
   client::Frame frame_;
   client::WorldStatus status_;
   client::WorldPresentation presentation_;
