@@ -123,8 +123,8 @@ TEST_F(PlayedDisplay, writes_what_sounds) {
   write_with_event("broke", sounds);
   const std::vector<std::string> without = pictures_of(silent, "without");
   const std::vector<std::string> with = pictures_of(sounds, "with");
-  ASSERT_EQ(without.size(), 2U);
-  ASSERT_EQ(with.size(), 2U);
+  ASSERT_EQ(without.size(), with.size());
+  ASSERT_GE(with.size(), 2U);
   EXPECT_EQ(without.front(), with.front()) << "it is heard from this picture on";
   EXPECT_NE(without.back(), with.back());
 }

@@ -7,9 +7,6 @@
 namespace mechane::display {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-
 std::vector<SoundSource> sounding(SoundKind kind, double gain = 1) {
   return {{"a", kind, Vec3::Zero(), gain, 1, 2, true}};
 }
@@ -21,24 +18,24 @@ TEST(SoundCaptions, say_what_begins_and_not_what_goes_on) {
   captions.hear(sounding(SoundKind::creak, 0.25), begin);
   EXPECT_EQ(captions.at(begin, "en"), "") << "hardly to be heard";
   for (int i = 0; i <= 60; ++i)
-    captions.hear(sounding(SoundKind::creak), begin + seconds(i));
+    captions.hear(sounding(SoundKind::creak), begin + std::chrono::seconds(i));
   EXPECT_EQ(captions.at(begin, "en"), "[wood creaking]");
   EXPECT_EQ(captions.at(begin, "el"), "[τρίξιμο ξύλου]");
-  EXPECT_EQ(captions.at(begin + milliseconds(2999), "en"), "[wood creaking]");
-  EXPECT_EQ(captions.at(begin + seconds(3), "en"), "");
-  EXPECT_EQ(captions.at(begin + seconds(60), "en"), "") << "it has gone on all the time";
+  EXPECT_EQ(captions.at(begin + std::chrono::milliseconds(2999), "en"), "[wood creaking]");
+  EXPECT_EQ(captions.at(begin + std::chrono::seconds(3), "en"), "");
+  EXPECT_EQ(captions.at(begin + std::chrono::seconds(60), "en"), "") << "it has gone on all the time";
 }
 
 TEST(SoundCaptions, say_it_again_after_a_silence) {
   const TimePoint begin{};
   SoundCaptions captions;
   captions.hear(sounding(SoundKind::water), begin);
-  captions.hear({}, begin + seconds(10));
-  captions.hear(sounding(SoundKind::water), begin + seconds(20));
-  EXPECT_EQ(captions.at(begin + seconds(20), "en"), "") << "a pause";
-  captions.hear(sounding(SoundKind::water), begin + seconds(41));
-  captions.hear(sounding(SoundKind::bow), begin + seconds(42));
-  EXPECT_EQ(captions.at(begin + seconds(42), "en"), "[water running] [bowstring snapping]");
+  captions.hear({}, begin + std::chrono::seconds(10));
+  captions.hear(sounding(SoundKind::water), begin + std::chrono::seconds(20));
+  EXPECT_EQ(captions.at(begin + std::chrono::seconds(20), "en"), "") << "a pause";
+  captions.hear(sounding(SoundKind::water), begin + std::chrono::seconds(41));
+  captions.hear(sounding(SoundKind::bow), begin + std::chrono::seconds(42));
+  EXPECT_EQ(captions.at(begin + std::chrono::seconds(42), "en"), "[water running] [bowstring snapping]");
 }
 
 TEST(SoundCaptions, have_words_of_their_own_for_every_sound) {
