@@ -50,7 +50,7 @@ def fields(node):
 
 
 class Screen:
-    """Where a point of the world is seen: the first Viewpoint, as a display stands there."""
+    """Where a point of the world is seen: the first Viewpoint, as a display stands there, and the room that it makes above a long caption."""
 
     def __init__(self, scenario, width, height):
         view = next(scenario.iter("Viewpoint"))
@@ -62,8 +62,19 @@ class Screen:
         self.right = unit(cross(self.ahead, up))
         self.up = cross(self.right, self.ahead)
         self.width, self.height = width, height
+        self.room = 1
 
-    def pixel(self, p):
+    def see_room(self, p, at):
+        """What is at p is seen at a pixel: everything is smaller by so much, towards the middle of the upper edge."""
+        (x, y), middle = self.framed(p), self.width / 2
+        framed, seen = (x - middle, y), (at[0] - middle, at[1])
+        self.room = min(max(dot(framed, seen) / max(dot(seen, seen), 1), 1), 1.8)
+
+    def pixel(self, p, room=None):
+        x, y = self.framed(p)
+        return self.width / 2 + (x - self.width / 2) / (room or self.room), y / (room or self.room)
+
+    def framed(self, p):
         d = sub(p, self.eye)
         share = self.height / 2 / (dot(d, self.ahead) * self.half)
         return self.width / 2 + dot(d, self.right) * share, self.height / 2 - dot(d, self.up) * share
@@ -152,13 +163,17 @@ class TouchVisitor:
         self.point(way(1))
 
     def take(self, body, grip):
-        """Presses on it where its grip is seen, and again beside it, as a person does who sees that nothing was taken."""
-        for aside in ((0, 0), (5, 0), (-5, 0), (0, 5), (0, -5)):
-            at = self.screen.pixel(placed(self.pose(body), grip))
+        """Presses on it where its grip is seen, and again beside it, as a person does who sees that nothing was taken. How much room the view
+        makes is not known before something is held."""
+        rooms = [(room, (0, 0)) for room in (self.screen.room, 1, 1.04, 1.08)]
+        for room, aside in rooms + [(self.screen.room, aside) for aside in ((5, 0), (-5, 0), (0, 5), (0, -5))]:
+            at = self.screen.pixel(placed(self.pose(body), grip), room)
             self.point((at[0] + aside[0], at[1] + aside[1]), "mousedown", 1)
             try:
                 wait_until(self.holding, 5, "it is held")
-                self.p_BH = back(self.pose(body), self.hand()["X_WS"][0]["p"])
+                p_WH = self.hand()["X_WS"][0]["p"]
+                self.p_BH = back(self.pose(body), p_WH)
+                self.screen.see_room(p_WH, self.at)
                 return True
             except AssertionError:
                 self.xdo("mouseup", 1)
