@@ -89,6 +89,11 @@ bool is_clear(const ImageData& image) {
   return false;
 }
 
+/// Of a file's node, or of the whole file.
+std::string model_name(const std::string& uri, const std::string& node) {
+  return node.empty() ? uri : uri + "#" + node;
+}
+
 }  // namespace
 
 AssetLibrary::AssetLibrary(Loader loader) : loader_(std::move(loader)) {}
@@ -113,7 +118,7 @@ const content::ImportedScene* AssetLibrary::file(const std::string& uri) {
 }
 
 const ObjectModel& AssetLibrary::model(const std::string& uri, const std::string& node) {
-  const std::string key = node.empty() ? uri : uri + "#" + node;
+  const std::string key = model_name(uri, node);
   const auto found = models_.find(key);
   if (found != models_.end()) return found->second;
   return models_.emplace(key, build(uri, node)).first->second;
@@ -194,6 +199,7 @@ ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node)
     top = content::find_node(scene, node);
     if (!top) return placeholder(uri + "#" + node, "the file has no node of that name");
   }
+  const std::string name = model_name(uri, node);
   // What moves together and looks alike is one draw call.
   std::map<std::pair<bool, std::uint32_t>, MeshData> merged;
   for (std::uint32_t n = 0; n < scene.nodes.size(); ++n) {
@@ -207,8 +213,7 @@ ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node)
   ObjectModel model;
   for (auto& [key, mesh] : merged) {
     fill_normals(mesh);
-    mesh.name = uri;
-    if (!node.empty()) mesh.name.append("#").append(node);
+    mesh.name = name;
     for (const Vec3f& p : mesh.positions)
       model.box_B.extend(p);
     model.parts.push_back({add_mesh(std::move(mesh)), file.first_material + key.second, key.first});

@@ -153,14 +153,10 @@ void Lane::finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_
     std::error_code ignored;  // it may never have been written
     std::filesystem::remove(snapshot_path_, ignored);
   }
-  if (given_up_) {
-    discard();
-    taken_through_ = through_tick();
-    return;
-  }
   // One last try, whether the disk rests or not.
-  gather();
+  given_up_ ? discard() : gather();
   taken_through_ = through_tick();
+  if (given_up_) return;
   writer_.close(hash, taken_through_);
   store(now);
   sync();

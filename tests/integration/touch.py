@@ -165,7 +165,7 @@ class TouchVisitor:
     def take(self, body, grip):
         """Presses on it where its grip is seen, and again beside it, as a person does who sees that nothing was taken. How much room the view
         makes is not known before something is held."""
-        rooms = [(room, (0, 0)) for room in (self.screen.room, 1, 1.04, 1.08)]
+        rooms = [(room, (0, 0)) for room in dict.fromkeys((self.screen.room, 1, 1.04, 1.08))]
         for room, aside in rooms + [(self.screen.room, aside) for aside in ((5, 0), (-5, 0), (0, 5), (0, -5))]:
             at = self.screen.pixel(placed(self.pose(body), grip), room)
             self.point((at[0] + aside[0], at[1] + aside[1]), "mousedown", 1)
