@@ -10,6 +10,7 @@ class Case:
     name: str
     outcome: str  # passed, failed, skipped
     detail: str = ""
+    seconds: float = 0.0
 
 
 @dataclass
@@ -28,20 +29,24 @@ class Tally:
 
 
 def _case(element: xml.Element) -> Case:
-    name = element.get("name", "?")
-    said = (element.findtext("system-out") or "").strip()
-    if element.find("failure") is not None or element.find("error") is not None or element.get("status") == "fail":
-        return Case(name, "failed", said)
+    suite, name = element.get("classname", ""), element.get("name", "?")
+    if not name.startswith(suite):  # GoogleTest writes the suite apart; CTest repeats the whole name
+        name = f"{suite}.{name}"
+    failures = [*element.findall("failure"), *element.findall("error")]
+    said = "\n".join([(element.findtext("system-out") or "").strip(), *((failure.text or failure.get("message", "")).strip() for failure in failures)]).strip()
+    seconds = float(element.get("time") or 0)
+    if failures or element.get("status") == "fail":
+        return Case(name, "failed", said, seconds)
     if element.find("skipped") is not None or element.get("status") in ("notrun", "disabled"):
-        return Case(name, "skipped", said)
-    return Case(name, "passed")
+        return Case(name, "skipped", said, seconds)
+    return Case(name, "passed", seconds=seconds)
 
 
 def read_junit(path: Path) -> Tally:
     """The cases of a JUnit file. A file that is missing or broken is a failed case: a run that died tells nothing."""
     try:
         return Tally([_case(element) for element in xml.parse(path).getroot().iter("testcase")])
-    except (OSError, xml.ParseError) as error:
+    except (OSError, xml.ParseError, ValueError) as error:
         return Tally([Case(path.name, "failed", f"no results: {error}")])
 
 
@@ -49,7 +54,7 @@ def write_junit(path: Path, suite: str, tally: Tally) -> None:
     root = xml.Element("testsuite", name=suite, tests=str(len(tally.cases)), failures=str(tally.count("failed")),
                        skipped=str(tally.count("skipped")))
     for case in tally.cases:
-        element = xml.SubElement(root, "testcase", name=case.name, classname=suite)
+        element = xml.SubElement(root, "testcase", name=case.name, classname=suite, time=f"{case.seconds:.3f}")
         if case.outcome == "failed":
             xml.SubElement(element, "failure", message=case.detail.splitlines()[-1] if case.detail else "failed")
         if case.outcome == "skipped":

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Callable
 
 import processes
+from report import Ran, long_cases, whole, write_report
 from results import Case, Tally, read_junit, write_junit
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -50,9 +51,14 @@ THREADED = ("unit_realtime", "unit_record", "unit_transport", "unit_client", "un
 
 @dataclass
 class Phase:
-    title: str
+    title: str  # what stands before a comma names it in logs and in the report
     run: Callable[[Path], Tally]  # gets its log, returns its cases
+    preset: str  # the build that it makes or needs
     beside: Callable[[], processes.Beside] | None = None  # what is begun with it, and ended with it
+
+    @property
+    def name(self) -> str:
+        return self.title.split(",")[0].replace(" ", "-")
 
 
 def _build_commands(preset: str, targets: tuple[str, ...]) -> tuple[list[str], list[str]]:
@@ -68,7 +74,7 @@ def build(preset: str, *targets: str) -> Phase:
             return Tally([Case(name, "failed", tail(log))])
         return Tally([Case(name, "passed")])
 
-    return Phase(f"build {preset}", run)
+    return Phase(f"build {preset}", run, preset)
 
 
 def begin(*commands: list[str]) -> Callable[[], processes.Beside]:
@@ -77,7 +83,7 @@ def begin(*commands: list[str]) -> Callable[[], processes.Beside]:
     return lambda: processes.Beside(["sh", "-c", " && ".join(map(shlex.join, commands))], OUT / "beside.log")
 
 
-def ctest(preset: str, only: str = "", leave_out: str = "", named: str = "", unnamed: str = "",
+def ctest(preset: str, what: str, only: str = "", leave_out: str = "", named: str = "", unnamed: str = "",
           beside: Callable[[], processes.Beside] | None = None) -> Phase:
     """Runs the tests of a build. Those without DDS run side by side, the others alone (see tests/CMakeLists.txt)."""
     def run(log: Path) -> Tally:
@@ -95,7 +101,7 @@ def ctest(preset: str, only: str = "", leave_out: str = "", named: str = "", unn
             tally.cases.append(Case(f"ctest {preset}", "failed", tail(log)))
         return tally
 
-    return Phase(f"test {preset}", run, beside)
+    return Phase(f"test {preset} {what}", run, preset, beside)
 
 
 def _gtest_programs(preset: str, log: Path) -> dict[str, list[dict]]:
@@ -145,7 +151,7 @@ def programs(preset: str, named: str = "", unnamed: str = "") -> Phase:
                 tally.add(some)
         return tally
 
-    return Phase(f"test {preset}", run)
+    return Phase(f"test {preset} programs", run, preset)
 
 
 def _fuzz_one(program: Path) -> Case:
@@ -154,11 +160,12 @@ def _fuzz_one(program: Path) -> Case:
     found.mkdir(parents=True, exist_ok=True)
     log = OUT / f"fuzz-{name}.log"
     log.unlink(missing_ok=True)
+    begun = time.monotonic()
     status = processes.run(
         [str(program), f"-max_total_time={FUZZ_SECONDS}", f"-timeout={SLOW_INPUT_S.get(name, FUZZ_INPUT_S)}", "-rss_limit_mb=3000", "-print_final_stats=1",
          f"-artifact_prefix={OUT}/fuzz-{name}-", str(found), str(ROOT / "tests/fuzz/corpus" / name)],
         log, limit_s=FUZZ_SECONDS + (400 if name in SLOW_INPUT_S else 120), env=SANITIZER_ENV)
-    return Case(f"fuzz.{name}", "failed" if status else "passed", tail(log) if status else "")
+    return Case(f"fuzz.{name}", "failed" if status else "passed", tail(log) if status else "", time.monotonic() - begun)
 
 
 def fuzz() -> Phase:
@@ -171,7 +178,7 @@ def fuzz() -> Phase:
         write_junit(log.with_suffix(".xml"), "fuzz", tally)
         return tally
 
-    return Phase(f"fuzz, {FUZZ_SECONDS} s each", run)
+    return Phase(f"fuzz, {FUZZ_SECONDS} s each", run, "asan-ubsan")
 
 
 def tidy() -> Phase:
@@ -181,7 +188,7 @@ def tidy() -> Phase:
         processes.run([*TIDY, "--junit", str(junit)], log, limit_s=3600)
         return read_junit(junit)
 
-    return Phase("clang-tidy", run)
+    return Phase("clang-tidy", run, "asan-ubsan")
 
 
 def tail(log: Path, lines: int = 30) -> str:
@@ -190,13 +197,13 @@ def tail(log: Path, lines: int = 30) -> str:
 
 def phases(quick: bool) -> list[Phase]:
     if quick:
-        return [build("quick", "in_process_tests"), ctest("quick", only="in-process", leave_out="slow")]
+        return [build("quick", "in_process_tests"), ctest("quick", "in-process", only="in-process", leave_out="slow")]
     too_slow = "|".join(TOO_SLOW_SANITIZED)
     return [
-        build("release"), ctest("release", only="in-process"),
-        ctest("release", leave_out="in-process", beside=begin(*_build_commands("asan-ubsan", ()), TIDY)),
+        build("release"), ctest("release", "in-process", only="in-process"),
+        ctest("release", "end-to-end", leave_out="in-process", beside=begin(*_build_commands("asan-ubsan", ()), TIDY)),
         build("asan-ubsan"), programs("asan-ubsan", unnamed=too_slow),
-        ctest("asan-ubsan", leave_out="architecture|in-process", unnamed=too_slow), fuzz(),
+        ctest("asan-ubsan", "end-to-end", leave_out="architecture|in-process", unnamed=too_slow), fuzz(),
         build("tsan", *(f"test_{program}" for program in THREADED)),
         programs("tsan", named=f"^({'|'.join(THREADED)})[.]", unnamed="AFileThatEatsMemory"),
         tidy(),
@@ -233,11 +240,28 @@ def report(tally: Tally, log: Path, seconds: float) -> None:
         print()
 
 
+def run_phases(chosen: list[Phase], done: dict[str, Ran]) -> None:
+    """One after another; what each found goes into `done`, so that a run that is interrupted can still be reported."""
+    broken: set[str] = set()  # builds that failed: their tests cannot run
+    started = time.monotonic()
+    for number, phase in enumerate(chosen, 1):
+        print(f"[{number}/{len(chosen)}  {clock(time.monotonic() - started)}] {phase.title}", flush=True)
+        if phase.preset in broken:
+            print("      not run: its build failed", flush=True)
+            continue
+        begun = time.monotonic()
+        log = OUT / f"{number}-{phase.name}.log"
+        tally = run_phase(phase, log)
+        done[phase.name] = Ran(tally, time.monotonic() - begun)
+        if phase.title.startswith("build") and tally.failed:
+            broken.add(phase.preset)
+        report(tally, log, done[phase.name].seconds)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(prog="deploy/test")
     parser.add_argument("--quick", action="store_true", help="one build, the tests that need no network, style")
     options = parser.parse_args()
-    chosen = phases(options.quick)
 
     os.chdir(ROOT)
     shutil.rmtree(OUT, ignore_errors=True)
@@ -245,23 +269,14 @@ def main() -> int:
     processes.adopt_orphans()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
 
-    total = Tally()
-    broken = ""  # the build that failed: its tests cannot run
-    started = time.monotonic()
+    done: dict[str, Ran] = {}
     try:
-        for number, phase in enumerate(chosen, 1):
-            print(f"[{number}/{len(chosen)}  {clock(time.monotonic() - started)}] {phase.title}", flush=True)
-            if broken and phase.title == broken.replace("build", "test"):
-                print("      not run: its build failed", flush=True)
-                continue
-            begun = time.monotonic()
-            log = OUT / f"{number}-{phase.title.split(',')[0].replace(' ', '-')}.log"
-            tally = run_phase(phase, log)
-            broken = phase.title if phase.title.startswith("build") and tally.failed else ""
-            report(tally, log, time.monotonic() - begun)
-            total.add(tally)
+        run_phases(phases(options.quick), done)
     finally:
         processes.end_leftovers(grace_s=0)
+        write_report(OUT / "report.json", ROOT, done)
+    print("the longest cases:", *long_cases(done), sep="\n  ")
+    total = whole(done)
     for name in sorted({case.name for case in total.failed}):
         print(f"failed: {name}")
     print(f"{total.count('passed')} passed, {len(total.failed)} failed")

@@ -14,6 +14,7 @@ import re
 import shlex
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
@@ -82,13 +83,15 @@ def _check(entry: dict, build: Path, configuration: bytes) -> Case:
     if remembered.exists():
         return Case(name, "passed")
     command = [*COMMAND, "-p", str(build), *_checks_of(_subject(source, build)), str(ROOT / source)]
+    begun = time.monotonic()
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=ROOT)
+    seconds = time.monotonic() - begun
     if done.returncode == 0:
         remembered.touch()
-        print(f"clean  {name}", flush=True)
-        return Case(name, "passed")
+        print(f"clean  {name}  {seconds:.1f} s", flush=True)
+        return Case(name, "passed", seconds=seconds)
     print(f"FAULTS {name}\n{done.stdout}{done.stderr}", flush=True)
-    return Case(name, "failed", done.stdout or done.stderr)
+    return Case(name, "failed", done.stdout or done.stderr, seconds)
 
 
 def _checks_of(subject: Path) -> list[str]:
