@@ -149,22 +149,15 @@ Expected<void> validate(const Settings& s) {
   return {};
 }
 
-}  // namespace
-
-Expected<Settings> read_settings(int argc, const char* const* argv, std::string& help) {
-  Settings s;
-  // The file comes first, so that CLI11 writes flags over it.
-  for (int i = 1; i + 1 < argc; ++i) {
-    if (std::string(argv[i]) != "--settings") continue;
-    if (auto read = TomlReader(argv[i + 1]).read(s); !read) return tl::unexpected(read.error());
-  }
+/// Writes the flags over `s`. `file` gets what --settings names, if it was given.
+Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::optional<std::string>& file,
+                          std::string& help) {
   CLI::App app{"The Mechane server: simulates worlds at 1 kHz and publishes them over DDS."};
   app.set_version_flag("--version", std::string("mechane ") + kVersion);
-  std::string settings_file;
   std::vector<std::filesystem::path> scenarios;
   int cpu = -1;
   bool paper = false;
-  app.add_option("--settings", settings_file, "TOML file; flags win over it");
+  app.add_option("--settings", file, "TOML file; flags win over it");
   app.add_option(
       "--scenario", scenarios,
       "X3D file of an exhibit, or its id in the catalogue; may be given several times, the first is the default");
@@ -197,13 +190,29 @@ Expected<Settings> read_settings(int argc, const char* const* argv, std::string&
     app.parse(argc, argv);
   } catch (const CLI::Success&) {
     help = app.count("--version") > 0 ? app.version() + "\n" : app.help();
-    return s;
+    return {};
   } catch (const CLI::ParseError& e) {
     return fail(e.what(), "command line", "see mechane server --help");
   }
   if (!scenarios.empty()) s.scenarios = scenarios;
   if (cpu >= 0) s.first_cpu = cpu;
   if (paper) s.force.mode = haptics::ForceMode::paper;
+  return {};
+}
+
+}  // namespace
+
+Expected<Settings> read_settings(int argc, const char* const* argv, std::string& help) {
+  // The flags are read twice: to learn which file is meant, and then over what it says.
+  std::optional<std::string> file;
+  Settings from_flags;
+  if (auto read = read_flags(argc, argv, from_flags, file, help); !read) return tl::unexpected(read.error());
+  if (!help.empty()) return from_flags;
+  Settings s;
+  if (file) {
+    if (auto read = TomlReader(*file).read(s); !read) return tl::unexpected(read.error());
+  }
+  if (auto read = read_flags(argc, argv, s, file, help); !read) return tl::unexpected(read.error());
   if (auto ok = validate(s); !ok) return tl::unexpected(ok.error());
   return s;
 }
