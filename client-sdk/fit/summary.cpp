@@ -103,6 +103,7 @@ void note_parts(const FittedObject& fitted, Summary& summary) {
         listed(hidden) + ": wholly inside others, so nothing of it is felt; where it is a node of yours, leave it out");
   }
   if (!sparse.empty()) {
+    summary.widest_gap_mm = widest_mm;
     summary.notes.push_back(
         fmt::format("{}: large, so the samples lie up to {} mm apart, and a fingertip may slip between them; cut it, "
                     "or raise --max-samples",
@@ -162,8 +163,15 @@ std::string verdict(const Summary& summary) {
   }
   const std::string felt =
       fmt::format("A finger feels this surface within {} mm at 99 of 100 places.", mm_text(summary.felt_p99_mm));
-  if (summary.felt_p99_mm <= kFeltAsRight_mm) return felt + " It will feel right.";
-  return felt + fmt::format(" Beyond {:.0f} mm edges feel rounded and flats wavy: {}", kFeltAsRight_mm, remedy);
+  if (summary.felt_p99_mm > kFeltAsRight_mm)
+    return felt + fmt::format(" Beyond {:.0f} mm edges feel rounded and flats wavy: {}", kFeltAsRight_mm, remedy);
+  if (summary.widest_gap_mm > 0) {
+    return felt + fmt::format(
+                      " But a fingertip may slip between samples that lie up to {} mm apart: cut the large parts, "
+                      "or raise --max-samples.",
+                      mm_text(summary.widest_gap_mm));
+  }
+  return felt + " It will feel right.";
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject& fitted) {

@@ -43,6 +43,7 @@ struct Summary {
   double felt_p50_mm = 0;  ///< of the whole surface, spread by area: how far from it a finger meets it (SurfaceError)
   double felt_p99_mm = 0;  ///< places that are not felt count with the whole reach
   double not_felt_share = 0;       ///< of those places
+  double widest_gap_mm = 0;        ///< between samples of a part that has too few of them; 0: no part has too few
   bool misses_budget = false;      ///< some part could not be made as exact as asked for
   std::vector<std::string> notes;  ///< what an author should know: what, where, remedy
 };

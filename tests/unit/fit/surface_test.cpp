@@ -58,6 +58,17 @@ TEST(Surface, WhatNoMapHoldsIsNotFeltAndTheVerdictSaysSo) {
   EXPECT_NE(verdict(summary).find("100.0 % of this surface is not felt"), std::string::npos);
 }
 
+TEST(Surface, WhatAFingertipMaySlipThroughIsNotSaidToFeelRight) {
+  FittedObject box = fitted_box();
+  EXPECT_NE(verdict(summarise(box, Surface(box))).find("feel right"), std::string::npos);
+  box.config.sample_spacing_m = box.report.parts.front().spacing_m / 2;  // more was asked for than there is
+  const Summary sparse = summarise(box, Surface(box));
+  ASSERT_FALSE(sparse.notes.empty());
+  EXPECT_NE(sparse.notes.back().find("slip between"), std::string::npos);
+  EXPECT_EQ(verdict(sparse).find("feel right"), std::string::npos) << verdict(sparse);
+  EXPECT_NE(verdict(sparse).find("--max-samples"), std::string::npos) << "the remedy";
+}
+
 TEST(Surface, SeamsBetweenPartsAreNoSurface) {
   const FittedObject& crank = fitted_crank();
   const Surface surface(crank);
