@@ -218,9 +218,31 @@ Json to_json(const proto::Event& s) {
   return j;
 }
 
+const char* word_of(proto::CommandKind kind) {
+  switch (kind) {
+    case mechane_command_none:
+      break;
+    case mechane_command_start_activity:
+      return "start_activity";
+    case mechane_command_restart_activity:
+      return "restart_activity";
+    case mechane_command_next_step:
+      return "next_step";
+    case mechane_command_click:
+      return "click";
+    case mechane_command_open:
+      return "open";
+    case mechane_command_answer:
+      return "answer";
+    case mechane_command_language:
+      return "language";
+  }
+  return "none";
+}
+
 Json to_json(const proto::Command& s) {
   Json j = head(s);
-  j.update({{"scope", text(s.scope)}, {"session", s.session}, {"id", s.id}, {"kind", s.kind}});
+  j.update({{"scope", text(s.scope)}, {"session", s.session}, {"id", s.id}, {"kind", word_of(s.kind)}});
   j["argument"] = proto::string_of(s.argument);
   return j;
 }

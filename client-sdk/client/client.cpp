@@ -69,17 +69,23 @@ class ClientImpl final : public Client {
   [[nodiscard]] std::shared_ptr<const WorldPresentation> presentation() const override;
   [[nodiscard]] std::optional<ServerStatus> server_status() const override;
   [[nodiscard]] std::vector<WorldEvent> take_events() override;
-  std::uint64_t start_activity(const std::string& activity) override { return send_command(1, activity); }
-  std::uint64_t restart_activity() override { return send_command(2, ""); }
-  std::uint64_t next_step() override { return send_command(3, ""); }
-  std::uint64_t click(const std::string& object) override { return send_command(4, object); }
-  std::uint64_t open_exhibit(const std::string& scenario) override { return send_command(5, scenario); }
+  std::uint64_t start_activity(const std::string& activity) override {
+    return send_command(mechane_command_start_activity, activity);
+  }
+  std::uint64_t restart_activity() override { return send_command(mechane_command_restart_activity, ""); }
+  std::uint64_t next_step() override { return send_command(mechane_command_next_step, ""); }
+  std::uint64_t click(const std::string& object) override { return send_command(mechane_command_click, object); }
+  std::uint64_t open_exhibit(const std::string& scenario) override {
+    return send_command(mechane_command_open, scenario);
+  }
   std::uint64_t answer(AnswerTime when, const std::string& activity, const std::string& question,
                        const std::string& answer) override {
     const char* const time = when == AnswerTime::before ? "before" : "after";
-    return send_command(6, fmt::format("{}:{}/{}={}", time, activity, question, answer));
+    return send_command(mechane_command_answer, fmt::format("{}:{}/{}={}", time, activity, question, answer));
   }
-  std::uint64_t tell_language(const std::string& language) override { return send_command(7, language); }
+  std::uint64_t tell_language(const std::string& language) override {
+    return send_command(mechane_command_language, language);
+  }
   [[nodiscard]] FrameTraffic frame_traffic() const override {
     const std::lock_guard lock(store_.mutex);
     return store_.traffic;
@@ -108,7 +114,7 @@ class ClientImpl final : public Client {
   [[nodiscard]] bool server_alive(TimePoint at) const;
   [[nodiscard]] LinkState judge(bool server_alive, std::string& why) const;
   void enter(LinkState state, std::string why);
-  std::uint64_t send_command(std::uint32_t kind, const std::string& argument);
+  std::uint64_t send_command(proto::CommandKind kind, const std::string& argument);
 
   const ClientConfig config_;
   const std::uint64_t session_;
@@ -364,7 +370,7 @@ std::vector<WorldEvent> ClientImpl::take_events() {
   return events;
 }
 
-std::uint64_t ClientImpl::send_command(std::uint32_t kind, const std::string& argument) {
+std::uint64_t ClientImpl::send_command(proto::CommandKind kind, const std::string& argument) {
   const std::lock_guard lock(mutex_);
   if (!world_) return 0;
   // 20 bits of the session tell clients apart; 52 bits in all, so that an event's value holds the id exactly.

@@ -62,7 +62,8 @@ bool WorldLink::matched() const {
          presentation_.matched() > 0 && events_.matched() > 0;
 }
 
-bool WorldLink::send_command(std::uint64_t session, std::uint64_t id, std::uint32_t kind, const std::string& argument) {
+bool WorldLink::send_command(std::uint64_t session, std::uint64_t id, proto::CommandKind kind,
+                             const std::string& argument) {
   proto::Command wire{};
   proto::set_text(wire.scope, proto::world_partition(world_));
   wire.protocol = proto::kProtocol;

@@ -54,7 +54,7 @@ class WorldLink {
 
   /// All endpoints have found their peers.
   [[nodiscard]] bool matched() const;
-  bool send_command(std::uint64_t session, std::uint64_t id, std::uint32_t kind, const std::string& argument);
+  bool send_command(std::uint64_t session, std::uint64_t id, proto::CommandKind kind, const std::string& argument);
 
  private:
   WorldLink(std::string world, std::uint64_t number, WorldStore& store);

@@ -12,10 +12,14 @@
 namespace mechane::transport {
 namespace {
 
-// Kinds of commands that are the main thread's, not the tick's.
-constexpr std::uint32_t kOpen = 5;
-constexpr std::uint32_t kAnswer = 6;
-constexpr std::uint32_t kLanguage = 7;
+// The tick's kinds of commands have the wire's numbers; the other kinds are the main thread's.
+template <state::CommandKind ours, proto::CommandKind wire>
+constexpr bool kSame = static_cast<int>(ours) == static_cast<int>(wire);
+static_assert(kSame<state::CommandKind::none, mechane_command_none>);
+static_assert(kSame<state::CommandKind::start_activity, mechane_command_start_activity>);
+static_assert(kSame<state::CommandKind::restart_activity, mechane_command_restart_activity>);
+static_assert(kSame<state::CommandKind::next_step, mechane_command_next_step>);
+static_assert(kSame<state::CommandKind::click, mechane_command_click>);
 
 std::uint64_t now_ns() {
   return to_ns(std::chrono::steady_clock::now());
@@ -103,24 +107,39 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
     if (!info.valid) return;
     if (wire.protocol != proto::kProtocol) return rejects_.add(Reject::wrong_protocol);
     if (!is_new(wire.session, wire.id)) return;
-    state::Command command;
-    command.id = wire.id;
-    if (wire.kind == kOpen) return take_wish(proto::string_of(wire.argument), wire.id);
-    if (wire.kind == kAnswer) return take_answer(proto::string_of(wire.argument), wire.id);
-    if (wire.kind == kLanguage) return take_language(proto::string_of(wire.argument), wire.id);
-    if (wire.kind < 1 || wire.kind > 4) return refuse(wire.id);
-    command.kind = static_cast<state::CommandKind>(wire.kind);
-    if (command.kind == state::CommandKind::start_activity) {
-      const ActivityId activity = port_.description().find_activity(proto::string_of(wire.argument));
-      if (!activity) return refuse(wire.id);
-      command.argument = static_cast<std::uint32_t>(activity.index());
-    } else if (command.kind == state::CommandKind::click) {
-      const BodyId body = port_.description().find_body(proto::string_of(wire.argument));
-      if (!body) return refuse(wire.id);
-      command.argument = static_cast<std::uint32_t>(body.index());
+    switch (wire.kind) {
+      case mechane_command_open:
+        return take_wish(proto::string_of(wire.argument), wire.id);
+      case mechane_command_answer:
+        return take_answer(proto::string_of(wire.argument), wire.id);
+      case mechane_command_language:
+        return take_language(proto::string_of(wire.argument), wire.id);
+      case mechane_command_start_activity:
+      case mechane_command_restart_activity:
+      case mechane_command_next_step:
+      case mechane_command_click:
+        return take_for_tick(wire);
+      case mechane_command_none:
+        break;
     }
-    if (!port_.offer_command(command)) refuse(wire.id);
+    refuse(wire.id);
   });
+}
+
+void WorldWriter::take_for_tick(const proto::Command& wire) {
+  state::Command command;
+  command.id = wire.id;
+  command.kind = static_cast<state::CommandKind>(wire.kind);
+  if (command.kind == state::CommandKind::start_activity) {
+    const ActivityId activity = port_.description().find_activity(proto::string_of(wire.argument));
+    if (!activity) return refuse(wire.id);
+    command.argument = static_cast<std::uint32_t>(activity.index());
+  } else if (command.kind == state::CommandKind::click) {
+    const BodyId body = port_.description().find_body(proto::string_of(wire.argument));
+    if (!body) return refuse(wire.id);
+    command.argument = static_cast<std::uint32_t>(body.index());
+  }
+  if (!port_.offer_command(command)) refuse(wire.id);
 }
 
 void WorldWriter::take_wish(const std::string& scenario, std::uint64_t id) {

@@ -35,6 +35,8 @@ class WorldWriter {
   WorldWriter(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios);
   void take_wish(const std::string& scenario, std::uint64_t id);
   void take_commands(proto::ReaderView<proto::Command> view);
+  /// A command that the tick carries out.
+  void take_for_tick(const proto::Command& wire);
   /// Whether a command was not heard before: a link that was cut and found again brings those of the last seconds twice.
   [[nodiscard]] bool is_new(std::uint64_t session, std::uint64_t id);
   void take_answer(const std::string& argument, std::uint64_t id);

@@ -13,7 +13,7 @@ namespace mechane::proto {
 
 /// Version of idl/mechane.idl. Raise it when a field changes its meaning, not for a topic that is added: who does not know it does not
 /// subscribe to it. Receivers drop samples of another version.
-inline constexpr std::uint32_t kProtocol = 2;
+inline constexpr std::uint32_t kProtocol = 3;
 inline constexpr std::size_t kMaxUsers = 4;
 inline constexpr std::size_t kMaxLocalContacts = 8;
 
@@ -25,6 +25,7 @@ using WorldStatus = ::mechane_WorldStatus;
 using WorldPresentation = ::mechane_WorldPresentation;
 using Event = ::mechane_Event;
 using Command = ::mechane_Command;
+using CommandKind = ::mechane_CommandKind;
 using WorldAssignment = ::mechane_WorldAssignment;
 using ServerStatus = ::mechane_ServerStatus;
 using KioskStatus = ::mechane_KioskStatus;

@@ -178,6 +178,32 @@ TEST_F(Loopback, AWatcherLearnsWhatToShowAndItsVisitorAnswers) {
   EXPECT_EQ(server.languages().at(0), 0U);
 }
 
+TEST_F(Loopback, ACommandOfNoKindIsRefused) {
+  EchoServer server;
+  auto watcher = connect(Role::watcher, "watcher");
+  ASSERT_TRUE(watcher->wait_for(LinkState::joined, 10s));
+  auto participant = proto::Participant::create(kClientDomain);
+  ASSERT_TRUE(participant);
+  auto writer = proto::Writer<proto::Command>::create(*participant, proto::world_partition("w1"));
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(eventually([&] { return writer->matched() > 0; }));
+  proto::Command command{};
+  proto::set_text(command.scope, proto::world_partition("w1"));
+  command.protocol = proto::kProtocol;
+  command.session = 77;
+  const std::string nothing;
+  command.argument = proto::look_into(nothing);
+  command.id = 1;
+  command.kind = mechane_command_none;
+  ASSERT_TRUE(writer->write(command));
+  bool refused = false;
+  EXPECT_TRUE(eventually([&] {
+    for (const client::WorldEvent& event : watcher->take_events())
+      refused = refused || (event.kind == "command_refused" && event.value == 1);
+    return refused;
+  }));
+}
+
 TEST_F(Loopback, TheFirstSessionKeepsTheHandAndTheNextHasItWhenTheFirstIsGone) {
   EchoServer server;
   auto first = connect(Role::hand, "first-program");
