@@ -12,7 +12,7 @@
 
 #include "client-sdk/cli/content_text.hpp"
 #include "server/base/markup.hpp"
-#include "server/scenario/utf8.hpp"
+#include "server/base/utf8.hpp"
 
 namespace mechane::cli {
 namespace {
@@ -39,7 +39,7 @@ constexpr std::size_t kLongestName = 26;
 
 /// Text of a file as XML may have it; what is not UTF-8 ends it.
 std::string escaped(const std::string& text) {
-  return escape_markup(shown(text.substr(0, scenario::first_bad_utf8(text).value_or(text.size()))));
+  return escape_markup(shown(text.substr(0, first_bad_utf8(text).value_or(text.size()))));
 }
 
 /// At most `letters` of it; UTF-8 is not cut in the middle of a letter.

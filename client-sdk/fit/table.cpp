@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "server/base/utf8.hpp"
+
 namespace mechane::fit {
 namespace {
 
@@ -16,17 +18,8 @@ constexpr std::size_t kNameColumns = 14;
 std::vector<std::string> characters(std::string_view text) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xC2 && lead < 0xE0 ? 2
-                               : lead >= 0xE0 && lead < 0xF0 ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                             : 0;
-    bool good = length != 0 && i + length <= text.size() && lead >= 0x20 && lead != 0x7F;
-    for (std::size_t k = 1; good && k < length; ++k)
-      good = (static_cast<unsigned char>(text[i + k]) & 0xC0U) == 0x80U;
-    // C1 control characters, which some terminals obey.
-    if (good && lead == 0xC2) good = static_cast<unsigned char>(text[i + 1]) >= 0xA0;
+    const std::size_t length = utf8_length(text.substr(i));
+    const bool good = length != 0 && !is_control(text.substr(i, length));
     out.emplace_back(good ? std::string(text.substr(i, length)) : "?");
     i += good ? length : 1;
   }

@@ -15,7 +15,8 @@ enum class Level { debug, info, warning, error };
 /// Names the program in each line and sets the least level shown. Call once, in main, before other threads start.
 void start(std::string_view program, Level least);
 
-/// Thread-safe. The text is one line for a person; build it with fmt::format where it has values.
+/// Thread-safe. The text is one line for a person; build it with fmt::format where it has values. Words of strangers may be in it: see
+/// printable.hpp. Of equal warnings and errors one a minute is shown, and how many more there were.
 void debug(std::string_view text);
 void info(std::string_view text);
 void warning(std::string_view text);

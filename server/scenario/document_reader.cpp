@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "server/base/utf8.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/scenario/document.hpp"
 #include "server/scenario/uses.hpp"
-#include "server/scenario/utf8.hpp"
 
 namespace mechane::scenario {
 namespace {

@@ -1,12 +1,10 @@
-#include "server/scenario/utf8.hpp"
+#include "server/base/utf8.hpp"
 
 #include <cstdint>
 
-namespace mechane::scenario {
-namespace {
+namespace mechane {
 
-/// How many bytes the letter at the front takes; 0 where it is none.
-std::size_t letter_length(std::string_view text) {
+std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<std::uint8_t>(text[i]) : std::uint8_t{0};
   };
@@ -28,15 +26,19 @@ std::size_t letter_length(std::string_view text) {
   return 0;
 }
 
-}  // namespace
+bool is_control(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(character[i]); };
+  if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
+  return character.size() == 2 && byte(0) == 0xC2 && byte(1) < 0xA0;
+}
 
 std::optional<std::size_t> first_bad_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = letter_length(text.substr(i));
+    const std::size_t length = utf8_length(text.substr(i));
     if (length == 0) return i;
     i += length;
   }
   return std::nullopt;
 }
 
-}  // namespace mechane::scenario
+}  // namespace mechane
