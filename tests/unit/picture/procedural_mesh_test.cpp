@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "client-sdk/display/display_app.hpp"
-#include "client-sdk/draw/sky_light.hpp"
-
 namespace mechane::picture {
 namespace {
 
@@ -40,39 +37,6 @@ TEST(ProceduralMesh, falling_water_lands_where_a_stone_would) {
   const float flight_s = std::sqrt(2 * 0.7F / 9.81F);
   EXPECT_NEAR(end.x(), 0.5F * flight_s, 2e-3F);
   EXPECT_NEAR(end.y(), 0.5F, 2e-3F);
-}
-
-TEST(SkyLight, an_even_sky_lights_evenly) {
-  constexpr PixelSize kMap{96, 48};
-  const std::vector<Vec3f> map(std::size_t{kMap.width} * kMap.height, Vec3f(1, 0.5F, 0.25F));
-  const draw::SkyHarmonics sh = draw::project_sky(map, kMap);
-  for (const Vec3f& n : {Vec3f(0, 1, 0), Vec3f(0.6F, 0, 0.8F), Vec3f(0, -1, 0)}) {
-    EXPECT_NEAR(draw::irradiance(sh, n).x(), kPi, 0.02);
-    EXPECT_NEAR(draw::irradiance(sh, n).z(), kPi / 4, 0.01);
-  }
-}
-
-TEST(SkyLight, light_comes_from_where_the_sky_is_bright) {
-  constexpr PixelSize kMap{96, 48};
-  std::vector<Vec3f> map;
-  for (std::uint32_t row = 0; row < kMap.height; ++row) {
-    for (std::uint32_t column = 0; column < kMap.width; ++column) {
-      // A clamped cosine about +x: its irradiance there is 2 pi / 3.
-      map.push_back(Vec3f::Constant(std::max(0.0F, draw::sky_map_direction(column, row, kMap).x())));
-    }
-  }
-  const draw::SkyHarmonics sh = draw::project_sky(map, kMap);
-  EXPECT_NEAR(draw::irradiance(sh, Vec3f(1, 0, 0)).x(), 2 * kPi / 3, 0.06);
-  EXPECT_LT(draw::irradiance(sh, Vec3f(-1, 0, 0)).x(), 0.15F);
-}
-
-TEST(ParseSize, takes_sizes_and_tells_what_is_none) {
-  EXPECT_EQ(display::parse_size("1280x720").value(), (PixelSize{1280, 720}));
-  for (const char* bad : {"", "x", "1280", "1280x", "x720", "1280x720x", "-5x10", "99999x10", "12 x 9", "0x0"}) {
-    const auto size = display::parse_size(bad);
-    ASSERT_FALSE(size.has_value()) << bad;
-    EXPECT_FALSE(size.error().remedy.empty());
-  }
 }
 
 }  // namespace
