@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/hand/hand_force.hpp"
 #include "server/realtime/wakeup.hpp"
 #include <mechane/proto/convert.hpp>
 #include <mechane/proto/entity.hpp>
@@ -64,7 +65,7 @@ Json to_json(const proto::HapticOutput& s) {
   j.update({{"echo_seq", s.echo_seq}, {"echo_sent_ns", s.echo_sent_ns}, {"f_W", list(s.f_W)}, {"t_W", list(s.t_W)}});
   j.update({{"finger_force_n", list(s.finger_force_n)}, {"reasons", s.reasons}, {"holding", s.holding != 0}});
   Json contacts = Json::array();
-  for (std::size_t i = 0; i < s.contact_count && i < proto::kMaxLocalContacts; ++i) {
+  for (std::size_t i = 0; i < s.contact_count && i < hand::kMaxLocalContacts; ++i) {
     const auto& c = s.contacts[i];
     contacts.push_back({{"p_W", list(c.p_W)},
                         {"n_W", list(c.n_W)},

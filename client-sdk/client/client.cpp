@@ -52,7 +52,7 @@ class ClientImpl final : public Client {
   [[nodiscard]] bool wait_for(LinkState wanted, Duration timeout) override;
   [[nodiscard]] std::string refusal() const override;
   [[nodiscard]] std::uint64_t session() const override { return session_; }
-  bool send(const HandInput& input) noexcept override {
+  bool send(const HandSample& input) noexcept override {
     return hand_ && state() == LinkState::joined && hand_->send(input);
   }
   [[nodiscard]] std::uint64_t sent_sequence() const noexcept override { return hand_ ? hand_->sent_sequence() : 0; }
@@ -386,7 +386,7 @@ Expected<void> check(const ClientConfig& config) {
   if (!config.display.empty()) {
     if (auto named = proto::check_name(config.display, "display"); !named) return named;
   }
-  if (config.user >= proto::kMaxUsers) {
+  if (config.user >= hand::kMaxUsers) {
     return fail(fmt::format("user {} is none of a kiosk's", config.user), "user", "choose one of 0 to 3");
   }
   if (config.program.size() > 31 || config.scenario.size() > 63) {

@@ -32,7 +32,7 @@ Expected<std::unique_ptr<HandLink>> HandLink::create(const proto::Participant& p
   return made;
 }
 
-bool HandLink::send(const HandInput& input) noexcept {
+bool HandLink::send(const HandSample& input) noexcept {
   proto::HapticInput& s = sending_;
   s.seq = sent_.load(std::memory_order_relaxed) + 1;
   proto::set_pose(s.X_WH, input.X_WH);

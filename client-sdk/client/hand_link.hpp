@@ -27,7 +27,7 @@ class HandLink {
   /// Forces of another epoch are out of date: a server that was replaced. 0: none is taken.
   void accept_epoch(std::uint32_t epoch) { epoch_.store(epoch, std::memory_order_relaxed); }
 
-  bool send(const HandInput& input) noexcept;
+  bool send(const HandSample& input) noexcept;
   [[nodiscard]] std::uint64_t sent_sequence() const noexcept { return sent_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::optional<ForceSample> newest_force() noexcept;
   [[nodiscard]] std::optional<ForceSample> wait_force(Duration timeout);

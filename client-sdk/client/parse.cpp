@@ -32,7 +32,7 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
   out.stiffness_n_per_m = std::max(0.0f, wire.stiffness_n_per_m);
   out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
   out.friction = std::max(0.0f, wire.friction);
-  out.valid_for = std::chrono::microseconds(std::min<std::uint32_t>(wire.valid_us, 1'000'000));
+  out.validity = std::chrono::microseconds(std::min<std::uint32_t>(wire.valid_us, 1'000'000));
   return true;
 }
 
@@ -161,7 +161,7 @@ bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
     return false;
   out.sequence = wire.seq;
   out.echo_sequence = wire.echo_seq;
-  out.echo_sent = TimePoint(Duration(static_cast<std::int64_t>(wire.echo_sent_ns)));
+  out.echo_sent_ns = wire.echo_sent_ns;
   out.waited = std::chrono::microseconds(wire.waited_us);
   out.force_W = {proto::to_vec3(wire.f_W), proto::to_vec3(wire.t_W)};
   std::copy(std::begin(wire.finger_force_n), std::end(wire.finger_force_n), out.finger_force_n.begin());

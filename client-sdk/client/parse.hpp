@@ -50,7 +50,7 @@ struct Assignment {
     std::string program;
     std::string host;
   };
-  std::array<Owner, proto::kMaxUsers> owners;
+  std::array<Owner, hand::kMaxUsers> owners;
 };
 [[nodiscard]] bool parse(const proto::WorldAssignment& wire, Assignment& out);
 

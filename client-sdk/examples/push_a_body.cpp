@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     if (!(*client)->newest_frame(frame) || frame.bodies.empty()) continue;
     // From 20 cm above the body down to 3 mm below its origin, over the whole time.
     const double share = std::chrono::duration<double>(next - begin) / std::chrono::duration<double>(all);
-    client::HandInput hand;
+    client::HandSample hand;
     hand.X_WH.p = frame.bodies[0].X_WB.p + Vec3(0, 0.2 - 0.203 * share, 0);
     hand.V_WH.v = Vec3(0, -0.203 / arguments.seconds, 0);
     (*client)->send(hand);

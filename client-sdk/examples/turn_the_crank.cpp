@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     const double t = std::chrono::duration<double>(next - begin).count();
     const double angle =
         -2.0 * kPi * 0.25 * std::max(0.0, t - 1.5);  // a quarter turn a second, after a second of grasping
-    client::HandInput hand;
+    client::HandSample hand;
     hand.X_WH.p = *X_WB * (Eigen::AngleAxisd(angle, Vec3::UnitZ()) * p_BGrip);
     hand.grasp_intent = t > 0.5 ? 1.0 : 0.0;
     (*client)->send(hand);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "server/base/clock.hpp"
-#include "server/force/governor.hpp"
+#include "server/hand/governor.hpp"
 #include <mechane/client/types.hpp>
 
 namespace mechane::haptic {
@@ -15,11 +15,11 @@ class Device {
   /// Errors: not plugged in, no rights, another program has it.
   [[nodiscard]] virtual Expected<void> open() = 0;
   /// The hand now. `dt` is the time since the last call.
-  [[nodiscard]] virtual client::HandInput read(Duration dt) noexcept = 0;
+  [[nodiscard]] virtual client::HandSample read(Duration dt) noexcept = 0;
   /// The force to render until the next call. All zero on the way out.
-  virtual void write(const force::GovernedForce& force) noexcept = 0;
+  virtual void write(const hand::HandForce& force) noexcept = 0;
   /// What the device can bear; the loop's governor is made from it.
-  [[nodiscard]] virtual force::GovernorConfig limits() const = 0;
+  [[nodiscard]] virtual hand::GovernorConfig limits() const = 0;
 };
 
 }  // namespace mechane::haptic

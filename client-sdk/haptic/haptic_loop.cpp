@@ -6,10 +6,10 @@
 namespace mechane::haptic {
 
 using client::ForceSample;
-using client::HandInput;
+using hand::HandSample;
 
 Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client, Device& device, RenderMode mode) {
-  auto governor = force::ForceGovernor::make(device.limits());
+  auto governor = hand::ForceGovernor::make(device.limits());
   if (!governor) return tl::unexpected(governor.error());
   return std::unique_ptr<HapticLoop>(new HapticLoop(client, device, mode, *governor));
 }
@@ -19,31 +19,17 @@ bool HapticLoop::take_answer() noexcept {
   if (!sample || !age_.offer(client_.session(), sample->sequence, sample->received)) return false;
   answer_ = *sample;
   ++stats_.answers;
-  if (answer_.echo_sequence > 0) round_trip_.record(answer_.received - answer_.echo_sent);
+  if (answer_.echo_sequence > 0) round_trip_.record(answer_.received - answer_.echo_sent());
   return true;
 }
 
 void HapticLoop::set_local_contacts() noexcept {
-  std::array<force::LocalContact, force::kMaxLocalContacts> contacts{};
-  const std::size_t count = std::min<std::size_t>(answer_.contact_count, contacts.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const client::LocalContact& from = answer_.contacts[i];
-    contacts[i] = {from.p_W,
-                   from.n_W,
-                   from.v_W,
-                   from.depth_m,
-                   from.curvature_per_m,
-                   from.stiffness_n_per_m,
-                   from.damping_ns_per_m,
-                   from.friction,
-                   from.valid_for};
-  }
-  local_.set({contacts.data(), count}, sent_p_WH_[answer_.echo_sequence % sent_p_WH_.size()]);
+  local_.set(answer_.contact_span(), sent_p_WH_[answer_.echo_sequence % sent_p_WH_.size()]);
 }
 
-void HapticLoop::render(const HandInput& input, TimePoint now, Duration dt, bool engaged) noexcept {
+void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept {
   const Duration age = age_.age(now);
-  force::GovernorInput wanted;
+  hand::GovernorInput wanted;
   wanted.wanted_W = answer_.force_W;
   wanted.finger_force_n = answer_.finger_force_n;
   if (mode_ == RenderMode::local && !answer_.holding)
@@ -56,7 +42,7 @@ void HapticLoop::render(const HandInput& input, TimePoint now, Duration dt, bool
 }
 
 void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
-  const HandInput input = device_.read(dt);
+  const HandSample input = device_.read(dt);
   if (client_.send(input)) {
     ++stats_.sent;
     sent_p_WH_[client_.sent_sequence() % sent_p_WH_.size()] = input.X_WH.p;
@@ -73,7 +59,7 @@ void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
 }
 
 bool HapticLoop::release(TimePoint now, Duration dt) noexcept {
-  const HandInput input = device_.read(dt);
+  const HandSample input = device_.read(dt);
   render(input, now, dt, false);
   return rendered_.force_W.f.isZero(0) && rendered_.force_W.t.isZero(0);
 }

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "client-sdk/haptic/device.hpp"
-#include "server/force/freshness.hpp"
-#include "server/force/governor.hpp"
-#include "server/force/local_contact_model.hpp"
+#include "server/hand/freshness.hpp"
+#include "server/hand/governor.hpp"
+#include "server/hand/local_contact_model.hpp"
 #include "server/realtime/histogram.hpp"
 #include <mechane/client/client.hpp>
 
@@ -47,26 +47,26 @@ class HapticLoop {
   [[nodiscard]] const LoopStats& stats() const noexcept { return stats_; }
   /// From sending a hand to receiving the force that answers it.
   [[nodiscard]] const realtime::LatencyHistogram& round_trip() const noexcept { return round_trip_; }
-  [[nodiscard]] const force::ForceGovernor& governor() const noexcept { return governor_; }
-  [[nodiscard]] const force::GovernedForce& rendered() const noexcept { return rendered_; }
+  [[nodiscard]] const hand::ForceGovernor& governor() const noexcept { return governor_; }
+  [[nodiscard]] const hand::HandForce& rendered() const noexcept { return rendered_; }
   [[nodiscard]] bool holding() const noexcept { return answer_.holding; }
 
  private:
-  HapticLoop(client::Client& client, Device& device, RenderMode mode, const force::ForceGovernor& governor)
+  HapticLoop(client::Client& client, Device& device, RenderMode mode, const hand::ForceGovernor& governor)
       : client_(client), device_(device), mode_(mode), governor_(governor) {}
   bool take_answer() noexcept;
   void set_local_contacts() noexcept;
-  void render(const client::HandInput& input, TimePoint now, Duration dt, bool engaged) noexcept;
+  void render(const client::HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept;
 
   client::Client& client_;
   Device& device_;
   RenderMode mode_;
-  force::ForceGovernor governor_;
-  force::LocalContactModel local_;
-  force::SampleAge age_;
+  hand::ForceGovernor governor_;
+  hand::LocalContactModel local_;
+  hand::SampleAge age_;
   client::ForceSample answer_;
   std::array<Vec3, 256> sent_p_WH_{};  // by sequence number: where the hand was in the sample that an answer echoes
-  force::GovernedForce rendered_;
+  hand::HandForce rendered_;
   LoopStats stats_;
   realtime::LatencyHistogram round_trip_;
 };

@@ -11,7 +11,7 @@ void VirtualDevice::intend(const HandIntent& intent) noexcept {
   placed_ = true;
 }
 
-client::HandInput VirtualDevice::read(Duration dt) noexcept {
+client::HandSample VirtualDevice::read(Duration dt) noexcept {
   const double dt_s = to_seconds(dt);
   if (dt_s > 0) {
     const double k = arm_.stiffness_n_per_m;
@@ -23,7 +23,7 @@ client::HandInput VirtualDevice::read(Duration dt) noexcept {
     V_WH_.w = rotation_vector(intent_.X_WH.R * X_WH_.R.conjugate()) / dt_s;
     X_WH_.R = intent_.X_WH.R;
   }
-  client::HandInput input;
+  client::HandSample input;
   input.kind = intent_.kind;
   input.X_WH = X_WH_;
   input.V_WH = V_WH_;

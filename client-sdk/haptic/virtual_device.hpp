@@ -27,10 +27,10 @@ class VirtualDevice final : public Device {
   explicit VirtualDevice(const ArmConfig& arm = {}) : arm_(arm) {}
 
   [[nodiscard]] Expected<void> open() override { return {}; }
-  [[nodiscard]] client::HandInput read(Duration dt) noexcept override;
-  void write(const force::GovernedForce& force) noexcept override { force_ = force; }
+  [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
+  void write(const hand::HandForce& force) noexcept override { force_ = force; }
   /// Those of a desktop stylus device of the Phantom class.
-  [[nodiscard]] force::GovernorConfig limits() const override { return {}; }
+  [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
 
   void intend(const HandIntent& intent) noexcept;
   /// The force that the hand feels now, N.
@@ -41,7 +41,7 @@ class VirtualDevice final : public Device {
   HandIntent intent_;
   Pose X_WH_;
   Twist V_WH_;
-  force::GovernedForce force_;
+  hand::HandForce force_;
   bool placed_ = false;
 };
 

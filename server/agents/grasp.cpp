@@ -12,7 +12,7 @@
 namespace mechane::agents {
 namespace {
 
-using state::HandKind;
+using hand::HandKind;
 using state::ParameterKind;
 
 constexpr double kIntentCloses = 0.5;
@@ -45,7 +45,7 @@ std::size_t digit_of(std::uint8_t segment) {
 }
 
 Touch find_touch(const state::UserState& user, BodyId body) {
-  std::array<Patch, 1 + state::kFingers> digits{};
+  std::array<Patch, 1 + hand::kFingers> digits{};
   Patch all;
   for (const state::Contact& contact : user.contact_span()) {
     if (contact.body != body) continue;
@@ -82,7 +82,7 @@ class GraspAgent final : public Agent {
         break_m_(build.parameters.number("breakDistance")),
         active_(build.slot("active")),
         body_(build.slot("body", -1)) {
-    for (std::size_t u = 0; u < state::kMaxUsers; ++u) {
+    for (std::size_t u = 0; u < hand::kMaxUsers; ++u) {
       const std::string user = "user" + std::to_string(u);
       was_open_[u] = build.slot(user + ".was_open", 1);
       closed_s_[u] = build.slot(user + ".closed_s");
@@ -175,10 +175,10 @@ class GraspAgent final : public Agent {
   double break_m_;
   std::size_t active_;
   std::size_t body_;
-  std::array<std::size_t, state::kMaxUsers> was_open_{};
-  std::array<std::size_t, state::kMaxUsers> closed_s_{};  // how long the hand has been closing on a body
-  std::array<std::size_t, state::kMaxUsers> holds_{};     // the grasp is this agent's: another may share its bodies
-  std::array<std::size_t, state::kMaxUsers> open_s_{};    // how long the holding hand has been open
+  std::array<std::size_t, hand::kMaxUsers> was_open_{};
+  std::array<std::size_t, hand::kMaxUsers> closed_s_{};  // how long the hand has been closing on a body
+  std::array<std::size_t, hand::kMaxUsers> holds_{};     // the grasp is this agent's: another may share its bodies
+  std::array<std::size_t, hand::kMaxUsers> open_s_{};    // how long the holding hand has been open
 };
 
 Expected<std::unique_ptr<Agent>> make_grasp(const Build& build) {

@@ -7,7 +7,7 @@
 namespace mechane::agents {
 namespace {
 
-using state::HandKind;
+using hand::HandKind;
 using state::ParameterKind;
 
 constexpr std::size_t kIndexTip = 6;  // segment of the index finger's last phalanx; x along it, origin in its middle

@@ -10,7 +10,7 @@ constexpr double kApart_s = 0.25;  // a tremble on the surface is one touch
 }  // namespace
 
 Touches::Touches(const state::WorldDescription& description, state::MemoryLayout& layout) {
-  for (std::size_t u = 0; u < state::kMaxUsers; ++u) {
+  for (std::size_t u = 0; u < hand::kMaxUsers; ++u) {
     for (std::size_t b = 0; b < description.bodies.size(); ++b) {
       if (description.bodies[b].object == nullptr) continue;
       const std::string value = "user" + std::to_string(u) + "." + description.bodies[b].name;

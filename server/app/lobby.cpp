@@ -218,7 +218,7 @@ Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDesc
     transport_.assign_kiosk(kiosk, *next.running.port);
   for (const Session& session : transport_.sessions().sessions()) {
     const std::size_t slot = entry.running.port->slot_of(session.id);
-    if (slot >= state::kMaxUsers) continue;
+    if (slot >= hand::kMaxUsers) continue;
     entry.running.port->unbind_user(slot);
     bind_hand(session, next);
   }
@@ -302,9 +302,9 @@ void Lobby::hand_granted(const Session& session) {
 void Lobby::bind_hand(const Session& session, Entry& entry) {
   transport::WorldPort& port = *entry.running.port;
   const std::size_t slot = port.free_slot();
-  if (slot >= state::kMaxUsers || !port.bind_user(slot, session.kiosk, session.user, session.id)) {
+  if (slot >= hand::kMaxUsers || !port.bind_user(slot, session.kiosk, session.user, session.id)) {
     log::warning(fmt::format("{}: no place for this hand in world {}, which has {} at most", who(session), entry.name,
-                             state::kMaxUsers));
+                             hand::kMaxUsers));
     return;
   }
   log::info(fmt::format("{} is in world {}", who(session), entry.name));
@@ -314,7 +314,7 @@ void Lobby::hand_freed(const Session& session) {
   Entry* entry = world_of(session.kiosk);
   if (entry == nullptr) return;
   const std::size_t slot = entry->running.port->slot_of(session.id);
-  if (slot < state::kMaxUsers) entry->running.port->unbind_user(slot);
+  if (slot < hand::kMaxUsers) entry->running.port->unbind_user(slot);
 }
 
 void Lobby::kiosk_left(const std::string& kiosk, TimePoint now) {

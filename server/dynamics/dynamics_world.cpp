@@ -194,7 +194,7 @@ struct DynamicsWorld::Impl {
   std::unique_ptr<Body> ground;  // body1 of joints that hang on the world
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<Joint> joints;
-  std::array<Hand, state::kMaxUsers> hands;
+  std::array<Hand, hand::kMaxUsers> hands;
   std::vector<std::unique_ptr<RowConstraint>> grips;  // by user, then body
   std::unique_ptr<BodyContacts> contacts;             // null: no two bodies may ever meet
   std::unique_ptr<CouplingRows> couplings;            // null: the world has none

@@ -9,7 +9,7 @@
 namespace mechane::haptics {
 namespace {
 
-using state::HandKind;
+using hand::HandKind;
 
 // A phalanx is nearly round across and blunt at its ends; the palm is flat with soft edges.
 constexpr double kFingerExponent1 = 0.85;
@@ -25,7 +25,7 @@ geometry::Superquadric palm_shape(const HandSize& size, double scale) {
 }
 
 /// Frame S of a phalanx: x along the finger, y out of its back.
-geometry::Superquadric phalanx_shape(const geometry::FingerSize& finger, std::size_t k, double scale) {
+geometry::Superquadric phalanx_shape(const hand::FingerSize& finger, std::size_t k, double scale) {
   geometry::Superquadric shape;
   // A phalanx reaches a little over its joints, so that a bent finger has no gaps.
   const double half_length = 0.5 * finger.length_m[k] + 0.5 * finger.radius_m[k];
@@ -61,12 +61,12 @@ Expected<HandModel> HandModel::create(const HandSize& size) {
   if (auto ok = check(size); !ok) return tl::unexpected(ok.error());
   HandModel model;
   model.size_ = size;
-  model.thumb_stand_ = geometry::thumb_stand();
+  model.thumb_stand_ = hand::thumb_stand();
   for (std::size_t s = 0; s < kScales.size(); ++s) {
     const double scale = kScales[s];
     Sized& sized = model.sizes_[s];
     sized.segments.push_back(collision::make_superquadric_object(palm_shape(size, scale), size.sample_spacing_m));
-    for (const geometry::FingerSize& finger : size.fingers) {
+    for (const hand::FingerSize& finger : size.fingers) {
       for (std::size_t k = 0; k < 3; ++k) {
         sized.segments.push_back(
             collision::make_superquadric_object(phalanx_shape(finger, k, scale), size.sample_spacing_m));
@@ -83,7 +83,7 @@ Expected<HandModel> HandModel::create(const HandSize& size) {
 }
 
 std::size_t HandModel::segment_count(HandKind kind) noexcept {
-  return kind == HandKind::glove ? state::kHandSegments : 1;
+  return kind == HandKind::glove ? hand::kHandSegments : 1;
 }
 
 std::size_t HandModel::nearest_size(double scale) noexcept {
@@ -94,23 +94,23 @@ std::size_t HandModel::nearest_size(double scale) noexcept {
   return best;
 }
 
-const collision::Object& HandModel::segment(const state::HandSample& sample, std::size_t index) const noexcept {
+const collision::Object& HandModel::segment(const hand::HandSample& sample, std::size_t index) const noexcept {
   const Sized& of_size = sizes_[nearest_size(sample.hand_scale)];
   return sample.kind == HandKind::glove ? of_size.segments[index] : of_size.tip;
 }
 
-double HandModel::reach_m(const state::HandSample& sample) const noexcept {
+double HandModel::reach_m(const hand::HandSample& sample) const noexcept {
   if (sample.kind == HandKind::one_point) return size_.tip_radius_m * kScales.back();
   double reach = 2 * size_.palm_half_m.x();
-  for (const geometry::FingerSize& finger : size_.fingers) {
+  for (const hand::FingerSize& finger : size_.fingers) {
     const double length = finger.length_m[0] + finger.length_m[1] + finger.length_m[2];
     reach = std::max(reach, finger.p_HF.norm() + length + finger.radius_m[0]);
   }
   return reach * kScales.back();
 }
 
-void HandModel::place(const state::HandSample& sample, const Pose& X_WH,
-                      std::array<Pose, state::kHandSegments>& X_WS) const noexcept {
+void HandModel::place(const hand::HandSample& sample, const Pose& X_WH,
+                      std::array<Pose, hand::kHandSegments>& X_WS) const noexcept {
   if (sample.kind == HandKind::one_point) {
     X_WS[0] = X_WH;
     return;
@@ -118,10 +118,11 @@ void HandModel::place(const state::HandSample& sample, const Pose& X_WH,
   // Sizes are placed with the same scale that their shapes were made with, so that segments always meet at the joints.
   const double scale = kScales[nearest_size(sample.hand_scale)];
   X_WS[0] = X_WH * Pose{Vec3(scale * size_.palm_half_m.x(), 0, 0), Quat::Identity()};
-  for (std::size_t f = 0; f < state::kFingers; ++f) {
-    geometry::place_finger(size_.fingers[f], scale, f == 0 ? thumb_stand_ : Quat::Identity(),
-                           std::span<const double, 4>(sample.joints.data() + 4 * f, 4), X_WH,
-                           std::span<Pose, 3>(X_WS.data() + 1 + 3 * f, 3));
+  for (std::size_t f = 0; f < hand::kFingers; ++f) {
+    hand::place_finger(size_.fingers[f], scale, f == 0 ? thumb_stand_ : Quat::Identity(),
+                       std::span<const double, hand::kFingerJoints>(sample.joints.data() + hand::kFingerJoints * f,
+                                                                    hand::kFingerJoints),
+                       X_WH, std::span<Pose, 3>(X_WS.data() + 1 + 3 * f, 3));
   }
 }
 

@@ -9,7 +9,7 @@
 #include "server/base/error.hpp"
 #include "server/base/math.hpp"
 #include "server/collision/object.hpp"
-#include "server/geometry/hand_skeleton.hpp"
+#include "server/hand/hand_skeleton.hpp"
 #include "server/state/input.hpp"
 #include "server/state/limits.hpp"
 
@@ -17,8 +17,8 @@ namespace mechane::haptics {
 
 /// Sizes of a hand at scale 1.
 struct HandSize {
-  Vec3 palm_half_m{geometry::kPalmHalfLength_m, 0.014, 0.043};
-  geometry::FingerSizes fingers = geometry::middle_sized_fingers();
+  Vec3 palm_half_m{hand::kPalmHalfLength_m, 0.014, 0.043};
+  hand::FingerSizes fingers = hand::middle_sized_fingers();
   double tip_radius_m = 0.008;      ///< of a one-point device
   double sample_spacing_m = 0.004;  ///< of the points on its surface: under a third of a fingertip's breadth
 };
@@ -30,15 +30,15 @@ class HandModel {
   [[nodiscard]] static Expected<HandModel> create(const HandSize& size);
 
   /// Poses of the segments in W. One-point: only segment 0, a sphere at the tip. In the tick; any thread.
-  void place(const state::HandSample& sample, const Pose& X_WH,
-             std::array<Pose, state::kHandSegments>& X_WS) const noexcept;
+  void place(const hand::HandSample& sample, const Pose& X_WH,
+             std::array<Pose, hand::kHandSegments>& X_WS) const noexcept;
 
   /// Segments that a hand of this kind has: 16 or 1.
-  [[nodiscard]] static std::size_t segment_count(state::HandKind kind) noexcept;
+  [[nodiscard]] static std::size_t segment_count(hand::HandKind kind) noexcept;
   /// The segment's shape, of the size nearest to the sample's hand_scale.
-  [[nodiscard]] const collision::Object& segment(const state::HandSample& sample, std::size_t index) const noexcept;
+  [[nodiscard]] const collision::Object& segment(const hand::HandSample& sample, std::size_t index) const noexcept;
   /// Around the whole hand, in H: nothing outside can touch it.
-  [[nodiscard]] double reach_m(const state::HandSample& sample) const noexcept;
+  [[nodiscard]] double reach_m(const hand::HandSample& sample) const noexcept;
   /// n_f of equation 19: unit vector perpendicular to a phalanx, out of its back, in W. A glove that only pulls (CyberGrasp)
   /// renders the share of the force along it.
   [[nodiscard]] static Vec3 finger_normal_W(const Pose& X_WS) noexcept { return X_WS.rotate(Vec3::UnitY()); }

@@ -9,10 +9,10 @@
 namespace mechane::haptics {
 namespace {
 
+using hand::HandKind;
+using hand::HapticOutput;
 using state::BodyState;
-using state::HandKind;
 using state::HapticMaterial;
-using state::HapticOutput;
 using state::UserState;
 
 // An explicit spring or damper on a body must stay well under what one step can turn round (architecture: the hand on things).
@@ -73,7 +73,7 @@ void add_local_contact(UserState& user, const ContactPatch& patch, const PatchFo
   } else {
     ++out.contact_count;
   }
-  state::LocalContact& contact = out.contacts[slot];
+  hand::LocalContact& contact = out.contacts[slot];
   contact.p_W = patch.p_WC;
   contact.n_W = patch.n_BH_W;
   contact.v_W = v_B_W;
@@ -133,7 +133,7 @@ void render_grasp(const state::WorldState& state, UserState& user) {
 }  // namespace
 
 Expected<ForceRenderer> ForceRenderer::create(const ForceConfig& config) {
-  auto governor = force::ForceGovernor::make(config.governor);
+  auto governor = hand::ForceGovernor::make(config.governor);
   if (!governor) return tl::unexpected(governor.error());
   return ForceRenderer(config, *governor);
 }
@@ -159,15 +159,15 @@ void ForceRenderer::render_user(const state::WorldDescription& description, stat
     }
     render_grasp(state, user);
   }
-  force::ForceGovernor& governor = governors_[index];
+  hand::ForceGovernor& governor = governors_[index];
   if (user.jumped) governor.reset();
-  force::GovernorInput input;
+  hand::GovernorInput input;
   input.wanted_W = user.output.force_W;
   input.finger_force_n = user.output.finger_force_n;
   input.V_WH = user.V_WH;
   input.age = user.age;
   input.engaged = user.present;
-  const force::GovernedForce governed = governor.apply(input, kTickPeriod);
+  const hand::HandForce governed = governor.apply(input, kTickPeriod);
   user.output.force_W = governed.force_W;
   user.output.finger_force_n = governed.finger_force_n;
   user.output.reasons = governed.reasons;

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "server/force/governor.hpp"
+#include "server/hand/governor.hpp"
 #include "server/haptics/hand_model.hpp"
 #include "server/state/world_state.hpp"
 
@@ -21,7 +21,7 @@ struct ForceConfig {
   ForceMode mode = ForceMode::continuous;
   double friction_speed_m_per_s = 0.02;  ///< below it, friction falls linearly to zero with the speed
   double damping_depth_m = 0.001;        ///< damping comes in over this depth, so that a first touch is no step
-  force::GovernorConfig governor;  ///< the server's own limits: the first word; the client's governor has the last
+  hand::GovernorConfig governor;  ///< the server's own limits: the first word; the client's governor has the last
 };
 
 /// Renders the forces of a world's users. Holds one governor per user and nothing else; called by the world's thread only.
@@ -34,14 +34,14 @@ class ForceRenderer {
   void run(const state::WorldDescription& description, state::WorldState& state) noexcept;
 
  private:
-  ForceRenderer(const ForceConfig& config, const force::ForceGovernor& governor)
+  ForceRenderer(const ForceConfig& config, const hand::ForceGovernor& governor)
       : config_(config), governors_{governor, governor, governor, governor} {
-    static_assert(state::kMaxUsers == 4, "one governor a user");
+    static_assert(hand::kMaxUsers == 4, "one governor a user");
   }
   void render_user(const state::WorldDescription& description, state::WorldState& state, std::size_t index) noexcept;
 
   ForceConfig config_;
-  std::array<force::ForceGovernor, state::kMaxUsers> governors_;
+  std::array<hand::ForceGovernor, hand::kMaxUsers> governors_;
 };
 
 }  // namespace mechane::haptics

@@ -14,13 +14,13 @@
 namespace mechane::record {
 namespace {
 
+using hand::kHandJoints;
+using hand::kMaxUsers;
+using hand::SentSample;
 using state::Command;
 using state::Event;
-using state::HandSample;
-using state::kHandJoints;
 using state::kMaxCommandsPerTick;
 using state::kMaxEventsPerTick;
-using state::kMaxUsers;
 using state::UserInput;
 
 enum Content : std::uint8_t { kUsers = 1, kCommands = 2, kEvents = 4, kHash = 8 };
@@ -30,7 +30,7 @@ static_assert(kScalars <= 64, "one bit for each number");
 
 using Scalars = std::array<double, kScalars>;
 
-Scalars scalars_of(const HandSample& s) noexcept {
+Scalars scalars_of(const SentSample& s) noexcept {
   Scalars out;
   std::size_t n = 0;
   const auto add = [&](const auto& values, std::size_t count) {
@@ -48,7 +48,7 @@ Scalars scalars_of(const HandSample& s) noexcept {
   return out;
 }
 
-void set_scalars(const Scalars& in, HandSample& s) noexcept {
+void set_scalars(const Scalars& in, SentSample& s) noexcept {
   std::size_t n = 0;
   const auto take = [&](auto& values, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
@@ -64,7 +64,7 @@ void set_scalars(const Scalars& in, HandSample& s) noexcept {
   s.grasp_intent = in[n++];
 }
 
-void put_sample(SpanSink& out, const HandSample& s) noexcept {
+void put_sample(SpanSink& out, const SentSample& s) noexcept {
   put(out, s.session);
   put_varint(out, s.sequence);
   put_varint(out, s.sent_ns);
@@ -81,13 +81,13 @@ void put_sample(SpanSink& out, const HandSample& s) noexcept {
   }
 }
 
-void get_sample(ByteSource& in, HandSample& s) {
+void get_sample(ByteSource& in, SentSample& s) {
   s.session = in.get<std::uint64_t>();
   s.sequence = in.get_varint();
   s.sent_ns = in.get_varint();
   const auto kind = in.get<std::uint8_t>();
-  if (kind > static_cast<std::uint8_t>(state::HandKind::glove)) in.fail();
-  s.kind = static_cast<state::HandKind>(kind);
+  if (kind > static_cast<std::uint8_t>(hand::HandKind::glove)) in.fail();
+  s.kind = static_cast<hand::HandKind>(kind);
   const std::uint64_t buttons = in.get_varint();
   if (buttons > 0xffffffffu) in.fail();
   s.buttons = static_cast<std::uint32_t>(buttons);

@@ -76,7 +76,7 @@ void VisitObserver::take_up(VisitSheet sheet, std::uint64_t tick) {
   last_sign_ = tick;
   touched_ = true;
   did_something_ = true;
-  hands_seen_ = sheet.hands == 0 ? 0 : (1U << std::min<std::uint32_t>(sheet.hands, state::kMaxUsers)) - 1;
+  hands_seen_ = sheet.hands == 0 ? 0 : (1U << std::min<std::uint32_t>(sheet.hands, hand::kMaxUsers)) - 1;
   sheet.ending = VisitEnding::running;
   lost_before_ = 0;
   sheet_ = std::move(sheet);
@@ -107,7 +107,7 @@ void VisitObserver::take(const VisitNote& note) {
 }
 
 void VisitObserver::take_event(const state::Event& event) {
-  const bool is_user = event.subject < state::kMaxUsers;
+  const bool is_user = event.subject < hand::kMaxUsers;
   switch (event.kind) {
     case EventKind::touched:
     case EventKind::grasped:
@@ -152,7 +152,7 @@ void VisitObserver::take_event(const state::Event& event) {
 
 void VisitObserver::take_release(const VisitNote& note) {
   const state::Event& event = note.event;
-  if (event.subject < state::kMaxUsers) holding_ &= ~(1U << event.subject);
+  if (event.subject < hand::kMaxUsers) holding_ &= ~(1U << event.subject);
   if (is_over()) return;
   last_sign_ = event.tick;
   if (note.opened_hand && let_go_.size() < kMostMistakes) let_go_.push_back({event.object, event.tick});

@@ -5,34 +5,17 @@
 #include <cstdint>
 
 #include "server/base/clock.hpp"
-#include "server/base/math.hpp"
+#include "server/hand/hand_sample.hpp"
 #include "server/state/limits.hpp"
 
 namespace mechane::state {
-
-/// How a device shows the hand. A glove moves 16 segments; a one-point device (a stylus, a pointer) has one sphere at its tip.
-enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
-
-/// One sample of a device, already checked by the transport: all numbers finite, rotation of unit length.
-struct HandSample {
-  std::uint64_t session = 0;   ///< who sends: a client's own random number, never 0
-  std::uint64_t sequence = 0;  ///< rises by one a sample within a session
-  std::uint64_t sent_ns = 0;   ///< the sender's clock; echoed, never compared with ours
-  HandKind kind = HandKind::one_point;
-  Pose X_WH;                                 ///< wrist (glove) or tip (one-point) in W
-  Twist V_WH;                                ///< its velocity, for damping
-  std::array<double, kHandJoints> joints{};  ///< finger angles, radians (glove)
-  double hand_scale = 1.0;                   ///< size of the visitor's hand against the model's (calibration)
-  std::uint32_t buttons = 0;
-  double grasp_intent = 0.0;  ///< 0 open .. 1 closed: a button, a pinch, or the glove's own estimate
-};
 
 /// What the server knows of one user at the start of a tick.
 struct UserInput {
   bool present = false;  ///< a session owns this hand
   bool fresh = false;    ///< `sample` has a new sequence number since the last tick
   Duration age{0};       ///< since the last new sequence number arrived, on the server's clock
-  HandSample sample;
+  hand::SentSample sample;
 };
 
 enum class CommandKind : std::uint8_t { none = 0, start_activity = 1, restart_activity = 2, next_step = 3, click = 4 };
@@ -45,7 +28,7 @@ struct Command {
 };
 
 struct TickInputs {
-  std::array<UserInput, kMaxUsers> users{};
+  std::array<UserInput, hand::kMaxUsers> users{};
   std::array<Command, kMaxCommandsPerTick> commands{};
   std::uint32_t command_count = 0;
 };

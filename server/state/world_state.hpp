@@ -9,6 +9,7 @@
 
 #include "server/base/ids.hpp"
 #include "server/base/math.hpp"
+#include "server/hand/hand_force.hpp"
 #include "server/state/coupling.hpp"
 #include "server/state/description.hpp"
 #include "server/state/event.hpp"
@@ -63,55 +64,20 @@ struct Grasp {
   Wrench reaction_W;  ///< out of dynamics: what the body does to the hand, at the grip
 };
 
-/// Why a force differs from the one that the contacts ask for. Bits; also on the wire.
-enum class ForceReason : std::uint32_t {
-  none = 0,
-  clamped = 1,       ///< over the device's limit
-  slew_limited = 2,  ///< changed faster than the device may be asked to
-  damped = 4,        ///< the energy observer saw the system put out energy
-  stale = 8,         ///< samples are old; the force decays
-  ramping = 16,      ///< start or end of a visit
-  not_finite = 32,   ///< a number was not finite; the force is zero
-};
-
-/// A contact that the client renders at its own rate (local contact model).
-struct LocalContact {
-  Vec3 p_W = Vec3::Zero();     ///< a point of the tangent plane
-  Vec3 n_W = Vec3::Zero();     ///< unit, into the hand
-  Vec3 v_W = Vec3::Zero();     ///< velocity of the surface there
-  double depth_m = 0;          ///< at the input that this output answers
-  double curvature_per_m = 0;  ///< of the surface, 0: a plane
-  double stiffness_n_per_m = 0;
-  double damping_ns_per_m = 0;
-  double friction = 0;
-};
-
-/// What the device shall render. Forces on the visitor's hand, in W.
-struct HapticOutput {
-  std::uint64_t echo_sequence = 0;  ///< the input sample that this answers
-  std::uint64_t echo_sent_ns = 0;
-  Wrench force_W;                                 ///< at the wrist (glove) or tip (one-point)
-  std::array<double, kFingers> finger_force_n{};  ///< CyberGrasp: >= 0, along the finger's own perpendicular
-  std::array<LocalContact, kMaxLocalContacts> contacts{};
-  std::uint32_t contact_count = 0;
-  std::uint32_t reasons = 0;  ///< ForceReason bits
-  bool holding = false;       ///< a grasp is on
-};
-
 struct UserState {
   bool present = false;
-  bool stale = false;    ///< no new sample for 10 ms
-  bool jumped = false;   ///< this tick's sample is farther from the last than a hand can move: let go, start anew
-  double freshness = 0;  ///< 1 while samples are new, falling to 0 from 10 ms to 50 ms of age
-  Duration age{0};       ///< of the last new sample
-  HandSample sample;     ///< the last one (frozen while stale)
-  Pose X_WH;             ///< the hand as the tick uses it
+  bool stale = false;       ///< no new sample for 10 ms
+  bool jumped = false;      ///< this tick's sample is farther from the last than a hand can move: let go, start anew
+  double freshness = 0;     ///< 1 while samples are new, falling to 0 from 10 ms to 50 ms of age
+  Duration age{0};          ///< of the last new sample
+  hand::SentSample sample;  ///< the last one (frozen while stale)
+  Pose X_WH;                ///< the hand as the tick uses it
   Twist V_WH;
-  std::array<Pose, kHandSegments> X_WS{};  ///< segments; one-point: only the first
+  std::array<Pose, hand::kHandSegments> X_WS{};  ///< segments; one-point: only the first
   std::array<Contact, kMaxContacts> contacts{};
   std::uint32_t contact_count = 0;
   Grasp grasp;
-  HapticOutput output;
+  hand::HapticOutput output;
 
   [[nodiscard]] std::span<const Contact> contact_span() const { return {contacts.data(), contact_count}; }
 };
@@ -137,7 +103,7 @@ struct WorldState {
   std::vector<std::uint8_t> agent_enabled;  ///< by AgentId
   std::vector<Coupling> couplings;          ///< of the agents; see MemoryLayout::add_coupling
   std::vector<double> memory;  ///< what agents and machines remember: slots given out when the world is built
-  std::array<UserState, kMaxUsers> users{};
+  std::array<UserState, hand::kMaxUsers> users{};
   Progress progress;
   std::array<Event, kMaxEventsPerTick> events{};  ///< of this tick
   std::uint32_t event_count = 0;

@@ -10,14 +10,11 @@
 namespace mechane::transport {
 namespace {
 
-// As long as the client's governor holds a force without a new sample.
-constexpr std::uint32_t kContactValidUs = 10'000;
-
 std::uint32_t to_us(Duration d) noexcept {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(d.count() / 1000, 0, 0xffffffff));
 }
 
-void set_contact(proto::WireLocalContact& out, const state::LocalContact& from) noexcept {
+void set_contact(proto::WireLocalContact& out, const hand::LocalContact& from) noexcept {
   proto::set_vec3(out.p_W, from.p_W);
   proto::set_vec3(out.n_W, from.n_W);
   proto::set_vec3(out.v_W, from.v_W);
@@ -26,10 +23,10 @@ void set_contact(proto::WireLocalContact& out, const state::LocalContact& from) 
   out.stiffness_n_per_m = static_cast<float>(from.stiffness_n_per_m);
   out.damping_ns_per_m = static_cast<float>(from.damping_ns_per_m);
   out.friction = static_cast<float>(from.friction);
-  out.valid_us = kContactValidUs;
+  out.valid_us = to_us(from.validity);
 }
 
-void set_force(proto::HapticOutput& out, const state::HapticOutput& from) noexcept {
+void set_force(proto::HapticOutput& out, const hand::HapticOutput& from) noexcept {
   out.echo_seq = from.echo_sequence;
   out.echo_sent_ns = from.echo_sent_ns;
   out.reasons = from.reasons;
@@ -39,9 +36,9 @@ void set_force(proto::HapticOutput& out, const state::HapticOutput& from) noexce
     out.finger_force_n[i] = static_cast<float>(from.finger_force_n[i]);
   }
   out.holding = from.holding ? 1 : 0;
-  out.contact_count = std::min(from.contact_count, static_cast<std::uint32_t>(proto::kMaxLocalContacts));
-  for (std::size_t i = 0; i < proto::kMaxLocalContacts; ++i) {
-    set_contact(out.contacts[i], i < out.contact_count ? from.contacts[i] : state::LocalContact{});
+  out.contact_count = from.contact_count;
+  for (std::size_t i = 0; i < hand::kMaxLocalContacts; ++i) {
+    set_contact(out.contacts[i], i < out.contact_count ? from.contacts[i] : hand::LocalContact{});
   }
 }
 

@@ -57,7 +57,7 @@ class KioskLink {
   RejectCounters& rejects_;
   int fifo_priority_;
   std::mutex mutex_;  // held by the listener for a copy, by the main thread for a swap of pointers
-  std::array<Hand, state::kMaxUsers> hands_;
+  std::array<Hand, hand::kMaxUsers> hands_;
   ArrivedSample arriving_;    // the listener's
   proto::HapticOutput wire_;  // the publisher's
   proto::Writer<proto::HapticOutput> writer_;

@@ -14,13 +14,13 @@ class KioskLink;
 
 /// A checked sample, and when it came, on our clock.
 struct ArrivedSample {
-  state::HandSample sample;
+  hand::SentSample sample;
   TimePoint arrived;
 };
 
 /// What a tick has for one device.
 struct OutgoingForce {
-  state::HapticOutput output;
+  hand::HapticOutput output;
   std::uint64_t tick = 0;
   Duration waited{0};  ///< age of the answered input when the tick took it
 };

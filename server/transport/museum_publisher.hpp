@@ -19,7 +19,7 @@ namespace mechane::transport {
 struct Assignment {
   std::string world;
   std::string trouble;
-  std::array<Session, state::kMaxUsers> owners;  ///< id 0: nobody
+  std::array<Session, hand::kMaxUsers> owners;  ///< id 0: nobody
 };
 
 /// Owns one thread. All functions are the main thread's.

@@ -12,7 +12,7 @@ std::string name_at(const std::vector<Item>& items, std::uint32_t index) {
 
 }  // namespace
 
-std::string user_name(const std::array<HandSnapshot, state::kMaxUsers>& hands, std::uint32_t slot) {
+std::string user_name(const std::array<HandSnapshot, hand::kMaxUsers>& hands, std::uint32_t slot) {
   if (slot >= hands.size()) return {};
   const SlotName& name = hands[slot].name;
   if (name.session == 0) return fmt::format("user {}", slot);
@@ -20,7 +20,7 @@ std::string user_name(const std::array<HandSnapshot, state::kMaxUsers>& hands, s
 }
 
 EventNames names_of(const state::WorldDescription& world, const state::Event& event,
-                    const std::array<HandSnapshot, state::kMaxUsers>& hands) {
+                    const std::array<HandSnapshot, hand::kMaxUsers>& hands) {
   using Kind = state::EventKind;
   const std::string user = user_name(hands, event.subject);
   switch (event.kind) {

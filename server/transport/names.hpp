@@ -18,10 +18,10 @@ struct EventNames {
 };
 
 /// "kiosk-1/0", or "user 2" where nobody is known in that slot.
-[[nodiscard]] std::string user_name(const std::array<HandSnapshot, state::kMaxUsers>& hands, std::uint32_t slot);
+[[nodiscard]] std::string user_name(const std::array<HandSnapshot, hand::kMaxUsers>& hands, std::uint32_t slot);
 
 /// Indices that point at nothing give empty names.
 [[nodiscard]] EventNames names_of(const state::WorldDescription& world, const state::Event& event,
-                                  const std::array<HandSnapshot, state::kMaxUsers>& hands);
+                                  const std::array<HandSnapshot, hand::kMaxUsers>& hands);
 
 }  // namespace mechane::transport

@@ -212,7 +212,7 @@ void ServerTransport::Impl::drop_silent_sessions(TimePoint now, std::vector<News
 
 void ServerTransport::Impl::settle_hands(TimePoint now, std::vector<News>& news) {
   for (auto& [name, kiosk] : kiosks_) {
-    for (std::uint32_t user = 0; user < state::kMaxUsers; ++user) {
+    for (std::uint32_t user = 0; user < hand::kMaxUsers; ++user) {
       const TimePoint heard = kiosk.link->heard(user);
       if (const Session* owner = table.owner(name, user); owner != nullptr && heard > TimePoint{}) {
         table.heard(owner->id, heard);
@@ -255,7 +255,7 @@ void ServerTransport::Impl::report(TimePoint now) {
 std::shared_ptr<Lane> ServerTransport::Impl::open_lane(const std::string& kiosk, std::uint32_t user,
                                                        std::uint64_t session) {
   const auto it = kiosks_.find(kiosk);
-  if (it == kiosks_.end() || user >= state::kMaxUsers) return nullptr;
+  if (it == kiosks_.end() || user >= hand::kMaxUsers) return nullptr;
   auto lane = std::make_shared<Lane>();
   lane->link = it->second.link;
   lane->user = user;

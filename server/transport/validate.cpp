@@ -16,7 +16,7 @@ bool finite(const proto::HapticInput& s) {
 }
 
 bool good_values(const proto::HapticInput& s) {
-  return s.user < state::kMaxUsers && s.kind <= 1 && s.grasp_intent >= 0 && s.grasp_intent <= 1 &&
+  return s.user < hand::kMaxUsers && s.kind <= 1 && s.grasp_intent >= 0 && s.grasp_intent <= 1 &&
          std::all_of(std::begin(s.joints), std::end(s.joints), [](float a) { return std::abs(a) <= kMaxJointRad; });
 }
 
@@ -60,7 +60,7 @@ std::string_view to_string(Reject reason) {
   return "?";
 }
 
-Reject validate(const proto::HapticInput& s, state::HandSample& out) noexcept {
+Reject validate(const proto::HapticInput& s, hand::SentSample& out) noexcept {
   if (s.protocol != proto::kProtocol) return Reject::wrong_protocol;
   if (!finite(s)) return Reject::not_finite;
   Pose X_WH = proto::to_pose(s.X_WH);
@@ -74,7 +74,7 @@ Reject validate(const proto::HapticInput& s, state::HandSample& out) noexcept {
   out.session = s.session;
   out.sequence = s.seq;
   out.sent_ns = s.sent_ns;
-  out.kind = static_cast<state::HandKind>(s.kind);
+  out.kind = static_cast<hand::HandKind>(s.kind);
   out.X_WH = X_WH;
   out.V_WH = V_WH;
   std::copy(std::begin(s.joints), std::end(s.joints), out.joints.begin());
@@ -87,7 +87,7 @@ Reject validate(const proto::HapticInput& s, state::HandSample& out) noexcept {
 Reject validate(const proto::KioskStatus& s, Session& out) {
   if (s.protocol != proto::kProtocol) return Reject::wrong_protocol;
   if (!proto::is_name(proto::text_of(s.kiosk))) return Reject::wrong_kiosk;
-  if (s.user >= state::kMaxUsers || s.role > 1) return Reject::bad_value;
+  if (s.user >= hand::kMaxUsers || s.role > 1) return Reject::bad_value;
   if (s.session == 0) return Reject::wrong_session;
   out.id = s.session;
   out.kiosk = proto::text_of(s.kiosk);

@@ -40,7 +40,7 @@ enum class Reject : std::uint8_t {
 
 /// Fills `out` when the sample is fit for the loop, with the rotation brought to unit length; returns Reject::none. Does not know
 /// sessions and sequences. Allocates nothing.
-[[nodiscard]] Reject validate(const proto::HapticInput& sample, state::HandSample& out) noexcept;
+[[nodiscard]] Reject validate(const proto::HapticInput& sample, hand::SentSample& out) noexcept;
 
 /// Fills `out` when the status is one of a client that can be served: version, names, user, role, session. Texts are cleaned of
 /// control characters.

@@ -33,9 +33,9 @@ struct HandSnapshot {
   bool present = false;
   bool stale = false;
   bool holding = false;
-  state::HandKind kind = state::HandKind::one_point;
+  hand::HandKind kind = hand::HandKind::one_point;
   SlotName name;
-  std::array<Pose, state::kHandSegments> X_WS{};
+  std::array<Pose, hand::kHandSegments> X_WS{};
   Vec3 f_W = Vec3::Zero();
 };
 
@@ -50,7 +50,7 @@ struct SceneSnapshot {
   std::vector<double> quantities;
   std::vector<std::uint8_t> agent_enabled;
   state::Progress progress;
-  std::array<HandSnapshot, state::kMaxUsers> hands{};
+  std::array<HandSnapshot, hand::kMaxUsers> hands{};
   std::array<state::Coupling, kMaxShownRopes> ropes{};  ///< the first so many of the world
   std::size_t rope_count = 0;
 };
@@ -119,8 +119,8 @@ class WorldPort {
   /// What the loop knows of the slots; replaced as a whole.
   struct Bindings {
     std::uint64_t generation = 0;
-    std::array<Lane*, state::kMaxUsers> lanes{};
-    std::array<SlotName, state::kMaxUsers> names{};
+    std::array<Lane*, hand::kMaxUsers> lanes{};
+    std::array<SlotName, hand::kMaxUsers> names{};
   };
   struct Retired {
     std::uint64_t generation = 0;  // from this one on the loop does not use the lane
@@ -136,7 +136,7 @@ class WorldPort {
   std::shared_ptr<const state::WorldDescription> description_;
   OpenLane open_lane_;
   CloseLane close_lane_;
-  std::array<std::shared_ptr<Lane>, state::kMaxUsers> lanes_;
+  std::array<std::shared_ptr<Lane>, hand::kMaxUsers> lanes_;
   Bindings wanted_;
   std::vector<Retired> retired_;
 
@@ -154,8 +154,8 @@ class WorldPort {
 
   // Loop thread's.
   Bindings current_;
-  std::array<state::UserInput, state::kMaxUsers> users_{};
-  std::array<TimePoint, state::kMaxUsers> arrived_{};
+  std::array<state::UserInput, hand::kMaxUsers> users_{};
+  std::array<TimePoint, hand::kMaxUsers> arrived_{};
   TimePoint now_{};
 };
 

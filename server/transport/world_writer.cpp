@@ -73,7 +73,7 @@ WorldWriter::WorldWriter(WorldPort& port, RejectCounters& rejects, const std::ve
     if (!bodies[i].fixed) movable_.push_back(static_cast<std::uint32_t>(i));
   }
   bodies_.resize(movable_.size());
-  hands_.reserve(state::kMaxUsers);
+  hands_.reserve(hand::kMaxUsers);
 }
 
 Expected<std::unique_ptr<WorldWriter>> WorldWriter::create(const proto::Participant& participant, WorldPort& port,
@@ -254,7 +254,7 @@ void WorldWriter::write_frame(const SceneSnapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.hands.size(); ++i) {
     const HandSnapshot& hand = snapshot.hands[i];
     if (!hand.present) continue;
-    const std::size_t segments = hand.kind == state::HandKind::glove ? state::kHandSegments : 1;
+    const std::size_t segments = hand.kind == hand::HandKind::glove ? hand::kHandSegments : 1;
     for (std::size_t s = 0; s < segments; ++s)
       proto::set_pose(segments_[i][s], hand.X_WS[s]);
     proto::WireHandPose& wire = hands_.emplace_back();
@@ -356,7 +356,7 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
 }
 
 void WorldWriter::write_event(const state::Event& event) {
-  static const std::array<HandSnapshot, state::kMaxUsers> nobody{};
+  static const std::array<HandSnapshot, hand::kMaxUsers> nobody{};
   const EventNames names = names_of(port_.description(), event, last_ ? last_->hands : nobody);
   proto::Event wire{};
   proto::set_text(wire.scope, proto::world_partition(port_.world()));

@@ -76,7 +76,7 @@ class WorldWriter {
   std::vector<std::uint32_t> movable_;  // bodies that are in every frame
   std::vector<proto::WireBodyPose> bodies_;
   std::vector<proto::WireHandPose> hands_;
-  std::array<std::array<proto::WirePose, state::kHandSegments>, state::kMaxUsers> segments_;
+  std::array<std::array<proto::WirePose, hand::kHandSegments>, hand::kMaxUsers> segments_;
   std::vector<proto::WireRope> ropes_;
   std::vector<std::vector<float>> rope_points_;
   proto::Writer<proto::SceneFrame> frames_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/force/freshness.hpp"
+#include "server/hand/freshness.hpp"
 
 namespace mechane::world {
 namespace {
@@ -61,7 +61,7 @@ void take_user(state::WorldState& state, UserState& user, const UserInput& input
   user.jumped = false;
   if (input.fresh) take_sample(state, user, input, index);
   user.age = input.age;
-  user.freshness = force::freshness(input.age);
+  user.freshness = hand::freshness(input.age);
   const bool was_stale = user.stale;
   user.stale = user.freshness < 1.0;
   if (user.stale) user.V_WH = Twist{};

@@ -14,10 +14,10 @@ ARROWS = {
     "server/geometry": ["server/base"],
     "server/collision": ["server/geometry"],
     "server/realtime": ["server/base"],
-    "server/force": ["server/base"],
-    "server/state": ["server/collision"],
+    "server/hand": ["server/base"],
+    "server/state": ["server/collision", "server/hand"],
     "server/dynamics": ["server/state"],
-    "server/haptics": ["server/state", "server/force"],
+    "server/haptics": ["server/state"],
     "server/machines": ["server/state"],
     "server/agents": ["server/state"],
     "server/world": ["server/dynamics", "server/haptics", "server/machines", "server/agents", "server/realtime"],
@@ -26,18 +26,10 @@ ARROWS = {
     "server/record": ["server/state", "server/realtime"],
     "server/transport": ["proto", "server/state", "server/realtime"],
     "server/app": ["server/world", "server/scenario", "server/record", "server/transport"],
-    "proto": ["server/base"],
-    "client-sdk/client": ["proto", "server/base", "server/realtime", "server/force"],
+    "proto": ["server/hand"],
+    "client-sdk/client": ["proto", "server/realtime", "server/hand"],
     "client-sdk/haptic": ["client-sdk/client"],
-    "client-sdk/picture": ["server/base"],
-    "client-sdk/recording": ["client-sdk/client"],
-    "client-sdk/assets": ["server/content"],
-    "client-sdk/sound": ["client-sdk/client"],
-    "client-sdk/visit": ["client-sdk/client", "client-sdk/picture"],
-    "client-sdk/pointer": ["client-sdk/client", "client-sdk/picture"],
-    "client-sdk/scene": ["client-sdk/visit", "client-sdk/assets"],
-    "client-sdk/draw": ["client-sdk/picture"],
-    "client-sdk/display": ["client-sdk/draw", "client-sdk/scene", "client-sdk/sound", "client-sdk/pointer", "client-sdk/recording"],
+    "client-sdk/display": ["client-sdk/client", "server/content"],
     "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
     "client-sdk/fit": ["server/content"],
     "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/record"],
@@ -51,7 +43,7 @@ EXTRA_HEADERS = {
 
 # These run in the tick, or are read by what does: no log there. Every other room may use it.
 NO_LOG = {"server/base", "server/geometry", "server/collision", "server/state", "server/dynamics", "server/haptics",
-          "server/machines", "server/agents", "server/force", "server/realtime"}
+          "server/machines", "server/agents", "server/hand", "server/realtime"}
 
 # A third-party library: its headers, and the rooms that may know it. In those rooms it stays in .cpp files.
 LIBRARIES = {
@@ -61,11 +53,11 @@ LIBRARIES = {
     "SQLite": (re.compile(r"(sqlite3|SQLiteCpp)"), {"server/content", "server/record"}),
     "Cyclone DDS": (re.compile(r"(dds/|ddsc/)"), {"proto", "server/transport", "client-sdk/client", "client-sdk/cli"}),
     "spdlog": (re.compile(r"spdlog/"), {"server/log"}),
-    "OpenGL": (re.compile(r"(epoxy|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/draw", "client-sdk/display"}),
+    "OpenGL": (re.compile(r"(epoxy|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/display"}),
     "SDL": (re.compile(r"(SDL2/|SDL\w*\.h$)"), {"client-sdk/display"}),
-    "libcurl": (re.compile(r"curl/"), {"client-sdk/assets"}),
-    "OpenAL": (re.compile(r"AL/"), {"client-sdk/sound"}),
-    "libsndfile": (re.compile(r"sndfile"), {"client-sdk/sound"}),
+    "libcurl": (re.compile(r"curl/"), {"client-sdk/display"}),
+    "OpenAL": (re.compile(r"AL/"), {"client-sdk/display"}),
+    "libsndfile": (re.compile(r"sndfile"), {"client-sdk/display"}),
 }
 # proto is the wrapper: its headers are where Cyclone DDS becomes typed topics.
 IN_HEADERS = {("proto", "Cyclone DDS")}

@@ -46,8 +46,8 @@ std::optional<client::ForceSample> answer_to(client::Client& client, std::uint64
 }
 
 // A free hand, a metre above the ground, that moves a little: contacts would add what bench_tick tells.
-client::HandInput hand_at(std::uint64_t number) {
-  client::HandInput hand;
+client::HandSample hand_at(std::uint64_t number) {
+  client::HandSample hand;
   hand.X_WH.p = Vec3(0, 1.8 + 0.01 * std::sin(0.006 * static_cast<double>(number)), 1.0);
   return hand;
 }

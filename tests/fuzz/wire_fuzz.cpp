@@ -44,7 +44,7 @@ void must(bool held) {
 void fuzz_input(Bytes bytes) {
   auto wire = bytes.take<proto::HapticInput>();
   wire.protocol = proto::kProtocol;
-  state::HandSample sample;
+  hand::SentSample sample;
   if (transport::validate(wire, sample) != transport::Reject::none) return;
   must(sample.X_WH.p.norm() < transport::kMaxDistanceM && sample.session != 0);
   must(std::abs(sample.X_WH.R.norm() - 1) < 1e-9);
@@ -55,7 +55,7 @@ void fuzz_output(Bytes bytes) {
   wire.protocol = proto::kProtocol;
   client::ForceSample force;
   if (!client::parse(wire, force)) return;
-  must(force.contact_count <= client::kMaxLocalContacts && force.force_W.f.allFinite() && force.force_W.t.allFinite());
+  must(force.contact_count <= hand::kMaxLocalContacts && force.force_W.f.allFinite() && force.force_W.t.allFinite());
 }
 
 void fuzz_kiosk(Bytes bytes) {
@@ -63,7 +63,7 @@ void fuzz_kiosk(Bytes bytes) {
   wire.protocol = proto::kProtocol;
   transport::Session session;
   if (transport::validate(wire, session) != transport::Reject::none) return;
-  must(proto::is_name(session.kiosk) && session.user < state::kMaxUsers && session.id != 0);
+  must(proto::is_name(session.kiosk) && session.user < hand::kMaxUsers && session.id != 0);
 }
 
 void fuzz_frame(Bytes bytes) {

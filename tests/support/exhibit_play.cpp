@@ -25,20 +25,6 @@ T value_or_throw(Expected<T> result) {
   return std::move(*result);
 }
 
-state::HandSample to_sample(const client::HandInput& input, std::uint64_t sequence) {
-  state::HandSample sample;
-  sample.session = 7;
-  sample.sequence = sequence;
-  sample.kind = static_cast<state::HandKind>(input.kind);
-  sample.X_WH = input.X_WH;
-  sample.V_WH = input.V_WH;
-  sample.joints = input.joints;
-  sample.hand_scale = input.hand_scale;
-  sample.buttons = input.buttons;
-  sample.grasp_intent = input.grasp_intent;
-  return sample;
-}
-
 const state::VisitDescription& find_visit(const state::WorldDescription& world, const std::string& name) {
   const auto it = std::ranges::find_if(world.visits, [&](const auto& visit) { return visit.name == name; });
   if (it == world.visits.end()) throw std::runtime_error(world.id + " has no visit '" + name + "'");
@@ -54,7 +40,7 @@ class Play {
         visit_(find_visit(*description_, visit)),
         options_(options),
         world_(value_or_throw(world::World::create(description_, config))),
-        governor_(value_or_throw(force::ForceGovernor::make(device_.limits()))),
+        governor_(value_or_throw(hand::ForceGovernor::make(device_.limits()))),
         player_(*description_, visit_, options.player),
         X_WB_(description_->bodies.size()) {}
 
@@ -68,7 +54,7 @@ class Play {
       tick({});
     std::uint64_t idle = 0;
     while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
-      const state::HapticOutput& answer = world_->state.users[0].output;
+      const hand::HapticOutput& answer = world_->state.users[0].output;
       if (player_.finished()) ++idle;
       player_.advance(kTickSeconds, X_WB_, answer.holding, device_.felt_W().f.norm());
       device_.intend(player_.intent());
@@ -82,11 +68,11 @@ class Play {
 
   void tick(state::TickInputs inputs) {
     const state::WorldState& state = world_->state;
-    const client::HandInput hand = device_.read(kTickPeriod);
+    const client::HandSample hand = device_.read(kTickPeriod);
     state::UserInput& user = inputs.users[0];
     user.present = true;
     user.fresh = true;
-    user.sample = to_sample(hand, ++sequence_);
+    user.sample = {hand, 7, ++sequence_, 0};
     if (options_.record) options_.record(inputs);
     const TimePoint began = clock_.now();
     world::step(*world_, inputs, publisher_, timer_);
@@ -100,8 +86,8 @@ class Play {
   }
 
   /// As the haptic loop does: the device's own governor has the last word.
-  void feel(const Twist& V_WH, const state::HapticOutput& answer) {
-    force::GovernorInput wanted;
+  void feel(const Twist& V_WH, const hand::HapticOutput& answer) {
+    hand::GovernorInput wanted;
     wanted.wanted_W = answer.force_W;
     wanted.finger_force_n = answer.finger_force_n;
     wanted.V_WH = V_WH;
@@ -145,7 +131,7 @@ class Play {
   const PlayOptions& options_;
   std::unique_ptr<world::World> world_;
   haptic::VirtualDevice device_;
-  force::ForceGovernor governor_;
+  hand::ForceGovernor governor_;
   visitor::VisitPlayer player_;
   std::vector<Pose> X_WB_;  // as last seen
   SystemClock clock_;

@@ -14,8 +14,6 @@ namespace mechane::proto {
 /// Version of idl/mechane.idl. Raise it when a field changes its meaning, not for a topic that is added: who does not know it does not
 /// subscribe to it. Receivers drop samples of another version.
 inline constexpr std::uint32_t kProtocol = 3;
-inline constexpr std::size_t kMaxUsers = 4;
-inline constexpr std::size_t kMaxLocalContacts = 8;
 
 using HapticInput = ::mechane_HapticInput;
 using HapticOutput = ::mechane_HapticOutput;

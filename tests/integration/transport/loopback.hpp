@@ -143,7 +143,7 @@ class EchoServer {
 
   [[nodiscard]] const transport::ServerTransport& transport() const { return *transport_; }
   /// Every sample that the loop saw, newest last (the first 100 000).
-  [[nodiscard]] std::vector<state::HandSample> samples() const {
+  [[nodiscard]] std::vector<hand::SentSample> samples() const {
     const std::lock_guard lock(mutex_);
     return samples_;
   }
@@ -243,7 +243,7 @@ class EchoServer {
   state::WorldState state_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
-  std::vector<state::HandSample> samples_;
+  std::vector<hand::SentSample> samples_;
   std::vector<transport::NewsKind> news_;
   std::vector<transport::VisitAnswer> answers_;
   std::vector<std::uint32_t> languages_;

@@ -8,7 +8,7 @@
 namespace mechane::test {
 namespace {
 
-using client::HandInput;
+using client::HandSample;
 using client::LinkState;
 using client::Role;
 using namespace std::chrono_literals;
@@ -23,8 +23,8 @@ class Loopback : public ::testing::Test {
   LoopbackDomain client_domain_{kClientDomain, 0};
 };
 
-HandInput hand_at(const Vec3& p) {
-  HandInput input;
+HandSample hand_at(const Vec3& p) {
+  HandSample input;
   input.X_WH.p = p;
   return input;
 }
@@ -44,7 +44,7 @@ TEST_F(Loopback, AHandArrivesToTheBitAndItsForceComesBackWithItsEcho) {
   ASSERT_TRUE(client->wait_for(LinkState::joined, 10s));
   ASSERT_TRUE(feels(*client, Vec3(0, 0, 0.5)));
 
-  HandInput input;
+  HandSample input;
   input.kind = client::HandKind::glove;
   input.X_WH.p = Vec3(0.25, -1.5, 3.125);
   input.X_WH.R = Quat(0.5, 0.5, -0.5, 0.5);
@@ -58,13 +58,13 @@ TEST_F(Loopback, AHandArrivesToTheBitAndItsForceComesBackWithItsEcho) {
     client->send(input);
     const auto force = client->wait_force(50ms);
     return force && force->force_W.f == input.X_WH.p && force->echo_sequence <= client->sent_sequence() &&
-           force->received >= force->echo_sent && force->received - force->echo_sent < 1s;
+           force->received >= force->echo_sent() && force->received - force->echo_sent() < 1s;
   }));
   const auto samples = server.samples();
   ASSERT_FALSE(samples.empty());
-  const state::HandSample& s = samples.back();
+  const hand::SentSample& s = samples.back();
   EXPECT_EQ(s.session, client->session());
-  EXPECT_EQ(s.kind, state::HandKind::glove);
+  EXPECT_EQ(s.kind, hand::HandKind::glove);
   EXPECT_EQ(s.X_WH.p, input.X_WH.p);
   EXPECT_EQ(s.X_WH.R.coeffs(), input.X_WH.R.coeffs());
   EXPECT_EQ(s.V_WH.v, input.V_WH.v);
@@ -303,7 +303,7 @@ TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   lie(Reject::wrong_session, [](auto& s) { s.session += 2; });
   EXPECT_TRUE(feels(*hand, Vec3(2, 0, 0)));
   lie(Reject::old_sequence, [](auto& s) { s.seq = 1; });
-  for (const state::HandSample& sample : server.samples())
+  for (const hand::SentSample& sample : server.samples())
     EXPECT_NE(sample.X_WH.p.x(), -7);
 }
 

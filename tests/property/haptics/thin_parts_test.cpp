@@ -127,8 +127,8 @@ struct Passing {
 /// Any segment of a hand of any size, or the tip of a one-point device, on any way through the part.
 Passing any_passing(const ThinPart& part, bool with_palm) {
   static const HandModel hand = *HandModel::create({});
-  state::HandSample sample;
-  sample.kind = *rc::gen::inRange(0, 4) == 0 ? state::HandKind::one_point : state::HandKind::glove;
+  hand::HandSample sample;
+  sample.kind = *rc::gen::inRange(0, 4) == 0 ? hand::HandKind::one_point : hand::HandKind::glove;
   sample.hand_scale = HandModel::kScales[*rc::gen::inRange<std::size_t>(0, HandModel::kScales.size())];
   const std::size_t segments = HandModel::segment_count(sample.kind);
   const std::size_t first = !with_palm && segments > 1 ? 1 : 0;

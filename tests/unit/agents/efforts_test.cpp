@@ -26,7 +26,7 @@ TEST(Pulled, NeedsTheForceAlongItsAxisForItsTime) {
   Stage stage(
       with_effort("simulation.pulled", {{"force", number({4})}, {"axis", number({0, 0, 2})}, {"time", number({0.1})}}));
   stage.state->bodies[1].X_WB.R = Quat(Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()));  // its z is the world's x
-  stage.appear(0, state::HandKind::one_point);
+  stage.appear(0, hand::HandKind::one_point);
   pull(stage, Vec3(3.9, 8, 8));
   stage.run(0.3);
   EXPECT_EQ(stage.value("EFFORT.pulled"), 0) << "across the axis counts nothing";
@@ -46,7 +46,7 @@ TEST(Pulled, NeedsTheForceAlongItsAxisForItsTime) {
 
 TEST(Pulled, CountsTheWayFromWhereTheHandCame) {
   Stage stage(with_effort("simulation.pulled", {{"travel", number({0.1})}}));
-  stage.appear(0, state::HandKind::one_point);
+  stage.appear(0, hand::HandKind::one_point);
   stage.state->bodies[1].X_WB.p.x() += 5;
   stage.run(0.01);
   pull(stage, Vec3::Zero());
@@ -63,7 +63,7 @@ TEST(Pulled, CountsTheWayFromWhereTheHandCame) {
 TEST(Pulled, MayCountAJointsWay) {
   Stage stage(
       with_effort("simulation.pulled", {{"travel", number({0.5})}, {"joint", text({"AXLE"})}, {"reverse", true}}));
-  stage.appear(0, state::HandKind::one_point);
+  stage.appear(0, hand::HandKind::one_point);
   stage.state->joints[0].position = 3;
   pull(stage, Vec3::Zero());
   stage.tick();
@@ -74,7 +74,7 @@ TEST(Pulled, MayCountAJointsWay) {
 
 TEST(Pushed, IsATouchThatPressesAndNotAHold) {
   Stage stage(with_effort("simulation.pushed", {{"force", number({2})}, {"axis", number({1, 0, 0})}}));
-  stage.appear(0, state::HandKind::one_point);
+  stage.appear(0, hand::HandKind::one_point);
   stage.user().output.force_W.f = Vec3(-2.5, 0, 0);  // the body pushes back on the hand
   stage.tick();
   EXPECT_EQ(stage.value("EFFORT.pushed"), 0) << "the hand touches nothing";
@@ -93,7 +93,7 @@ TEST(Pushed, IsATouchThatPressesAndNotAHold) {
 
 TEST(Fired, ReleasesOnceAndIsCockedAgainByItsSwitch) {
   Stage stage(with_effort("simulation.fired", {{"force", number({3})}, {"releases", text({"HINGE"})}}));
-  stage.appear(0, state::HandKind::one_point);
+  stage.appear(0, hand::HandKind::one_point);
   stage.tick();
   EXPECT_TRUE(stage.state->joints[0].enabled);
   pull(stage, Vec3(0, 3.5, 0));

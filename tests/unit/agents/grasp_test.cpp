@@ -6,8 +6,8 @@
 namespace mechane::agents::test {
 namespace {
 
+using hand::HandKind;
 using state::EventKind;
-using state::HandKind;
 using ::testing::HasSubstr;
 
 const BodyId kPart(1);

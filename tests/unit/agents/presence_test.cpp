@@ -4,8 +4,8 @@
 namespace mechane::agents::test {
 namespace {
 
+using hand::HandKind;
 using state::EventKind;
-using state::HandKind;
 using ::testing::HasSubstr;
 
 state::WorldDescription with_agents(std::vector<state::ComponentDescription> agents) {

@@ -152,7 +152,7 @@ TEST(Progress, StartingAnActivityPutsTheWorldBackAndRunsItsFirstStep) {
   stage.state->bodies[2].X_WB.p = Vec3(5, 5, 5);
   stage.state->joints[0].position = 40;
   stage.state->memory[stage.layout.find("GRASP.user0.was_open")->index] = 0;
-  stage.appear(0, state::HandKind::one_point);
+  stage.appear(0, hand::HandKind::one_point);
   stage.user().grasp.active = true;
   stage.user().grasp.body = BodyId(2);
   stage.tick({command(42, CommandKind::start_activity, 1)});
@@ -244,7 +244,7 @@ TEST(Quantities, AnUnknownSourceIsAnErrorThatListsWhatExists) {
 
 TEST(Touches, SayWhenAHandComesToABodyAndNotWhileItTrembles) {
   Stage stage(two_activities());
-  stage.appear(0, state::HandKind::one_point);
+  stage.appear(0, hand::HandKind::one_point);
   for (int n = 0; n < 200; ++n) {
     stage.lift_off();
     if (n % 20 < 10) stage.touch(0, BodyId(1), 0, Vec3::UnitX());
@@ -293,7 +293,7 @@ TEST(AgentSet, RefusesStepsThatPointNowhere) {
 TEST(AgentSet, ATickAllocatesNothing) {
   if (!mechane::test::AllocationGuard::available()) GTEST_SKIP() << "this build has a sanitizer's own malloc";
   Stage stage(two_activities());
-  stage.appear(0, state::HandKind::glove);
+  stage.appear(0, hand::HandKind::glove);
   stage.touch(0, BodyId(1), 2, Vec3::UnitX());
   stage.touch(0, BodyId(1), 5, -Vec3::UnitX());
   const std::array<state::Command, 2> commands{command(1, CommandKind::restart_activity),

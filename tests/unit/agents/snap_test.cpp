@@ -59,7 +59,7 @@ TEST(Snap, LeadsTheBodyHomeSmoothlyAndTakesItOutOfTheHand) {
   Stage stage(with_snap());
   const Pose X_WT = place_in(stage);
   part(stage).X_WB = {X_WT.p + Vec3(0.04, 0, 0), X_WT.R};
-  stage.appear(0, state::HandKind::one_point, part(stage).X_WB.p);
+  stage.appear(0, hand::HandKind::one_point, part(stage).X_WB.p);
   stage.user().grasp.active = true;
   stage.user().grasp.body = BodyId(1);
   stage.tick();

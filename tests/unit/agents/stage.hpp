@@ -83,7 +83,7 @@ struct Stage {
   [[nodiscard]] state::UserState& user(std::size_t u = 0) const { return state->users[u]; }
 
   /// A hand appears at p_WH, open.
-  void appear(std::size_t u, state::HandKind kind, const Vec3& p_WH = Vec3::Zero()) const {
+  void appear(std::size_t u, hand::HandKind kind, const Vec3& p_WH = Vec3::Zero()) const {
     user(u) = {};
     user(u).present = true;
     user(u).freshness = 1;

@@ -8,8 +8,8 @@
 namespace mechane::haptics {
 namespace {
 
-using state::HandKind;
-using state::HandSample;
+using hand::HandKind;
+using hand::HandSample;
 
 const HandModel& hand() {
   static const HandModel kHand = HandModel::create(HandSize{}).value();
@@ -19,15 +19,15 @@ const HandModel& hand() {
 HandSample glove(double flexion) {
   HandSample sample;
   sample.kind = HandKind::glove;
-  for (std::size_t f = 0; f < state::kFingers; ++f) {
+  for (std::size_t f = 0; f < hand::kFingers; ++f) {
     for (std::size_t k = 1; k < 4; ++k)
       sample.joints[4 * f + k] = flexion;
   }
   return sample;
 }
 
-std::array<Pose, state::kHandSegments> placed(const HandSample& sample, const Pose& X_WH = {}) {
-  std::array<Pose, state::kHandSegments> X_WS{};
+std::array<Pose, hand::kHandSegments> placed(const HandSample& sample, const Pose& X_WH = {}) {
+  std::array<Pose, hand::kHandSegments> X_WS{};
   hand().place(sample, X_WH, X_WS);
   return X_WS;
 }
@@ -93,7 +93,7 @@ TEST(HandModel, ReachCoversEverySegment) {
 
 TEST(HandModel, ASampleOfAGrownHandHasEnoughPointsForAFingertip) {
   std::size_t points = 0;
-  for (std::size_t s = 0; s < state::kHandSegments; ++s)
+  for (std::size_t s = 0; s < hand::kHandSegments; ++s)
     points += collision::sample_count(hand().segment(glove(0), s));
   EXPECT_GT(points, 1000u);
 }

@@ -85,7 +85,7 @@ TEST(RenderForces, NeverOverTheLimit) {
   bench.user().contacts[0] = touch(0.5);
   bench.user().contact_count = 1;
   EXPECT_LE(bench.settle().norm(), plain().governor.max_force_n + 1e-12);
-  EXPECT_NE(bench.user().output.reasons & static_cast<std::uint32_t>(state::ForceReason::clamped), 0u);
+  EXPECT_NE(bench.user().output.reasons & hand::kClamped, 0u);
 }
 
 TEST(RenderForces, PaperModeHalvesWhereContinuousDoesNot) {
@@ -133,7 +133,7 @@ TEST(RenderForces, FrictionOpposesSlidingAndStaysInItsCone) {
 TEST(RenderForces, AGlovesFingerFeelsOnlyWhatPushesItOpen) {
   const WorldDescription world = one_body(true);
   Bench bench(world, plain());
-  bench.user().sample.kind = state::HandKind::glove;
+  bench.user().sample.kind = hand::HandKind::glove;
   for (auto& X_WS : bench.user().X_WS)
     X_WS = Pose{};
   bench.user().contacts[0] = touch(0.002, 6);

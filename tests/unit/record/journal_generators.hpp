@@ -29,19 +29,19 @@ inline double any_double() {
   return *rc::gen::element(std::bit_cast<double>(bits * 0x9e3779b97f4a7c15u), 0.0, -0.0, 0.25);
 }
 
-inline state::HandSample any_sample() {
-  state::HandSample s;
+inline hand::SentSample any_sample() {
+  hand::SentSample s;
   s.session = *rc::gen::arbitrary<std::uint64_t>();
   s.sequence = *rc::gen::arbitrary<std::uint64_t>();
   s.sent_ns = *rc::gen::arbitrary<std::uint64_t>();
-  s.kind = *rc::gen::element(state::HandKind::one_point, state::HandKind::glove);
+  s.kind = *rc::gen::element(hand::HandKind::one_point, hand::HandKind::glove);
   for (int i = 0; i < 3; ++i)
     s.X_WH.p[i] = any_double();
   for (int i = 0; i < 4; ++i)
     s.X_WH.R.coeffs()[i] = any_double();
   for (int i = 0; i < 3; ++i)
     s.V_WH.v[i] = any_double();
-  if (s.kind == state::HandKind::glove) {
+  if (s.kind == hand::HandKind::glove) {
     for (double& angle : s.joints)
       angle = any_double();
   }
@@ -81,7 +81,7 @@ inline bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-inline bool same(const state::HandSample& a, const state::HandSample& b) {
+inline bool same(const hand::SentSample& a, const hand::SentSample& b) {
   bool same = a.session == b.session && a.sequence == b.sequence && a.sent_ns == b.sent_ns && a.kind == b.kind &&
               a.buttons == b.buttons && same_bits(a.hand_scale, b.hand_scale) &&
               same_bits(a.grasp_intent, b.grasp_intent);

@@ -220,7 +220,7 @@ TEST(Journal, TheLargestTickFitsAndEncodingAllocatesNothing) {
   tick.tick = 1;
   for (state::UserInput& user : tick.inputs.users) {
     user = {.present = true, .fresh = true, .age = Duration::min(), .sample = {}};
-    user.sample.kind = state::HandKind::glove;
+    user.sample.kind = hand::HandKind::glove;
     user.sample.session = user.sample.sequence = user.sample.sent_ns = ~std::uint64_t{0};
     user.sample.buttons = ~0u;
     user.sample.X_WH = {Vec3::Ones(), Quat(1, 1, 1, 1)};

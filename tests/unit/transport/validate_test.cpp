@@ -18,7 +18,7 @@ proto::HapticInput honest() {
 }
 
 TEST(Validate, TakesAnHonestSample) {
-  state::HandSample out;
+  hand::SentSample out;
   EXPECT_EQ(validate(honest(), out), Reject::none);
 }
 
@@ -29,7 +29,7 @@ RC_GTEST_PROP(Validate, WhatItTakesIsFitForTheLoop, ()) {
   const auto where = *rc::gen::inRange<std::size_t>(0, words);
   const auto bits = *rc::gen::arbitrary<std::uint32_t>();
   std::memcpy(reinterpret_cast<char*>(&s) + 4 * where, &bits, 4);
-  state::HandSample out;
+  hand::SentSample out;
   if (validate(s, out) != Reject::none) return;
   RC_ASSERT(out.X_WH.p.norm() < kMaxDistanceM);
   RC_ASSERT(std::abs(out.X_WH.R.norm() - 1) < 1e-9);

@@ -59,7 +59,7 @@ class Client {
   [[nodiscard]] virtual std::uint64_t session() const = 0;
 
   /// Sends one sample of the hand (role `hand`, state `joined`; otherwise nothing is sent and false returned).
-  virtual bool send(const HandInput& input) noexcept = 0;
+  virtual bool send(const HandSample& input) noexcept = 0;
   /// Sequence number of the last sample that was sent.
   [[nodiscard]] virtual std::uint64_t sent_sequence() const noexcept = 0;
   /// The newest force, if one arrived since the last call.

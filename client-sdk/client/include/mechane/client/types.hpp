@@ -10,53 +10,28 @@
 
 #include "server/base/clock.hpp"
 #include "server/base/math.hpp"
+#include "server/hand/hand_force.hpp"
 
 namespace mechane::client {
 
-inline constexpr std::size_t kFingers = 5;
-inline constexpr std::size_t kHandJoints = 20;
-inline constexpr std::size_t kHandSegments = 16;
-inline constexpr std::size_t kMaxLocalContacts = 8;
-
-enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
-
-/// One sample of a device, at the moment of sending.
-struct HandInput {
-  HandKind kind = HandKind::one_point;
-  Pose X_WH;                                 ///< wrist (glove) or tip (one-point)
-  Twist V_WH;                                ///< its velocity, m/s and rad/s
-  std::array<double, kHandJoints> joints{};  ///< per finger (thumb first): abduction, then three flexions, rad
-  double hand_scale = 1;                     ///< the visitor's hand against the model's, 0.5 .. 1.5
-  std::uint32_t buttons = 0;
-  double grasp_intent = 0;  ///< 0 open .. 1 closed
-};
-
-/// A contact that the client can render at its device's own rate.
-struct LocalContact {
-  Vec3 p_W = Vec3::Zero();
-  Vec3 n_W = Vec3::Zero();  ///< unit, into the hand
-  Vec3 v_W = Vec3::Zero();  ///< velocity of the surface
-  double depth_m = 0;
-  double curvature_per_m = 0;
-  double stiffness_n_per_m = 0;
-  double damping_ns_per_m = 0;
-  double friction = 0;
-  Duration valid_for{0};  ///< from receipt
-};
+// The hand's own words are declared once, for server and clients (server/hand).
+using hand::HandKind;
+using hand::HandSample;
+using hand::kFingers;
+using hand::kHandJoints;
+using hand::kHandSegments;
+using hand::kMaxLocalContacts;
+using hand::LocalContact;
 
 /// What the server wants a device to render. The device's own ForceGovernor has the last word.
-struct ForceSample {
+struct ForceSample : hand::HapticOutput {
   std::uint64_t sequence = 0;
-  std::uint64_t echo_sequence = 0;  ///< the input that this answers
-  TimePoint echo_sent;              ///< when that input was sent, on this client's clock
-  TimePoint received;               ///< on this client's clock
-  Duration waited{0};               ///< how long that input waited at the server for this tick to take it
-  Wrench force_W;                   ///< on the hand, N and N m
-  std::array<double, kFingers> finger_force_n{};
-  std::array<LocalContact, kMaxLocalContacts> contacts{};
-  std::uint32_t contact_count = 0;
-  std::uint32_t reasons = 0;  ///< force::ForceReason bits of the server's governor
-  bool holding = false;
+  TimePoint received;  ///< on this client's clock
+  Duration waited{0};  ///< how long the input that it answers waited at the server for this tick to take it
+  /// When the input that it answers was sent, on this client's clock.
+  [[nodiscard]] TimePoint echo_sent() const noexcept {
+    return TimePoint(Duration(static_cast<std::int64_t>(echo_sent_ns)));
+  }
 };
 
 struct BodyPose {

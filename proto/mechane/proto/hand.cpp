@@ -1,0 +1,35 @@
+// Holds the contract's sizes and numbers of the hand (idl/mechane.idl) against those of server/hand. Nothing here runs.
+#include <bit>
+#include <type_traits>
+
+#include "server/hand/hand_force.hpp"
+#include "server/hand/hand_sample.hpp"
+#include <mechane/proto/topics.hpp>
+
+namespace mechane::proto {
+namespace {
+
+static_assert(mechane_kMaxUsers == hand::kMaxUsers);
+static_assert(mechane_kFingers == hand::kFingers);
+static_assert(mechane_kHandJoints == hand::kHandJoints);
+static_assert(mechane_kHandSegments == hand::kHandSegments);
+static_assert(mechane_kMaxLocalContacts == hand::kMaxLocalContacts);
+
+static_assert(std::extent_v<decltype(HapticInput::joints)> == hand::kHandJoints);
+static_assert(std::extent_v<decltype(HapticOutput::finger_force_n)> == hand::kFingers);
+static_assert(std::extent_v<decltype(HapticOutput::contacts)> == hand::kMaxLocalContacts);
+static_assert(std::extent_v<decltype(WorldAssignment::owners)> == hand::kMaxUsers);
+
+static_assert(mechane_hand_one_point == static_cast<int>(hand::HandKind::one_point));
+static_assert(mechane_hand_glove == static_cast<int>(hand::HandKind::glove));
+
+static_assert(mechane_reason_clamped == hand::kClamped);
+static_assert(mechane_reason_slew_limited == hand::kSlewLimited);
+static_assert(mechane_reason_damped == hand::kDamped);
+static_assert(mechane_reason_stale == hand::kStale);
+static_assert(mechane_reason_ramping == hand::kRamping);
+static_assert(mechane_reason_not_finite == hand::kNotFinite);
+static_assert(std::bit_width(static_cast<std::uint32_t>(hand::kNotFinite)) == hand::kReasonCount);
+
+}  // namespace
+}  // namespace mechane::proto

@@ -1,0 +1,195 @@
+#include "server/hand/governor.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace mechane::hand {
+namespace {
+
+HandForce nothing(std::uint32_t reasons) {
+  HandForce zero;
+  zero.reasons = reasons;
+  return zero;
+}
+
+bool all_finite(const GovernorInput& in) {
+  const bool vectors =
+      in.wanted_W.f.allFinite() && in.wanted_W.t.allFinite() && in.V_WH.v.allFinite() && in.V_WH.w.allFinite();
+  return vectors &&
+         std::all_of(in.finger_force_n.begin(), in.finger_force_n.end(), [](double f) { return std::isfinite(f); });
+}
+
+// Scales v to the limit when it is longer; true when it was. stableNorm: a wild input of 1e300 N must not overflow into a NaN.
+bool clamp_norm(Vec3& v, double limit) {
+  const double norm = v.stableNorm();
+  if (!(norm > limit)) return false;
+  v = (v / norm) * limit;
+  return true;
+}
+
+// Moves `value` towards `target` by at most `step`; true when that fell short.
+bool approach(Vec3& value, const Vec3& target, double step) {
+  Vec3 change = target - value;
+  const bool limited = clamp_norm(change, step);
+  value = limited ? Vec3(value + change) : target;
+  return limited;
+}
+
+bool approach(double& value, double target, double step) {
+  const bool limited = std::abs(target - value) > step;
+  value = limited ? value + std::copysign(step, target - value) : target;
+  return limited;
+}
+
+bool in_range(double value, double low, double high) {
+  return std::isfinite(value) && value >= low && value <= high;
+}
+
+Expected<void> check(const GovernorConfig& c) {
+  struct Range {
+    const char* name;
+    double value, low, high;
+  };
+  const Range ranges[] = {
+      {"max_force_n", c.max_force_n, 0, 100},
+      {"max_torque_nm", c.max_torque_nm, 0, 10},
+      {"max_finger_force_n", c.max_finger_force_n, 0, 40},
+      {"max_slew_n_per_s", c.max_slew_n_per_s, 1e-3, 1e6},
+      {"max_torque_slew_nm_per_s", c.max_torque_slew_nm_per_s, 1e-3, 1e6},
+      {"max_finger_slew_n_per_s", c.max_finger_slew_n_per_s, 1e-3, 1e6},
+      {"ramp_up_s", c.ramp_up_s, 0, 10},
+      {"ramp_down_s", c.ramp_down_s, 0, 10},
+      {"energy_margin_j", c.energy_margin_j, 0, 1},
+      {"energy_credit_j", c.energy_credit_j, c.energy_margin_j, 100},
+      {"max_damping_ns_per_m", c.max_damping_ns_per_m, 0, 1000},
+  };
+  for (const Range& r : ranges) {
+    if (in_range(r.value, r.low, r.high)) continue;
+    return fail(std::to_string(r.value) + " is out of range", std::string("force governor, ") + r.name,
+                "use " + std::to_string(r.low) + " to " + std::to_string(r.high));
+  }
+  if (c.hold < Duration{0} || c.zero_by <= c.hold) {
+    return fail("hold must come before zero_by, and be no less than 0", "force governor", "use 10 ms and 50 ms");
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<ForceGovernor> ForceGovernor::make(const GovernorConfig& config) {
+  if (auto checked = check(config); !checked) return tl::unexpected(checked.error());
+  return ForceGovernor(config);
+}
+
+void ForceGovernor::reset() noexcept {
+  last_ = {};
+  ramp_ = 0;
+  gain_ = 0;
+  credit_j_ = config_.energy_margin_j;
+}
+
+HandForce ForceGovernor::apply(const GovernorInput& input, Duration dt) noexcept {
+  const double dt_s = to_seconds(std::max(dt, Duration{0}));
+  std::uint32_t reasons = kNone;
+  const double gain_before = gain_;
+  gain_ = next_gain(input, dt_s, reasons);
+  if (!all_finite(input)) return finish(nothing(reasons | kNotFinite));
+  settle_energy(input.V_WH, dt_s);
+
+  Wrench wanted = input.wanted_W;
+  bool clamped = clamp_norm(wanted.f, config_.max_force_n);
+  clamped |= clamp_norm(wanted.t, config_.max_torque_nm);
+
+  // What is on the device falls with the gain at once; the slew limit holds for the way from there.
+  const double fall = gain_ < gain_before ? gain_ / gain_before : 1.0;
+  HandForce out = last_;
+  out.force_W.f *= fall;
+  out.force_W.t *= fall;
+  bool limited = approach(out.force_W.f, gain_ * wanted.f, config_.max_slew_n_per_s * dt_s);
+  limited |= approach(out.force_W.t, gain_ * wanted.t, config_.max_torque_slew_nm_per_s * dt_s);
+  for (std::size_t i = 0; i < kFingers; ++i) {
+    const double finger = std::clamp(input.finger_force_n[i], 0.0, config_.max_finger_force_n);
+    clamped |= finger != input.finger_force_n[i];
+    out.finger_force_n[i] *= fall;
+    limited |= approach(out.finger_force_n[i], gain_ * finger, config_.max_finger_slew_n_per_s * dt_s);
+  }
+  if (clamped) reasons |= kClamped;
+  if (limited) reasons |= kSlewLimited;
+  if (config_.passivity && gain_ > 0) keep_passive(input.V_WH, dt_s, out.force_W, reasons);
+  out.reasons = reasons;
+  return finish(out);
+}
+
+double ForceGovernor::next_gain(const GovernorInput& input, double dt_s, std::uint32_t& reasons) noexcept {
+  const double target = input.engaged ? 1.0 : 0.0;
+  const double ramp_time = input.engaged ? config_.ramp_up_s : config_.ramp_down_s;
+  if (ramp_ != target) {
+    reasons |= kRamping;
+    if (ramp_time > 0) {
+      approach(ramp_, target, dt_s / ramp_time);
+    } else {
+      ramp_ = target;
+    }
+  }
+  const double fresh = freshness(input.age, config_.hold, config_.zero_by);
+  if (fresh < 1.0) reasons |= kStale;
+  return fresh * ramp_;
+}
+
+// The force of the last call acted while the hand moved on to where it is now: its work comes off the credit (a hand that works
+// against the force pays in).
+void ForceGovernor::settle_energy(const Twist& V_WH, double dt_s) noexcept {
+  const double given_out = (last_.force_W.f.dot(V_WH.v) + last_.force_W.t.dot(V_WH.w)) * dt_s;
+  credit_j_ = std::min(credit_j_ - given_out, config_.energy_credit_j);
+  // A velocity that is finite but absurd (1e300 m/s) must not poison the account for ever.
+  credit_j_ = std::max(credit_j_, -config_.energy_credit_j - config_.energy_margin_j);
+}
+
+void ForceGovernor::keep_passive(const Twist& V_WH, double dt_s, Wrench& force, std::uint32_t& reasons) noexcept {
+  const double power_f = force.f.dot(V_WH.v);
+  const double power_t = force.t.dot(V_WH.w);
+  if (dt_s <= 0) return;
+  const double excess = power_f + power_t - credit_j_ / dt_s;  // watts over what the account can pay in this step
+  if (excess <= 0) return;
+  reasons |= kDamped;
+  const double positive = std::max(power_f, 0.0) + std::max(power_t, 0.0);
+  // First take away what pushes the hand along its own motion: this only shrinks the force.
+  if (positive > 0) {
+    const double share = std::min(excess / positive, 1.0);
+    if (power_f > 0) force.f -= share * (power_f / V_WH.v.squaredNorm()) * V_WH.v;
+    if (power_t > 0) force.t -= share * (power_t / V_WH.w.squaredNorm()) * V_WH.w;
+  }
+  // Then, where the account is overdrawn, damp: within the device's limits and the slew limit.
+  const double overdrawn = excess - positive;
+  const double speed_squared = V_WH.v.squaredNorm();
+  if (overdrawn <= 0 || speed_squared <= 0) return;
+  Vec3 damping = -std::min(overdrawn / speed_squared, config_.max_damping_ns_per_m) * V_WH.v;
+  clamp_norm(damping, config_.max_slew_n_per_s * dt_s);
+  force.f += damping;
+  clamp_norm(force.f, config_.max_force_n * gain_);
+}
+
+HandForce ForceGovernor::finish(HandForce out) noexcept {
+  for (std::size_t i = 0; i < kReasonCount; ++i) {
+    if ((out.reasons & (1u << i)) != 0) ++counts_[i];
+  }
+  // Arithmetic on finite but absurd inputs may still overflow; nothing but numbers within the limits leaves this class.
+  const bool sane = out.force_W.f.allFinite() && out.force_W.t.allFinite();
+  if (!sane) {
+    out = nothing(out.reasons | kNotFinite);
+    ++counts_[std::countr_zero(static_cast<std::uint32_t>(kNotFinite))];
+    credit_j_ = std::min(credit_j_, 0.0);
+    if (!std::isfinite(credit_j_)) credit_j_ = 0;
+  }
+  last_ = out;
+  return out;
+}
+
+std::uint64_t ForceGovernor::count(ForceReason reason) const noexcept {
+  const auto bits = static_cast<std::uint32_t>(reason);
+  if (!std::has_single_bit(bits) || std::countr_zero(bits) >= static_cast<int>(kReasonCount)) return 0;
+  return counts_[static_cast<std::size_t>(std::countr_zero(bits))];
+}
+
+}  // namespace mechane::hand

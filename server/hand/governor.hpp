@@ -1,0 +1,91 @@
+// ForceGovernor: the last word on every force that reaches a hand. The server runs one per user, the client another
+// one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "server/base/clock.hpp"
+#include "server/base/error.hpp"
+#include "server/base/math.hpp"
+#include "server/hand/freshness.hpp"
+#include "server/hand/hand_force.hpp"
+
+namespace mechane::hand {
+
+struct GovernorConfig {
+  double max_force_n = 3.0;          ///< of the device, continuous; range 0 .. 100
+  double max_torque_nm = 0.2;        ///< range 0 .. 10; 0 for a device without torque
+  double max_finger_force_n = 12.0;  ///< CyberGrasp's own limit; range 0 .. 40
+  double max_slew_n_per_s = 1000;    ///< how fast the force may change; over 0
+  double max_torque_slew_nm_per_s = 60;
+  double max_finger_slew_n_per_s = 2000;
+  Duration hold = kHoldFor;          ///< a sample counts in full up to this age
+  Duration zero_by = kZeroBy;        ///< all forces are exactly zero from this age on
+  double ramp_up_s = 0.5;            ///< at the start of a visit; 0 .. 10
+  double ramp_down_s = 0.1;          ///< at its end; 0 .. 10
+  bool passivity = true;             ///< the energy observer
+  double energy_margin_j = 0.002;    ///< what the hand may be given before it has put anything in
+  double energy_credit_j = 0.5;      ///< what it has put in is remembered up to this; over the margin
+  double max_damping_ns_per_m = 10;  ///< the most that the observer adds
+};
+
+/// What a force would like to be, and what is known of the hand. All in W, SI.
+struct GovernorInput {
+  Wrench wanted_W;                                ///< force and torque on the visitor's hand
+  std::array<double, kFingers> finger_force_n{};  ///< each >= 0
+  Twist V_WH;                                     ///< of the hand where `wanted_W` acts: its mean since the last call
+  Duration age{0};                                ///< of the last new sample, on our own clock
+  bool engaged = true;                            ///< a visit is on; the governor ramps when this changes
+};
+
+/// One hand's governor. In this order: a number that is not finite makes everything zero at once; force and torque are
+/// clamped as vectors, keeping their direction; the gain (freshness of the sample times the ramp of the visit) scales
+/// them; the slew limit holds their change; the energy observer takes away what the system would give out beyond what
+/// it was given, and damps.
+///
+/// The slew limit never delays a safety drop: when the gain falls, what is on the device now falls with it, at once,
+/// and the limit holds for what remains; a fall of the gain to zero is a force of exactly zero. Upwards the limit
+/// always holds, also after a drop.
+///
+/// The energy observer is the time-domain passivity control of Hannaford and Ryu (2002), eqs. (3)-(5), with three
+/// departures: the credit is capped (else an hour's friction would pay for any later push); removing the force's own
+/// part along the motion, which can only shrink it, has no limit, while added damping has one; force and torque share
+/// one account.
+///
+/// One thread; no allocation; the same inputs give the same bits.
+class ForceGovernor {
+ public:
+  /// Errors name the setting that is out of range.
+  [[nodiscard]] static Expected<ForceGovernor> make(const GovernorConfig& config);
+
+  /// The force for the next `dt`; call at the device's rate. `dt` <= 0 allows no rise.
+  [[nodiscard]] HandForce apply(const GovernorInput& input, Duration dt) noexcept;
+
+  /// Back to the start: no force, a ramp to come. Counters stay.
+  void reset() noexcept;
+
+  /// How many calls had this reason; `reason` is one bit.
+  [[nodiscard]] std::uint64_t count(ForceReason reason) const noexcept;
+  /// What the hand has put in and not yet got back, plus the margin, J. Below zero: the observer is damping.
+  [[nodiscard]] double energy_credit_j() const noexcept { return credit_j_; }
+  [[nodiscard]] const GovernorConfig& config() const noexcept { return config_; }
+
+ private:
+  explicit ForceGovernor(const GovernorConfig& config) : config_(config), credit_j_(config.energy_margin_j) {}
+
+  [[nodiscard]] double next_gain(const GovernorInput& input, double dt_s, std::uint32_t& reasons) noexcept;
+  void settle_energy(const Twist& V_WH, double dt_s) noexcept;
+  void keep_passive(const Twist& V_WH, double dt_s, Wrench& force, std::uint32_t& reasons) noexcept;
+  HandForce finish(HandForce out) noexcept;
+
+  GovernorConfig config_;
+  HandForce last_;   // what is on the device now
+  double ramp_ = 0;  // 0 .. 1
+  double gain_ = 0;  // of the last call: freshness times ramp
+  double credit_j_ = 0;
+  std::array<std::uint64_t, kReasonCount> counts_{};
+};
+
+}  // namespace mechane::hand

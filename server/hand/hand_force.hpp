@@ -1,0 +1,62 @@
+// The force on a hand: what a governor gives out, what the wire carries, what a device renders. Declared here once; proto/hand.cpp holds the
+// numbers of the wire's contract against these.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "server/base/math.hpp"
+#include "server/hand/freshness.hpp"
+#include "server/hand/hand_sample.hpp"
+
+namespace mechane::hand {
+
+/// Why a force differs from the one that the contacts ask for. Bits.
+enum ForceReason : std::uint32_t {
+  kNone = 0,
+  kClamped = 1,      ///< over the device's limit
+  kSlewLimited = 2,  ///< would change faster than the device may be asked to
+  kDamped = 4,       ///< the energy observer saw the system put out energy
+  kStale = 8,        ///< samples are old; the force decays
+  kRamping = 16,     ///< start or end of a visit
+  kNotFinite = 32,   ///< a number was not finite; the force is zero
+};
+inline constexpr std::size_t kReasonCount = 6;
+
+/// Forces on the visitor's hand, in W.
+struct HandForce {
+  Wrench force_W;                                 ///< at the wrist (glove) or tip (one-point), N and N m
+  std::array<double, kFingers> finger_force_n{};  ///< a force glove's: >= 0, along the finger's own perpendicular
+  std::uint32_t reasons = kNone;                  ///< ForceReason bits
+};
+
+inline constexpr std::size_t kMaxLocalContacts = 8;
+
+/// A contact that a client renders at its device's own rate, as the server saw it. The stiffnesses of all contacts add up to what the hand
+/// feels: a server that sends four points of one finger sends a quarter of the stiffness with each.
+struct LocalContact {
+  Vec3 p_W = Vec3::Zero();       ///< a point of the body's surface
+  Vec3 n_W = Vec3::UnitX();      ///< unit normal there, from the body into the hand
+  Vec3 v_W = Vec3::Zero();       ///< velocity of the surface there, m/s
+  double depth_m = 0;            ///< how far hand and body overlap along n_W; <= 0: still apart by that much
+  double curvature_per_m = 0;    ///< of the surface: > 0 bulges towards the hand, < 0 is hollow, 0 a plane
+  double stiffness_n_per_m = 0;  ///< >= 0
+  double damping_ns_per_m = 0;   ///< >= 0; acts only while the hand pushes in
+  double friction = 0;           ///< Coulomb, >= 0
+  Duration validity = kHoldFor;  ///< from receipt; afterwards the contact fades out
+};
+
+/// What a server answers a sample with.
+struct HapticOutput : HandForce {
+  std::uint64_t echo_sequence = 0;  ///< the sample that this answers
+  std::uint64_t echo_sent_ns = 0;   ///< and its sent_ns
+  std::array<LocalContact, kMaxLocalContacts> contacts{};
+  std::uint32_t contact_count = 0;
+  bool holding = false;  ///< a grasp is on
+
+  [[nodiscard]] std::span<const LocalContact> contact_span() const noexcept { return {contacts.data(), contact_count}; }
+};
+
+}  // namespace mechane::hand

@@ -1,0 +1,41 @@
+// A hand as its device sees it: what a client sends, what the wire carries, what a world moves. Declared here once; proto/hand.cpp holds
+// the numbers of the wire's contract against these.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "server/base/math.hpp"
+
+namespace mechane::hand {
+
+inline constexpr std::size_t kMaxUsers = 4;      ///< hands of one kiosk, and in one world
+inline constexpr std::size_t kFingers = 5;       ///< thumb, index, middle, ring, little
+inline constexpr std::size_t kFingerJoints = 4;  ///< of one finger: abduction, then flexion from the palm outwards
+inline constexpr std::size_t kPhalanges = 3;     ///< of one finger, from the palm outwards
+inline constexpr std::size_t kHandJoints = kFingers * kFingerJoints;
+inline constexpr std::size_t kHandSegments = 1 + kFingers * kPhalanges;  ///< the palm, then each finger's phalanges
+
+/// How a device shows the hand. A glove moves 16 segments; a one-point device (a stylus, a pointer) has one sphere at its tip.
+enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
+
+/// One sample of a device. What comes from the network is checked before it becomes one: all numbers finite, the rotation of unit length.
+struct HandSample {
+  HandKind kind = HandKind::one_point;
+  Pose X_WH;                                 ///< wrist (glove) or tip (one-point) in W
+  Twist V_WH;                                ///< its velocity, m/s and rad/s
+  std::array<double, kHandJoints> joints{};  ///< by finger, kFingerJoints each, radians (glove)
+  double hand_scale = 1.0;                   ///< size of the visitor's hand against the model's, 0.5 .. 1.5
+  std::uint32_t buttons = 0;
+  double grasp_intent = 0.0;  ///< 0 open .. 1 closed: a button, a pinch, or the glove's own estimate
+};
+
+/// A sample with what its sender wrote on it.
+struct SentSample : HandSample {
+  std::uint64_t session = 0;   ///< who sends: a client's own random number, never 0
+  std::uint64_t sequence = 0;  ///< rises by one a sample within a session
+  std::uint64_t sent_ns = 0;   ///< the sender's clock; echoed, never compared with ours
+};
+
+}  // namespace mechane::hand

@@ -1,0 +1,46 @@
+// The contacts near a hand, as planes and spheres that a client renders at its device's own rate while the next answer
+// of the server is on its way.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "server/base/clock.hpp"
+#include "server/base/math.hpp"
+#include "server/hand/hand_force.hpp"
+
+namespace mechane::hand {
+
+/// Renders up to 8 contacts. One thread; render allocates nothing.
+///
+/// The hand is a point H (its reference point: the tip of a stylus, the wrist of a glove) that moves without turning
+/// between two answers. Each contact becomes a plane, or a sphere of radius 1 / |curvature|, that H may not pass:
+/// placed so that H is `depth_m` behind it where H was when the server looked. So the size of the tip, or the way from
+/// wrist to fingertip, needs no further numbers.
+class LocalContactModel {
+ public:
+  static constexpr Duration kFadeTime =
+      std::chrono::milliseconds(20);  ///< a contact past its validity is gone after this
+  static constexpr double kDampingOnset_m =
+      0.5e-3;  ///< damping grows to its full value over this depth: no jolt at touch
+  static constexpr double kStickSpeed_m_per_s =
+      5e-3;  ///< below this speed friction is viscous, so that it cannot chatter
+
+  /// The server's newest contacts, and where H was (`p_WH0`) in the input that they answer. Contacts beyond the eighth,
+  /// and those with a number that is not finite or a normal that is not of unit length, are left out; returns how many
+  /// were taken.
+  std::size_t set(std::span<const LocalContact> contacts, const Vec3& p_WH0) noexcept;
+  void clear() noexcept { count_ = 0; }
+  [[nodiscard]] std::size_t size() const noexcept { return count_; }
+
+  /// The force on the hand, N in W, with H at `p_WH` moving at `v_WH`; `age` is the time since set(), on the caller's
+  /// own clock. Not clamped: the governor comes after it.
+  [[nodiscard]] Vec3 render(const Vec3& p_WH, const Vec3& v_WH, Duration age) const noexcept;
+
+ private:
+  std::array<LocalContact, kMaxLocalContacts> contacts_{};  // p_W moved to where H may not pass
+  std::size_t count_ = 0;
+};
+
+}  // namespace mechane::hand

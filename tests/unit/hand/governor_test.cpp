@@ -1,0 +1,273 @@
+#include "server/hand/governor.hpp"
+
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/support/allocation_guard.hpp"
+
+namespace mechane::hand {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kDt = 1ms;
+constexpr double kDt_s = 1e-3;
+constexpr std::uint32_t kSafetyDrop = kStale | kRamping | kDamped | kNotFinite;
+
+ForceGovernor make(GovernorConfig config = {}) {
+  auto made = ForceGovernor::make(config);
+  EXPECT_TRUE(made.has_value());
+  return *made;
+}
+
+// A governor that has finished ramping up with a force of `wanted` in x on the device.
+ForceGovernor settled(double wanted_n, GovernorConfig config = {}) {
+  ForceGovernor governor = make(config);
+  GovernorInput input;
+  input.wanted_W.f.x() = wanted_n;
+  for (int i = 0; i < 1000; ++i)
+    (void)governor.apply(input, kDt);
+  return governor;
+}
+
+double number(int from, int to, double scale) {
+  return scale * *rc::gen::inRange(from, to);
+}
+
+Vec3 vector(double scale) {
+  return {number(-1000, 1001, scale), number(-1000, 1001, scale), number(-1000, 1001, scale)};
+}
+
+// Anything that a device, a network or a bug may come up with.
+GovernorInput wild_input() {
+  GovernorInput in;
+  in.wanted_W.f = vector(0.02);
+  in.wanted_W.t = vector(0.001);
+  in.V_WH.v = vector(0.002);
+  in.V_WH.w = vector(0.01);
+  for (double& f : in.finger_force_n)
+    f = number(-100, 1000, 0.03);
+  in.age = *rc::gen::element<Duration>(0ms, 1ms, 5ms, 10ms, 12ms, 25ms, 40ms, 49ms, 50ms, 60ms, Duration::max());
+  in.engaged = *rc::gen::weightedElement<bool>({{9, true}, {1, false}});
+  const double odd = *rc::gen::element(std::numeric_limits<double>::quiet_NaN(),
+                                       std::numeric_limits<double>::infinity(), 1e300, -1e308);
+  switch (*rc::gen::inRange(0, 60)) {
+    case 0:
+      in.wanted_W.f.y() = odd;
+      break;
+    case 1:
+      in.wanted_W.t.z() = odd;
+      break;
+    case 2:
+      in.V_WH.v.x() = odd;
+      break;
+    case 3:
+      in.V_WH.w.x() = odd;
+      break;
+    case 4:
+      in.finger_force_n[2] = odd;
+      break;
+    default:
+      break;
+  }
+  return in;
+}
+
+bool is_zero(const HandForce& out) {
+  bool fingers = true;
+  for (const double f : out.finger_force_n)
+    fingers = fingers && f == 0;
+  return fingers && out.force_W.f == Vec3::Zero() && out.force_W.t == Vec3::Zero();
+}
+
+RC_GTEST_PROP(ForceGovernor, NeverLeavesItsLimitsWhateverComesIn, ()) {
+  GovernorConfig config;
+  config.passivity = *rc::gen::arbitrary<bool>();
+  config.ramp_up_s = *rc::gen::element(0.0, 0.01, 0.5);
+  config.ramp_down_s = *rc::gen::element(0.0, 0.01, 0.1);
+  ForceGovernor governor = make(config);
+  HandForce last;
+  for (int i = 0; i < 60; ++i) {
+    const GovernorInput in = wild_input();
+    const HandForce out = governor.apply(in, kDt);
+    RC_ASSERT(out.force_W.f.norm() <= config.max_force_n * (1 + 1e-12));
+    RC_ASSERT(out.force_W.t.norm() <= config.max_torque_nm * (1 + 1e-12));
+    for (const double f : out.finger_force_n)
+      RC_ASSERT(f >= 0 && f <= config.max_finger_force_n * (1 + 1e-12));
+    if (in.age >= config.zero_by) RC_ASSERT(is_zero(out));
+    if ((out.reasons & kNotFinite) != 0) RC_ASSERT(is_zero(out));
+
+    const double change = (out.force_W.f - last.force_W.f).norm();
+    const double step = config.max_slew_n_per_s * kDt_s * (1 + 1e-9) + 1e-12;
+    if ((out.reasons & kSafetyDrop) == 0) RC_ASSERT(change <= step);
+    // A safety drop may fall as fast as it likes; nothing ever rises faster, but for the observer's damping: once more the step.
+    const double steps = (out.reasons & kDamped) != 0 ? 2 : 1;
+    RC_ASSERT(out.force_W.f.norm() <= last.force_W.f.norm() + steps * step);
+    const double torque_step = config.max_torque_slew_nm_per_s * kDt_s * (1 + 1e-9) + 1e-12;
+    RC_ASSERT(out.force_W.t.norm() <= last.force_W.t.norm() + torque_step);
+    last = out;
+  }
+}
+
+TEST(ForceGovernor, LeavesAModestForceAlone) {
+  ForceGovernor governor = settled(1.5);
+  GovernorInput input;
+  input.wanted_W.f = Vec3(1.5, 0, 0);
+  const HandForce out = governor.apply(input, kDt);
+  EXPECT_EQ(out.force_W.f, Vec3(1.5, 0, 0));
+  EXPECT_EQ(out.reasons, kNone);
+}
+
+TEST(ForceGovernor, ClampsTheVectorAndKeepsItsDirection) {
+  ForceGovernor governor = make({});
+  GovernorInput input;
+  input.wanted_W.f = Vec3(30, -40, 0);
+  HandForce out;
+  for (int i = 0; i < 1000; ++i)
+    out = governor.apply(input, kDt);
+  EXPECT_NEAR(out.force_W.f.norm(), 3.0, 1e-12);
+  EXPECT_TRUE(out.force_W.f.normalized().isApprox(Vec3(0.6, -0.8, 0), 1e-12));
+  EXPECT_EQ(out.reasons, kClamped);
+  EXPECT_EQ(governor.count(kClamped), 1000u);
+}
+
+TEST(ForceGovernor, HoldsTo10msFallsAtOnceAndIsZeroBy50msHoweverSlowTheSlew) {
+  GovernorConfig config;
+  config.max_slew_n_per_s = 10;  // 0.01 N a tick: the decay must not wait for it
+  ForceGovernor governor = settled(2.0, config);
+  GovernorInput input;
+  input.wanted_W.f = Vec3(2, 0, 0);
+  for (int ms = 0; ms <= 60; ++ms) {
+    input.age = std::chrono::milliseconds(ms);
+    const HandForce out = governor.apply(input, kDt);
+    EXPECT_NEAR(out.force_W.f.x(), 2.0 * freshness(input.age), 1e-9) << ms << " ms";
+    EXPECT_EQ(out.force_W.f.x() == 0.0, ms >= 50);
+    EXPECT_EQ((out.reasons & kStale) != 0, ms > 10);
+  }
+  input.age = 0ms;
+  EXPECT_LE(governor.apply(input, kDt).force_W.f.x(), 0.01 + 1e-12) << "back again, the slew limit holds";
+}
+
+TEST(ForceGovernor, RampsUpAtTheStartAndDownAtTheEnd) {
+  ForceGovernor governor = make({});
+  GovernorInput input;
+  input.wanted_W.f = Vec3(1, 0, 0);
+  EXPECT_LT(governor.apply(input, kDt).force_W.f.x(), 0.01);
+  HandForce out;
+  for (int i = 1; i < 250; ++i)
+    out = governor.apply(input, kDt);
+  EXPECT_NEAR(out.force_W.f.x(), 0.5, 0.01);
+  EXPECT_NE(out.reasons & kRamping, 0u);
+  for (int i = 0; i < 300; ++i)
+    out = governor.apply(input, kDt);
+  EXPECT_EQ(out.force_W.f.x(), 1.0);
+  input.engaged = false;
+  for (int i = 0; i < 101; ++i)
+    out = governor.apply(input, kDt);
+  EXPECT_TRUE(is_zero(out));
+}
+
+TEST(ForceGovernor, ANumberThatIsNotFiniteIsNoForceAtAllAndPassesBy) {
+  ForceGovernor governor = settled(2.0);
+  GovernorInput input;
+  input.wanted_W.f = Vec3(std::nan(""), 0, 0);
+  const HandForce out = governor.apply(input, kDt);
+  EXPECT_TRUE(is_zero(out));
+  EXPECT_EQ(out.reasons, kNotFinite);
+  EXPECT_EQ(governor.count(kNotFinite), 1u);
+  input.wanted_W.f = Vec3(2, 0, 0);
+  EXPECT_NEAR(governor.apply(input, kDt).force_W.f.x(), 1.0, 1e-12) << "1000 N/s in a millisecond";
+}
+
+// A virtual wall whose force comes late: the classic way to make a haptic system put out energy. The hand is a mass that flies against
+// it. The account is kept from the outside, with the positions.
+struct Bounce {
+  double energy_out_j;  // given to the hand
+  double peak_out_j;    // the most that was ever given out
+  double speed_out;     // over the speed of arrival
+};
+
+Bounce bounce(bool passivity, int delay_ticks, double stiffness, double speed, double mass = 0.3,
+              double slew = 20'000) {
+  GovernorConfig config;
+  config.passivity = passivity;
+  config.max_force_n = 20;
+  config.max_slew_n_per_s = slew;
+  config.ramp_up_s = 0;
+  ForceGovernor governor = make(config);
+  std::deque<double> late(static_cast<std::size_t>(delay_ticks), 0.0);
+  double x = 0.01, v = -speed, force = 0, out_j = 0, peak_j = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double x_before = x;
+    v += force / mass * kDt_s;
+    x += v * kDt_s;
+    out_j += force * (x - x_before);
+    peak_j = std::max(peak_j, out_j);
+    late.push_back(x < 0 ? -stiffness * x : 0);
+    GovernorInput input;
+    input.wanted_W.f.x() = late.front();
+    late.pop_front();
+    input.V_WH.v.x() = (x - x_before) / kDt_s;
+    force = governor.apply(input, kDt).force_W.f.x();
+  }
+  return {out_j, peak_j, std::abs(v) / speed};
+}
+
+TEST(ForceGovernor, TheDelayedWallWithoutObserverGivesOutEnergy) {
+  const Bounce b = bounce(false, 10, 1500, 0.2);
+  EXPECT_GT(b.energy_out_j, 0.005) << "or the next test proves nothing";
+  EXPECT_GT(b.speed_out, 1.3);
+}
+
+RC_GTEST_PROP(ForceGovernor, TheObserverBoundsTheEnergyOfADelayedWall, ()) {
+  const int delay = *rc::gen::inRange(1, 30);
+  const double stiffness = number(100, 2000, 1.0);
+  const double speed = number(5, 50, 0.01);
+  const double slew = number(100, 2000, 10.0);
+  const Bounce b = bounce(true, delay, stiffness, speed, 0.3, slew);
+  // The margin, and what one tick's force does over the change of velocity that the tick could not foresee.
+  const double unforeseen_j = 20.0 * (20.0 / 0.3 * kDt_s) * kDt_s;
+  RC_ASSERT(b.peak_out_j <= GovernorConfig{}.energy_margin_j + 2 * unforeseen_j);
+}
+
+TEST(ForceGovernor, APassiveWallIsNotDamped) {
+  const Bounce with = bounce(true, 1, 300, 0.1, 1.0);
+  EXPECT_NEAR(with.speed_out, 1.0, 0.05);
+}
+
+TEST(ForceGovernor, RefusesSettingsOutOfRangeByName) {
+  const auto error_of = [](auto change) {
+    GovernorConfig config;
+    change(config);
+    const auto made = ForceGovernor::make(config);
+    return made ? std::string() : made.error().to_string();
+  };
+  EXPECT_EQ(error_of([](auto&) {}), "");
+  EXPECT_THAT(error_of([](auto& c) { c.max_force_n = -1; }), testing::HasSubstr("max_force_n"));
+  EXPECT_THAT(error_of([](auto& c) { c.max_slew_n_per_s = std::nan(""); }), testing::HasSubstr("max_slew_n_per_s"));
+  EXPECT_THAT(error_of([](auto& c) { c.energy_credit_j = 0; }), testing::HasSubstr("energy_credit_j"));
+  EXPECT_THAT(error_of([](auto& c) { c.zero_by = c.hold; }), testing::HasSubstr("zero_by"));
+}
+
+TEST(ForceGovernor, AllocatesNothing) {
+  if (!test::AllocationGuard::available()) GTEST_SKIP() << "a sanitizer counts no allocations";
+  ForceGovernor governor = make({});
+  GovernorInput input;
+  input.wanted_W.f = Vec3(30, 1, 2);
+  input.V_WH.v = Vec3(0.3, 0, 0);
+  const test::AllocationGuard guard;
+  for (int i = 0; i < 1000; ++i) {
+    input.age = std::chrono::milliseconds(i % 70);
+    (void)governor.apply(input, kDt);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+}  // namespace
+}  // namespace mechane::hand

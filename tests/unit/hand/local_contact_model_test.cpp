@@ -1,0 +1,163 @@
+#include "server/hand/local_contact_model.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace mechane::hand {
+namespace {
+
+using namespace std::chrono_literals;
+
+double number(double from, double to) {
+  return from + (to - from) * *rc::gen::inRange(0, 10'001) / 10'000.0;
+}
+
+Vec3 unit() {
+  const double z = number(-1, 1);
+  const double a = number(0, 2 * kPi);
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(a), r * std::sin(a), z};
+}
+
+LocalContact wall(double stiffness = 600) {
+  LocalContact c;
+  c.n_W = Vec3::UnitZ();
+  c.stiffness_n_per_m = stiffness;
+  return c;
+}
+
+RC_GTEST_PROP(LocalContactModel, PushesWithStiffnessTimesDepthWhereTheServerSawIt, ()) {
+  LocalContact c = wall(number(10, 2000));
+  c.n_W = unit();
+  c.p_W = Vec3(number(-1, 1), number(-1, 1), number(-1, 1));
+  c.depth_m = number(0, 0.02);
+  c.curvature_per_m = *rc::gen::element(0.0, 15.0, -15.0);
+  // The hand's reference point lies anywhere: at the tip's centre, or at a wrist.
+  const Vec3 p_WH0(number(-1, 1), number(-1, 1), number(-1, 1));
+  LocalContactModel model;
+  RC_ASSERT(model.set(std::span(&c, 1), p_WH0) == 1);
+  const Vec3 force = model.render(p_WH0, Vec3::Zero(), 0ms);
+  RC_ASSERT((force - c.stiffness_n_per_m * c.depth_m * c.n_W).norm() < 1e-6);
+  // Moved on by a little along the normal: that much less deep, on a plane and on a sphere.
+  const Vec3 p_WH = p_WH0 + 0.3 * c.depth_m * c.n_W;
+  RC_ASSERT((model.render(p_WH, Vec3::Zero(), 1ms) - 0.7 * c.stiffness_n_per_m * c.depth_m * c.n_W).norm() < 1e-6);
+}
+
+TEST(LocalContactModel, ASphereFallsAwayBesideItAndAHollowRises) {
+  const Vec3 aside(0.01, 0, 0);
+  for (const double curvature : {20.0, 0.0, -20.0}) {
+    LocalContact c = wall();
+    c.depth_m = 0.002;
+    c.curvature_per_m = curvature;
+    LocalContactModel model;
+    model.set(std::span(&c, 1), Vec3::Zero());
+    const double plane = c.stiffness_n_per_m * c.depth_m;
+    const double force = model.render(aside, Vec3::Zero(), 0ms).norm();
+    const double bulge = curvature * aside.squaredNorm() / 2;  // to second order
+    EXPECT_NEAR(force, std::max(plane - c.stiffness_n_per_m * bulge, 0.0), 0.05 * plane) << curvature;
+  }
+}
+
+// Small steps of place and speed make small steps of force, through the touch of the surface too.
+RC_GTEST_PROP(LocalContactModel, IsContinuous, ()) {
+  LocalContact c = wall(number(100, 1500));
+  c.damping_ns_per_m = number(0, 5);
+  c.friction = number(0, 1);
+  c.curvature_per_m = *rc::gen::element(0.0, 10.0, -10.0);
+  c.v_W = Vec3(number(-0.2, 0.2), 0, number(-0.2, 0.2));
+  LocalContactModel model;
+  model.set(std::span(&c, 1), Vec3::Zero());
+  const Vec3 p(number(-0.01, 0.01), number(-0.01, 0.01), number(-0.005, 0.002));
+  const Vec3 v(number(-0.5, 0.5), number(-0.5, 0.5), number(-0.5, 0.5));
+  const Duration age = std::chrono::microseconds(*rc::gen::inRange(0, 40'000));
+  const Vec3 dp = 1e-9 * unit();
+  const Vec3 dv = 1e-9 * unit();
+  const Vec3 change = model.render(p + dp, v + dv, age + 1us) - model.render(p, v, age);
+  RC_ASSERT(change.norm() < 2e-3);
+}
+
+TEST(LocalContactModel, DampsOnlyWhatPushesIn) {
+  LocalContact c = wall();
+  c.depth_m = 0.002;
+  c.damping_ns_per_m = 5;
+  LocalContactModel model;
+  model.set(std::span(&c, 1), Vec3::Zero());
+  const double still = model.render(Vec3::Zero(), Vec3::Zero(), 0ms).z();
+  EXPECT_NEAR(model.render(Vec3::Zero(), Vec3(0, 0, -0.1), 0ms).z(), still + 0.5, 1e-12);
+  EXPECT_EQ(model.render(Vec3::Zero(), Vec3(0, 0, 0.1), 0ms).z(), still);
+  c.v_W = Vec3(0, 0, 0.1);  // the wall comes
+  model.set(std::span(&c, 1), Vec3::Zero());
+  EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 0ms).z(), still + 0.5, 1e-12);
+}
+
+RC_GTEST_PROP(LocalContactModel, FrictionStaysInItsConeAndOpposesTheSlide, ()) {
+  LocalContact c = wall();
+  c.depth_m = number(0, 0.01);
+  c.friction = number(0, 1);
+  LocalContactModel model;
+  model.set(std::span(&c, 1), Vec3::Zero());
+  const Vec3 v(number(-0.3, 0.3), number(-0.3, 0.3), 0);
+  const Vec3 force = model.render(Vec3::Zero(), v, 0ms);
+  const Vec3 tangential(force.x(), force.y(), 0);
+  RC_ASSERT(tangential.norm() <= c.friction * force.z() * (1 + 1e-12) + 1e-12);
+  RC_ASSERT(tangential.dot(v) <= 0);
+}
+
+// A hand that draws a closed path at 1 kHz through a static wall gets no energy out of it, beyond what sampling a spring makes:
+// half its stiffness times the square of each step.
+RC_GTEST_PROP(LocalContactModel, IsPassiveOnAStaticWall, ()) {
+  LocalContact c = wall(number(100, 1500));
+  c.damping_ns_per_m = number(0, 5);
+  c.friction = number(0, 1);
+  c.curvature_per_m = *rc::gen::element(0.0, 10.0, -5.0);
+  c.validity = 1h;
+  LocalContactModel model;
+  model.set(std::span(&c, 1), Vec3::Zero());
+  const double ax = number(0, 0.02), az = number(0, 0.008), fx = *rc::gen::inRange(1, 5), fz = *rc::gen::inRange(1, 5);
+  const double phase = number(0, 2 * kPi);
+  const auto place = [&](int i) {
+    const double t = 2 * kPi * i / 1000.0;
+    return Vec3(ax * std::sin(fx * t), 0, az * std::sin(fz * t + phase));
+  };
+  double out_j = 0, sampling_j = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 step = place(i + 1) - place(i);
+    const Vec3 v = (place(i) - place(i - 1)) / 1e-3;
+    out_j += model.render(place(i), v, 0ms).dot(step);
+    sampling_j += c.stiffness_n_per_m * step.squaredNorm();
+  }
+  RC_ASSERT(out_j <= sampling_j + 1e-9);
+}
+
+TEST(LocalContactModel, FollowsTheSurfaceWhileValidAndFadesOutAfterwards) {
+  LocalContact c = wall(1000);
+  c.depth_m = 0.001;
+  c.v_W = Vec3(0, 0, 0.1);
+  c.validity = 10ms;
+  LocalContactModel model;
+  model.set(std::span(&c, 1), Vec3::Zero());
+  EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 5ms).z(), 1.5, 1e-9);
+  EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 10ms).z(), 2.0, 1e-9);
+  EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 20ms).z(), 1.0, 1e-9) << "half faded, and no further ahead";
+  EXPECT_EQ(model.render(Vec3::Zero(), Vec3::Zero(), 30ms), Vec3::Zero());
+  EXPECT_EQ(model.render(Vec3::Zero(), Vec3::Zero(), Duration::max()), Vec3::Zero());
+}
+
+TEST(LocalContactModel, LeavesOutWhatCannotBeAndWhatIsTooMuch) {
+  std::vector<LocalContact> contacts(12, wall());
+  contacts[0].n_W = Vec3::Zero();
+  contacts[1].depth_m = std::numeric_limits<double>::quiet_NaN();
+  contacts[2].stiffness_n_per_m = -5;
+  LocalContactModel model;
+  EXPECT_EQ(model.set(contacts, Vec3::Zero()), 8u);
+  EXPECT_EQ(model.set(std::span(contacts).first(4), Vec3::Zero()), 1u);
+  EXPECT_EQ(model.set(contacts, Vec3(std::nan(""), 0, 0)), 0u);
+  EXPECT_EQ(model.render(Vec3::Zero(), Vec3::Zero(), 0ms), Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace mechane::hand
