@@ -4,7 +4,10 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "server/base/assert.hpp"
+#include "server/content/import_limits.hpp"
 #include "server/geometry/mesh_check.hpp"
 
 namespace mechane::content {
@@ -39,6 +42,15 @@ std::optional<std::uint32_t> owner(const ImportedScene& scene, std::uint32_t nod
     if (at == top) break;
   }
   return std::nullopt;
+}
+
+std::uint64_t placed_triangles(const ImportedScene& scene, const std::vector<std::uint32_t>& nodes) {
+  std::uint64_t triangles = 0;
+  for (const std::uint32_t node : nodes) {
+    for (const std::uint32_t mesh : scene.nodes[node].meshes)
+      triangles += scene.meshes[mesh].indices.size() / 3;
+  }
+  return triangles;
 }
 
 }  // namespace
@@ -81,13 +93,18 @@ Expected<std::vector<geometry::NamedMesh>> collision_parts(const ImportedScene& 
     shown.push_back(i);
     named = named || owner(scene, i, top).has_value();
   }
+  if (named) std::erase_if(shown, [&](std::uint32_t i) { return !owner(scene, i, top); });
+  if (const std::uint64_t triangles = placed_triangles(scene, shown); triangles > ImportLimits{}.triangles) {
+    return fail(fmt::format("{} triangles, counted wherever a mesh is placed, of which {} at most can be touched",
+                            triangles, ImportLimits{}.triangles),
+                node.empty() ? "" : "node " + node, "name what is to be touched part_..., or simplify the model");
+  }
   std::map<std::uint32_t, geometry::Mesh> gathered;  // by node, in the file's order
   for (const std::uint32_t i : shown) {
-    const std::optional<std::uint32_t> part = named ? owner(scene, i, top) : i;
-    if (!part) continue;
+    const std::uint32_t part = named ? *owner(scene, i, top) : i;
     const Eigen::Affine3d X_ON = pose_in(scene, i, top);
     for (const std::uint32_t mesh : scene.nodes[i].meshes)
-      append(scene.meshes[mesh], X_ON, gathered[*part]);
+      append(scene.meshes[mesh], X_ON, gathered[part]);
   }
   std::vector<geometry::NamedMesh> parts;
   for (const auto& [part, mesh] : gathered) {

@@ -94,8 +94,8 @@ struct ImportedScene {
 /// The meshes to be touched, in the frame of `node` (of the file when `node` is empty): every node at or below it whose
 /// name starts with "part_", meshes of nodes below a part included in it; when none is so named, every node with a mesh
 /// is a part. Vertices at the same place are welded (a file splits them where normals differ), so that a closed surface
-/// comes out closed; triangles that collapse are dropped. Fails when the node does not exist or nothing is left to
-/// touch.
+/// comes out closed; triangles that collapse are dropped. Fails when the node does not exist, nothing is left to touch, or
+/// there are more triangles than ImportLimits{}.triangles, counted wherever a mesh is placed.
 [[nodiscard]] Expected<std::vector<geometry::NamedMesh>> collision_parts(const ImportedScene& scene,
                                                                          const std::string& node);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -14,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "server/content/importer/folder_io.hpp"
+#include "server/content/importer/gltf_counts.hpp"
 #include "server/content/importer/material_reader.hpp"
 
 namespace mechane::content {
@@ -22,13 +25,6 @@ namespace {
 constexpr std::array kRead{".glb", ".gltf", ".obj", ".stl", ".ply"};
 constexpr std::array kLoaders{"glTF2 Importer", "Wavefront Object Importer", "Stereolithography (STL) Importer",
                               "Stanford Polygon Library (PLY) Importer"};
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return extension;
-}
 
 /// Assimp knows some fifty formats; each loader that is not there is one that a file cannot attack.
 void keep_our_loaders(Assimp::Importer& importer) {
@@ -123,6 +119,21 @@ Expected<void> check_numbers(const aiScene& scene) {
   return {};
 }
 
+/// Why assimp read nothing. Throws std::bad_alloc where memory was missing: assimp makes a text of it, and the caller knows the limit.
+std::string why_not(const Assimp::Importer& importer) {
+  if (importer.GetException()) {
+    try {
+      std::rethrow_exception(importer.GetException());
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (...) {  // said below
+    }
+  }
+  std::string why = importer.GetErrorString();
+  std::replace(why.begin(), why.end(), '\n', ' ');
+  return why.empty() ? "no scene in it" : why;
+}
+
 }  // namespace
 
 Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, const ImportLimits& limits) {
@@ -130,6 +141,9 @@ Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, cons
   if (std::find(kRead.begin(), kRead.end(), extension) == kRead.end()) {
     return fail(fmt::format("the format '{}' is not read", extension), {},
                 "export the model as .glb, .gltf, .obj, .stl or .ply");
+  }
+  if (extension == ".glb" || extension == ".gltf") {
+    if (auto counts = check_gltf_counts(file, limits); !counts) return tl::unexpected<Error>(counts.error());
   }
   FolderIo io(file.parent_path(), limits.file_bytes);
   Assimp::Importer importer;
@@ -145,9 +159,7 @@ Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, cons
   importer.SetIOHandler(nullptr);  // `io` is ours; assimp would delete it
   if (!numbers) return tl::unexpected<Error>(numbers.error());
   if (from == nullptr || from->mRootNode == nullptr) {
-    std::string why = importer.GetErrorString();
-    std::replace(why.begin(), why.end(), '\n', ' ');
-    return fail("it cannot be read: " + (why.empty() ? "no scene in it" : why), {},
+    return fail("it cannot be read: " + why_not(importer), {},
                 "open the file in a modelling program and export it again, best as .glb");
   }
   ImportedScene scene;

@@ -1,11 +1,41 @@
 #include "server/content/importer/folder_io.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
 #include <string_view>
+
+#include <assimp/MemoryIOWrapper.h>
+
+#include "server/content/importer/obj_text.hpp"
 
 namespace mechane::content {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Null where it cannot be read.
+Assimp::IOStream* open_obj(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad() || !in.is_open()) return nullptr;
+  const std::string text = plain_obj(bytes);
+  auto copy = std::make_unique<std::uint8_t[]>(text.size());
+  std::copy(text.begin(), text.end(), copy.get());
+  return new Assimp::MemoryIOStream(copy.release(), text.size(), true);
+}
+
+}  // namespace
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return extension;
+}
 
 FolderIo::FolderIo(const fs::path& folder, std::uint64_t most_bytes) : most_bytes_(most_bytes) {
   std::error_code code;
@@ -29,6 +59,7 @@ bool FolderIo::Exists(const char* name) const {
 Assimp::IOStream* FolderIo::Open(const char* name, const char* mode) {
   const std::optional<fs::path> real = allowed(name);
   if (!real || std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
+  if (lower_extension(name) == ".obj") return open_obj(*real);
   return DefaultIOSystem::Open(real->c_str(), mode);
 }
 

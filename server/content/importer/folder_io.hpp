@@ -3,11 +3,16 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include <assimp/DefaultIOSystem.h>
 
 namespace mechane::content {
 
+/// ".obj", whatever the case in the name.
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& file);
+
+/// OBJ files are opened as plain_obj gives them.
 class FolderIo : public Assimp::DefaultIOSystem {
  public:
   /// `folder` and `most_bytes` (of one file) bound what can be opened.

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <map>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,6 @@ namespace mechane::content {
 namespace {
 
 using testing::AllOf;
-using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
@@ -192,6 +192,77 @@ TEST_F(MeshImport, LimitsHold) {
   EXPECT_THAT(fault("cube.glb", cube_glb()), HasSubstr("of which 100"));
 }
 
+TEST_F(MeshImport, ALineOfAnObjMayBeIndentedBeginNumbersWithTheirPointAndEndWithAComment) {
+  const auto plain = import("plain.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0.5 0\nvt 0 0.5\nf 1/1 2/2 3/3\n");
+  ASSERT_TRUE(plain) << plain.error().to_string();
+  const std::string folded[] = {
+      "v 0 0 0 # 1 corner\r\n  v .1 0 0\r\nv\t0 .1 -.0 # .7\r\nvt .0 0\r\nvt .5 0\r\nvt 0 .5#\r\nf 1/1 2/2 3/3 # 4\r\n",
+      "v 0 0 0\nv .1 \\\n.0 .0\nv 0 .1 0\nvt 0 0\nvt .5 0\nvt 0 .5\nf 1/1 2/2 \\\n3/3"};
+  for (const std::string& text : folded) {
+    const auto scene = import("folded.obj", text);
+    ASSERT_TRUE(scene) << scene.error().to_string() << " in\n" << text;
+    EXPECT_EQ(scene->meshes.at(0).positions, plain->meshes.at(0).positions) << text;
+    EXPECT_EQ(scene->meshes.at(0).uv, plain->meshes.at(0).uv) << text;
+  }
+}
+
+TEST_F(MeshImport, NamesInAnObjStayAsTheyAre) {
+  folder_.write(".5#look.mtl", "newmtl .5#m\nKd .5 0 0\n");
+  const auto scene = import("cube.obj", "mtllib .5#look.mtl\no .5#cube\nusemtl .5#m\n" + cube_obj());
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  EXPECT_EQ(scene->meshes.at(0).name, ".5#cube");
+  EXPECT_EQ(scene->materials.at(scene->meshes.at(0).material).name, ".5#m");
+  EXPECT_FLOAT_EQ(scene->materials.at(scene->meshes.at(0).material).base_colour.x(), 0.5F);
+}
+
+/// A .gltf of one triangle: `nodes` and `primitives` as the JSON of their lists, with so many vertices in the one accessor.
+std::string triangle_gltf(const std::string& nodes, const std::string& primitives, int vertices = 3) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes +
+         R"(],"meshes":[{"primitives":[)" + primitives +
+         R"(]}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" + std::to_string(vertices) +
+         R"(,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":)"
+         R"("data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+constexpr const char* kPrimitive = R"({"attributes":{"POSITION":0}})";
+
+TEST_F(MeshImport, CopiesAreCountedBeforeTheyAreMade) {
+  const auto scene = import("triangle.gltf", triangle_gltf(R"({"children":[1,1]},{"mesh":0})", kPrimitive));
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  EXPECT_THAT(scene->nodes, SizeIs(3)) << "a mesh that is placed twice is no fault";
+  // 2^40 copies in a kilobyte; a node that is its own child; vertices shared by so many meshes that each would have its copy.
+  std::string doubled;
+  for (int i = 1; i <= 40; ++i)
+    doubled += fmt::format(R"({{"children":[{0},{0}]}},)", i);
+  limits_.cpu_seconds = 2;
+  for (const auto& nodes : {doubled + R"({"mesh":0})", std::string(R"({"mesh":0,"children":[0]})")}) {
+    EXPECT_THAT(fault("copies.gltf", triangle_gltf(nodes, kPrimitive)),
+                AllOf(HasSubstr("copies.gltf"), HasSubstr("20000 nodes"), HasSubstr("leave out copies")));
+  }
+  std::string shared = kPrimitive;
+  for (int i = 0; i < 1000; ++i)
+    shared += std::string(",") + kPrimitive;
+  EXPECT_THAT(fault("shared.gltf", triangle_gltf(R"({"mesh":0})", shared, 300'000)),
+              AllOf(HasSubstr("16000000 vertices"), HasSubstr("own vertices")));
+  limits_.meshes = 1000;
+  EXPECT_THAT(fault("many.gltf", triangle_gltf(R"({"mesh":0})", shared)), HasSubstr("1001 meshes, of which 1000"));
+}
+
+TEST(ImportedScene, CopiesAreCountedBeforeTheyAreMadeSolid) {
+  ImportedScene scene;
+  scene.meshes.resize(1);
+  scene.meshes[0].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (int i = 0; i < 1000; ++i)
+    scene.meshes[0].indices.insert(scene.meshes[0].indices.end(), {0, 1, 2});
+  scene.nodes.resize(4001);
+  for (ImportedNode& node : scene.nodes)
+    node.meshes = {0};
+  const auto parts = collision_parts(scene, "");
+  ASSERT_FALSE(parts);
+  EXPECT_THAT(parts.error().to_string(), AllOf(HasSubstr("4001000 triangles"), HasSubstr("part_")));
+  scene.nodes[7].name = "part_of_it";
+  EXPECT_TRUE(collision_parts(scene, "")) << "only this one is touched";
+}
+
 TEST_F(MeshImport, SurvivesEveryEndOfItsHelper) {
   EXPECT_THAT(fault_with("/bin/false"), HasSubstr("without a result (status 1)"));
   EXPECT_THAT(fault_with(folder_.path() / "absent"), HasSubstr("cannot be started"));
@@ -225,8 +296,7 @@ TEST_F(MeshImport, AFileThatEatsMemoryIsRefused) {
     obj += "v " + std::to_string(i % 600) + " " + std::to_string(i / 600) + " 1\n";
   for (int i = 1; i + 2 < 400'000; ++i)
     obj += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
-  EXPECT_THAT(fault("big.obj", obj),
-              AnyOf(HasSubstr("128 MiB of memory"), HasSubstr("bad_alloc"), HasSubstr("memory")));
+  EXPECT_THAT(fault("big.obj", obj), AllOf(HasSubstr("128 MiB of memory"), HasSubstr("simplify")));
 }
 
 TEST_F(MeshImport, ReadsMeshesFromElsewhere) {
