@@ -1,14 +1,18 @@
 #include "server/content/object_store.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <span>
 #include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "server/base/byte_order.hpp"
 #include "server/collision/object_io.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
@@ -23,17 +27,45 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kSecondsBetweenLines = 5;
 
 /// What the file of the object is called: whatever can change the object is in the name.
-std::string cache_name(const std::string& file_hash, const std::string& node, const collision::BuildConfig& config) {
+std::string cache_name(const std::string& geometry, const collision::BuildConfig& config) {
   const std::string key = fmt::format(
-      "part file {} build {} import {} mesh {} node {}:{} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} {} "
+      "part file {} build {} geometry {} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} {} "
       "maps {}{} bounds {} resolution {} "
       "spacing {:a} samples {} seam {:a} seed {}",
-      collision::kPartFileVersion, kObjectBuildVersion, kObjectImportVersion, file_hash, node.size(), node,
-      config.max_error_share, config.max_error_m, config.miss_share, config.probe_depth_m,
-      static_cast<int>(config.parts), config.max_concavity, config.max_pieces, config.grid_cells, config.radial_maps,
-      config.bricks, static_cast<int>(config.bounds), config.map_resolution, config.sample_spacing_m,
-      config.max_samples_per_part, config.seam_gap_m, config.seed);
+      collision::kPartFileVersion, kObjectBuildVersion, geometry, config.max_error_share, config.max_error_m,
+      config.miss_share, config.probe_depth_m, static_cast<int>(config.parts), config.max_concavity, config.max_pieces,
+      config.grid_cells, config.radial_maps, config.bricks, static_cast<int>(config.bounds), config.map_resolution,
+      config.sample_spacing_m, config.max_samples_per_part, config.seam_gap_m, config.seed);
   return content_hash(std::as_bytes(std::span(key))) + ".part";
+}
+
+/// All that the builder is given, and nothing of looks: names, corners and triangles of the parts.
+std::string geometry_hash(const std::vector<geometry::NamedMesh>& parts) {
+  std::vector<std::byte> bytes;
+  VectorSink sink(bytes);
+  for (const geometry::NamedMesh& part : parts) {
+    put_string(sink, part.name);
+    put_varint(sink, part.mesh.vertices.size());
+    for (const Vec3& p : part.mesh.vertices) {
+      for (const double x : p)
+        put(sink, std::bit_cast<std::uint64_t>(x));
+    }
+    put_varint(sink, part.mesh.triangles.size());
+    for (const auto& triangle : part.mesh.triangles) {
+      for (const std::uint32_t corner : triangle)
+        put(sink, corner);
+    }
+  }
+  return content_hash(bytes);
+}
+
+/// What a file says that holds a hash; nothing where there is none, or another thing.
+std::optional<std::string> read_hash(const fs::path& file) {
+  std::ifstream in(file);
+  std::string hash;
+  if (!(in >> hash) || hash.size() != 32 || hash.find_first_not_of("0123456789abcdef") != std::string::npos)
+    return std::nullopt;
+  return hash;
 }
 
 /// The object in a cache file; nothing when there is none or it is damaged.
@@ -44,6 +76,11 @@ std::shared_ptr<const collision::Object> read_cached(const fs::path& file) {
   if (object) return std::make_shared<const collision::Object>(std::move(*object));
   log::warning(fmt::format("{}: {}; it is built again", file.string(), object.error().what));
   return nullptr;
+}
+
+tl::unexpected<Error> within(const fs::path& file, Error error) {
+  error.where = error.where.empty() ? file.string() : file.string() + ", " + error.where;
+  return tl::unexpected<Error>(std::move(error));
 }
 
 const char* setting(const char* name) {
@@ -64,11 +101,25 @@ ObjectStore::ObjectStore(fs::path cache_folder, ImportLimits limits)
     : cache_folder_(cache_folder.empty() ? default_cache_folder() : std::move(cache_folder)),
       limits_(std::move(limits)) {}
 
-Expected<fs::path> ObjectStore::cache_file(const fs::path& file, const std::string& node,
-                                           const collision::BuildConfig& config) const {
+Expected<std::string> ObjectStore::geometry_of(const fs::path& file, const std::string& node) {
   const Expected<std::string> hash = content_hash(file);
   if (!hash) return tl::unexpected(hash.error());
-  return cache_folder_ / cache_name(*hash, node, config);
+  const std::string key = fmt::format("import {} mesh {} node {}:{}", kObjectImportVersion, *hash, node.size(), node);
+  const fs::path note = cache_folder_ / (content_hash(std::as_bytes(std::span(key))) + ".geometry");
+  if (const auto known = read_hash(note)) return *known;
+  const auto parts = parts_of(file, node);
+  if (!parts) return tl::unexpected(parts.error());
+  const std::string geometry = geometry_hash(*parts);
+  // Where it cannot be kept, the object cannot either, which load() tells.
+  (void)write_whole(note, std::as_bytes(std::span(geometry)));
+  return geometry;
+}
+
+Expected<fs::path> ObjectStore::cache_file(const fs::path& file, const std::string& node,
+                                           const collision::BuildConfig& config) {
+  const Expected<std::string> geometry = geometry_of(file, node);
+  if (!geometry) return tl::unexpected(geometry.error());
+  return cache_folder_ / cache_name(*geometry, config);
 }
 
 Expected<std::shared_ptr<const collision::Object>> ObjectStore::load(const fs::path& file, const std::string& node,
@@ -93,14 +144,8 @@ Expected<std::shared_ptr<const collision::Object>> ObjectStore::load(const fs::p
 
 Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::string& node,
                                                const collision::BuildConfig& config) {
-  const auto at = [&](Error error) {
-    error.where = error.where.empty() ? file.string() : file.string() + ", " + error.where;
-    return tl::unexpected<Error>(std::move(error));
-  };
-  const Expected<const ImportedScene*> scene = scene_of(file);
-  if (!scene) return tl::unexpected(scene.error());
-  const auto parts = collision_parts(**scene, node);
-  if (!parts) return at(parts.error());
+  const auto parts = parts_of(file, node);
+  if (!parts) return tl::unexpected(parts.error());
   if (progress_) progress_(node, parts->size());
   const std::string name = node.empty() ? "(all)" : node;
   log::info(fmt::format("{}, node {}: building it for touch; the next start finds it ready", file.string(), name));
@@ -114,7 +159,7 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
     log::info(fmt::format("{}, node {}: {} of {} parts built", file.string(), name, done, all));
   };
   Expected<collision::Object> object = collision::build_object(*parts, config, &report, say);
-  if (!object) return at(object.error());
+  if (!object) return within(file, object.error());
   const auto over = std::count_if(report.parts.begin(), report.parts.end(), [](const auto& part) { return !part.met; });
   log::info(fmt::format("{}, node {}: {} parts of {} KB in {:.1f} s; touch is true to {:.2f} mm at 99 % of the surface",
                         file.string(), name, report.parts.size(), report.bytes / 1024, report.seconds,
@@ -124,6 +169,14 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
                           name, over));
   }
   return object;
+}
+
+Expected<std::vector<geometry::NamedMesh>> ObjectStore::parts_of(const fs::path& file, const std::string& node) {
+  const Expected<const ImportedScene*> scene = scene_of(file);
+  if (!scene) return tl::unexpected(scene.error());
+  auto parts = collision_parts(**scene, node);
+  if (!parts) return within(file, parts.error());
+  return parts;
 }
 
 Expected<const ImportedScene*> ObjectStore::scene_of(const fs::path& file) {

@@ -1,4 +1,4 @@
-// Collision objects by model file and node. Fitting takes seconds a part, so what was built once is kept, by content, as a .part file.
+// Collision objects by model file and node. Fitting takes seconds a part, so what was built once is kept, by its geometry, as a .part file.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/base/error.hpp"
 #include "server/collision/object_builder.hpp"
@@ -37,16 +38,16 @@ class ObjectStore {
   void on_progress(Progress progress) { progress_ = std::move(progress); }
 
   /// The object of the parts under `node` (of the whole file when empty; see collision_parts), in the node's frame: from the cache,
-  /// or imported, built and kept. The cache's key is the file's content, the node, the config and the formats' versions, so nothing
-  /// stale is ever found. A damaged cache file is built again, and a cache that cannot be written costs time only: both are logged.
+  /// or imported, built and kept. The cache's key is the geometry of the parts with their names, the config and the formats' versions: nothing
+  /// stale is ever found, and what has another colour only is not built again. A damaged cache file is built again, and a cache that cannot be written costs time only: both are logged.
   /// Errors: those of import_mesh, collision_parts and build_object.
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                         const std::string& node,
                                                                         const collision::BuildConfig& config);
 
-  /// Where `load` keeps this object.
+  /// Where `load` keeps this object. Imports the file where the cache does not know its geometry yet.
   [[nodiscard]] Expected<std::filesystem::path> cache_file(const std::filesystem::path& file, const std::string& node,
-                                                           const collision::BuildConfig& config) const;
+                                                           const collision::BuildConfig& config);
 
  private:
   struct LastImport {
@@ -55,6 +56,10 @@ class ObjectStore {
   };
   [[nodiscard]] Expected<collision::Object> build(const std::filesystem::path& file, const std::string& node,
                                                   const collision::BuildConfig& config);
+  /// The hash of the parts' geometry. It is kept by the file's content, so that a start without changes imports nothing.
+  [[nodiscard]] Expected<std::string> geometry_of(const std::filesystem::path& file, const std::string& node);
+  [[nodiscard]] Expected<std::vector<geometry::NamedMesh>> parts_of(const std::filesystem::path& file,
+                                                                    const std::string& node);
   [[nodiscard]] Expected<const ImportedScene*> scene_of(const std::filesystem::path& file);
 
   std::filesystem::path cache_folder_;

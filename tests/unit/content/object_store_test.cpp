@@ -29,8 +29,9 @@ class ObjectStoreTest : public testing::Test {
   }
   [[nodiscard]] std::vector<std::filesystem::path> kept() const {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(cache_))
-      files.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(cache_)) {
+      if (entry.path().extension() == ".part") files.push_back(entry.path());
+    }
     return files;
   }
 
@@ -52,7 +53,8 @@ TEST_F(ObjectStoreTest, BuildsOnceAndThenFindsTheSameObject) {
   EXPECT_EQ(builds_, 1);
   EXPECT_EQ(parts_, 1U);
   EXPECT_EQ(collision::write_object(**first), collision::write_object(**second));
-  EXPECT_THAT(kept(), SizeIs(1)) << "a draft was left behind";
+  EXPECT_THAT(kept(), SizeIs(1));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(cache_), {}), 2) << "a draft was left behind";
 }
 
 TEST_F(ObjectStoreTest, OneStoreGivesOneObject) {
@@ -70,7 +72,7 @@ TEST_F(ObjectStoreTest, WhateverChangesTheObjectChangesTheFile) {
     names.push_back(store.cache_file(model_, node, config_)->string());
   };
   note("BODY");
-  note("part_block");
+  note("trimming");
   config_.sample_spacing_m += 1e-12;
   note("BODY");
   config_.seed = 7;
@@ -79,6 +81,24 @@ TEST_F(ObjectStoreTest, WhateverChangesTheObjectChangesTheFile) {
   note("BODY");
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
+}
+
+TEST_F(ObjectStoreTest, AnotherColourBuildsNothing) {
+  ASSERT_TRUE(load("BODY"));
+  folder_.write("cube.glb", cube_glb(-1, R"("emissiveFactor":[1,0,0],)"));
+  ASSERT_TRUE(load("BODY"));
+  EXPECT_EQ(builds_, 1);
+  folder_.write("cube.glb", cube_glb(-1.001F, R"("emissiveFactor":[1,0,0],)"));
+  ASSERT_TRUE(load("BODY"));
+  EXPECT_EQ(builds_, 2) << "a corner lies elsewhere";
+}
+
+TEST_F(ObjectStoreTest, WhatIsKnownIsNotEvenImported) {
+  ASSERT_TRUE(load("BODY"));
+  ImportLimits without_helper;
+  without_helper.helper = folder_.path() / "absent";
+  EXPECT_TRUE(ObjectStore(cache_, without_helper).load(model_, "BODY", config_));
+  EXPECT_FALSE(ObjectStore(cache_, without_helper).load(model_, "trimming", config_));
 }
 
 TEST_F(ObjectStoreTest, ADamagedFileIsBuiltAgain) {
