@@ -1,6 +1,6 @@
 #include "client-sdk/display/attract_loop.hpp"
 
-#include "client-sdk/display/overlay_text.hpp"
+#include "client-sdk/visit/overlay_text.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -9,17 +9,18 @@ namespace {
 constexpr const char* kInviteEnglish = "Touch to begin";
 constexpr const char* kInviteGreek = "Αγγίξτε για να ξεκινήσετε";
 
-PlaySettings over_and_over() {
-  PlaySettings settings;
+recording::PlaySettings over_and_over() {
+  recording::PlaySettings settings;
   settings.again = true;
   return settings;
 }
 
 /// Calm: no step, no gauge, no question of somebody else's visit.
-OverlayContent invitation(const client::WorldStatus* status, const std::string& language, const OverlayStyle& style) {
-  OverlayContent content;
+picture::OverlayContent invitation(const client::WorldStatus* status, const std::string& language,
+                                   const picture::OverlayStyle& style) {
+  picture::OverlayContent content;
   const bool greek = language == "el";
-  if (status != nullptr) content.title = text_in(status->title, language);
+  if (status != nullptr) content.title = visit::text_in(status->title, language);
   content.caption = greek ? kInviteGreek : kInviteEnglish;
   content.hint = greek ? kInviteEnglish : kInviteGreek;
   content.style = style;
@@ -28,28 +29,29 @@ OverlayContent invitation(const client::WorldStatus* status, const std::string& 
 
 }  // namespace
 
-Expected<std::unique_ptr<AttractLoop>> AttractLoop::open(const std::string& file, AssetSource assets) {
-  auto recording = FrameRecording::open_file(file);
+Expected<std::unique_ptr<AttractLoop>> AttractLoop::open(const std::string& file, scene::AssetSource assets) {
+  auto recording = recording::FrameRecording::open_file(file);
   if (!recording) return tl::unexpected(recording.error());
   if (recording->cut_off()) log::warning("the recording " + file + " was cut off; what there is, is shown");
   return std::unique_ptr<AttractLoop>(new AttractLoop(std::move(*recording), std::move(assets)));
 }
 
-AttractLoop::AttractLoop(FrameRecording recording, AssetSource assets)
+AttractLoop::AttractLoop(recording::FrameRecording recording, scene::AssetSource assets)
     : recorded_(std::move(recording), over_and_over()), world_(std::move(assets), "en") {}
 
 bool AttractLoop::advance(TimePoint now) {
   recorded_.advance(now);
-  const ShownWorld::News news = world_.hear(recorded_);
+  const scene::ShownWorld::News news = world_.hear(recorded_);
   return news.another_world || news.assets;
 }
 
-RenderScene AttractLoop::build(TimePoint now, const std::string& language, const OverlayStyle& style) {
+picture::RenderScene AttractLoop::build(TimePoint now, const std::string& language,
+                                        const picture::OverlayStyle& style) {
   client::Frame frame;
   const bool any = recorded_.interpolated_frame(now, Duration{0}, frame);
   for (client::HandPose& hand : frame.hands)
     hand.force_W = Vec3::Zero();
-  RenderScene scene = world_.build(any ? &frame : nullptr, client::LinkState::joined);
+  picture::RenderScene scene = world_.build(any ? &frame : nullptr, client::LinkState::joined);
   scene.overlay = invitation(world_.status(), language, style);
   scene.inset.reset();
   return scene;

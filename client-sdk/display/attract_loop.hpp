@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "client-sdk/display/recorded_client.hpp"
-#include "client-sdk/display/shown_world.hpp"
+#include "client-sdk/recording/recorded_client.hpp"
+#include "client-sdk/scene/shown_world.hpp"
 
 namespace mechane::display {
 
@@ -14,7 +14,7 @@ namespace mechane::display {
 class AttractLoop {
  public:
   /// Errors: those of FrameRecording.
-  [[nodiscard]] static Expected<std::unique_ptr<AttractLoop>> open(const std::string& file, AssetSource assets);
+  [[nodiscard]] static Expected<std::unique_ptr<AttractLoop>> open(const std::string& file, scene::AssetSource assets);
   AttractLoop(const AttractLoop&) = delete;
   AttractLoop& operator=(const AttractLoop&) = delete;
 
@@ -23,15 +23,16 @@ class AttractLoop {
   /// To what is seen at `now`. True where other assets are needed than before: all that was uploaded is to be forgotten.
   [[nodiscard]] bool advance(TimePoint now);
   /// Once advance() has said that there are any.
-  [[nodiscard]] const SceneAssets& assets() const { return world_.assets(); }
+  [[nodiscard]] const picture::SceneAssets& assets() const { return world_.assets(); }
   /// With the invitation, first in `language`.
-  [[nodiscard]] RenderScene build(TimePoint now, const std::string& language, const OverlayStyle& style);
+  [[nodiscard]] picture::RenderScene build(TimePoint now, const std::string& language,
+                                           const picture::OverlayStyle& style);
 
  private:
-  AttractLoop(FrameRecording recording, AssetSource assets);
+  AttractLoop(recording::FrameRecording recording, scene::AssetSource assets);
 
-  RecordedClient recorded_;
-  ShownWorld world_;
+  recording::RecordedClient recorded_;
+  scene::ShownWorld world_;
 };
 
 }  // namespace mechane::display

@@ -22,6 +22,18 @@ Expected<void> make_folder(const std::string& folder) {
   return {};
 }
 
+/// What the options ask for, as far as the window can do it; null: offscreen.
+DisplayOptions possible_options(const DisplayOptions& options, const Window* window) {
+  DisplayOptions possible = options;
+  if (options.stereo == picture::Stereo::quad_buffer && (window == nullptr || !window->has_quad_buffer())) {
+    log::warning(
+        "this display has no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs, "
+        "top-bottom, rows or anaglyph");
+    possible.stereo = picture::Stereo::mono;
+  }
+  return possible;
+}
+
 }  // namespace
 
 std::string DisplaySummary::to_json() const {
@@ -37,8 +49,8 @@ std::string DisplaySummary::to_json() const {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Expected<PixelSize> parse_size(const std::string& text) {
-  PixelSize size;
+Expected<picture::PixelSize> parse_size(const std::string& text) {
+  picture::PixelSize size;
   const char* end = text.data() + text.size();
   const auto [cross, error] = std::from_chars(text.data(), end, size.width);
   const bool first = error == std::errc() && cross != end && *cross == 'x';
@@ -54,8 +66,8 @@ Expected<PixelSize> parse_size(const std::string& text) {
 Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests) {
   MECHANE_ASSERT(options.fps > 0);
   if (auto ok = make_folder(options.out); !ok) return tl::unexpected(ok.error());
-  if (is_web_address(options.assets)) {
-    if (auto address = AssetAddress::parse(options.assets); !address) return tl::unexpected(address.error());
+  if (assets::is_web_address(options.assets)) {
+    if (auto address = assets::AssetAddress::parse(options.assets); !address) return tl::unexpected(address.error());
   }
   std::optional<content::Catalogue> catalogue;
   if (!options.catalogue.empty()) {
@@ -65,18 +77,21 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   }
   // Before the context: the driver's own threads inherit it. A refusal does no harm.
   if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
-  auto context = options.offscreen ? make_offscreen_context(options.size)
-                                   : make_window_context(options.size, "Mechane",
-                                                         {options.stereo == Stereo::quad_buffer, options.full_screen});
-  if (!context) return tl::unexpected(context.error());
-  DisplayOptions possible = options;
-  if (options.stereo == Stereo::quad_buffer && !(*context)->has_quad_buffer()) {
-    log::warning(
-        "this display has no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs, "
-        "top-bottom, rows or anaglyph");
-    possible.stereo = Stereo::mono;
+  std::unique_ptr<draw::GlContext> context;
+  Window* window = nullptr;
+  if (options.offscreen) {
+    auto opened = draw::make_offscreen_context(options.size);
+    if (!opened) return tl::unexpected(opened.error());
+    context = std::move(*opened);
+  } else {
+    auto opened =
+        make_window(options.size, "Mechane", {options.stereo == picture::Stereo::quad_buffer, options.full_screen});
+    if (!opened) return tl::unexpected(opened.error());
+    window = opened->get();
+    context = std::move(*opened);
   }
-  auto renderer = Renderer::create(options.renderer);
+  DisplayOptions possible = possible_options(options, window);
+  auto renderer = draw::Renderer::create(options.renderer);
   if (!renderer) return tl::unexpected(renderer.error());
   client::ClientConfig config;
   config.kiosk = options.kiosk;
@@ -87,9 +102,9 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   if (!source) return tl::unexpected(source.error());
   auto attract = open_attract(options, catalogue ? &*catalogue : nullptr);
   if (!attract) return tl::unexpected(attract.error());
-  if (source->recorded != nullptr) possible.ask = AskWhen::none;  // nobody is there who answers
-  return DisplayLoop(possible, requests, **context, std::move(*renderer), *source, catalogue ? &*catalogue : nullptr,
-                     std::move(*attract))
+  if (source->recorded != nullptr) possible.ask = visit::AskWhen::none;  // nobody is there who answers
+  return DisplayLoop(possible, requests, *context, window, std::move(*renderer), *source,
+                     catalogue ? &*catalogue : nullptr, std::move(*attract))
       .run();
 }
 

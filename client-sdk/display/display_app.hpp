@@ -10,11 +10,11 @@
 
 #include "client-sdk/display/display_sound.hpp"
 #include "client-sdk/display/display_source.hpp"
-#include "client-sdk/display/gl_context.hpp"
 #include "client-sdk/display/picture_schedule.hpp"
-#include "client-sdk/display/renderer.hpp"
-#include "client-sdk/display/scene_builder.hpp"
-#include "client-sdk/display/visitor_panel.hpp"
+#include "client-sdk/draw/gl_context.hpp"
+#include "client-sdk/draw/renderer.hpp"
+#include "client-sdk/scene/scene_builder.hpp"
+#include "client-sdk/visit/visitor_panel.hpp"
 #include <mechane/client/client.hpp>
 
 namespace mechane::display {
@@ -24,10 +24,10 @@ struct DisplayOptions {
   std::string name = "wall";  ///< of this display among the kiosk's
   std::uint32_t domain = 0;
   bool offscreen = false;
-  PixelSize size{1280, 720};
+  picture::PixelSize size{1280, 720};
   bool full_screen = false;  ///< a window: fills the screen from the start
-  Stereo stereo = Stereo::mono;
-  ScreenSetup screen;           ///< that visitors stand before
+  picture::Stereo stereo = picture::Stereo::mono;
+  picture::ScreenSetup screen;  ///< that visitors stand before
   std::string language = "el";  ///< that it starts in, and comes back to when a visitor has gone
   std::string
       assets;  ///< folder, or address (http, https), that mesh files are relative to; empty: the scenario's folder, as the
@@ -41,9 +41,9 @@ struct DisplayOptions {
   double seconds = 0;        ///< stop after so long; 0: no limit
   bool until_done = false;   ///< stop when the world's last activity is done
   double fps = 60;           ///< at most
-  RendererSettings renderer;
-  AskWhen ask = AskWhen::after;  ///< an activity's questions
-  OverlayStyle overlay;          ///< at the start; keys change it
+  draw::RendererSettings renderer;
+  visit::AskWhen ask = visit::AskWhen::after;  ///< an activity's questions
+  picture::OverlayStyle overlay;               ///< at the start; keys change it
   bool forces = false;           ///< hands have arrows of the force that they feel; at the start, a key changes it
   double home_after_s = 0;       ///< without anybody's motion or click: back to the server's first scenario; 0: never
   std::string attract;           ///< file of a recording that is shown while nobody is there; empty: none
@@ -83,6 +83,6 @@ struct DisplayRequests {
 [[nodiscard]] Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests);
 
 /// Reads "1280x720". Errors: not two numbers, or not within 16..8192.
-[[nodiscard]] Expected<PixelSize> parse_size(const std::string& text);
+[[nodiscard]] Expected<picture::PixelSize> parse_size(const std::string& text);
 
 }  // namespace mechane::display

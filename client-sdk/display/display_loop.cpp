@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "client-sdk/display/image_file.hpp"
-#include "client-sdk/display/overlay_layout.hpp"
-#include "client-sdk/display/picking.hpp"
-#include "client-sdk/display/pointer_aid.hpp"
 #include "client-sdk/display/spare_memory.hpp"
-#include "client-sdk/display/thing_names.hpp"
+#include "client-sdk/draw/overlay_layout.hpp"
+#include "client-sdk/picture/image_file.hpp"
+#include "client-sdk/picture/picking.hpp"
+#include "client-sdk/pointer/pointer_aid.hpp"
+#include "client-sdk/scene/thing_names.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -39,7 +39,7 @@ TimePoint DisplayLoop::now() {
 }
 
 bool DisplayLoop::stop_wanted(TimePoint now) const {
-  if (requests_.stop || context_.close_wanted()) return true;
+  if (requests_.stop || (window_ != nullptr && window_->close_wanted())) return true;
   if (options_.seconds > 0 && now - started_ >= std::chrono::duration<double>(options_.seconds)) return true;
   if (options_.frames > 0 && summary_.frames >= options_.frames) return true;
   if (source_.recorded != nullptr && source_.recorded->over()) return true;
@@ -77,7 +77,7 @@ void DisplayLoop::say_unknown(TimePoint now) {
 /// Status, manifest and frame as they are now.
 void DisplayLoop::take_news(TimePoint now) {
   if (source_.recorded != nullptr) source_.recorded->advance(now);
-  const ShownWorld::News news = world_.hear(client_);
+  const scene::ShownWorld::News news = world_.hear(client_);
   if (news.another_world) {
     if (!attracts_) renderer_->forget_assets();
     have_frame_ = false;  // of the world before
@@ -97,7 +97,7 @@ void DisplayLoop::take_news(TimePoint now) {
 
 /// Many or large words cover what they speak of. A picture in true proportions is a window, which stays where it is; and what a pointer drags must stay
 /// under it.
-void DisplayLoop::make_room(RenderScene& scene, TimePoint now) {
+void DisplayLoop::make_room(picture::RenderScene& scene, TimePoint now) {
   if (options_.screen.known()) return;
   const bool may_move = !scene.overlay.panel && (!pointer_ || pointer_->is_away());
   if (may_move) caption_room_.see(renderer_->lay_out(scene, options_.stereo, context_.size()).covered_below, now);
@@ -122,18 +122,18 @@ void DisplayLoop::record(TimePoint now) {
   source_.recorder->hear(now, *world_.status(), world_.presentation().get(), world_.objects(), any ? &newest : nullptr);
 }
 
-RenderScene DisplayLoop::build(TimePoint now) const {
-  RenderScene scene = attracts_ ? attract_->build(now, spoken_, panel_.settings().style)
-                                : world_.build(have_frame_ ? &frame_ : nullptr, client_.state());
+picture::RenderScene DisplayLoop::build(TimePoint now) const {
+  picture::RenderScene scene = attracts_ ? attract_->build(now, spoken_, panel_.settings().style)
+                                         : world_.build(have_frame_ ? &frame_ : nullptr, client_.state());
   if (!attracts_) panel_.write(scene.overlay, now);
   if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
   if (!options_.screen.known()) scene.camera.room_below = caption_room_.room_below();  // as it was seen last
-  const PixelSize eye = seen_size(options_.stereo, context_.size());
+  const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
-    scene.camera = for_screen(scene.camera, options_.screen, head_.place(), aspect_of(eye));
+    scene.camera = picture::for_screen(scene.camera, options_.screen, head_.place(), picture::aspect_of(eye));
   if (pointer_ && world_.known() && !attracts_) {
     pointer_->write(scene.overlay, under_pointer(scene), spoken_);
-    if (const auto button = go_on_button(world_.status(), spoken_); button && !scene.overlay.panel)
+    if (const auto button = pointer::go_on_button(world_.status(), spoken_); button && !scene.overlay.panel)
       scene.overlay.corner.insert(scene.overlay.corner.begin(), *button);
     if (const auto at = pointer_->hovers_at()) scene.overlay.meant = pressed(*at);
   }
@@ -151,16 +151,16 @@ std::string DisplayLoop::heard_in_writing(TimePoint now) const {
 }
 
 /// By the display's own pointer, or else by a hand. Words lie in the screen, for both eyes alike.
-void DisplayLoop::name_what_is_meant(RenderScene& scene) const {
-  const PixelSize eye = seen_size(options_.stereo, context_.size());
-  const auto seen = seen_place(scene.camera, Stereo::mono, eye, {});
+void DisplayLoop::name_what_is_meant(picture::RenderScene& scene) const {
+  const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
+  const auto seen = picture::seen_place(scene.camera, picture::Stereo::mono, eye, {});
   if (!seen) return;
   for (const auto& meant : {pointer_ ? pointer_->pointed_at() : std::nullopt, scene.near_hand}) {
-    if (meant && !scene.overlay.label) scene.overlay.label = label_of(scene.named, *meant, seen->sight);
+    if (meant && !scene.overlay.label) scene.overlay.label = scene::label_of(scene.named, *meant, seen->sight);
   }
 }
 
-PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {
+pointer::PointerScene DisplayLoop::under_pointer(const picture::RenderScene& scene) const {
   return {scene,
           world_.assets(),
           options_.stereo,
@@ -173,19 +173,20 @@ PointerScene DisplayLoop::under_pointer(const RenderScene& scene) const {
 
 /// The display's own hand hears of everything that no button hears.
 void DisplayLoop::take_pointer(TimePoint now) {
-  const std::vector<PointerEvent> events = context_.take_pointer_events();
+  const std::vector<pointer::PointerEvent> events = window_->take_pointer_events();
   if (!pointer_ || !world_.known()) return;
   if (attracts_) {  // whoever comes ends the invitation, and takes nothing yet
-    if (std::ranges::any_of(events, [](const PointerEvent& e) { return e.kind != PointerEvent::Kind::gone; }))
+    if (std::ranges::any_of(events,
+                            [](const pointer::PointerEvent& e) { return e.kind != pointer::PointerEvent::Kind::gone; }))
       panel_.touch(now);
     return;
   }
   if (events.empty() && pointer_->rests(now)) return;  // a scene is not built for nothing
-  const RenderScene scene = build(now);
-  const PointerScene under = under_pointer(scene);
-  for (const PointerEvent& event : events) {
+  const picture::RenderScene scene = build(now);
+  const pointer::PointerScene under = under_pointer(scene);
+  for (const pointer::PointerEvent& event : events) {
     const bool covered =
-        event.kind == PointerEvent::Kind::press && (panel_shown_ || pressed({event.x, event.y}).has_value());
+        event.kind == pointer::PointerEvent::Kind::press && (panel_shown_ || pressed({event.x, event.y}).has_value());
     pointer_->take(event, under, covered);
   }
   pointer_->update(under, now);
@@ -193,17 +194,19 @@ void DisplayLoop::take_pointer(TimePoint now) {
 }
 
 void DisplayLoop::take_wishes(TimePoint now) {
-  for (const DisplayKey key : context_.take_keys())
-    take_key(key, now);
-  for (const PixelPlace place : context_.take_clicks())
-    take_click(place, now);
-  take_pointer(now);
+  if (window_ != nullptr) {
+    for (const DisplayKey key : window_->take_keys())
+      take_key(key, now);
+    for (const picture::PixelPlace place : window_->take_clicks())
+      take_click(place, now);
+    take_pointer(now);
+  }
   const auto server = client_.server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
   panel_.update({world_.status(), world_.presentation(), have_frame_ ? &frame_ : nullptr, home}, now);
-  const VisitorWishes wishes = panel_.take_wishes();
+  const visit::VisitorWishes wishes = panel_.take_wishes();
   if (wishes.home) (void)client_.open_exhibit("");
-  for (const VisitorAnswer& given : wishes.answers) {
+  for (const visit::VisitorAnswer& given : wishes.answers) {
     if (client_.answer(given.when, given.activity, given.question, given.answer) == 0)
       log::warning("an answer to '" + given.question + "' was not sent: there is no world");
   }
@@ -286,28 +289,28 @@ void DisplayLoop::take_key(DisplayKey key, TimePoint now) {
 }
 
 /// Buttons come first; what lies behind a panel of questions is not meant.
-void DisplayLoop::take_click(PixelPlace place, TimePoint now) {
+void DisplayLoop::take_click(picture::PixelPlace place, TimePoint now) {
   const auto action = pressed(place);
-  if (action && action->kind == OverlayAction::Kind::activity) (void)client_.start_activity(action->value);
+  if (action && action->kind == picture::OverlayAction::Kind::activity) (void)client_.start_activity(action->value);
   if (action) return panel_.press(*action, now);
   panel_.touch(now);
   if (attracts_) return;  // it means what is behind the invitation as little as a panel's
   if (!panel_shown_) click_object(place, now);
 }
 
-std::optional<OverlayAction> DisplayLoop::pressed(PixelPlace place) const {
-  const PixelSize picture = context_.size();
-  const PixelSize eye = seen_size(options_.stereo, picture);
+std::optional<picture::OverlayAction> DisplayLoop::pressed(picture::PixelPlace place) const {
+  const picture::PixelSize picture = context_.size();
+  const picture::PixelSize eye = picture::seen_size(options_.stereo, picture);
   if (eye.width < 2 || eye.height < 2) return {};
-  const EyePlace seen = eye_at(options_.stereo, picture, place);
-  const OverlayLayout& shown = renderer_->overlay();
-  return action_at(shown, (1 + seen.x) / 2 * shown.size.width, (1 - seen.y) / 2 * shown.size.height);
+  const picture::EyePlace seen = picture::eye_at(options_.stereo, picture, place);
+  const draw::OverlayLayout& shown = renderer_->overlay();
+  return draw::action_at(shown, (1 + seen.x) / 2 * shown.size.width, (1 - seen.y) / 2 * shown.size.height);
 }
 
 /// A click on a sign is as good as a finger.
-void DisplayLoop::click_object(PixelPlace place, TimePoint now) {
+void DisplayLoop::click_object(picture::PixelPlace place, TimePoint now) {
   if (!world_.known()) return;
-  const auto clicked = object_at(build(now), world_.assets(), place, options_.stereo, context_.size());
+  const auto clicked = picture::object_at(build(now), world_.assets(), place, options_.stereo, context_.size());
   if (!clicked) return;
   for (const client::SceneObject& object : world_.objects()) {
     if (object.index == *clicked) (void)client_.click(object.name);
@@ -322,8 +325,8 @@ bool DisplayLoop::is_there() const {
 Expected<void> DisplayLoop::draw(TimePoint now) {
   const TimePoint began = clock_.now();
   subtitles_.hear(is_there() ? world_.status() : nullptr, spoken_, now);
-  RenderScene scene = build(now);
-  const PixelSize size = context_.size();
+  picture::RenderScene scene = build(now);
+  const picture::PixelSize size = context_.size();
   say_stray();
   say_unknown(now);
   if (context_.lost()) {
@@ -332,10 +335,10 @@ Expected<void> DisplayLoop::draw(TimePoint now) {
   // A window that is minimised has no pixels.
   if (size.width < 2 || size.height < 2) return {};
   make_room(scene, now);
-  renderer_->begin_at_row(context_.first_row());
+  if (window_ != nullptr) renderer_->begin_at_row(window_->first_row());
   if (auto ok = renderer_->draw(scene, options_.stereo, size); !ok) return survive(ok.error());
   if (options_.offscreen) {
-    Renderer::finish();
+    draw::Renderer::finish();
   } else {
     renderer_->copy_to_window(size);
   }
@@ -360,11 +363,11 @@ Expected<void> DisplayLoop::survive(const Error& error) {
   return {};
 }
 
-Expected<std::unique_ptr<Renderer>> DisplayLoop::begin_drawing() {
+Expected<std::unique_ptr<draw::Renderer>> DisplayLoop::begin_drawing() {
   if (auto ok = context_.renew(); !ok) return tl::unexpected(ok.error());
   if (context_.lost())
     return fail("the graphics card is not back yet", "display", "see the system's log for its driver");
-  return Renderer::create(options_.renderer);
+  return draw::Renderer::create(options_.renderer);
 }
 
 /// What was uploaded is gone, and comes again. The world went on meanwhile.
@@ -386,24 +389,24 @@ Expected<void> DisplayLoop::recover() {
   return {};
 }
 
-void DisplayLoop::let_hear(const Camera& ears, TimePoint now) {
+void DisplayLoop::let_hear(const picture::Camera& ears, TimePoint now) {
   const std::vector<client::WorldEvent> events = client_.take_events();
   if (source_.recorder) source_.recorder->hear(now, events);
   const bool here = is_there();
-  std::vector<SoundSource> sources =
+  std::vector<sound::SoundSource> sources =
       sounds_.hear(here ? &frame_ : nullptr, world_.presentation().get(), world_.objects(), events);
   sound_captions_.hear(sources, now);
   if (sound_) sound_->hear(ears, std::move(sources), here ? world_.status() : nullptr, world_.folder());
 }
 
 std::string DisplayLoop::picture_path(const std::string& name) const {
-  return fmt::format("{}/{}-{}.png", options_.out, name, stereo_name(options_.stereo));
+  return fmt::format("{}/{}-{}.png", options_.out, name, picture::stereo_name(options_.stereo));
 }
 
 Expected<void> DisplayLoop::write_picture(const std::string& name) {
   if (options_.out.empty()) return {};
   const std::string path = picture_path(name);
-  if (auto ok = write_png(renderer_->read_picture(), path); !ok) return ok;
+  if (auto ok = picture::write_png(renderer_->read_picture(), path); !ok) return ok;
   log::info("wrote " + path);
   summary_.pictures.push_back(path);
   return {};
@@ -452,7 +455,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
     tend_attract(now);
     tend_kiosk(now);
     const bool asked = requests_.picture.exchange(false);
-    const bool requested = context_.take_picture_wanted() || asked || desk_.picture_wanted();
+    const bool requested = (window_ != nullptr && window_->take_picture_wanted()) || asked || desk_.picture_wanted();
     const bool only_pictures = options_.offscreen && options_.every_step && options_.film_fps <= 0;
     if (!only_pictures || due_ || requested) {
       if (auto ok = draw(now); !ok) return tl::unexpected(ok.error());
@@ -478,7 +481,7 @@ Expected<DisplaySummary> DisplayLoop::run() {
   if (const auto* missing = world_.missing()) summary_.missing_assets.assign(missing->begin(), missing->end());
   summary_.renderer = context_.renderer_name();
   if (sound_) {
-    const SoundState heard = sound_->state();
+    const sound::SoundState heard = sound_->state();
     summary_.sound = heard.sounding ? heard.device : heard.problem;
   } else {
     summary_.sound = "off";

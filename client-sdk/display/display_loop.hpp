@@ -11,10 +11,11 @@
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/head_view.hpp"
 #include "client-sdk/display/kiosk_setup.hpp"
-#include "client-sdk/display/pointer_input.hpp"
-#include "client-sdk/display/shown_world.hpp"
-#include "client-sdk/display/sound_captions.hpp"
-#include "client-sdk/display/subtitles.hpp"
+#include "client-sdk/display/window.hpp"
+#include "client-sdk/pointer/pointer_input.hpp"
+#include "client-sdk/scene/shown_world.hpp"
+#include "client-sdk/sound/sound_captions.hpp"
+#include "client-sdk/visit/subtitles.hpp"
 #include "server/base/clock.hpp"
 
 namespace mechane::display {
@@ -25,12 +26,13 @@ inline constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
 /// One display's life. Made and run on one thread.
 class DisplayLoop {
  public:
-  DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, GlContext& context,
-              std::unique_ptr<Renderer> renderer, DisplaySource& source, const content::Catalogue* catalogue,
+  DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, draw::GlContext& context, Window* window,
+              std::unique_ptr<draw::Renderer> renderer, DisplaySource& source, const content::Catalogue* catalogue,
               std::unique_ptr<AttractLoop> attract)
       : options_(options),
         requests_(requests),
         context_(context),
+        window_(window),
         renderer_(std::move(renderer)),
         source_(source),
         client_(*source.client),
@@ -42,7 +44,7 @@ class DisplayLoop {
         spoken_(options.language) {
     forces_shown_ = options.forces;
     world_.show_forces(forces_shown_);
-    if (options.touch && !options.offscreen && source_.recorded == nullptr)
+    if (options.touch && window != nullptr && source_.recorded == nullptr)
       pointer_.emplace(options.kiosk, options.domain);
   }
 
@@ -58,27 +60,27 @@ class DisplayLoop {
   void say_refusal();
   void say_stray();
   void say_unknown(TimePoint now);
-  void make_room(RenderScene& scene, TimePoint now);
+  void make_room(picture::RenderScene& scene, TimePoint now);
   [[nodiscard]] bool is_there() const;
   Expected<void> draw(TimePoint now);
   Expected<void> survive(const Error& error);
   Expected<void> recover();
-  Expected<std::unique_ptr<Renderer>> begin_drawing();
-  void let_hear(const Camera& ears, TimePoint now);
-  [[nodiscard]] RenderScene build(TimePoint now) const;
+  Expected<std::unique_ptr<draw::Renderer>> begin_drawing();
+  void let_hear(const picture::Camera& ears, TimePoint now);
+  [[nodiscard]] picture::RenderScene build(TimePoint now) const;
   [[nodiscard]] std::string heard_in_writing(TimePoint now) const;
   void take_wishes(TimePoint now);
   void tend_kiosk(TimePoint now);
   void tend_attract(TimePoint now);
   void upload();
   void take_pointer(TimePoint now);
-  void name_what_is_meant(RenderScene& scene) const;
-  [[nodiscard]] PointerScene under_pointer(const RenderScene& scene) const;
+  void name_what_is_meant(picture::RenderScene& scene) const;
+  [[nodiscard]] pointer::PointerScene under_pointer(const picture::RenderScene& scene) const;
   void tell_language();
   void take_key(DisplayKey key, TimePoint now);
-  void take_click(PixelPlace place, TimePoint now);
-  [[nodiscard]] std::optional<OverlayAction> pressed(PixelPlace place) const;
-  void click_object(PixelPlace place, TimePoint now);
+  void take_click(picture::PixelPlace place, TimePoint now);
+  [[nodiscard]] std::optional<picture::OverlayAction> pressed(picture::PixelPlace place) const;
+  void click_object(picture::PixelPlace place, TimePoint now);
   [[nodiscard]] std::string picture_path(const std::string& name) const;
   Expected<void> write_picture(const std::string& name);
   void write_requested();
@@ -87,12 +89,13 @@ class DisplayLoop {
 
   const DisplayOptions& options_;
   DisplayRequests& requests_;
-  GlContext& context_;
-  std::unique_ptr<Renderer> renderer_;  ///< of the context as it is now
+  draw::GlContext& context_;
+  Window* window_;                            ///< the context's; null: offscreen
+  std::unique_ptr<draw::Renderer> renderer_;  ///< of the context as it is now
   DisplaySource& source_;
   client::Client& client_;
   SystemClock clock_;
-  ShownWorld world_;
+  scene::ShownWorld world_;
   bool forces_shown_ = false;
   HeadView head_;
   bool told_head_ = false;
@@ -102,16 +105,16 @@ class DisplayLoop {
   std::unique_ptr<AttractLoop> attract_;  ///< null: none
   bool attracts_ = false;
   KioskDesk desk_;
-  std::optional<PointerInput> pointer_;
-  VisitorPanel panel_;
+  std::optional<pointer::PointerInput> pointer_;
+  visit::VisitorPanel panel_;
   std::string spoken_;  ///< the language that all others know of
   std::string told_language_;
   std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told it
   bool panel_shown_ = false;                                            ///< in the last picture
   CaptionRoom caption_room_;
-  Subtitles subtitles_;
-  WorldSounds sounds_;
-  SoundCaptions sound_captions_;
+  visit::Subtitles subtitles_;
+  sound::WorldSounds sounds_;
+  sound::SoundCaptions sound_captions_;
   std::string told_refusal_;
   std::string told_stray_;
   std::optional<TimePoint> unknown_since_;

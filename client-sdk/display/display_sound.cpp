@@ -27,12 +27,12 @@ std::string if_there(const fs::path& file) {
   return fs::is_regular_file(file, error) ? file.string() : std::string();
 }
 
-SoundListener at(const Camera& camera) {
+sound::SoundListener at(const picture::Camera& camera) {
   return {camera.p_WC, (camera.p_WT - camera.p_WC).normalized(), camera.up_W};
 }
 
-SoundPlayerOptions options_of(const SoundSettings& settings) {
-  SoundPlayerOptions options;
+sound::SoundPlayerOptions options_of(const SoundSettings& settings) {
+  sound::SoundPlayerOptions options;
   options.levels.volume = settings.volume;
   return options;
 }
@@ -67,12 +67,12 @@ DisplaySound::DisplaySound(const SoundSettings& settings, std::string language)
       language_(std::move(language)),
       player_(options_of(settings)) {}
 
-void DisplaySound::hear(const Camera& ears, std::vector<SoundSource> sources, const client::WorldStatus* status,
-                        const std::string& scenario_folder) {
-  SoundScene scene{at(ears), std::move(sources), {}};
+void DisplaySound::hear(const picture::Camera& ears, std::vector<sound::SoundSource> sources,
+                        const client::WorldStatus* status, const std::string& scenario_folder) {
+  sound::SoundScene scene{at(ears), std::move(sources), {}};
   if (status != nullptr && !status->done) {
     // Looked for once a step: the disk is not asked at every picture.
-    const std::string id = narration_id(*status) + " " + language_;
+    const std::string id = visit::narration_id(*status) + " " + language_;
     if (id != narration_.id) {
       narration_ = {id, narration_file(*status, language_, scenario_folder, narration_folder_)};
       const auto said = status->narration.find(language_);

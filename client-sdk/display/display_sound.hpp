@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "client-sdk/display/render_scene.hpp"
-#include "client-sdk/display/sound_player.hpp"
+#include "client-sdk/picture/camera.hpp"
+#include "client-sdk/sound/sound_player.hpp"
 #include <mechane/client/types.hpp>
 
 namespace mechane::display {
@@ -32,19 +32,19 @@ class DisplaySound {
   DisplaySound(const SoundSettings& settings, std::string language);
 
   /// Once a picture. `status` may be null: nobody speaks then.
-  void hear(const Camera& ears, std::vector<SoundSource> sources, const client::WorldStatus* status,
+  void hear(const picture::Camera& ears, std::vector<sound::SoundSource> sources, const client::WorldStatus* status,
             const std::string& scenario_folder);
   /// From the next picture on: what is read aloud begins anew in it.
   void set_language(const std::string& language) { language_ = language; }
-  void set_levels(const SoundLevels& levels) { player_.set_levels(levels); }
-  [[nodiscard]] SoundState state() const { return player_.state(); }
+  void set_levels(const sound::SoundLevels& levels) { player_.set_levels(levels); }
+  [[nodiscard]] sound::SoundState state() const { return player_.state(); }
 
  private:
   std::string narration_folder_;
   std::string language_;
-  Narration narration_;
+  sound::Narration narration_;
   std::set<std::string> told_;  ///< steps that have none
-  SoundPlayer player_;
+  sound::SoundPlayer player_;
 };
 
 }  // namespace mechane::display

@@ -5,26 +5,26 @@
 #include <optional>
 #include <string>
 
-#include "client-sdk/display/frame_recording.hpp"
-#include "client-sdk/display/recorded_client.hpp"
+#include "client-sdk/recording/frame_recording.hpp"
+#include "client-sdk/recording/recorded_client.hpp"
 #include "server/base/error.hpp"
 #include <mechane/client/client.hpp>
 
 namespace mechane::display {
 
 struct SourceOptions {
-  std::string play;       ///< file of a recording; empty: a server
-  std::string play_from;  ///< FrameRecording::moment(); empty: the beginning
-  PlaySettings player;    ///< `from` is taken from play_from
-  std::string record;     ///< file; empty: nothing is recorded
-  RecorderSettings recorder;
+  std::string play;                ///< file of a recording; empty: a server
+  std::string play_from;           ///< FrameRecording::moment(); empty: the beginning
+  recording::PlaySettings player;  ///< `from` is taken from play_from
+  std::string record;              ///< file; empty: nothing is recorded
+  recording::RecorderSettings recorder;
 };
 
 /// Used on the display's thread.
 struct DisplaySource {
   std::unique_ptr<client::Client> client;
-  RecordedClient* recorded = nullptr;  ///< that client, where it is a recording
-  std::optional<FrameRecorder> recorder;
+  recording::RecordedClient* recorded = nullptr;  ///< that client, where it is a recording
+  std::optional<recording::FrameRecorder> recorder;
 };
 
 /// Errors: `record` is a recording that is read, too, by this name or another (a link, another spelling): it would be gone before it was shown.

@@ -21,8 +21,8 @@ constexpr double kLeastAcross = 0.5;
 
 }  // namespace
 
-HeadPlace HeadView::limited(const Pose& X_SV) const {
-  HeadPlace out;
+picture::HeadPlace HeadView::limited(const Pose& X_SV) const {
+  picture::HeadPlace out;
   const double z = std::clamp(X_SV.p.z(), kNearest * screen_.width_m, kFarthest * screen_.width_m);
   out.p_SV = {std::clamp(X_SV.p.x(), -kSteepest * z, kSteepest * z),
               std::clamp(X_SV.p.y(), -kSteepest * z, kSteepest * z), z};
@@ -37,7 +37,7 @@ void HeadView::advance(const std::optional<client::ViewerHead>& head, TimePoint 
   tracked_ = head && head->seen && now - head->received < kSilence;
   if (!screen_.known()) return;
   if (!tracked_ && !away_) return;
-  const HeadPlace goal = tracked_ ? limited(head->X_SV) : home_;
+  const picture::HeadPlace goal = tracked_ ? limited(head->X_SV) : home_;
   const Vec3 way_S = goal.p_SV - place_.p_SV;
   const double step_m = (tracked_ ? kFollow_m_per_s : kReturn_m_per_s) * dt_s;
   const bool arrives = way_S.norm() <= step_m;

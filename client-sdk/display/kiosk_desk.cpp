@@ -68,7 +68,7 @@ KioskDesk::KioskDesk(client::Client& client, DisplayIdentity identity, client::D
       next_report_(now),
       host_(host_name()) {}
 
-bool KioskDesk::take_wishes(const OverlayStyle& style) {
+bool KioskDesk::take_wishes(const picture::OverlayStyle& style) {
   settings_.large_text = style.text_scale > 1;
   settings_.high_contrast = style.high_contrast;
   const client::DisplaySettings before = settings_;

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "client-sdk/display/gl_context.hpp"
-#include "client-sdk/display/overlay_controls.hpp"
-#include "client-sdk/display/sound_player.hpp"
+#include "client-sdk/draw/gl_context.hpp"
+#include "client-sdk/picture/overlay_controls.hpp"
+#include "client-sdk/sound/sound_player.hpp"
 #include "server/base/clock.hpp"
 #include <mechane/client/client.hpp>
 
@@ -75,10 +75,10 @@ struct DisplayIdentity {
 
 /// What the display's loop knows at the time of a report.
 struct DisplayFacts {
-  PixelSize size;
+  picture::PixelSize size;
   const client::WorldStatus* world = nullptr;      ///< null: none is known
   const std::set<std::string>* missing = nullptr;  ///< null: nothing was loaded yet
-  std::optional<SoundState> sound;                 ///< none: it makes no sound
+  std::optional<sound::SoundState> sound;          ///< none: it makes no sound
   bool attracts = false;                           ///< a recorded visit is shown
 };
 
@@ -92,7 +92,7 @@ class KioskDesk {
   KioskDesk(client::Client& client, DisplayIdentity identity, client::DisplaySettings settings, TimePoint now);
 
   /// Answers what was wished. True where settings changed. `style`: as visitors have it now, with keys of their own.
-  [[nodiscard]] bool take_wishes(const OverlayStyle& style);
+  [[nodiscard]] bool take_wishes(const picture::OverlayStyle& style);
   [[nodiscard]] const client::DisplaySettings& settings() const { return settings_; }
   /// Somebody wished for a picture; taken() or failed() answers.
   [[nodiscard]] bool picture_wanted() const { return !picture_for_.empty(); }

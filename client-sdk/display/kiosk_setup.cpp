@@ -7,14 +7,14 @@ namespace mechane::display {
 namespace {
 
 /// None where assets are a folder's.
-std::unique_ptr<AssetStore> open_asset_store(const DisplayOptions& display) {
-  if (!is_web_address(display.assets)) return nullptr;
-  AssetStoreOptions options;
+std::unique_ptr<assets::AssetStore> open_asset_store(const DisplayOptions& display) {
+  if (!assets::is_web_address(display.assets)) return nullptr;
+  assets::AssetStoreOptions options;
   options.cache_folder = display.asset_cache;
   options.cache_bytes = std::uint64_t{display.asset_cache_mib} << 20U;
-  auto address = AssetAddress::parse(display.assets);
+  auto address = assets::AssetAddress::parse(display.assets);
   MECHANE_ASSERT(address.has_value());  // run_display() has read it
-  auto store = AssetStore::open(std::move(*address), options);
+  auto store = assets::AssetStore::open(std::move(*address), options);
   if (store) return std::move(*store);
   log::error(store.error());
   return nullptr;
@@ -29,26 +29,26 @@ client::DisplaySettings settings_at_start(const DisplayOptions& options) {
   settings.language = options.language;
   settings.large_text = options.overlay.text_scale > 1;
   settings.high_contrast = options.overlay.high_contrast;
-  settings.ask = ask_name(options.ask);
+  settings.ask = visit::ask_name(options.ask);
   settings.home_after_s = options.home_after_s;
   settings.attract = !options.attract.empty();
   settings.attract_after_s = options.attract_after_s;
   return settings;
 }
 
-VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
+visit::VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
   return {settings.language,
-          ask_when(settings.ask),
-          {settings.large_text ? kLargeText : 1.0F, settings.high_contrast},
+          visit::ask_when(settings.ask),
+          {settings.large_text ? picture::kLargeText : 1.0F, settings.high_contrast},
           std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
 }
 
-DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context) {
+DisplayIdentity identity_of(const DisplayOptions& options, const draw::GlContext& context) {
   return {options.kiosk, options.name,         context.renderer_name(), options.offscreen,
           options.fps,   !options.out.empty(), !options.attract.empty()};
 }
 
-AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue) {
+scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue) {
   return {options.assets, open_asset_store(options), catalogue};
 }
 

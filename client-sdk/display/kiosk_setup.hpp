@@ -10,11 +10,11 @@
 namespace mechane::display {
 
 [[nodiscard]] client::DisplaySettings settings_at_start(const DisplayOptions& options);
-[[nodiscard]] VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
-[[nodiscard]] DisplayIdentity identity_of(const DisplayOptions& options, const GlContext& context);
+[[nodiscard]] visit::VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
+[[nodiscard]] DisplayIdentity identity_of(const DisplayOptions& options, const draw::GlContext& context);
 
 /// The address has been read once already. `catalogue` may be null.
-[[nodiscard]] AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue);
+[[nodiscard]] scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue);
 
 /// Null where none is wished for. Errors: those of FrameRecording.
 [[nodiscard]] Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,

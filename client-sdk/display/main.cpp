@@ -55,7 +55,7 @@ CLI::Validator metres(double least, double most) {
 /// Of two eyes before a screen.
 void add_stereo_options(CLI::App& app, display::DisplayOptions& o) {
   add_words(
-      app, "--stereo", o.stereo, display::stereo_names(),
+      app, "--stereo", o.stereo, picture::stereo_names(),
       "how two eyes see one picture: whole halves side by side (sbs) or one above the other; the same squeezed, as a "
       "3D television wants them; red-cyan glasses, rows in turn, a driver's two buffers; or one eye alone");
   app.add_flag("--right-eye-first", o.renderer.right_eye_first,
@@ -75,7 +75,7 @@ void add_stereo_options(CLI::App& app, display::DisplayOptions& o) {
 
 /// What one option means only together with another.
 void check_together(const display::DisplayOptions& o) {
-  if (o.renderer.right_eye_first && o.stereo != display::Stereo::row_interleaved)
+  if (o.renderer.right_eye_first && o.stereo != picture::Stereo::row_interleaved)
     throw CLI::RequiresError("--right-eye-first", "--stereo rows");
   if (const auto ok = display::check_recordings(o.source, o.attract); !ok)
     throw CLI::ValidationError(ok.error().to_string());
@@ -108,12 +108,12 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
                  "language of all words; visitors may change it (key L), without them it comes back")
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();
-  add_words<display::AskWhen>(
+  add_words<visit::AskWhen>(
       app, "--ask", o.ask,
-      {{"none", display::AskWhen::none}, {"after", display::AskWhen::after}, {"both", display::AskWhen::both}},
+      {{"none", visit::AskWhen::none}, {"after", visit::AskWhen::after}, {"both", visit::AskWhen::both}},
       "when visitors are asked an activity's questions");
   app.add_flag_callback(
-      "--large-text", [&o] { o.overlay.text_scale = display::kLargeText; }, "words 1.35 times as large; key +");
+      "--large-text", [&o] { o.overlay.text_scale = picture::kLargeText; }, "words 1.35 times as large; key +");
   app.add_flag("--high-contrast", o.overlay.high_contrast, "white and yellow words on black; key C");
   app.add_flag("--force-arrows", o.forces, "an arrow at each hand, of the force that it feels; key F");
   app.add_option("--assets", o.assets,
@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
   }
   log::start("mechane-display", log::Level::info);
-  const Expected<display::PixelSize> parsed = display::parse_size(size);
+  const Expected<picture::PixelSize> parsed = display::parse_size(size);
   if (!parsed) {
     log::error(parsed.error());
     return 2;

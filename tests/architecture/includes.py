@@ -29,7 +29,15 @@ ARROWS = {
     "proto": ["server/hand"],
     "client-sdk/client": ["proto", "server/realtime", "server/hand"],
     "client-sdk/haptic": ["client-sdk/client"],
-    "client-sdk/display": ["client-sdk/client", "server/content"],
+    "client-sdk/picture": ["server/base"],
+    "client-sdk/recording": ["client-sdk/client"],
+    "client-sdk/assets": ["server/content"],
+    "client-sdk/sound": ["client-sdk/client"],
+    "client-sdk/visit": ["client-sdk/client", "client-sdk/picture"],
+    "client-sdk/pointer": ["client-sdk/client", "client-sdk/picture"],
+    "client-sdk/scene": ["client-sdk/visit", "client-sdk/assets"],
+    "client-sdk/draw": ["client-sdk/picture"],
+    "client-sdk/display": ["client-sdk/draw", "client-sdk/scene", "client-sdk/sound", "client-sdk/pointer", "client-sdk/recording"],
     "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
     "client-sdk/fit": ["server/content"],
     "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/record"],
@@ -53,11 +61,11 @@ LIBRARIES = {
     "SQLite": (re.compile(r"(sqlite3|SQLiteCpp)"), {"server/content", "server/record"}),
     "Cyclone DDS": (re.compile(r"(dds/|ddsc/)"), {"proto", "server/transport", "client-sdk/client", "client-sdk/cli"}),
     "spdlog": (re.compile(r"spdlog/"), {"server/log"}),
-    "OpenGL": (re.compile(r"(epoxy|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/display"}),
+    "OpenGL": (re.compile(r"(epoxy|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/draw", "client-sdk/display"}),
     "SDL": (re.compile(r"(SDL2/|SDL\w*\.h$)"), {"client-sdk/display"}),
-    "libcurl": (re.compile(r"curl/"), {"client-sdk/display"}),
-    "OpenAL": (re.compile(r"AL/"), {"client-sdk/display"}),
-    "libsndfile": (re.compile(r"sndfile"), {"client-sdk/display"}),
+    "libcurl": (re.compile(r"curl/"), {"client-sdk/assets"}),
+    "OpenAL": (re.compile(r"AL/"), {"client-sdk/sound"}),
+    "libsndfile": (re.compile(r"sndfile"), {"client-sdk/sound"}),
 }
 # proto is the wrapper: its headers are where Cyclone DDS becomes typed topics.
 IN_HEADERS = {("proto", "Cyclone DDS")}

@@ -56,7 +56,7 @@ PLANTED = [
     ("third-party", "server/scenario/x.hpp", "#pragma once\n#include <pugixml.hpp>\n"),
     ("third-party", "server/world/w.cpp", "#include <dds/dds.h>\n"),
     ("third-party", "server/content/c.hpp", "#pragma once\n#include <assimp/scene.h>\n"),
-    ("third-party", "client-sdk/display/w.hpp", "#pragma once\n#include <epoxy/gl.h>\n"),
+    ("third-party", "client-sdk/draw/w.hpp", "#pragma once\n#include <epoxy/gl.h>\n"),
     ("third-party", "server/base/a.cpp", "#include <spdlog/spdlog.h>\n"),
     ("third-party", "server/record/r.hpp", "#pragma once\n#include <sqlite3.h>\n"),
     ("include-path", "server/dynamics/d.cpp", '#include "d.hpp"\n'),

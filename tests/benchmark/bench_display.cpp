@@ -13,9 +13,9 @@
 #include "client-sdk/client/frame_history.hpp"
 #include "client-sdk/client/parse.hpp"
 #include "client-sdk/display/display_loop.hpp"
-#include "client-sdk/display/image_file.hpp"
-#include "client-sdk/display/renderer.hpp"
-#include "client-sdk/display/scene_builder.hpp"
+#include "client-sdk/draw/renderer.hpp"
+#include "client-sdk/picture/image_file.hpp"
+#include "client-sdk/scene/scene_builder.hpp"
 #include "server/base/clock.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/scenario/compiler.hpp"
@@ -104,9 +104,9 @@ class FrameSource {
 
 /// From a frame as it comes from the network to the finished picture of it. A display shows each frame kInterpolationDelay after its receipt:
 /// this is counted, the wait for the screen is not.
-Expected<void> measure_latency(const Config& config, display::Stereo stereo, const state::WorldDescription& world,
-                               display::SceneBuilder& builder, const display::SceneAssets& assets, Report& report) {
-  auto renderer = display::Renderer::create({});
+Expected<void> measure_latency(const Config& config, picture::Stereo stereo, const state::WorldDescription& world,
+                               scene::SceneBuilder& builder, const picture::SceneAssets& assets, Report& report) {
+  auto renderer = draw::Renderer::create({});
   if (!renderer) return tl::unexpected(renderer.error());
   (*renderer)->upload(assets);
   FrameSource source(world);
@@ -120,9 +120,9 @@ Expected<void> measure_latency(const Config& config, display::Stereo stereo, con
     frame.received = received;
     history.add(frame, wire.sent_ns);
     (void)history.at(received, frame);
-    const display::RenderScene scene = builder.build(&frame, nullptr, client::LinkState::joined);
+    const picture::RenderScene scene = builder.build(&frame, nullptr, client::LinkState::joined);
     if (auto ok = (*renderer)->draw(scene, stereo, {config.width, config.height}); !ok) return ok;
-    display::Renderer::finish();
+    draw::Renderer::finish();
     if (i >= 0) latency.add(std::chrono::steady_clock::now() - received + display::kInterpolationDelay);
   }
   report.metric("latency_ms.median", latency.quantile_us(0.5) / 1000);
@@ -136,11 +136,11 @@ double peak_mib() {
   return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<double>(usage.ru_maxrss) / 1024 : 0;
 }
 
-Expected<void> measure_passes(const Config& config, display::Stereo stereo, const state::WorldDescription& world,
-                              display::SceneBuilder& builder, const display::SceneAssets& assets, Report& report) {
-  display::RendererSettings settings;
+Expected<void> measure_passes(const Config& config, picture::Stereo stereo, const state::WorldDescription& world,
+                              scene::SceneBuilder& builder, const picture::SceneAssets& assets, Report& report) {
+  draw::RendererSettings settings;
   settings.profile = true;
-  auto renderer = display::Renderer::create(settings);
+  auto renderer = draw::Renderer::create(settings);
   if (!renderer) return tl::unexpected(renderer.error());
   (*renderer)->upload(assets);
   std::map<std::string, std::vector<double>> wall_ms;
@@ -150,11 +150,11 @@ Expected<void> measure_passes(const Config& config, display::Stereo stereo, cons
   for (int frame = -2; frame < config.frames; ++frame) {
     if (!client::parse(source.next(), moved))
       return fail("a frame was refused", config.scenario, "mend this benchmark");
-    display::RenderScene scene = builder.build(&moved, nullptr, client::LinkState::joined);
+    picture::RenderScene scene = builder.build(&moved, nullptr, client::LinkState::joined);
     scene.time_s += frame / 60.0;
     if (auto ok = (*renderer)->draw(scene, stereo, {config.width, config.height}); !ok) return ok;
-    std::map<std::string, display::PassTime> sums;
-    for (const display::PassTime& time : (*renderer)->pass_times()) {
+    std::map<std::string, draw::PassTime> sums;
+    for (const draw::PassTime& time : (*renderer)->pass_times()) {
       for (const std::string& name : {std::string(time.pass), std::string("frame")}) {
         sums[name].wall_ms += time.wall_ms;
         sums[name].cpu_ms += time.cpu_ms;
@@ -171,24 +171,24 @@ Expected<void> measure_passes(const Config& config, display::Stereo stereo, cons
     report.metric(name + ".cpu_ms.median", quantile(cpu_ms[name], 0.5));
     report.metric(name + ".cpu_ms.p99", quantile(cpu_ms[name], 0.99));
   }
-  return config.out.empty() ? Expected<void>() : display::write_png((*renderer)->read_picture(), config.out);
+  return config.out.empty() ? Expected<void>() : picture::write_png((*renderer)->read_picture(), config.out);
 }
 
-Expected<void> measure(const Config& config, const state::WorldDescription& world, display::AssetLibrary& library,
+Expected<void> measure(const Config& config, const state::WorldDescription& world, scene::AssetLibrary& library,
                        Report& report) {
   const auto stereo =
-      std::ranges::find(display::stereo_names(), config.stereo, &std::pair<std::string_view, display::Stereo>::first);
-  if (stereo == display::stereo_names().end()) return fail("no such mode", config.stereo, "see mechane display --help");
-  display::SceneBuilder builder(library, "en");
+      std::ranges::find(picture::stereo_names(), config.stereo, &std::pair<std::string_view, picture::Stereo>::first);
+  if (stereo == picture::stereo_names().end()) return fail("no such mode", config.stereo, "see mechane display --help");
+  scene::SceneBuilder builder(library, "en");
   builder.set_manifest(objects_of(world));
   builder.set_presentation(presentation_of(world));
-  const display::RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
+  const picture::RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
   std::size_t triangles = 0;
-  for (const display::Instance& instance : scene.instances)
+  for (const picture::Instance& instance : scene.instances)
     triangles += library.assets().meshes[instance.mesh].indices.size() / 3;
   report.metric("instances", static_cast<double>(scene.instances.size()));
   report.metric("triangles", static_cast<double>(triangles));
-  auto context = display::make_offscreen_context({config.width, config.height});
+  auto context = draw::make_offscreen_context({config.width, config.height});
   if (!context) return tl::unexpected(context.error());
   report.note((*context)->renderer_name());
   if (auto ok = measure_latency(config, stereo->second, world, builder, library.assets(), report); !ok) return ok;
@@ -205,7 +205,7 @@ int main_of(const Config& config) {
     return 1;
   }
   const std::filesystem::path folder = std::filesystem::path(config.scenario).parent_path();
-  display::AssetLibrary library([&](const std::string& uri) { return content::import_mesh(folder / uri); });
+  scene::AssetLibrary library([&](const std::string& uri) { return content::import_mesh(folder / uri); });
   Report report;
   if (auto ok = measure(config, *world, library, report); !ok) {
     std::cerr << "bench_display: " << ok.error().to_string() << "\n";

@@ -7,24 +7,24 @@
 #include <span>
 #include <vector>
 
-#include "client-sdk/display/frame_recording.hpp"
-#include "client-sdk/display/recorded_client.hpp"
-#include "client-sdk/display/recording_codec.hpp"
+#include "client-sdk/recording/frame_recording.hpp"
+#include "client-sdk/recording/recorded_client.hpp"
+#include "client-sdk/recording/recording_codec.hpp"
 
 namespace {
 
 using namespace mechane;
 
 std::vector<std::byte> with_record(std::uint8_t kind, std::span<const std::byte> payload) {
-  display::RecordingWriter writer;
+  recording::RecordingWriter writer;
   client::WorldStatus status;
   status.world = "world-1";
-  writer.add(display::RecordKind::status, Duration{0}, display::encode(status));
-  writer.add(display::RecordKind::manifest, Duration{0}, display::encode(std::vector<client::SceneObject>(2)));
+  writer.add(recording::RecordKind::status, Duration{0}, recording::encode(status));
+  writer.add(recording::RecordKind::manifest, Duration{0}, recording::encode(std::vector<client::SceneObject>(2)));
   client::Frame frame;
   frame.visible = {1, 1};
-  writer.add(display::RecordKind::frame, Duration{0}, display::encode(frame));
-  writer.add(static_cast<display::RecordKind>(kind), std::chrono::milliseconds(5), payload);
+  writer.add(recording::RecordKind::frame, Duration{0}, recording::encode(frame));
+  writer.add(static_cast<recording::RecordKind>(kind), std::chrono::milliseconds(5), payload);
   return writer.take_bytes();
 }
 
@@ -39,10 +39,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool record = size > 0 && data[0] % 2 == 0;  // a file's own first byte is odd
   std::vector<std::byte> bytes = record ? with_record(static_cast<std::uint8_t>(data[0] / 2 % 8), input.subspan(1))
                                         : std::vector<std::byte>(input.begin(), input.end());
-  auto recording = display::FrameRecording::open_bytes(std::move(bytes), "fuzz");
+  auto recording = recording::FrameRecording::open_bytes(std::move(bytes), "fuzz");
   if (!recording) return 0;
   const Duration duration = recording->duration();
-  display::RecordedClient client(std::move(*recording), {});
+  recording::RecordedClient client(std::move(*recording), {});
   const TimePoint begun(std::chrono::hours(1));
   for (const Duration at :
        {Duration{0}, std::chrono::duration_cast<Duration>(std::chrono::milliseconds(2)), duration}) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "client-sdk/display/render_scene.hpp"
+#include "client-sdk/picture/render_scene.hpp"
 
 namespace mechane::test {
 
@@ -17,7 +17,7 @@ struct Likeness {
 
 /// Structural similarity (Wang, Bovik, Sheikh, Simoncelli 2004, eq. 13, with their constants) of red, green and blue, in squares of 8 pixels,
 /// one every 4. Pictures of different sizes are not alike.
-[[nodiscard]] inline Likeness likeness(const display::ImageData& a, const display::ImageData& b) {
+[[nodiscard]] inline Likeness likeness(const picture::ImageData& a, const picture::ImageData& b) {
   constexpr std::size_t kSquare = 8;
   constexpr double kCount = kSquare * kSquare;
   constexpr double kC1 = 0.01 * 255 * 0.01 * 255;

@@ -9,8 +9,9 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "client-sdk/display/frame_recording.hpp"
-#include "client-sdk/display/recording_codec.hpp"
+#include "client-sdk/display/window.hpp"
+#include "client-sdk/recording/frame_recording.hpp"
+#include "client-sdk/recording/recording_codec.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::display {
@@ -71,14 +72,15 @@ TEST_F(PlayedDisplay, goes_on_with_the_same_pictures_when_its_graphics_card_forg
 }
 
 /// What is written in a record's place.
-using Rewrite = std::function<void(const FrameRecording::Record&, RecordingWriter&)>;
+using Rewrite = std::function<void(const recording::FrameRecording::Record&, recording::RecordingWriter&)>;
 
 void write_again(const Rewrite& rewrite, const std::filesystem::path& file) {
-  const auto recorded = FrameRecording::open_file(kSource / "tests/golden/scenes/aiolos-sphere.frames").value();
-  RecordingWriter writer;
-  for (const FrameRecording::Record& record : recorded.records())
+  const auto recorded =
+      recording::FrameRecording::open_file(kSource / "tests/golden/scenes/aiolos-sphere.frames").value();
+  recording::RecordingWriter writer;
+  for (const recording::FrameRecording::Record& record : recorded.records())
     rewrite(record, writer);
-  writer.add(RecordKind::end, Duration{0}, {});
+  writer.add(recording::RecordKind::end, Duration{0}, {});
   const std::vector<std::byte> bytes = writer.take_bytes();
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -86,12 +88,12 @@ void write_again(const Rewrite& rewrite, const std::filesystem::path& file) {
 
 /// Another narration in each step.
 void write_with_narration(const std::string& text, const std::filesystem::path& file) {
-  const auto narrate = [&](const FrameRecording::Record& record, RecordingWriter& writer) {
+  const auto narrate = [&](const recording::FrameRecording::Record& record, recording::RecordingWriter& writer) {
     client::WorldStatus status;
-    if (record.kind != RecordKind::status) return writer.add(record.kind, record.time, record.content);
-    ASSERT_TRUE(decode(record.content, status));
+    if (record.kind != recording::RecordKind::status) return writer.add(record.kind, record.time, record.content);
+    ASSERT_TRUE(recording::decode(record.content, status));
     status.narration = {{"en", text}};
-    writer.add(record.kind, record.time, encode(status));
+    writer.add(record.kind, record.time, recording::encode(status));
   };
   write_again(narrate, file);
 }
@@ -109,10 +111,11 @@ TEST_F(PlayedDisplay, writes_what_is_read_aloud) {
 
 /// With each frame something happens.
 void write_with_event(const std::string& kind, const std::filesystem::path& file) {
-  const auto happen = [&](const FrameRecording::Record& record, RecordingWriter& writer) {
+  const auto happen = [&](const recording::FrameRecording::Record& record, recording::RecordingWriter& writer) {
     writer.add(record.kind, record.time, record.content);
     const client::WorldEvent event{1, kind, "", "", 0};
-    if (record.kind == RecordKind::frame) writer.add(RecordKind::event, record.time, encode(event));
+    if (record.kind == recording::RecordKind::frame)
+      writer.add(recording::RecordKind::event, record.time, recording::encode(event));
   };
   write_again(happen, file);
 }
@@ -127,6 +130,19 @@ TEST_F(PlayedDisplay, writes_what_sounds) {
   ASSERT_GE(with.size(), 2U);
   EXPECT_EQ(without.front(), with.front()) << "it is heard from this picture on";
   EXPECT_NE(without.back(), with.back());
+}
+
+TEST(Window, tells_when_there_is_no_screen) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        unsetenv("DISPLAY");
+        unsetenv("WAYLAND_DISPLAY");
+        const auto context = make_window({64, 64}, "test");
+        if (!context) std::fputs(context.error().to_string().c_str(), stderr);
+        std::_Exit(context ? 1 : 0);
+      },
+      testing::ExitedWithCode(0), "--offscreen");
 }
 
 }  // namespace

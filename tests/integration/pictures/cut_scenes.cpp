@@ -8,42 +8,41 @@
 
 #include <fmt/format.h>
 
-#include "client-sdk/display/recorded_client.hpp"
-#include "client-sdk/display/recording_codec.hpp"
+#include "client-sdk/recording/recorded_client.hpp"
+#include "client-sdk/recording/recording_codec.hpp"
 
 namespace {
 
 using namespace mechane;
-using namespace mechane::display;
 
 Expected<std::vector<std::byte>> cut(const char* from, std::span<char*> moments) {
-  const auto recording = FrameRecording::open_file(from);
+  const auto recording = recording::FrameRecording::open_file(from);
   if (!recording) return tl::unexpected(recording.error());
-  RecordingWriter writer;
+  recording::RecordingWriter writer;
   std::string world;
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const auto at = recording->moment(moments[i]);
     if (!at) return tl::unexpected(at.error());
-    PlaySettings settings;
+    recording::PlaySettings settings;
     settings.from = *at;
-    auto again = FrameRecording::open_file(from);
+    auto again = recording::FrameRecording::open_file(from);
     if (!again) return tl::unexpected(again.error());
-    RecordedClient client(std::move(*again), settings);
+    recording::RecordedClient client(std::move(*again), settings);
     client.advance(TimePoint{});
     const Duration time = i * std::chrono::seconds(1);
     client::WorldStatus status = *client.world_status();
     status.scenario_folder.clear();
-    writer.add(RecordKind::status, time, encode(status));
+    writer.add(recording::RecordKind::status, time, recording::encode(status));
     if (std::exchange(world, status.world) != status.world) {
-      writer.add(RecordKind::presentation, time, encode(*client.presentation()));
-      writer.add(RecordKind::manifest, time, encode(client.objects()));
+      writer.add(recording::RecordKind::presentation, time, recording::encode(*client.presentation()));
+      writer.add(recording::RecordKind::manifest, time, recording::encode(client.objects()));
     }
     client::Frame frame;
     (void)client.newest_frame(frame);
-    writer.add(RecordKind::frame, time, encode(frame));
+    writer.add(recording::RecordKind::frame, time, recording::encode(frame));
     fmt::print("{}: {:.2f} s, step '{}'{}\n", moments[i], to_seconds(*at), status.step, status.done ? ", done" : "");
   }
-  writer.add(RecordKind::end, Duration{0}, {});
+  writer.add(recording::RecordKind::end, Duration{0}, {});
   return writer.take_bytes();
 }
 

@@ -8,12 +8,12 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "client-sdk/display/asset_library.hpp"
-#include "client-sdk/display/gl_context.hpp"
-#include "client-sdk/display/mesh_files.hpp"
-#include "client-sdk/display/recorded_client.hpp"
-#include "client-sdk/display/renderer.hpp"
-#include "client-sdk/display/scene_builder.hpp"
+#include "client-sdk/assets/mesh_files.hpp"
+#include "client-sdk/draw/gl_context.hpp"
+#include "client-sdk/draw/renderer.hpp"
+#include "client-sdk/recording/recorded_client.hpp"
+#include "client-sdk/scene/asset_library.hpp"
+#include "client-sdk/scene/scene_builder.hpp"
 #include "server/content/mesh_import.hpp"
 #include "tests/integration/pictures/reference_picture.hpp"
 #include "tests/support/picture_likeness.hpp"
@@ -21,8 +21,8 @@
 namespace mechane::display {
 namespace {
 
-constexpr PixelSize kPicture{320, 180};
-constexpr PixelSize kBothEyes{640, 180};
+constexpr picture::PixelSize kPicture{320, 180};
+constexpr picture::PixelSize kBothEyes{640, 180};
 constexpr std::size_t kMoments = 4;  ///< start, middle, a telling one, end
 /// So alike two drawings of one scene are, whoever's processor drew them. What a person sees at once is far below.
 constexpr double kLeastMean = 0.985;
@@ -42,7 +42,7 @@ std::filesystem::path reference_file(const std::string& name) {
   return kRoot / "tests/golden/pictures" / (name + ".jpg");
 }
 
-test::Likeness likeness_to(const ImageData& reference, const ImageData& drawn) {
+test::Likeness likeness_to(const picture::ImageData& reference, const picture::ImageData& drawn) {
   return test::likeness(reference, test::as_kept(drawn));
 }
 
@@ -50,7 +50,7 @@ test::Likeness likeness_to(const ImageData& reference, const ImageData& drawn) {
 class Place {
  public:
   explicit Place(const std::string& name)
-      : client_(FrameRecording::open_file(kRoot / "tests/golden/scenes" / (name + ".frames")).value(), {}),
+      : client_(recording::FrameRecording::open_file(kRoot / "tests/golden/scenes" / (name + ".frames")).value(), {}),
         files_(kRoot / "scenarios" / name, nullptr),
         library_([this](const std::string& uri) -> Expected<content::ImportedScene> {
           const auto file = files_.find(uri);
@@ -59,7 +59,7 @@ class Place {
         }),
         builder_(library_, "en") {}
 
-  RenderScene scene(std::size_t moment) {
+  picture::RenderScene scene(std::size_t moment) {
     const TimePoint now = TimePoint{} + moment * std::chrono::seconds(1);
     if (moment == 0) client_.rewind();
     if (!began_) client_.advance(TimePoint{});
@@ -72,27 +72,28 @@ class Place {
     client::Frame frame;
     EXPECT_TRUE(client_.newest_frame(frame));  // nothing of the next moment's
     const auto status = client_.world_status();
-    RenderScene out = builder_.build(&frame, &*status, client_.state());
+    picture::RenderScene out = builder_.build(&frame, &*status, client_.state());
     // Words have tests of their own, and would hide the machine in so small a picture.
     out.overlay = {};
-    out.camera = for_screen(out.camera, {}, nullptr, static_cast<double>(kPicture.width) / kPicture.height);
+    out.camera = picture::for_screen(out.camera, {}, nullptr, static_cast<double>(kPicture.width) / kPicture.height);
     return out;
   }
-  [[nodiscard]] const SceneAssets& assets() const { return library_.assets(); }
+  [[nodiscard]] const picture::SceneAssets& assets() const { return library_.assets(); }
 
  private:
-  RecordedClient client_;
-  MeshFiles files_;
-  AssetLibrary library_;
-  SceneBuilder builder_;
+  recording::RecordedClient client_;
+  assets::MeshFiles files_;
+  scene::AssetLibrary library_;
+  scene::SceneBuilder builder_;
   bool began_ = false;
 };
 
 /// What was drawn, and what had been accepted before, one place a row: for eyes.
 class Sheets : public testing::Environment {
  public:
-  void add(const std::optional<ImageData>& before, const ImageData& now) {
-    before_.push_back(before.value_or(ImageData{now.width, now.height, std::vector<std::uint8_t>(now.rgba.size())}));
+  void add(const std::optional<picture::ImageData>& before, const picture::ImageData& now) {
+    before_.push_back(
+        before.value_or(picture::ImageData{now.width, now.height, std::vector<std::uint8_t>(now.rgba.size())}));
     now_.push_back(now);
   }
   void TearDown() override {
@@ -101,16 +102,16 @@ class Sheets : public testing::Environment {
     std::filesystem::create_directories(folder);
     for (const auto& [name, pictures] : {std::pair{"before", &before_}, std::pair{"accepted", &now_}}) {
       const std::string file = (folder / (std::string(name) + ".png")).string();
-      ASSERT_TRUE(write_png(sheet(*pictures), file));
+      ASSERT_TRUE(picture::write_png(sheet(*pictures), file));
       std::cout << "look at: " << file << "\n";
     }
   }
 
  private:
   /// Four pictures a row.
-  static ImageData sheet(const std::vector<ImageData>& pictures) {
+  static picture::ImageData sheet(const std::vector<picture::ImageData>& pictures) {
     const auto rows = static_cast<std::uint32_t>((pictures.size() + kMoments - 1) / kMoments);
-    ImageData out{kMoments * kPicture.width, rows * kPicture.height, {}};
+    picture::ImageData out{kMoments * kPicture.width, rows * kPicture.height, {}};
     out.rgba.resize(std::size_t{4} * out.width * out.height);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       for (std::size_t row = 0; row < kPicture.height; ++row) {
@@ -122,8 +123,8 @@ class Sheets : public testing::Environment {
     }
     return out;
   }
-  std::vector<ImageData> before_;
-  std::vector<ImageData> now_;
+  std::vector<picture::ImageData> before_;
+  std::vector<picture::ImageData> now_;
 };
 
 Sheets& sheets() {
@@ -135,10 +136,10 @@ Sheets& sheets() {
 class PlacePictures : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    auto context = make_offscreen_context(kPicture);
+    auto context = draw::make_offscreen_context(kPicture);
     ASSERT_TRUE(context.has_value()) << context.error().to_string();
     context_ = std::move(*context);
-    auto renderer = Renderer::create({});
+    auto renderer = draw::Renderer::create({});
     ASSERT_TRUE(renderer.has_value()) << renderer.error().to_string();
     renderer_ = std::move(*renderer);
   }
@@ -148,8 +149,8 @@ class PlacePictures : public testing::TestWithParam<const char*> {
     context_.reset();
   }
 
-  ImageData draw(const SceneAssets& assets, const RenderScene& scene, Stereo stereo = Stereo::mono,
-                 PixelSize size = kPicture) {
+  picture::ImageData draw(const picture::SceneAssets& assets, const picture::RenderScene& scene,
+                          picture::Stereo stereo = picture::Stereo::mono, picture::PixelSize size = kPicture) {
     renderer_->upload(assets);
     const Expected<void> drawn = renderer_->draw(scene, stereo, size);
     EXPECT_TRUE(drawn.has_value()) << drawn.error().to_string();
@@ -157,8 +158,8 @@ class PlacePictures : public testing::TestWithParam<const char*> {
   }
 
   /// Held against what was accepted, or accepted.
-  static void compare(const std::string& name, const ImageData& drawn) {
-    const std::optional<ImageData> reference = test::read_reference(reference_file(name));
+  static void compare(const std::string& name, const picture::ImageData& drawn) {
+    const std::optional<picture::ImageData> reference = test::read_reference(reference_file(name));
     if (accepts()) {
       if (drawn.width == kPicture.width) sheets().add(reference, drawn);
       ASSERT_TRUE(test::write_reference(drawn, reference_file(name)));
@@ -172,20 +173,20 @@ class PlacePictures : public testing::TestWithParam<const char*> {
     const std::filesystem::path folder = kRoot / "out/pictures";
     std::filesystem::create_directories(folder);
     const std::string file = (folder / (name + ".png")).string();
-    EXPECT_TRUE(write_png(drawn, file));
+    EXPECT_TRUE(picture::write_png(drawn, file));
     ADD_FAILURE() << name << " looks other than accepted: likeness " << likeness.mean << ", in places "
                   << likeness.worst << "; compare " << file << " with " << reference_file(name)
                   << "; if it was meant, run this program once, whole, with MECHANE_ACCEPT_GOLDEN=1";
   }
 
-  std::unique_ptr<GlContext> context_;
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<draw::GlContext> context_;
+  std::unique_ptr<draw::Renderer> renderer_;
 };
 
 TEST_P(PlacePictures, look_as_they_were_accepted) {
   Place place(GetParam());
   for (std::size_t moment = 0; moment < kMoments; ++moment) {
-    const RenderScene scene = place.scene(moment);
+    const picture::RenderScene scene = place.scene(moment);
     compare(std::string(GetParam()) + "-" + std::to_string(moment + 1), draw(place.assets(), scene));
   }
 }
@@ -202,11 +203,12 @@ INSTANTIATE_TEST_SUITE_P(All, PlacePictures,
 /// Draws the telling moment of a place well, and with a fault; both against what was accepted.
 class PlantedFault : public PlacePictures {
  protected:
-  void expect_seen(const std::string& name, const std::function<ImageData(Place&, RenderScene)>& draw_faulty) {
+  void expect_seen(const std::string& name,
+                   const std::function<picture::ImageData(Place&, picture::RenderScene)>& draw_faulty) {
     if (accepts()) GTEST_SKIP() << "the pictures are being accepted";
     Place place(name);
-    const RenderScene scene = place.scene(2);
-    const std::optional<ImageData> reference = test::read_reference(reference_file(name + "-3"));
+    const picture::RenderScene scene = place.scene(2);
+    const std::optional<picture::ImageData> reference = test::read_reference(reference_file(name + "-3"));
     ASSERT_TRUE(reference);
     ASSERT_TRUE(alike(likeness_to(*reference, draw(place.assets(), scene)))) << "without the fault it is as accepted";
     const test::Likeness faulty = likeness_to(*reference, draw_faulty(place, scene));
@@ -218,24 +220,24 @@ class PlantedFault : public PlacePictures {
 PFNGLENABLEPROC real_enable = nullptr;
 
 TEST_F(PlantedFault, a_missing_depth_buffer_is_seen) {
-  expect_seen("odometer", [this](Place& place, const RenderScene& scene) {
+  expect_seen("odometer", [this](Place& place, const picture::RenderScene& scene) {
     // The renderer enables the test of depth in each pass; so the driver must not hear of it.
     real_enable = epoxy_glEnable;
     epoxy_glEnable = [](GLenum what) {
       if (what != GL_DEPTH_TEST) real_enable(what);
     };
     glDisable(GL_DEPTH_TEST);
-    ImageData picture = draw(place.assets(), scene);
+    picture::ImageData picture = draw(place.assets(), scene);
     epoxy_glEnable = real_enable;
     return picture;
   });
 }
 
 TEST_F(PlantedFault, metal_that_mirrors_nothing_is_seen) {
-  expect_seen("aiolos-sphere", [this](Place& place, const RenderScene& scene) {
-    SceneAssets black = place.assets();
+  expect_seen("aiolos-sphere", [this](Place& place, const picture::RenderScene& scene) {
+    picture::SceneAssets black = place.assets();
     std::size_t metals = 0;
-    for (MaterialData& material : black.materials) {
+    for (picture::MaterialData& material : black.materials) {
       if (material.metallic < 0.5F) continue;
       material.base_colour.head<3>().setZero();
       ++metals;
@@ -247,41 +249,42 @@ TEST_F(PlantedFault, metal_that_mirrors_nothing_is_seen) {
 }
 
 TEST_F(PlantedFault, the_loss_of_the_sky_s_light_is_seen) {
-  expect_seen("ktesibios-pump", [this](Place& place, RenderScene scene) {
+  expect_seen("ktesibios-pump", [this](Place& place, picture::RenderScene scene) {
     scene.sky = false;
     return draw(place.assets(), scene);
   });
 }
 
 TEST_F(PlantedFault, lost_shadows_are_seen) {
-  expect_seen("pulley-crane", [this](Place& place, RenderScene scene) {
-    for (Instance& instance : scene.instances)
+  expect_seen("pulley-crane", [this](Place& place, picture::RenderScene scene) {
+    for (picture::Instance& instance : scene.instances)
       instance.casts_shadow = false;
     return draw(place.assets(), scene);
   });
 }
 
 TEST_F(PlantedFault, a_river_that_ends_in_the_land_is_seen) {
-  expect_seen("archimedes-screw", [this](Place& place, RenderScene scene) {
-    EXPECT_EQ(std::erase_if(scene.waters, [](const WaterInstance& water) { return water.width_m > 0; }), 2U);
+  expect_seen("archimedes-screw", [this](Place& place, picture::RenderScene scene) {
+    EXPECT_EQ(std::erase_if(scene.waters, [](const picture::WaterInstance& water) { return water.width_m > 0; }), 2U);
     return draw(place.assets(), scene);
   });
 }
 
 TEST_F(PlantedFault, water_that_mirrors_nothing_is_seen) {
-  expect_seen("village", [this](Place& place, RenderScene scene) {
+  expect_seen("village", [this](Place& place, picture::RenderScene scene) {
     // A little askew it is no mirror any more; elsewhere nobody would see it.
-    for (WaterInstance& water : scene.waters)
+    for (picture::WaterInstance& water : scene.waters)
       water.X_WM.prerotate(Eigen::AngleAxisf(0.002F, Vec3f::UnitX()));
     return draw(place.assets(), scene);
   });
 }
 
 /// The place's meshes in materials that lack an image. Earth keeps its own: without them it would be no earth.
-SceneAssets without(const SceneAssets& assets, std::optional<std::uint32_t> MaterialData::*image) {
-  SceneAssets out = assets;
+picture::SceneAssets without(const picture::SceneAssets& assets,
+                             std::optional<std::uint32_t> picture::MaterialData::*image) {
+  picture::SceneAssets out = assets;
   std::size_t had = 0;
-  for (MaterialData& material : out.materials) {
+  for (picture::MaterialData& material : out.materials) {
     if (material.land || !(material.*image)) continue;
     (material.*image).reset();
     ++had;
@@ -291,24 +294,24 @@ SceneAssets without(const SceneAssets& assets, std::optional<std::uint32_t> Mate
 }
 
 TEST_F(PlantedFault, the_loss_of_the_normal_images_is_seen) {
-  expect_seen("village", [this](Place& place, const RenderScene& scene) {
+  expect_seen("village", [this](Place& place, const picture::RenderScene& scene) {
     renderer_->forget_assets();
-    return draw(without(place.assets(), &MaterialData::normal_image), scene);
+    return draw(without(place.assets(), &picture::MaterialData::normal_image), scene);
   });
 }
 
 TEST_F(PlantedFault, the_loss_of_the_metallic_roughness_images_is_seen) {
-  expect_seen("aiolos-sphere", [this](Place& place, const RenderScene& scene) {
+  expect_seen("aiolos-sphere", [this](Place& place, const picture::RenderScene& scene) {
     renderer_->forget_assets();
-    return draw(without(place.assets(), &MaterialData::metallic_roughness_image), scene);
+    return draw(without(place.assets(), &picture::MaterialData::metallic_roughness_image), scene);
   });
 }
 
 TEST_F(PlantedFault, steps_at_edges_are_seen) {
-  expect_seen("crossbow", [this](Place& place, const RenderScene& scene) {
-    RendererSettings settings;
+  expect_seen("crossbow", [this](Place& place, const picture::RenderScene& scene) {
+    draw::RendererSettings settings;
     settings.samples = 1;
-    renderer_ = Renderer::create(settings).value();
+    renderer_ = draw::Renderer::create(settings).value();
     return draw(place.assets(), scene);
   });
 }
@@ -316,7 +319,7 @@ TEST_F(PlantedFault, steps_at_edges_are_seen) {
 PFNGLSHADERSOURCEPROC real_shader_source = nullptr;
 
 TEST_F(PlantedFault, air_without_haze_is_seen) {
-  expect_seen("catapult", [this](Place& place, const RenderScene& scene) {
+  expect_seen("catapult", [this](Place& place, const picture::RenderScene& scene) {
     // No scene asks for it: so the driver is given other shaders.
     static const std::string kHaze = "mix(light, haze_colour(), ";
     static int found = 0;
@@ -330,7 +333,7 @@ TEST_F(PlantedFault, air_without_haze_is_seen) {
       const char* other = text.c_str();
       real_shader_source(shader, 1, &other, nullptr);
     };
-    renderer_ = Renderer::create({}).value();
+    renderer_ = draw::Renderer::create({}).value();
     epoxy_glShaderSource = real_shader_source;
     EXPECT_GT(found, 0);
     return draw(place.assets(), scene);
@@ -338,7 +341,7 @@ TEST_F(PlantedFault, air_without_haze_is_seen) {
 }
 
 TEST_F(PlantedFault, a_missing_close_up_is_seen) {
-  expect_seen("pulley-crane", [this](Place& place, RenderScene scene) {
+  expect_seen("pulley-crane", [this](Place& place, picture::RenderScene scene) {
     EXPECT_TRUE(scene.inset);
     scene.inset.reset();
     return draw(place.assets(), scene);
@@ -346,8 +349,8 @@ TEST_F(PlantedFault, a_missing_close_up_is_seen) {
 }
 
 /// The two halves of a picture side by side.
-ImageData halves_swapped(const ImageData& picture) {
-  ImageData out = picture;
+picture::ImageData halves_swapped(const picture::ImageData& picture) {
+  picture::ImageData out = picture;
   const std::size_t half = picture.width / 2;
   for (std::size_t row = 0; row < picture.height; ++row) {
     for (std::size_t x = 0; x < picture.width; ++x) {
@@ -360,18 +363,18 @@ ImageData halves_swapped(const ImageData& picture) {
 
 TEST_F(PlantedFault, swapped_eyes_are_seen) {
   Place place("archimedes-screw");
-  const ImageData drawn = draw(place.assets(), place.scene(2), Stereo::side_by_side, kBothEyes);
+  const picture::ImageData drawn = draw(place.assets(), place.scene(2), picture::Stereo::side_by_side, kBothEyes);
   compare("archimedes-screw-3-sbs", drawn);
   if (accepts()) return;
-  const std::optional<ImageData> reference = test::read_reference(reference_file("archimedes-screw-3-sbs"));
+  const std::optional<picture::ImageData> reference = test::read_reference(reference_file("archimedes-screw-3-sbs"));
   ASSERT_TRUE(reference);
   const test::Likeness swapped = likeness_to(*reference, halves_swapped(drawn));
   EXPECT_FALSE(alike(swapped)) << swapped.mean << ", worst " << swapped.worst;
   std::cout << "with the fault: likeness " << swapped.mean << ", in places " << swapped.worst << "\n";
 }
 
-ImageData grey(std::uint32_t side, const std::function<int(std::uint32_t, std::uint32_t)>& level) {
-  ImageData out{side, side, {}};
+picture::ImageData grey(std::uint32_t side, const std::function<int(std::uint32_t, std::uint32_t)>& level) {
+  picture::ImageData out{side, side, {}};
   for (std::uint32_t y = 0; y < side; ++y) {
     for (std::uint32_t x = 0; x < side; ++x) {
       const auto value = static_cast<std::uint8_t>(std::clamp(level(x, y), 0, 255));
@@ -383,7 +386,7 @@ ImageData grey(std::uint32_t side, const std::function<int(std::uint32_t, std::u
 
 TEST(PictureLikeness, tells_what_eyes_see_from_what_they_do_not) {
   const auto pattern = [](std::uint32_t x, std::uint32_t y) { return static_cast<int>(60 + (x / 5 + y / 7) % 3 * 60); };
-  const ImageData picture = grey(64, pattern);
+  const picture::ImageData picture = grey(64, pattern);
   const test::Likeness same = test::likeness(picture, picture);
   EXPECT_NEAR(same.mean, 1, 1e-9);
   EXPECT_NEAR(same.worst, 1, 1e-9);

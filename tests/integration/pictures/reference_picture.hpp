@@ -20,12 +20,12 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-#include "client-sdk/display/image_file.hpp"
+#include "client-sdk/picture/image_file.hpp"
 
 namespace mechane::test {
 
 /// As it is kept in a file. The same picture gives the same bytes.
-[[nodiscard]] inline std::vector<std::byte> jpeg_of(const display::ImageData& image) {
+[[nodiscard]] inline std::vector<std::byte> jpeg_of(const picture::ImageData& image) {
   constexpr int kQuality = 90;
   std::vector<std::byte> out;
   const auto append = [](void* to, void* data, int size) {
@@ -39,11 +39,11 @@ namespace mechane::test {
 }
 
 /// What is compared: a picture that went the same way as the accepted one, so that what JPEG leaves out is left out of both.
-[[nodiscard]] inline display::ImageData as_kept(const display::ImageData& image) {
-  return display::decode_image(jpeg_of(image), "a picture in memory").value();
+[[nodiscard]] inline picture::ImageData as_kept(const picture::ImageData& image) {
+  return picture::decode_image(jpeg_of(image), "a picture in memory").value();
 }
 
-[[nodiscard]] inline bool write_reference(const display::ImageData& image, const std::filesystem::path& path) {
+[[nodiscard]] inline bool write_reference(const picture::ImageData& image, const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = jpeg_of(image);
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -52,10 +52,10 @@ namespace mechane::test {
 }
 
 /// Nothing where there is none.
-[[nodiscard]] inline std::optional<display::ImageData> read_reference(const std::filesystem::path& file) {
+[[nodiscard]] inline std::optional<picture::ImageData> read_reference(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-  auto image = display::decode_image(std::as_bytes(std::span(bytes)), file.string());
+  auto image = picture::decode_image(std::as_bytes(std::span(bytes)), file.string());
   return image ? std::optional(std::move(*image)) : std::nullopt;
 }
 

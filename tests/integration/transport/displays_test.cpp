@@ -32,7 +32,7 @@ struct Desk {
     identity.name = name;
     identity.renderer = "none";
     identity.has_folder = has_folder;
-    desk = std::make_unique<KioskDesk>(*client, identity, client::DisplaySettings{}, now());
+    desk = std::make_unique<display::KioskDesk>(*client, identity, client::DisplaySettings{}, now());
   }
   static TimePoint now() { return std::chrono::steady_clock::now(); }
   /// As a display does in each turn of its loop.
@@ -44,8 +44,8 @@ struct Desk {
   }
 
   std::unique_ptr<client::Client> client;
-  std::unique_ptr<KioskDesk> desk;
-  display::OverlayStyle style;
+  std::unique_ptr<display::KioskDesk> desk;
+  picture::OverlayStyle style;
   int changes = 0;
 };
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/display/recording_samples.hpp"
+#include "tests/unit/recording/recording_samples.hpp"
 
 namespace mechane::display {
 namespace {
@@ -14,19 +14,19 @@ using std::chrono::milliseconds;
 class Invitation : public testing::Test {
  protected:
   Invitation() {
-    const std::vector<std::byte> bytes = file_of_visit({0, 40, 80, 120});
+    const std::vector<std::byte> bytes = recording::file_of_visit({0, 40, 80, 120});
     const auto file =
         folder_.write("visit.seen", std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     loop_ = AttractLoop::open(file.string(), {folder_.path().string(), nullptr}).value();
   }
-  [[nodiscard]] RenderScene at(int ms, const std::string& language = "en") {
+  [[nodiscard]] picture::RenderScene at(int ms, const std::string& language = "en") {
     (void)loop_->advance(kBegan + milliseconds(ms));
     return loop_->build(kBegan + milliseconds(ms), language, {});
   }
   /// What a display shows that is asked for arrows of force, in a world of its own.
-  [[nodiscard]] RenderScene with_forces() {
-    RecordedClient client(played({0, 40, 80, 120}), {});
-    ShownWorld world({folder_.path().string(), nullptr}, "en");
+  [[nodiscard]] picture::RenderScene with_forces() {
+    recording::RecordedClient client(recording::played({0, 40, 80, 120}), {});
+    scene::ShownWorld world({folder_.path().string(), nullptr}, "en");
     world.show_forces(true);
     client.advance(kBegan);
     (void)world.hear(client);
@@ -41,13 +41,13 @@ class Invitation : public testing::Test {
 };
 
 TEST_F(Invitation, ItsHandIsSeenAndFeelsNothing) {
-  const RenderScene invites = at(0), world = with_forces();
+  const picture::RenderScene invites = at(0), world = with_forces();
   ASSERT_FALSE(invites.occluders.empty()) << "no hand";
   EXPECT_EQ(invites.instances.size() + 2, world.instances.size()) << "an arrow's shaft and its head";
 }
 
 TEST_F(Invitation, IsInTheKiosksLanguageFirstAndAsksNothing) {
-  const OverlayContent english = at(0).overlay, greek = at(0, "el").overlay;
+  const picture::OverlayContent english = at(0).overlay, greek = at(0, "el").overlay;
   EXPECT_EQ(english.title, "The well");
   EXPECT_EQ(english.caption, "Touch to begin");
   EXPECT_EQ(greek.title, "Το πηγάδι");

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "client-sdk/display/camera.hpp"
+#include "client-sdk/picture/camera.hpp"
 
 namespace mechane::display {
 namespace {
@@ -48,18 +48,18 @@ double drawn_between(double low, double high) {
 
 /// What stood right above a caption of two lines stands right above the larger one, and the upper edge has stayed.
 RC_GTEST_PROP(CaptionRoom, what_was_seen_above_the_words_is_seen_above_larger_ones, ()) {
-  Camera camera;
+  picture::Camera camera;
   camera.p_WC = Vec3(drawn_between(-1, 1), drawn_between(1, 2), drawn_between(3, 5));
   const double covered = drawn_between(CaptionRoom::kFramedFor, 0.6);
   CaptionRoom room;
   room.see(covered, kFirstPicture);
-  Camera roomy = camera;
+  picture::Camera roomy = camera;
   roomy.room_below = room.room_below();
-  for (const Eye eye : {Eye::left, Eye::right}) {
-    const EyeView before = eye_view(camera, eye, 1.6);
-    const EyeView after = eye_view(roomy, eye, 1.6);
+  for (const picture::Eye eye : {picture::Eye::left, picture::Eye::right}) {
+    const picture::EyeView before = picture::eye_view(camera, eye, 1.6);
+    const picture::EyeView after = picture::eye_view(roomy, eye, 1.6);
     // A place of the plane in which both eyes' frusta meet, from its height in the picture.
-    const auto height_of = [&](const EyeView& view, const Eigen::Vector4f& p_W) {
+    const auto height_of = [&](const picture::EyeView& view, const Eigen::Vector4f& p_W) {
       const Eigen::Vector4f clip = view.P * view.V_CW * p_W;
       return 0.5 * (1 + double{clip.y()} / double{clip.w()});
     };

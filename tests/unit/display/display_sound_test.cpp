@@ -102,7 +102,7 @@ class HeardWorld {
   DisplaySound sound{{}, "en"};
 
  private:
-  WorldSounds sounds_;
+  sound::WorldSounds sounds_;
   client::Frame frame_;
   client::WorldStatus status_;
   client::WorldPresentation presentation_;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr ScreenSetup kWall{1.2, 2.0, 0.064};
+constexpr picture::ScreenSetup kWall{1.2, 2.0, 0.064};
 
 client::ViewerHead seen_at_place(const Vec3& p_SV, TimePoint now) {
   return {{p_SV, Quat::Identity()}, true, now};
@@ -50,7 +50,7 @@ TEST(HeadView, NobodyIsAsGoodAsSilence) {
 }
 
 TEST(HeadView, WithoutAKnownScreenThereIsNoPlace) {
-  HeadView view(ScreenSetup{});
+  HeadView view(picture::ScreenSetup{});
   TimePoint now{1h};
   view.advance(seen_at_place({0.3, 0, 2}, now), now += 16ms);
   EXPECT_EQ(view.place(), nullptr);
@@ -70,8 +70,8 @@ RC_GTEST_PROP(HeadView, WhateverATrackerSaysThePictureStaysOneAndMovesSmoothly, 
     }
     const Duration dt = std::chrono::milliseconds(*rc::gen::inRange(0, 100));
     view.advance(head, now += dt);
-    const HeadPlace place =
-        view.place() != nullptr ? *view.place() : HeadPlace{{0, 0, kWall.viewer_distance_m}, Vec3::UnitX()};
+    const picture::HeadPlace place =
+        view.place() != nullptr ? *view.place() : picture::HeadPlace{{0, 0, kWall.viewer_distance_m}, Vec3::UnitX()};
     RC_ASSERT(place.p_SV.allFinite() && place.p_SV.z() > 0);
     RC_ASSERT(std::abs(place.eyes_S.norm() - 1) < 1e-9);
     RC_ASSERT((place.p_SV - before).norm() <= 3.01 * to_seconds(dt) + 1e-9);

@@ -1,0 +1,215 @@
+#include "client-sdk/assets/asset_store.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "server/content/content_hash.hpp"
+#include "server/content/object_store.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::assets {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLongestSleep{1'000};
+constexpr std::size_t kShownDigits = 8;
+constexpr std::size_t kMostExtension = 8;
+
+/// Of the name: ".glb". The importer goes by it. What is no plain extension is none.
+std::string plain_extension(const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension().string();
+  const bool plain = extension.size() > 1 && extension.size() <= kMostExtension &&
+                     std::all_of(extension.begin() + 1, extension.end(), [](char c) {
+                       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+                     });
+  return plain ? extension : std::string();
+}
+
+}  // namespace
+
+std::filesystem::path default_asset_cache() {
+  return content::default_cache_folder() / "assets";
+}
+
+Expected<std::unique_ptr<AssetStore>> AssetStore::open(AssetAddress address, AssetStoreOptions options) {
+  options.http.secure_only = address.secure();
+  if (options.cache_folder.empty()) options.cache_folder = default_asset_cache();
+  auto fetcher = HttpFetcher::create(options.http);
+  if (!fetcher) return tl::unexpected(fetcher.error());
+  return std::unique_ptr<AssetStore>(new AssetStore(std::move(address), options, std::move(*fetcher)));
+}
+
+AssetStore::AssetStore(AssetAddress address, const AssetStoreOptions& options, std::unique_ptr<HttpFetcher> fetcher)
+    : address_(std::move(address)),
+      options_(options),
+      fetcher_(std::move(fetcher)),
+      cache_(options.cache_folder, options.cache_bytes),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+AssetStore::~AssetStore() {
+  thread_.request_stop();
+  fetcher_->wake();
+}
+
+AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
+  const Key key(name, hash);
+  const std::lock_guard lock(mutex_);
+  const auto [at, is_new] = files_.try_emplace(key);
+  AssetFile& file = at->second.file;
+  // Another display that shares the cache may have made room.
+  std::error_code code;
+  const bool gone = file.state == AssetState::here && !std::filesystem::exists(file.file, code);
+  if (!is_new && !gone) return file;
+  at->second = {{}, Clock::now(), true};
+  const Expected<std::string> address = address_.of(name);
+  if (!address) {
+    file = {AssetState::amiss, {}, address.error()};
+  } else if (!hash.empty() && !is_content_hash(hash)) {
+    file = {AssetState::amiss, {}, Error{"the server's hash of it is none", name, "look at the server's version"}};
+  } else {
+    Job job;
+    job.key = key;
+    job.address = *address;
+    job.extension = plain_extension(name);
+    wishes_.push_back(std::move(job));
+    fetcher_->wake();
+  }
+  at->second.may_come = file.state == AssetState::on_its_way;
+  return file;
+}
+
+std::set<std::string> AssetStore::take_arrived() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(arrived_, {});
+}
+
+bool AssetStore::is_awaited(milliseconds patience) const {
+  const auto earliest = Clock::now() - patience;
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(files_, [&](const auto& entry) {
+    const Asked& asked = entry.second;
+    return asked.file.state != AssetState::here && asked.may_come && asked.since > earliest;
+  });
+}
+
+void AssetStore::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    take_wishes();
+    start_due();
+    for (HttpAnswer& answer : fetcher_->wait(until_next())) {
+      const std::uint64_t id = answer.id;
+      settle(id, std::move(answer));
+    }
+  }
+}
+
+void AssetStore::take_wishes() {
+  std::vector<Job> wishes;
+  {
+    const std::lock_guard lock(mutex_);
+    wishes.swap(wishes_);
+  }
+  for (Job& wish : wishes) {
+    const std::string& hash = wish.key.second;
+    if (hash.empty()) {
+      wish.remembered = cache_.recall(wish.address).value_or(RememberedFile{});
+    } else if (auto file = cache_.find(hash, wish.extension)) {
+      arrived(wish, std::move(*file));
+      continue;
+    }
+    jobs_.emplace(next_id_++, std::move(wish));
+  }
+}
+
+void AssetStore::start_due() {
+  const auto now = Clock::now();
+  for (auto& [id, job] : jobs_) {
+    if (job.asked || job.due > now) continue;
+    job.asked = true;
+    fetcher_->start({id, job.address, job.remembered.etag, job.remembered.modified});
+  }
+}
+
+milliseconds AssetStore::until_next() const {
+  milliseconds least = kLongestSleep;
+  const auto now = Clock::now();
+  for (const auto& [id, job] : jobs_) {
+    if (!job.asked) least = std::min(least, std::chrono::ceil<milliseconds>(job.due - now));
+  }
+  return std::max(least, milliseconds(0));
+}
+
+void AssetStore::settle(std::uint64_t id, HttpAnswer answer) {
+  Job& job = jobs_.at(id);
+  job.asked = false;
+  const bool same = answer.problem.empty() && answer.status == 304;
+  const bool whole = answer.problem.empty() && answer.status == 200;
+  bool done = false;
+  if (whole) {
+    done = take_bytes(job, answer);
+  } else if (use_remembered(job, same)) {
+    done = true;
+  } else if (same) {
+    // What the cache had is gone or damaged: the whole file, at once.
+    job.remembered = {};
+  } else {
+    const std::string what =
+        answer.problem.empty() ? fmt::format("the server answers {}", answer.status) : answer.problem;
+    again(job, {what, job.address, "look whether that server runs and has the file; it is asked for again"});
+  }
+  if (done) jobs_.erase(id);
+}
+
+bool AssetStore::take_bytes(Job& job, const HttpAnswer& answer) {
+  const std::string& wanted = job.key.second;
+  const std::string hash = content::content_hash(std::span(answer.bytes));
+  if (!wanted.empty() && hash != wanted) {
+    again(job, {fmt::format("its content is {}, the server's of the exhibits is {}: it is not used",
+                            hash.substr(0, kShownDigits), wanted.substr(0, kShownDigits)),
+                job.address, "bring that server the exhibits' files (mechane content export); it is asked for again"});
+    return false;
+  }
+  Expected<std::filesystem::path> file = cache_.keep(answer.bytes, hash, job.extension);
+  if (!file) {
+    again(job, file.error());
+    return false;
+  }
+  if (wanted.empty()) cache_.remember(job.address, {hash, answer.etag, answer.modified});
+  arrived(job, std::move(*file));
+  return true;
+}
+
+/// `fresh`: the server says that its file is still that one.
+bool AssetStore::use_remembered(Job& job, bool fresh) {
+  if (job.remembered.hash.empty()) return false;
+  auto file = cache_.find(job.remembered.hash, job.extension);
+  if (!file) return false;
+  if (!fresh) log::warning(fmt::format("{}: the server cannot give it now; the copy kept here is used", job.address));
+  arrived(job, std::move(*file));
+  return true;
+}
+
+void AssetStore::arrived(const Job& job, std::filesystem::path file) {
+  {
+    const std::lock_guard lock(mutex_);
+    files_[job.key].file = {AssetState::here, std::move(file), {}};
+    arrived_.insert(job.key.first);
+  }
+  log::info(fmt::format("{}: is here{}", job.address, job.tries > 0 ? " now" : ""));
+}
+
+void AssetStore::again(Job& job, Error error) {
+  milliseconds pause = options_.first_retry;
+  for (int i = 0; i < job.tries && pause < options_.longest_retry; ++i)
+    pause *= 2;
+  ++job.tries;
+  job.due = Clock::now() + std::min(pause, options_.longest_retry);
+  if (job.told.insert(error.what).second) log::warning(error.to_string());
+  const std::lock_guard lock(mutex_);
+  files_[job.key].file = {AssetState::amiss, {}, std::move(error)};
+}
+
+}  // namespace mechane::assets

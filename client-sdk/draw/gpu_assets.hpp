@@ -1,0 +1,93 @@
+// Meshes, materials and images on the graphics card. Grows with SceneAssets; nothing is taken away before the renderer ends.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client-sdk/draw/culling.hpp"
+#include "client-sdk/draw/gl_object.hpp"
+#include "client-sdk/draw/instance_runs.hpp"
+#include "client-sdk/draw/shader.hpp"
+#include "client-sdk/picture/scene_parts.hpp"
+
+namespace mechane::draw {
+
+/// One float vertex as the shaders read it: position 3, normal 3, tangent 4, uv 2.
+inline constexpr int kVertexFloats = 12;
+
+/// Describes the vertex format to the bound vertex array, from the bound array buffer.
+void describe_vertices();
+
+/// Interleaved vertices of a mesh; what is missing is filled with defaults.
+[[nodiscard]] std::vector<float> interleave(const picture::MeshData& mesh);
+
+/// A mesh that is made anew for each frame.
+class StreamedMesh {
+ public:
+  /// Needs a current context, as all here does.
+  [[nodiscard]] static StreamedMesh create();
+  void upload(const picture::MeshData& mesh);
+  [[nodiscard]] bool empty() const { return index_count_ == 0; }
+  /// As GpuAssets::draw.
+  void draw() const;
+
+ private:
+  VertexArrayName vertex_array_;
+  BufferName vertices_;
+  BufferName indices_;
+  std::int32_t index_count_ = 0;
+};
+
+class GpuAssets {
+ public:
+  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged. What the card does not take is logged; a
+  /// plain box stands for such a mesh, and a material goes without such an image.
+  void upload(const picture::SceneAssets& assets);
+  /// Names of the meshes and images that the card did not take.
+  [[nodiscard]] const std::set<std::string>& refused() const { return refused_; }
+  /// Draws the triangles; the program, with its uniforms, must be in use.
+  void draw(std::uint32_t mesh) const;
+  /// What the mesh is cut into, so that what is out of sight need not be drawn.
+  [[nodiscard]] const std::vector<MeshPiece>& pieces(std::uint32_t mesh) const;
+  /// Draws them, where they are: sets what set_model() sets. The program must be in use.
+  void draw(const InstanceRun& run, const Program& program) const;
+  /// Draws some of the triangles, in the order given.
+  void draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const;
+  [[nodiscard]] bool is_clear(std::uint32_t material) const;
+  /// Of each triangle, in the mesh's frame.
+  [[nodiscard]] const std::vector<Vec3f>& triangle_middles(std::uint32_t mesh) const;
+  /// Whether all its images for the plain are there.
+  [[nodiscard]] bool is_land(std::uint32_t material) const;
+  /// Sets uniforms and texture units of material.glsl, and face culling.
+  void use_material(std::uint32_t material, const Program& program) const;
+
+ private:
+  struct GpuMesh {
+    VertexArrayName vertex_array;
+    BufferName vertices;
+    BufferName indices;
+    std::int32_t index_count = 0;
+    std::vector<MeshPiece> pieces;
+    std::vector<Vec3f> middles_M;  ///< of the triangles
+  };
+  [[nodiscard]] static GpuMesh upload_mesh(const picture::MeshData& mesh);
+  [[nodiscard]] GpuMesh mesh_or_placeholder(const picture::MeshData& mesh);
+  [[nodiscard]] TextureName image_or_none(const picture::ImageData& image);
+  void refuse(const std::string& name, const std::string& what, std::uint32_t error, const std::string& instead);
+
+  std::vector<GpuMesh> meshes_;
+  std::vector<TextureName> images_;  ///< none: the card did not take it
+  std::vector<picture::MaterialData> materials_;
+  std::set<std::string> refused_;
+};
+
+/// Says which texture units GpuAssets::use_material fills. The program must be in use.
+void set_material_units(const Program& program);
+
+/// Sets X_WM and N_WM of mesh.vert (or depth.vert).
+void set_model(const Program& program, const Eigen::Affine3f& X_WM);
+
+}  // namespace mechane::draw

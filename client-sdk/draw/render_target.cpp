@@ -1,0 +1,180 @@
+#include "client-sdk/draw/render_target.hpp"
+
+#include <algorithm>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+namespace mechane::draw {
+namespace {
+
+Expected<void> check_complete(const char* what, picture::PixelSize size) {
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return {};
+  return fail(
+      fmt::format("the graphics driver has no {} of {}x{} (status 0x{:x})", what, size.width, size.height, status),
+      "display", "choose a smaller --size, or update the graphics driver");
+}
+
+void no_filter(GLenum kind) {
+  glTexParameteri(kind, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(kind, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// Makes `texture` a depth picture and the framebuffer's only attachment. Leaves both bound.
+void attach_depth_texture(const FramebufferName& framebuffer, const TextureName& texture, picture::PixelSize size) {
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, static_cast<GLsizei>(size.width),
+               static_cast<GLsizei>(size.height), 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  no_filter(GL_TEXTURE_2D);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.get(), 0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+}
+
+}  // namespace
+
+Expected<HdrTarget> HdrTarget::create(picture::PixelSize size, int samples) {
+  GLint most = 1;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  HdrTarget target{
+      make_framebuffer(), make_texture(), make_renderbuffer(), size, std::clamp(samples, 1, std::max(most, 1)),
+      make_framebuffer(), make_texture()};
+  const auto width = static_cast<GLsizei>(size.width);
+  const auto height = static_cast<GLsizei>(size.height);
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, target.colour.get());
+  glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, target.samples, GL_RGBA16F, width, height, GL_TRUE);
+  glBindRenderbuffer(GL_RENDERBUFFER, target.depth.get());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, target.samples, GL_DEPTH_COMPONENT24, width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, target.colour.get(), 0);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.get());
+  if (auto ok = check_complete("multisampled picture", size); !ok) return tl::unexpected(ok.error());
+  attach_depth_texture(target.depth_copy_framebuffer, target.depth_copy, size);
+  if (auto ok = check_complete("copy of the depth", size); !ok) return tl::unexpected(ok.error());
+  return target;
+}
+
+void HdrTarget::resolve_depth() const {
+  const auto width = static_cast<GLint>(size.width);
+  const auto height = static_cast<GLint>(size.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, depth_copy_framebuffer.get());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+}
+
+Expected<MirrorTarget> MirrorTarget::create(picture::PixelSize size) {
+  MirrorTarget target{make_framebuffer(), make_texture(), make_renderbuffer(), size};
+  const auto width = static_cast<GLsizei>(size.width);
+  const auto height = static_cast<GLsizei>(size.height);
+  glBindTexture(GL_TEXTURE_2D, target.colour.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  no_filter(GL_TEXTURE_2D);
+  glBindRenderbuffer(GL_RENDERBUFFER, target.depth.get());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, target.depth.get());
+  if (auto ok = check_complete("picture of what water mirrors", size); !ok) return tl::unexpected(ok.error());
+  return target;
+}
+
+void MirrorTarget::begin() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
+  glDepthMask(GL_TRUE);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+Expected<ShadowTarget> ShadowTarget::create(std::uint32_t size, std::uint32_t layers) {
+  ShadowTarget target{make_framebuffer(), make_texture(), make_sampler(), size};
+  glBindTexture(GL_TEXTURE_2D_ARRAY, target.depth.get());
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT24, static_cast<GLsizei>(size), static_cast<GLsizei>(size),
+               static_cast<GLsizei>(layers), 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  no_filter(GL_TEXTURE_2D_ARRAY);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glSamplerParameteri(target.plain_depth.get(), filter, GL_NEAREST);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glSamplerParameteri(target.plain_depth.get(), wrap, GL_CLAMP_TO_EDGE);
+  target.bind_layer(0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  if (auto ok = check_complete("shadow map", {size, size}); !ok) return tl::unexpected(ok.error());
+  return target;
+}
+
+void ShadowTarget::bind_layer(std::uint32_t layer) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.get(), 0, static_cast<GLint>(layer));
+}
+
+Expected<PictureTarget> PictureTarget::create(picture::PixelSize size) {
+  PictureTarget target{make_framebuffer(), make_texture(), size};
+  glBindTexture(GL_TEXTURE_2D, target.colour.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), 0,
+               GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  no_filter(GL_TEXTURE_2D);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+  if (auto ok = check_complete("picture", size); !ok) return tl::unexpected(ok.error());
+  return target;
+}
+
+picture::ImageData PictureTarget::read() const {
+  picture::ImageData image{size.width, size.height, {}, true};
+  const std::size_t row = std::size_t{4} * size.width;
+  std::vector<std::uint8_t> upside_down(row * size.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.get());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), GL_RGBA, GL_UNSIGNED_BYTE,
+               upside_down.data());
+  image.rgba.resize(upside_down.size());
+  for (std::uint32_t y = 0; y < size.height; ++y) {
+    std::copy_n(upside_down.begin() + static_cast<std::ptrdiff_t>(row * (size.height - 1 - y)), row,
+                image.rgba.begin() + static_cast<std::ptrdiff_t>(row * y));
+  }
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    image.rgba[i] = 255;
+  return image;
+}
+
+Expected<FloatTarget> FloatTarget::create(picture::PixelSize size) {
+  FloatTarget target{make_framebuffer(), make_texture(), size};
+  glBindTexture(GL_TEXTURE_2D, target.colour.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), 0,
+               GL_RGBA, GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  no_filter(GL_TEXTURE_2D);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+  if (auto ok = check_complete("half-float picture", size); !ok) return tl::unexpected(ok.error());
+  return target;
+}
+
+void FloatTarget::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
+}
+
+std::vector<Vec3f> FloatTarget::read() const {
+  std::vector<Vec3f> pixels(std::size_t{size.width} * size.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.get());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), GL_RGB, GL_FLOAT,
+               pixels.data());
+  return pixels;
+}
+
+}  // namespace mechane::draw

@@ -1,0 +1,75 @@
+// Where passes draw to: a multisampled HDR picture, a shadow map, a finished 8-bit picture.
+#pragma once
+
+#include <vector>
+
+#include "client-sdk/draw/gl_context.hpp"
+#include "client-sdk/draw/gl_object.hpp"
+#include "client-sdk/picture/scene_assets.hpp"
+#include "server/base/error.hpp"
+
+namespace mechane::draw {
+
+/// Half-float colour and depth, `samples` a pixel. The colour is a multisample texture: the tone pass resolves it.
+struct HdrTarget {
+  FramebufferName framebuffer;
+  TextureName colour;
+  RenderbufferName depth;
+  picture::PixelSize size;
+  int samples = 1;
+  FramebufferName depth_copy_framebuffer;
+  TextureName depth_copy;  ///< one sample a pixel, as resolve_depth() left it
+
+  [[nodiscard]] static Expected<HdrTarget> create(picture::PixelSize size, int samples);
+  /// Copies the depth to where shaders can read it, and leaves `framebuffer` bound.
+  void resolve_depth() const;
+};
+
+/// Half-float colour with depth and a stencil, one sample a pixel.
+struct MirrorTarget {
+  FramebufferName framebuffer;
+  TextureName colour;
+  RenderbufferName depth;
+  picture::PixelSize size;
+
+  [[nodiscard]] static Expected<MirrorTarget> create(picture::PixelSize size);
+  /// Draws go to all of it from now on; it is empty, and lets all through.
+  void begin() const;
+};
+
+/// Square depth textures, one a layer. Read with comparison; with `plain_depth` bound to the same unit, as the depths themselves.
+struct ShadowTarget {
+  FramebufferName framebuffer;
+  TextureName depth;
+  SamplerName plain_depth;
+  std::uint32_t size = 0;
+
+  [[nodiscard]] static Expected<ShadowTarget> create(std::uint32_t size, std::uint32_t layers);
+  /// Draws go to this layer from now on.
+  void bind_layer(std::uint32_t layer) const;
+};
+
+/// The finished picture, sRGB values in 8 bits.
+struct PictureTarget {
+  FramebufferName framebuffer;
+  TextureName colour;
+  picture::PixelSize size;
+
+  [[nodiscard]] static Expected<PictureTarget> create(picture::PixelSize size);
+  /// Reads the picture back, upper row first, opaque.
+  [[nodiscard]] picture::ImageData read() const;
+};
+
+/// One float picture without depth: the sky's map (radiance, rows from the zenith down), or a step between a picture and another.
+struct FloatTarget {
+  FramebufferName framebuffer;
+  TextureName colour;
+  picture::PixelSize size;
+
+  [[nodiscard]] static Expected<FloatTarget> create(picture::PixelSize size);
+  /// Draws go to all of it from now on.
+  void bind() const;
+  [[nodiscard]] std::vector<Vec3f> read() const;
+};
+
+}  // namespace mechane::draw

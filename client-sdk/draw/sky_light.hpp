@@ -1,0 +1,39 @@
+// The light of the procedural sky, made once for a sun: what falls on a surface as nine spherical harmonics (Ramamoorthi & Hanrahan 2001), what is
+// mirrored as a cube map.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "client-sdk/draw/gl_context.hpp"
+#include "client-sdk/draw/gl_object.hpp"
+#include "client-sdk/picture/render_scene.hpp"
+#include "server/base/error.hpp"
+
+namespace mechane::draw {
+
+/// Irradiance by direction, its basis constants multiplied in: the order of lighting.glsl.
+using SkyHarmonics = std::array<Vec3f, 9>;
+
+/// From a map by longitude (columns, -z in the middle, +x to the right) and polar angle (rows, from the zenith down).
+[[nodiscard]] SkyHarmonics project_sky(std::span<const Vec3f> map, picture::PixelSize size);
+
+/// Direction of a pixel's middle in such a map, unit, in W.
+[[nodiscard]] Vec3f sky_map_direction(std::uint32_t column, std::uint32_t row, picture::PixelSize size);
+
+/// The irradiance on a surface with unit normal n_W: what lighting.glsl computes.
+[[nodiscard]] Vec3f irradiance(const SkyHarmonics& sh, const Vec3f& n_W);
+
+/// The sky of sky.glsl as such a map. Needs a current context.
+[[nodiscard]] Expected<std::vector<Vec3f>> draw_sky_map(const picture::Sun& sun, picture::PixelSize size);
+
+struct SkyLight {
+  SkyHarmonics harmonics{};
+  TextureName cube;  ///< see sky_cube.hpp
+};
+
+/// Needs a current context.
+[[nodiscard]] Expected<SkyLight> bake_sky(const picture::Sun& sun);
+
+}  // namespace mechane::draw

@@ -1,0 +1,41 @@
+// From a pixel into the world and back, through one eye: what a pointer sees.
+#pragma once
+
+#include <optional>
+
+#include "client-sdk/picture/camera.hpp"
+#include "client-sdk/picture/pixels.hpp"
+#include "client-sdk/picture/stereo.hpp"
+
+namespace mechane::picture {
+
+/// One eye's picture and the view that fills it. Pixels are this picture's own, (0, 0) its upper left corner.
+struct Sight {
+  EyeView view;
+  PixelSize picture;
+};
+
+struct SightRay {
+  Vec3 p_W = Vec3::Zero();
+  Vec3 d_W = -Vec3::UnitZ();  ///< unit
+};
+
+/// A place of the whole picture, as the eye that it belongs to has it.
+struct SeenPlace {
+  Sight sight;
+  PixelPlace place;
+};
+/// None where the picture has no pixels, or the place is no number.
+[[nodiscard]] std::optional<SeenPlace> seen_place(const Camera& camera, Stereo stereo, PixelSize picture,
+                                                  PixelPlace place);
+
+/// `place` must be finite.
+[[nodiscard]] SightRay ray_through(const Sight& sight, PixelPlace place);
+/// None for what is not before the eye.
+[[nodiscard]] std::optional<PixelPlace> pixel_of(const Sight& sight, const Vec3& p_WQ);
+/// How far off along the direction of view, metres; below 0: behind the eye.
+[[nodiscard]] double depth_of(const Sight& sight, const Vec3& p_WQ);
+/// The point of a pixel's ray at this depth.
+[[nodiscard]] Vec3 point_at(const Sight& sight, PixelPlace place, double depth_m);
+
+}  // namespace mechane::picture

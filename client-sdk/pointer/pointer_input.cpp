@@ -1,0 +1,208 @@
+#include "client-sdk/pointer/pointer_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "client-sdk/pointer/pointer_aid.hpp"
+
+namespace mechane::pointer {
+namespace {
+
+// Rays meet all triangles; a pointer that only hovers is worth some of them.
+constexpr Duration kLookUnderHover = std::chrono::milliseconds(100);
+constexpr double kFocusSpeed = 0.3;         // of the picture's height, a second
+constexpr double kKeyTurn_rad_per_s = 2.1;  // 20 turns a minute
+constexpr double kKeyTwist_rad_per_s = 1.2;
+constexpr double kNotch = 0.03;              // of the wheel: so much farther or nearer
+constexpr double kNotchTurn_rad = kPi / 18;  // with Shift
+constexpr double kKeyNotches_per_s = 8;
+constexpr double kLongestPicture_s = 0.25;
+
+picture::PixelPlace middle_of(picture::PixelSize picture) {
+  return {picture.width / 2.0, picture.height / 2.0};
+}
+
+}  // namespace
+
+void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bool covered) {
+  using Kind = PointerEvent::Kind;
+  stirred_ = stirred_ || (event.kind != Kind::left && event.kind != Kind::gone);
+  switch (event.kind) {
+    case Kind::press:
+      focus_.reset();
+      if (!covered) take_fingers(event, scene);
+      return;
+    case Kind::move:
+      if (event.finger == kMouse) {
+        hover_ = picture::PixelPlace{event.x, event.y};
+        hover_moved_ = true;
+        if (!by_keys_) {  // who moves the mouse has left the keys
+          focus_.reset();
+          means_ = PointerMeans::mouse;
+        }
+      }
+      return take_fingers(event, scene);
+    case Kind::release:
+    case Kind::turn_press:
+    case Kind::turn_release:
+    case Kind::gone:
+      return take_fingers(event, scene);
+    case Kind::wheel:
+      return link_->deepen(kNotch * event.amount);
+    case Kind::turn_wheel:
+      return link_->turn(kNotchTurn_rad * event.amount);
+    case Kind::left:
+      hover_.reset();
+      under_hover_ = {};
+      return;
+    case Kind::key_down:
+      held_[static_cast<std::size_t>(event.key)] = true;
+      return take_key(event.key, scene);
+    case Kind::key_up:
+      held_[static_cast<std::size_t>(event.key)] = false;
+      return;
+  }
+}
+
+void PointerInput::forget_world() {
+  focus_.reset();
+  under_hover_ = {};
+  hover_moved_ = true;
+}
+
+void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& scene) {
+  using Phase = PointerView::Phase;
+  if (event.kind == PointerEvent::Kind::press) {
+    means_ = event.finger == kMouse ? PointerMeans::mouse : PointerMeans::fingers;
+    if (event.finger != kMouse) {  // a finger hovers nowhere
+      hover_.reset();
+      under_hover_ = {};
+    }
+  }
+  if (event.kind == PointerEvent::Kind::gone && std::exchange(by_keys_, false)) link_->release();
+  const PointerView view = link_->view();
+  const bool holds = view.phase == Phase::holding;
+  follow(fingers_.take(event, {(holds || view.phase == Phase::reaching) && !by_keys_,
+                               holds && view.drag == PointerView::Drag::carry, scene.picture}),
+         scene);
+}
+
+void PointerInput::follow(const std::vector<HandWish>& wishes, const PointerScene& scene) {
+  for (const HandWish& wish : wishes) {
+    if (wish.kind == HandWish::Kind::take) {
+      if (!press(scene, wish.place)) fingers_.missed();
+    } else if (by_keys_) {
+      continue;
+    } else if (wish.kind == HandWish::Kind::move) {
+      const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, wish.place);
+      if (seen) link_->move(seen->place);
+    } else if (wish.kind == HandWish::Kind::twist) {
+      link_->turn(wish.amount);
+    } else if (wish.kind == HandWish::Kind::deepen) {
+      link_->deepen(wish.amount);
+    } else {
+      link_->release();
+    }
+  }
+}
+
+/// False: there is nothing to take.
+bool PointerInput::press(const PointerScene& scene, picture::PixelPlace whole) {
+  const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, whole);
+  if (!seen) return false;
+  const auto touched = under_finger(scene, seen->sight, seen->place).takeable;
+  if (!touched) return false;
+  by_keys_ = false;
+  link_->press(seen->sight, seen->place, *touched);
+  return true;
+}
+
+void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
+  if (key == PointerKey::turn_left || key == PointerKey::turn_right) return;  // what any hand holds
+  means_ = PointerMeans::keys;
+  if (key == PointerKey::next || key == PointerKey::previous)
+    return focus_next(scene, key == PointerKey::next ? 1 : -1);
+  if (!focus_) focus_ = middle_of(scene.picture);
+  if (key != PointerKey::take) return;
+  const PointerView::Phase phase = link_->view().phase;
+  if (phase == PointerView::Phase::reaching || phase == PointerView::Phase::holding) return link_->release();
+  by_keys_ = press(scene, *focus_);
+}
+
+void PointerInput::focus_next(const PointerScene& scene, int step) {
+  const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, middle_of(scene.picture));
+  if (!seen || by_keys_) return;
+  const std::vector<picture::PixelPlace> places = places_to_take(scene, seen->sight);
+  if (places.empty()) return;
+  const double from = focus_ ? focus_->x : (step > 0 ? -1.0 : 1e9);
+  const auto after = std::ranges::find_if(places, [&](picture::PixelPlace p) { return p.x > from + 1; });
+  const auto before =
+      std::find_if(places.rbegin(), places.rend(), [&](picture::PixelPlace p) { return p.x < from - 1; });
+  focus_ = step > 0 ? (after == places.end() ? places.front() : *after)
+                    : (before == places.rend() ? places.back() : *before);
+}
+
+void PointerInput::go_on_with_keys(const PointerScene& scene, double dt_s) {
+  using Key = PointerKey;
+  const double across = (held(Key::right) ? 1 : 0) - (held(Key::left) ? 1 : 0);
+  const double down = (held(Key::down) ? 1 : 0) - (held(Key::up) ? 1 : 0);
+  const double far = (held(Key::farther) ? 1 : 0) - (held(Key::nearer) ? 1 : 0);
+  const double round = (held(Key::turn_right) ? 1 : 0) - (held(Key::turn_left) ? 1 : 0);
+  stirred_ = stirred_ || round != 0;
+  if (round != 0) link_->turn(round * kKeyTwist_rad_per_s * dt_s);
+  if (!focus_ || (across == 0 && down == 0 && far == 0)) return;
+  stirred_ = true;
+  const PointerView view = link_->view();
+  const bool holding = view.phase == PointerView::Phase::holding && by_keys_;
+  if (holding && view.drag == PointerView::Drag::turn) return link_->turn((across + down) * kKeyTurn_rad_per_s * dt_s);
+  if (holding && far != 0) link_->deepen(far * kNotch * kKeyNotches_per_s * dt_s);
+  const double step = kFocusSpeed * scene.picture.height * dt_s;
+  focus_->x = std::clamp(focus_->x + across * step, 0.0, scene.picture.width - 1.0);
+  focus_->y = std::clamp(focus_->y + down * step, 0.0, scene.picture.height - 1.0);
+  const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, *focus_);
+  if (seen && by_keys_) link_->move(seen->place);
+}
+
+void PointerInput::update(const PointerScene& scene, TimePoint now) {
+  const double dt_s = std::max(to_seconds(now - updated_), 0.0);
+  updated_ = now;
+  follow(fingers_.pass(dt_s), scene);
+  go_on_with_keys(scene, std::min(dt_s, kLongestPicture_s));
+  const bool idle = link_->view().phase == PointerView::Phase::resting;
+  if (idle) by_keys_ = false;
+  const std::optional<picture::PixelPlace> looks_at = focus_ ? focus_ : hover_;
+  if (!idle || !looks_at || now - looked_ < kLookUnderHover) return;
+  if (!hover_moved_ && !focus_) return;
+  hover_moved_ = false;
+  looked_ = now;
+  const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, *looks_at);
+  under_hover_ = seen ? under_finger(scene, seen->sight, seen->place) : UnderFinger{};
+}
+
+std::optional<picture::Touched> PointerInput::pointed_at() const {
+  if (!is_away()) return {};
+  return under_hover_.takeable ? under_hover_.takeable : under_hover_.seen;
+}
+
+bool PointerInput::rests(TimePoint now) {
+  const bool stirs = by_keys_ || hover_moved_ || focus_ || stirred_ || std::ranges::any_of(held_, std::identity());
+  if (stirs || link_->view().phase != PointerView::Phase::resting) return false;
+  updated_ = now;
+  return true;
+}
+
+void PointerInput::write(picture::OverlayContent& content, const PointerScene& scene,
+                         const std::string& language) const {
+  const std::optional<picture::PixelPlace> at = focus_ ? focus_ : hover_;
+  const auto seen =
+      picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, at.value_or(middle_of(scene.picture)));
+  if (!seen || content.panel) return;
+  const PointerView view = link_->view();
+  PointerAid aid{seen->sight, view, {}, {}, link_->state(), means_};
+  if (view.phase == PointerView::Phase::resting && under_hover_.takeable) aid.p_WT = under_hover_.takeable->p_WT;
+  if (focus_) aid.focus = seen->place;
+  add_pointer_aid(aid, language, content);
+}
+
+}  // namespace mechane::pointer

@@ -1,0 +1,290 @@
+#include "client-sdk/recording/frame_recording.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "client-sdk/recording/recording_codec.hpp"
+#include "server/base/byte_order.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::recording {
+namespace {
+
+constexpr char kMagic[8] = {'M', 'E', 'C', 'H', 'S', 'E', 'E', 'N'};
+constexpr std::size_t kPreamble = sizeof kMagic + 4;
+constexpr std::size_t kRecordHead = 1 + 4 + 8;
+constexpr std::uint64_t kMaxMicroseconds = std::uint64_t{30} * 24 * 3600 * 1'000'000;
+/// Ticks and times of receipt may part so far before a new anchor is taken: the world was begun anew, or stood still.
+constexpr Duration kParting = std::chrono::milliseconds(250);
+
+std::vector<std::byte> checked_part(RecordKind kind, std::span<const std::byte> payload) {
+  std::vector<std::byte> out;
+  VectorSink sink(out);
+  put(sink, static_cast<std::uint8_t>(kind));
+  put(sink, static_cast<std::uint32_t>(payload.size()));
+  sink.append(payload.data(), payload.size());
+  return out;
+}
+
+std::uint64_t checksum_of(std::span<const std::byte> checked, std::uint64_t number) {
+  return XXH3_64bits_withSeed(checked.data(), checked.size(), number);
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter() {
+  VectorSink sink(bytes_);
+  sink.append(reinterpret_cast<const std::byte*>(kMagic), sizeof kMagic);
+  put(sink, kRecordingVersion);
+}
+
+void RecordingWriter::add(RecordKind kind, Duration time, std::span<const std::byte> payload) {
+  last_ = std::max(last_, time);
+  std::vector<std::byte> timed;
+  VectorSink content(timed);
+  put_varint(content, static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(last_).count()));
+  content.append(payload.data(), payload.size());
+  const std::vector<std::byte> checked = checked_part(kind, timed);
+  VectorSink sink(bytes_);
+  sink.append(checked.data(), 5);
+  put(sink, checksum_of(checked, records_++));
+  sink.append(timed.data(), timed.size());
+}
+
+Expected<FrameRecorder> FrameRecorder::create(const std::filesystem::path& path, const RecorderSettings& settings) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  if (!file) {
+    return fail("the recording cannot be written: " + std::generic_category().message(errno), path.string(),
+                "choose another file with --record");
+  }
+  return FrameRecorder(path, std::move(file), settings);
+}
+
+FrameRecorder::FrameRecorder(std::filesystem::path path, std::ofstream file, const RecorderSettings& settings)
+    : path_(std::move(path)), file_(std::move(file)), settings_(settings) {
+  settings_.limit_bytes = std::min(settings_.limit_bytes, kMaxRecordingBytes);
+}
+
+FrameRecorder::~FrameRecorder() {
+  if (!file_.is_open()) return;
+  writer_.add(RecordKind::end, Duration{0}, {});
+  write();
+}
+
+void FrameRecorder::hear(TimePoint now, const client::WorldStatus& status,
+                         const client::WorldPresentation* presentation,
+                         const std::vector<client::SceneObject>& manifest, const client::Frame* newest) {
+  if (!file_.is_open()) return;
+  if (status_.empty() || status.world != world_) begin_world(status.world);
+  // Not later than the frame that comes with it: times never fall, and it is frames that are seen to be late.
+  const Duration at = newest != nullptr ? std::min(time_of(*newest), time_of(now)) : time_of(now);
+  if (std::vector<std::byte> bytes = encode(status); bytes != status_) {
+    add(RecordKind::status, at, bytes);
+    status_ = std::move(bytes);
+  }
+  if (presentation != nullptr && !std::exchange(presented_, true))
+    add(RecordKind::presentation, at, encode(*presentation));
+  if (manifest.size() != objects_) {
+    objects_ = manifest.size();
+    add(RecordKind::manifest, at, encode(manifest));
+  }
+  if (newest != nullptr && objects_ > 0 && newest->sequence > sequence_) add_frame(*newest, at);
+  write();
+}
+
+void FrameRecorder::begin_world(const std::string& world) {
+  world_ = world;
+  status_.clear();
+  presented_ = false;
+  objects_ = 0;
+  sequence_ = 0;
+  anchor_.reset();
+}
+
+void FrameRecorder::add_frame(const client::Frame& frame, Duration at) {
+  sequence_ = frame.sequence;
+  if (at < due_) return;
+  due_ = std::max(due_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1 / settings_.fps)), at);
+  ++frames_;
+  add(RecordKind::frame, at, encode(frame));
+}
+
+void FrameRecorder::hear(TimePoint now, std::span<const client::WorldEvent> events) {
+  if (!file_.is_open() || status_.empty()) return;
+  for (const client::WorldEvent& event : events)
+    add(RecordKind::event, time_of(now), encode(event));
+}
+
+void FrameRecorder::add(RecordKind kind, Duration time, std::span<const std::byte> payload) {
+  writer_.add(kind, time, payload);
+}
+
+Duration FrameRecorder::time_of(TimePoint now) {
+  if (!began_) began_ = now;
+  return std::max(now - *began_, Duration{0});
+}
+
+Duration FrameRecorder::time_of(const client::Frame& frame) {
+  const Duration received = time_of(frame.received);
+  if (anchor_ && frame.tick >= anchor_->tick) {
+    const auto ticks = static_cast<std::int64_t>(std::min(frame.tick - anchor_->tick, kMaxMicroseconds / 1000));
+    const Duration by_tick = anchor_->time + ticks * kTickPeriod;
+    if (std::chrono::abs(by_tick - received) < kParting) return by_tick;
+  }
+  anchor_ = Anchor{frame.tick, received};
+  return received;
+}
+
+/// To the disk as it comes: who kills a display still has the recording.
+void FrameRecorder::write() {
+  const std::vector<std::byte> bytes = writer_.take_bytes();
+  if (bytes.empty()) return;
+  written_ += bytes.size();
+  file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file_.flush();
+  if (!file_) return stop("cannot be written: " + std::generic_category().message(errno));
+  if (written_ < settings_.limit_bytes || std::exchange(full_, true)) return;
+  writer_.add(RecordKind::end, Duration{0}, {});
+  write();
+  stop("is full");
+}
+
+void FrameRecorder::stop(const std::string& why) {
+  log::warning(fmt::format("the recording {} {}; it ends here, the display goes on", path_.string(), why));
+  file_.close();
+}
+
+Expected<FrameRecording> FrameRecording::open_file(const std::filesystem::path& path) {
+  const std::string where = path.string();
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return fail("the recording cannot be read: " + error.message(), where, "write one with --record");
+  if (size > kMaxRecordingBytes)
+    return fail("the recording is larger than a gigabyte", where, "record less at a time: --record-mib");
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<char> text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) return fail("the recording cannot be read", where, "check the rights of the file");
+  const auto bytes = std::as_bytes(std::span(text));
+  return open_bytes({bytes.begin(), bytes.end()}, where);
+}
+
+Expected<FrameRecording> FrameRecording::open_bytes(std::vector<std::byte> bytes, const std::string& name) {
+  FrameRecording recording;
+  recording.bytes_ = std::move(bytes);
+  if (auto ok = recording.read(name); !ok) return tl::unexpected(ok.error());
+  return recording;
+}
+
+Expected<void> FrameRecording::read(const std::string& name) {
+  const std::span<const std::byte> all(bytes_);
+  if (all.size() < kPreamble || std::memcmp(all.data(), kMagic, sizeof kMagic) != 0)
+    return fail("is not a recording of frames", name, "give a file that 'mechane display --record' wrote");
+  if (const auto version = ByteSource(all.subspan(sizeof kMagic)).get<std::uint32_t>();
+      version == 0 || version > kRecordingVersion) {
+    return fail(
+        fmt::format("is a recording of version {}, and this program reads up to {}", version, kRecordingVersion), name,
+        "use the release that wrote it, or record anew");
+  }
+  std::size_t at = kPreamble;
+  for (std::uint64_t number = 0; at < all.size() && cut_off_; ++number) {
+    ByteSource head(all.subspan(at));
+    const auto kind = static_cast<RecordKind>(head.get<std::uint8_t>());
+    const auto length = head.get<std::uint32_t>();
+    const auto checksum = head.get<std::uint64_t>();
+    if (!head.ok() || length > head.remaining()) break;  // cut off in its midst
+    const auto payload = all.subspan(at + kRecordHead, length);
+    if (checksum_of(checked_part(kind, payload), number) != checksum || !take(kind, payload)) {
+      return fail(fmt::format("the recording is damaged at byte {}", at), name, "record anew, or copy the file again");
+    }
+    at += kRecordHead + length;
+  }
+  if (!cut_off_ && at != all.size())
+    return fail(fmt::format("the recording goes on behind its end, at byte {}", at), name, "copy the file again");
+  if (std::ranges::find(records_, RecordKind::frame, &Record::kind) == records_.end())
+    return fail("nothing was recorded that could be drawn", name, "record while the display shows a world");
+  return {};
+}
+
+/// Decodes it once, so that nobody who plays it can fail.
+bool FrameRecording::take(RecordKind kind, std::span<const std::byte> payload) {
+  ByteSource head(payload);
+  const std::uint64_t microseconds = head.get_varint();
+  if (!head.ok() || microseconds > kMaxMicroseconds) return false;
+  const Record record{kind, std::chrono::microseconds(microseconds), payload.last(head.remaining())};
+  if (!records_.empty() && record.time < records_.back().time) return false;
+  switch (kind) {
+    case RecordKind::status:
+      if (client::WorldStatus status; !decode(record.content, status)) return false;
+      break;
+    case RecordKind::presentation:
+      if (client::WorldPresentation presentation; !decode(record.content, presentation)) return false;
+      break;
+    case RecordKind::manifest:
+      if (std::vector<client::SceneObject> manifest; !decode(record.content, manifest)) return false;
+      break;
+    case RecordKind::frame:
+      if (client::Frame frame; !decode(record.content, frame)) return false;
+      duration_ = record.time;
+      break;
+    case RecordKind::event:
+      if (client::WorldEvent event; !decode(record.content, event)) return false;
+      break;
+    case RecordKind::end:
+      cut_off_ = false;
+      return record.content.empty();
+    default:
+      return false;
+  }
+  if (records_.empty() && kind != RecordKind::status) return false;  // of which world?
+  records_.push_back(record);
+  return true;
+}
+
+/// Of the first world; an empty step is all of it.
+std::optional<FrameRecording::Span> FrameRecording::time_of(const std::string& step) const {
+  std::optional<Span> out;
+  std::string world;
+  bool inside = false;
+  for (const Record& record : records_) {
+    if (client::WorldStatus status; record.kind == RecordKind::status && decode(record.content, status)) {
+      if (world.empty()) world = status.world;
+      const bool was_inside = inside;
+      inside = status.world == world && (step.empty() || (status.step == step && !status.done));
+      if (was_inside && !inside && out) return out;
+    } else if (record.kind == RecordKind::frame && inside) {
+      if (!out) out = Span{record.time, record.time};
+      out->to = record.time;
+    }
+  }
+  return out;
+}
+
+Expected<Duration> FrameRecording::moment(const std::string& text) const {
+  const char* const remedy = "write seconds, as 12.5, or a step and a share of it, as turn@0.4";
+  const auto number = [](const std::string& digits) -> std::optional<double> {
+    double value = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool good = read.ec == std::errc() && read.ptr == digits.data() + digits.size() && value >= 0;
+    return good ? std::optional(value) : std::nullopt;
+  };
+  if (const auto seconds = number(text)) {
+    if (*seconds > to_seconds(duration_))
+      return fail(fmt::format("the recording is only {:.1f} s long", to_seconds(duration_)), text, remedy);
+    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*seconds));
+  }
+  const auto at = text.find('@');
+  const std::optional<double> share = at == std::string::npos ? 0.0 : number(text.substr(at + 1));
+  if (!share || *share > 1) return fail("is no moment of a recording", text, remedy);
+  const std::optional<Span> span = time_of(text.substr(0, at));
+  if (!span) return fail("the recording has no such step", text, remedy);
+  return span->from + std::chrono::duration_cast<Duration>((span->to - span->from) * *share);
+}
+
+}  // namespace mechane::recording

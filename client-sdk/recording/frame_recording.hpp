@@ -1,0 +1,153 @@
+// Recordings of what a display hears of its worlds, so that a visit can be drawn again without a server: for films, for tests, for a kiosk
+// that waits for its next visitor. Not a journal: a journal runs a visit again, a recording only shows it.
+//
+// A file is the magic "MECHSEEN" and a version (u32), then records to the end. A record is
+//
+//     kind u8 | length u32 | checksum u64 | payload of `length` bytes
+//
+// with the checksum XXH3-64 of kind, length and payload, seeded with the record's number in the file. Numbers are little-endian. Every
+// payload begins with the time since the recording began (LEB128, microseconds), which never falls; what follows is recording_codec's.
+//
+//     status        what else was known is forgotten when it is of another world than the one before
+//     presentation  of the world of the last status
+//     manifest      all its objects
+//     frame         of that world, once its manifest is known
+//     event
+//     end           nothing follows; a file without it was cut off: its writer was killed, or the disk was full
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include <mechane/client/types.hpp>
+
+namespace mechane::recording {
+
+/// What is written; 1, without titles of objects, and 2, without goals, are read too.
+inline constexpr std::uint32_t kRecordingVersion = 3;
+inline constexpr std::uint64_t kMaxRecordingBytes = std::uint64_t{1} << 30U;
+
+enum class RecordKind : std::uint8_t { status = 1, presentation, manifest, frame, event, end };
+
+/// A recording in the making, as bytes: no file, no clock. Times that fall are taken as the last one.
+class RecordingWriter {
+ public:
+  RecordingWriter();
+
+  void add(RecordKind kind, Duration time, std::span<const std::byte> payload);
+  /// What was added since the last call, in the order of the file.
+  [[nodiscard]] std::vector<std::byte> take_bytes() { return std::exchange(bytes_, {}); }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::uint64_t records_ = 0;
+  Duration last_{0};
+};
+
+struct RecorderSettings {
+  double fps = 30;  ///< frames a second, at most
+  std::uint64_t limit_bytes = std::uint64_t{256} << 20U;
+};
+
+/// Writes a recording while a display runs. Called on the display's thread; a full disk, or a full measure, ends the recording with a line in the
+/// log and nothing else. The file is whole once the recorder is destroyed; before, all but its last moment is on the disk.
+class FrameRecorder {
+ public:
+  /// Takes the place of a file of that name. Errors: it cannot be written.
+  [[nodiscard]] static Expected<FrameRecorder> create(const std::filesystem::path& path,
+                                                      const RecorderSettings& settings);
+  FrameRecorder(FrameRecorder&&) noexcept = default;
+  FrameRecorder& operator=(FrameRecorder&&) = delete;
+  ~FrameRecorder();
+
+  /// Once a picture, or oftener: writes what is new in it. `presentation` and `newest` may be null: not known yet.
+  void hear(TimePoint now, const client::WorldStatus& status, const client::WorldPresentation* presentation,
+            const std::vector<client::SceneObject>& manifest, const client::Frame* newest);
+  void hear(TimePoint now, std::span<const client::WorldEvent> events);
+
+  [[nodiscard]] std::uint64_t frames() const { return frames_; }
+
+ private:
+  FrameRecorder(std::filesystem::path path, std::ofstream file, const RecorderSettings& settings);
+  void begin_world(const std::string& world);
+  void add_frame(const client::Frame& frame, Duration at);
+  void add(RecordKind kind, Duration time, std::span<const std::byte> payload);
+  [[nodiscard]] Duration time_of(TimePoint now);
+  [[nodiscard]] Duration time_of(const client::Frame& frame);
+  void write();
+  void stop(const std::string& why);
+
+  std::filesystem::path path_;
+  std::ofstream file_;
+  RecorderSettings settings_;
+  RecordingWriter writer_;
+  std::optional<TimePoint> began_;
+  std::uint64_t written_ = 0;
+  bool full_ = false;
+  std::uint64_t frames_ = 0;
+  // Of the world at hand.
+  std::string world_;
+  std::vector<std::byte> status_;  ///< as it was written last
+  bool presented_ = false;
+  std::size_t objects_ = 0;
+  std::uint64_t sequence_ = 0;  ///< of the last frame that was looked at
+  Duration due_{0};             ///< the next frame
+  /// A frame's time follows from its tick, not from the moment at which a busy machine let it come.
+  struct Anchor {
+    std::uint64_t tick = 0;
+    Duration time{0};
+  };
+  std::optional<Anchor> anchor_;
+};
+
+/// A recording, read and checked whole: what it gives can be drawn. Immutable.
+class FrameRecording {
+ public:
+  struct Record {
+    RecordKind kind = RecordKind::end;
+    Duration time{0};
+    std::span<const std::byte> content;  ///< recording_codec's; of this recording
+  };
+
+  /// Errors: no such file, not a recording, another version, damaged (with the place), too large, nothing in it that could be drawn.
+  [[nodiscard]] static Expected<FrameRecording> open_file(const std::filesystem::path& path);
+  /// The same from memory. `name` is what errors call it.
+  [[nodiscard]] static Expected<FrameRecording> open_bytes(std::vector<std::byte> bytes, const std::string& name);
+  FrameRecording(FrameRecording&&) noexcept = default;
+  FrameRecording& operator=(FrameRecording&&) noexcept = default;
+
+  /// In the order of time.
+  [[nodiscard]] std::span<const Record> records() const { return records_; }
+  /// From the first record to the last frame.
+  [[nodiscard]] Duration duration() const { return duration_; }
+  /// A moment that a person names: "12.5" is seconds from the beginning; "turn@0.4" that share, 0 to 1, of the first time that the step takes,
+  /// "turn" where it begins; "@0.4" a share of all that is of the first world. Errors: it has no such step, or is not so long.
+  [[nodiscard]] Expected<Duration> moment(const std::string& text) const;
+  /// The end is missing; all before it is good.
+  [[nodiscard]] bool cut_off() const { return cut_off_; }
+
+ private:
+  FrameRecording() = default;
+  [[nodiscard]] Expected<void> read(const std::string& name);
+  [[nodiscard]] bool take(RecordKind kind, std::span<const std::byte> payload);
+  struct Span {
+    Duration from{0};
+    Duration to{0};
+  };
+  [[nodiscard]] std::optional<Span> time_of(const std::string& step) const;
+
+  std::vector<std::byte> bytes_;
+  std::vector<Record> records_;
+  Duration duration_{0};
+  bool cut_off_ = true;
+};
+
+}  // namespace mechane::recording

@@ -1,0 +1,241 @@
+#include "client-sdk/scene/asset_library.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "client-sdk/picture/image_file.hpp"
+#include "client-sdk/picture/procedural_mesh.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::scene {
+namespace {
+
+constexpr std::string_view kWaterPrefix = "WATER_";
+/// A material of this name is the land around: see MaterialData::land.
+constexpr std::string_view kLandMaterial = "earth";
+
+/// Adds the mesh to `into`, moved by X_BM.
+void merge(picture::MeshData& into, const content::ImportedMesh& mesh, const Eigen::Affine3d& X_BM) {
+  const auto first = static_cast<std::uint32_t>(into.positions.size());
+  const Eigen::Affine3f X = X_BM.cast<float>();
+  const Eigen::Matrix3f linear = X.linear();
+  const Eigen::Matrix3f normal = linear.inverse().transpose();
+  for (const Vec3f& p : mesh.positions)
+    into.positions.push_back(X * p);
+  for (const Vec3f& n : mesh.normals)
+    into.normals.push_back((normal * n).normalized());
+  // Normals that the file lacks are made from the triangles afterwards; zero marks them.
+  into.normals.resize(into.positions.size(), Vec3f::Zero());
+  for (const Eigen::Vector4f& t : mesh.tangents) {
+    const Vec3f moved = (linear * t.head<3>()).normalized();
+    into.tangents.emplace_back(moved.x(), moved.y(), moved.z(), t.w());
+  }
+  into.tangents.resize(into.positions.size(), Eigen::Vector4f(1, 0, 0, 1));
+  into.uv.insert(into.uv.end(), mesh.uv.begin(), mesh.uv.end());
+  into.uv.resize(into.positions.size(), Eigen::Vector2f::Zero());
+  const bool mirrored = linear.determinant() < 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    into.indices.push_back(first + mesh.indices[i]);
+    into.indices.push_back(first + mesh.indices[i + (mirrored ? 2 : 1)]);
+    into.indices.push_back(first + mesh.indices[i + (mirrored ? 1 : 2)]);
+  }
+}
+
+/// Gives vertices without a normal the mean of their triangles', by area.
+void fill_normals(picture::MeshData& mesh) {
+  std::vector<Vec3f> sums(mesh.positions.size(), Vec3f::Zero());
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3f& a = mesh.positions[mesh.indices[i]];
+    const Vec3f n = (mesh.positions[mesh.indices[i + 1]] - a).cross(mesh.positions[mesh.indices[i + 2]] - a);
+    for (std::size_t k = 0; k < 3; ++k)
+      sums[mesh.indices[i + k]] += n;
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (mesh.normals[i].squaredNorm() > 0.25F) continue;
+    mesh.normals[i] = sums[i].squaredNorm() > 0 ? Vec3f(sums[i].normalized()) : Vec3f(Vec3f::UnitY());
+  }
+}
+
+bool is_water(const content::ImportedScene& scene, std::uint32_t node) {
+  for (std::optional<std::uint32_t> at = node; at; at = scene.nodes[*at].parent) {
+    if (scene.nodes[*at].name.starts_with(kWaterPrefix)) return true;
+  }
+  return false;
+}
+
+std::optional<picture::ImageData> decode(const content::ImportedTexture& texture, bool srgb, const std::string& where) {
+  if (texture.encoding == content::TextureEncoding::rgba8) {
+    if (texture.bytes.size() != std::size_t{4} * texture.width * texture.height || texture.bytes.empty()) return {};
+    picture::ImageData image{texture.width, texture.height, {}, srgb};
+    image.rgba.resize(texture.bytes.size());
+    std::ranges::transform(texture.bytes, image.rgba.begin(), [](std::byte b) { return static_cast<std::uint8_t>(b); });
+    return image;
+  }
+  Expected<picture::ImageData> image = picture::decode_image(texture.bytes, where);
+  if (!image) {
+    log::warning(image.error().to_string());
+    return {};
+  }
+  image->srgb = srgb;
+  return std::move(*image);
+}
+
+bool is_clear(const picture::ImageData& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] < 255) return true;
+  }
+  return false;
+}
+
+/// Of a file's node, or of the whole file.
+std::string model_name(const std::string& uri, const std::string& node) {
+  return node.empty() ? uri : uri + "#" + node;
+}
+
+}  // namespace
+
+AssetLibrary::AssetLibrary(Loader loader) : loader_(std::move(loader)) {}
+
+std::uint32_t AssetLibrary::add_mesh(picture::MeshData mesh) {
+  assets_.meshes.push_back(std::move(mesh));
+  return static_cast<std::uint32_t>(assets_.meshes.size() - 1);
+}
+
+std::uint32_t AssetLibrary::add_image(picture::ImageData image) {
+  assets_.images.push_back(std::move(image));
+  return static_cast<std::uint32_t>(assets_.images.size() - 1);
+}
+
+std::uint32_t AssetLibrary::add_material(const picture::MaterialData& material) {
+  assets_.materials.push_back(material);
+  return static_cast<std::uint32_t>(assets_.materials.size() - 1);
+}
+
+const content::ImportedScene* AssetLibrary::file(const std::string& uri) {
+  return load(uri).scene.get();
+}
+
+const ObjectModel& AssetLibrary::model(const std::string& uri, const std::string& node) {
+  const std::string key = model_name(uri, node);
+  const auto found = models_.find(key);
+  if (found != models_.end()) return found->second;
+  return models_.emplace(key, build(uri, node)).first->second;
+}
+
+bool AssetLibrary::load_again(const std::string& uri) {
+  const auto file = files_.find(uri);
+  if (file == files_.end() || file->second.scene) return false;
+  files_.erase(file);
+  missing_.erase(uri);
+  for (auto& [key, model] : models_) {
+    if (key == uri) model = build(uri, "");
+    if (key.starts_with(uri + "#")) model = build(uri, key.substr(uri.size() + 1));
+  }
+  return true;
+}
+
+AssetLibrary::File& AssetLibrary::load(const std::string& uri) {
+  const auto found = files_.find(uri);
+  if (found != files_.end()) return found->second;
+  File file;
+  Expected<content::ImportedScene> scene = loader_(uri);
+  if (scene) {
+    file.first_material = static_cast<std::uint32_t>(assets_.materials.size());
+    add_materials(*scene, uri);
+    file.scene = std::make_unique<content::ImportedScene>(std::move(*scene));
+  } else {
+    missing_.insert(uri);
+    log::warning(scene.error().to_string() + "; a plain box is shown in its place");
+  }
+  return files_.emplace(uri, std::move(file)).first->second;
+}
+
+void AssetLibrary::add_materials(const content::ImportedScene& scene, const std::string& uri) {
+  // One image may serve as colour in one material and as numbers in another: each use is its own.
+  std::map<std::pair<std::uint32_t, bool>, std::optional<std::uint32_t>> images;
+  const auto image = [&](std::optional<std::uint32_t> texture, bool srgb) -> std::optional<std::uint32_t> {
+    if (!texture || *texture >= scene.textures.size()) return {};
+    const auto [entry, is_new] = images.try_emplace({*texture, srgb});
+    if (is_new) {
+      const content::ImportedTexture& from = scene.textures[*texture];
+      const std::string name = uri + ", texture " + from.name;
+      if (auto decoded = decode(from, srgb, name)) {
+        decoded->name = name;
+        entry->second = add_image(std::move(*decoded));
+      }
+    }
+    return entry->second;
+  };
+  for (const content::ImportedMaterial& from : scene.materials) {
+    picture::MaterialData to;
+    to.base_colour = from.base_colour;
+    to.emissive = from.emissive;
+    to.metallic = from.metallic;
+    to.roughness = from.roughness;
+    to.alpha_cutoff = from.alpha_mode == content::AlphaMode::mask ? from.alpha_cutoff : 0.0F;
+    to.double_sided = from.double_sided;
+    to.land = from.name.starts_with(kLandMaterial);
+    to.base_colour_image = image(from.base_colour_texture, true);
+    to.normal_image = image(from.normal_texture, false);
+    to.metallic_roughness_image = image(from.metallic_roughness_texture, false);
+    to.emissive_image = image(from.emissive_texture, true);
+    to.occlusion_image = image(from.occlusion_texture, false);
+    to.occlusion_strength = from.occlusion_strength;
+    // Many tools write BLEND for what nobody can see through; sorting it would cost time, and its shadow.
+    const bool clear_image = to.base_colour_image && is_clear(assets_.images[*to.base_colour_image]);
+    to.clear = from.alpha_mode == content::AlphaMode::blend && (from.base_colour.w() < 1 || clear_image);
+    add_material(to);
+  }
+}
+
+ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node) {
+  const File& file = load(uri);
+  if (!file.scene) return placeholder(uri, "");
+  const content::ImportedScene& scene = *file.scene;
+  std::optional<std::uint32_t> top;
+  if (!node.empty()) {
+    top = content::find_node(scene, node);
+    if (!top) return placeholder(uri + "#" + node, "the file has no node of that name");
+  }
+  const std::string name = model_name(uri, node);
+  // What moves together and looks alike is one draw call.
+  std::map<std::pair<bool, std::uint32_t>, picture::MeshData> merged;
+  for (std::uint32_t n = 0; n < scene.nodes.size(); ++n) {
+    if (scene.nodes[n].meshes.empty() || (top && !content::is_under(scene, n, *top))) continue;
+    const Eigen::Affine3d X_BN = content::pose_in(scene, n, top);
+    const bool water = is_water(scene, n);
+    for (const std::uint32_t m : scene.nodes[n].meshes) {
+      merge(merged[{water, water ? 0 : scene.meshes[m].material}], scene.meshes[m], X_BN);
+    }
+  }
+  ObjectModel model;
+  for (auto& [key, mesh] : merged) {
+    fill_normals(mesh);
+    mesh.name = name;
+    for (const Vec3f& p : mesh.positions)
+      model.box_B.extend(p);
+    model.parts.push_back({add_mesh(std::move(mesh)), file.first_material + key.second, key.first});
+  }
+  if (model.parts.empty()) return placeholder(uri + "#" + node, "there are no triangles at or below the node");
+  return model;
+}
+
+ObjectModel AssetLibrary::placeholder(const std::string& name, const std::string& why) {
+  if (!why.empty()) {
+    missing_.insert(name);
+    log::warning(fmt::format("{}: {}; a plain box is shown in its place", name, why));
+  }
+  picture::MaterialData material;
+  material.base_colour = Eigen::Vector4f(0.62F, 0.55F, 0.44F, 1);
+  material.roughness = 0.9F;
+  ObjectModel model;
+  model.missing = true;
+  model.parts.push_back({add_mesh(picture::placeholder_mesh()), add_material(material), false});
+  model.box_B =
+      Eigen::AlignedBox3f(Vec3f::Constant(-picture::kPlaceholderHalf_m), Vec3f::Constant(picture::kPlaceholderHalf_m));
+  return model;
+}
+
+}  // namespace mechane::scene

@@ -1,0 +1,77 @@
+// The pictures of a scenario's objects: loads each mesh file once, merges what moves together, and keeps a placeholder for what is
+// missing. Called from the display's thread only.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "client-sdk/picture/scene_assets.hpp"
+#include "server/base/error.hpp"
+#include "server/content/imported_scene.hpp"
+
+namespace mechane::scene {
+
+/// Triangles of one material, in the frame of the object's node.
+struct ModelPart {
+  std::uint32_t mesh = 0;
+  std::uint32_t material = 0;
+  bool water = false;  ///< a node named WATER_...: drawn by the water pass, `material` means nothing
+};
+
+/// What an object looks like. B is its own frame.
+struct ObjectModel {
+  std::vector<ModelPart> parts;
+  Eigen::AlignedBox3f box_B;
+  bool missing = false;  ///< a placeholder stands for it
+};
+
+class AssetLibrary {
+ public:
+  /// Reads a mesh file, named relative to the scenario's folder.
+  using Loader = std::function<Expected<content::ImportedScene>(const std::string& uri)>;
+  explicit AssetLibrary(Loader loader);
+
+  /// The model of a node of a file (empty: the whole file), loaded on first use. What cannot be loaded is logged once and is a box.
+  const ObjectModel& model(const std::string& uri, const std::string& node);
+  /// Reads a file again that was missing, and makes the models that it was missing for, in their old place: references stay. True where
+  /// there were any.
+  bool load_again(const std::string& uri);
+  /// The file itself, or null when it is missing.
+  [[nodiscard]] const content::ImportedScene* file(const std::string& uri);
+  /// Adds a mesh, image or material of our own.
+  std::uint32_t add_mesh(picture::MeshData mesh);
+  std::uint32_t add_image(picture::ImageData image);
+  std::uint32_t add_material(const picture::MaterialData& material);
+
+  [[nodiscard]] const picture::SceneAssets& assets() const { return assets_; }
+  /// How much there is: another number, and there is something to upload.
+  [[nodiscard]] std::size_t size() const {
+    return assets_.meshes.size() + assets_.materials.size() + assets_.images.size();
+  }
+  /// "uri" or "uri#node", in order of name.
+  [[nodiscard]] const std::set<std::string>& missing() const { return missing_; }
+  /// What the graphics card did not take is missing, too: GpuAssets::refused().
+  void add_missing(const std::set<std::string>& names) { missing_.insert(names.begin(), names.end()); }
+
+ private:
+  struct File {
+    std::unique_ptr<content::ImportedScene> scene;  ///< null: missing
+    std::uint32_t first_material = 0;
+  };
+  File& load(const std::string& uri);
+  ObjectModel build(const std::string& uri, const std::string& node);
+  ObjectModel placeholder(const std::string& name, const std::string& why);
+  void add_materials(const content::ImportedScene& scene, const std::string& uri);
+
+  Loader loader_;
+  picture::SceneAssets assets_;
+  std::map<std::string, File> files_;
+  std::map<std::string, ObjectModel> models_;
+  std::set<std::string> missing_;
+};
+
+}  // namespace mechane::scene

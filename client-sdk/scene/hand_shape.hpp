@@ -1,0 +1,34 @@
+// A middle-sized right hand, as the server touches with: where its segments are for given joint angles. Frames as in
+// geometry/hand_skeleton.hpp. Segment 0 is the palm, then three a finger, from the thumb on, from the palm outwards.
+#pragma once
+
+#include <array>
+
+#include "server/hand/hand_skeleton.hpp"
+#include <mechane/client/types.hpp>
+
+namespace mechane::scene {
+
+[[nodiscard]] const hand::FingerSizes& finger_sizes();
+
+/// Angles of a finger's joints, radians; 0 is flat. Abduction turns about y, flexion towards the palm.
+struct FingerBend {
+  double aside = 0;
+  std::array<double, 3> flexion{};
+};
+using HandBend = std::array<FingerBend, client::kFingers>;
+
+using SegmentPoses = std::array<Pose, client::kHandSegments>;
+
+/// Poses of the segments in H.
+[[nodiscard]] SegmentPoses place_hand(const HandBend& bend);
+
+/// The middle of a finger's round end, in the frame that the poses are in.
+[[nodiscard]] Vec3 finger_tip(const SegmentPoses& X_S, std::size_t finger);
+
+/// A hand that shows at something with its index, the other fingers folded.
+[[nodiscard]] HandBend pointing_hand();
+/// A hand that holds something between thumb and index.
+[[nodiscard]] HandBend pinching_hand();
+
+}  // namespace mechane::scene
