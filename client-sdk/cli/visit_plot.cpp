@@ -17,8 +17,8 @@
 namespace mechane::cli {
 namespace {
 
-using record::AnswerTime;
-using record::VisitEnding;
+using visits::AnswerTime;
+using visits::VisitEnding;
 
 // The colours of the bench's plots.
 constexpr const char* kInk = "#1f1e1b";
@@ -279,7 +279,7 @@ std::string subtitle_of(std::span<const ActivitySummary> activities) {
     last = std::max(last, a.last_minute);
   }
   std::string text = fmt::format("{} visit{}, {} to {}", visits, visits == 1 ? "" : "s",
-                                 record::minute_text(first).substr(0, 10), record::minute_text(last).substr(0, 10));
+                                 visits::minute_text(first).substr(0, 10), visits::minute_text(last).substr(0, 10));
   const Satisfaction all = satisfaction_of(activities);
   if (const auto share = share_of(all.satisfied, all.marks))
     text += fmt::format("; {:.0f} % of {} marks given afterwards lie above the middle", 100 * *share, all.marks);

@@ -8,12 +8,12 @@
 namespace mechane::cli {
 namespace {
 
-using record::AnswerTime;
-using record::SheetAnswer;
-using record::SheetStep;
-using record::StepEnding;
-using record::VisitEnding;
-using record::VisitSheet;
+using visits::AnswerTime;
+using visits::SheetAnswer;
+using visits::SheetStep;
+using visits::StepEnding;
+using visits::VisitEnding;
+using visits::VisitSheet;
 
 /// A summary while it grows.
 class ActivityCount {
@@ -31,7 +31,7 @@ class ActivityCount {
     if (sheet.ending != VisitEnding::done && sheet.ending != VisitEnding::left) return;
     out_.done_alone += sheet.done_alone() ? 1 : 0;
     if (sheet.ending == VisitEnding::done && sheet.from_start) times_.push_back(sheet.duration_s);
-    for (const record::SheetMistake& mistake : sheet.mistakes)
+    for (const visits::SheetMistake& mistake : sheet.mistakes)
       out_.mistakes[static_cast<std::size_t>(mistake.kind)] += mistake.count;
   }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "server/record/visit_sheet.hpp"
+#include "server/visits/visit_sheet.hpp"
 
 namespace mechane::cli {
 
@@ -31,7 +31,7 @@ struct StepSummary {
 
 struct QuestionSummary {
   std::string name;
-  record::AnswerTime when = record::AnswerTime::after;
+  visits::AnswerTime when = visits::AnswerTime::after;
   std::size_t answers = 0;
   std::vector<std::size_t> at_mark;          ///< scale: how many gave each mark, 1 first; choice: empty
   double mean = 0;                           ///< scale
@@ -49,7 +49,7 @@ struct ActivitySummary {
   std::array<std::size_t, 4> ended{};  ///< by VisitEnding
   std::size_t done_alone = 0;          ///< of the done: without hint, time-out or skipped step
   TimeSpread time;                     ///< of the done that were seen from the activity's start
-  std::array<std::size_t, record::kMistakeKinds> mistakes{};
+  std::array<std::size_t, visits::kMistakeKinds> mistakes{};
   std::size_t hints = 0;
   std::size_t remarks = 0;
   std::size_t incomplete = 0;  ///< visits of which the server could not note all
@@ -64,7 +64,7 @@ struct ActivitySummary {
 };
 
 /// By scenario, then by activity.
-[[nodiscard]] std::vector<ActivitySummary> summarise(std::span<const record::VisitSheet> sheets);
+[[nodiscard]] std::vector<ActivitySummary> summarise(std::span<const visits::VisitSheet> sheets);
 
 /// Of all scale questions after visits: the published evaluation reports the share of satisfied visitors (section 6: over 95 %).
 struct Satisfaction {

@@ -12,13 +12,13 @@
 namespace mechane::cli {
 namespace {
 
-using record::MistakeKind;
-using record::SheetAnswer;
-using record::SheetMistake;
-using record::SheetStep;
-using record::StepEnding;
-using record::VisitEnding;
-using record::VisitSheet;
+using visits::MistakeKind;
+using visits::SheetAnswer;
+using visits::SheetMistake;
+using visits::SheetStep;
+using visits::StepEnding;
+using visits::VisitEnding;
+using visits::VisitSheet;
 using Json = nlohmann::ordered_json;
 
 std::size_t at(auto ending) {
@@ -76,8 +76,8 @@ std::string named_or_dash(const std::string& text) {
 }
 
 std::string days(std::int64_t first, std::int64_t last) {
-  const std::string from = record::minute_text(first).substr(0, 10);
-  const std::string to = record::minute_text(last).substr(0, 10);
+  const std::string from = visits::minute_text(first).substr(0, 10);
+  const std::string to = visits::minute_text(last).substr(0, 10);
   return from == to ? "on " + from : "from " + from + " to " + to;
 }
 
@@ -97,7 +97,7 @@ std::string mistakes_line(const ActivitySummary& a) {
   std::vector<std::string> kinds;
   for (std::size_t k = 0; k < a.mistakes.size(); ++k) {
     if (a.mistakes[k] > 0)
-      kinds.push_back(fmt::format("{} {}", record::word_of(static_cast<MistakeKind>(k)), a.mistakes[k]));
+      kinds.push_back(fmt::format("{} {}", visits::word_of(static_cast<MistakeKind>(k)), a.mistakes[k]));
   }
   std::string line = fmt::format("  errors a visit {:.2f}{}; {}", a.mistakes_a_visit(),
                                  kinds.empty() ? "" : fmt::format(" ({})", fmt::join(kinds, ", ")),
@@ -165,7 +165,7 @@ Cells cells_of(const VisitSheet& sheet) {
 std::vector<std::string> fixed_cells(const VisitSheet& sheet) {
   const auto steps = [&](const auto& fits) { return fmt::format("{}", std::ranges::count_if(sheet.steps, fits)); };
   std::vector<std::string> cells{sheet.number,
-                                 record::minute_text(sheet.minute),
+                                 visits::minute_text(sheet.minute),
                                  sheet.kiosk,
                                  sheet.scenario,
                                  sheet.scenario_hash,
@@ -180,10 +180,10 @@ std::vector<std::string> fixed_cells(const VisitSheet& sheet) {
                                  steps([](const SheetStep& s) { return s.hint_shown; }),
                                  steps([](const SheetStep& s) { return s.ending == StepEnding::timed_out; }),
                                  steps([](const SheetStep& s) { return s.ending == StepEnding::skipped; })};
-  for (std::size_t k = 0; k < record::kMistakeKinds; ++k)
+  for (std::size_t k = 0; k < visits::kMistakeKinds; ++k)
     cells.push_back(fmt::format("{}", sheet.count_of(static_cast<MistakeKind>(k))));
   std::vector<std::string> remarks;
-  for (const record::SheetRemark& remark : sheet.remarks)
+  for (const visits::SheetRemark& remark : sheet.remarks)
     remarks.push_back(remark.text);
   cells.push_back(fmt::format("{}", fmt::join(remarks, "\n")));
   return cells;
@@ -229,7 +229,7 @@ Json json_of(const ActivitySummary& a) {
     questions.push_back(json_of(q));
   Json mistakes = Json::object();
   for (std::size_t k = 0; k < a.mistakes.size(); ++k)
-    mistakes[std::string(record::word_of(static_cast<MistakeKind>(k)))] = a.mistakes[k];
+    mistakes[std::string(visits::word_of(static_cast<MistakeKind>(k)))] = a.mistakes[k];
   return {{"scenario", a.scenario},
           {"activity", a.activity},
           {"visits", a.visits},
@@ -275,10 +275,10 @@ Json json_of(const VisitSheet& sheet) {
   for (const SheetAnswer& answer : sheet.answers)
     answers.push_back(json_of(answer));
   Json remarks = Json::array();
-  for (const record::SheetRemark& remark : sheet.remarks)
-    remarks.push_back({{"when", record::minute_text(remark.minute)}, {"text", remark.text}});
+  for (const visits::SheetRemark& remark : sheet.remarks)
+    remarks.push_back({{"when", visits::minute_text(remark.minute)}, {"text", remark.text}});
   return {{"visit", sheet.number},
-          {"began", record::minute_text(sheet.minute)},
+          {"began", visits::minute_text(sheet.minute)},
           {"kiosk", sheet.kiosk},
           {"scenario", sheet.scenario},
           {"scenario_hash", sheet.scenario_hash},
@@ -332,7 +332,7 @@ std::string visits_list(std::span<const VisitSheet> sheets) {
     for (const SheetMistake& mistake : sheet.mistakes)
       mistakes += mistake.count;
     const auto hints = std::ranges::count_if(sheet.steps, [](const SheetStep& step) { return step.hint_shown; });
-    table.add({sheet.number, record::minute_text(sheet.minute), shown(sheet.kiosk), shown(sheet.scenario),
+    table.add({sheet.number, visits::minute_text(sheet.minute), shown(sheet.kiosk), shown(sheet.scenario),
                shown(sheet.activity), std::string(word_of(sheet.ending)), fmt::format("{:.1f}", sheet.duration_s),
                fmt::format("{}", mistakes), fmt::format("{}", hints), fmt::format("{}", sheet.answers.size()),
                fmt::format("{}", sheet.remarks.size())});
@@ -343,7 +343,7 @@ std::string visits_list(std::span<const VisitSheet> sheets) {
 std::string visit_page(const VisitSheet& sheet) {
   std::string page = fmt::format("{}: {}, {}\n", sheet.number, shown(sheet.scenario), shown(sheet.activity));
   const auto line = [&](const char* what, const std::string& text) { page += fmt::format("  {:<9} {}\n", what, text); };
-  line("began", record::minute_text(sheet.minute) + " UTC, at " + shown(sheet.kiosk));
+  line("began", visits::minute_text(sheet.minute) + " UTC, at " + shown(sheet.kiosk));
   line("language", named_or_dash(sheet.language));
   line("hands", fmt::format("{}", sheet.hands));
   line("ending", fmt::format("{} after {:.1f} s{}{}", word_of(sheet.ending), sheet.duration_s,
@@ -362,8 +362,8 @@ std::string visit_page(const VisitSheet& sheet) {
     line("answer", fmt::format("{}, {}: {}{}", shown(answer.question), word_of(answer.when), value,
                                !answer.right ? "" : (*answer.right ? ", right" : ", wrong")));
   }
-  for (const record::SheetRemark& remark : sheet.remarks)
-    line("remark", fmt::format("{}: {}", record::minute_text(remark.minute), shown(remark.text)));
+  for (const visits::SheetRemark& remark : sheet.remarks)
+    line("remark", fmt::format("{}: {}", visits::minute_text(remark.minute), shown(remark.text)));
   return page;
 }
 
@@ -371,7 +371,7 @@ std::string visits_csv(std::span<const VisitSheet> sheets) {
   std::vector<std::string> head{"visit",      "began (UTC)", "kiosk",      "scenario",   "scenario hash", "activity",
                                 "language",   "ending",      "done alone", "from start", "duration s",    "hands",
                                 "went on to", "hints",       "timed out",  "skipped"};
-  for (std::size_t k = 0; k < record::kMistakeKinds; ++k)
+  for (std::size_t k = 0; k < visits::kMistakeKinds; ++k)
     head.emplace_back(word_of(static_cast<MistakeKind>(k)));
   head.emplace_back("remarks");
   Cells columns;

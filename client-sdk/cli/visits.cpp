@@ -14,16 +14,16 @@
 #include "client-sdk/cli/visit_plot.hpp"
 #include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
-#include "server/record/visit_file.hpp"
+#include "server/visits/visit_file.hpp"
 #include "server/scenario/problem.hpp"
 
 namespace mechane::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using record::VisitChoice;
-using record::VisitFile;
-using record::VisitSheet;
+using visits::VisitChoice;
+using visits::VisitFile;
+using visits::VisitSheet;
 
 constexpr int kWrongArguments = 2;
 
@@ -45,7 +45,7 @@ class VisitsCommand {
     return status;
   }
   [[nodiscard]] fs::path file() const {
-    return options_.file.empty() ? options_.records / record::kVisitFileName : options_.file;
+    return options_.file.empty() ? options_.records / visits::kVisitFileName : options_.file;
   }
   /// What the options choose. Errors: a date that is none.
   [[nodiscard]] Expected<VisitChoice> choice() const;
@@ -66,7 +66,7 @@ Expected<VisitChoice> VisitsCommand::choice() const {
   for (const auto& [text, minute] :
        {std::pair(&options_.since, &choice.since), std::pair(&options_.before, &choice.before)}) {
     if (text->empty()) continue;
-    const auto date = record::minute_of_text(*text);
+    const auto date = visits::minute_of_text(*text);
     if (!date) return tl::unexpected(date.error());
     *minute = *date;
   }
@@ -169,7 +169,7 @@ int VisitsCommand::show() {
 int VisitsCommand::remark() {
   auto opened = VisitFile::open(file(), VisitFile::Access::write);
   if (!opened) return failed(opened.error());
-  const auto number = opened->remark(options_.visit, {record::minute_now(), options_.text});
+  const auto number = opened->remark(options_.visit, {visits::minute_now(), options_.text});
   if (!number) return failed(number.error());
   fmt::print(out_, "{}: remark kept\n", *number);
   return 0;

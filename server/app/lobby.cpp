@@ -27,12 +27,12 @@ std::string step_name(const state::WorldDescription& description, const state::W
 }
 
 /// An answer by the names that the scenario gives, as a sheet keeps it.
-record::VisitAnswer sheet_answer(const state::WorldDescription& description, const transport::VisitAnswer& given) {
+visits::VisitAnswer sheet_answer(const state::WorldDescription& description, const transport::VisitAnswer& given) {
   const state::ActivityDescription& activity = description.activities[given.activity.index()];
   const state::QuestionDescription& question = activity.questionnaire[given.question];
   const bool choice = question.kind == state::QuestionDescription::Kind::choice;
   return {activity.name, question.name, choice ? question.answers[given.answer].name : std::to_string(given.answer),
-          given.after ? record::AnswerTime::after : record::AnswerTime::before};
+          given.after ? visits::AnswerTime::after : visits::AnswerTime::before};
 }
 
 std::string who(const Session& session) {
@@ -43,7 +43,7 @@ std::string who(const Session& session) {
 }  // namespace
 
 Lobby::Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
-             record::Recorder* recorder, record::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops)
+             record::Recorder* recorder, visits::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops)
     : settings_(settings),
       scenarios_(scenarios),
       transport_(transport),
@@ -362,7 +362,7 @@ void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot, const 
   wait_until_left(entry);
   if (entry.visits != nullptr) {
     const bool stops = snapshot == record::WorldRecorder::Snapshot::keep;
-    entry.visits->close(stops ? record::VisitEnding::cut : record::VisitEnding::left, went_on_to);
+    entry.visits->close(stops ? visits::VisitEnding::cut : visits::VisitEnding::left, went_on_to);
   }
   const state::WorldState& state = entry.running.world->state;
   if (entry.running.recorder) {

@@ -24,7 +24,7 @@ class Lobby {
  public:
   /// All arguments outlive the lobby. `recorder` and `sheets` may be null: nothing is kept.
   Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
-        record::Recorder* recorder, record::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops);
+        record::Recorder* recorder, visits::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops);
   ~Lobby();
 
   void take(const transport::News& news, TimePoint now);
@@ -78,7 +78,7 @@ class Lobby {
   const ScenarioStore& scenarios_;
   transport::ServerTransport& transport_;
   record::Recorder* recorder_;
-  record::VisitSheets* sheets_;
+  visits::VisitSheets* sheets_;
   std::vector<std::unique_ptr<WorldLoop>>& loops_;
   std::map<std::string, std::unique_ptr<Entry>> worlds_;
   std::vector<record::SnapshotFile> from_before_;  // of the run before this one

@@ -13,7 +13,7 @@
 #include "server/app/world_loop.hpp"
 #include "server/log/log.hpp"
 #include "server/record/recorder.hpp"
-#include "server/record/visit_sheets.hpp"
+#include "server/visits/visit_sheets.hpp"
 #include "server/transport/server_transport.hpp"
 
 namespace mechane::app {
@@ -66,7 +66,7 @@ class Server::Impl {
   SystemClock main_clock_;
   std::optional<ScenarioStore> scenarios_;
   std::unique_ptr<record::Recorder> recorder_;
-  std::unique_ptr<record::VisitSheets> sheets_;
+  std::unique_ptr<visits::VisitSheets> sheets_;
   std::unique_ptr<transport::ServerTransport> transport_;
   std::vector<std::unique_ptr<SystemClock>> clocks_;
   std::vector<std::unique_ptr<WorldLoop>> loops_;
@@ -108,11 +108,11 @@ Expected<void> Server::Impl::start_records() {
     recorder_ = std::move(*recorder);
   }
   if (const std::filesystem::path file = settings_.visits_file(); !file.empty()) {
-    record::VisitSheetsConfig config;
+    visits::VisitSheetsConfig config;
     config.file = file;
     config.keep_days = settings_.visits_keep_days;
     config.max_bytes = settings_.visits_limit_mb * 1'000'000;
-    auto sheets = record::VisitSheets::create(config);
+    auto sheets = visits::VisitSheets::create(config);
     if (!sheets) return tl::unexpected(sheets.error());
     sheets_ = std::move(*sheets);
   }

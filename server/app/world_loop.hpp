@@ -11,7 +11,7 @@
 #include "server/realtime/periodic_thread.hpp"
 #include "server/realtime/ring.hpp"
 #include "server/record/recorder.hpp"
-#include "server/record/visit_feed.hpp"
+#include "server/visits/visit_feed.hpp"
 #include "server/transport/world_port.hpp"
 #include "server/world/step.hpp"
 
@@ -22,7 +22,7 @@ struct RunningWorld {
   std::unique_ptr<world::World> world;
   transport::WorldPort* port = nullptr;           ///< lives in the transport
   std::optional<record::WorldRecorder> recorder;  ///< none: nothing is kept
-  record::VisitFeed* visits = nullptr;            ///< lives with the world; null: no visitor's sheet is kept
+  visits::VisitFeed* visits = nullptr;            ///< lives with the world; null: no visitor's sheet is kept
   /// Hands the state to the recorder, which there must be. Whoever the world belongs to at the moment.
   void keep_snapshot() noexcept;
 

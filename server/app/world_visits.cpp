@@ -4,7 +4,7 @@
 
 namespace mechane::app {
 
-WorldVisits::WorldVisits(record::VisitSheets& sheets, const std::shared_ptr<const state::WorldDescription>& description,
+WorldVisits::WorldVisits(visits::VisitSheets& sheets, const std::shared_ptr<const state::WorldDescription>& description,
                          const std::string& kiosk, const state::WorldState& state, bool resumed)
     : sheets_(sheets),
       observer_(description, kiosk, state.progress, state.tick,
@@ -13,28 +13,28 @@ WorldVisits::WorldVisits(record::VisitSheets& sheets, const std::shared_ptr<cons
 void WorldVisits::look() {
   const std::uint64_t tick = feed_.tick();  // before the notes: those of this tick are in the queue
   const std::uint32_t lost = feed_.lost();
-  record::VisitNote note;
+  visits::VisitNote note;
   while (feed_.take(note))
     observer_.take(note);
   observer_.look(tick, lost);
   hand_over();
 }
 
-Expected<void> WorldVisits::answer(const record::VisitAnswer& answer) {
+Expected<void> WorldVisits::answer(const visits::VisitAnswer& answer) {
   look();
   auto taken = observer_.answer(answer);
   hand_over();
   return taken;
 }
 
-void WorldVisits::close(record::VisitEnding why, const std::string& went_on_to) {
+void WorldVisits::close(visits::VisitEnding why, const std::string& went_on_to) {
   look();
   observer_.close(why, went_on_to);
   hand_over();
 }
 
 void WorldVisits::hand_over() {
-  for (record::VisitSheet& sheet : observer_.take_changed())
+  for (visits::VisitSheet& sheet : observer_.take_changed())
     sheets_.put(std::move(sheet));
 }
 

@@ -24,8 +24,9 @@ ARROWS = {
     "server/content": ["server/geometry", "server/collision"],
     "server/scenario": ["server/state", "server/content"],
     "server/record": ["server/state", "server/realtime"],
+    "server/visits": ["server/state", "server/realtime"],
     "server/transport": ["proto", "server/state", "server/realtime"],
-    "server/app": ["server/world", "server/scenario", "server/record", "server/transport"],
+    "server/app": ["server/world", "server/scenario", "server/record", "server/visits", "server/transport"],
     "proto": ["server/hand"],
     "client-sdk/client": ["proto", "server/realtime", "server/hand"],
     "client-sdk/haptic": ["client-sdk/client"],
@@ -40,7 +41,7 @@ ARROWS = {
     "client-sdk/display": ["client-sdk/draw", "client-sdk/scene", "client-sdk/sound", "client-sdk/pointer", "client-sdk/recording"],
     "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
     "client-sdk/fit": ["server/content"],
-    "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/record"],
+    "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/visits"],
     "client-sdk/examples": ["client-sdk/client"],
 }
 
@@ -58,7 +59,7 @@ LIBRARIES = {
     "Bullet": (re.compile(r"(bt\w+\.h|(bullet|BulletDynamics|BulletCollision|LinearMath)/.*)$"), {"server/dynamics"}),
     "assimp": (re.compile(r"assimp/"), {"server/content"}),
     "pugixml": (re.compile(r"pugixml"), {"server/scenario"}),
-    "SQLite": (re.compile(r"(sqlite3|SQLiteCpp)"), {"server/content", "server/record"}),
+    "SQLite": (re.compile(r"(sqlite3|SQLiteCpp)"), {"server/content", "server/visits"}),
     "Cyclone DDS": (re.compile(r"(dds/|ddsc/)"), {"proto", "server/transport", "client-sdk/client", "client-sdk/cli"}),
     "spdlog": (re.compile(r"spdlog/"), {"server/log"}),
     "OpenGL": (re.compile(r"(epoxy|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/draw", "client-sdk/display"}),

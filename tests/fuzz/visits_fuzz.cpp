@@ -11,12 +11,12 @@
 
 #include "client-sdk/cli/visit_plot.hpp"
 #include "client-sdk/cli/visit_text.hpp"
-#include "server/record/visit_file.hpp"
+#include "server/visits/visit_file.hpp"
 
 namespace {
 
 namespace cli = mechane::cli;
-using mechane::record::VisitFile;
+using mechane::visits::VisitFile;
 
 /// One file for all inputs of a run, in memory where there is a place for that; it goes with the program.
 struct SheetsFile {

@@ -14,9 +14,9 @@ namespace mechane::app {
 namespace {
 
 namespace fs = std::filesystem;
-using record::VisitEnding;
-using record::VisitFile;
-using record::VisitSheet;
+using visits::VisitEnding;
+using visits::VisitFile;
+using visits::VisitSheet;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -41,9 +41,9 @@ class WorldVisitsTest : public testing::Test {
   /// A server, or the next one.
   void start() {
     sheets_.reset();
-    record::VisitSheetsConfig config;
-    config.file = folder_ / record::kVisitFileName;
-    auto made = record::VisitSheets::create(config);
+    visits::VisitSheetsConfig config;
+    config.file = folder_ / visits::kVisitFileName;
+    auto made = visits::VisitSheets::create(config);
     ASSERT_TRUE(made) << made.error().to_string();
     sheets_ = std::move(*made);
   }
@@ -57,7 +57,7 @@ class WorldVisitsTest : public testing::Test {
   }
   std::vector<VisitSheet> on_disk() {
     sheets_.reset();  // writes what waits
-    const auto file = VisitFile::open(folder_ / record::kVisitFileName, VisitFile::Access::read);
+    const auto file = VisitFile::open(folder_ / visits::kVisitFileName, VisitFile::Access::read);
     EXPECT_TRUE(file) << file.error().to_string();
     return file ? file->sheets({}).value() : std::vector<VisitSheet>();
   }
@@ -70,7 +70,7 @@ class WorldVisitsTest : public testing::Test {
 
   fs::path folder_;
   std::shared_ptr<const state::WorldDescription> description_;
-  std::unique_ptr<record::VisitSheets> sheets_;
+  std::unique_ptr<visits::VisitSheets> sheets_;
 };
 
 TEST_F(WorldVisitsTest, WhatTheLoopNotesAndTheVisitorAnswersIsOnTheDisk) {
@@ -79,8 +79,8 @@ TEST_F(WorldVisitsTest, WhatTheLoopNotesAndTheVisitorAnswersIsOnTheDisk) {
     WorldVisits visits(*sheets_, description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     tick(visits, state, {state::EventKind::activity_done});
-    ASSERT_TRUE(visits.answer({"use", "easy", "5", record::AnswerTime::after}));
-    EXPECT_THAT(visits.answer({"use", "easy", "9", record::AnswerTime::after}).error().to_string(),
+    ASSERT_TRUE(visits.answer({"use", "easy", "5", visits::AnswerTime::after}));
+    EXPECT_THAT(visits.answer({"use", "easy", "9", visits::AnswerTime::after}).error().to_string(),
                 HasSubstr("1 to 5"));
     visits.close(VisitEnding::left, "");
   }

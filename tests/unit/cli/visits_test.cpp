@@ -10,19 +10,19 @@
 #include "client-sdk/cli/visit_plot.hpp"
 #include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
-#include "server/record/visit_file.hpp"
+#include "server/visits/visit_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using record::AnswerTime;
-using record::MistakeKind;
-using record::StepEnding;
-using record::VisitEnding;
-using record::VisitFile;
-using record::VisitSheet;
+using visits::AnswerTime;
+using visits::MistakeKind;
+using visits::StepEnding;
+using visits::VisitEnding;
+using visits::VisitFile;
+using visits::VisitSheet;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;

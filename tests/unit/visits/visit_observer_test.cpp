@@ -1,9 +1,9 @@
-#include "server/record/visit_observer.hpp"
+#include "server/visits/visit_observer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 using state::CommandKind;
@@ -478,4 +478,4 @@ TEST(VisitFeed, AFullOneLosesAndCounts) {
 }
 
 }  // namespace
-}  // namespace mechane::record
+}  // namespace mechane::visits

@@ -1,4 +1,4 @@
-#include "server/record/visit_sheet.hpp"
+#include "server/visits/visit_sheet.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 constexpr std::array<std::string_view, 2> kAnswerTimes{"before", "after"};
@@ -120,4 +120,4 @@ Expected<std::int64_t> minute_of_text(std::string_view text) {
   return (days * 24 + *hour) * 60 + *minute;
 }
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

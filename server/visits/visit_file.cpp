@@ -1,4 +1,4 @@
-#include "server/record/visit_file.hpp"
+#include "server/visits/visit_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 namespace fs = std::filesystem;
@@ -575,4 +575,4 @@ Expected<fs::path> set_aside(const fs::path& file) {
   return aside;
 }
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

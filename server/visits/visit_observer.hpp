@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "server/record/visit_feed.hpp"
-#include "server/record/visit_sheet.hpp"
+#include "server/visits/visit_feed.hpp"
+#include "server/visits/visit_sheet.hpp"
 #include "server/state/description.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 
 /// Where numbers and times come from; a test has its own.
 struct VisitSources {
@@ -113,4 +113,4 @@ class VisitObserver {
   std::uint32_t lost_before_ = 0;
 };
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

@@ -3,9 +3,9 @@
 
 #include <rapidcheck.h>
 
-#include "server/record/visit_sheet.hpp"
+#include "server/visits/visit_sheet.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 
 inline VisitSheet plain_sheet(std::int64_t minute = 29'000'000) {
   VisitSheet sheet;
@@ -60,4 +60,4 @@ inline VisitSheet any_sheet() {
   return sheet;
 }
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

@@ -1,8 +1,8 @@
-#include "server/record/visit_feed.hpp"
+#include "server/visits/visit_feed.hpp"
 
 #include <algorithm>
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 using state::EventKind;
@@ -81,4 +81,4 @@ void VisitFeed::push(const state::WorldDescription& description, const state::Wo
   tick_.store(state.tick, std::memory_order_release);
 }
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

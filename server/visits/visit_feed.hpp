@@ -9,7 +9,7 @@
 #include "server/state/input.hpp"
 #include "server/state/world_state.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 
 /// An event that a sheet may need, with what only the loop knows at that moment.
 struct VisitNote {
@@ -42,4 +42,4 @@ class VisitFeed {
   std::atomic<std::uint32_t> lost_{0};
 };
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "server/base/error.hpp"
-#include "server/record/visit_sheet.hpp"
+#include "server/visits/visit_sheet.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 
 inline constexpr const char* kVisitFileName = "visits.db";
 
@@ -79,4 +79,4 @@ class VisitFile {
 /// Moves a damaged file, and what SQLite keeps beside it, out of the way: "visits.db.damaged-20261122-0940". Returns its new name.
 [[nodiscard]] Expected<std::filesystem::path> set_aside(const std::filesystem::path& file);
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

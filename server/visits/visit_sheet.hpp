@@ -11,7 +11,7 @@
 
 #include "server/base/error.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 
 /// When a question was asked, seen from the activity.
 enum class AnswerTime : std::uint8_t { before, after };
@@ -130,4 +130,4 @@ inline constexpr std::size_t kMistakeKinds = 5;
 /// From "2026-11-22" or "2026-11-22 09:40", UTC. Errors: it is neither.
 [[nodiscard]] Expected<std::int64_t> minute_of_text(std::string_view text);
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

@@ -1,4 +1,4 @@
-#include "server/record/visit_sheets.hpp"
+#include "server/visits/visit_sheets.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -10,7 +10,7 @@
 
 #include "server/log/log.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 constexpr Duration kLookForOld = std::chrono::hours(1);
@@ -237,4 +237,4 @@ void VisitSheets::retain(TimePoint time) {
   status_.deleted += *deleted;
 }
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

@@ -1,4 +1,4 @@
-#include "server/record/visit_sheets.hpp"
+#include "server/visits/visit_sheets.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -12,9 +12,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/unit/record/visit_sheet_samples.hpp"
+#include "tests/unit/visits/visit_sheet_samples.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 namespace fs = std::filesystem;
@@ -217,4 +217,4 @@ TEST_F(VisitSheetsTest, OldSheetsGoByThemselves) {
 }
 
 }  // namespace
-}  // namespace mechane::record
+}  // namespace mechane::visits

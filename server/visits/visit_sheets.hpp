@@ -15,9 +15,9 @@
 
 #include "server/base/clock.hpp"
 #include "server/base/error.hpp"
-#include "server/record/visit_file.hpp"
+#include "server/visits/visit_file.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 
 struct VisitSheetsConfig {
   std::filesystem::path file;                      ///< its folder is made when it is missing
@@ -91,4 +91,4 @@ class VisitSheets {
   std::thread thread_;  // last: it ends before what it uses does
 };
 
-}  // namespace mechane::record
+}  // namespace mechane::visits

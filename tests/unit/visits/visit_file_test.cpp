@@ -1,4 +1,4 @@
-#include "server/record/visit_file.hpp"
+#include "server/visits/visit_file.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -11,9 +11,9 @@
 #include <unistd.h>
 
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/record/visit_sheet_samples.hpp"
+#include "tests/unit/visits/visit_sheet_samples.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ RC_GTEST_PROP(VisitFile, ADateThatIsWrittenIsReadAgain, ()) {
 }
 
 }  // namespace
-}  // namespace mechane::record
+}  // namespace mechane::visits

@@ -1,4 +1,4 @@
-#include "server/record/visit_observer.hpp"
+#include "server/visits/visit_observer.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +9,7 @@
 
 #include "server/base/clock.hpp"
 
-namespace mechane::record {
+namespace mechane::visits {
 namespace {
 
 using state::EventKind;
@@ -405,4 +405,4 @@ std::vector<VisitSheet> VisitObserver::take_changed() {
   return changed;
 }
 
-}  // namespace mechane::record
+}  // namespace mechane::visits
