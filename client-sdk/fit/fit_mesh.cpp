@@ -47,8 +47,9 @@ Expected<void> import_parts(const FitOptions& options, FittedObject& fitted) {
 }
 
 Expected<void> build(FittedObject& fitted, Progress& progress) {
-  auto object = collision::build_object(fitted.meshes, fitted.config, &fitted.report,
-                                        [&](std::size_t done, std::size_t parts) { progress.advance(done, parts); });
+  auto object =
+      collision_build::build_object(fitted.meshes, fitted.config, &fitted.report,
+                                    [&](std::size_t done, std::size_t parts) { progress.advance(done, parts); });
   if (!object) return in_file(fitted.mesh_file, object.error());
   fitted.object = std::move(*object);
   return {};

@@ -13,7 +13,7 @@
 namespace mechane::fit {
 
 struct FitOptions {
-  collision::BuildConfig config;
+  collision_build::BuildConfig config;
   std::filesystem::path folder;  ///< for the results; empty: beside the mesh
   std::string node;              ///< only what is under this node of the file; empty: all
   bool whole = false;            ///< all meshes are one piece, whatever the file's nodes say

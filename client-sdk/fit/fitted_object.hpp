@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/collision/object_builder.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "server/geometry/mesh.hpp"
 
 namespace mechane::fit {
@@ -19,9 +19,9 @@ struct FittedObject {
   std::size_t part_file_bytes = 0;
   std::vector<geometry::NamedMesh> meshes;  ///< as the builder got them, welded, in the object's frame O
   std::vector<std::string> turned;          ///< meshes that came inside out, by name
-  collision::BuildConfig config;
+  collision_build::BuildConfig config;
   collision::Object object;
-  collision::BuildReport report;
+  collision_build::BuildReport report;
 };
 
 }  // namespace mechane::fit

@@ -19,7 +19,8 @@ constexpr double kMissedShare = 0.002;  // of the surface: more of it gone, and 
 constexpr double kLargeObject_mm = 20'000;
 constexpr double kSmallObject_mm = 10;
 
-PartSummary part_summary(const collision::Part& part, const collision::PartReport& report, std::size_t triangles) {
+PartSummary part_summary(const collision::Part& part, const collision_build::PartReport& report,
+                         std::size_t triangles) {
   PartSummary s;
   s.name = part.name;
   s.triangles = triangles;
@@ -76,7 +77,7 @@ void note_size(Summary& summary) {
 /// A budget that was missed is no secret: what was asked for is not what one gets.
 void note_budget(const FittedObject& fitted, Summary& summary) {
   std::vector<std::string> inexact;
-  for (const collision::PartReport& part : fitted.report.parts) {
+  for (const collision_build::PartReport& part : fitted.report.parts) {
     if (!part.met) inexact.push_back(part.name);
   }
   summary.misses_budget = !inexact.empty();
@@ -175,7 +176,7 @@ std::string verdict(const Summary& summary) {
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject& fitted) {
-  const collision::BuildConfig& config = fitted.config;
+  const collision_build::BuildConfig& config = fitted.config;
   const std::string resolution =
       config.map_resolution == 0 ? "the smallest that does" : fmt::format("{} texels an edge", config.map_resolution);
   return {{"metres of a unit (--scale)", fmt::format("{:g}", fitted.scale)},

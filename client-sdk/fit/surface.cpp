@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "server/base/parallel.hpp"
-#include "server/collision/solid.hpp"
+#include "server/collision_build/solid.hpp"
 
 namespace mechane::fit {
 namespace {
@@ -27,7 +27,7 @@ Vec3 normal_of(const geometry::Mesh& mesh, std::uint32_t triangle) {
   return (mesh.vertices[v[1]] - a).cross(mesh.vertices[v[2]] - a).normalized();
 }
 
-bool borders_on_air(const geometry::Mesh& mesh, std::uint32_t triangle, const collision::Solid& solid,
+bool borders_on_air(const geometry::Mesh& mesh, std::uint32_t triangle, const collision_build::Solid& solid,
                     std::uint32_t owner) {
   const Vec3 n = normal_of(mesh, triangle);
   const Vec3 middle = middle_of(mesh, triangle);
@@ -52,7 +52,7 @@ std::uint32_t nearest_part(const collision::Object& object, const Vec3& p_O) {
   return best;
 }
 
-collision::Solid solid_of(const FittedObject& fitted) {
+collision_build::Solid solid_of(const FittedObject& fitted) {
   std::vector<geometry::Mesh> meshes;
   meshes.reserve(fitted.meshes.size());
   for (const auto& part : fitted.meshes)

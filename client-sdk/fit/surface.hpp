@@ -7,7 +7,7 @@
 
 #include "client-sdk/fit/fitted_object.hpp"
 #include "client-sdk/fit/probe.hpp"
-#include "server/collision/solid.hpp"
+#include "server/collision_build/solid.hpp"
 #include "server/geometry/mesh_query.hpp"
 
 namespace mechane::fit {
@@ -46,8 +46,8 @@ class Surface {
   std::vector<bool> exposed_;
   std::vector<std::uint32_t> mesh_of_triangle_;
   std::vector<std::uint32_t> part_of_triangle_;
-  collision::Solid solid_;    // of the meshes, as the builder sees them
-  geometry::MeshQuery skin_;  // triangles that border on air somewhere
+  collision_build::Solid solid_;  // of the meshes, as the builder sees them
+  geometry::MeshQuery skin_;      // triangles that border on air somewhere
   double diagonal_m_ = 0;
   std::size_t parts_ = 0;
 };

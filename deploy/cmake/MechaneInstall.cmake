@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(rooms base geometry collision)
+set(rooms base geometry collision collision_build)
 foreach(room IN LISTS rooms)
   # The headers name each other from the repository's root, so they keep their folders.
   install(DIRECTORY "${CMAKE_SOURCE_DIR}/server/${room}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mechane/server"
@@ -13,7 +13,7 @@ endforeach()
 target_compile_features(mechane_base INTERFACE cxx_std_20)
 # Eigen aligns by the instruction set that it is compiled for. Whoever takes the library with -march=native must have its layout.
 target_compile_definitions(mechane_base INTERFACE $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>)
-install(TARGETS mechane_base mechane_geometry mechane_collision EXPORT mechane-collision
+install(TARGETS mechane_base mechane_geometry mechane_collision mechane_collision_build EXPORT mechane-collision
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT collision
         INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mechane")
 

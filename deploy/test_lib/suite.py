@@ -46,7 +46,7 @@ TOO_SLOW_SANITIZED = ("Visit.test_(two|five|without|a_whole|a_click)", "Visits.t
                       "SameInputSameBits", "AStackOfThree", "AHeapOfAll", "AGearIsOneBrick", "ATrainOfThem", "^exhibits", "Film.test_",
                       "PlacePictures.look_as", "PlantedFault")
 # What has threads of its own.
-THREADED = ("unit_realtime", "unit_record", "unit_transport", "unit_client", "unit_content", "unit_collision", "unit_world")
+THREADED = ("unit_realtime", "unit_record", "unit_visits", "unit_transport", "unit_client", "unit_content", "unit_collision", "unit_collision_build", "unit_world")
 
 
 @dataclass

@@ -19,7 +19,7 @@ class StoreLoader final : public scenario::ObjectLoader {
   explicit StoreLoader(content::ObjectStore& store) : store_(store) {}
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                         const std::string& node) override {
-    return store_.load(file, node, collision::BuildConfig{});
+    return store_.load(file, node, collision_build::BuildConfig{});
   }
   [[nodiscard]] Expected<std::string> content_hash(const std::filesystem::path& file) override {
     return scenario::hash_file(file);

@@ -1,7 +1,8 @@
+#include "server/collision/superquadric_object.hpp"
+
 #include <cmath>
 
 #include "server/base/assert.hpp"
-#include "server/collision/object_builder.hpp"
 #include "server/collision/samples.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "server/geometry/surface_samples.hpp"

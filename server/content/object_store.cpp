@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kSecondsBetweenLines = 5;
 
 /// What the file of the object is called: whatever can change the object is in the name.
-std::string cache_name(const std::string& geometry, const collision::BuildConfig& config) {
+std::string cache_name(const std::string& geometry, const collision_build::BuildConfig& config) {
   const std::string key = fmt::format(
       "part file {} build {} geometry {} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} {} "
       "maps {}{} bounds {} resolution {} "
@@ -116,14 +116,14 @@ Expected<std::string> ObjectStore::geometry_of(const fs::path& file, const std::
 }
 
 Expected<fs::path> ObjectStore::cache_file(const fs::path& file, const std::string& node,
-                                           const collision::BuildConfig& config) {
+                                           const collision_build::BuildConfig& config) {
   const Expected<std::string> geometry = geometry_of(file, node);
   if (!geometry) return tl::unexpected(geometry.error());
   return cache_folder_ / cache_name(*geometry, config);
 }
 
 Expected<std::shared_ptr<const collision::Object>> ObjectStore::load(const fs::path& file, const std::string& node,
-                                                                     const collision::BuildConfig& config) {
+                                                                     const collision_build::BuildConfig& config) {
   const Expected<fs::path> cached = cache_file(file, node, config);
   if (!cached) return tl::unexpected(cached.error());
   std::weak_ptr<const collision::Object>& known = known_[*cached];
@@ -143,13 +143,13 @@ Expected<std::shared_ptr<const collision::Object>> ObjectStore::load(const fs::p
 }
 
 Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::string& node,
-                                               const collision::BuildConfig& config) {
+                                               const collision_build::BuildConfig& config) {
   const auto parts = parts_of(file, node);
   if (!parts) return tl::unexpected(parts.error());
   if (progress_) progress_(node, parts->size());
   const std::string name = node.empty() ? "(all)" : node;
   log::info(fmt::format("{}, node {}: building it for touch; the next start finds it ready", file.string(), name));
-  collision::BuildReport report;
+  collision_build::BuildReport report;
   std::atomic<std::int64_t> next_line_s{kSecondsBetweenLines};
   const auto began = std::chrono::steady_clock::now();
   const auto say = [&](std::size_t done, std::size_t all) {
@@ -158,7 +158,7 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
     if (s < due || !next_line_s.compare_exchange_strong(due, s + kSecondsBetweenLines)) return;
     log::info(fmt::format("{}, node {}: {} of {} parts built", file.string(), name, done, all));
   };
-  Expected<collision::Object> object = collision::build_object(*parts, config, &report, say);
+  Expected<collision::Object> object = collision_build::build_object(*parts, config, &report, say);
   if (!object) return within(file, object.error());
   const auto over = std::count_if(report.parts.begin(), report.parts.end(), [](const auto& part) { return !part.met; });
   log::info(fmt::format("{}, node {}: {} parts of {} KB in {:.1f} s; touch is true to {:.2f} mm at 99 % of the surface",

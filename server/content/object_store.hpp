@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "server/base/error.hpp"
-#include "server/collision/object_builder.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "server/content/import_limits.hpp"
 #include "server/content/imported_scene.hpp"
 
@@ -43,11 +43,11 @@ class ObjectStore {
   /// Errors: those of import_mesh, collision_parts and build_object.
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                         const std::string& node,
-                                                                        const collision::BuildConfig& config);
+                                                                        const collision_build::BuildConfig& config);
 
   /// Where `load` keeps this object. Imports the file where the cache does not know its geometry yet.
   [[nodiscard]] Expected<std::filesystem::path> cache_file(const std::filesystem::path& file, const std::string& node,
-                                                           const collision::BuildConfig& config);
+                                                           const collision_build::BuildConfig& config);
 
  private:
   struct LastImport {
@@ -55,7 +55,7 @@ class ObjectStore {
     ImportedScene scene;
   };
   [[nodiscard]] Expected<collision::Object> build(const std::filesystem::path& file, const std::string& node,
-                                                  const collision::BuildConfig& config);
+                                                  const collision_build::BuildConfig& config);
   /// The hash of the parts' geometry. It is kept by the file's content, so that a start without changes imports nothing.
   [[nodiscard]] Expected<std::string> geometry_of(const std::filesystem::path& file, const std::string& node);
   [[nodiscard]] Expected<std::vector<geometry::NamedMesh>> parts_of(const std::filesystem::path& file,

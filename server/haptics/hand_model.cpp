@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "server/collision/object_builder.hpp"
+#include "server/collision/superquadric_object.hpp"
 
 namespace mechane::haptics {
 namespace {

@@ -13,6 +13,7 @@ ARROWS = {
     "server/log": ["server/base"],
     "server/geometry": ["server/base"],
     "server/collision": ["server/geometry"],
+    "server/collision_build": ["server/collision"],
     "server/realtime": ["server/base"],
     "server/hand": ["server/base"],
     "server/state": ["server/collision", "server/hand"],
@@ -21,7 +22,7 @@ ARROWS = {
     "server/machines": ["server/state"],
     "server/agents": ["server/state"],
     "server/world": ["server/dynamics", "server/haptics", "server/machines", "server/agents", "server/realtime"],
-    "server/content": ["server/geometry", "server/collision"],
+    "server/content": ["server/collision_build"],
     "server/scenario": ["server/state", "server/content"],
     "server/record": ["server/state", "server/realtime"],
     "server/visits": ["server/state", "server/realtime"],
@@ -51,7 +52,7 @@ EXTRA_HEADERS = {
 }
 
 # These run in the tick, or are read by what does: no log there. Every other room may use it.
-NO_LOG = {"server/base", "server/geometry", "server/collision", "server/state", "server/dynamics", "server/haptics",
+NO_LOG = {"server/base", "server/geometry", "server/collision", "server/collision_build", "server/state", "server/dynamics", "server/haptics",
           "server/machines", "server/agents", "server/hand", "server/realtime"}
 
 # A third-party library: its headers, and the rooms that may know it. In those rooms it stays in .cpp files.

@@ -16,9 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "server/collision/object_builder.hpp"
 #include "server/collision/object_io.hpp"
 #include "server/collision/samples.hpp"
+#include "server/collision_build/object_builder.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "server/geometry/superquadric.hpp"
 
 namespace {
@@ -82,11 +83,11 @@ geometry::Mesh read_mesh(Bytes& bytes, std::uint8_t flags) {
 }
 
 /// Small in all that takes time, so that an execution takes some milliseconds.
-collision::BuildConfig config_of(std::uint8_t flags) {
-  collision::BuildConfig config;
-  config.parts = (flags & kAsGiven) != 0      ? collision::Parts::as_given
-                 : (flags & kDecomposed) != 0 ? collision::Parts::decomposed
-                                              : collision::Parts::automatic;
+collision_build::BuildConfig config_of(std::uint8_t flags) {
+  collision_build::BuildConfig config;
+  config.parts = (flags & kAsGiven) != 0      ? collision_build::Parts::as_given
+                 : (flags & kDecomposed) != 0 ? collision_build::Parts::decomposed
+                                              : collision_build::Parts::automatic;
   config.max_concavity = 0.1;
   config.max_pieces = 4;
   config.grid_cells = 10;
@@ -107,8 +108,8 @@ void check_error(const Error& error) {
           "an error without what, where or remedy");
 }
 
-void check_report(const collision::Object& object, const collision::BuildReport& report,
-                  const collision::BuildConfig& config, std::size_t nodes) {
+void check_report(const collision::Object& object, const collision_build::BuildReport& report,
+                  const collision_build::BuildConfig& config, std::size_t nodes) {
   require(!object.parts.empty() && object.parts.size() <= nodes * std::max<std::size_t>(1, config.max_pieces),
           "the count of parts");
   require(report.parts.size() == object.parts.size(), "a report for each part");
@@ -116,7 +117,7 @@ void check_report(const collision::Object& object, const collision::BuildReport&
   std::size_t bytes = 0;
   std::size_t samples = 0;
   for (std::size_t i = 0; i < report.parts.size(); ++i) {
-    const collision::PartReport& part = report.parts[i];
+    const collision_build::PartReport& part = report.parts[i];
     require(part.bytes == object.parts[i].map.bytes() && part.map == object.parts[i].map.name(), "whose map it is");
     require(part.error.p99_m >= 0 && part.error.p50_m >= 0, "an error that is a number");
     require(
@@ -174,9 +175,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<geometry::NamedMesh> nodes(1 + bytes.byte() % 3);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes[i] = {"node" + std::to_string(i), read_mesh(bytes, flags)};
-  const collision::BuildConfig config = config_of(flags);
-  collision::BuildReport report;
-  const auto object = collision::build_object(nodes, config, &report);
+  const collision_build::BuildConfig config = config_of(flags);
+  collision_build::BuildReport report;
+  const auto object = collision_build::build_object(nodes, config, &report);
   if (!object) {
     check_error(object.error());
     return 0;

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "server/collision/object_builder.hpp"
 #include "server/collision/samples.hpp"
+#include "server/collision/superquadric_object.hpp"
 #include "server/state/description.hpp"
 #include "server/world/world.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "server/collision/object_builder.hpp"
-#include "server/collision/part_source.hpp"
+#include "server/collision_build/object_builder.hpp"
+#include "server/collision_build/part_source.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/geometry/mesh_check.hpp"
 
@@ -22,7 +22,7 @@ bool is_body(const content::ImportedScene& scene, std::uint32_t node) {
 
 /// What `mechane fit` would be given, with our builder's own budget.
 SceneObject object_of(const std::string& name, std::vector<geometry::NamedMesh> parts, bool as_given) {
-  const collision::BuildConfig ours;
+  const collision_build::BuildConfig ours;
   std::vector<geometry::Mesh> welded;
   geometry::Mesh whole;
   for (const geometry::NamedMesh& part : parts) {
@@ -31,7 +31,7 @@ SceneObject object_of(const std::string& name, std::vector<geometry::NamedMesh> 
   }
   SceneObject object = make_scene_object(name, std::move(whole), Pose{});
   if (parts.size() > 1) {
-    object.skin_O = collision::air_side(welded, collision::Solid(welded, ours.seam_gap_m));
+    object.skin_O = collision_build::air_side(welded, collision_build::Solid(welded, ours.seam_gap_m));
   }
   if (as_given) object.parts_O = std::move(parts);
   object.max_error_m = ours.max_error_m;

@@ -3,21 +3,21 @@
 #include <iostream>
 
 #include "server/base/assert.hpp"
-#include "server/collision/object_builder.hpp"
 #include "server/collision/point_query.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/resolution.hpp"
 
 namespace mechane::benchmark {
 namespace {
 
-collision::BuildConfig config_for(const SceneObject& object, OurMaps maps) {
-  collision::BuildConfig config;
-  config.parts = object.parts_O.empty() ? collision::Parts::decomposed : collision::Parts::as_given;
+collision_build::BuildConfig config_for(const SceneObject& object, OurMaps maps) {
+  collision_build::BuildConfig config;
+  config.parts = object.parts_O.empty() ? collision_build::Parts::decomposed : collision_build::Parts::as_given;
   config.max_error_m = object.max_error_m;
   config.probe_depth_m = object.probe_depth_m;
   config.bricks = maps != OurMaps::radial_only;
-  config.bounds = maps == OurMaps::boxes ? collision::Bounds::boxes : collision::Bounds::superquadrics;
+  config.bounds = maps == OurMaps::boxes ? collision_build::Bounds::boxes : collision_build::Bounds::superquadrics;
   return config;
 }
 
@@ -85,8 +85,8 @@ std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps) {
   const Stopwatch watch;
   for (const SceneObject& object : scene.objects) {
     const std::array<geometry::NamedMesh, 1> whole = {{{object.name, object.mesh_O}}};
-    auto made = object.parts_O.empty() ? collision::build_object(whole, config_for(object, maps))
-                                       : collision::build_object(object.parts_O, config_for(object, maps));
+    auto made = object.parts_O.empty() ? collision_build::build_object(whole, config_for(object, maps))
+                                       : collision_build::build_object(object.parts_O, config_for(object, maps));
     if (!made) std::cerr << object.name << ": " << made.error().what << "; " << made.error().remedy << "\n";
     MECHANE_ASSERT(made.has_value());
     built->objects.push_back(std::move(*made));

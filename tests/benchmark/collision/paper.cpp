@@ -5,19 +5,19 @@
 #include <limits>
 
 #include "server/base/assert.hpp"
-#include "server/collision/paper_map.hpp"
 #include "server/collision/samples.hpp"
 #include "server/geometry/fit.hpp"
 #include "tests/benchmark/collision/culling.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/resolution.hpp"
+#include "tests/benchmark/paper_map/paper_map.hpp"
 
 namespace mechane::benchmark {
 namespace {
 
 /// A part's map and the ways between its frame and the others.
 struct PaperPart {
-  collision::PaperMap map;
+  PaperMap map;
   Eigen::Matrix3f R_QW;
   Vec3f p_QW;
   Vec3f center_O;  // of the sphere around the superquadric
@@ -31,14 +31,13 @@ struct PaperPart {
 
 PaperPart place_part(const collision::Part& part, const geometry::MeshQuery& query, const SceneObject& object) {
   const Pose X_QW = (object.X_WO * part.X_OQ).inverse();
-  PaperPart placed{collision::cast_paper_map({query}, part.superquadric, part.X_OQ),
-                   X_QW.R.toRotationMatrix().cast<float>(), X_QW.p.cast<float>(), Vec3f::Zero(), 0};
-  const collision::PaperGrid& grid = placed.map.grid();
+  PaperPart placed{cast_paper_map({query}, part.superquadric, part.X_OQ), X_QW.R.toRotationMatrix().cast<float>(),
+                   X_QW.p.cast<float>(), Vec3f::Zero(), 0};
+  const PaperGrid& grid = placed.map.grid();
   std::vector<Vec3> surface_O;
   for (int i = 0; i < grid.eta * grid.omega; ++i)
     surface_O.push_back(
-        part.X_OQ *
-        geometry::surface_point(part.superquadric, collision::PaperMap::angles(grid, i / grid.omega, i % grid.omega)));
+        part.X_OQ * geometry::surface_point(part.superquadric, PaperMap::angles(grid, i / grid.omega, i % grid.omega)));
   const geometry::Sphere bound_O = collision::bounding_sphere(surface_O);
   placed.center_O = bound_O.center.cast<float>();
   placed.radius = static_cast<float>(1.001 * bound_O.radius);
@@ -48,8 +47,8 @@ PaperPart place_part(const collision::Part& part, const geometry::MeshQuery& que
 class Paper final : public Method {
  public:
   /// Of our builder's parts it takes the superquadrics alone.
-  Paper(const Scene& scene, std::string name, const OurObjects& built, collision::PaperDepth depth)
-      : scene_(scene), name_(std::move(name)), how_{collision::PaperWindow::corrected, depth} {
+  Paper(const Scene& scene, std::string name, const OurObjects& built, PaperDepth depth)
+      : scene_(scene), name_(std::move(name)), how_{PaperWindow::corrected, depth} {
     const Stopwatch watch;
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
       const geometry::MeshQuery query(scene.objects[k].mesh_O);
@@ -109,7 +108,7 @@ class Paper final : public Method {
 
   const Scene& scene_;
   std::string name_;
-  collision::PaperSearch how_;
+  PaperSearch how_;
   double build_s_ = 0;
   std::vector<std::vector<PaperPart>> objects_;
 };
@@ -118,8 +117,7 @@ class Paper final : public Method {
 
 MethodPtr make_paper(const Scene& scene, const std::string& name, const OurObjects& built) {
   const bool published = name == "paper";
-  return std::make_unique<Paper>(scene, name, built,
-                                 published ? collision::PaperDepth::distance : collision::PaperDepth::along_normal);
+  return std::make_unique<Paper>(scene, name, built, published ? PaperDepth::distance : PaperDepth::along_normal);
 }
 
 std::vector<std::vector<double>> paper_picture(const Scene& scene) {
@@ -133,8 +131,8 @@ std::vector<std::vector<double>> paper_picture(const Scene& scene) {
     largest = std::max(largest, geometry::radial_form(ellipsoid, fit->X_OQ.inverse() * v));
   ellipsoid.a *= largest;
   const geometry::MeshQuery query(spheres_O);
-  const collision::PaperGrid grid{50, 100};
-  const collision::PaperMap map = collision::cast_paper_map({query}, ellipsoid, fit->X_OQ, grid);
+  const PaperGrid grid{50, 100};
+  const PaperMap map = cast_paper_map({query}, ellipsoid, fit->X_OQ, grid);
   std::vector<std::vector<double>> rows_mm;
   for (int eta = grid.eta - 1; eta >= 0; --eta) {
     auto& row = rows_mm.emplace_back();

@@ -9,8 +9,8 @@
 #include <fcl/narrowphase/collision_object.h>
 
 #include "server/base/assert.hpp"
-#include "server/collision/object_builder.hpp"
 #include "server/collision/samples.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "server/geometry/decompose.hpp"
 #include "tests/benchmark/collision/culling.hpp"
 #include "tests/benchmark/collision/fcl_common.hpp"
@@ -51,7 +51,7 @@ Hull hull_of(std::span<const Vec3> points) {
 
 /// As our builder cuts it by default.
 std::vector<Hull> hulls_of(const SceneObject& object) {
-  const collision::BuildConfig ours;
+  const collision_build::BuildConfig ours;
   geometry::DecomposeConfig config;
   config.max_concavity = ours.max_concavity;
   config.max_parts = ours.max_pieces;

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <fstream>
 
-#include <server/collision/object_builder.hpp>
 #include <server/collision/object_io.hpp>
 #include <server/collision/point_query.hpp>
+#include <server/collision_build/object_builder.hpp>
 #include <server/geometry/superquadric_mesh.hpp>
 
 using namespace mechane;
@@ -14,8 +14,8 @@ int main() {
   geometry::Superquadric ball;
   ball.a = Vec3::Constant(0.05);
   const std::array<geometry::NamedMesh, 1> meshes = {{{"ball", geometry::tessellate(ball, 24)}}};
-  collision::BuildReport report;
-  const auto object = collision::build_object(meshes, {}, &report);
+  collision_build::BuildReport report;
+  const auto object = collision_build::build_object(meshes, {}, &report);
   if (!object) return std::fprintf(stderr, "%s\n", object.error().to_string().c_str()), 1;
 
   const std::vector<std::byte> bytes = collision::write_object(*object);

@@ -2,8 +2,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "server/collision/object.hpp"
-#include "server/collision/object_builder.hpp"
 #include "server/collision/samples.hpp"
+#include "server/collision/superquadric_object.hpp"
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"

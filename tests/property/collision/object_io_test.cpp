@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "server/collision/object_builder.hpp"
+#include "server/collision/superquadric_object.hpp"
 
 namespace mechane::collision {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "server/collision/object_builder.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/hand_model.hpp"
 #include "tests/support/property_draw.hpp"
@@ -34,7 +34,7 @@ struct ThinPart {
 
 Object built(const geometry::Mesh& mesh) {
   const geometry::NamedMesh part{"thin", mesh};
-  auto object = collision::build_object({&part, 1}, {});
+  auto object = collision_build::build_object({&part, 1}, {});
   EXPECT_TRUE(object.has_value()) << object.error().to_string();
   return *object;
 }

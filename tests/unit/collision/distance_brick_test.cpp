@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/collision/build_brick.hpp"
+#include "server/collision_build/build_brick.hpp"
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/random.hpp"
 #include "tests/support/shapes.hpp"
@@ -118,12 +118,12 @@ TEST(DistanceBrick, AnEntryIsWhatWasPacked) {
 TEST(BuildBrick, IsFineWhereTheSurfaceBendsAndNowhereElse) {
   const Vec3 half(0.15, 0.1, 0.125);
   const std::vector<geometry::Mesh> meshes = {test::box(half)};
-  const Solid solid(meshes, 0.001);
+  const collision_build::Solid solid(meshes, 0.001);
   const geometry::MeshQuery skin(meshes[0]);
-  const MapFrame frame{{}, Vec3::Zero(), half};
-  const DistanceBrick::Grid grid = brick_grid(frame, 16);
-  const BrickNeeds needs{0.004, 2e-4};
-  const auto brick = build_brick(solid, skin, {}, grid, needs, {}, 1U << 20);
+  const collision_build::MapFrame frame{{}, Vec3::Zero(), half};
+  const DistanceBrick::Grid grid = collision_build::brick_grid(frame, 16);
+  const collision_build::BrickNeeds needs{0.004, 2e-4};
+  const auto brick = collision_build::build_brick(solid, skin, {}, grid, needs, {}, 1U << 20);
   ASSERT_TRUE(brick.has_value());
   std::array<std::size_t, DistanceBrick::kLevels + 1> blocks{};
   for (const std::uint32_t word : brick->index())
@@ -142,7 +142,7 @@ TEST(BuildBrick, IsFineWhereTheSurfaceBendsAndNowhereElse) {
     ++asked;
   }
   EXPECT_GT(asked, 500);
-  EXPECT_FALSE(build_brick(solid, skin, {}, grid, needs, {}, brick->bytes() - 1).has_value());
+  EXPECT_FALSE(collision_build::build_brick(solid, skin, {}, grid, needs, {}, brick->bytes() - 1).has_value());
 }
 
 /// Where sheets meet, a brick jumps; its slack has to make up for that.
@@ -151,10 +151,11 @@ TEST(BuildBrick, CullsNoSphereThatHoldsAnInsidePoint) {
   for (Vec3& v : mesh.vertices)
     v *= 0.2;
   const std::vector<geometry::Mesh> meshes = {mesh};
-  const Solid solid(meshes, 0.001);
+  const collision_build::Solid solid(meshes, 0.001);
   const geometry::MeshQuery skin(mesh);
-  const MapFrame frame{{}, mesh.bounds().center(), 0.5 * mesh.bounds().sizes()};
-  const auto brick = build_brick(solid, skin, {}, brick_grid(frame, 11), {0.004, 3e-4, 0.2, 5e-4}, {}, 1U << 20);
+  const collision_build::MapFrame frame{{}, mesh.bounds().center(), 0.5 * mesh.bounds().sizes()};
+  const auto brick = collision_build::build_brick(solid, skin, {}, collision_build::brick_grid(frame, 11),
+                                                  {0.004, 3e-4, 0.2, 5e-4}, {}, 1U << 20);
   ASSERT_TRUE(brick.has_value());
   const Kernels& kernels = kernels_of(InstructionSet::portable);
   constexpr BlockTransform kIdentity{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};

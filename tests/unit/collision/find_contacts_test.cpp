@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "server/collision/object.hpp"
-#include "server/collision/object_builder.hpp"
+#include "server/collision/superquadric_object.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -28,9 +29,9 @@ Object finger() {
 }
 
 Object built(const std::vector<geometry::NamedMesh>& parts, double spacing_m = 0.005) {
-  BuildConfig config;
+  collision_build::BuildConfig config;
   config.sample_spacing_m = spacing_m;
-  auto object = build_object(parts, config);
+  auto object = collision_build::build_object(parts, config);
   EXPECT_TRUE(object);
   return std::move(*object);
 }

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "server/collision/kernel_body.hpp"
-#include "server/collision/object_builder.hpp"
 #include "server/collision/part_map.hpp"
+#include "server/collision/superquadric_object.hpp"
 #include "server/geometry/random.hpp"
 
 namespace mechane::collision {

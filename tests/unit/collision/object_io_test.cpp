@@ -4,15 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include "server/collision/object_builder.hpp"
 #include "server/collision/samples.hpp"
+#include "server/collision/superquadric_object.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace mechane::collision {
 namespace {
 
 TEST(ObjectIo, ComesBackAsItWent) {
-  const auto object = build_object(test::crank(), {});
+  const auto object = collision_build::build_object(test::crank(), {});
   ASSERT_TRUE(object);
   const std::vector<std::byte> bytes = write_object(*object);
   const auto read = read_object(bytes);

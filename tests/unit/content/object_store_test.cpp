@@ -38,7 +38,7 @@ class ObjectStoreTest : public testing::Test {
   ScratchFolder folder_;
   std::filesystem::path model_;
   std::filesystem::path cache_;
-  collision::BuildConfig config_;
+  collision_build::BuildConfig config_;
   int builds_ = 0;
   std::size_t parts_ = 0;
 };

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "server/collision/object_builder.hpp"
+#include "server/collision_build/object_builder.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/unit/dynamics/scene.hpp"
 
@@ -17,7 +17,7 @@ inline std::shared_ptr<const collision::Object> box_object(const Vec3& half_m) {
   auto& object = built[{half_m.x(), half_m.y(), half_m.z()}];
   if (object == nullptr) {
     const std::vector<geometry::NamedMesh> parts{{"box", mechane::test::box(half_m)}};
-    auto made = collision::build_object(parts, {});
+    auto made = collision_build::build_object(parts, {});
     if (!made) throw std::runtime_error(made.error().to_string());
     object = std::make_shared<const collision::Object>(std::move(*made));
   }

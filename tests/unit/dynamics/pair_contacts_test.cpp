@@ -68,7 +68,7 @@ TEST(PairContacts, ACornerBetweenFloorAndWallIsHeldByBoth) {
   // One body that is a floor and a wall: the box leans into the corner between them.
   const std::vector<geometry::NamedMesh> parts{{"floor", mechane::test::box({0.1, 0.01, 0.1}, {0, -0.01, 0})},
                                                {"wall", mechane::test::box({0.01, 0.06, 0.1}, {-0.11, 0.04, 0})}};
-  const auto corner = collision::build_object(parts, {});
+  const auto corner = collision_build::build_object(parts, {});
   ASSERT_TRUE(corner) << corner.error().to_string();
   const Vec3 half(0.02, 0.02, 0.02);
   const Pose X_WA{Vec3(-0.1 + half.x() - 5e-4, half.y() - 3e-4, 0.01), Quat::Identity()};

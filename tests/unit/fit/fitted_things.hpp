@@ -21,7 +21,7 @@ inline FittedObject fitted(std::vector<geometry::NamedMesh> meshes, bool bricks 
   }
   out.config.map_resolution = 16;
   out.config.bricks = bricks;
-  auto object = collision::build_object(out.meshes, out.config, &out.report);
+  auto object = collision_build::build_object(out.meshes, out.config, &out.report);
   if (!object) std::abort();
   out.object = std::move(*object);
   return out;

@@ -1,4 +1,4 @@
-#include "server/collision/paper_map.hpp"
+#include "tests/benchmark/paper_map/paper_map.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "server/base/parallel.hpp"
 #include "server/geometry/superquadric_math.hpp"
 
-namespace mechane::collision {
+namespace mechane::benchmark {
 namespace {
 
 constexpr std::int16_t kNoHit = std::numeric_limits<std::int16_t>::min();
@@ -259,7 +259,7 @@ PaperAnswer PaperMap::search(const Vec3f& p_QP, const PaperSearch& how) const no
   const float depth =
       (how.depth == PaperDepth::distance ? way.norm() : n_Q.dot(way)) - step_m_ * static_cast<float>(value);
   if (!(depth > 0)) return answer;
-  MapHit& hit = answer.hit;
+  collision::MapHit& hit = answer.hit;
   hit.hit = true;
   hit.depth_m = depth;
   hit.m = from.m;
@@ -374,4 +374,4 @@ PaperMap cast_paper_map(const PaperTarget& target, const geometry::Superquadric&
   return {shape, grid, distances};
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::benchmark

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "server/collision/cast_map.hpp"
-#include "server/collision/object_builder.hpp"
-#include "server/collision/solid.hpp"
+#include "server/collision_build/cast_map.hpp"
+#include "server/collision_build/object_builder.hpp"
+#include "server/collision_build/solid.hpp"
 #include "server/geometry/decompose.hpp"
 #include "server/geometry/mesh.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 struct PartSource {
   std::string name;
@@ -35,4 +35,4 @@ struct PartSource {
                                                       std::size_t node, const geometry::Decomposition& cut,
                                                       const Solid& solid, const BuildConfig& config);
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

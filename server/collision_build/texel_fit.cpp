@@ -1,4 +1,4 @@
-#include "server/collision/texel_fit.hpp"
+#include "server/collision_build/texel_fit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 constexpr int kIterations = 12;  // of conjugate gradients: far more change nothing in 16 bits of a texel
@@ -126,4 +126,4 @@ void join_faces(int resolution, std::span<float> texels) {
   }
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

@@ -1,4 +1,4 @@
-#include "server/collision/object_builder.hpp"
+#include "server/collision_build/object_builder.hpp"
 
 #include <limits>
 
@@ -12,30 +12,30 @@
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 using geometry::NamedMesh;
 
 /// The hit that find_contacts would report for one point, over all parts.
-MapHit ask(const Object& object, const Vec3& p_O) {
-  MapHit best;
-  for (const Part& part : object.parts) {
-    const MapHit hit = part.map.evaluate((part.X_OQ.inverse() * p_O).cast<float>());
+collision::MapHit ask(const collision::Object& object, const Vec3& p_O) {
+  collision::MapHit best;
+  for (const collision::Part& part : object.parts) {
+    const collision::MapHit hit = part.map.evaluate((part.X_OQ.inverse() * p_O).cast<float>());
     if (hit.hit && (!best.hit || hit.m < best.m)) best = hit;
   }
   return best;
 }
 
-void expect_sound(const Object& object) {
+void expect_sound(const collision::Object& object) {
   ASSERT_EQ(object.first_group.size(), object.parts.size() + 1);
   std::size_t grouped = 0;
-  for (const ClusterGroup& group : object.groups) {
+  for (const collision::ClusterGroup& group : object.groups) {
     ASSERT_EQ(group.first_cluster, grouped);
     grouped += group.count;
   }
   ASSERT_EQ(grouped, object.clusters.size());
-  for_each_sample(object, [&](const Cluster& c, std::size_t lane) {
+  collision::for_each_sample(object, [&](const collision::Cluster& c, std::size_t lane) {
     const Vec3 p = c.sample_O(lane).cast<double>();
     EXPECT_LE((p - c.bound_O.center).norm(), c.bound_O.radius);
     EXPECT_LE((p - object.bound_O.center).norm(), object.bound_O.radius * (1 + 1e-6));
@@ -48,7 +48,7 @@ TEST(BuildObject, ABoxIsABox) {
   const auto object = build_object(parts, {}, &report);
   ASSERT_TRUE(object) << object.error().to_string();
   expect_sound(*object);
-  EXPECT_GT(sample_count(*object), 1500U);
+  EXPECT_GT(collision::sample_count(*object), 1500U);
   ASSERT_EQ(report.parts.size(), 1U);
   EXPECT_TRUE(report.parts[0].closed);
   EXPECT_LT(report.parts[0].error.p50_m, 2e-5);
@@ -90,7 +90,7 @@ TEST_P(Barrel, HollowIsAirAndWoodIsWoodAlsoAtTheSeams) {
     const double missable_m = config.max_error_m + 0.0001;
     const double depth = missable_m + (report.budget.probe_depth_m - missable_m) * random.unit();
     const Vec3 wood = at(kOuter - depth, angle, z);
-    const MapHit hit = ask(*object, wood);
+    const collision::MapHit hit = ask(*object, wood);
     missed += hit.hit ? 0 : 1;
     if (!hit.hit) continue;
     worst = std::max(worst, std::abs(hit.depth_m - depth));
@@ -120,7 +120,7 @@ TEST(BuildObject, SeamsAreNotSampled) {
   config.sample_spacing_m = 0.01;
   const auto object = build_object(parts, config);
   ASSERT_TRUE(object);
-  for_each_sample(*object, [](const Cluster& cluster, std::size_t lane) {
+  collision::for_each_sample(*object, [](const collision::Cluster& cluster, std::size_t lane) {
     const Vec3f p = cluster.sample_O(lane);
     const double radius = std::hypot(p.x(), p.y());
     const bool on_wall = radius < 0.1301 || radius > 0.1485;
@@ -139,7 +139,7 @@ TEST(BuildObject, SameInputSameBits) {
   for (std::size_t i = 0; i < once->parts.size(); ++i) {
     ASSERT_EQ(once->parts[i].map.name(), again->parts[i].map.name());
   }
-  EXPECT_EQ(write_object(*once), write_object(*again));
+  EXPECT_EQ(collision::write_object(*once), collision::write_object(*again));
 }
 
 TEST(BuildObject, ATurnedPlankGetsItsTightBox) {
@@ -154,7 +154,7 @@ TEST(BuildObject, ATurnedPlankGetsItsTightBox) {
   const auto object = build_object(parts, config, &report);
   ASSERT_TRUE(object) << object.error().to_string();
   expect_sound(*object);
-  const Part& part = object->parts[0];
+  const collision::Part& part = object->parts[0];
   EXPECT_LT((part.X_OQ.p - Vec3(0.3, -0.1, 0.2)).norm(), 1e-6);
   for (const Vec3& v : parts[0].mesh.vertices) {
     EXPECT_LE(geometry::inside_outside(part.superquadric, part.X_OQ.inverse() * v), 1 + 1e-6);
@@ -172,8 +172,8 @@ TEST(BuildObject, TheCapOnSamplesWidensTheSpacing) {
   const std::vector<NamedMesh> parts = {{"plank", test::box({0.4, 0.2, 0.05})}};
   const auto object = build_object(parts, config, &report);
   ASSERT_TRUE(object);
-  EXPECT_LE(sample_count(*object), 200U);
-  EXPECT_GT(sample_count(*object), 100U);
+  EXPECT_LE(collision::sample_count(*object), 200U);
+  EXPECT_GT(collision::sample_count(*object), 100U);
   EXPECT_GT(report.parts[0].spacing_m, config.sample_spacing_m);
 }
 
@@ -184,7 +184,7 @@ TEST(BuildObject, AnOpenPartIsMappedAndReported) {
   const auto object = build_object(parts, {}, &report);
   ASSERT_TRUE(object);
   EXPECT_FALSE(report.parts[0].closed);
-  const MapHit hit = ask(*object, {0.047, 0.01, 0.01});
+  const collision::MapHit hit = ask(*object, {0.047, 0.01, 0.01});
   ASSERT_TRUE(hit.hit);
   EXPECT_NEAR(hit.depth_m, 0.003, 3e-4);
 }
@@ -263,4 +263,4 @@ TEST(BuildObject, PartsThatTheAuthorGaveStayParts) {
 }
 
 }  // namespace
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

@@ -1,12 +1,12 @@
-#include "server/collision/cast_map.hpp"
+#include "server/collision_build/cast_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "server/collision/texel_fit.hpp"
+#include "server/collision_build/texel_fit.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 constexpr double kMaxRho = 16;        // beyond it the surface is as good as nowhere
@@ -92,7 +92,7 @@ MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const Surf
   return frame;
 }
 
-RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, int resolution) {
+collision::RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, int resolution) {
   const Vec3f half_Q = frame.half_Q.cast<float>();
   const Vec3 center_O = frame.X_OQ * frame.center_Q;
   const int rays = (resolution - 1) * rays_per_cell(resolution) + 1;
@@ -101,7 +101,7 @@ RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, 
   std::vector<float> sigma(static_cast<std::size_t>(rays) * static_cast<std::size_t>(rays));
   for (int face = 0; face < 6; ++face) {
     for (int ray = 0; ray < rays * rays; ++ray) {
-      const Vec3 direction_Q = RadialMap::texel_direction(rays, half_Q, face, ray % rays, ray / rays);
+      const Vec3 direction_Q = collision::RadialMap::texel_direction(rays, half_Q, face, ray % rays, ray / rays);
       const double rho = solid.walk(node, center_O, frame.X_OQ.rotate(direction_Q), kMaxRho);
       sigma[static_cast<std::size_t>(ray)] = static_cast<float>(1 / std::max(rho, kMinRho));
     }
@@ -109,7 +109,7 @@ RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, 
     texels.insert(texels.end(), fitted.begin(), fitted.end());
   }
   join_faces(resolution, texels);
-  return RadialMap::from_sigma(resolution, frame.center_Q.cast<float>(), half_Q, texels);
+  return collision::RadialMap::from_sigma(resolution, frame.center_Q.cast<float>(), half_Q, texels);
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 /// How many rays are cast along a cell's edge: fewer for fine maps, whose cells show little between their corners.
 [[nodiscard]] constexpr int rays_per_cell(int resolution) {
@@ -20,4 +20,4 @@ namespace mechane::collision {
 /// Texels of two or three faces that lie on a common edge of the cube get their mean: no step from face to face.
 void join_faces(int resolution, std::span<float> texels);
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

@@ -1,4 +1,4 @@
-#include "server/collision/paper_map.hpp"
+#include "tests/benchmark/paper_map/paper_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "tests/support/solids.hpp"
 #include "tests/support/superquadric_draw.hpp"
 
-namespace mechane::collision {
+namespace mechane::benchmark {
 namespace {
 
 constexpr PaperSearch kAlongNormal{PaperWindow::corrected, PaperDepth::along_normal};
@@ -56,7 +56,7 @@ std::vector<PaperProbe> probes_under(const geometry::Mesh& mesh, double deepest_
 double error_at(double share, const PaperMap& map, std::span<const PaperProbe> probes, const PaperSearch& how) {
   std::vector<double> errors;
   for (const PaperProbe& probe : probes) {
-    const MapHit hit = map.search(probe.p_Q.cast<float>(), how).hit;
+    const collision::MapHit hit = map.search(probe.p_Q.cast<float>(), how).hit;
     errors.push_back(std::abs((hit.hit ? static_cast<double>(hit.depth_m) : 0.0) - probe.depth_m));
   }
   std::sort(errors.begin(), errors.end());
@@ -111,7 +111,7 @@ TEST(PaperMap, OnASphereTheDepthErrsByTheGridAlone) {
   for (int i = 0; i < 5000; ++i) {
     const double depth = test::between(random, 0.01, 0.2) * radius;
     const Vec3 p = (radius - depth) * test::gaussian_vector(random).normalized();
-    const MapHit hit = map.search(p.cast<float>()).hit;
+    const collision::MapHit hit = map.search(p.cast<float>()).hit;
     ASSERT_TRUE(hit.hit);
     EXPECT_GE(hit.depth_m, depth - 1e-7);
     EXPECT_LE(hit.depth_m, std::hypot(depth, aside) + 1e-6);
@@ -210,7 +210,7 @@ TEST(PaperMap, APlaceInANeighboursWoodIsCoveredAsDeepAsTheWoodGoesOn) {
   const PaperMap map = cast_paper_map({query}, ellipsoid(Vec3::Constant(0.05)), {});
   EXPECT_NEAR(map.distance_m(99, 0).value_or(0), -0.06F, 1e-4F);
   EXPECT_GE(map.distance_m(0, 0).value_or(-1), 0);
-  const MapHit hit = map.search({0.0F, 0.0F, 0.045F}).hit;
+  const collision::MapHit hit = map.search({0.0F, 0.0F, 0.045F}).hit;
   ASSERT_TRUE(hit.hit);
   EXPECT_NEAR(hit.depth_m, 0.065F, 1e-3F);
 }
@@ -226,7 +226,7 @@ TEST(PaperMap, OutsideAndWhatIsNotANumberIsNoHit) {
     EXPECT_FALSE(answer.hit.hit);
     EXPECT_EQ(answer.evaluations, 0);
   }
-  const MapHit centre = map.evaluate(Vec3f::Zero());
+  const collision::MapHit centre = map.evaluate(Vec3f::Zero());
   EXPECT_TRUE(centre.hit);
   EXPECT_TRUE(centre.n_Q.allFinite());
 }
@@ -254,7 +254,7 @@ double roughness(const PaperMap& map) {
 double force_jumps(const PaperMap& map, double radius_m) {
   const auto force = [&](int eta, int omega) {
     const Vec3 way = geometry::surface_normal(map.shape(), PaperMap::angles(map.grid(), eta, omega));
-    const MapHit hit = map.evaluate((radius_m * way).cast<float>());
+    const collision::MapHit hit = map.evaluate((radius_m * way).cast<float>());
     return Vec3f(hit.hit ? Vec3f(hit.depth_m * hit.n_Q) : Vec3f::Zero());
   };
   double sum = 0;
@@ -312,4 +312,4 @@ TEST(PaperMap, ArgumentsThatMakeNoMapAreRefused) {
 }
 
 }  // namespace
-}  // namespace mechane::collision
+}  // namespace mechane::benchmark

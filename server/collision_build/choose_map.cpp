@@ -1,4 +1,4 @@
-#include "server/collision/choose_map.hpp"
+#include "server/collision_build/choose_map.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "server/geometry/random.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 // Blocks of a brick along its longest edge.
@@ -58,12 +58,12 @@ class Trials {
 
   void try_radial_maps() {
     Trend trend;
-    for (const int n : RadialMap::kResolutions) {
+    for (const int n : collision::RadialMap::kResolutions) {
       const std::size_t bytes = static_cast<std::size_t>(6 * n * n) * sizeof(std::uint16_t);
       if (allowed_.only_resolution != 0 && allowed_.only_resolution != n) continue;
       if (bytes <= allowed_.more_than || bytes > allowed_.at_most) continue;
       // Where no radial map can do, a brick will; or else the finest is the best there is.
-      const bool hopeless = trend.rules_out(RadialMap::kResolutions.back(), budget_);
+      const bool hopeless = trend.rules_out(collision::RadialMap::kResolutions.back(), budget_);
       if (trend.rules_out(n, budget_) && (!hopeless || may_try_bricks())) continue;
       if (trend.fineness >= 16 && trend.is_blind()) return;
       trend = judge(cast_map(solid_, node_, frame_, n), n);
@@ -79,11 +79,12 @@ class Trials {
     for (const int n : kBrickBlocks) {
       const bool hopeless = trend.rules_out(kBrickBlocks.back(), budget_);
       if (trend.rules_out(n, budget_) && !hopeless) continue;
-      const DistanceBrick::Grid grid = brick_grid(frame_, n);
-      if (!DistanceBrick::is_valid(grid)) return;
+      const collision::DistanceBrick::Grid grid = brick_grid(frame_, n);
+      if (!collision::DistanceBrick::is_valid(grid)) return;
       const std::size_t most = hopeless ? std::min(allowed_.at_most, kMostWithoutHope) : allowed_.at_most;
       const std::size_t limit = best_.met ? std::min(most, best_.map.bytes() - 1) : most;
-      std::optional<DistanceBrick> brick = build_brick(solid_, skin_, frame_.X_OQ, grid, needs, allowed_.must, limit);
+      std::optional<collision::DistanceBrick> brick =
+          build_brick(solid_, skin_, frame_.X_OQ, grid, needs, allowed_.must, limit);
       if (!brick) return;  // a finer one is larger
       if (brick->bytes() <= allowed_.more_than) continue;
       trend = judge(std::move(*brick), n);
@@ -97,7 +98,7 @@ class Trials {
   [[nodiscard]] bool is_done() const { return !best_.map.empty() && (best_.met || probes_.empty()); }
 
  private:
-  Trend judge(PartMap map, int fineness) {
+  Trend judge(collision::PartMap map, int fineness) {
     MapChoice tried;
     tried.map = std::move(map);
     const Ask ask = [&](const Vec3& p_O) { return tried.map.evaluate((X_QO_ * p_O).cast<float>()); };
@@ -152,7 +153,7 @@ MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const
   MapError error;
   std::vector<double> errors;
   for (const Probe& probe : probes) {
-    const MapHit hit = ask(probe.p_O);
+    const collision::MapHit hit = ask(probe.p_O);
     const double depth = hit.hit ? static_cast<double>(hit.depth_m) : 0.0;
     if (!hit.hit && probe.depth_m > budget.missed_m) ++error.missed;
     if (hit.hit && probe.depth_m < -budget.missed_m) ++error.wrong;
@@ -180,4 +181,4 @@ MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::s
   return trials.take();
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

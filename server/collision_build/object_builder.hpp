@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "server/base/error.hpp"
-#include "server/collision/choose_map.hpp"
 #include "server/collision/object.hpp"
+#include "server/collision_build/choose_map.hpp"
 #include "server/geometry/fit.hpp"
 #include "server/geometry/mesh.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 /// Where an object's parts come from. Where a mesh is cut into pieces, one brick of the whole takes their place if it is exact and small
 /// enough; what an author gave as parts stays parts.
@@ -75,10 +75,8 @@ using PartDone = std::function<void(std::size_t done, std::size_t parts)>;
 /// Decomposes, fits, maps and samples meshes in the object's frame O. A part gets the smallest map that meets the error budget, and the
 /// report says where none does. Parts that touch or overlap make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
 /// `report` may be null. Uses all cores.
-[[nodiscard]] Expected<Object> build_object(std::span<const geometry::NamedMesh> parts, const BuildConfig& config,
-                                            BuildReport* report = nullptr, const PartDone& on_part = {});
+[[nodiscard]] Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> parts,
+                                                       const BuildConfig& config, BuildReport* report = nullptr,
+                                                       const PartDone& on_part = {});
 
-/// One part that is the superquadric itself, its frame Q being the object's frame. `shape` must be valid, the spacing positive.
-[[nodiscard]] Object make_superquadric_object(const geometry::Superquadric& shape, double sample_spacing_m);
-
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

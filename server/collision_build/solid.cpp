@@ -1,10 +1,10 @@
-#include "server/collision/solid.hpp"
+#include "server/collision_build/solid.hpp"
 
 #include <algorithm>
 
 #include "server/geometry/mesh_check.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 geometry::Mesh merge_closed(std::span<const geometry::Mesh> parts) {
@@ -73,4 +73,4 @@ bool Solid::is_crack(const geometry::RayHit& exit, const geometry::RayHit& entry
   return n_exit.dot(n_entry) < -0.5 && std::max(std::abs(way.dot(n_exit)), std::abs(way.dot(n_entry))) <= seam_gap_m_;
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

@@ -5,12 +5,12 @@
 #include <optional>
 #include <span>
 
-#include "server/collision/cast_map.hpp"
 #include "server/collision/distance_brick.hpp"
-#include "server/collision/solid.hpp"
+#include "server/collision_build/cast_map.hpp"
+#include "server/collision_build/solid.hpp"
 #include "server/geometry/mesh_query.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 struct BrickNeeds {
   double probe_depth_m = 0;  ///< how deep under the surface the depth must be good
@@ -20,7 +20,7 @@ struct BrickNeeds {
 };
 
 /// A box that holds what `frame` does, of blocks of which `blocks` lie along its longest edge. Not valid where it would be too large.
-[[nodiscard]] DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks);
+[[nodiscard]] collision::DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks);
 
 /// A point whose exact depth is known; negative outside.
 struct Probe {
@@ -32,9 +32,8 @@ struct Probe {
 /// do those in which the distance is all but linear. Blocks in which one of the `witnesses` is answered wrongly, by more than
 /// needs.stray_m, get the finest level in a second round. `solid` must be closed, `skin` its mesh where it borders on air. An empty
 /// result would hold more than `at_most` bytes. Uses all cores.
-[[nodiscard]] std::optional<DistanceBrick> build_brick(const Solid& solid, const geometry::MeshQuery& skin,
-                                                       const Pose& X_OQ, const DistanceBrick::Grid& grid,
-                                                       const BrickNeeds& needs, std::span<const Probe> witnesses,
-                                                       std::size_t at_most);
+[[nodiscard]] std::optional<collision::DistanceBrick> build_brick(
+    const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ, const collision::DistanceBrick::Grid& grid,
+    const BrickNeeds& needs, std::span<const Probe> witnesses, std::size_t at_most);
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

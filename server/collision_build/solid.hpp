@@ -8,7 +8,7 @@
 #include "server/geometry/mesh.hpp"
 #include "server/geometry/mesh_query.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 /// Built once from welded part meshes; any thread may ask.
 class Solid {
@@ -43,4 +43,4 @@ class Solid {
   geometry::MeshQuery whole_;  // all closed parts
 };
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

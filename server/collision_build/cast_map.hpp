@@ -6,10 +6,10 @@
 #include <span>
 
 #include "server/collision/radial_map.hpp"
-#include "server/collision/solid.hpp"
+#include "server/collision_build/solid.hpp"
 #include "server/geometry/cut_plane.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 /// Where a part lies in its frame Q: what its map must cover.
 struct MapFrame {
@@ -36,6 +36,7 @@ struct SurfacePlace {
 /// before this part. The paper's two special values become: 'no hit' (the centre itself is in air this way) a surface close to the
 /// centre, sigma 16; 'covered' (the bound lies in a neighbour's wood) the neighbour's surface, where the ray leaves it, so that seams
 /// make no walls.
-[[nodiscard]] RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, int resolution);
+[[nodiscard]] collision::RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame,
+                                            int resolution);
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

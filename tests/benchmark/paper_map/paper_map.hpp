@@ -13,7 +13,7 @@
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/superquadric.hpp"
 
-namespace mechane::collision {
+namespace mechane::benchmark {
 
 /// How many places the map has: the paper's figures have 100 x 200.
 struct PaperGrid {
@@ -43,7 +43,7 @@ struct PaperSearch {
 
 /// What a search found. `hit` as everywhere, with the superquadric's normal; the rest also without a hit, if `inside`.
 struct PaperAnswer {
-  MapHit hit;
+  collision::MapHit hit;
   bool inside = false;  ///< the superquadric: only then was there a search
   int evaluations = 0;  ///< of I_s (13)
   int eta = 0;          ///< the place that it ended on
@@ -72,7 +72,7 @@ class PaperMap {
   /// neighbours beyond the window's edge or a pole count as neighbours, so that each level below the first has its 8. float32.
   /// Allocates nothing. Any thread.
   [[nodiscard]] PaperAnswer search(const Vec3f& p_QP, const PaperSearch& how = {}) const noexcept;
-  [[nodiscard]] MapHit evaluate(const Vec3f& p_QP) const noexcept { return search(p_QP).hit; }
+  [[nodiscard]] collision::MapHit evaluate(const Vec3f& p_QP) const noexcept { return search(p_QP).hit; }
 
   /// N of (12).
   [[nodiscard]] int levels() const noexcept { return levels_; }
@@ -149,4 +149,4 @@ struct PaperTarget {
 [[nodiscard]] PaperMap cast_paper_map(const PaperTarget& target, const geometry::Superquadric& shape, const Pose& X_OQ,
                                       const PaperGrid& grid = {});
 
-}  // namespace mechane::collision
+}  // namespace mechane::benchmark

@@ -7,7 +7,7 @@
 #include "server/base/math.hpp"
 #include "server/geometry/fit.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 /// The smallest box around `bound_points_O` that turning about one axis after another finds, from the points' principal axes and from
 /// the object's own. Its shape comes as the squarest superquadric around it (exponents 0.1), so F <= 1 at every point. The report's
@@ -15,4 +15,4 @@ namespace mechane::collision {
 [[nodiscard]] Expected<geometry::FitResult> fit_box(std::span<const Vec3> bound_points_O,
                                                     std::span<const Vec3> surface_points_O);
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

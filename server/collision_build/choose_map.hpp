@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
-#include "server/collision/build_brick.hpp"
-#include "server/collision/cast_map.hpp"
 #include "server/collision/part_map.hpp"
-#include "server/collision/solid.hpp"
+#include "server/collision_build/build_brick.hpp"
+#include "server/collision_build/cast_map.hpp"
+#include "server/collision_build/solid.hpp"
 #include "server/geometry/mesh_query.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 
 /// Absolute bounds, metres.
 struct ErrorBudget {
@@ -51,7 +51,7 @@ struct MapCandidates {
 };
 
 struct MapChoice {
-  PartMap map;
+  collision::PartMap map;
   MapError error;
   bool met = false;
 };
@@ -63,7 +63,7 @@ struct MapChoice {
                                              std::span<const SurfacePlace> places, const ErrorBudget& budget,
                                              std::size_t count, std::uint64_t seed);
 
-using Ask = std::function<MapHit(const Vec3& p_O)>;
+using Ask = std::function<collision::MapHit(const Vec3& p_O)>;
 [[nodiscard]] MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const Ask& ask);
 
 /// Tries the candidates of either kind from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap
@@ -73,4 +73,4 @@ using Ask = std::function<MapHit(const Vec3& p_O)>;
                                    const MapFrame& frame, std::span<const Probe> probes, const ErrorBudget& budget,
                                    const MapCandidates& candidates);
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

@@ -1,4 +1,4 @@
-#include "server/collision/build_brick.hpp"
+#include "server/collision_build/build_brick.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,10 +11,10 @@
 #include "server/base/parallel.hpp"
 #include "server/collision/block_lattice.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
-constexpr int kFinest = DistanceBrick::kFinest;
+constexpr int kFinest = collision::DistanceBrick::kFinest;
 constexpr float kNotAsked = std::numeric_limits<float>::infinity();
 // Cosine between a face and the way to its nearest point, where that is not on its edge.
 constexpr double kOnFace = 0.9999;
@@ -32,7 +32,7 @@ constexpr double kRoom = 1.002;
 class LatticeDistances {
  public:
   LatticeDistances(const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ,
-                   const DistanceBrick::Grid& grid)
+                   const collision::DistanceBrick::Grid& grid)
       : solid_(solid), skin_(skin), X_OQ_(X_OQ), grid_(grid) {
     std::size_t count = 1;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -51,9 +51,9 @@ class LatticeDistances {
     bool on_face = false;  // and not on its edge
   };
 
-  void want(const Node& node) { wanted_[index(node)] = 1; }
-  [[nodiscard]] float at(const Node& node) const { return distance_m_[index(node)]; }
-  [[nodiscard]] const Nearest& nearest(const Node& node) const { return nearest_[index(node)]; }
+  void want(const collision::Node& node) { wanted_[index(node)] = 1; }
+  [[nodiscard]] float at(const collision::Node& node) const { return distance_m_[index(node)]; }
+  [[nodiscard]] const Nearest& nearest(const collision::Node& node) const { return nearest_[index(node)]; }
 
   /// Measures what is wanted and not known yet.
   void measure() {
@@ -78,14 +78,14 @@ class LatticeDistances {
   static constexpr std::size_t kChunk = 256;
   static constexpr std::size_t kVotes = 9;
 
-  [[nodiscard]] std::size_t index(const Node& node) const { return index_of(nodes_, node); }
-  [[nodiscard]] Node node_of(std::size_t i) const {
+  [[nodiscard]] std::size_t index(const collision::Node& node) const { return collision::index_of(nodes_, node); }
+  [[nodiscard]] collision::Node node_of(std::size_t i) const {
     const auto n = static_cast<int>(i);
     return {n % nodes_[0], n / nodes_[0] % nodes_[1], n / nodes_[0] / nodes_[1]};
   }
   [[nodiscard]] double spacing_m() const { return static_cast<double>(grid_.block_m) / kFinest; }
   [[nodiscard]] Vec3 place(std::size_t i) const {
-    const Node node = node_of(i);
+    const collision::Node node = node_of(i);
     return X_OQ_ * (grid_.origin_Q.cast<double>() + spacing_m() * Vec3(node[0], node[1], node[2]));
   }
 
@@ -114,10 +114,10 @@ class LatticeDistances {
 
   /// To the group, those neighbours without a side that are on the same as node `here`.
   void add_neighbours(std::size_t here, std::vector<std::size_t>& group) {
-    const Node node = node_of(here);
+    const collision::Node node = node_of(here);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const int way : {-1, 1}) {
-        Node next = node;
+        collision::Node next = node;
         next[axis] += way;
         if (next[axis] < 0 || next[axis] >= nodes_[axis]) continue;
         const std::size_t there = index(next);
@@ -132,8 +132,8 @@ class LatticeDistances {
   const Solid& solid_;
   const geometry::MeshQuery& skin_;
   const Pose& X_OQ_;
-  const DistanceBrick::Grid& grid_;
-  Node nodes_{};
+  const collision::DistanceBrick::Grid& grid_;
+  collision::Node nodes_{};
   std::vector<float> distance_m_;
   std::vector<Nearest> nearest_;
   std::vector<Side> side_;
@@ -141,8 +141,9 @@ class LatticeDistances {
 };
 
 /// The distance at `node` as a block whose nodes lie `stride` apart would have it.
-double interpolated(const LatticeDistances& distances, const Node& block, int stride, const Node& node) {
-  return interpolate(block, stride, node, [&](const Node& n) { return distances.at(n); });
+double interpolated(const LatticeDistances& distances, const collision::Node& block, int stride,
+                    const collision::Node& node) {
+  return collision::interpolate(block, stride, node, [&](const collision::Node& n) { return distances.at(n); });
 }
 
 /// By how much the depth may err where the distance is `truth_m`.
@@ -152,10 +153,10 @@ double tolerance_m(double truth_m, const BrickNeeds& needs) {
 }
 
 /// Whether a block whose nodes lie `stride` apart tells the depth at those of the finest lattice well enough.
-bool is_fine_enough(const LatticeDistances& distances, const Node& block, int stride, double block_m,
+bool is_fine_enough(const LatticeDistances& distances, const collision::Node& block, int stride, double block_m,
                     const BrickNeeds& needs) {
   bool good = true;
-  for_each_node_of(block, 1, [&](const Node& node) {
+  collision::for_each_node_of(block, 1, [&](const collision::Node& node) {
     const double truth = distances.at(node);
     if (!good) return;
     const double told = interpolated(distances, block, stride, node);
@@ -166,14 +167,14 @@ bool is_fine_enough(const LatticeDistances& distances, const Node& block, int st
 }
 
 struct Block {
-  Node at{};
+  collision::Node at{};
   int level = 0;
   bool open = false;  // not decided yet
 };
 
-std::vector<Block> list_blocks(const Node& blocks) {
+std::vector<Block> list_blocks(const collision::Node& blocks) {
   std::vector<Block> list;
-  for_each_node(blocks, [&](const Node& block) { list.push_back({block, 0, false}); });
+  collision::for_each_node(blocks, [&](const collision::Node& block) { list.push_back({block, 0, false}); });
   return list;
 }
 
@@ -181,20 +182,21 @@ std::vector<Block> list_blocks(const Node& blocks) {
 void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double block_m, const BrickNeeds& needs) {
   constexpr int kHalf = kFinest / 2;
   const auto center = [](const Block& block) {
-    return Node{kFinest * block.at[0] + kHalf, kFinest * block.at[1] + kHalf, kFinest * block.at[2] + kHalf};
+    return collision::Node{kFinest * block.at[0] + kHalf, kFinest * block.at[1] + kHalf, kFinest * block.at[2] + kHalf};
   };
   for (const Block& block : blocks) {
     distances.want(center(block));
-    for_each_node_of(block.at, kFinest, [&](const Node& node) { distances.want(node); });
+    collision::for_each_node_of(block.at, kFinest, [&](const collision::Node& node) { distances.want(node); });
   }
   distances.measure();
-  const double reach_m = static_cast<double>(kHalfDiagonal) * block_m;
+  const double reach_m = static_cast<double>(collision::kHalfDiagonal) * block_m;
   for (Block& block : blocks) {
     const double distance_m = distances.at(center(block));
     const bool is_near = distance_m < reach_m && distance_m > -reach_m - needs.probe_depth_m;
     const double told_m = interpolated(distances, block.at, kFinest, center(block));
     block.open = is_near || (distance_m > 0 && told_m - distance_m > 0.5 * kExcess * block_m);
-    if (block.open) for_each_node_of(block.at, 1, [&](const Node& node) { distances.want(node); });
+    if (block.open)
+      collision::for_each_node_of(block.at, 1, [&](const collision::Node& node) { distances.want(node); });
   }
   distances.measure();
 }
@@ -216,10 +218,10 @@ class SheetMaker {
              const BrickNeeds& needs)
       : distances_(distances), skin_(skin), R_QO_(X_OQ.R.inverse()), block_m_(block_m), needs_(needs) {}
 
-  [[nodiscard]] std::optional<Sheets> make(const Block& block) const {
-    std::vector<SheetSample> samples;
-    for_each_node_of(block.at, 1, [&](const Node& node) {
-      SheetSample sample;
+  [[nodiscard]] std::optional<collision::Sheets> make(const Block& block) const {
+    std::vector<collision::SheetSample> samples;
+    collision::for_each_node_of(block.at, 1, [&](const collision::Node& node) {
+      collision::SheetSample sample;
       sample.distance_m = static_cast<double>(distances_.at(node));
       if (sample.distance_m < -needs_.probe_depth_m - kBelow * block_m_) return;
       for (std::size_t i = 0; i < 3; ++i)
@@ -231,8 +233,8 @@ class SheetMaker {
       sample.excess_m = kExcess * block_m_;
       samples.push_back(sample);
     });
-    auto sheets = fit_sheets(samples, block_m_);
-    if (!sheets || !DistanceBrick::fits(*sheets, static_cast<float>(block_m_))) return std::nullopt;
+    auto sheets = collision::fit_sheets(samples, block_m_);
+    if (!sheets || !collision::DistanceBrick::fits(*sheets, static_cast<float>(block_m_))) return std::nullopt;
     return sheets;
   }
 
@@ -244,28 +246,29 @@ class SheetMaker {
   const BrickNeeds& needs_;
 };
 
-DistanceBrick::BlockSheets try_sheets(std::vector<Block>& blocks, const SheetMaker& maker) {
-  std::vector<std::optional<Sheets>> made(blocks.size());
+collision::DistanceBrick::BlockSheets try_sheets(std::vector<Block>& blocks, const SheetMaker& maker) {
+  std::vector<std::optional<collision::Sheets>> made(blocks.size());
   for_each_index(blocks.size(), [&](std::size_t i) {
     if (blocks[i].open) made[i] = maker.make(blocks[i]);
   });
-  DistanceBrick::BlockSheets sheets;
+  collision::DistanceBrick::BlockSheets sheets;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (!made[i]) continue;
     sheets.emplace(i, *made[i]);
-    blocks[i].level = DistanceBrick::kSheets;
+    blocks[i].level = collision::DistanceBrick::kSheets;
     blocks[i].open = false;
   }
   return sheets;
 }
 
-std::size_t bytes_of(std::span<const std::uint8_t> levels, const DistanceBrick::BlockSheets& sheets) {
+std::size_t bytes_of(std::span<const std::uint8_t> levels, const collision::DistanceBrick::BlockSheets& sheets) {
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    DistanceBrick::Entry entry{levels[i]};
+    collision::DistanceBrick::Entry entry{levels[i]};
     if (const auto found = sheets.find(i); found != sheets.end()) entry.three = found->second.count == 3;
     const std::size_t nodes = entry.count();
-    bytes += (nodes + DistanceBrick::kAlign - 1) / DistanceBrick::kAlign * DistanceBrick::kAlign;
+    bytes += (nodes + collision::DistanceBrick::kAlign - 1) / collision::DistanceBrick::kAlign *
+             collision::DistanceBrick::kAlign;
   }
   return bytes;
 }
@@ -273,21 +276,21 @@ std::size_t bytes_of(std::span<const std::uint8_t> levels, const DistanceBrick::
 /// A brick in the making, and what it was made from.
 class BrickMaker {
  public:
-  BrickMaker(const DistanceBrick::Grid& grid, const std::vector<Block>& blocks, DistanceBrick::BlockSheets sheets,
-             LatticeDistances& distances, std::size_t at_most)
+  BrickMaker(const collision::DistanceBrick::Grid& grid, const std::vector<Block>& blocks,
+             collision::DistanceBrick::BlockSheets sheets, LatticeDistances& distances, std::size_t at_most)
       : grid_(grid), blocks_(blocks), sheets_(std::move(sheets)), distances_(distances), at_most_(at_most) {
     for (const Block& block : blocks)
       levels_.push_back(static_cast<std::uint8_t>(block.level));
   }
 
   /// Nothing when it would be too large.
-  [[nodiscard]] std::optional<DistanceBrick> make() const {
+  [[nodiscard]] std::optional<collision::DistanceBrick> make() const {
     const std::size_t bytes = bytes_of(levels_, sheets_);
-    if (bytes > DistanceBrick::kMaxValues || bytes + sizeof(std::uint32_t) * levels_.size() > at_most_)
+    if (bytes > collision::DistanceBrick::kMaxValues || bytes + sizeof(std::uint32_t) * levels_.size() > at_most_)
       return std::nullopt;
-    return DistanceBrick::from_distances(
+    return collision::DistanceBrick::from_distances(
         grid_, levels_,
-        [&](const Node& node) {
+        [&](const collision::Node& node) {
           const auto shift = shifts_m_.find(node);
           return distances_.at(node) + (shift == shifts_m_.end() ? 0 : shift->second);
         },
@@ -296,7 +299,7 @@ class BrickMaker {
 
   /// The block that answers a witness wrongly becomes as fine as can be; where it is, the corners of the cell give way, by as little as
   /// will do. False when every witness is answered rightly, or too many are not.
-  [[nodiscard]] bool mend(const DistanceBrick& brick, const Pose& X_OQ, double stray_m,
+  [[nodiscard]] bool mend(const collision::DistanceBrick& brick, const Pose& X_OQ, double stray_m,
                           std::span<const Probe> witnesses) {
     std::vector<Fault> faults;
     const Pose X_QO = X_OQ.inverse();
@@ -307,10 +310,10 @@ class BrickMaker {
     }
     if (faults.empty() || static_cast<double>(faults.size()) > kHopeless * static_cast<double>(witnesses.size()))
       return false;
-    std::map<Node, float> shifts_m;
+    std::map<collision::Node, float> shifts_m;
     for (const auto& [p_Q, told_m] : faults) {
       const Vec3f place = brick.lattice_place(p_Q);
-      Node cell{};
+      collision::Node cell{};
       for (std::size_t i = 0; i < 3; ++i)
         cell[i] = std::min(static_cast<int>(place[static_cast<Eigen::Index>(i)]), kFinest * grid_.blocks[i] - 1);
       if (!make_finest(block_of(cell)))
@@ -328,41 +331,41 @@ class BrickMaker {
     float told_m;
   };
 
-  [[nodiscard]] std::size_t block_of(const Node& cell) const {
-    return index_of(grid_.blocks, {cell[0] / kFinest, cell[1] / kFinest, cell[2] / kFinest});
+  [[nodiscard]] std::size_t block_of(const collision::Node& cell) const {
+    return collision::index_of(grid_.blocks, {cell[0] / kFinest, cell[1] / kFinest, cell[2] / kFinest});
   }
 
   /// False when it is already.
   bool make_finest(std::size_t block) {
-    constexpr std::uint8_t kHighest = DistanceBrick::kLevels - 1;
+    constexpr std::uint8_t kHighest = collision::DistanceBrick::kLevels - 1;
     if (levels_[block] == kHighest) return false;
     levels_[block] = kHighest;
     sheets_.erase(block);
-    for_each_node_of(blocks_[block].at, 1, [&](const Node& node) { distances_.want(node); });
+    collision::for_each_node_of(blocks_[block].at, 1, [&](const collision::Node& node) { distances_.want(node); });
     return true;
   }
 
   /// Of several witnesses in a cell the one that asks the most.
-  static void give_way(const Node& cell, float by_m, std::map<Node, float>& shifts_m) {
+  static void give_way(const collision::Node& cell, float by_m, std::map<collision::Node, float>& shifts_m) {
     for (int corner = 0; corner < 8; ++corner) {
       float& shift_m = shifts_m[{cell[0] + corner % 2, cell[1] + corner / 2 % 2, cell[2] + corner / 4}];
       if (std::abs(by_m) > std::abs(shift_m)) shift_m = by_m;
     }
   }
 
-  const DistanceBrick::Grid& grid_;
+  const collision::DistanceBrick::Grid& grid_;
   const std::vector<Block>& blocks_;
-  DistanceBrick::BlockSheets sheets_;
+  collision::DistanceBrick::BlockSheets sheets_;
   LatticeDistances& distances_;
   std::size_t at_most_;
   std::vector<std::uint8_t> levels_;
-  std::map<Node, float> shifts_m_;  // of nodes that gave way
+  std::map<collision::Node, float> shifts_m_;  // of nodes that gave way
 };
 
 }  // namespace
 
-DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks) {
-  DistanceBrick::Grid grid;
+collision::DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks) {
+  collision::DistanceBrick::Grid grid;
   const double block_m = 2 * kRoom * frame.half_Q.maxCoeff() / blocks;
   Vec3 size;
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -375,11 +378,12 @@ DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks) {
   return grid;
 }
 
-std::optional<DistanceBrick> build_brick(const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ,
-                                         const DistanceBrick::Grid& grid, const BrickNeeds& needs,
-                                         std::span<const Probe> witnesses, std::size_t at_most) {
+std::optional<collision::DistanceBrick> build_brick(const Solid& solid, const geometry::MeshQuery& skin,
+                                                    const Pose& X_OQ, const collision::DistanceBrick::Grid& grid,
+                                                    const BrickNeeds& needs, std::span<const Probe> witnesses,
+                                                    std::size_t at_most) {
   // All blocks coarse is the least that it can take: no need to measure what would be too large all the same.
-  const std::size_t least = sizeof(std::uint32_t) + DistanceBrick::Entry{}.count();
+  const std::size_t least = sizeof(std::uint32_t) + collision::DistanceBrick::Entry{}.count();
   if (least * grid.block_count() > at_most) return std::nullopt;
   const auto block_m = static_cast<double>(grid.block_m);
   LatticeDistances distances(solid, skin, X_OQ, grid);
@@ -389,10 +393,10 @@ std::optional<DistanceBrick> build_brick(const Solid& solid, const geometry::Mes
   auto sheets = try_sheets(blocks, SheetMaker(distances, skin, X_OQ, block_m, needs));
   try_level(blocks, distances, block_m, needs, 1);
   BrickMaker maker(grid, blocks, std::move(sheets), distances, at_most);
-  std::optional<DistanceBrick> brick = maker.make();
+  std::optional<collision::DistanceBrick> brick = maker.make();
   for (int round = 0; brick && round < kMendings && maker.mend(*brick, X_OQ, needs.stray_m, witnesses); ++round)
     brick = maker.make();
   return brick;
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

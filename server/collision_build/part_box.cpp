@@ -1,4 +1,4 @@
-#include "server/collision/part_box.hpp"
+#include "server/collision_build/part_box.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 constexpr int kTurns = 45;  // of a quarter circle
@@ -136,4 +136,4 @@ Expected<geometry::FitResult> fit_box(std::span<const Vec3> bound_points_O, std:
   return result;
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

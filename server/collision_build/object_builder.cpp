@@ -1,4 +1,4 @@
-#include "server/collision/object_builder.hpp"
+#include "server/collision_build/object_builder.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -8,19 +8,19 @@
 #include <optional>
 
 #include "server/base/parallel.hpp"
-#include "server/collision/cast_map.hpp"
-#include "server/collision/choose_map.hpp"
-#include "server/collision/part_box.hpp"
-#include "server/collision/part_source.hpp"
 #include "server/collision/placed_part.hpp"
 #include "server/collision/samples.hpp"
-#include "server/collision/solid.hpp"
+#include "server/collision_build/cast_map.hpp"
+#include "server/collision_build/choose_map.hpp"
+#include "server/collision_build/part_box.hpp"
+#include "server/collision_build/part_source.hpp"
+#include "server/collision_build/solid.hpp"
 #include "server/geometry/mesh_check.hpp"
 #include "server/geometry/mesh_orient.hpp"
 #include "server/geometry/random.hpp"
 #include "server/geometry/surface_samples.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 constexpr double kWeld = 1e-6;               // of the part's diagonal
@@ -61,7 +61,7 @@ Expected<void> check_budget(const BuildConfig& config) {
 
 Expected<void> check_config(const BuildConfig& config) {
   const char* where = "build settings";
-  const auto& known = RadialMap::kResolutions;
+  const auto& known = collision::RadialMap::kResolutions;
   if (config.map_resolution != 0 && std::find(known.begin(), known.end(), config.map_resolution) == known.end()) {
     return fail("map_resolution is " + std::to_string(config.map_resolution), where,
                 "use 8, 12, 16, 24, 32, 48 or 64, or 0 for the smallest that is exact enough");
@@ -69,7 +69,7 @@ Expected<void> check_config(const BuildConfig& config) {
   if (!(config.sample_spacing_m >= 1e-4 && config.sample_spacing_m <= 1)) {
     return fail("sample_spacing_m is outside 0.0001 to 1 m", where, "use 0.005 for things that a hand touches");
   }
-  if (config.max_samples_per_part < kLanes || config.max_samples_per_part > 1'000'000) {
+  if (config.max_samples_per_part < collision::kLanes || config.max_samples_per_part > 1'000'000) {
     return fail("max_samples_per_part is outside 16 to 1000000", where, "use 4096");
   }
   if (!(config.seam_gap_m >= 0 && config.seam_gap_m <= 0.1)) {
@@ -80,8 +80,8 @@ Expected<void> check_config(const BuildConfig& config) {
 
 Expected<void> check_count(std::size_t parts) {
   if (parts == 0) return fail("there are no parts", "object", "name at least one mesh as a part");
-  if (parts > kMaxParts) {
-    return fail(std::to_string(parts) + " parts, more than " + std::to_string(kMaxParts), "object",
+  if (parts > collision::kMaxParts) {
+    return fail(std::to_string(parts) + " parts, more than " + std::to_string(collision::kMaxParts), "object",
                 "use fewer, larger parts");
   }
   return {};
@@ -176,7 +176,7 @@ Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground&
 
 /// A part, and what a finer map of it would be made from.
 struct Made {
-  Part part;
+  collision::Part part;
   MapFrame frame;
   std::vector<Probe> probes;
 };
@@ -193,7 +193,7 @@ MapChoice map_for(const Made& made, std::size_t node, const Ground& ground, std:
   return choose_map(ground.solid, ground.skin, node, made.frame, made.probes, ground.budget, candidates);
 }
 
-void set_map(MapChoice&& choice, Part& part, PartReport& report) {
+void set_map(MapChoice&& choice, collision::Part& part, PartReport& report) {
   report.map = choice.map.name();
   report.bytes = choice.map.bytes();
   report.error = choice.error;
@@ -216,7 +216,7 @@ Expected<Made> make_part(const PartSource& source, const Ground& ground, PartRep
   made.part.name = source.name;
   made.part.X_OQ = fit->X_OQ;
   made.part.superquadric = fit->shape;
-  made.part.bound_O = bounding_sphere(source.bound_points_O);
+  made.part.bound_O = collision::bounding_sphere(source.bound_points_O);
   set_map(map_for(made, source.node, ground, 0, {}), made.part, report);
   if (source.places.empty()) {  // wholly inside others: nobody feels it
     report.error = {0, 0, 0, 0, 0, 0};
@@ -227,26 +227,26 @@ Expected<Made> make_part(const PartSource& source, const Ground& ground, PartRep
 
 /// What find_contacts would say of a point: the hit in which it lies most centrally; and whose it is.
 struct Answer {
-  MapHit hit;
+  collision::MapHit hit;
   std::size_t part = 0;
 };
 
-Answer ask(std::span<const Part> parts, const Vec3& p_O) {
+Answer ask(std::span<const collision::Part> parts, const Vec3& p_O) {
   Answer best;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if ((p_O - parts[i].bound_O.center).norm() > parts[i].bound_O.radius) continue;
-    const MapHit hit = parts[i].map.evaluate((parts[i].X_OQ.inverse() * p_O).cast<float>());
+    const collision::MapHit hit = parts[i].map.evaluate((parts[i].X_OQ.inverse() * p_O).cast<float>());
     if (hit.hit && (!best.hit.hit || hit.m < best.hit.m)) best = {hit, i};
   }
   return best;
 }
 
 /// The part that should have answered for a point that none did: the one whose map's box holds it the most centrally.
-std::size_t owner(std::span<const Part> parts, const Vec3& p_O) {
+std::size_t owner(std::span<const collision::Part> parts, const Vec3& p_O) {
   std::size_t best = 0;
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const BoxView box = parts[i].map.box();
+    const collision::BoxView box = parts[i].map.box();
     const Vec3f p_Q = (parts[i].X_OQ.inverse() * p_O).cast<float>();
     float m = 0;
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -267,7 +267,7 @@ struct Faults {
   std::vector<Probe> missed;  // own probes and witnesses
 };
 
-void judge_own(std::span<const Part> parts, std::span<const Made> made, const ErrorBudget& budget,
+void judge_own(std::span<const collision::Part> parts, std::span<const Made> made, const ErrorBudget& budget,
                std::vector<Faults>& faults) {
   for (const Made& one : made) {
     for (const Probe& probe : one.probes) {
@@ -283,7 +283,7 @@ void judge_own(std::span<const Part> parts, std::span<const Made> made, const Er
   }
 }
 
-std::vector<Faults> find_faults(std::span<const Part> parts, std::span<const Made> made,
+std::vector<Faults> find_faults(std::span<const collision::Part> parts, std::span<const Made> made,
                                 std::span<const Probe> witnesses, const ErrorBudget& budget) {
   std::vector<Faults> faults(parts.size());
   judge_own(parts, made, budget, faults);
@@ -321,7 +321,7 @@ std::vector<Probe> make_witnesses(const Ground& ground, std::size_t parts) {
 }
 
 /// Gives parts finer maps until the object as a whole meets the budget, or nothing finer is left.
-void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<const PartSource> sources,
+void refine(std::vector<collision::Part>& parts, std::span<const Made> made, std::span<const PartSource> sources,
             std::span<const Probe> witnesses, const Ground& ground, std::vector<PartReport>& reports) {
   std::vector<std::vector<Probe>> must(parts.size());
   std::vector<bool> exhausted(parts.size());
@@ -355,8 +355,8 @@ void refine(std::vector<Part>& parts, std::span<const Made> made, std::span<cons
 }
 
 /// What a query has in its hands for a part.
-std::size_t bytes_of(const Part& part) {
-  return part.map.bytes() + sizeof(Part) + sizeof(PlacedPart);
+std::size_t bytes_of(const collision::Part& part) {
+  return part.map.bytes() + sizeof(collision::Part) + sizeof(collision::PlacedPart);
 }
 
 /// The whole object as one source.
@@ -384,8 +384,9 @@ MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
 
 /// One brick in place of all parts, where it meets the budget and is not much larger: a query then asks once, not part after part. Nothing
 /// where the parts are better.
-std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> parts, std::span<const Made> made,
-                               std::span<const Probe> witnesses, const Ground& ground, PartReport& report) {
+std::optional<collision::Part> make_whole(const PartSource& whole, std::span<const collision::Part> parts,
+                                          std::span<const Made> made, std::span<const Probe> witnesses,
+                                          const Ground& ground, PartReport& report) {
   geometry::Mesh mesh;
   for (const geometry::Mesh& node : ground.nodes)
     mesh.append(node);
@@ -400,7 +401,7 @@ std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> pa
   candidates.radial = false;
   candidates.must = must;
   candidates.at_most = 0;
-  for (const Part& part : parts)
+  for (const collision::Part& part : parts)
     candidates.at_most += bytes_of(part);
   candidates.at_most *= kWorthOfWhole;
   MapChoice choice = choose_map(ground.solid, ground.skin, 0, frame_around(whole.bound_points_O, fit->X_OQ), probes,
@@ -410,11 +411,11 @@ std::optional<Part> make_whole(const PartSource& whole, std::span<const Part> pa
   report.fit = fit->report;
   report.samples = whole.samples_O.size();
   report.spacing_m = whole.spacing_m;
-  Part part;
+  collision::Part part;
   part.name = whole.name;
   part.X_OQ = fit->X_OQ;
   part.superquadric = fit->shape;
-  part.bound_O = bounding_sphere(whole.bound_points_O);
+  part.bound_O = collision::bounding_sphere(whole.bound_points_O);
   set_map(std::move(choice), part, report);
   return part;
 }
@@ -443,8 +444,8 @@ std::vector<Probe> make_report_probes(std::span<const PartSource> sources, const
 
 }  // namespace
 
-Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const BuildConfig& config,
-                              BuildReport* report, const PartDone& on_part) {
+Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> nodes, const BuildConfig& config,
+                                         BuildReport* report, const PartDone& on_part) {
   const auto start = std::chrono::steady_clock::now();
   if (auto ok = check_config(config); !ok) return tl::unexpected(ok.error());
   const auto welded = weld_nodes(nodes);
@@ -465,7 +466,7 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
     tried[i] = make_part((*sources)[i], ground, built.parts[i]);
     if (on_part) on_part(++done, sources->size());
   });
-  Object object;
+  collision::Object object;
   std::vector<Made> made;
   for (auto& one : tried) {
     if (!one) return tl::unexpected(one.error());
@@ -487,9 +488,9 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
   }
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
     built.bytes += object.parts[i].map.bytes();
-    append_samples(object, static_cast<std::uint16_t>(i), std::move((*sources)[i].samples_O));
+    collision::append_samples(object, static_cast<std::uint16_t>(i), std::move((*sources)[i].samples_O));
   }
-  close_clusters(object);
+  collision::close_clusters(object);
 
   if (report != nullptr) {
     built.diagonal_m = diagonal_m;
@@ -501,4 +502,4 @@ Expected<Object> build_object(std::span<const geometry::NamedMesh> nodes, const 
   return object;
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build

@@ -1,4 +1,4 @@
-#include "server/collision/part_source.hpp"
+#include "server/collision_build/part_source.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "server/geometry/surface_samples.hpp"
 
-namespace mechane::collision {
+namespace mechane::collision_build {
 namespace {
 
 constexpr std::size_t kPlaces = 2400;     // of a part's surface, for the choice of its map
@@ -124,4 +124,4 @@ std::vector<PartSource> sources_of_node(const std::string& name, const geometry:
   return sources;
 }
 
-}  // namespace mechane::collision
+}  // namespace mechane::collision_build
