@@ -14,8 +14,8 @@
 #include "client-sdk/cli/visit_plot.hpp"
 #include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
-#include "server/visits/visit_file.hpp"
 #include "server/scenario/problem.hpp"
+#include "server/visits/visit_file.hpp"
 
 namespace mechane::cli {
 namespace {

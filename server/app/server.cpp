@@ -13,8 +13,8 @@
 #include "server/app/world_loop.hpp"
 #include "server/log/log.hpp"
 #include "server/record/recorder.hpp"
-#include "server/visits/visit_sheets.hpp"
 #include "server/transport/server_transport.hpp"
+#include "server/visits/visit_sheets.hpp"
 
 namespace mechane::app {
 namespace {

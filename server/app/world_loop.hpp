@@ -11,8 +11,8 @@
 #include "server/realtime/periodic_thread.hpp"
 #include "server/realtime/ring.hpp"
 #include "server/record/recorder.hpp"
-#include "server/visits/visit_feed.hpp"
 #include "server/transport/world_port.hpp"
+#include "server/visits/visit_feed.hpp"
 #include "server/world/step.hpp"
 
 namespace mechane::app {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "server/state/description.hpp"
 #include "server/visits/visit_feed.hpp"
 #include "server/visits/visit_sheet.hpp"
-#include "server/state/description.hpp"
 
 namespace mechane::visits {
 

@@ -18,7 +18,7 @@
 
 #include "server/collision/object_io.hpp"
 #include "server/collision/samples.hpp"
-#include "server/collision_build/object_builder.hpp"
+#include "server/collision/superquadric_object.hpp"
 #include "server/collision_build/object_builder.hpp"
 #include "server/geometry/superquadric.hpp"
 
@@ -29,6 +29,7 @@ using mechane::Pose;
 using mechane::Quat;
 using mechane::Vec3;
 namespace collision = mechane::collision;
+namespace collision_build = mechane::collision_build;
 namespace geometry = mechane::geometry;
 
 void require(bool holds, const char* what) {

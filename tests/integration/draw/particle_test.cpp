@@ -79,10 +79,8 @@ TEST_F(DrawnPicture, a_fire_lights_what_is_near_it) {
   const picture::ImageData dark = draw(yard.assets, yard.scene);
   yard.scene.effects = {{Kind::fire, Vec3f(0, 0.05F, 0), Vec3f::UnitY(), 1, 0.15F, 0.2F}};
   const picture::ImageData lit = draw(yard.assets, yard.scene);
-  const Vec3 warm =
-      colour_at(lit, pixel_of(yard.scene, near), 2) - colour_at(dark, pixel_of(yard.scene, near), 2);
-  const Vec3 faint =
-      colour_at(lit, pixel_of(yard.scene, far), 2) - colour_at(dark, pixel_of(yard.scene, far), 2);
+  const Vec3 warm = colour_at(lit, pixel_of(yard.scene, near), 2) - colour_at(dark, pixel_of(yard.scene, near), 2);
+  const Vec3 faint = colour_at(lit, pixel_of(yard.scene, far), 2) - colour_at(dark, pixel_of(yard.scene, far), 2);
   EXPECT_GT(warm.x(), 40);
   EXPECT_GT(warm.x(), warm.z() + 20);
   EXPECT_LT(faint.x(), 0.6 * warm.x());

@@ -177,8 +177,7 @@ TEST_F(DrawnPicture, a_rivers_ripples_go_with_its_current) {
     const picture::ImageData before = draw(assets, scene);
     scene.time_s = 40.3;
     const picture::ImageData after = draw(assets, scene);
-    const Eigen::Vector2d way =
-        pixel_of(scene, (0.3F * flow_W).cast<double>()) - pixel_of(scene, Vec3::Zero());
+    const Eigen::Vector2d way = pixel_of(scene, (0.3F * flow_W).cast<double>()) - pixel_of(scene, Vec3::Zero());
     ASSERT_GT(way.norm(), 12);
     const int dx = static_cast<int>(std::lround(way.x()));
     const int dy = static_cast<int>(std::lround(way.y()));

@@ -14,12 +14,12 @@ namespace mechane::app {
 namespace {
 
 namespace fs = std::filesystem;
-using visits::VisitEnding;
-using visits::VisitFile;
-using visits::VisitSheet;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
+using visits::VisitEnding;
+using visits::VisitFile;
+using visits::VisitSheet;
 
 /// A crank with a questionnaire, and sheets in a folder of the test.
 class WorldVisitsTest : public testing::Test {

@@ -17,18 +17,18 @@ namespace mechane::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using visits::AnswerTime;
-using visits::MistakeKind;
-using visits::StepEnding;
-using visits::VisitEnding;
-using visits::VisitFile;
-using visits::VisitSheet;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
+using visits::AnswerTime;
+using visits::MistakeKind;
+using visits::StepEnding;
+using visits::VisitEnding;
+using visits::VisitFile;
+using visits::VisitSheet;
 
 VisitSheet visit_of(const std::string& number, double turn_s, VisitEnding ending = VisitEnding::done) {
   VisitSheet sheet;
