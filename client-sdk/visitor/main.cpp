@@ -36,10 +36,13 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--scenario", a.scenarios, "X3D file to read the visit from; with --all, files and folders of them");
   auto* activity = app.add_option("--activity", a.options.activities,
                                   "play one visit of each of these activities, in this order; without: all visits");
+  auto* visit =
+      app.add_option("--visit", a.options.visits, "play these visits, by their names in the scenario, in this order")
+          ->excludes(activity);
   auto* all = app.add_flag("--all", a.all,
                            "all visits of all scenarios at once, each scenario at a kiosk of its own, "
                            "named as its file; without --scenario, of the folder scenarios");
-  all->excludes(activity);
+  all->excludes(activity)->excludes(visit);
   app.add_option("--at-once", a.at_once,
                  "with --all: kiosks at a time; each wants a share of a processor here and at the server")
       ->needs(all)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mechane::visitor {
 namespace {
@@ -134,6 +135,7 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
     swing_from_rad_ = joint_angle(description_.joints[move.joint.index()], X_WB);
   } else if (move.kind == VisitMove::Kind::grasp) {
     intent_.grasp_intent = 1;
+    grasp_ = {move.body, std::numeric_limits<double>::infinity(), false};
   } else if (move.kind == VisitMove::Kind::release) {
     intent_.grasp_intent = 0;
   }
@@ -199,6 +201,7 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double
       return time_s_ >= move.duration_s;
     case VisitMove::Kind::grasp:
       ok_ = holding;
+      note_grasp(X_WB, felt_n);
       if (!holding) follow_grip(X_WB);
       return time_s_ >= (holding ? move.duration_s : std::max(move.duration_s, config_.grasp_patience_s));
     case VisitMove::Kind::turn:
@@ -257,6 +260,12 @@ void VisitPlayer::go_round(JointId id, double angle_rad) {
   intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J) - X_WH_start_.R * p_HG_;
 }
 
+void VisitPlayer::note_grasp(std::span<const Pose> X_WB, double felt_n) {
+  const Vec3 way = X_WB[grasp_.body.index()] * p_BG_ - intent_.X_WH * p_HG_;
+  grasp_.nearest_m = std::min(grasp_.nearest_m, way.norm());
+  grasp_.touched = grasp_.touched || felt_n > kTouchN;
+}
+
 void VisitPlayer::note_grip(bool holding) {
   held_ = held_ || holding;
   if (holding) held_rad_ = turned_rad_;
@@ -287,7 +296,9 @@ void VisitPlayer::fetch_again() {
 
 void VisitPlayer::end_move(bool ok) {
   done_rad_[index_] += held_rad_;
-  results_.push_back({name_of(description_, visit_.moves[index_]), time_s_, ok});
+  const VisitMove& move = visit_.moves[index_];
+  results_.push_back({name_of(description_, move), time_s_, ok});
+  if (!ok && move.kind == VisitMove::Kind::grasp) results_.back().failed_grasp = grasp_;
   ++index_;
   begun_ = false;
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "client-sdk/haptic/virtual_device.hpp"
+#include "client-sdk/visitor/grasp_reason.hpp"
 #include "server/state/description.hpp"
 
 namespace mechane::visitor {
@@ -18,6 +20,8 @@ struct MoveResult {
   std::string name;  ///< "reach INNER"
   double seconds = 0;
   bool ok = true;  ///< a grasp that caught nothing, a carry with an empty hand: false
+  std::optional<FailedGrasp> failed_grasp{};
+  std::string reason{};  ///< why the grasp failed; the player leaves it to who sees the world's status
 };
 
 struct PlayerConfig {
@@ -62,6 +66,7 @@ class VisitPlayer {
   void go_round(JointId joint, double angle_rad);
   void end_move(bool ok);
   [[nodiscard]] bool slipped(std::span<const Pose> X_WB, bool holding) const;
+  void note_grasp(std::span<const Pose> X_WB, double felt_n);
   void note_grip(bool holding);
   [[nodiscard]] bool lost_its_handle() const;
   void fetch_again();
@@ -82,6 +87,7 @@ class VisitPlayer {
   double last_dt_s_ = 0;
   bool held_ = false;    // at some moment of this move
   double held_rad_ = 0;  // turned when the hand last held something in this move
+  FailedGrasp grasp_;    // this move, while it is one that catches nothing
   double empty_s_ = 0;   // since the hand last held something in this move
   Pose X_WH_start_;
   Pose X_WH_goal_;

@@ -16,7 +16,7 @@ nlohmann::json activity_json(const ActivityReport& activity, const std::string& 
     steps.push_back({{"name", step.name}, {"seconds", step.seconds}, {"done", step.done}});
   nlohmann::json moves = nlohmann::json::array();
   for (const MoveResult& move : activity.moves)
-    moves.push_back({{"name", move.name}, {"seconds", move.seconds}, {"ok", move.ok}});
+    moves.push_back({{"name", move.name}, {"seconds", move.seconds}, {"ok", move.ok}, {"reason", move.reason}});
   return {{"kiosk", kiosk},
           {"name", activity.name},
           {"visit", activity.visit},

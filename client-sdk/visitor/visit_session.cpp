@@ -59,6 +59,7 @@ class Session {
     if (++ticks_ % 8 == 0) look();
   }
   void look();
+  void note_moves(const VisitPlayer& player, ActivityReport& report) const;
   void note_step(ActivityReport& report);
   /// Whether a step's sign has sent the kiosk on to another scenario.
   [[nodiscard]] bool gone_on() const { return status_ && status_->scenario != world_.id; }
@@ -118,6 +119,18 @@ void Session::note_step(ActivityReport& report) {
   step_began_ = clock_.now();
   say(report.name, status_->done ? "done" : status_->step);
   note_dead_end(report);
+}
+
+/// A failed grasp is told at once: what follows it mostly fails too.
+void Session::note_moves(const VisitPlayer& player, ActivityReport& report) const {
+  for (const MoveResult& result : player.results().subspan(report.moves.size())) {
+    MoveResult& move = report.moves.emplace_back(result);
+    if (!move.failed_grasp) continue;
+    const std::vector<std::string> none;
+    move.reason =
+        why_not_grasped(*move.failed_grasp, world_, world_.find_step(step_), status_ ? status_->enabled_agents : none);
+    say(report.name, fmt::format("visit {}: {} failed: {}", report.visit, move.name, move.reason));
+  }
 }
 
 void Session::note_dead_end(ActivityReport& report) const {
@@ -201,6 +214,7 @@ ActivityReport Session::play(const VisitDescription& visit) {
     player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
     device_.intend(player.intent());
     tick();
+    note_moves(player, report);
     note_step(report);
     if (gone_on() || !report.reason.empty()) break;
     report.done = status_ && status_->activity == report.name && status_->done;
@@ -221,9 +235,9 @@ ActivityReport Session::play(const VisitDescription& visit) {
     player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
     device_.intend(player.intent());
     tick();
+    note_moves(player, report);
   }
   report.seconds = seconds_since(began);
-  report.moves.assign(player.results().begin(), player.results().end());
   say(report.name,
       fmt::format("visit {}: {}, {:.1f} s", visit.name, report.done ? "done" : "not done", report.seconds));
   return report;
@@ -239,28 +253,6 @@ void Session::fill(VisitReport& report) const {
     report.quantities.emplace_back(status->quantities[i].name, frame_.quantities[i]);
     if (status->quantities[i].name == "lifted") report.water_l = frame_.quantities[i];
   }
-}
-
-Expected<std::vector<const VisitDescription*>> choose_visits(const VisitOptions& options,
-                                                             const WorldDescription& world) {
-  std::vector<const VisitDescription*> chosen;
-  if (options.activities.empty()) {
-    for (const VisitDescription& visit : world.visits)
-      chosen.push_back(&visit);
-  }
-  for (const std::string& name : options.activities) {
-    const ActivityId id = world.find_activity(name);
-    const auto visit =
-        std::find_if(world.visits.begin(), world.visits.end(), [&](const auto& v) { return v.activity == id; });
-    if (!id || visit == world.visits.end()) {
-      return fail(fmt::format("no visit for the activity '{}'", name), options.scenario.string(),
-                  "name an activity that has one, or write a visit into the scenario");
-    }
-    chosen.push_back(&*visit);
-  }
-  if (chosen.empty())
-    return fail("the scenario has no visit to play", options.scenario.string(), "write one (see its reference)");
-  return chosen;
 }
 
 /// Waits for a world, and says at once what it waits for.

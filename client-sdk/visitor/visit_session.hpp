@@ -17,7 +17,8 @@ namespace mechane::visitor {
 struct VisitOptions {
   client::ClientConfig client;
   std::filesystem::path scenario;       ///< the file that the visit is read from
-  std::vector<std::string> activities;  ///< in this order; empty: all that have a visit
+  std::vector<std::string> visits;      ///< by name, in this order; empty: those of `activities`
+  std::vector<std::string> activities;  ///< one visit of each, in this order; empty, and no visits: all visits
   PlayerConfig player;
   haptic::RenderMode render = haptic::RenderMode::server;
   Duration join_within = std::chrono::seconds(20);
@@ -57,6 +58,10 @@ struct VisitReport {
 
 /// The report as JSON; the names in it are stable.
 [[nodiscard]] std::string to_json(const VisitReport& report);
+
+/// Which visits of the scenario are played. Errors: a name that it does not have, with those that it has; it has none.
+[[nodiscard]] Expected<std::vector<const state::VisitDescription*>> choose_visits(const VisitOptions& options,
+                                                                                  const state::WorldDescription& world);
 
 /// Plays the visit with a virtual device at 1 kHz, on the calling thread, and tells on stdout where it is. `stop` is looked at in each
 /// tick. Errors: the scenario cannot be read, it has no visit for an activity, the kiosk could not be joined or was refused.

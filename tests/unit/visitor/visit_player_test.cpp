@@ -140,6 +140,23 @@ TEST(VisitPlayerCarry, WhatASnapTookOrTheHandHoldsIsNotFetchedAgain) {
   EXPECT_EQ(carry_to(Vec3(0.3, 1, 0), true).size(), 3u);
 }
 
+TEST(VisitPlayerGrasp, WhatCaughtNothingSaysHowNearItWasAndWhetherItFelt) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = carrying();
+  for (const double felt_n : {0.0, 1.0}) {
+    PlayerConfig config;
+    config.offset_W = Vec3(0, 0, 0.3);
+    VisitPlayer player(world, visit, config);
+    while (player.results().size() < 2)
+      player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, false, player.results().empty() ? 0 : felt_n);
+    EXPECT_FALSE(player.results()[0].failed_grasp);
+    ASSERT_TRUE(player.results()[1].failed_grasp);
+    EXPECT_EQ(player.results()[1].failed_grasp->body, BodyId(1));
+    EXPECT_NEAR(player.results()[1].failed_grasp->nearest_m, 0.3, 1e-9);
+    EXPECT_EQ(player.results()[1].failed_grasp->touched, felt_n > 0);
+  }
+}
+
 TEST(VisitPlayerCarry, AWholeHandComesFromAboveOnWhatItTakes) {
   const state::WorldDescription world = lever_world();
   const state::VisitDescription visit = carrying();

@@ -1,0 +1,72 @@
+#include "client-sdk/visitor/grasp_reason.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "server/state/ways.hpp"
+
+namespace mechane::visitor {
+namespace {
+
+/// What a step says of a body's flag, or else the body, where no other step says anything. Nothing: it depends on the steps before.
+std::optional<bool> flag_in(const state::WorldDescription& world, StepId step, BodyId body,
+                            std::optional<bool> state::BodyOverride::*flag, bool otherwise) {
+  bool set_elsewhere = false;
+  for (std::size_t i = 0; i < world.steps.size(); ++i) {
+    for (const state::BodyOverride& change : world.steps[i].bodies) {
+      if (change.body != body || !(change.*flag)) continue;
+      if (step == StepId(i)) return change.*flag;
+      set_elsewhere = true;
+    }
+  }
+  return set_elsewhere ? std::nullopt : std::optional(otherwise);
+}
+
+/// The agents that let hands take it.
+std::vector<std::string> takers_of(const state::WorldDescription& world, BodyId body) {
+  std::vector<std::string> names;
+  for (const state::Way& way : state::ways_of(world)) {
+    if (way.kind == state::Way::Kind::taken && way.object == body)
+      names.push_back(world.agents[way.agent.index()].name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string why_not_grasped(const FailedGrasp& grasp, const state::WorldDescription& world, StepId step,
+                            std::span<const std::string> enabled_agents) {
+  const state::BodyDescription& body = world.bodies[grasp.body.index()];
+  const std::string in_step = step ? fmt::format("in step '{}'", world.steps[step.index()].name) : "now";
+  if (body.fixed) return fmt::format("{} is fixed; let the visit grasp a body that moves", body.name);
+  if (flag_in(world, step, grasp.body, &state::BodyOverride::graspable, body.graspable) == false)
+    return fmt::format("{} is not graspable {}; say graspable true of it, or of the step's body", body.name, in_step);
+  if (flag_in(world, step, grasp.body, &state::BodyOverride::movable, true) == false)
+    return fmt::format("{} is not movable {}; say movable true of the step's body", body.name, in_step);
+  const std::vector<std::string> takers = takers_of(world, grasp.body);
+  if (takers.empty()) {
+    return fmt::format("no agent lets hands take {}; name it in the bodies of a simulation.grasp", body.name);
+  }
+  const auto is_on = [&](const std::string& name) {
+    return std::ranges::find(enabled_agents, name) != enabled_agents.end();
+  };
+  if (std::ranges::none_of(takers, is_on))
+    return fmt::format("the agent '{}', which lets hands take {}, is off {}; enable it there", takers.front(),
+                       body.name, in_step);
+  if (!grasp.touched) {
+    return fmt::format(
+        "the hand felt nothing and came within {:.3f} m of the grip of {}; let the visit reach for a point on its "
+        "surface",
+        grasp.nearest_m, body.name);
+  }
+  return fmt::format(
+      "the hand touched something, but the server did not give it {}; it may sit in its place already, or the hand "
+      "touched "
+      "another body: let the visit release first, or reach from another side",
+      body.name);
+}
+
+}  // namespace mechane::visitor
