@@ -9,6 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "client-sdk/authoring/merge.hpp"
+#include "client-sdk/authoring/reference.hpp"
 #include "client-sdk/cli/content.hpp"
 #include "client-sdk/cli/displays.hpp"
 #include "client-sdk/cli/doctor.hpp"
@@ -17,11 +19,10 @@
 #include "client-sdk/cli/open.hpp"
 #include "client-sdk/cli/sibling.hpp"
 #include "client-sdk/cli/visits.hpp"
+#include "server/base/suggestion.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/checker.hpp"
-#include "server/scenario/merge.hpp"
-#include "server/scenario/problem.hpp"
-#include "server/scenario/reference.hpp"
+#include "server/x3d/problem.hpp"
 #include <mechane/client/displays.hpp>
 
 namespace {
@@ -187,7 +188,7 @@ std::string unknown_command(const CLI::App& app, const std::string& word) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(command->get_name());
   if (word.starts_with('-') || std::ranges::count(known, word) > 0) return {};
-  const std::string near = scenario::nearest(word, known);
+  const std::string near = nearest(word, known);
   return "mechane: there is no command '" + word.substr(0, 80) + "'" +
          (near.empty() ? "" : ": did you mean '" + near + "'?") + " (mechane --help lists them)\n";
 }
@@ -253,9 +254,9 @@ int add_and_parse(int argc, char** argv) {
   if (*check_command)
     return scenario::run_check(files, std::cout,
                                check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);
-  if (*merge_command) return scenario::run_merge(merge_files, merged_file, std::cout);
+  if (*merge_command) return authoring::run_merge(merge_files, merged_file, std::cout);
   if (*reference_command) {
-    std::cout << scenario::reference_page();
+    std::cout << authoring::reference_page();
     return 0;
   }
   return cli::run_doctor(doctor_json, probe_s);

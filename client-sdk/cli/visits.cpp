@@ -14,7 +14,7 @@
 #include "client-sdk/cli/visit_plot.hpp"
 #include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
-#include "server/scenario/problem.hpp"
+#include "server/base/suggestion.hpp"
 #include "server/visits/visit_file.hpp"
 
 namespace mechane::cli {
@@ -93,7 +93,7 @@ std::optional<Error> VisitsCommand::unknown_name(std::span<const VisitSheet> all
     if (filter.wanted.empty() || known.empty() || known.contains(filter.wanted)) continue;
     const std::vector<std::string> names(known.begin(), known.end());
     return Error{fmt::format("no sheet is of the {} '{}'", filter.what, filter.wanted), file().string(),
-                 scenario::suggest(filter.wanted, names, "")};
+                 suggest(filter.wanted, names, "")};
   }
   return std::nullopt;
 }

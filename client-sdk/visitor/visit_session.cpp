@@ -284,7 +284,7 @@ bool VisitReport::complete() const {
 
 Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std::sig_atomic_t& stop) {
   scenario::FileFinder finder;
-  scenario::Problems problems(options.scenario.string());
+  x3d::Problems problems(options.scenario.string());
   const auto world = scenario::read_scenario(options.scenario, finder, problems);
   if (!world) return tl::unexpected(world.error());
   const auto visits = choose_visits(options, *world);

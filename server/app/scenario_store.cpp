@@ -42,10 +42,10 @@ void scale_touch(state::WorldDescription& description, double scale) {
 Expected<std::shared_ptr<const state::WorldDescription>> load_one(const std::filesystem::path& file,
                                                                   StoreLoader& loader, double stiffness_scale) {
   log::info(fmt::format("reading {}", file.string()));
-  scenario::Problems problems(file.string());
+  x3d::Problems problems(file.string());
   auto description = scenario::read_scenario(file, loader, problems);
-  for (const scenario::Problem& problem : problems.all()) {
-    if (problem.severity == scenario::Severity::warning) log::warning(to_string(problem));
+  for (const x3d::Problem& problem : problems.all()) {
+    if (problem.severity == x3d::Severity::warning) log::warning(to_string(problem));
   }
   if (!description) return tl::unexpected(description.error());
   scale_touch(*description, stiffness_scale);

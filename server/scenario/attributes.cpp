@@ -3,37 +3,37 @@
 #include <fmt/format.h>
 
 #include "server/base/assert.hpp"
-#include "server/scenario/values.hpp"
+#include "server/x3d/values.hpp"
 
 namespace mechane::scenario {
 namespace {
 
-const Table& table_of(const Node& node) {
+const Table& table_of(const x3d::Node& node) {
   const Table* table = find_node_table(node.name);
   MECHANE_ASSERT(table != nullptr);
   return *table;
 }
 
-const X3dType& type_of(const Node& node) {
-  const X3dType* type = X3dSchema::standard().find(node.name);
+const x3d::NodeType& type_of(const x3d::Node& node) {
+  const x3d::NodeType* type = x3d::Schema::standard().find(node.name);
   MECHANE_ASSERT(type != nullptr);
   return *type;
 }
 
 }  // namespace
 
-std::optional<BadValue> attribute_fault(const X3dField& field, const Key* key, std::string_view text) {
+std::optional<x3d::BadValue> attribute_fault(const x3d::Field& field, const Key* key, std::string_view text) {
   if (auto fault = field.fault(text)) return fault;
   if (key == nullptr) return std::nullopt;
   std::vector<double> numbers;
   if (key->kind != ValueKind::string && key->kind != ValueKind::strings && key->kind != ValueKind::boolean) {
-    if (const auto parsed = parse_numbers(text)) numbers = *parsed;
+    if (const auto parsed = x3d::parse_numbers(text)) numbers = *parsed;
   }
   const std::string word(text);
   return range_fault(*key, numbers, key->kind == ValueKind::string ? &word : nullptr);
 }
 
-Attributes::Attributes(const Document& document, NodeId id, Problems& problems)
+Attributes::Attributes(const x3d::Document& document, x3d::NodeId id, x3d::Problems& problems)
     : node_(document[id]),
       table_(table_of(node_)),
       type_(type_of(node_)),
@@ -63,7 +63,7 @@ const Key& Attributes::key(std::string_view name, ValueKind kind) const {
 }
 
 std::string_view Attributes::value(std::string_view name) const {
-  const X3dField* field = type_.field(name);
+  const x3d::Field* field = type_.field(name);
   MECHANE_ASSERT(field != nullptr);
   const std::string* text = node_.attribute(name);
   if (text == nullptr || attribute_fault(*field, table_.find(name), *text)) return field->default_value;
@@ -71,7 +71,7 @@ std::string_view Attributes::value(std::string_view name) const {
 }
 
 std::vector<double> Attributes::numbers(std::string_view name) const {
-  auto values = parse_numbers(value(name));
+  auto values = x3d::parse_numbers(value(name));
   MECHANE_ASSERT(values.has_value());
   return std::move(*values);
 }
@@ -110,14 +110,14 @@ Mat3 Attributes::symmetric_matrix(std::string_view name) {
 
 bool Attributes::boolean(std::string_view name) const {
   static_cast<void>(key(name, ValueKind::boolean));
-  const auto values = parse_booleans(value(name));
+  const auto values = x3d::parse_booleans(value(name));
   MECHANE_ASSERT(values.has_value() && values->size() == 1);
   return values->front();
 }
 
 std::vector<std::string> Attributes::strings(std::string_view name) const {
   static_cast<void>(key(name, ValueKind::strings));
-  auto values = parse_strings(value(name));
+  auto values = x3d::parse_strings(value(name));
   MECHANE_ASSERT(values.has_value());
   return std::move(*values);
 }

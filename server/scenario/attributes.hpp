@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "server/base/math.hpp"
-#include "server/scenario/document.hpp"
 #include "server/scenario/schema.hpp"
-#include "server/scenario/x3d_schema.hpp"
+#include "server/x3d/document.hpp"
+#include "server/x3d/schema.hpp"
 
 namespace mechane::scenario {
 
@@ -17,7 +17,7 @@ namespace mechane::scenario {
 class Attributes {
  public:
   /// All must outlive this.
-  Attributes(const Document& document, NodeId id, Problems& problems);
+  Attributes(const x3d::Document& document, x3d::NodeId id, x3d::Problems& problems);
 
   [[nodiscard]] bool given(std::string_view name) const;
   [[nodiscard]] double number(std::string_view name) const;
@@ -44,14 +44,15 @@ class Attributes {
   std::string_view value(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;
 
-  const Node& node_;
+  const x3d::Node& node_;
   const Table& table_;
-  const X3dType& type_;
+  const x3d::NodeType& type_;
   std::string where_;
-  Problems& problems_;
+  x3d::Problems& problems_;
 };
 
 /// What is wrong with an attribute's text against X3D and against what we read of it; nothing where it is right. `key` may be null.
-[[nodiscard]] std::optional<BadValue> attribute_fault(const X3dField& field, const Key* key, std::string_view text);
+[[nodiscard]] std::optional<x3d::BadValue> attribute_fault(const x3d::Field& field, const Key* key,
+                                                           std::string_view text);
 
 }  // namespace mechane::scenario

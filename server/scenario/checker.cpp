@@ -17,33 +17,34 @@ std::string count(std::size_t number, std::string_view word) {
 
 namespace fs = std::filesystem;
 
-std::vector<Problem> sorted(const Problems& problems) {
-  std::vector<Problem> all = problems.all();
-  std::stable_sort(all.begin(), all.end(), [](const Problem& a, const Problem& b) { return a.line < b.line; });
+std::vector<x3d::Problem> sorted(const x3d::Problems& problems) {
+  std::vector<x3d::Problem> all = problems.all();
+  std::stable_sort(all.begin(), all.end(),
+                   [](const x3d::Problem& a, const x3d::Problem& b) { return a.line < b.line; });
   return all;
 }
 
 struct Checked {
-  std::vector<Problem> problems;
+  std::vector<x3d::Problem> problems;
   std::string id;  ///< empty where the file is too broken to have one
 };
 
 Checked check_one(const fs::path& file) {
-  Problems problems(file.string());
+  x3d::Problems problems(file.string());
   MeshFinder finder;
   const auto world = read_scenario(file, finder, problems);
   return {sorted(problems), world ? world->id : std::string()};
 }
 
 /// A folder is no scenario; those in it can be named.
-Problem about_folder(const fs::path& folder) {
+x3d::Problem about_folder(const fs::path& folder) {
   for (const char* depth : {"", "*"}) {
     std::error_code code;
     fs::recursive_directory_iterator at(folder, code);
     for (const fs::recursive_directory_iterator end; !code && at != end; at.increment(code)) {
       if (at.depth() >= 1) at.disable_recursion_pending();
       if (at.depth() == (*depth == '\0' ? 0 : 1) && at->path().extension() == ".x3d") {
-        return {Severity::error,
+        return {x3d::Severity::error,
                 folder.string(),
                 0,
                 "",
@@ -52,7 +53,7 @@ Problem about_folder(const fs::path& folder) {
       }
     }
   }
-  return {Severity::error,           folder.string(), 0, "", "this is a folder, and no scenario (.x3d) is in it",
+  return {x3d::Severity::error,      folder.string(), 0, "", "this is a folder, and no scenario (.x3d) is in it",
           "name the scenario's file"};
 }
 
@@ -62,20 +63,20 @@ void check_ids(const std::string& file, Checked& checked, std::map<std::string, 
   const auto [it, first] = ids.emplace(checked.id, file);
   std::error_code code;
   if (first || fs::equivalent(it->second, file, code)) return;
-  checked.problems.push_back({Severity::error, file, 0, "",
+  checked.problems.push_back({x3d::Severity::error, file, 0, "",
                               fmt::format("its id '{}' is that of {} too", checked.id, it->second),
                               "give it an id of its own: no server takes both"});
 }
 
 }  // namespace
 
-std::vector<Problem> check(const fs::path& file) {
+std::vector<x3d::Problem> check(const fs::path& file) {
   return check_one(file).problems;
 }
 
-std::vector<Problem> check_text(std::string_view text, const fs::path& file, ObjectLoader& loader) {
-  Problems problems(file.string());
-  if (const auto document = read_document(text, file, problems))
+std::vector<x3d::Problem> check_text(std::string_view text, const fs::path& file, ObjectLoader& loader) {
+  x3d::Problems problems(file.string());
+  if (const auto document = x3d::read_document(text, file, problems))
     static_cast<void>(compile(*document, loader, problems));
   return sorted(problems);
 }
@@ -85,7 +86,7 @@ int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat
     out << "mechane check: no file is named; write: mechane check scenarios/NAME/NAME.x3d\n";
     return 2;
   }
-  std::vector<Problem> all;
+  std::vector<x3d::Problem> all;
   std::map<std::string, std::string> ids;
   for (const std::string& file : files) {
     std::error_code code;
@@ -97,19 +98,19 @@ int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat
     check_ids(file, checked, ids);
     all.insert(all.end(), checked.problems.begin(), checked.problems.end());
   }
-  const auto of = [&](Severity severity) {
+  const auto of = [&](x3d::Severity severity) {
     return static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [&](const Problem& p) { return p.severity == severity; }));
+        std::count_if(all.begin(), all.end(), [&](const x3d::Problem& p) { return p.severity == severity; }));
   };
-  const std::size_t errors = of(Severity::error);
+  const std::size_t errors = of(x3d::Severity::error);
   if (format == CheckFormat::json) {
-    out << to_json(all) << "\n";
+    out << x3d::to_json(all) << "\n";
   } else {
-    for (const Problem& problem : all)
+    for (const x3d::Problem& problem : all)
       out << to_string(problem) << "\n";
-    const std::size_t notes = of(Severity::note);
+    const std::size_t notes = of(x3d::Severity::note);
     out << fmt::format("{}: {}, {}{}\n", count(files.size(), "file"), count(errors, "error"),
-                       count(of(Severity::warning), "warning"), notes == 0 ? "" : ", " + count(notes, "note"));
+                       count(of(x3d::Severity::warning), "warning"), notes == 0 ? "" : ", " + count(notes, "note"));
   }
   return errors > 0 ? 1 : 0;
 }

@@ -10,10 +10,11 @@
 
 #include "server/scenario/attributes.hpp"
 #include "server/scenario/compiler.hpp"
-#include "server/scenario/document.hpp"
-#include "server/scenario/metadata.hpp"
+#include "server/scenario/fields.hpp"
 #include "server/state/component_type.hpp"
 #include "server/state/description.hpp"
+#include "server/x3d/document.hpp"
+#include "server/x3d/metadata.hpp"
 
 namespace mechane::scenario {
 
@@ -31,11 +32,11 @@ struct WrittenRule {
 [[nodiscard]] bool is_id(const std::string& text);
 
 struct Compilation {
-  const Document& document;
+  const x3d::Document& document;
   ObjectLoader& loader;
-  Problems& problems;
+  x3d::Problems& problems;
   state::WorldDescription world;
-  std::optional<Metadata> scenario;                 ///< the tree of the WorldInfo
+  std::optional<x3d::Metadata> scenario;            ///< the tree of the WorldInfo
   std::map<std::string, std::string> model_hashes;  ///< by url as written
   std::vector<int> body_lines;                      ///< by BodyId
   std::vector<int> activity_lines;                  ///< by ActivityId
@@ -69,10 +70,10 @@ void lint(Compilation& c);
 void compile_all(Compilation& c);
 
 /// A set of the scenario's tree; null where there is none.
-[[nodiscard]] const Metadata* tree_set(const Compilation& c, std::string_view name);
+[[nodiscard]] const x3d::Metadata* tree_set(const Compilation& c, std::string_view name);
 
 /// Texts of a `text` set: keys "<what>.<language>", with `what` among `allowed` (separated by blanks). By what, then by language.
-[[nodiscard]] std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* set,
+[[nodiscard]] std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metadata* set,
                                                              const std::string& where, std::string_view allowed);
 
 /// The questions of an activity; their lines go to Compilation::question_lines.

@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -11,7 +12,7 @@ namespace {
 std::string model_url(Compilation& c, const Fields& fields) {
   const std::string model = fields.string("model");
   if (!fields.given("model")) return {};
-  const NodeId id = c.document.find_def(model);
+  const x3d::NodeId id = c.document.find_def(model);
   if (!id || c.document[id].name != "Inline") {
     c.problems.error(
         fields.line("model"), fields.where(), fmt::format("no Inline has the DEF '{}'", model),
@@ -25,7 +26,7 @@ std::string model_url(Compilation& c, const Fields& fields) {
     return {};
   }
   const std::string& url = urls.front();
-  if (!is_relative_path(url)) {
+  if (!x3d::is_relative_path(url)) {
     inline_node.error(fmt::format("the url '{}' is not a path beside the scenario", url),
                       "copy the file there and name it by a relative path");
     return {};
@@ -43,8 +44,8 @@ std::string model_url(Compilation& c, const Fields& fields) {
   return c.model_hashes[url].empty() ? std::string() : url;
 }
 
-void read_shape(Compilation& c, NodeId id, Attributes& attributes, state::BodyDescription& body) {
-  const auto set = read_metadata(c.document, id, "mechane:body", c.problems);
+void read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::BodyDescription& body) {
+  const auto set = x3d::read_metadata(c.document, id, "mechane:body", c.problems);
   if (!set) {
     attributes.warning("the body has no 'mechane:body': it is neither drawn nor touched",
                        "name its model and node there");
@@ -74,8 +75,8 @@ void read_shape(Compilation& c, NodeId id, Attributes& attributes, state::BodyDe
   body.object = std::move(*object);
 }
 
-void read_haptic(Compilation& c, NodeId id, state::BodyDescription& body) {
-  const auto set = read_metadata(c.document, id, "mechane:haptic", c.problems);
+void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
+  const auto set = x3d::read_metadata(c.document, id, "mechane:haptic", c.problems);
   const Fields fields(set ? &*set : nullptr, haptic_table(), "mechane:haptic of " + body.name, c.problems);
   body.haptic = {fields.number("stiffness"), fields.number("damping"), fields.number("staticFriction"),
                  fields.number("dynamicFriction")};
@@ -111,7 +112,7 @@ double damping(Attributes& attributes, std::string_view name, double otherwise) 
   return attributes.boolean("autoDamp") && attributes.given(name) ? attributes.number(name) : otherwise;
 }
 
-void compile_body(Compilation& c, NodeId id) {
+void compile_body(Compilation& c, x3d::NodeId id) {
   Attributes attributes(c.document, id, c.problems);
   state::BodyDescription body;
   body.name = attributes.text("DEF");
@@ -135,8 +136,8 @@ void compile_body(Compilation& c, NodeId id) {
 }  // namespace
 
 void compile_bodies(Compilation& c) {
-  const std::vector<NodeId> collections = c.document.elements("RigidBodyCollection");
-  for (const NodeId id : collections) {
+  const std::vector<x3d::NodeId> collections = c.document.elements("RigidBodyCollection");
+  for (const x3d::NodeId id : collections) {
     Attributes attributes(c.document, id, c.problems);
     if (id == collections.front()) {
       c.world.gravity_W = attributes.vector("gravity");
@@ -145,7 +146,7 @@ void compile_bodies(Compilation& c) {
                          "merge them");
     }
   }
-  for (const NodeId id : c.document.elements("RigidBody"))
+  for (const x3d::NodeId id : c.document.elements("RigidBody"))
     compile_body(c, id);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "server/agents/registry.hpp"
+#include "server/base/suggestion.hpp"
 #include "server/machines/registry.hpp"
 #include "server/scenario/compilation.hpp"
 
@@ -34,13 +35,13 @@ struct Registry {
   std::span<const ComponentType> types;
 };
 
-state::Parameter to_parameter(const Metadata& value) {
-  if (value.kind == MetadataKind::booleans) return value.booleans.size() == 1 && value.booleans.front();
-  if (value.kind == MetadataKind::strings) return value.strings;
+state::Parameter to_parameter(const x3d::Metadata& value) {
+  if (value.kind == x3d::MetadataKind::booleans) return value.booleans.size() == 1 && value.booleans.front();
+  if (value.kind == x3d::MetadataKind::strings) return value.strings;
   return value.numbers;
 }
 
-void read_parameter(Compilation& c, const Metadata& value, const ComponentType& type, const std::string& where,
+void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentType& type, const std::string& where,
                     state::ComponentDescription& out) {
   const auto known = std::ranges::find(type.parameters, value.name, &ParameterType::name);
   if (known == type.parameters.end()) {
@@ -48,7 +49,8 @@ void read_parameter(Compilation& c, const Metadata& value, const ComponentType& 
     c.problems.unknown(value.line, where, fmt::format("{} has no parameter '{}'", out.type, value.name), value.name,
                        names);
     c.misspelt_parameters.emplace(out.name, nearest(value.name, names));
-  } else if (value.kind == MetadataKind::set || (value.kind == MetadataKind::booleans && value.booleans.size() != 1)) {
+  } else if (value.kind == x3d::MetadataKind::set ||
+             (value.kind == x3d::MetadataKind::booleans && value.booleans.size() != 1)) {
     c.problems.error(value.line, where, fmt::format("the parameter '{}' is not one value", value.name),
                      std::string(known->summary));
   } else {
@@ -59,11 +61,12 @@ void read_parameter(Compilation& c, const Metadata& value, const ComponentType& 
 
 /// Reads type and parameters. Names and kinds of parameters are held against the type here, where each has its line; values and
 /// references by check_components, when all names are known. Without a type it is kept all the same: what refers to it is right.
-void read_component(Compilation& c, const Metadata& set, const Registry& registry, state::ComponentDescription& out) {
+void read_component(Compilation& c, const x3d::Metadata& set, const Registry& registry,
+                    state::ComponentDescription& out) {
   const std::string where = fmt::format("{} {}", registry.word, out.name);
   out.line = set.line;
-  const Metadata* type_name = set.find("type");
-  if (type_name == nullptr || type_name->kind != MetadataKind::strings || type_name->strings.size() != 1) {
+  const x3d::Metadata* type_name = set.find("type");
+  if (type_name == nullptr || type_name->kind != x3d::MetadataKind::strings || type_name->strings.size() != 1) {
     c.problems.error(set.line, where, "the key 'type' is missing",
                      fmt::format("write one of: {}", fmt::join(names_of_all(registry.types), ", ")));
     return;
@@ -75,12 +78,12 @@ void read_component(Compilation& c, const Metadata& set, const Registry& registr
                      suggest(out.type, names_of_all(registry.types), "remove it"));
     return;
   }
-  for (const Metadata& child : set.children) {
+  for (const x3d::Metadata& child : set.children) {
     if (child.name != "type") read_parameter(c, child, *type, where, out);
   }
 }
 
-void add_component(Compilation& c, std::vector<state::ComponentDescription>& table, const Metadata& set,
+void add_component(Compilation& c, std::vector<state::ComponentDescription>& table, const x3d::Metadata& set,
                    const Registry& registry, state::ComponentDescription component) {
   if (c.world.find_agent(component.name) || c.world.find_machine(component.name)) {
     c.problems.error(set.line, fmt::format("{} {}", registry.word, component.name),
@@ -104,8 +107,8 @@ void imply_subject(const std::string& name, state::Reference kind, state::Compon
 
 void compile_node_agents(Compilation& c, std::string_view node_type, state::Reference kind) {
   const Registry registry{"agent", agents::registry()};
-  for (const NodeId id : c.document.elements(node_type)) {
-    const auto set = read_metadata(c.document, id, "mechane:agent", c.problems);
+  for (const x3d::NodeId id : c.document.elements(node_type)) {
+    const auto set = x3d::read_metadata(c.document, id, "mechane:agent", c.problems);
     if (!set) continue;
     Attributes attributes(c.document, id, c.problems);
     const std::string name = attributes.text("DEF");
@@ -121,10 +124,10 @@ void compile_node_agents(Compilation& c, std::string_view node_type, state::Refe
 
 void compile_tree(Compilation& c, std::string_view key, const Registry& registry,
                   std::vector<state::ComponentDescription>& table) {
-  const Metadata* tree = tree_set(c, key);
+  const x3d::Metadata* tree = tree_set(c, key);
   if (tree == nullptr) return;
-  for (const Metadata& set : tree->children) {
-    if (set.kind != MetadataKind::set) {
+  for (const x3d::Metadata& set : tree->children) {
+    if (set.kind != x3d::MetadataKind::set) {
       c.problems.error(set.line, std::string(key), fmt::format("'{}' is not a set", set.name),
                        "write a MetadataSet with a type and its parameters");
       continue;

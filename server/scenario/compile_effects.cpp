@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -95,7 +96,7 @@ void check_risen_node(Compilation& c, const Fields& fields, const std::string& n
                    fmt::format("name it WATER_{} in the model, and here", node));
 }
 
-state::EffectDescription read_effect(Compilation& c, const Metadata& set) {
+state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   const Fields fields(&set, effect_table(), "effect " + set.name, c.problems);
   state::EffectDescription effect;
   effect.name = set.name;
@@ -137,10 +138,10 @@ state::EffectDescription read_effect(Compilation& c, const Metadata& set) {
 }  // namespace
 
 void compile_effects(Compilation& c) {
-  const Metadata* tree = tree_set(c, "effects");
+  const x3d::Metadata* tree = tree_set(c, "effects");
   if (tree == nullptr) return;
-  for (const Metadata& set : tree->children) {
-    if (set.kind != MetadataKind::set) {
+  for (const x3d::Metadata& set : tree->children) {
+    if (set.kind != x3d::MetadataKind::set) {
       c.problems.error(set.line, "effect " + set.name, "the effect is not a set", "write a MetadataSet");
     } else {
       c.world.effects.push_back(read_effect(c, set));
@@ -149,7 +150,7 @@ void compile_effects(Compilation& c) {
 }
 
 void compile_viewpoints(Compilation& c) {
-  for (const NodeId id : c.document.elements("Viewpoint")) {
+  for (const x3d::NodeId id : c.document.elements("Viewpoint")) {
     Attributes attributes(c.document, id, c.problems);
     state::Viewpoint viewpoint;
     viewpoint.name = attributes.text("DEF");

@@ -12,8 +12,8 @@ namespace {
 constexpr double kNoStop = kPi - 1e-3;
 
 /// The body in a field of the joint; none for the world, after a problem too.
-BodyId body_of(Compilation& c, NodeId joint, std::string_view field, bool& good) {
-  for (const NodeId child : c.document.child_elements(joint)) {
+BodyId body_of(Compilation& c, x3d::NodeId joint, std::string_view field, bool& good) {
+  for (const x3d::NodeId child : c.document.child_elements(joint)) {
     if (c.document[child].name != "RigidBody" || c.document.container_field(child, "body1") != field) continue;
     const std::string* name = c.document[c.document.resolve(child)].attribute("DEF");
     const BodyId body = name != nullptr ? c.world.find_body(*name) : BodyId::none();
@@ -25,7 +25,7 @@ BodyId body_of(Compilation& c, NodeId joint, std::string_view field, bool& good)
   return BodyId::none();
 }
 
-bool read_bodies(Compilation& c, NodeId id, Attributes& attributes, state::JointDescription& joint) {
+bool read_bodies(Compilation& c, x3d::NodeId id, Attributes& attributes, state::JointDescription& joint) {
   bool good = true;
   joint.body1 = body_of(c, id, "body1", good);
   joint.body2 = body_of(c, id, "body2", good);
@@ -90,7 +90,7 @@ Pose read_geometry(Compilation& c, Attributes& attributes, state::JointDescripti
   return {attributes.vector("anchorPoint"), Quat::Identity()};
 }
 
-void compile_joint(Compilation& c, NodeId id, state::JointKind kind) {
+void compile_joint(Compilation& c, x3d::NodeId id, state::JointKind kind) {
   Attributes attributes(c.document, id, c.problems);
   state::JointDescription joint;
   joint.name = attributes.text("DEF");
@@ -108,11 +108,11 @@ void compile_joint(Compilation& c, NodeId id, state::JointKind kind) {
 
 void compile_joints(Compilation& c) {
   using Kind = state::JointKind;
-  for (const NodeId id : c.document.elements("SingleAxisHingeJoint"))
+  for (const x3d::NodeId id : c.document.elements("SingleAxisHingeJoint"))
     compile_joint(c, id, Kind::hinge);
-  for (const NodeId id : c.document.elements("SliderJoint"))
+  for (const x3d::NodeId id : c.document.elements("SliderJoint"))
     compile_joint(c, id, Kind::slider);
-  for (const NodeId id : c.document.elements("BallJoint"))
+  for (const x3d::NodeId id : c.document.elements("BallJoint"))
     compile_joint(c, id, Kind::ball);
 }
 

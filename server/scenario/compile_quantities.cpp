@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -67,16 +68,16 @@ void check_unit(Compilation& c, const std::string& unit, int line, const std::st
 }  // namespace
 
 void compile_quantities(Compilation& c) {
-  const Metadata* tree = tree_set(c, "quantities");
+  const x3d::Metadata* tree = tree_set(c, "quantities");
   if (tree == nullptr) return;
-  for (const Metadata& item : tree->children) {
+  for (const x3d::Metadata& item : tree->children) {
     const std::string where = "quantity " + item.name;
     state::QuantityDescription quantity;
     quantity.name = item.name;
     int line = item.line;
-    if (item.kind == MetadataKind::strings && item.strings.size() == 1) {
+    if (item.kind == x3d::MetadataKind::strings && item.strings.size() == 1) {
       quantity.source = item.strings.front();
-    } else if (item.kind == MetadataKind::set) {
+    } else if (item.kind == x3d::MetadataKind::set) {
       const Fields fields(&item, quantity_table(), where, c.problems);
       quantity.source = fields.string("source");
       quantity.unit = fields.string("unit");

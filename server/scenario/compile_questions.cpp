@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -35,7 +36,7 @@ void read_scale(Compilation& c, const Fields& fields, std::map<std::string, stat
   }
 }
 
-Question read_question(Compilation& c, const Metadata& set, const std::string& activity) {
+Question read_question(Compilation& c, const x3d::Metadata& set, const std::string& activity) {
   const Fields fields(&set, question_table(), fmt::format("{}, question {}", activity, set.name), c.problems);
   Question out;
   out.name = set.name;
@@ -67,10 +68,10 @@ Question read_question(Compilation& c, const Metadata& set, const std::string& a
 std::vector<Question> read_questionnaire(Compilation& c, const Fields& activity) {
   std::vector<Question> questions;
   std::vector<int>& lines = c.question_lines.emplace_back();
-  const Metadata* tree = activity.set("questionnaire");
+  const x3d::Metadata* tree = activity.set("questionnaire");
   if (tree == nullptr) return questions;
-  for (const Metadata& set : tree->children) {
-    if (set.kind != MetadataKind::set) {
+  for (const x3d::Metadata& set : tree->children) {
+    if (set.kind != x3d::MetadataKind::set) {
       c.problems.error(set.line, activity.where(), fmt::format("the question '{}' is not a set", set.name),
                        "write a MetadataSet");
     } else {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -12,7 +13,7 @@ namespace {
 struct Written {
   ActivityId id;
   Fields fields;
-  std::vector<const Metadata*> steps;
+  std::vector<const x3d::Metadata*> steps;
   std::size_t first_step = 0;
 
   [[nodiscard]] StepId find(const std::string& name) const {
@@ -23,7 +24,7 @@ struct Written {
   }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> names;
-    for (const Metadata* step : steps)
+    for (const x3d::Metadata* step : steps)
       names.push_back(step->name);
     return names;
   }
@@ -31,11 +32,11 @@ struct Written {
 
 void collect_steps(Compilation& c, Written& activity) {
   activity.first_step = c.world.steps.size();
-  const Metadata* steps = activity.fields.set("steps");
+  const x3d::Metadata* steps = activity.fields.set("steps");
   if (steps == nullptr) return;
-  for (const Metadata& step : steps->children) {
+  for (const x3d::Metadata& step : steps->children) {
     const std::string where = "step " + step.name;
-    if (step.kind != MetadataKind::set) {
+    if (step.kind != x3d::MetadataKind::set) {
       c.problems.error(step.line, where, "the step is not a set", "write a MetadataSet");
     } else if (step.name.empty() || step.name == "end") {
       c.problems.error(step.line, where, fmt::format("a step cannot be called '{}'", step.name),
@@ -77,7 +78,7 @@ std::optional<bool> optional_boolean(const Fields& fields, std::string_view key)
   return fields.given(key) ? std::optional<bool>(fields.boolean(key)) : std::nullopt;
 }
 
-void read_override(Compilation& c, const Metadata& set, const std::string& step, state::StepDescription& out) {
+void read_override(Compilation& c, const x3d::Metadata& set, const std::string& step, state::StepDescription& out) {
   const std::string name = set.name.substr(std::string_view("object:").size());
   const Fields fields(&set, override_table(), fmt::format("{}, object {}", step, name), c.problems);
   state::BodyOverride change;
@@ -140,7 +141,7 @@ StepId read_next(Compilation& c, const Written& activity, const Fields& fields, 
   return step;
 }
 
-void read_trigger(Compilation& c, const Written& activity, const Metadata& set, const std::string& step,
+void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& set, const std::string& step,
                   state::StepDescription& out, StepId id) {
   const Fields fields(&set, trigger_table(), fmt::format("{}, {}", step, set.name), c.problems);
   std::vector<state::RuleDescription> rules;
@@ -153,7 +154,7 @@ void read_trigger(Compilation& c, const Written& activity, const Metadata& set, 
     }
     rules.push_back(read_rule(c, fields, id));
   }
-  for (const Metadata* rule : fields.sets_like("rule:*")) {
+  for (const x3d::Metadata* rule : fields.sets_like("rule:*")) {
     const Fields of_rule(rule, rule_table(), fmt::format("{}, {}", fields.where(), rule->name), c.problems);
     rules.push_back(read_rule(c, of_rule, id));
   }
@@ -189,10 +190,10 @@ void read_timeout(Compilation& c, const Written& activity, const Fields& fields,
 void check_audio(Compilation& c, const Fields& fields, state::StepDescription& step) {
   const auto audio = step.texts.find("audio");
   if (audio == step.texts.end()) return;
-  const Metadata* set = fields.set("text");
+  const x3d::Metadata* set = fields.set("text");
   for (auto it = audio->second.begin(); it != audio->second.end();) {
-    const Metadata* written = set->find("audio." + it->first);
-    if (is_relative_path(it->second)) {
+    const x3d::Metadata* written = set->find("audio." + it->first);
+    if (x3d::is_relative_path(it->second)) {
       ++it;
       continue;
     }
@@ -211,7 +212,7 @@ void read_detail(Compilation& c, const Fields& fields, state::StepDescription& s
                    suggest(step.detail, names_of(views), "add a Viewpoint of that DEF"));
 }
 
-void compile_step(Compilation& c, const Written& activity, const Metadata& set) {
+void compile_step(Compilation& c, const Written& activity, const x3d::Metadata& set) {
   const std::string where = "step " + set.name;
   const Fields fields(&set, step_table(), where, c.problems);
   state::StepDescription& step = c.world.steps[activity.find(set.name).index()];
@@ -222,9 +223,9 @@ void compile_step(Compilation& c, const Written& activity, const Metadata& set) 
     c.problems.error(fields.line("disable"), where,
                      fmt::format("'{}' is both enabled and disabled", c.world.agents[agent.index()].name), "keep one");
   }
-  for (const Metadata* change : fields.sets_like("object:*"))
+  for (const x3d::Metadata* change : fields.sets_like("object:*"))
     read_override(c, *change, where, step);
-  for (const Metadata* trigger : fields.sets_like("trigger:*"))
+  for (const x3d::Metadata* trigger : fields.sets_like("trigger:*"))
     read_trigger(c, activity, *trigger, where, step, activity.find(set.name));
   read_timeout(c, activity, fields, step);
   read_detail(c, fields, step);
@@ -281,12 +282,12 @@ void open_switched_joints(state::WorldDescription& world) {
 }  // namespace
 
 void compile_activities(Compilation& c) {
-  const Metadata* tree = tree_set(c, "activities");
+  const x3d::Metadata* tree = tree_set(c, "activities");
   if (tree == nullptr) return;
   std::vector<Written> written;
-  for (const Metadata& set : tree->children) {
+  for (const x3d::Metadata& set : tree->children) {
     const std::string where = "activity " + set.name;
-    if (set.kind != MetadataKind::set) {
+    if (set.kind != x3d::MetadataKind::set) {
       c.problems.error(set.line, where, "the activity is not a set", "write a MetadataSet");
       continue;
     }
@@ -305,7 +306,7 @@ void compile_activities(Compilation& c) {
   if (tree->children.empty())
     c.problems.error(tree->line, "activities", "the scenario has no activity", "add one with its steps");
   for (const Written& activity : written) {
-    for (const Metadata* step : activity.steps)
+    for (const x3d::Metadata* step : activity.steps)
       compile_step(c, activity, *step);
     compile_first(c, activity);
     check_first(c, activity);

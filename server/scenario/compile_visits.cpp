@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -56,7 +57,7 @@ JointId read_hinge(Compilation& c, const Fields& fields, std::string_view kind) 
   return joint;
 }
 
-state::VisitMove compile_move(Compilation& c, const Metadata& set, const std::string& visit) {
+state::VisitMove compile_move(Compilation& c, const x3d::Metadata& set, const std::string& visit) {
   const Fields fields(&set, move_table(), fmt::format("{}, {}", visit, set.name), c.problems);
   const std::string kind = fields.string("kind");
   state::VisitMove move;
@@ -105,11 +106,11 @@ state::VisitMove compile_move(Compilation& c, const Metadata& set, const std::st
 }  // namespace
 
 void compile_visits(Compilation& c) {
-  const Metadata* tree = tree_set(c, "visits");
+  const x3d::Metadata* tree = tree_set(c, "visits");
   if (tree == nullptr) return;
-  for (const Metadata& set : tree->children) {
+  for (const x3d::Metadata& set : tree->children) {
     const std::string where = "visit " + set.name;
-    if (set.kind != MetadataKind::set) {
+    if (set.kind != x3d::MetadataKind::set) {
       c.problems.error(set.line, where, "the visit is not a set", "write a MetadataSet");
       continue;
     }
@@ -122,7 +123,7 @@ void compile_visits(Compilation& c) {
       c.problems.error(fields.line("activity"), where, fmt::format("no activity is called '{}'", activity),
                        suggest(activity, names_of(c.world.activities), "add it to the scenario's activities"));
     }
-    for (const Metadata* move : fields.sets_like("move:*"))
+    for (const x3d::Metadata* move : fields.sets_like("move:*"))
       visit.moves.push_back(compile_move(c, *move, where));
     c.world.visits.push_back(std::move(visit));
   }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/scenario/compilation.hpp"
 
@@ -20,9 +21,9 @@ bool is_language(const std::string& text) {
 
 /// <unit> statements in the head change what every number means; we read metres, kilograms and radians only.
 void refuse_units(Compilation& c) {
-  for (const NodeId head : c.document.child_elements(c.document.x3d())) {
+  for (const x3d::NodeId head : c.document.child_elements(c.document.x3d())) {
     if (c.document[head].name != "head") continue;
-    for (const NodeId id : c.document.child_elements(head)) {
+    for (const x3d::NodeId id : c.document.child_elements(head)) {
       if (c.document[id].name != "unit") continue;
       Attributes unit(c.document, id, c.problems);
       if (unit.given("conversionFactor") && unit.number("conversionFactor") != 1) {
@@ -51,7 +52,7 @@ void read_languages(Compilation& c, const Fields& fields) {
 void take_plain_file(Compilation& c) {
   const std::string remedy = "add <WorldInfo><MetadataSet containerField='metadata' name='mechane:scenario'>...";
   const int line = c.document[c.document.scene()].line;
-  for (const NodeId id : c.document.elements("MetadataSet")) {
+  for (const x3d::NodeId id : c.document.elements("MetadataSet")) {
     const std::string* name = c.document[id].attribute("name");
     if (name == nullptr || !name->starts_with("mechane")) continue;
     // Where it is there, it is faulty or misplaced, and that has been said.
@@ -83,19 +84,19 @@ bool is_id(const std::string& text) {
   return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), allowed);
 }
 
-const Metadata* tree_set(const Compilation& c, std::string_view name) {
+const x3d::Metadata* tree_set(const Compilation& c, std::string_view name) {
   if (!c.scenario) return nullptr;
-  const Metadata* found = c.scenario->find(name);
-  return found != nullptr && found->kind == MetadataKind::set ? found : nullptr;
+  const x3d::Metadata* found = c.scenario->find(name);
+  return found != nullptr && found->kind == x3d::MetadataKind::set ? found : nullptr;
 }
 
-std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* set, const std::string& where,
+std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metadata* set, const std::string& where,
                                                std::string_view allowed) {
   std::map<std::string, state::Texts> texts;
   const Fields fields(set, text_table(), where, c.problems);
   if (set == nullptr) return texts;
   const std::string padded = fmt::format(" {} ", allowed);
-  for (const Metadata& child : set->children) {
+  for (const x3d::Metadata& child : set->children) {
     if (!fields.given(child.name)) continue;
     const std::size_t dot = child.name.find('.');
     const std::string what = child.name.substr(0, dot);
@@ -121,8 +122,8 @@ std::map<std::string, state::Texts> read_texts(Compilation& c, const Metadata* s
 
 void compile_scenario(Compilation& c) {
   refuse_units(c);
-  for (const NodeId info : c.document.elements("WorldInfo")) {
-    if (!c.scenario) c.scenario = read_metadata(c.document, info, "mechane:scenario", c.problems);
+  for (const x3d::NodeId info : c.document.elements("WorldInfo")) {
+    if (!c.scenario) c.scenario = x3d::read_metadata(c.document, info, "mechane:scenario", c.problems);
   }
   if (!c.scenario) return take_plain_file(c);
   const Fields fields(&*c.scenario, scenario_table(), "mechane:scenario", c.problems);
@@ -142,7 +143,8 @@ void compile_scenario(Compilation& c) {
 }
 
 void compile_hash(Compilation& c) {
-  std::string all = "mechane-scenario " + c.document.content_hash() + "\n";
+  const std::string& source = c.document.source();
+  std::string all = "mechane-scenario " + content::content_hash(std::as_bytes(std::span(source))) + "\n";
   for (const auto& [url, hash] : c.model_hashes)
     all += fmt::format("{} {}\n", url, hash);
   c.world.content_hash = content::content_hash(std::as_bytes(std::span(all)));
@@ -170,7 +172,8 @@ Expected<std::string> hash_file(const std::filesystem::path& file) {
   return content::content_hash(file);
 }
 
-Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader, Problems& problems) {
+Expected<state::WorldDescription> compile(const x3d::Document& document, ObjectLoader& loader,
+                                          x3d::Problems& problems) {
   Compilation c{document, loader, problems, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   compile_all(c);
   if (problems.has_errors()) return tl::unexpected(problems.first_error());
@@ -178,8 +181,8 @@ Expected<state::WorldDescription> compile(const Document& document, ObjectLoader
 }
 
 Expected<state::WorldDescription> read_scenario(const std::filesystem::path& file, ObjectLoader& loader,
-                                                Problems& problems) {
-  const auto document = read_document(file, problems);
+                                                x3d::Problems& problems) {
+  const auto document = x3d::read_document(file, problems);
   if (!document) return tl::unexpected(document.error());
   return compile(*document, loader, problems);
 }

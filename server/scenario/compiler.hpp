@@ -6,8 +6,8 @@
 #include <string>
 
 #include "server/base/error.hpp"
-#include "server/scenario/document.hpp"
 #include "server/state/description.hpp"
+#include "server/x3d/document.hpp"
 
 namespace mechane::scenario {
 
@@ -31,11 +31,11 @@ class ObjectLoader {
 /// A world. Every name in it is resolved; every component's parameters hold against its type's schema. All problems go to `problems`,
 /// errors and warnings; the Error is the first error. Calls the loader once a touchable body. One thread, not in a tick; the same
 /// document and meshes give the same description and content_hash.
-[[nodiscard]] Expected<state::WorldDescription> compile(const Document& document, ObjectLoader& loader,
-                                                        Problems& problems);
+[[nodiscard]] Expected<state::WorldDescription> compile(const x3d::Document& document, ObjectLoader& loader,
+                                                        x3d::Problems& problems);
 
 /// read_document and compile in one.
 [[nodiscard]] Expected<state::WorldDescription> read_scenario(const std::filesystem::path& file, ObjectLoader& loader,
-                                                              Problems& problems);
+                                                              x3d::Problems& problems);
 
 }  // namespace mechane::scenario

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "server/scenario/compiler.hpp"
-#include "server/scenario/document.hpp"
 #include "server/scenario/file_finder.hpp"
 #include "server/scenario/file_references.hpp"
-#include "server/scenario/key_scope.hpp"
-#include "server/scenario/values.hpp"
+#include "server/x3d/document.hpp"
+#include "server/x3d/metadata.hpp"
+#include "server/x3d/values.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -83,10 +83,10 @@ void read_meta(const std::string& name, const std::string& content, ScenarioFact
   }
 }
 
-void read_head(const Document& document, ScenarioFacts& facts) {
-  for (const NodeId head : document.child_elements(document.x3d())) {
+void read_head(const x3d::Document& document, ScenarioFacts& facts) {
+  for (const x3d::NodeId head : document.child_elements(document.x3d())) {
     if (document[head].name != "head") continue;
-    for (const NodeId meta : document.child_elements(head)) {
+    for (const x3d::NodeId meta : document.child_elements(head)) {
       const std::string* name = document[meta].attribute("name");
       const std::string* content = document[meta].attribute("content");
       if (document[meta].name == "meta" && name != nullptr && content != nullptr && !content->empty())
@@ -95,14 +95,14 @@ void read_head(const Document& document, ScenarioFacts& facts) {
   }
 }
 
-void read_files(const Document& document, ScenarioFacts& facts) {
+void read_files(const x3d::Document& document, ScenarioFacts& facts) {
   for (const FileReference& reference : file_references(document)) {
-    const std::string name = name_of(document, reference.node);
+    const std::string name = x3d::name_of(document, reference.node);
     const bool sound = document[reference.node].name == "MetadataString";
     for (const std::string& url : reference.urls) {
       const std::string path = url.substr(0, url.find('#'));
       // A script may stand in its url: "ecmascript:...".
-      if (is_relative_path(path) && path.find(':') == std::string::npos)
+      if (x3d::is_relative_path(path) && path.find(':') == std::string::npos)
         facts.files.emplace(path, sound ? name.substr(name.find('.') + 1) : "");
     }
   }
@@ -111,8 +111,8 @@ void read_files(const Document& document, ScenarioFacts& facts) {
 }  // namespace
 
 Expected<ScenarioFacts> read_facts(const std::filesystem::path& file) {
-  Problems problems(file.string());
-  const Expected<Document> document = read_document(file, problems);
+  x3d::Problems problems(file.string());
+  const Expected<x3d::Document> document = x3d::read_document(file, problems);
   if (!document) return tl::unexpected(document.error());
   FileFinder finder;
   const auto world = compile(*document, finder, problems);

@@ -1,24 +1,24 @@
 #include "server/scenario/file_references.hpp"
 
-#include "server/scenario/key_scope.hpp"
-#include "server/scenario/values.hpp"
-#include "server/scenario/x3d_schema.hpp"
+#include "server/x3d/metadata.hpp"
+#include "server/x3d/schema.hpp"
+#include "server/x3d/values.hpp"
 
 namespace mechane::scenario {
 
-std::vector<FileReference> file_references(const Document& document) {
+std::vector<FileReference> file_references(const x3d::Document& document) {
   std::vector<FileReference> found;
   for (std::size_t i = 0; i < document.size(); ++i) {
-    const NodeId id(i);
-    const Node& node = document[id];
-    if (node.kind != NodeKind::element) continue;
-    const X3dType* type = X3dSchema::standard().find(node.name);
-    const bool sound = node.name == "MetadataString" && name_of(document, id).starts_with("audio.");
-    for (const Attribute& attribute : node.attributes) {
+    const x3d::NodeId id(i);
+    const x3d::Node& node = document[id];
+    if (node.kind != x3d::NodeKind::element) continue;
+    const x3d::NodeType* type = x3d::Schema::standard().find(node.name);
+    const bool sound = node.name == "MetadataString" && x3d::name_of(document, id).starts_with("audio.");
+    for (const x3d::Attribute& attribute : node.attributes) {
       const bool url = type != nullptr && type->field(attribute.name) != nullptr &&
                        (attribute.name == "url" || attribute.name.ends_with("Url"));
       if (!url && !(sound && attribute.name == "value")) continue;
-      if (auto urls = parse_strings(attribute.value)) found.push_back({id, attribute.name, std::move(*urls)});
+      if (auto urls = x3d::parse_strings(attribute.value)) found.push_back({id, attribute.name, std::move(*urls)});
     }
   }
   return found;

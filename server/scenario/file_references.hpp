@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "server/scenario/document.hpp"
+#include "server/x3d/document.hpp"
 
 namespace mechane::scenario {
 
 /// An attribute that names files, with its value as strings.
 struct FileReference {
-  NodeId node;
+  x3d::NodeId node;
   std::string attribute;
   std::vector<std::string> urls;  ///< as written: "../models/screw.glb", or what is no path at all
 };
 
 /// All of them, in the order written. What is no list of strings is left out.
-[[nodiscard]] std::vector<FileReference> file_references(const Document& document);
+[[nodiscard]] std::vector<FileReference> file_references(const x3d::Document& document);
 
 }  // namespace mechane::scenario

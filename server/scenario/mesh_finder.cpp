@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "server/base/suggestion.hpp"
 #include "server/content/mesh_import.hpp"
-#include "server/scenario/problem.hpp"
+#include "server/x3d/problem.hpp"
 
 namespace mechane::scenario {
 namespace {

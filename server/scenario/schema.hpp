@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/scenario/values.hpp"
+#include "server/x3d/values.hpp"
 
 namespace mechane::scenario {
 
@@ -86,8 +86,8 @@ inline constexpr int kFormatVersion = 1;
 /// Whether a key's name is of a pattern: "trigger:1" of "trigger:*".
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
 /// What is wrong with numbers or a string that a key holds, against its range and choices; nothing where they are right.
-[[nodiscard]] std::optional<BadValue> range_fault(const Key& key, std::span<const double> numbers,
-                                                  const std::string* text);
+[[nodiscard]] std::optional<x3d::BadValue> range_fault(const Key& key, std::span<const double> numbers,
+                                                       const std::string* text);
 
 /// The unit, the range and the choices of a key in words: "s, 0 to 3600". For remedies and tables; may be empty.
 [[nodiscard]] std::string limits_of(const Key& key);

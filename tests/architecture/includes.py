@@ -23,7 +23,8 @@ ARROWS = {
     "server/agents": ["server/state"],
     "server/world": ["server/dynamics", "server/haptics", "server/machines", "server/agents", "server/realtime"],
     "server/content": ["server/collision_build"],
-    "server/scenario": ["server/state", "server/content"],
+    "server/x3d": ["server/base"],
+    "server/scenario": ["server/x3d", "server/content", "server/agents", "server/machines"],  # agents and machines: their parameters' tables
     "server/record": ["server/state", "server/realtime"],
     "server/visits": ["server/state", "server/realtime"],
     "server/transport": ["proto", "server/state", "server/realtime"],
@@ -42,13 +43,9 @@ ARROWS = {
     "client-sdk/display": ["client-sdk/draw", "client-sdk/scene", "client-sdk/sound", "client-sdk/pointer", "client-sdk/recording"],
     "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
     "client-sdk/fit": ["server/content"],
-    "client-sdk/cli": ["client-sdk/client", "server/scenario", "server/content", "server/visits"],
+    "client-sdk/authoring": ["server/scenario"],
+    "client-sdk/cli": ["client-sdk/client", "client-sdk/authoring", "server/content", "server/visits"],
     "client-sdk/examples": ["client-sdk/client"],
-}
-
-# Single headers that a room may include beyond its arrows: the scenario checks an author's parameters against these tables.
-EXTRA_HEADERS = {
-    "server/scenario": re.compile(r"server/(agents|machines)/\w*(schema|registry)\w*\.hpp"),
 }
 
 # These run in the tick, or are read by what does: no log there. Every other room may use it.
@@ -59,7 +56,7 @@ NO_LOG = {"server/base", "server/geometry", "server/collision", "server/collisio
 LIBRARIES = {
     "Bullet": (re.compile(r"(bt\w+\.h|(bullet|BulletDynamics|BulletCollision|LinearMath)/.*)$"), {"server/dynamics"}),
     "assimp": (re.compile(r"assimp/"), {"server/content"}),
-    "pugixml": (re.compile(r"pugixml"), {"server/scenario"}),
+    "pugixml": (re.compile(r"pugixml"), {"server/x3d"}),
     "SQLite": (re.compile(r"(sqlite3|SQLiteCpp)"), {"server/content", "server/visits"}),
     "Cyclone DDS": (re.compile(r"(dds/|ddsc/)"), {"proto", "server/transport", "client-sdk/client", "client-sdk/cli"}),
     "spdlog": (re.compile(r"spdlog/"), {"server/log"}),
@@ -103,13 +100,10 @@ def room_of_include(name: str) -> str | None:
     return None
 
 
-def may_include(room: str, other: str, name: str) -> bool:
+def may_include(room: str, other: str) -> bool:
     if other == room or other in reachable(room):
         return True
-    if other == "server/log":
-        return room not in NO_LOG
-    extra = EXTRA_HEADERS.get(room)
-    return extra is not None and extra.fullmatch(name) is not None
+    return other == "server/log" and room not in NO_LOG
 
 
 def library_fault(room: str, path: Path, name: str) -> str | None:
@@ -131,7 +125,7 @@ def include_fault(room: str, path: Path, name: str, quoted: bool) -> tuple[str, 
             return "arrow", f"{other} is no room of the table in includes.py"
         if name.startswith(OWN_PROGRAMS) and not str(path).startswith(OWN_PROGRAMS):
             return "arrow", f'"{name}" belongs to a program of its own, which runs apart from this one'
-        if not may_include(room, other, name):
+        if not may_include(room, other):
             return "arrow", f"{room} may not include {other} (\"{name}\"): see the table of rooms in ARCHITECTURE.md"
         return None
     library = library_fault(room, path, name)

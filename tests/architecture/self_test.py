@@ -53,7 +53,7 @@ PLANTED = [
     ("arrow", "server/content/c.cpp", '#include "server/content/importer/io.hpp"\n'),
     ("third-party", "server/dynamics/d.hpp", "#pragma once\n#include <btBulletDynamicsCommon.h>\n"),
     ("third-party", "server/state/s.hpp", "#pragma once\n#include <pugixml.hpp>\n"),
-    ("third-party", "server/scenario/x.hpp", "#pragma once\n#include <pugixml.hpp>\n"),
+    ("third-party", "server/x3d/x.hpp", "#pragma once\n#include <pugixml.hpp>\n"),
     ("third-party", "server/world/w.cpp", "#include <dds/dds.h>\n"),
     ("third-party", "server/content/c.hpp", "#pragma once\n#include <assimp/scene.h>\n"),
     ("third-party", "client-sdk/draw/w.hpp", "#pragma once\n#include <epoxy/gl.h>\n"),

@@ -198,7 +198,7 @@ Expected<void> measure(const Config& config, const state::WorldDescription& worl
 
 int main_of(const Config& config) {
   scenario::FileFinder finder;
-  scenario::Problems problems(config.scenario);
+  x3d::Problems problems(config.scenario);
   const auto world = scenario::read_scenario(config.scenario, finder, problems);
   if (!world) {
     std::cerr << "bench_display: " << world.error().to_string() << "\n";

@@ -4,14 +4,18 @@
 #include <cstdint>
 #include <string_view>
 
+#include "client-sdk/authoring/editor.hpp"
+#include "client-sdk/authoring/rename.hpp"
 #include "server/base/assert.hpp"
 #include "server/scenario/compiler.hpp"
-#include "server/scenario/editor.hpp"
-#include "server/scenario/rename.hpp"
+
+namespace authoring = mechane::authoring;
+namespace scenario = mechane::scenario;
+namespace x3d = mechane::x3d;
 
 namespace {
 
-class NoFiles final : public mechane::scenario::ObjectLoader {
+class NoFiles final : public scenario::ObjectLoader {
  public:
   mechane::Expected<std::shared_ptr<const mechane::collision::Object>> load(const std::filesystem::path&,
                                                                             const std::string&) override {
@@ -21,27 +25,25 @@ class NoFiles final : public mechane::scenario::ObjectLoader {
 };
 
 /// Every edit gives a file that reads, or an error; what is only read stays as it was.
-void edit(const mechane::scenario::Document& document) {
-  namespace scenario = mechane::scenario;
-  auto editor = scenario::Editor::read(document.source(), "fuzz.x3d");
+void edit(const x3d::Document& document) {
+  auto editor = authoring::Editor::read(document.source(), "fuzz.x3d");
   MECHANE_ASSERT(editor.has_value() && editor->text() == document.source());
   static_cast<void>(editor->set("activities/use/steps/turn/hintSeconds", std::vector<double>{3}));
   static_cast<void>(editor->add("activities/use/steps/more", "turn"));
   static_cast<void>(editor->set_attribute("INNER", "mass", "3"));
   static_cast<void>(editor->remove("activities/use/steps/turn"));
-  const scenario::NamesOf names = scenario::names_of_file(document);
-  scenario::TextEdits edits;
-  scenario::rename_in(document, scenario::renames_for(names, names), edits);
-  static_cast<void>(scenario::Editor::read(edits.apply(document.source()), "fuzz.x3d"));
+  const authoring::NamesOf names = authoring::names_of_file(document);
+  authoring::TextEdits edits;
+  authoring::rename_in(document, authoring::renames_for(names, names), edits);
+  static_cast<void>(authoring::Editor::read(edits.apply(document.source()), "fuzz.x3d"));
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  namespace scenario = mechane::scenario;
-  scenario::Problems problems("fuzz.x3d");
+  x3d::Problems problems("fuzz.x3d");
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  const auto document = scenario::read_document(bytes, "fuzz.x3d", problems);
+  const auto document = x3d::read_document(bytes, "fuzz.x3d", problems);
   MECHANE_ASSERT(document.has_value() || problems.has_errors());
   if (document) {
     NoFiles files;
@@ -49,6 +51,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     MECHANE_ASSERT(world.has_value() != problems.has_errors());
     edit(*document);
   }
-  static_cast<void>(scenario::to_json(problems.all()));
+  static_cast<void>(x3d::to_json(problems.all()));
   return 0;
 }

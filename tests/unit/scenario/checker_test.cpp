@@ -54,9 +54,9 @@ class EditedFile {
 
 void expect_warning(const std::string& from, const std::string& to, const std::string& words) {
   const EditedFile file(from, to);
-  const std::vector<Problem> problems = check(file.path);
-  const bool said = std::any_of(problems.begin(), problems.end(), [&](const Problem& p) {
-    return p.severity == Severity::warning && p.line > 0 && to_string(p).find(words) != std::string::npos;
+  const std::vector<x3d::Problem> problems = check(file.path);
+  const bool said = std::any_of(problems.begin(), problems.end(), [&](const x3d::Problem& p) {
+    return p.severity == x3d::Severity::warning && p.line > 0 && to_string(p).find(words) != std::string::npos;
   });
   EXPECT_TRUE(said) << "wanted: " << words << (problems.empty() ? "" : "; got " + to_string(problems[0]));
 }
@@ -64,7 +64,7 @@ void expect_warning(const std::string& from, const std::string& to, const std::s
 TEST(Check, ShippedExhibitsAreWithoutFault) {
   ASSERT_FALSE(shipped_scenarios().empty());
   for (const auto& file : shipped_scenarios()) {
-    for (const Problem& p : check(file))
+    for (const x3d::Problem& p : check(file))
       ADD_FAILURE() << to_string(p);
   }
 }
@@ -81,7 +81,7 @@ bool a_caption_says(const state::WorldDescription& world, const std::string& lan
 TEST(Check, ShippedExhibitsSayHowTheirForceAndTimeAreScaledAndHaveAPage) {
   for (const auto& file : shipped_scenarios()) {
     FakeLoader loader;
-    Problems problems(file.string());
+    x3d::Problems problems(file.string());
     const auto world = read_scenario(file, loader, problems);
     ASSERT_TRUE(world) << world.error().to_string();
     const std::string page = text_of(std::filesystem::path(file).replace_extension(".md"));
@@ -132,9 +132,9 @@ TEST(Check, WarnsOfWhatIsLikelyNotMeant) {
 TEST(Check, AnEffectsNodeIsLookedForInTheMeshFile) {
   const auto problems_of = [](const std::string& node) {
     const EditedFile file("'\"WATER_BASIN\"'", "'\"" + node + "\"'");
-    std::vector<Problem> problems = check(file.path);
+    std::vector<x3d::Problem> problems = check(file.path);
     EXPECT_EQ(problems.size(), 1u) << "one fault, one message";
-    EXPECT_EQ(problems.at(0).severity, Severity::error);
+    EXPECT_EQ(problems.at(0).severity, x3d::Severity::error);
     EXPECT_EQ(problems[0].line, line_of(text_of(file.path), "'\"" + node + "\"'"));
     EXPECT_NE(problems[0].node.find("effect "), std::string::npos);
     return to_string(problems[0]);
@@ -165,32 +165,32 @@ TEST(Check, AQuestionsFaultIsToldOnceAtItsOwnLine) {
     std::string text = question + next;
     text.replace(text.find(from), from.size(), to);
     const EditedFile file(next, text);
-    const std::vector<Problem> problems = check(file.path);
+    const std::vector<x3d::Problem> problems = check(file.path);
     EXPECT_EQ(problems.size(), 1u) << to;
-    for (const Problem& p : problems)
+    for (const x3d::Problem& p : problems)
       EXPECT_NE(p.node.find("activity use, question liked"), std::string::npos) << to_string(p);
-    return problems.empty() ? Problem{} : problems[0];
+    return problems.empty() ? x3d::Problem{} : problems[0];
   };
   const int first = line_of(edited(next, question + next), "name='liked'");
-  const Problem kind = only_problem("\"scale\"", "\"scael\"");
+  const x3d::Problem kind = only_problem("\"scale\"", "\"scael\"");
   EXPECT_EQ(kind.line, first + 1);
   EXPECT_NE(kind.what.find("'scael' is none of: choice scale"), std::string::npos) << kind.what;
-  const Problem key = only_problem("name='kind'", "name='knid'");
+  const x3d::Problem key = only_problem("name='kind'", "name='knid'");
   EXPECT_EQ(key.line, first + 1);
   EXPECT_EQ(key.remedy, "did you mean 'kind'?");
-  const Problem lacks =
+  const x3d::Problem lacks =
       only_problem("<MetadataString containerField='value' name='low.en' value='\"a little\"'/>\n", "");
   EXPECT_EQ(lacks.line, first);
   EXPECT_EQ(lacks.what, "the low is missing in: en");
 }
 
 TEST(Check, OneFaultIsOneMessageAtItsLine) {
-  struct Slip {
+  struct Typo {
     const char* from;
     const char* to;
     const char* said;
   };
-  static constexpr Slip kSlips[] = {
+  static constexpr Typo kTypos[] = {
       {"'\"simulation.grasp\"'", "'\"simulation.gasp\"'", "did you mean 'simulation.grasp'?"},
       {"name='diameter'", "name='diametre'", "did you mean 'diameter'?"},
       {"name='bodies' value='\"INNER\"'", "name='bodies' value='\"INNR\"'",
@@ -204,21 +204,21 @@ TEST(Check, OneFaultIsOneMessageAtItsLine) {
       {"'\"archimedes-screw\"'", "'\"Archimedes Screw\"'", "64 at most, like archimedes-screw"},
       {"'\"Bring the screw", "'\"Don't bring the screw", "write &apos; there"},
   };
-  for (const Slip& slip : kSlips) {
-    const std::string text = edited(slip.from, slip.to);
+  for (const Typo& typo : kTypos) {
+    const std::string text = edited(typo.from, typo.to);
     const Outcome outcome = compile_text(text);
-    EXPECT_FALSE(outcome.world) << slip.to;
-    ASSERT_FALSE(outcome.problems.empty()) << slip.to;
-    EXPECT_NE(to_string(outcome.problems[0]).find(slip.said), std::string::npos) << to_string(outcome.problems[0]);
-    EXPECT_EQ(outcome.problems[0].line, line_of(text, slip.to)) << slip.to;
+    EXPECT_FALSE(outcome.world) << typo.to;
+    ASSERT_FALSE(outcome.problems.empty()) << typo.to;
+    EXPECT_NE(to_string(outcome.problems[0]).find(typo.said), std::string::npos) << to_string(outcome.problems[0]);
+    EXPECT_EQ(outcome.problems[0].line, line_of(text, typo.to)) << typo.to;
     for (std::size_t i = 1; i < outcome.problems.size(); ++i)
-      ADD_FAILURE() << slip.to << " is also told so: " << to_string(outcome.problems[i]);
+      ADD_FAILURE() << typo.to << " is also told so: " << to_string(outcome.problems[i]);
   }
 }
 
 TEST(Check, ALanguageThatTheScenarioDoesNotNameIsToldOnce) {
   const EditedFile file("name='languages' value='\"el\" \"en\"'", "name='languages' value='\"el\"'");
-  const std::vector<Problem> problems = check(file.path);
+  const std::vector<x3d::Problem> problems = check(file.path);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(to_string(problems[0]).find("'en' is not among the scenario's languages: no text in it is shown"),
             std::string::npos);

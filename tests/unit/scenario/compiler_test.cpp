@@ -136,9 +136,9 @@ TEST_P(Faults, NameLineNodeAndRemedy) {
   const std::string text = edited(fault.from, fault.to);
   const Outcome outcome = compile_text(text);
   EXPECT_FALSE(outcome.world) << fault.to;
-  const Problem problem = outcome.find(fault.words);
+  const x3d::Problem problem = outcome.find(fault.words);
   EXPECT_EQ(problem.line, line_of(text, fault.at)) << to_string(problem);
-  EXPECT_EQ(problem.severity, Severity::error);
+  EXPECT_EQ(problem.severity, x3d::Severity::error);
   EXPECT_FALSE(problem.node.empty());
   EXPECT_FALSE(problem.remedy.empty());
 }

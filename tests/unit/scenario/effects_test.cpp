@@ -35,34 +35,34 @@ TEST(Effects, ARiverFlowsAndNothingDrivesIt) {
 
 TEST(Effects, FaultsOfARiverAreSaidWithTheirRemedy) {
   const auto expect_problem = [](const std::string& from, const std::string& to, const std::string& words,
-                                 Severity severity) {
-    const Problem problem = compile_text(edited(from, to)).find(words);
+                                 x3d::Severity severity) {
+    const x3d::Problem problem = compile_text(edited(from, to)).find(words);
     EXPECT_EQ(problem.severity, severity) << to_string(problem);
     EXPECT_GT(problem.line, 0);
     EXPECT_FALSE(problem.remedy.empty());
   };
   const std::string node = "<MetadataString containerField='value' name='node' value='\"WATER_RIVER\"'/>";
   const std::string way = "<MetadataDouble containerField='value' name='direction' value='0 0 1'/>";
-  expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", "node 'SCENE' is no water", Severity::error);
-  expect_problem(way, "", "the direction is not along the water", Severity::error);
+  expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", "node 'SCENE' is no water", x3d::Severity::error);
+  expect_problem(way, "", "the direction is not along the water", x3d::Severity::error);
   expect_problem(way, "<MetadataDouble containerField='value' name='direction' value='0 1 0'/>",
-                 "the direction is not along the water", Severity::error);
+                 "the direction is not along the water", x3d::Severity::error);
   expect_problem(node, node + "<MetadataString containerField='value' name='quantity' value='\"flow\"'/>",
-                 "a flow has no 'quantity'", Severity::warning);
+                 "a flow has no 'quantity'", x3d::Severity::warning);
   expect_problem("<MetadataString containerField='value' name='kind' value='\"flow\"'/>",
                  "<MetadataString containerField='value' name='kind' value='\"level\"'/>", "nothing drives the level",
-                 Severity::error);
+                 x3d::Severity::error);
 }
 
 TEST(Quantities, AnUnknownUnitIsWarnedOf) {
-  const Problem slip = compile_text(edited("'\"rpm\"'", "'\"rmp\"'")).find("did you mean 'rpm'?");
-  EXPECT_EQ(slip.severity, Severity::warning);
+  const x3d::Problem slip = compile_text(edited("'\"rpm\"'", "'\"rmp\"'")).find("did you mean 'rpm'?");
+  EXPECT_EQ(slip.severity, x3d::Severity::warning);
 }
 
 TEST(Effects, FaultsAreSaidWithTheirRemedy) {
   const auto expect_error = [](const Outcome& outcome, const std::string& words) {
-    const Problem problem = outcome.find(words);
-    EXPECT_EQ(problem.severity, Severity::error) << to_string(problem);
+    const x3d::Problem problem = outcome.find(words);
+    EXPECT_EQ(problem.severity, x3d::Severity::error) << to_string(problem);
     EXPECT_GT(problem.line, 0);
     EXPECT_FALSE(problem.remedy.empty());
   };

@@ -3,35 +3,21 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "server/scenario/compiler.hpp"
+#include "tests/support/source_files.hpp"
 
 namespace mechane::scenario {
 
-inline std::filesystem::path source_folder() {
-  return MECHANE_SOURCE_DIR;
-}
-inline std::filesystem::path shipped_file() {
-  return source_folder() / "scenarios/archimedes-screw/archimedes-screw.x3d";
-}
-/// The standard's schema and sample files lie beside the project; a clone alone does not have them.
-inline std::filesystem::path shared_folder() {
-  return source_folder().parent_path() / "shared";
-}
-
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using test::shared_folder;
+using test::shipped_file;
+using test::source_folder;
+using test::text_of;
 
 /// The line on which `needle` first stands.
 inline int line_of(const std::string& text, const std::string& needle) {
@@ -73,15 +59,15 @@ class FakeLoader final : public ObjectLoader {
 
 struct Outcome {
   Expected<state::WorldDescription> world;
-  std::vector<Problem> problems;
+  std::vector<x3d::Problem> problems;
 
   /// The first problem whose text holds `part`; a test failure where there is none.
-  [[nodiscard]] Problem find(const std::string& part) const {
-    for (const Problem& p : problems) {
+  [[nodiscard]] x3d::Problem find(const std::string& part) const {
+    for (const x3d::Problem& p : problems) {
       if (to_string(p).find(part) != std::string::npos) return p;
     }
     std::string all;
-    for (const Problem& p : problems)
+    for (const x3d::Problem& p : problems)
       all += to_string(p) + "\n";
     ADD_FAILURE() << "no problem says '" << part << "', but:\n" << all;
     return {};
@@ -89,8 +75,8 @@ struct Outcome {
 };
 
 inline Outcome compile_text(const std::string& text, FakeLoader& loader) {
-  Problems problems("test.x3d");
-  const auto document = read_document(text, shipped_file(), problems);
+  x3d::Problems problems("test.x3d");
+  const auto document = x3d::read_document(text, shipped_file(), problems);
   if (!document) return {tl::unexpected(document.error()), problems.all()};
   auto world = compile(*document, loader, problems);
   return {std::move(world), problems.all()};

@@ -123,32 +123,33 @@ TEST(Activities, HaveAGoalAndQuestions) {
 
 TEST(Steps, FaultsSayWhatToDo) {
   const auto key = [](const std::string& name, const std::string& words) { return text_key(name, words); };
-  const auto expect = [](const Outcome& outcome, const std::string& words, Severity severity) {
-    const Problem problem = outcome.find(words);
+  const auto expect = [](const Outcome& outcome, const std::string& words, x3d::Severity severity) {
+    const x3d::Problem problem = outcome.find(words);
     EXPECT_EQ(problem.severity, severity) << to_string(problem);
     EXPECT_GT(problem.line, 0);
     EXPECT_FALSE(problem.remedy.empty());
   };
   expect(with_fill(number_key("timeoutSeconds", "45") + key("timeoutNext", "trun")), "did you mean 'turn'?",
-         Severity::error);
-  expect(with_fill(key("timeoutNext", "turn")), "no time-out that could lead there", Severity::warning);
-  expect(with_fill(text_key("opens", "../village/village.x3d")), "cannot be a scenario's id", Severity::error);
-  expect(with_fill(text_key("opens", "")), "cannot be a scenario's id", Severity::error);
+         x3d::Severity::error);
+  expect(with_fill(key("timeoutNext", "turn")), "no time-out that could lead there", x3d::Severity::warning);
+  expect(with_fill(text_key("opens", "../village/village.x3d")), "cannot be a scenario's id", x3d::Severity::error);
+  expect(with_fill(text_key("opens", "")), "cannot be a scenario's id", x3d::Severity::error);
   const std::string first = "<MetadataSet containerField='value' name='grasp'>\n";
-  expect(compile_text(edited(first, first + text_key("opens", "catapult"))), "first step cannot open", Severity::error);
-  expect(with_fill(number_key("timeoutSecond", "4")), "did you mean 'timeoutSeconds'?", Severity::error);
+  expect(compile_text(edited(first, first + text_key("opens", "catapult"))), "first step cannot open",
+         x3d::Severity::error);
+  expect(with_fill(number_key("timeoutSecond", "4")), "did you mean 'timeoutSeconds'?", x3d::Severity::error);
   expect(with_fill(set_key("trigger:2", set_key("rule:1", rule("trns", ">", "1")))), "did you mean 'turns'?",
-         Severity::error);
+         x3d::Severity::error);
   expect(with_fill(set_key("trigger:2", rule("turns", ">", "1") + key("match", "any"))), "nothing to match",
-         Severity::warning);
+         x3d::Severity::warning);
   expect(with_fill(set_key("trigger:2", set_key("rule:1", key("quantity", "turns")))), "the key 'op' is missing",
-         Severity::error);
-  expect(with_fill(set_key("trigger:2", key("next", "turn"))), "the key 'quantity' is missing", Severity::error);
-  expect(with_fill(set_key("triger:2", rule("turns", ">", "1"))), "did you mean 'trigger:2'?", Severity::error);
+         x3d::Severity::error);
+  expect(with_fill(set_key("trigger:2", key("next", "turn"))), "the key 'quantity' is missing", x3d::Severity::error);
+  expect(with_fill(set_key("triger:2", rule("turns", ">", "1"))), "did you mean 'trigger:2'?", x3d::Severity::error);
   expect(with_questions(set_key("q", key("kind", "multiple") + set_key("text", key("question.en", "Why?")))),
-         "'multiple' is none of: choice scale", Severity::error);
+         "'multiple' is none of: choice scale", x3d::Severity::error);
   expect(with_questions(set_key("q", key("kind", "choice") + set_key("text", key("question.en", "Why?")))),
-         "a choice needs two answers", Severity::error);
+         "a choice needs two answers", x3d::Severity::error);
 }
 
 TEST(Steps, ARuleThatCanNeverHoldIsAnError) {
@@ -160,7 +161,7 @@ TEST(Steps, ARuleThatCanNeverHoldIsAnError) {
   stopped.replace(stopped.find(turns), turns.size(), "value='\"AXLE.turns\"'");
   const Outcome outcome = compile_text(stopped);
   EXPECT_FALSE(outcome.world);
-  EXPECT_EQ(outcome.find("this can never hold: 'turns' goes from").severity, Severity::error);
+  EXPECT_EQ(outcome.find("this can never hold: 'turns' goes from").severity, x3d::Severity::error);
   const Outcome placed =
       compile_text(edited("name='value' value='1'/>\n                  <MetadataDouble "
                           "containerField='value' name='holdSeconds' value='0.3'/>",

@@ -1,0 +1,61 @@
+// Changing a scenario's file: an authoring tool's few operations. What is not changed stays as it was written, to the byte:
+// unknown nodes, metadata, comments, order, blanks.
+//
+//   auto editor = Editor::open("screw.x3d");
+//   editor->set("activities/use/steps/fill/hintSeconds", std::vector<double>{30});
+//   editor->set_attribute("INNER", "mass", "40");
+//   for (const Problem& problem : editor->check(files)) show(problem);
+//   editor->save("screw.x3d");
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/scenario/checker.hpp"
+#include "server/state/description.hpp"
+#include "server/x3d/document.hpp"
+
+namespace mechane::authoring {
+
+/// A path names a place in the metadata, sets apart by '/': "activities/use/steps/fill" in mechane:scenario, or with a node's DEF
+/// and a set of ours before it, "INNER/mechane:haptic/stiffness". One thread.
+class Editor {
+ public:
+  [[nodiscard]] static Expected<Editor> open(const std::filesystem::path& file);
+  /// From memory; `path` as in read_document().
+  [[nodiscard]] static Expected<Editor> read(std::string_view text, const std::filesystem::path& path);
+
+  [[nodiscard]] const x3d::Document& document() const { return document_; }
+  /// The file as it stands now.
+  [[nodiscard]] const std::string& text() const { return document_.source(); }
+
+  /// Writes a value; makes it, and the sets on its way, where they are not there. Errors: a path that the schema does not know (with
+  /// the nearest name), a value of the wrong kind or out of its range. Nothing is changed then.
+  [[nodiscard]] Expected<void> set(std::string_view path, const state::Parameter& value);
+  /// Adds an empty set, such as a step, behind its sibling `after` (empty: as the last).
+  [[nodiscard]] Expected<void> add(std::string_view path, std::string_view after = {});
+  /// Takes a value or a set out. Whatever names it is the checker's to find.
+  [[nodiscard]] Expected<void> remove(std::string_view path);
+  /// Writes a field of the X3D node with that DEF. Errors: no such node, a field that X3D does not know, a value that it cannot have.
+  [[nodiscard]] Expected<void> set_attribute(std::string_view def, std::string_view field, std::string_view value);
+
+  /// What `mechane check` says of the file as it stands now.
+  [[nodiscard]] std::vector<x3d::Problem> check(scenario::ObjectLoader& loader) const;
+  /// Writes the file: wholly, or not at all.
+  [[nodiscard]] Expected<void> save(const std::filesystem::path& file) const;
+
+ private:
+  explicit Editor(x3d::Document document) : document_(std::move(document)) {}
+  /// Takes a text over, if it reads.
+  Expected<void> become(const std::string& text);
+
+  x3d::Document document_;
+};
+
+/// Writes a text as a file: beside it first, then in its place.
+[[nodiscard]] Expected<void> write_file(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace mechane::authoring

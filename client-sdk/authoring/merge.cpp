@@ -1,0 +1,339 @@
+#include "client-sdk/authoring/merge.hpp"
+
+#include <algorithm>
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "client-sdk/authoring/editor.hpp"
+#include "client-sdk/authoring/key_scope.hpp"
+#include "client-sdk/authoring/rename.hpp"
+#include "server/scenario/checker.hpp"
+#include "server/scenario/file_references.hpp"
+#include "server/x3d/metadata.hpp"
+#include "server/x3d/values.hpp"
+
+namespace mechane::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+
+Expected<x3d::Document> read_text(const std::string& text, const fs::path& path) {
+  x3d::Problems problems(path.string());
+  return x3d::read_document(text, path, problems);
+}
+
+std::string rebased(const std::string& url, const fs::path& from, const fs::path& to) {
+  if (!x3d::is_relative_path(url)) return url;
+  // "model.glb#NODE" keeps what stands behind the '#'.
+  const std::size_t hash = std::min(url.find('#'), url.size());
+  const fs::path target = fs::absolute(from / url.substr(0, hash)).lexically_normal();
+  return target.lexically_relative(fs::absolute(to).lexically_normal()).generic_string() + url.substr(hash);
+}
+
+/// Paths as they must stand in a file of the folder `to`.
+void rebase_paths(const x3d::Document& document, const fs::path& to, TextEdits& edits) {
+  const fs::path from = document.path().parent_path();
+  if (fs::absolute(from).lexically_normal() == fs::absolute(to).lexically_normal()) return;
+  for (scenario::FileReference& reference : scenario::file_references(document)) {
+    for (std::string& one : reference.urls)
+      one = rebased(one, from, to);
+    set_attribute(document, reference.node, reference.attribute, quote_strings(reference.urls), edits);
+  }
+}
+
+/// mechane:scenario; none where there is none.
+x3d::NodeId tree_of(const x3d::Document& document) {
+  for (const x3d::NodeId info : document.elements("WorldInfo")) {
+    if (const x3d::NodeId set = x3d::find_set(document, info, "mechane:scenario")) return set;
+  }
+  return x3d::NodeId::none();
+}
+
+x3d::NodeId first_of(const x3d::Document& document, std::string_view type) {
+  const std::vector<x3d::NodeId> all = document.elements(type);
+  return all.empty() ? x3d::NodeId::none() : all.front();
+}
+
+x3d::NodeId head_of(const x3d::Document& document) {
+  for (const x3d::NodeId id : document.child_elements(document.x3d())) {
+    if (document[id].name == "head") return id;
+  }
+  return x3d::NodeId::none();
+}
+
+std::string_view element_text(const x3d::Document& document, x3d::NodeId id) {
+  const x3d::XmlElementSpan& span = document[id].span;
+  return std::string_view(document.source()).substr(span.begin, span.end - span.begin);
+}
+
+/// What an element holds, without the blanks behind the last of it; empty where it holds nothing.
+std::string inner_text(const x3d::Document& document, x3d::NodeId id) {
+  const x3d::XmlElementSpan& span = document[id].span;
+  if (span.tag_end == span.end) return {};
+  const std::string_view inner =
+      std::string_view(document.source()).substr(span.tag_end, span.inner_end - span.tag_end);
+  const std::size_t last = inner.find_last_not_of(" \t\r\n");
+  return last == std::string_view::npos ? std::string() : std::string(inner.substr(0, last + 1));
+}
+
+std::vector<std::string> strings_of(const x3d::Document& document, x3d::NodeId set, std::string_view key) {
+  const x3d::NodeId id = x3d::find_child(document, set, key);
+  const std::string* value = id ? document[id].attribute("value") : nullptr;
+  if (value == nullptr) return {};
+  auto strings = x3d::parse_strings(*value);
+  return strings ? std::move(*strings) : std::vector<std::string>();
+}
+
+std::string value_of(const x3d::Document& document, x3d::NodeId set, std::string_view key) {
+  const x3d::NodeId id = x3d::find_child(document, set, key);
+  const std::string* value = id ? document[id].attribute("value") : nullptr;
+  return value != nullptr ? *value : std::string();
+}
+
+/// Adds one document to another. Both have their paths right and no name in common.
+class Merge {
+ public:
+  Merge(const x3d::Document& ours, const x3d::Document& theirs, std::vector<std::string>& notes)
+      : ours_(ours), theirs_(theirs), notes_(notes) {}
+
+  Expected<std::string> run() {
+    merge_head();
+    merge_tree();
+    merge_collections();
+    // All that is left of their Scene, in the order written.
+    const std::string left = taken_.apply(theirs_.source());
+    const auto rest = read_text(left, theirs_.path());
+    if (!rest) return tl::unexpected(rest.error());
+    append_inside(ours_, ours_.scene(), inner_text(*rest, rest->scene()), edits_);
+    return edits_.apply(ours_.source());
+  }
+
+ private:
+  void merge_head() {
+    const x3d::NodeId head = head_of(ours_);
+    const x3d::NodeId other = head_of(theirs_);
+    if (!head || !other) return;
+    std::string added;
+    std::string components;
+    const std::string margin = inner_margin_of(ours_, head);
+    for (const x3d::NodeId id : theirs_.child_elements(other)) {
+      if (theirs_[id].name == "component") {
+        components += merged_component(head, id, margin);
+      } else if (theirs_[id].name == "meta" && is_credit(id) && !holds(head, element_text(theirs_, id))) {
+        added += margin + std::string(element_text(theirs_, id));
+      }
+    }
+    // X3D wants components first.
+    if (!components.empty() && !insert_after_last(head, "component", components)) {
+      const x3d::XmlElementSpan& span = ours_[head].span;
+      if (span.tag_end == span.end) {
+        added.insert(0, components);
+      } else {
+        edits_.insert(span.tag_end, components);
+      }
+    }
+    if (!added.empty()) append_inside(ours_, head, added, edits_);
+  }
+
+  /// Who made it, and under which licence, stays with the work.
+  bool is_credit(x3d::NodeId meta) const {
+    const std::string* name = theirs_[meta].attribute("name");
+    return name != nullptr && scenario::one_of(*name, "license creator contributor translator reference rights source");
+  }
+
+  bool holds(x3d::NodeId head, std::string_view text) const {
+    const std::vector<x3d::NodeId> all = ours_.child_elements(head);
+    return std::any_of(all.begin(), all.end(), [&](x3d::NodeId id) { return element_text(ours_, id) == text; });
+  }
+
+  /// The higher level of the two; a text to add where ours has none of it.
+  std::string merged_component(x3d::NodeId head, x3d::NodeId theirs, const std::string& margin) {
+    const std::string* name = theirs_[theirs].attribute("name");
+    const std::string* level = theirs_[theirs].attribute("level");
+    for (const x3d::NodeId id : ours_.child_elements(head)) {
+      const std::string* our_name = ours_[id].attribute("name");
+      if (ours_[id].name != "component" || name == nullptr || our_name == nullptr || *our_name != *name) continue;
+      const std::string* our_level = ours_[id].attribute("level");
+      if (level != nullptr && our_level != nullptr && *level > *our_level)
+        set_attribute(ours_, id, "level", *level, edits_);
+      return {};
+    }
+    return margin + std::string(element_text(theirs_, theirs));
+  }
+
+  void merge_tree() {
+    const x3d::NodeId tree = tree_of(ours_);
+    const x3d::NodeId other = tree_of(theirs_);
+    if (!tree || !other) return;
+    std::string added;
+    for (const char* key : {"agents", "machines", "quantities", "activities", "visits", "effects"}) {
+      const x3d::NodeId set = x3d::find_child(theirs_, other, key);
+      if (!set) continue;
+      if (const x3d::NodeId ours = x3d::find_child(ours_, tree, key)) {
+        append_inside(ours_, ours, inner_text(theirs_, set), edits_);
+      } else {
+        added += inner_margin_of(ours_, tree) + std::string(element_text(theirs_, set));
+      }
+    }
+    if (!added.empty()) append_inside(ours_, tree, added, edits_);
+    merge_languages(tree, other);
+    const std::string scale = value_of(ours_, tree, "effortScale");
+    const std::string their_scale = value_of(theirs_, other, "effortScale");
+    if (scale != their_scale) {
+      notes_.push_back(fmt::format("effortScale: '{}' of the first file is kept, '{}' of {} is not: a world has one",
+                                   scale, their_scale, theirs_.path().string()));
+    }
+    remove_element(theirs_, other, taken_);
+  }
+
+  void merge_languages(x3d::NodeId tree, x3d::NodeId other) {
+    std::vector<std::string> languages = strings_of(ours_, tree, "languages");
+    const std::size_t before = languages.size();
+    for (const std::string& language : strings_of(theirs_, other, "languages")) {
+      if (std::find(languages.begin(), languages.end(), language) == languages.end()) languages.push_back(language);
+    }
+    const x3d::NodeId key = x3d::find_child(ours_, tree, "languages");
+    if (languages.size() > before && key) set_attribute(ours_, key, "value", quote_strings(languages), edits_);
+  }
+
+  /// Their bodies move in our first collection: a world has one gravity.
+  void merge_collections() {
+    const x3d::NodeId collection = first_of(ours_, "RigidBodyCollection");
+    const x3d::NodeId other = first_of(theirs_, "RigidBodyCollection");
+    if (!collection || !other || is_referred_to(other)) return;
+    const auto gravity = [](const x3d::Document& document, x3d::NodeId id) {
+      const std::string* text = document[id].attribute("gravity");
+      const auto numbers = x3d::parse_numbers(text != nullptr ? *text : "0 -9.8 0");
+      return numbers ? *numbers : std::vector<double>();
+    };
+    if (gravity(ours_, collection) != gravity(theirs_, other))
+      notes_.push_back(
+          fmt::format("gravity: that of the first file is kept, that of {} is not", theirs_.path().string()));
+    // X3D wants bodies before joints. What stands before an element, a comment say, goes with it.
+    std::string bodies;
+    std::string rest;
+    std::size_t from = theirs_[other].span.tag_end;
+    for (const x3d::NodeId child : theirs_.child_elements(other)) {
+      const std::size_t end = theirs_[child].span.end;
+      (theirs_[child].name == "RigidBody" ? bodies : rest) += theirs_.source().substr(from, end - from);
+      from = end;
+    }
+    if (!insert_after_last(collection, "RigidBody", bodies)) rest.insert(0, bodies);
+    if (!rest.empty()) append_inside(ours_, collection, rest, edits_);
+    remove_element(theirs_, other, taken_);
+  }
+
+  /// Behind our last child of a type; false where there is none.
+  bool insert_after_last(x3d::NodeId parent, std::string_view type, const std::string& text) {
+    x3d::NodeId last;
+    for (const x3d::NodeId id : ours_.child_elements(parent)) {
+      if (ours_[id].name == type) last = id;
+    }
+    if (last) edits_.insert(ours_[last].span.end, text);
+    return static_cast<bool>(last);
+  }
+
+  /// By a USE, a ROUTE or an EXPORT: it must stay where it is.
+  bool is_referred_to(x3d::NodeId id) const {
+    const std::string* def = theirs_[id].attribute("DEF");
+    if (def == nullptr) return false;
+    for (std::size_t i = 0; i < theirs_.size(); ++i) {
+      for (const x3d::Attribute& attribute : theirs_[x3d::NodeId(i)].attributes) {
+        if (attribute.name != "DEF" && attribute.value == *def) return true;
+      }
+    }
+    return false;
+  }
+
+  const x3d::Document& ours_;
+  const x3d::Document& theirs_;
+  std::vector<std::string>& notes_;
+  TextEdits edits_;
+  TextEdits taken_;
+};
+
+void note_renames(const Renames& renames, const std::string& file, std::vector<std::string>& notes) {
+  const auto note = [&](std::string_view what, const std::map<std::string, std::string>& map) {
+    for (const auto& [from, to] : map)
+      notes.push_back(fmt::format("{} {} of {} is now {}", what, from, file, to));
+  };
+  note("the name", renames.things);
+  note("the prototype", renames.prototypes);
+  note("the export", renames.exports);
+  note("the quantity", renames.quantities);
+  note("the activity", renames.activities);
+  note("the step", renames.steps);
+  note("the visit", renames.visits);
+  note("the effect", renames.effects);
+}
+
+/// Reads a file with its paths made right for the folder where the result will lie.
+Expected<x3d::Document> read_rebased(const std::string& file, const fs::path& to) {
+  x3d::Problems problems(file);
+  auto document = x3d::read_document(fs::path(file), problems);
+  if (!document) return document;
+  TextEdits edits;
+  rebase_paths(*document, to, edits);
+  return edits.empty() ? std::move(document) : read_text(edits.apply(document->source()), file);
+}
+
+Expected<x3d::Document> renamed(const x3d::Document& ours, const x3d::Document& theirs, const std::string& file,
+                                std::vector<std::string>& notes) {
+  const Renames renames = renames_for(names_of_file(ours), names_of_file(theirs));
+  note_renames(renames, file, notes);
+  TextEdits edits;
+  rename_in(theirs, renames, edits);
+  return read_text(edits.apply(theirs.source()), file);
+}
+
+/// The id is the new file's name, where that can be one.
+std::string with_id(const x3d::Document& document, const fs::path& out) {
+  const x3d::NodeId tree = tree_of(document);
+  const x3d::NodeId id = tree ? x3d::find_child(document, tree, "id") : x3d::NodeId::none();
+  const std::string stem = out.stem().string();
+  const bool fits =
+      !stem.empty() && stem.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+  TextEdits edits;
+  if (id && fits) set_attribute(document, id, "value", quote_strings({stem}), edits);
+  return edits.apply(document.source());
+}
+
+}  // namespace
+
+Expected<Merged> merge_files(std::span<const std::string> files, const fs::path& out) {
+  if (files.size() < 2) return fail("there is nothing to merge", "", "name two files or more");
+  Merged merged;
+  auto ours = read_rebased(files.front(), out.parent_path());
+  if (!ours) return tl::unexpected(ours.error());
+  for (const std::string& file : files.subspan(1)) {
+    auto theirs = read_rebased(file, out.parent_path());
+    if (!theirs) return tl::unexpected(theirs.error());
+    auto apart = renamed(*ours, *theirs, file, merged.notes);
+    if (!apart) return tl::unexpected(apart.error());
+    const auto both = Merge(*ours, *apart, merged.notes).run();
+    if (!both) return tl::unexpected(both.error());
+    ours = read_text(*both, out);
+    if (!ours) return tl::unexpected(ours.error());
+  }
+  merged.text = with_id(*ours, out);
+  return merged;
+}
+
+int run_merge(std::span<const std::string> files, const std::string& out_file, std::ostream& out) {
+  const auto merged = merge_files(files, out_file);
+  if (!merged) {
+    out << "mechane merge: " << merged.error().to_string() << "\n";
+    return 2;
+  }
+  if (const auto written = write_file(out_file, merged->text); !written) {
+    out << "mechane merge: " << written.error().to_string() << "\n";
+    return 2;
+  }
+  for (const std::string& note : merged->notes)
+    out << note << "\n";
+  const std::vector<std::string> names{out_file};
+  return scenario::run_check(names, out);
+}
+
+}  // namespace mechane::authoring

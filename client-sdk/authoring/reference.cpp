@@ -1,0 +1,294 @@
+#include "client-sdk/authoring/reference.hpp"
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "client-sdk/authoring/reference_example.hpp"
+#include "server/agents/registry.hpp"
+#include "server/machines/registry.hpp"
+#include "server/scenario/schema.hpp"
+#include "server/state/component_type.hpp"
+#include "server/x3d/schema.hpp"
+
+namespace mechane::authoring {
+namespace {
+
+constexpr std::string_view kIntroduction = R"(# The scenario format
+
+An exhibit of Mechane is one X3D file with mesh files (`.glb`) beside it. X3D is a standard for scenes in XML; any text editor opens it.
+X3D says what stands where: bodies, the joints between them, from where one looks. What X3D cannot say, what visitors are to do and
+what happens then, stands in its metadata, in sets whose names begin with `mechane:`.
+
+This page lists everything that may be written. It is made by `mechane reference` from the tables that the program itself reads by.
+
+## How to work
+
+1. Copy an exhibit that is near to yours, or the example below, and give it an `id` of its own: no server takes two of one id.
+2. Change it, and run `mechane check FILE.x3d`. It names each mistake with its line, and says what to write instead.
+   Errors keep the exhibit from running; warnings are likely not meant; notes say what Mechane leaves aside.
+3. Try it: `mechane server --scenario FILE.x3d`, in another window `mechane display`, and in a third `mechane visitor --scenario FILE.x3d`,
+   which plays its visits as a hand would. After a change start the server anew: the display finds it. A copy in another folder needs its
+   mesh files where its `url` says.
+4. `mechane merge A.x3d B.x3d -o C.x3d` puts two exhibits into one.
+
+## How to write a value
+
+| a key of the type | is written as |
+|---|---|
+| text | `<MetadataString containerField='value' name='KEY' value='"words"'/>` |
+| texts | `<MetadataString containerField='value' name='KEY' value='"one" "two"'/>` |
+| number | `<MetadataDouble containerField='value' name='KEY' value='0.25'/>` |
+| 3 numbers | `<MetadataDouble containerField='value' name='KEY' value='0 0.8 0.75'/>`: x y z, y is up |
+| 4 numbers | `<MetadataDouble containerField='value' name='KEY' value='0 1 0 1.5708'/>`: an axis, then the angle about it in radians |
+| yes or no | `<MetadataBoolean containerField='value' name='KEY' value='true'/>` |
+| set | `<MetadataSet containerField='value' name='KEY'> ... </MetadataSet>` |
+
+- `containerField` is always written: `'metadata'` for the set on a node itself, `'value'` for all that stands in a set.
+- Lengths are metres, masses kilograms, times seconds, angles radians. A half turn is 3.1416, a quarter 1.5708.
+- The letters `&`, `<` and, in single quotes, `'` are written `&amp;`, `&lt;` and `&apos;`. Greek needs no tricks: save as UTF-8.
+- A name is free, but each is given once. Names are how things find each other: a joint finds its bodies, a trigger its quantity.
+
+## An example
+
+A wheel on a post. A visitor takes its rim and turns it once. The mesh file has two nodes, `POST` and `WHEEL`.
+
+```xml
+)";
+
+constexpr std::string_view kMeshIntroduction = R"(
+## The mesh file
+
+A `.glb` (glTF 2.0 in one file), in metres, with y up, as Blender exports it. Its nodes are found by their names:
+
+| a node | what becomes of it |
+|---|---|
+| of a body's name, or the one that the body's `node` names | the body's shape, with all that lies below it. What counts is how the shape lies in the node; where the node lies in the file does not matter |
+| `part_*` below such a node | what a hand feels: a closed surface, best near to convex. Where a body has none, each mesh is such a part |
+| `SCENE` | ground and scenery: drawn where it stands in the file, touched by nobody |
+| `WATER_*` | drawn as water. A `level` effect raises it: let it lie at the floor. A `flow` lets it flow, and carries it on over the plain where the model ends: let it reach the model's border, straight across |
+| any other | is not drawn |
+
+What a material named `earth` paints looks like the plain that a display lays about the exhibit, whatever its own colours: its edge is not seen, and
+trees grow about `SCENE`, 13 m beyond it and its viewpoint (unless the model is a landscape, 40 m or more in any direction).
+
+`mechane fit FILE.glb` shows how true each part feels.
+)";
+
+constexpr std::string_view kNodesIntroduction = R"(
+## Nodes of X3D
+
+Attributes of these elements are read. All other nodes and attributes of X3D 4.0 may stand in the file, and other X3D programs show
+them: backgrounds, lights and navigation without a word, the rest with a note from `mechane check` that it is not simulated.
+Every element may have `DEF` (its name), `USE` (it stands for the element of that name) and `containerField` (which field of its
+parent it fills). Two bodies in a joint are `<RigidBody containerField='body1' USE='POST'/>` and the same with `body2`, the one that moves.
+)";
+
+constexpr std::string_view kMetadataIntroduction = R"(
+## Metadata
+
+A name in capitals or a star stands for a name of your own: `trigger:*` is `trigger:1`, `trigger:2` and so on.
+)";
+
+std::string_view kind_word(scenario::ValueKind kind) {
+  switch (kind) {
+    case scenario::ValueKind::string:
+      return "text";
+    case scenario::ValueKind::strings:
+      return "texts";
+    case scenario::ValueKind::number:
+      return "number";
+    case scenario::ValueKind::vector:
+      return "3 numbers";
+    case scenario::ValueKind::rotation:
+      return "4 numbers";
+    case scenario::ValueKind::matrix:
+      return "9 numbers";
+    case scenario::ValueKind::boolean:
+      return "yes or no";
+    case scenario::ValueKind::set:
+      return "set";
+  }
+  return "";
+}
+
+std::string code(std::string_view text) {
+  return text.empty() ? std::string() : fmt::format("`{}`", text);
+}
+
+std::string range_in_words(double min, double max) {
+  const bool has_min = min > -std::numeric_limits<double>::infinity();
+  const bool has_max = max < std::numeric_limits<double>::infinity();
+  if (has_min && has_max) return fmt::format("{} to {}", min, max);
+  if (has_min) return fmt::format("{} or more", min);
+  return has_max ? fmt::format("{} or less", max) : std::string();
+}
+
+std::string row(const std::vector<std::string>& cells) {
+  return fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+
+constexpr std::string_view kKeyHead =
+    "| key | type | unit | range | default | what it is | example |\n|---|---|---|---|---|---|---|\n";
+
+std::string choices_of(const scenario::Key& key) {
+  std::string words;
+  std::string_view left = key.choices;
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find(' '), left.size());
+    words += (words.empty() ? "" : ", ") + code(left.substr(0, end));
+    left.remove_prefix(std::min(end + 1, left.size()));
+  }
+  return words.empty() ? range_in_words(key.min, key.max) : words;
+}
+
+std::string default_of(const scenario::Key& key) {
+  if (key.required) return key.unless.empty() ? "**required**" : fmt::format("**required** without `{}`", key.unless);
+  if (key.kind == scenario::ValueKind::number) return fmt::format("{}", key.default_number);
+  if (key.kind == scenario::ValueKind::boolean && !key.default_text.empty()) return std::string(key.default_text);
+  if (key.kind == scenario::ValueKind::boolean) return key.default_number != 0 ? "true" : "false";
+  return code(key.default_text);
+}
+
+std::string key_row(const scenario::Key& key) {
+  return row({code(key.name), std::string(kind_word(key.kind)), std::string(key.unit), choices_of(key), default_of(key),
+              std::string(key.summary), code(key.example)});
+}
+
+std::string node_row(const scenario::Key& key, const x3d::NodeType& type) {
+  const x3d::Field* field = type.field(key.name);
+  std::string value = field == nullptr ? "" : std::string(field->default_value);
+  for (char& c : value)
+    c = c == ',' ? ' ' : c;
+  std::string range = choices_of(key);
+  if (range.empty() && field != nullptr) range = field->range();
+  return row({code(key.name), std::string(kind_word(key.kind)), std::string(key.unit), range,
+              key.required ? "**required**" : code(value), std::string(key.summary), code(key.example)});
+}
+
+/// With a capital at its beginning.
+std::string sentence(std::string_view words) {
+  std::string text(words);
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+std::string variation_text(const Variation& variation) {
+  std::string text = fmt::format("\n## {}\n\n{}\n", variation.title, variation.introduction);
+  for (const Variation::Piece& piece : variation.pieces)
+    text += fmt::format("\n{}:\n\n```xml\n{}```\n", piece.where, piece.text);
+  return text;
+}
+
+std::string node_tables_text() {
+  std::string text(kNodesIntroduction);
+  for (const scenario::Table& table : scenario::node_tables()) {
+    text += fmt::format("\n### {}\n\n{}.\n\n{}", table.name, sentence(table.summary), kKeyHead);
+    for (const scenario::Key& key : table.keys)
+      text += node_row(key, *x3d::Schema::standard().find(table.name));
+  }
+  return text;
+}
+
+std::string key_tables_text() {
+  std::string text(kMetadataIntroduction);
+  for (const scenario::Table* table : scenario::all_tables()) {
+    text += fmt::format("\n### {}\n\n{}.\n\n{}", table->name, sentence(table->summary), kKeyHead);
+    for (const scenario::Key& key : table->keys)
+      text += key_row(key);
+  }
+  return text;
+}
+
+std::string kind_of_parameter(const state::ParameterType& parameter) {
+  switch (parameter.kind) {
+    case state::ParameterKind::number:
+      return "number";
+    case state::ParameterKind::numbers:
+      return parameter.count == 0 ? std::string("numbers") : fmt::format("{} numbers", parameter.count);
+    case state::ParameterKind::text:
+      return "text";
+    case state::ParameterKind::texts:
+      return "texts";
+    case state::ParameterKind::boolean:
+      return "yes or no";
+  }
+  return "";
+}
+
+std::string parameter_default(const state::ParameterType& parameter) {
+  if (parameter.required) return "**required**";
+  switch (parameter.kind) {
+    case state::ParameterKind::number:
+    case state::ParameterKind::numbers:
+      return fmt::format("{}", parameter.default_value);
+    case state::ParameterKind::boolean:
+      return parameter.default_value != 0 ? "true" : "false";
+    default:
+      return "";
+  }
+}
+
+std::string range_of_value(const state::ValueType& value) {
+  return value.max_parameter.empty() ? range_in_words(value.min, value.max)
+                                     : fmt::format("{} to {}", value.min, code(value.max_parameter));
+}
+
+std::string component_text(const state::ComponentType& type) {
+  std::string text = fmt::format("\n### {}\n\n{}.\n\n", type.name, type.summary);
+  text += "| parameter | type | unit | range | default | what it is |\n|---|---|---|---|---|---|\n";
+  for (const state::ParameterType& p : type.parameters) {
+    text += row({code(p.name), kind_of_parameter(p), std::string(p.unit), range_in_words(p.min, p.max),
+                 parameter_default(p), std::string(p.summary)});
+  }
+  if (type.values.empty()) return text;
+  text += "\nQuantities can read:\n\n| value | unit | range | what it is |\n|---|---|---|---|\n";
+  for (const state::ValueType& value : type.values) {
+    text += row({code("NAME." + std::string(value.name)), std::string(value.unit), range_of_value(value),
+                 std::string(value.summary)});
+  }
+  return text;
+}
+
+std::string components_text(std::string_view title, std::string_view introduction,
+                            std::span<const state::ComponentType> types) {
+  std::string text = fmt::format("\n## {}\n\n{}\n", title, introduction);
+  for (const state::ComponentType& type : types)
+    text += component_text(type);
+  return text;
+}
+
+}  // namespace
+
+std::string reference_page() {
+  std::string page(kIntroduction);
+  page += reference_example();
+  page += "```\n";
+  page += kMeshIntroduction;
+  for (const Variation& variation : reference_variations())
+    page += variation_text(variation);
+  page += node_tables_text();
+  page += key_tables_text();
+  page += components_text("Agents",
+                          "An agent makes things behave (`geometry.*`), or says what a visitor does with them "
+                          "(`simulation.*`). It is a set in `agents`,\n"
+                          "named as you like, with its `type` and its parameters; or it stands on a joint or body as "
+                          "the set `mechane:agent`, is called\n"
+                          "as that is, and need not name it again. Steps switch agents on and off.",
+                          agents::registry());
+  page += components_text(
+      "Machines",
+      "A machine is the physics behind a joint: water, springs, steam. It is a set in `machines`, as agents are.",
+      machines::registry());
+  page += "\n## What else quantities can read\n\n| source | unit | what it is |\n|---|---|---|\n";
+  page += row({"`JOINT.angle`, `JOINT.position`", "rad or m", "where body2 stands against body1; 0 at the start"});
+  page += row({"`JOINT.turns`", "", "the angle in turns"});
+  page += row({"`JOINT.rate`", "rad/s or m/s", "how fast it moves; with the unit `rpm`, turns a minute"});
+  page += row({"`BODY.position.x`, `.y`, `.z`", "m", "where the body's origin is in the world"});
+  page += row({"`BODY.speed`", "m/s", "how fast the body's origin moves: of what falls, or is thrown"});
+  return page;
+}
+
+}  // namespace mechane::authoring

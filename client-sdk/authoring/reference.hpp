@@ -1,0 +1,12 @@
+// The manual of the scenario format, made from the tables that the reader uses: schema.hpp, X3D's own, and those of the registered
+// agents and machines. `mechane reference` prints it; scenarios/REFERENCE.md is a copy that a test holds against it.
+#pragma once
+
+#include <string>
+
+namespace mechane::authoring {
+
+/// Markdown.
+[[nodiscard]] std::string reference_page();
+
+}  // namespace mechane::authoring

@@ -1,0 +1,16 @@
+// "Did you mean ...?": the name that a person likely meant by one that is not known.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace mechane {
+
+/// The candidate nearest to `name` by edits, ignoring case; empty where none is near (more than a third of the letters differ).
+[[nodiscard]] std::string nearest(const std::string& name, std::span<const std::string> candidates);
+
+/// "did you mean X?" for a near candidate; else the list of them; else `if_none`.
+[[nodiscard]] std::string suggest(const std::string& name, std::span<const std::string> candidates,
+                                  const std::string& if_none);
+
+}  // namespace mechane

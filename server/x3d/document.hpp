@@ -1,0 +1,102 @@
+// An X3D file as a tree: everything that was written, in order, with lines, so that a writer can give it back and an error can say where.
+// DEF and USE are resolved, and nothing is expanded. Knows XML and X3D's naming, nothing of machines.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/base/ids.hpp"
+#include "server/x3d/problem.hpp"
+#include "server/x3d/xml_scanner.hpp"
+
+namespace mechane::x3d {
+
+using NodeId = Id<struct NodeTag>;
+
+/// Caps on what a file may ask of us. A file over a cap is an error, never a slow or a dead server.
+struct DocumentLimits {
+  std::size_t bytes = 16u << 20;
+  std::size_t depth = 200;
+  std::size_t nodes = 200'000;
+  std::size_t metadata_bytes = 4u << 20;  ///< of all values of Metadata nodes together
+};
+
+enum class NodeKind : std::uint8_t { element, text, comment, cdata, doctype, declaration, instruction };
+
+struct Attribute {
+  std::string name;
+  std::string value;      ///< with its references resolved
+  XmlAttributeSpan span;  ///< where it stands in Document::source()
+};
+
+struct Node {
+  NodeKind kind = NodeKind::element;
+  std::string name;                   ///< of an element: its type, "RigidBody"
+  std::string text;                   ///< of the other kinds
+  std::vector<Attribute> attributes;  ///< in the order written
+  NodeId parent;                      ///< none for what stands at the top of the file
+  std::vector<NodeId> children;
+  NodeId used;  ///< of an element with USE: the element that it stands for
+  int line = 0;
+  XmlElementSpan span;  ///< of an element: where it stands in Document::source()
+
+  /// The attribute's value; null where it is not written.
+  [[nodiscard]] const std::string* attribute(std::string_view name) const;
+};
+
+/// One file. Immutable once read; any thread may look. To change a file, see editor.hpp.
+class Document {
+ public:
+  [[nodiscard]] const Node& operator[](NodeId id) const { return nodes_[id.index()]; }
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  /// What stands at the top: declaration, doctype, comments, and the X3D element.
+  [[nodiscard]] const std::vector<NodeId>& top() const { return top_; }
+  [[nodiscard]] NodeId x3d() const { return x3d_; }
+  [[nodiscard]] NodeId scene() const { return scene_; }
+  /// The element that DEF names, outside prototypes; none where there is none.
+  [[nodiscard]] NodeId find_def(std::string_view def) const;
+  /// The element itself, or what it stands for by USE.
+  [[nodiscard]] NodeId resolve(NodeId id) const;
+  /// All elements of a type under the Scene, in the order written, without those that are a USE or lie in a prototype.
+  [[nodiscard]] std::vector<NodeId> elements(std::string_view type) const;
+  /// Children that are elements, as written (not resolved).
+  [[nodiscard]] std::vector<NodeId> child_elements(NodeId id) const;
+  /// Which field of its parent an element fills: its containerField, or `otherwise`.
+  [[nodiscard]] std::string container_field(NodeId id, std::string_view otherwise) const;
+  /// "RigidBody INNER", or "RigidBody" where it has no DEF.
+  [[nodiscard]] std::string describe(NodeId id) const;
+  /// DEFs outside prototypes of elements of a type (of all types: empty), for suggestions.
+  [[nodiscard]] std::vector<std::string> defs(std::string_view type) const;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// The bytes that were read, every one of them.
+  [[nodiscard]] const std::string& source() const { return source_; }
+
+ private:
+  friend class DocumentBuilder;
+  std::filesystem::path path_;
+  std::string source_;
+  std::vector<Node> nodes_;
+  std::vector<NodeId> top_;
+  std::map<std::string, NodeId, std::less<>> defs_;
+  NodeId x3d_;
+  NodeId scene_;
+};
+
+/// Reads a file. Problems are added to `problems`; the Error is the first of them. Errors: unreadable, over a cap, not UTF-8, not
+/// well-formed XML, entities declared, not X3D 3 or 4, no Scene, a DEF given twice, a USE without DEF, of another type, or in a circle.
+/// Any thread; takes no lock; reads nothing but this file.
+[[nodiscard]] Expected<Document> read_document(const std::filesystem::path& path, Problems& problems,
+                                               const DocumentLimits& limits = {});
+
+/// The same from memory. `path` is only a name, and the folder to which urls are relative.
+[[nodiscard]] Expected<Document> read_document(std::string_view bytes, const std::filesystem::path& path,
+                                               Problems& problems, const DocumentLimits& limits = {});
+
+}  // namespace mechane::x3d

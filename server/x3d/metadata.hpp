@@ -1,0 +1,40 @@
+// X3D's metadata nodes as typed values with lines.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/x3d/document.hpp"
+
+namespace mechane::x3d {
+
+enum class MetadataKind { set, strings, numbers, integers, booleans };
+
+/// One Metadata node with what it holds; USE is resolved.
+struct Metadata {
+  std::string name;
+  MetadataKind kind = MetadataKind::set;
+  int line = 0;
+  std::vector<std::string> strings;
+  std::vector<double> numbers;  ///< MetadataDouble, -Float, -Integer: finite
+  std::vector<bool> booleans;
+  std::vector<Metadata> children;  ///< of a set: what fills its field `value`
+
+  [[nodiscard]] const Metadata* find(std::string_view child) const;
+};
+
+/// The MetadataSet of that name on an element, read whole: the element's own metadata node, or a set in it, because X3D allows one
+/// metadata node an element. None where there is none, or where its values are faulty (then there is a problem).
+[[nodiscard]] std::optional<Metadata> read_metadata(const Document& document, NodeId owner, std::string_view name,
+                                                    Problems& problems);
+
+/// The metadata element of that name which fills the field `value` of a set; none where there is none. USE is resolved.
+[[nodiscard]] NodeId find_child(const Document& document, NodeId set, std::string_view name);
+/// The set of that name on an element, or in the set that stands on it, as read_metadata() finds it.
+[[nodiscard]] NodeId find_set(const Document& document, NodeId owner, std::string_view name);
+/// The name of a metadata element, with USE resolved.
+[[nodiscard]] std::string name_of(const Document& document, NodeId metadata);
+
+}  // namespace mechane::x3d

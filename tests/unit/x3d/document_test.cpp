@@ -1,0 +1,129 @@
+#include "server/x3d/document.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace mechane::x3d {
+namespace {
+
+constexpr const char* kHead = "<X3D version='4.0'>\n<Scene>\n";
+constexpr const char* kTail = "</Scene>\n</X3D>\n";
+
+struct Read {
+  Expected<Document> document;
+  Problems problems{"test.x3d"};
+};
+
+Read read(const std::string& bytes, const DocumentLimits& limits = {}) {
+  Read out{fail("not read")};
+  out.document = read_document(bytes, "test.x3d", out.problems, limits);
+  return out;
+}
+
+Read read_scene(const std::string& scene, const DocumentLimits& limits = {}) {
+  return read(kHead + scene + kTail, limits);
+}
+
+/// The one error: on which line, and words that must be in it.
+void expect_error(const Read& read, int line, const std::string& words) {
+  ASSERT_FALSE(read.document.has_value()) << "expected: " << words;
+  const auto first = std::find_if(read.problems.all().begin(), read.problems.all().end(),
+                                  [](const Problem& p) { return p.severity == Severity::error; });
+  ASSERT_NE(first, read.problems.all().end());
+  EXPECT_EQ(first->line, line) << to_string(*first);
+  EXPECT_NE(to_string(*first).find(words), std::string::npos) << to_string(*first);
+  EXPECT_FALSE(first->remedy.empty());
+}
+
+TEST(Document, KeepsEverythingInOrderWithLines) {
+  const Read r = read(
+      "<?xml version='1.0'?>\n<!DOCTYPE X3D PUBLIC 'a' 'b'>\n<X3D version='4.0'><!-- one -->\n<Scene>\n"
+      "<Unheard DEF='U' odd='1'>text<![CDATA[raw]]></Unheard>\n<Group USE='G'/><Group DEF='G'/></Scene></X3D>");
+  ASSERT_TRUE(r.document) << r.document.error().to_string();
+  const Document& d = *r.document;
+  EXPECT_EQ(d[d.top()[0]].kind, NodeKind::declaration);
+  EXPECT_EQ(d[d.top()[1]].kind, NodeKind::doctype);
+  EXPECT_EQ(d[d[d.x3d()].children[0]].text, " one ");
+  const NodeId unheard = d.find_def("U");
+  EXPECT_EQ(d[unheard].line, 5);
+  EXPECT_EQ(*d[unheard].attribute("odd"), "1");
+  ASSERT_EQ(d[unheard].children.size(), 2u);
+  EXPECT_EQ(d[d[unheard].children[1]].kind, NodeKind::cdata);
+  EXPECT_EQ(d[d[unheard].children[1]].text, "raw");
+  // USE before DEF is resolved, but other readers would not: a warning.
+  EXPECT_EQ(d.resolve(d.child_elements(d.scene())[1]), d.find_def("G"));
+  ASSERT_EQ(r.problems.all().size(), 1u);
+  EXPECT_EQ(r.problems.all()[0].severity, Severity::warning);
+  EXPECT_EQ(r.problems.all()[0].line, 6);
+}
+
+TEST(Document, DeepNestingIsAnErrorAndNotACrash) {
+  constexpr int kDeep = 100'000;
+  std::string scene;
+  for (int i = 0; i < kDeep; ++i)
+    scene += "<Group>\n";
+  for (int i = 0; i < kDeep; ++i)
+    scene += "</Group>";
+  expect_error(read_scene(scene), 201, "nested more than 200 deep");
+}
+
+TEST(Document, UnclosedDeepNestingIsAnError) {
+  std::string scene;
+  for (int i = 0; i < 100'000; ++i)
+    scene += "<Group>";
+  const Read r = read(kHead + scene);
+  ASSERT_FALSE(r.document);
+  EXPECT_NE(r.document.error().what.find("well-formed"), std::string::npos);
+}
+
+TEST(Document, CapsOnSizeCountAndMetadata) {
+  expect_error(read_scene(std::string(3000, ' '), {.bytes = 2000}), 0, "more than the");
+  std::string many;
+  for (int i = 0; i < 120; ++i)
+    many += "<a/>\n";
+  expect_error(read_scene(many, {.nodes = 100}), 101, "more than 100 nodes");
+  expect_error(read_scene(many + many + many, {.nodes = 100}), 0, "more than 100 nodes");
+  const std::string metadata = "<MetadataString name='m' value='\"" + std::string(600, 'x') + "\"'/>\n";
+  expect_error(read_scene(metadata + metadata, {.metadata_bytes = 1000}), 4, "metadata values take more");
+}
+
+TEST(Document, CirclesOfUse) {
+  expect_error(read_scene("<Group DEF='A'>\n<Group USE='A'/></Group>\n"), 4, "a circle");
+  expect_error(read_scene("<Group DEF='A'>\n<Group USE='B'/></Group>\n<Group DEF='B'>\n<Group USE='A'/></Group>\n"), 6,
+               "a circle");
+}
+
+TEST(Document, NamesThatDoNotFit) {
+  expect_error(read_scene("<RigidBody DEF='INNER'/>\n<RigidBody USE='INER'/>\n"), 4, "did you mean 'INNER'?");
+  expect_error(read_scene("<RigidBody DEF='A'/>\n<Group DEF='A'/>\n"), 4, "already given in line 3");
+  expect_error(read_scene("<RigidBody DEF='A'/>\n<Group USE='A'/>\n"), 4, "not a Group");
+  // A prototype's body has names of its own.
+  EXPECT_TRUE(
+      read_scene("<ProtoDeclare name='P'><ProtoBody><Group DEF='A'/></ProtoBody></ProtoDeclare><Group DEF='A'/>")
+          .document);
+}
+
+TEST(Document, WhatIsNotX3D) {
+  expect_error(read(""), 0, "empty");
+  expect_error(read("<html/>"), 1, "not X3D");
+  expect_error(read("<X3D version='4.0'/>"), 1, "no Scene");
+  expect_error(read("<X3D version='5.0'>\n<Scene/></X3D>"), 1, "version '5.0' is not known");
+  expect_error(read("<X3D version='4.0'><Scene>\n<Group></Scene></X3D>"), 2, "well-formed");
+  expect_error(read_scene("\n<Group DEF='\xff'/>"), 4, "not UTF-8");
+  expect_error(read_scene(std::string("\n<Group/>\0", 10)), 4, "not UTF-8");
+  expect_error(read("<!DOCTYPE X3D [\n<!ENTITY a SYSTEM 'file:///etc/passwd'>]>\n<X3D version='4.0'><Scene/></X3D>"), 1,
+               "entities");
+}
+
+TEST(Document, FilesThatCannotBeRead) {
+  Problems problems("x");
+  EXPECT_FALSE(read_document(std::filesystem::path("/nowhere/at-all.x3d"), problems));
+  EXPECT_FALSE(read_document(std::filesystem::temp_directory_path(), problems));
+  EXPECT_FALSE(read_document(std::filesystem::path("/dev/zero"), problems));
+  EXPECT_EQ(problems.all().size(), 3u);
+}
+
+}  // namespace
+}  // namespace mechane::x3d

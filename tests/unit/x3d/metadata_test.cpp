@@ -1,0 +1,61 @@
+#include "server/x3d/metadata.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "server/x3d/values.hpp"
+
+namespace mechane::x3d {
+namespace {
+
+TEST(Metadata, CopiesOfCopiesAreBounded) {
+  // Sixty doublings: more metadata than there are atoms in a person, from a file of a few kilobytes.
+  std::string text =
+      "<X3D version='4.0'><Scene>\n<MetadataSet DEF='M0' name='x'><MetadataString name='a' "
+      "value='\"a\"'/></MetadataSet>\n";
+  for (int i = 1; i <= 60; ++i) {
+    const std::string use = "<MetadataSet name='' USE='M" + std::to_string(i - 1) + "'/>";
+    text += "<MetadataSet DEF='M" + std::to_string(i) + "' name='x" + std::to_string(i) + "'>" + use + use +
+            "</MetadataSet>\n";
+  }
+  text += "<WorldInfo DEF='W'><MetadataSet containerField='metadata' USE='M60'/></WorldInfo></Scene></X3D>";
+  Problems problems("test.x3d");
+  const auto document = read_document(text, "test.x3d", problems);
+  ASSERT_TRUE(document) << document.error().to_string();
+  EXPECT_FALSE(read_metadata(*document, document->find_def("W"), "x60", problems));
+  EXPECT_TRUE(problems.has_errors());
+}
+
+RC_GTEST_PROP(Values, StringsSurviveQuoting, (const std::vector<std::string>& words)) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += " \"";
+    for (const char c : word)
+      text += (c == '"' || c == '\\') ? std::string{'\\', c} : std::string{c};
+    text += '"';
+  }
+  const auto read = parse_strings(text);
+  RC_ASSERT(read.has_value());
+  RC_ASSERT(*read == words);
+}
+
+RC_GTEST_PROP(Values, NumbersAreReadToTheBitOrRefused, (const std::vector<double>& numbers)) {
+  std::string text;
+  char digits[64];
+  for (const double number : numbers) {
+    std::snprintf(digits, sizeof digits, "%.17g, ", number);
+    text += digits;
+  }
+  const auto read = parse_numbers(text);
+  const bool finite = std::all_of(numbers.begin(), numbers.end(), [](double d) { return std::isfinite(d); });
+  RC_ASSERT(read.has_value() == finite);
+  if (finite) RC_ASSERT(*read == numbers);
+}
+
+}  // namespace
+}  // namespace mechane::x3d
