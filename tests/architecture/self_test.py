@@ -8,6 +8,7 @@ from pathlib import Path
 
 import ceilings
 import includes
+import manuals
 import unity
 from functions import functions
 
@@ -32,6 +33,9 @@ SOUND = {
     "tests/unit/base/CMakeLists.txt": "mechane_test_folder(NAME base)\n",
     "tests/unit/base/a_test.cpp": '#include "server/base/a.hpp"\n',
     "tests/architecture/exceptions.txt": "# none\n",
+    "README.md": "# House\n\n## The *first* room, `a.hpp`\n\nSee [below](#the-first-room-ahpp) and [deploy](deploy/README.md#one).\n",
+    "deploy/README.md": "# One\n\n`deploy/run`: [up](../README.md), [there](https://example.org/x.md), `[no](link)`.\n\n```\n[no](link)\n```\n",
+    "deploy/run": "#!/bin/sh\n",
 }
 
 
@@ -83,6 +87,15 @@ PLANTED = [
     ("unity-name", "server/world/w.cpp", "namespace {\nint e(const int& y) {\n  return y;\n}\n}  // namespace\n"),
     ("unity-name", "server/world/w.cpp", "int f() {\n  constexpr int kE = 2;\n  return kE;\n}\n"),
     ("unity-name", "server/world/w.cpp", "namespace {\nstruct V {\n};\n}  // namespace\n"),
+    ("manual-length", "README.md", "word\n" * 151),
+    ("manual-length", "deploy/README.md", "`deploy/run`\n" * 201),
+    ("manual-width", "deploy/README.md", "`deploy/run`" + " word" * 30 + "\n"),
+    ("manual-script", "deploy/README.md", "# One\n\nNothing of deploy/run as a command.\n"),
+    ("link", "README.md", "See [it](server/base/b.hpp).\n"),
+    ("link", "README.md", "See [it](../else/where.md).\n"),
+    ("link", "README.md", "See [a place](deploy/README.md#two).\n"),
+    ("link", "README.md", "See [a place](#two).\n```\n## Two\n```\n"),
+    ("link", "README.md", "![a picture](deploy/picture.jpg)\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90 | long ago\n"),
     ("exceptions", "tests/architecture/exceptions.txt", "function-length | server/base/a.cpp:f | 90\n"),
 ]
@@ -95,7 +108,7 @@ class Tree(unittest.TestCase):
             for name, text in {**SOUND, **changes}.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text)
-            return includes.check(root) + ceilings.check(root) + unity.check(root)
+            return includes.check(root) + ceilings.check(root) + unity.check(root) + manuals.check(root)
 
     def test_sound_tree_has_no_faults(self):
         self.assertEqual([], [str(fault) for fault in self.faults({})])

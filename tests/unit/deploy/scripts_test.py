@@ -16,7 +16,7 @@ def run(script, *arguments):
 
 class Scripts(unittest.TestCase):
     def test_help_is_for_people(self):
-        for script in ("demo", "test", "bench", "narration", "soak", "film"):
+        for script in ("demo", "test", "bench", "narration", "soak", "film", "install-deps"):
             with self.subTest(script):
                 result = run(script, "--help")
                 self.assertEqual(result.returncode, 0, result.stderr)
