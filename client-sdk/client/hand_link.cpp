@@ -54,7 +54,7 @@ void HandLink::take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept
   proto::HapticOutput wire;
   proto::SampleInfo info;
   while (view.take_into(wire, info)) {
-    const std::uint32_t epoch = epoch_.load(std::memory_order_relaxed);
+    const std::uint64_t epoch = epoch_.load(std::memory_order_relaxed);
     if (!info.valid || wire.user != user_ || wire.session != session_ || epoch == 0 || wire.epoch != epoch) continue;
     if (!parse(wire, arriving_)) continue;
     if (wire.epoch != epoch_seen_) {

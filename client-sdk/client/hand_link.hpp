@@ -24,8 +24,8 @@ class HandLink {
 
   /// Both endpoints have found the server's.
   [[nodiscard]] bool matched() const { return writer_.matched() > 0 && reader_.matched() > 0; }
-  /// Forces of another epoch are out of date: a server that was replaced. 0: none is taken.
-  void accept_epoch(std::uint32_t epoch) { epoch_.store(epoch, std::memory_order_relaxed); }
+  /// Forces of another epoch are out of date: of a server that was replaced, or of a link that it has made anew. 0: none is taken.
+  void accept_epoch(std::uint64_t epoch) { epoch_.store(epoch, std::memory_order_relaxed); }
 
   bool send(const HandSample& input) noexcept;
   [[nodiscard]] std::uint64_t sent_sequence() const noexcept { return sent_.load(std::memory_order_relaxed); }
@@ -40,12 +40,12 @@ class HandLink {
   std::uint32_t user_;
   std::uint64_t session_;
   int fifo_priority_;
-  std::atomic<std::uint32_t> epoch_{0};
+  std::atomic<std::uint64_t> epoch_{0};
   std::atomic<std::uint64_t> sent_{0};
   proto::HapticInput sending_{};  // the sender's
-  // The force listener's. A restarted server counts from 1 again: its numbers go on where the last one's ended.
+  // The force listener's. In a new epoch the server counts from 1 again: its numbers go on where the last epoch's ended.
   ForceSample arriving_;
-  std::uint32_t epoch_seen_ = 0;
+  std::uint64_t epoch_seen_ = 0;
   std::uint64_t base_ = 0;
   std::uint64_t last_ = 0;
   realtime::Mailbox<ForceSample> forces_;

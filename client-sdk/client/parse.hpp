@@ -42,7 +42,7 @@ inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers
 struct Assignment {
   std::string server;
   std::uint64_t incarnation = 0;
-  std::uint32_t epoch = 0;
+  std::uint64_t epoch = 0;
   std::string world;
   std::string trouble;
   struct Owner {

@@ -45,7 +45,7 @@ void set_force(proto::HapticOutput& out, const hand::HapticOutput& from) noexcep
 }  // namespace
 
 Expected<std::shared_ptr<KioskLink>> KioskLink::create(const proto::Participant& participant, const std::string& kiosk,
-                                                       std::uint32_t epoch, RejectCounters& rejects,
+                                                       std::uint64_t epoch, RejectCounters& rejects,
                                                        int fifo_priority) {
   std::shared_ptr<KioskLink> link(new KioskLink(kiosk, epoch, rejects, fifo_priority));
   const std::string partition = proto::kiosk_partition(kiosk);

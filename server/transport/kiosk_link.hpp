@@ -18,7 +18,7 @@ class KioskLink {
  public:
   /// `rejects` outlives the link. Errors: DDS out of resources.
   [[nodiscard]] static Expected<std::shared_ptr<KioskLink>> create(const proto::Participant& participant,
-                                                                   const std::string& kiosk, std::uint32_t epoch,
+                                                                   const std::string& kiosk, std::uint64_t epoch,
                                                                    RejectCounters& rejects, int fifo_priority);
   KioskLink(const KioskLink&) = delete;
   KioskLink& operator=(const KioskLink&) = delete;
@@ -47,13 +47,13 @@ class KioskLink {
     std::uint64_t next_sequence = 1;  // the publisher's: goes on when the hand moves to another world
   };
 
-  KioskLink(std::string kiosk, std::uint32_t epoch, RejectCounters& rejects, int fifo_priority)
+  KioskLink(std::string kiosk, std::uint64_t epoch, RejectCounters& rejects, int fifo_priority)
       : kiosk_(std::move(kiosk)), epoch_(epoch), rejects_(rejects), fifo_priority_(fifo_priority) {}
   void take(proto::ReaderView<proto::HapticInput> view) noexcept;
   [[nodiscard]] Reject accept(const proto::HapticInput& wire, TimePoint now) noexcept;
 
   std::string kiosk_;
-  std::uint32_t epoch_;
+  std::uint64_t epoch_;
   RejectCounters& rejects_;
   int fifo_priority_;
   std::mutex mutex_;  // held by the listener for a copy, by the main thread for a swap of pointers

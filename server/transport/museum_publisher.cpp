@@ -17,9 +17,8 @@ constexpr Duration kStatusEvery = std::chrono::milliseconds(100);
 
 MuseumPublisher::MuseumPublisher(proto::Writer<proto::ServerStatus> status_writer,
                                  proto::Writer<proto::WorldAssignment> assignment_writer,
-                                 const proto::ServerStatus& status, std::uint32_t epoch)
+                                 const proto::ServerStatus& status)
     : status_(status),
-      epoch_(epoch),
       status_writer_(std::move(status_writer)),
       assignment_writer_(std::move(assignment_writer)),
       thread_([this] { run(); }) {}
@@ -63,7 +62,7 @@ void MuseumPublisher::write_assignments() {
     wire.sent_ns = to_ns(std::chrono::steady_clock::now());
     std::copy(std::begin(status_.server), std::end(status_.server), wire.server);
     wire.incarnation = status_.incarnation;
-    wire.epoch = epoch_;
+    wire.epoch = pending.assignment.epoch;
     proto::set_text(wire.world, pending.assignment.world);
     for (std::size_t i = 0; i < pending.assignment.owners.size(); ++i) {
       wire.owners[i].session = pending.assignment.owners[i].id;

@@ -17,6 +17,7 @@ namespace mechane::transport {
 
 /// What WorldAssignment says of one kiosk.
 struct Assignment {
+  std::uint64_t epoch = 0;  ///< of the kiosk's link
   std::string world;
   std::string trouble;
   std::array<Session, hand::kMaxUsers> owners;  ///< id 0: nobody
@@ -27,8 +28,7 @@ class MuseumPublisher {
  public:
   /// `status` holds what never changes: server, incarnation, version, host point at texts that outlive this object.
   MuseumPublisher(proto::Writer<proto::ServerStatus> status_writer,
-                  proto::Writer<proto::WorldAssignment> assignment_writer, const proto::ServerStatus& status,
-                  std::uint32_t epoch);
+                  proto::Writer<proto::WorldAssignment> assignment_writer, const proto::ServerStatus& status);
   ~MuseumPublisher();
   MuseumPublisher(const MuseumPublisher&) = delete;
   MuseumPublisher& operator=(const MuseumPublisher&) = delete;
@@ -61,7 +61,6 @@ class MuseumPublisher {
   realtime::Wakeup wakeup_;
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> failed_{0};
-  std::uint32_t epoch_;
   proto::Writer<proto::ServerStatus> status_writer_;
   proto::Writer<proto::WorldAssignment> assignment_writer_;
   std::uint64_t assignment_sequence_ = 0;

@@ -26,12 +26,6 @@ std::uint64_t random_nonzero() {
   return ((high << 32) | device()) | 1u;
 }
 
-/// Rises from one start of a server to the next, as the wall clock does; tenths of a second, so that it wraps after 13 years.
-std::uint32_t epoch_now() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count() / 100);
-}
-
 std::string host_name() {
   char name[64] = {};
   return ::gethostname(name, sizeof(name) - 1) == 0 ? std::string(name) : std::string("unknown");
@@ -47,7 +41,6 @@ class ServerTransport::Impl {
         scenarios(config.scenarios),
         host(host_name()),
         incarnation(random_nonzero()),
-        epoch(epoch_now()),
         participant_(std::move(participant)),
         fifo_priority_(config.fifo_priority),
         haptic_(config.fifo_priority, config.cpu) {}
@@ -66,7 +59,6 @@ class ServerTransport::Impl {
   const std::vector<std::string> scenarios;
   const std::string host;
   const std::uint64_t incarnation;
-  const std::uint32_t epoch;
   RejectCounters rejects;
   SessionTable table;
   [[nodiscard]] HapticPublisher& haptic() { return haptic_; }
@@ -93,6 +85,9 @@ class ServerTransport::Impl {
 
   proto::Participant participant_;
   std::map<std::string, Kiosk> kiosks_;
+  // A link that is made anew counts its forces from 1 again: by the epoch a client tells them from those it had. Begins at a random
+  // number, so that no two servers, and no two runs of one, share an epoch.
+  std::uint64_t next_epoch_ = random_nonzero();
   std::map<std::uint64_t, TimePoint> last_status_;  // by session, on our clock
   std::vector<std::unique_ptr<WorldPort>> ports_;
   std::vector<std::shared_ptr<Lane>> closed_lanes_;  // until nobody holds them: a real-time thread must not be the last
@@ -125,7 +120,7 @@ Expected<void> ServerTransport::Impl::open_endpoints() {
   if (!others) return tl::unexpected<Error>(others.error());
   server_status_ = std::move(*others);
   museum_ = std::make_unique<MuseumPublisher>(std::move(*status_writer), std::move(*assignment_writer),
-                                              wire_status(ServerStatusData{}), epoch);
+                                              wire_status(ServerStatusData{}));
   return {};
 }
 
@@ -172,12 +167,15 @@ void ServerTransport::Impl::take_kiosks(TimePoint now, std::vector<News>& news) 
 
 void ServerTransport::Impl::session_appeared(const Session& session, TimePoint now, std::vector<News>& news) {
   if (kiosks_.find(session.kiosk) == kiosks_.end()) {
+    const std::uint64_t epoch = next_epoch_++;
     auto link = KioskLink::create(participant_, session.kiosk, epoch, rejects, fifo_priority_);
     if (!link) {
       log::error(link.error());
       return;
     }
-    kiosks_[session.kiosk].link = std::move(*link);
+    Kiosk& kiosk = kiosks_[session.kiosk];
+    kiosk.link = std::move(*link);
+    kiosk.assignment.epoch = epoch;
   }
   const bool first = table.sessions_at(session.kiosk) == 0;
   const bool known = table.find(session.id) != nullptr;

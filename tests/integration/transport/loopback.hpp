@@ -142,6 +142,8 @@ class EchoServer {
   EchoServer& operator=(const EchoServer&) = delete;
 
   [[nodiscard]] const transport::ServerTransport& transport() const { return *transport_; }
+  /// As if nobody had been heard for so long: at its next look the server forgets every session that does not report more often.
+  void hear_nothing_for(Duration time) { unheard_ns_ = time.count(); }
   /// Every sample that the loop saw, newest last (the first 100 000).
   [[nodiscard]] std::vector<hand::SentSample> samples() const {
     const std::lock_guard lock(mutex_);
@@ -166,7 +168,8 @@ class EchoServer {
   void run_main() {
     realtime::Wakeup never;
     while (!stop_) {
-      for (const transport::News& n : transport_->poll(std::chrono::steady_clock::now()))
+      for (const transport::News& n :
+           transport_->poll(std::chrono::steady_clock::now() + Duration(unheard_ns_.exchange(0))))
         handle(n);
       while (const auto answer = port_->take_answer()) {
         const std::lock_guard lock(mutex_);
@@ -242,6 +245,7 @@ class EchoServer {
   transport::WorldPort* port_ = nullptr;
   state::WorldState state_;
   std::atomic<bool> stop_{false};
+  std::atomic<std::int64_t> unheard_ns_{0};
   mutable std::mutex mutex_;
   std::vector<hand::SentSample> samples_;
   std::vector<transport::NewsKind> news_;

@@ -263,6 +263,32 @@ TEST_F(Loopback, AClientComesBackByItselfAfterTheServerDid) {
   EXPECT_TRUE(eventually([&] { return hand->objects().size() == 3; }));
 }
 
+TEST_F(Loopback, AHandThatWasSilentFeelsAgainHoweverLongItHadBeenInUse) {
+  EchoServer server;
+  auto hand = connect(Role::hand);
+  ASSERT_TRUE(hand->wait_for(LinkState::joined, 10s));
+  std::uint64_t last = 0;
+  const auto newest = [&](const Vec3& p) {
+    hand->send(hand_at(p));
+    const auto force = hand->wait_force(1ms);
+    if (force) last = force->sequence;
+    return force;
+  };
+  ASSERT_TRUE(eventually([&] { return newest(Vec3(1, 0, 0)) && last > 2000; }, 30s));
+
+  server.hear_nothing_for(proto::kKioskLiveliness + 1s);
+  ASSERT_TRUE(hand->wait_for(LinkState::lost, 10s));
+  ASSERT_TRUE(hand->wait_for(LinkState::joined, 10s));
+  const std::uint64_t before = last;
+  const std::size_t arrived_before = server.samples().size();
+  ASSERT_TRUE(eventually([&] {
+    const auto force = newest(Vec3(5, 0, 0));
+    return force && force->force_W.f == Vec3(5, 0, 0);
+  }));
+  EXPECT_GT(last, before);
+  EXPECT_LT(server.samples().size() - arrived_before, 200u) << "as many answers were thrown away as had come before";
+}
+
 TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   EchoServer server;
   auto hand = connect(Role::hand);
