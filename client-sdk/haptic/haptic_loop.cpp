@@ -29,6 +29,10 @@ void HapticLoop::set_local_contacts() noexcept {
 
 void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept {
   const Duration age = age_.age(now);
+  // A force that comes back begins as a visit does, from zero and ramped: after a silence, and after this loop itself stood still,
+  // when an answer from before may still be in its socket and look new.
+  const Duration too_long = governor_.config().zero_by;
+  if (age >= too_long || dt >= too_long) governor_.reset();
   hand::GovernorInput wanted;
   wanted.wanted_W = answer_.force_W;
   wanted.finger_force_n = answer_.finger_force_n;
@@ -50,6 +54,7 @@ void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
   if (take_answer() && mode_ == RenderMode::local) set_local_contacts();
   render(input, now, dt, client_.state() == client::LinkState::joined);
   ++stats_.ticks;
+  if (age_.known() && age_.age(now) >= governor_.config().zero_by) ++stats_.silent_ticks;
   if (answer_.holding) ++stats_.holding_ticks;
   const double force_n = rendered_.force_W.f.norm();
   if (force_n <= 0) return;

@@ -23,7 +23,8 @@ enum class RenderMode {
 struct LoopStats {
   std::uint64_t ticks = 0;
   std::uint64_t sent = 0;
-  std::uint64_t answers = 0;  ///< forces received
+  std::uint64_t answers = 0;       ///< forces received
+  std::uint64_t silent_ticks = 0;  ///< since the first force: those whose newest force was too old to be rendered
   double force_max_n = 0;
   double force_sum_n = 0;  ///< over ticks with force
   std::uint64_t ticks_with_force = 0;
@@ -39,7 +40,7 @@ class HapticLoop {
                                                                     RenderMode mode);
 
   /// Reads the device, sends the hand, takes the newest force, governs it, writes it. The governor judges the age of the last answer
-  /// by `now`: whatever fails, 50 ms after the last new answer the device renders nothing.
+  /// by `now`: whatever fails, 50 ms after the last new answer the device renders nothing, and what comes then is ramped up.
   void tick(TimePoint now, Duration dt) noexcept;
   /// Ramps the force down and out. True when the device renders exactly zero.
   [[nodiscard]] bool release(TimePoint now, Duration dt) noexcept;

@@ -60,6 +60,7 @@ nlohmann::json to_json(const haptic::HapticLoop& loop, const realtime::PeriodicT
   return {{"ticks", s.ticks},
           {"sent", s.sent},
           {"answers", s.answers},
+          {"silent_ticks", s.silent_ticks},
           {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}},
           {"overruns", r.overruns},
           {"late_wakeups", r.late_wakeups},

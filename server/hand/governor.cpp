@@ -91,6 +91,7 @@ void ForceGovernor::reset() noexcept {
 
 HandForce ForceGovernor::apply(const GovernorInput& input, Duration dt) noexcept {
   const double dt_s = to_seconds(std::max(dt, Duration{0}));
+  const double step_s = std::min(dt_s, to_seconds(kLongestStep));
   std::uint32_t reasons = kNone;
   const double gain_before = gain_;
   gain_ = next_gain(input, dt_s, reasons);
@@ -106,13 +107,13 @@ HandForce ForceGovernor::apply(const GovernorInput& input, Duration dt) noexcept
   HandForce out = last_;
   out.force_W.f *= fall;
   out.force_W.t *= fall;
-  bool limited = approach(out.force_W.f, gain_ * wanted.f, config_.max_slew_n_per_s * dt_s);
-  limited |= approach(out.force_W.t, gain_ * wanted.t, config_.max_torque_slew_nm_per_s * dt_s);
+  bool limited = approach(out.force_W.f, gain_ * wanted.f, config_.max_slew_n_per_s * step_s);
+  limited |= approach(out.force_W.t, gain_ * wanted.t, config_.max_torque_slew_nm_per_s * step_s);
   for (std::size_t i = 0; i < kFingers; ++i) {
     const double finger = std::clamp(input.finger_force_n[i], 0.0, config_.max_finger_force_n);
     clamped |= finger != input.finger_force_n[i];
     out.finger_force_n[i] *= fall;
-    limited |= approach(out.finger_force_n[i], gain_ * finger, config_.max_finger_slew_n_per_s * dt_s);
+    limited |= approach(out.finger_force_n[i], gain_ * finger, config_.max_finger_slew_n_per_s * step_s);
   }
   if (clamped) reasons |= kClamped;
   if (limited) reasons |= kSlewLimited;
@@ -127,7 +128,8 @@ double ForceGovernor::next_gain(const GovernorInput& input, double dt_s, std::ui
   if (ramp_ != target) {
     reasons |= kRamping;
     if (ramp_time > 0) {
-      approach(ramp_, target, dt_s / ramp_time);
+      const double step_s = input.engaged ? std::min(dt_s, to_seconds(kLongestStep)) : dt_s;
+      approach(ramp_, target, step_s / ramp_time);
     } else {
       ramp_ = target;
     }
@@ -165,7 +167,7 @@ void ForceGovernor::keep_passive(const Twist& V_WH, double dt_s, Wrench& force, 
   const double speed_squared = V_WH.v.squaredNorm();
   if (overdrawn <= 0 || speed_squared <= 0) return;
   Vec3 damping = -std::min(overdrawn / speed_squared, config_.max_damping_ns_per_m) * V_WH.v;
-  clamp_norm(damping, config_.max_slew_n_per_s * dt_s);
+  clamp_norm(damping, config_.max_slew_n_per_s * std::min(dt_s, to_seconds(kLongestStep)));
   force.f += damping;
   clamp_norm(force.f, config_.max_force_n * gain_);
 }

@@ -60,6 +60,9 @@ class ForceGovernor {
   /// Errors name the setting that is out of range.
   [[nodiscard]] static Expected<ForceGovernor> make(const GovernorConfig& config);
 
+  /// The longest time that slew and ramp are counted for in one call: a loop that was held up does not make up for it in one step.
+  static constexpr Duration kLongestStep = std::chrono::milliseconds(2);
+
   /// The force for the next `dt`; call at the device's rate. `dt` <= 0 allows no rise.
   [[nodiscard]] HandForce apply(const GovernorInput& input, Duration dt) noexcept;
 

@@ -33,6 +33,24 @@ class Faults(EndToEnd):
         log = server.text()
         self.assertEqual(log.count("world world-1 opened"), 1, log)
 
+    def test_a_hand_that_was_stopped_for_4_s_feels_again_at_once(self):
+        server = self.server()
+        file = self.folder / "haptic.json"
+        hand = self.start("haptic", "haptic", "--kiosk", "kiosk-1", "--report", file)
+        wait_until(lambda: "in world world-1" in server.text(), 30, "the hand is in its world")
+        time.sleep(6)  # in use: the answers of this time must not be waited for again
+        hand.process.send_signal(signal.SIGSTOP)
+        stopped = time.monotonic()
+        wait_until(lambda: "hand of kiosk-1" in server.text() and " left" in server.text(), 10, "the server gives the hand up")
+        time.sleep(max(0, stopped + 4 - time.monotonic()))
+        hand.process.send_signal(signal.SIGCONT)
+        wait_until(lambda: server.text().count("in world world-1") == 2, 10, "the hand is in its world again")
+        time.sleep(3)
+        self.assertEqual(hand.stop(), 0, hand.text())
+        report = json.loads(file.read_text())
+        self.assertLess(report["silent_ticks"], 1000, f"it felt nothing for too long: {report}")
+        self.assertEqual(server.stop(), 0)
+
     def test_a_killed_server_puts_the_kiosk_back_at_its_step(self):
         server = self.server()
         visitor = self.visitor("kiosk-1", "--activity", "use", "--endless", "--patience", "30")

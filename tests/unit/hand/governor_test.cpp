@@ -173,6 +173,16 @@ TEST(ForceGovernor, RampsUpAtTheStartAndDownAtTheEnd) {
   EXPECT_TRUE(is_zero(out));
 }
 
+TEST(ForceGovernor, ALateCallDoesNotMakeUpForTheTimeItMissed) {
+  GovernorInput input;
+  input.wanted_W.f.x() = 3;
+  ForceGovernor starting = make({});
+  (void)starting.apply(input, 4s);
+  EXPECT_LE(starting.apply(input, 4s).force_W.f.norm(), 3 * 2 * to_seconds(ForceGovernor::kLongestStep) / 0.5);
+  ForceGovernor pressing = settled(0.5);
+  EXPECT_LE(pressing.apply(input, 20ms).force_W.f.norm(), 0.5 + 1000 * to_seconds(ForceGovernor::kLongestStep));
+}
+
 TEST(ForceGovernor, ANumberThatIsNotFiniteIsNoForceAtAllAndPassesBy) {
   ForceGovernor governor = settled(2.0);
   GovernorInput input;
