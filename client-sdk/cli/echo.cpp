@@ -198,16 +198,16 @@ Json to_json(const proto::WorldPresentation& s) {
   Json effects = Json::array();
   for (const auto& e : proto::elements(s.effects))
     effects.push_back(to_json(e));
-  Json ways = Json::array();
-  for (const auto& w : proto::elements(s.ways)) {
-    ways.push_back({{"kind", w.kind},
-                    {"agent", proto::string_of(w.agent)},
-                    {"object", w.object},
-                    {"base", w.base},
-                    {"X_AJ", pose(w.X_AJ)},
-                    {"X_BJ", pose(w.X_BJ)}});
+  Json affordances = Json::array();
+  for (const auto& w : proto::elements(s.affordances)) {
+    affordances.push_back({{"kind", w.kind},
+                           {"agent", proto::string_of(w.agent)},
+                           {"object", w.object},
+                           {"base", w.base},
+                           {"X_AJ", pose(w.X_AJ)},
+                           {"X_BJ", pose(w.X_BJ)}});
   }
-  j.update({{"activities", activities}, {"views", views}, {"effects", effects}, {"ways", ways}});
+  j.update({{"activities", activities}, {"views", views}, {"effects", effects}, {"affordances", affordances}});
   return j;
 }
 

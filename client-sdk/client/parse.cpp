@@ -143,10 +143,10 @@ bool parse_effect(const proto::WireEffect& wire, Effect& out) {
   return length > 0.99 && length < 1.01;
 }
 
-bool parse_way(const proto::WireWay& wire, Way& out) {
-  if (wire.kind > static_cast<std::uint32_t>(Way::Kind::brought) || wire.object >= kMaxObjects) return false;
+bool parse_affordance(const proto::WireAffordance& wire, Affordance& out) {
+  if (wire.kind > static_cast<std::uint32_t>(Affordance::Kind::brought) || wire.object >= kMaxObjects) return false;
   if (wire.base >= static_cast<std::int32_t>(kMaxObjects)) return false;
-  out.kind = static_cast<Way::Kind>(wire.kind);
+  out.kind = static_cast<Affordance::Kind>(wire.kind);
   out.agent = clean_string(wire.agent);
   out.object = wire.object;
   if (wire.base >= 0) out.base = static_cast<std::uint32_t>(wire.base);
@@ -249,7 +249,7 @@ bool parse(const proto::WorldPresentation& wire, WorldPresentation& out) {
          parse_each(wire.activities, kMaxPresented, out.activities, parse_activity) &&
          parse_each(wire.views, kMaxPresented, out.views, parse_view) &&
          parse_each(wire.effects, kMaxPresented, out.effects, parse_effect) &&
-         parse_each(wire.ways, kMaxWays, out.ways, parse_way);
+         parse_each(wire.affordances, kMaxAffordances, out.affordances, parse_affordance);
 }
 
 bool parse(const proto::Event& wire, WorldEvent& out) {

@@ -56,12 +56,12 @@ Cast cast_inwards(const Probe& probe, const collision::Part& part, const Vec3& d
   for (int i = 1; i <= kCastSteps; ++i) {
     if (!probe.at(p_O + i * step * inward_O).hit) continue;
     double air = (i - 1) * step;
-    double wood = i * step;
+    double solid = i * step;
     for (int k = 0; k < kCastHalvings; ++k) {
-      const double middle = 0.5 * (air + wood);
-      (probe.at(p_O + middle * inward_O).hit ? wood : air) = middle;
+      const double middle = 0.5 * (air + solid);
+      (probe.at(p_O + middle * inward_O).hit ? solid : air) = middle;
     }
-    return {RayEnd::depth, wood};
+    return {RayEnd::depth, solid};
   }
   return {RayEnd::no_hit, 0};
 }

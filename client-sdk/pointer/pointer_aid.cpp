@@ -39,7 +39,7 @@ class DotPen {
     }
   }
   /// As the hand goes round it, in the world.
-  void circle(const WayLine& axle, const Vec3& p_WH, double radius_m) {
+  void circle(const AffordanceLine& axle, const Vec3& p_WH, double radius_m) {
     const Vec3 arm = p_WH - axle.p_W;
     const Vec3 across = arm - arm.dot(axle.a_W) * axle.a_W;
     if (across.norm() < 1e-6) return;

@@ -196,7 +196,7 @@ void PointerHand::grip(const PointerSenses& senses) {
 }
 
 /// Which pixels are which angles: the circle's picture is nearly an ellipse, and its inverse takes pixels to the circle.
-void PointerHand::begin_turn(const WayLine& axle) {
+void PointerHand::begin_turn(const AffordanceLine& axle) {
   const Vec3 arm = X_WH_.p - axle.p_W;
   const Vec3 middle_W = axle.p_W + arm.dot(axle.a_W) * axle.a_W;
   const Vec3 from_W = X_WH_.p - middle_W;
@@ -282,7 +282,7 @@ Vec3 PointerHand::past_obstacle(const Vec3& goal_W, const Vec3& held_W, double d
 
 /// What has come to its place is meant to stay there. What slipped away is fetched again: the finger is still down.
 void PointerHand::lose(const PointerSenses& senses) {
-  const bool home = std::ranges::any_of(senses.leeway.goals, [&](const WayGoal& goal) {
+  const bool home = std::ranges::any_of(senses.leeway.goals, [&](const AffordanceGoal& goal) {
     return goal.turns_too && (goal.X_WB.p - senses.X_WB.p).norm() < kHome_m;
   });
   if (home || !senses.leeway.taken || fetched_ >= kFetches) return let_go();
@@ -299,9 +299,9 @@ Vec3 PointerHand::carried_to(const PointerSenses& senses) {
   // As it was laid out, or else gripped, and turned since.
   const Quat R_WH_rest = knocked_ && senses.R_WB_rest ? *senses.R_WB_rest * X_BH_.R : R_WH_gripped_;
   R_WH_wanted_ = turned_W_ * R_WH_rest;
-  const WayGoal* meant = nullptr;
+  const AffordanceGoal* meant = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const WayGoal& goal : senses.leeway.goals) {
+  for (const AffordanceGoal& goal : senses.leeway.goals) {
     const Vec3 p_WG = goal.X_WB * X_BH_.p;
     const auto seen = picture::pixel_of(sight_, p_WG);
     if (!seen) continue;

@@ -7,7 +7,7 @@
 
 #include "client-sdk/picture/render_scene.hpp"
 #include "client-sdk/picture/sight.hpp"
-#include "client-sdk/pointer/pointer_ways.hpp"
+#include "client-sdk/pointer/pointer_affordances.hpp"
 #include <mechane/client/types.hpp>
 
 namespace mechane::pointer {
@@ -31,7 +31,7 @@ struct PointerView {
   Vec3 p_WH = Vec3::Zero();
   picture::PixelPlace pointer;  ///< in the eye's picture
   std::optional<Vec3> p_WG{};   ///< carry: where the hand would be, were the thing at the nearest of its goals
-  WayLine axle;                 ///< turn: through the middle of the hand's circle
+  AffordanceLine axle;          ///< turn: through the middle of the hand's circle
   double radius_m = 0;          ///< turn: of the hand's circle
 };
 
@@ -58,7 +58,7 @@ class PointerHand {
  private:
   void reach(double dt_s, const PointerSenses& senses);
   void grip(const PointerSenses& senses);
-  void begin_turn(const WayLine& axle);
+  void begin_turn(const AffordanceLine& axle);
   void hold(double dt_s, const PointerSenses& senses);
   void lose(const PointerSenses& senses);
   void leave(double dt_s);
@@ -103,7 +103,7 @@ class PointerHand {
     Vec3 from_W = Vec3::Zero(), aside_W = Vec3::Zero();
   };
   Obstacle obstacle_;
-  WayLine line_;                // axle or track; its point is where the hand began, or the middle of its circle
+  AffordanceLine line_;         // axle or track; its point is where the hand began, or the middle of its circle
   double slid_from_m_ = 0;      // slide: of the pointer along the track when the hand gripped
   Vec3 from_W_ = Vec3::Zero();  // turn: from the axle to the hand when it gripped
   double angle_rad_ = 0;        // turn: of the hand since then

@@ -56,7 +56,8 @@ struct PointerLink::Sensed {
     const std::optional<Pose> X_WB = pose_of(object);
     if (!X_WB || !presentation) return {};
     return PointerSenses{
-        *X_WB, leeway_of(presentation->ways, enabled, object, [this](std::uint32_t other) { return pose_of(other); }),
+        *X_WB,
+        leeway_of(presentation->affordances, enabled, object, [this](std::uint32_t other) { return pose_of(other); }),
         holding, laid_out(object)};
   }
   [[nodiscard]] std::optional<Quat> laid_out(std::uint32_t object) const {

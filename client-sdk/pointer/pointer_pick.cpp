@@ -101,7 +101,7 @@ std::optional<Pose> PointerScene::pose_of(std::uint32_t object) const {
 
 Leeway PointerScene::leeway(std::uint32_t object) const {
   if (presentation == nullptr || status == nullptr) return {};
-  return leeway_of(presentation->ways, status->enabled_agents, object,
+  return leeway_of(presentation->affordances, status->enabled_agents, object,
                    [this](std::uint32_t other) { return pose_of(other); });
 }
 

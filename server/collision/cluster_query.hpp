@@ -155,7 +155,7 @@ class ClusterQuery {
                       depth.depth_m[at]});
   }
 
-  /// The most central part knows no surface there: the point lies deep in the wood of several. Rare; one point at a time.
+  /// The most central part knows no surface there: the point lies deep in the solid of several. Rare; one point at a time.
   void ask_others(std::size_t asked, std::uint32_t cluster, std::uint32_t lane, std::uint64_t near) noexcept {
     const PointsView points = points_.points(cluster);
     std::size_t best = asked;

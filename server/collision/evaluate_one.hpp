@@ -22,7 +22,7 @@ template <class View, class Inside, class Depth>
   if ((inside(view, kIdentity, points.view(), in) & 1U) == 0) return hit;
   DepthBlock out;
   depth(view, in.p_Q, 1, out);
-  if (!(out.depth_m[0] > 0)) return hit;  // covered on all sides: deep in the wood of several parts
+  if (!(out.depth_m[0] > 0)) return hit;  // covered on all sides: deep in the solid of several parts
   hit.hit = true;
   hit.depth_m = out.depth_m[0];
   hit.m = in.m[0];

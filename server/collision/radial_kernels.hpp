@@ -158,7 +158,7 @@ struct RadialKernels : KernelMath<Lanes> {
 
   /// The nearest of seven tangent planes that is really there: where x's own ray and where the six ways along the axes meet the surface.
   /// On a concave surface a plane reaches beyond what it touches, so each guess is looked at where it lands. What lands near the
-  /// surface gives way to the surface's own plane there, which is one Newton step, and is the answer. What lands in the wood under a
+  /// surface gives way to the surface's own plane there, which is one Newton step, and is the answer. What lands in the solid under a
   /// like surface gives way to that one's plane, which is tried in its turn; any other is dropped, and the next nearest is tried.
   static Plane nearest_surface(const RadialView& map, const Point& x, const Local& here) {
     Plane guesses[8] = {tangent_plane(map, x, x, here.g, here.gradient),

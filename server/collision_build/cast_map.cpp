@@ -14,7 +14,7 @@ constexpr double kMinRho = 1.0 / 16;  // 'no hit'
 constexpr std::size_t kCenters = 64;
 constexpr std::size_t kWitnesses = 160;
 constexpr double kClearanceWeight =
-    0.1;  // a centre deep in the wood beats one that sees as much but lies close to a wall
+    0.1;  // a centre deep in the solid beats one that sees as much but lies close to a wall
 constexpr double kOwnCenterBonus = 0.05;
 constexpr double kPieceMargin = 1.03;
 
@@ -27,7 +27,7 @@ std::vector<SurfacePlace> some_of(std::span<const SurfacePlace> all, std::size_t
   return chosen;
 }
 
-/// The share of the witnesses that the centre sees through wood alone.
+/// The share of the witnesses that the centre sees through the solid alone.
 double seen_share(const Solid& solid, std::size_t node, const Vec3& center, std::span<const SurfacePlace> all) {
   std::size_t seen = 0;
   for (const SurfacePlace& w : all) {
@@ -83,7 +83,7 @@ MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const Surf
   frame.X_OQ = X_OQ;
   const Pose X_QO = X_OQ.inverse();
   frame.center_Q = X_QO * choose_center(solid, node, places, cell, X_OQ.p);
-  // The cube spans what the part does in the superquadric's frame, and no more: the wood beyond is other parts' to answer for.
+  // The cube spans what the part does in the superquadric's frame, and no more: the solid beyond is other parts' to answer for.
   for (const Vec3& p_O : bound_points_O)
     frame.half_Q = frame.half_Q.cwiseMax((X_QO * p_O - frame.center_Q).cwiseAbs());
   // Half a crack more on each side, so that parts beside a crack meet in it; and pieces are known by samples, which miss their corners.

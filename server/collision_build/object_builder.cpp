@@ -114,7 +114,7 @@ ErrorBudget budget_of(const BuildConfig& config, double diagonal_m) {
 }
 
 /// Everything that the parts are made from; immutable while they are.
-struct Ground {
+struct BuildInput {
   std::span<const geometry::Mesh> nodes;
   const Solid& solid;
   const geometry::Mesh& skin_mesh;  // what borders on air
@@ -128,24 +128,24 @@ bool wants_pieces(const BuildConfig& config, std::size_t nodes) {
 }
 
 /// The parts to be, in the order of the nodes.
-Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMesh> nodes, const Ground& ground) {
+Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMesh> nodes, const BuildInput& input) {
   std::vector<geometry::Decomposition> cuts(nodes.size());
-  if (wants_pieces(ground.config, nodes.size())) {
+  if (wants_pieces(input.config, nodes.size())) {
     geometry::DecomposeConfig config;
-    config.max_concavity = ground.config.max_concavity;
-    config.max_parts = ground.config.max_pieces;
-    config.grid_cells = ground.config.grid_cells;
-    config.seed = ground.config.seed;
+    config.max_concavity = input.config.max_concavity;
+    config.max_parts = input.config.max_pieces;
+    config.grid_cells = input.config.grid_cells;
+    config.seed = input.config.seed;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (!ground.solid.is_closed(i)) continue;  // no inside, no pieces
-      auto cut = geometry::decompose(ground.nodes[i], config);
+      if (!input.solid.is_closed(i)) continue;  // no inside, no pieces
+      auto cut = geometry::decompose(input.nodes[i], config);
       if (!cut) return fail(cut.error().what, where_of(nodes[i].name), cut.error().remedy);
       cuts[i] = std::move(*cut);
     }
   }
   std::vector<std::vector<PartSource>> found(nodes.size());
   for_each_index(nodes.size(), [&](std::size_t i) {
-    found[i] = sources_of_node(nodes[i].name, ground.nodes[i], i, cuts[i], ground.solid, ground.config);
+    found[i] = sources_of_node(nodes[i].name, input.nodes[i], i, cuts[i], input.solid, input.config);
   });
   std::vector<PartSource> sources;
   for (auto& some : found)
@@ -155,42 +155,42 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
 }
 
 /// Round the mesh where all of it is the part, else round the part's points.
-Expected<geometry::FitResult> fit_bound(const PartSource& source, const geometry::Mesh* mesh, const Ground& ground) {
-  if (ground.config.bounds == Bounds::boxes) {
+Expected<geometry::FitResult> fit_bound(const PartSource& source, const geometry::Mesh* mesh, const BuildInput& input) {
+  if (input.config.bounds == Bounds::boxes) {
     std::vector<Vec3> surface_points_O;
     for (const SurfacePlace& place : source.places)
       surface_points_O.push_back(place.p_O);
     return fit_box(source.bound_points_O, surface_points_O);
   }
   geometry::FitConfig config;
-  config.seed = ground.config.seed;
+  config.seed = input.config.seed;
   return mesh != nullptr ? geometry::fit_superquadric(*mesh, config)
                          : geometry::fit_superquadric(source.bound_points_O, config);
 }
 
-Expected<geometry::FitResult> fit_source(const PartSource& source, const Ground& ground) {
-  auto fit = fit_bound(source, source.is_whole_node() ? &ground.nodes[source.node] : nullptr, ground);
+Expected<geometry::FitResult> fit_source(const PartSource& source, const BuildInput& input) {
+  auto fit = fit_bound(source, source.is_whole_node() ? &input.nodes[source.node] : nullptr, input);
   if (!fit) return fail(fit.error().what, where_of(source.name), fit.error().remedy);
   return fit;
 }
 
 /// A part, and what a finer map of it would be made from.
-struct Made {
+struct BuiltPart {
   collision::Part part;
   MapFrame frame;
   std::vector<Probe> probes;
 };
 
-MapChoice map_for(const Made& made, std::size_t node, const Ground& ground, std::size_t more_than,
+MapChoice map_for(const BuiltPart& built, std::size_t node, const BuildInput& input, std::size_t more_than,
                   std::span<const Probe> must, bool may_grow = false) {
-  const BuildConfig& config = ground.config;
+  const BuildConfig& config = input.config;
   MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
   candidates.must = must;
   // What errs too much may grow as it needs to; what only misses a thin layer may not.
   if (more_than > 0 && !may_grow)
     candidates.at_most =
         std::max(kAlwaysGranted, static_cast<std::size_t>(kMostGrowth * static_cast<double>(more_than)));
-  return choose_map(ground.solid, ground.skin, node, made.frame, made.probes, ground.budget, candidates);
+  return choose_map(input.solid, input.skin, node, built.frame, built.probes, input.budget, candidates);
 }
 
 void set_map(MapChoice&& choice, collision::Part& part, PartReport& report) {
@@ -201,28 +201,28 @@ void set_map(MapChoice&& choice, collision::Part& part, PartReport& report) {
   part.map = std::move(choice.map);
 }
 
-Expected<Made> make_part(const PartSource& source, const Ground& ground, PartReport& report) {
-  const auto fit = fit_source(source, ground);
+Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input, PartReport& report) {
+  const auto fit = fit_source(source, input);
   if (!fit) return tl::unexpected(fit.error());
-  Made made;
-  made.frame = choose_frame(ground.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
-  made.probes = make_probes(ground.solid, ground.skin, source.node, source.places, ground.budget, kProbesPerPart,
-                            ground.config.seed + 2);
+  BuiltPart built;
+  built.frame = choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
+  built.probes = make_probes(input.solid, input.skin, source.node, source.places, input.budget, kProbesPerPart,
+                             input.config.seed + 2);
   report.name = source.name;
   report.fit = fit->report;
-  report.closed = ground.solid.is_closed(source.node);
+  report.closed = input.solid.is_closed(source.node);
   report.samples = source.samples_O.size();
   report.spacing_m = source.spacing_m;
-  made.part.name = source.name;
-  made.part.X_OQ = fit->X_OQ;
-  made.part.superquadric = fit->shape;
-  made.part.bound_O = collision::bounding_sphere(source.bound_points_O);
-  set_map(map_for(made, source.node, ground, 0, {}), made.part, report);
+  built.part.name = source.name;
+  built.part.X_OQ = fit->X_OQ;
+  built.part.superquadric = fit->shape;
+  built.part.bound_O = collision::bounding_sphere(source.bound_points_O);
+  set_map(map_for(built, source.node, input, 0, {}), built.part, report);
   if (source.places.empty()) {  // wholly inside others: nobody feels it
     report.error = {0, 0, 0, 0, 0, 0};
     report.met = true;
   }
-  return made;
+  return built;
 }
 
 /// What find_contacts would say of a point: the hit in which it lies most centrally; and whose it is.
@@ -267,9 +267,9 @@ struct Faults {
   std::vector<Probe> missed;  // own probes and witnesses
 };
 
-void judge_own(std::span<const collision::Part> parts, std::span<const Made> made, const ErrorBudget& budget,
+void judge_own(std::span<const collision::Part> parts, std::span<const BuiltPart> built, const ErrorBudget& budget,
                std::vector<Faults>& faults) {
-  for (const Made& one : made) {
+  for (const BuiltPart& one : built) {
     for (const Probe& probe : one.probes) {
       const Answer answer = ask(parts, probe.p_O);
       if (!answer.hit.hit) {
@@ -283,10 +283,10 @@ void judge_own(std::span<const collision::Part> parts, std::span<const Made> mad
   }
 }
 
-std::vector<Faults> find_faults(std::span<const collision::Part> parts, std::span<const Made> made,
+std::vector<Faults> find_faults(std::span<const collision::Part> parts, std::span<const BuiltPart> built,
                                 std::span<const Probe> witnesses, const ErrorBudget& budget) {
   std::vector<Faults> faults(parts.size());
-  judge_own(parts, made, budget, faults);
+  judge_own(parts, built, budget, faults);
   std::vector<std::uint8_t> missed(witnesses.size());
   for_each_index((witnesses.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     for (std::size_t k = kChunk * chunk; k < std::min(witnesses.size(), kChunk * (chunk + 1)); ++k)
@@ -300,18 +300,18 @@ std::vector<Faults> find_faults(std::span<const collision::Part> parts, std::spa
 
 /// Many points just deep enough to count, all over the surface. The crest of a thread is a few per cent of its part, and only a thin
 /// layer under it gets lost: a part's own probes, at all depths, seldom meet it.
-std::vector<Probe> make_witnesses(const Ground& ground, std::size_t parts) {
+std::vector<Probe> make_witnesses(const BuildInput& input, std::size_t parts) {
   const std::size_t count = std::min(kMostWitnesses, kWitnessesPerPart * parts);
-  const auto places = geometry::sample_by_area(ground.skin_mesh, count, ground.config.seed + 4);
+  const auto places = geometry::sample_by_area(input.skin_mesh, count, input.config.seed + 4);
   std::vector<std::vector<Probe>> some((places.size() + kChunk - 1) / kChunk);
   for_each_index(some.size(), [&](std::size_t chunk) {
-    geometry::Random random(ground.config.seed + 5 + chunk);
+    geometry::Random random(input.config.seed + 5 + chunk);
     for (std::size_t k = kChunk * chunk; k < std::min(places.size(), kChunk * (chunk + 1)); ++k) {
-      const double wanted_m = ground.budget.missed_m * (1 + (kWitnessDepth - 1) * random.unit());
-      const Vec3 p_O = places[k].p - wanted_m * ground.skin.triangle_normal(places[k].triangle);
-      if (!ground.solid.contains(p_O)) continue;
-      const double depth_m = ground.skin.closest(p_O).distance_m;
-      if (depth_m > ground.budget.missed_m) some[chunk].push_back({p_O, depth_m});
+      const double wanted_m = input.budget.missed_m * (1 + (kWitnessDepth - 1) * random.unit());
+      const Vec3 p_O = places[k].p - wanted_m * input.skin.triangle_normal(places[k].triangle);
+      if (!input.solid.contains(p_O)) continue;
+      const double depth_m = input.skin.closest(p_O).distance_m;
+      if (depth_m > input.budget.missed_m) some[chunk].push_back({p_O, depth_m});
     }
   });
   std::vector<Probe> witnesses;
@@ -321,19 +321,19 @@ std::vector<Probe> make_witnesses(const Ground& ground, std::size_t parts) {
 }
 
 /// Gives parts finer maps until the object as a whole meets the budget, or nothing finer is left.
-void refine(std::vector<collision::Part>& parts, std::span<const Made> made, std::span<const PartSource> sources,
-            std::span<const Probe> witnesses, const Ground& ground, std::vector<PartReport>& reports) {
+void refine(std::vector<collision::Part>& parts, std::span<const BuiltPart> built, std::span<const PartSource> sources,
+            std::span<const Probe> witnesses, const BuildInput& input, std::vector<PartReport>& reports) {
   std::vector<std::vector<Probe>> must(parts.size());
   std::vector<bool> exhausted(parts.size());
   for (int round = 0; round < kRefinements; ++round) {
-    const std::vector<Faults> faults = find_faults(parts, made, witnesses, ground.budget);
+    const std::vector<Faults> faults = find_faults(parts, built, witnesses, input.budget);
     std::vector<std::size_t> guilty;
     std::vector<bool> may_grow(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       must[i].insert(must[i].end(), faults[i].missed.begin(), faults[i].missed.end());
       // What a finer map leaves inexact stays so.
       const bool inexact = faults[i].made_up || static_cast<double>(faults[i].inexact) >
-                                                    kFaultShare * static_cast<double>(made[i].probes.size());
+                                                    kFaultShare * static_cast<double>(built[i].probes.size());
       may_grow[i] = round == 0 && inexact && !reports[i].met;
       if (!exhausted[i] && ((round == 0 && inexact) || !faults[i].missed.empty())) guilty.push_back(i);
     }
@@ -341,7 +341,7 @@ void refine(std::vector<collision::Part>& parts, std::span<const Made> made, std
     std::vector<MapChoice> finer(guilty.size());
     for_each_index(guilty.size(), [&](std::size_t k) {
       const std::size_t i = guilty[k];
-      finer[k] = map_for(made[i], sources[i].node, ground, parts[i].map.bytes(), must[i], may_grow[i]);
+      finer[k] = map_for(built[i], sources[i].node, input, parts[i].map.bytes(), must[i], may_grow[i]);
     });
     for (std::size_t k = 0; k < guilty.size(); ++k) {
       const std::size_t i = guilty[k];
@@ -361,10 +361,10 @@ std::size_t bytes_of(const collision::Part& part) {
 
 /// The whole object as one source.
 PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const PartSource> sources,
-                 const Ground& ground) {
+                 const BuildInput& input) {
   PartSource whole;
   whole.name = nodes.size() == 1 ? nodes[0].name : "whole";
-  for (const geometry::Mesh& node : ground.nodes)
+  for (const geometry::Mesh& node : input.nodes)
     whole.bound_points_O.insert(whole.bound_points_O.end(), node.vertices.begin(), node.vertices.end());
   for (const PartSource& source : sources) {
     whole.places.insert(whole.places.end(), source.places.begin(), source.places.end());
@@ -385,15 +385,15 @@ MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
 /// One brick in place of all parts, where it meets the budget and is not much larger: a query then asks once, not part after part. Nothing
 /// where the parts are better.
 std::optional<collision::Part> make_whole(const PartSource& whole, std::span<const collision::Part> parts,
-                                          std::span<const Made> made, std::span<const Probe> witnesses,
-                                          const Ground& ground, PartReport& report) {
+                                          std::span<const BuiltPart> built, std::span<const Probe> witnesses,
+                                          const BuildInput& input, PartReport& report) {
   geometry::Mesh mesh;
-  for (const geometry::Mesh& node : ground.nodes)
+  for (const geometry::Mesh& node : input.nodes)
     mesh.append(node);
-  const auto fit = fit_bound(whole, &mesh, ground);
+  const auto fit = fit_bound(whole, &mesh, input);
   if (!fit) return std::nullopt;
   std::vector<Probe> probes;
-  for (const Made& one : made)
+  for (const BuiltPart& one : built)
     probes.insert(probes.end(), one.probes.begin(), one.probes.end());
   std::vector<Probe> must(witnesses.begin(), witnesses.end());  // no neighbour helps out
   must.insert(must.end(), probes.begin(), probes.end());
@@ -404,8 +404,8 @@ std::optional<collision::Part> make_whole(const PartSource& whole, std::span<con
   for (const collision::Part& part : parts)
     candidates.at_most += bytes_of(part);
   candidates.at_most *= kWorthOfWhole;
-  MapChoice choice = choose_map(ground.solid, ground.skin, 0, frame_around(whole.bound_points_O, fit->X_OQ), probes,
-                                ground.budget, candidates);
+  MapChoice choice = choose_map(input.solid, input.skin, 0, frame_around(whole.bound_points_O, fit->X_OQ), probes,
+                                input.budget, candidates);
   if (!choice.met) return std::nullopt;
   report.name = whole.name;
   report.fit = fit->report;
@@ -430,11 +430,11 @@ bool may_be_whole(const BuildConfig& config, const Solid& solid, std::size_t nod
 }
 
 /// For the object's error: of the same number from each source.
-std::vector<Probe> make_report_probes(std::span<const PartSource> sources, const Ground& ground) {
+std::vector<Probe> make_report_probes(std::span<const PartSource> sources, const BuildInput& input) {
   std::vector<std::vector<Probe>> probes(sources.size());
   for_each_index(sources.size(), [&](std::size_t i) {
-    probes[i] = make_probes(ground.solid, ground.skin, sources[i].node, sources[i].places, ground.budget, kReportProbes,
-                            ground.config.seed + 3);
+    probes[i] = make_probes(input.solid, input.skin, sources[i].node, sources[i].places, input.budget, kReportProbes,
+                            input.config.seed + 3);
   });
   std::vector<Probe> all;
   for (const auto& some : probes)
@@ -454,50 +454,51 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
   const geometry::Mesh skin_mesh = air_side(*welded, solid);
   const geometry::MeshQuery skin(skin_mesh);
   const double diagonal_m = diagonal_of(*welded);
-  const Ground ground{*welded, solid, skin_mesh, skin, config, budget_of(config, diagonal_m)};
+  const BuildInput input{*welded, solid, skin_mesh, skin, config, budget_of(config, diagonal_m)};
 
-  auto sources = find_sources(nodes, ground);
+  auto sources = find_sources(nodes, input);
   if (!sources) return tl::unexpected(sources.error());
-  std::vector<Expected<Made>> tried(sources->size());
-  BuildReport built;
-  built.parts.resize(sources->size());
+  std::vector<Expected<BuiltPart>> tried(sources->size());
+  BuildReport full_report;
+  full_report.parts.resize(sources->size());
   std::atomic<std::size_t> done{0};
   for_each_index(sources->size(), [&](std::size_t i) {
-    tried[i] = make_part((*sources)[i], ground, built.parts[i]);
+    tried[i] = make_part((*sources)[i], input, full_report.parts[i]);
     if (on_part) on_part(++done, sources->size());
   });
   collision::Object object;
-  std::vector<Made> made;
+  std::vector<BuiltPart> built;
   for (auto& one : tried) {
     if (!one) return tl::unexpected(one.error());
     object.parts.push_back(std::move(one->part));
-    made.push_back(std::move(*one));
+    built.push_back(std::move(*one));
   }
-  const std::vector<Probe> witnesses = make_witnesses(ground, object.parts.size());
-  refine(object.parts, made, *sources, witnesses, ground, built.parts);
+  const std::vector<Probe> witnesses = make_witnesses(input, object.parts.size());
+  refine(object.parts, built, *sources, witnesses, input, full_report.parts);
   std::vector<Probe> report_probes;
-  if (report != nullptr) report_probes = make_report_probes(*sources, ground);
+  if (report != nullptr) report_probes = make_report_probes(*sources, input);
   if (may_be_whole(config, solid, nodes.size(), object.parts.size())) {
-    PartSource whole = unite(nodes, *sources, ground);
+    PartSource whole = unite(nodes, *sources, input);
     PartReport whole_report;
-    if (auto part = make_whole(whole, object.parts, made, witnesses, ground, whole_report)) {
+    if (auto part = make_whole(whole, object.parts, built, witnesses, input, whole_report)) {
       object.parts = {std::move(*part)};
-      built.parts = {std::move(whole_report)};
+      full_report.parts = {std::move(whole_report)};
       *sources = {std::move(whole)};
     }
   }
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
-    built.bytes += object.parts[i].map.bytes();
+    full_report.bytes += object.parts[i].map.bytes();
     collision::append_samples(object, static_cast<std::uint16_t>(i), std::move((*sources)[i].samples_O));
   }
   collision::close_clusters(object);
 
   if (report != nullptr) {
-    built.diagonal_m = diagonal_m;
-    built.budget = ground.budget;
-    built.error = measure(report_probes, ground.budget, [&](const Vec3& p_O) { return ask(object.parts, p_O).hit; });
-    built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    *report = std::move(built);
+    full_report.diagonal_m = diagonal_m;
+    full_report.budget = input.budget;
+    full_report.error =
+        measure(report_probes, input.budget, [&](const Vec3& p_O) { return ask(object.parts, p_O).hit; });
+    full_report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    *report = std::move(full_report);
   }
   return object;
 }

@@ -43,7 +43,7 @@ struct BuildConfig {
   int map_resolution = 0;                   ///< of radial maps: one of RadialMap::kResolutions; 0: chosen
   double sample_spacing_m = 0.005;          ///< between surface samples; under a third of a fingertip
   std::size_t max_samples_per_part = 4096;  ///< a part that would need more gets a wider spacing instead
-  double seam_gap_m = 0.001;                ///< gaps between parts up to this width count as wood, not as a slot
+  double seam_gap_m = 0.001;                ///< gaps between parts up to this width count as solid, not as a slot
   std::uint64_t seed = 1;                   ///< same meshes, config and seed: same object, to the bit
 };
 

@@ -30,7 +30,7 @@ struct PartSource {
 /// Triangles of all nodes that border on air somewhere: the solid's true surface, for the exact distance.
 [[nodiscard]] geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& solid);
 
-/// A node as one part, or as the pieces of `cut`. Pieces without a surface of their own (deep in the wood) are left out.
+/// A node as one part, or as the pieces of `cut`. Pieces without a surface of their own (deep in the solid) are left out.
 [[nodiscard]] std::vector<PartSource> sources_of_node(const std::string& name, const geometry::Mesh& mesh,
                                                       std::size_t node, const geometry::Decomposition& cut,
                                                       const Solid& solid, const BuildConfig& config);

@@ -1,4 +1,4 @@
-// The parts of an object as one solid: what is wood and what is air, where parts touch, overlap, or leave a crack at a seam.
+// The parts of an object as one solid: what is inside and what is air, where parts touch, overlap, or leave a crack at a seam.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace mechane::collision_build {
 /// Built once from welded part meshes; any thread may ask.
 class Solid {
  public:
-  /// `seam_gap_m`: cracks between parts up to this width are wood.
+  /// `seam_gap_m`: cracks between parts up to this width are solid.
   Solid(std::span<const geometry::Mesh> welded_parts, double seam_gap_m);
 
   [[nodiscard]] bool is_closed(std::size_t part) const { return closed_[part]; }
@@ -28,7 +28,7 @@ class Solid {
   /// For an open part: the outermost hit with its own mesh, whatever lies before it. 0: the ray starts in air, or never meets the part.
   [[nodiscard]] double walk(std::size_t part, const Vec3& origin, const Vec3& direction, double limit) const;
 
-  /// Cracks at seams up to this width are wood; 0 for an object of one part.
+  /// Cracks at seams up to this width are solid; 0 for an object of one part.
   [[nodiscard]] double seam_gap_m() const { return seam_gap_m_; }
 
   [[nodiscard]] const geometry::MeshQuery& part(std::size_t part) const { return parts_[part]; }

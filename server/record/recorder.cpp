@@ -13,7 +13,7 @@
 
 #include "server/log/log.hpp"
 #include "server/record/file.hpp"
-#include "server/record/lane.hpp"
+#include "server/record/journal_channel.hpp"
 #include "server/record/retention.hpp"
 #include "server/record/snapshot_file.hpp"
 
@@ -39,10 +39,10 @@ std::filesystem::path journal_path_of(const std::filesystem::path& folder, const
   return path;
 }
 
-void add_counts(const Lane& lane, RecorderStatus& sum) {
-  sum.bytes_written += lane.bytes_written();
-  sum.ticks_lost += lane.ticks_lost();
-  sum.snapshots_written += lane.snapshots_written();
+void add_counts(const JournalChannel& channel, RecorderStatus& sum) {
+  sum.bytes_written += channel.bytes_written();
+  sum.ticks_lost += channel.ticks_lost();
+  sum.snapshots_written += channel.snapshots_written();
 }
 
 // Once when the trouble begins, once when it is over: a full disk must not fill the log too.
@@ -53,9 +53,9 @@ void tell(const std::string& before, const std::string& problem) {
 
 }  // namespace
 
-/// One open world. The disk side of its lane is the thread's alone; the rest is under the mutex.
+/// One open world. The disk side of its channel is the thread's alone; the rest is under the mutex.
 struct Recorder::Entry {
-  std::unique_ptr<Lane> lane;
+  std::unique_ptr<JournalChannel> channel;
   bool closing = false;
   bool closed = false;
   bool remove_snapshot = false;
@@ -71,13 +71,13 @@ struct Recorder::Work {
 };
 
 WorldRecorder::WorldRecorder(WorldRecorder&& other) noexcept
-    : recorder_(other.recorder_), lane_(std::exchange(other.lane_, nullptr)) {}
+    : recorder_(other.recorder_), channel_(std::exchange(other.channel_, nullptr)) {}
 
 WorldRecorder& WorldRecorder::operator=(WorldRecorder&& other) noexcept {
   if (this != &other) {
     close();
     recorder_ = other.recorder_;
-    lane_ = std::exchange(other.lane_, nullptr);
+    channel_ = std::exchange(other.channel_, nullptr);
   }
   return *this;
 }
@@ -87,23 +87,24 @@ WorldRecorder::~WorldRecorder() {
 }
 
 void WorldRecorder::push(const TickRecord& record) noexcept {
-  lane_->push(record);
+  channel_->push(record);
 }
 std::uint64_t WorldRecorder::refused() const noexcept {
-  return lane_->refused();
+  return channel_->refused();
 }
 std::vector<std::byte>& WorldRecorder::snapshot_buffer() noexcept {
-  return lane_->snapshot_buffer();
+  return channel_->snapshot_buffer();
 }
 void WorldRecorder::commit_snapshot(std::uint64_t tick) noexcept {
-  lane_->commit_snapshot(tick);
+  channel_->commit_snapshot(tick);
 }
 const std::filesystem::path& WorldRecorder::journal_path() const noexcept {
-  return lane_->journal_path();
+  return channel_->journal_path();
 }
 
 void WorldRecorder::close(std::optional<std::uint64_t> final_hash, Snapshot snapshot) {
-  if (lane_ != nullptr) recorder_->close_lane(*std::exchange(lane_, nullptr), final_hash, snapshot == Snapshot::remove);
+  if (channel_ != nullptr)
+    recorder_->close_channel(*std::exchange(channel_, nullptr), final_hash, snapshot == Snapshot::remove);
 }
 
 Recorder::Recorder(const RecorderConfig& config) : config_(config) {}
@@ -146,14 +147,14 @@ WorldRecorder Recorder::open(JournalHeader header, std::size_t snapshot_capacity
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored)) return true;
     return std::any_of(entries_.begin(), entries_.end(),
-                       [&](const auto& e) { return e->lane->journal_path() == path; });
+                       [&](const auto& e) { return e->channel->journal_path() == path; });
   };
   auto entry = std::make_unique<Entry>();
-  entry->lane = std::make_unique<Lane>(header, journal_path_of(config_.folder, header, is_taken),
-                                       snapshot_path(config_.folder, header.world_id), config_.ring_bytes,
-                                       snapshot_capacity, config_.retry_after);
+  entry->channel = std::make_unique<JournalChannel>(header, journal_path_of(config_.folder, header, is_taken),
+                                                    snapshot_path(config_.folder, header.world_id), config_.ring_bytes,
+                                                    snapshot_capacity, config_.retry_after);
   entries_.push_back(std::move(entry));
-  return {*this, *entries_.back()->lane};
+  return {*this, *entries_.back()->channel};
 }
 
 RecorderStatus Recorder::status() const {
@@ -161,9 +162,11 @@ RecorderStatus Recorder::status() const {
   return status_;
 }
 
-void Recorder::close_lane(const Lane& lane, std::optional<std::uint64_t> final_hash, bool remove_snapshot) {
+void Recorder::close_channel(const JournalChannel& channel, std::optional<std::uint64_t> final_hash,
+                             bool remove_snapshot) {
   std::unique_lock lock(mutex_);
-  const auto it = std::find_if(entries_.begin(), entries_.end(), [&](const auto& e) { return e->lane.get() == &lane; });
+  const auto it =
+      std::find_if(entries_.begin(), entries_.end(), [&](const auto& e) { return e->channel.get() == &channel; });
   if (it == entries_.end()) return;
   Entry& entry = **it;
   entry.final_hash = final_hash;
@@ -214,13 +217,13 @@ void Recorder::do_work(const std::vector<Work>& work, TimePoint time) {
   if (sync) next_sync_ = time + config_.sync_period;
   bool finished = false;
   for (const Work& w : work) {
-    Lane& lane = *w.entry->lane;
+    JournalChannel& channel = *w.entry->channel;
     if (w.finish) {
-      lane.finish(time, w.final_hash, w.remove_snapshot);
+      channel.finish(time, w.final_hash, w.remove_snapshot);
       finished = true;
     } else {
-      lane.drain(time);
-      if (sync) lane.sync();
+      channel.drain(time);
+      if (sync) channel.sync();
     }
   }
   if (!finished && time < next_retention_) return;
@@ -236,14 +239,14 @@ void Recorder::finish_work(const std::vector<Work>& work) {
   all.problem = retention_problem_;
   all.journals_deleted = journals_deleted_;
   for (const Work& w : work) {
-    const Lane& lane = *w.entry->lane;
-    add_counts(lane, all);
+    const JournalChannel& channel = *w.entry->channel;
+    add_counts(channel, all);
     if (w.finish) {
-      add_counts(lane, of_closed_);
+      add_counts(channel, of_closed_);
     } else {
       ++all.open_journals;
     }
-    if (!lane.ok()) all.problem = lane.problem();
+    if (!channel.ok()) all.problem = channel.problem();
     w.entry->closed = w.finish;
   }
   all.records_ok = all.problem.empty();

@@ -18,7 +18,7 @@
 
 namespace mechane::record {
 
-class Lane;
+class JournalChannel;
 class Recorder;
 
 struct RecorderConfig {
@@ -70,9 +70,9 @@ class WorldRecorder {
 
  private:
   friend class Recorder;
-  WorldRecorder(Recorder& recorder, Lane& lane) : recorder_(&recorder), lane_(&lane) {}
+  WorldRecorder(Recorder& recorder, JournalChannel& channel) : recorder_(&recorder), channel_(&channel) {}
   Recorder* recorder_;
-  Lane* lane_;  // null after close() and after a move
+  JournalChannel* channel_;  // null after close() and after a move
 };
 
 /// Owns one thread of ordinary priority. A disk that is full or gone costs records, never a tick: the recorder says so once in the
@@ -102,7 +102,7 @@ class Recorder {
   std::vector<Work> wait_for_work(bool& stopping);
   void do_work(const std::vector<Work>& work, TimePoint time);
   void finish_work(const std::vector<Work>& work);
-  void close_lane(const Lane& lane, std::optional<std::uint64_t> final_hash, bool remove_snapshot);
+  void close_channel(const JournalChannel& channel, std::optional<std::uint64_t> final_hash, bool remove_snapshot);
 
   RecorderConfig config_;
   mutable std::mutex mutex_;  // guards what follows, up to thread_; no loop ever takes it
@@ -111,7 +111,7 @@ class Recorder {
   bool stop_ = false;
   std::vector<std::unique_ptr<Entry>> entries_;
   RecorderStatus status_;
-  RecorderStatus of_closed_;  // the counts of lanes that are gone
+  RecorderStatus of_closed_;  // the counts of channels that are gone
   // The thread's own.
   TimePoint next_sync_;
   TimePoint next_retention_;

@@ -1,6 +1,6 @@
 #include "server/transport/presentation.hpp"
 
-#include "server/state/ways.hpp"
+#include "server/state/affordances.hpp"
 #include "server/transport/wire_texts.hpp"
 #include <mechane/proto/convert.hpp>
 
@@ -25,7 +25,7 @@ Presentation::Presentation(const std::string& world, const state::WorldDescripti
   proto::look_into(wire_.activities, activities_);
   proto::look_into(wire_.views, views_);
   proto::look_into(wire_.effects, effects_);
-  proto::look_into(wire_.ways, ways_);
+  proto::look_into(wire_.affordances, affordances_);
 }
 
 void Presentation::add_activities(const state::WorldDescription& description) {
@@ -85,14 +85,14 @@ void Presentation::add_effects(const state::WorldDescription& description) {
 }
 
 void Presentation::add_ways(const state::WorldDescription& description) {
-  for (const state::Way& way : state::ways_of(description)) {
-    proto::WireWay& wire = ways_.emplace_back();
-    wire.kind = static_cast<std::uint32_t>(way.kind);
-    wire.agent = way.agent ? proto::look_into(description.agents[way.agent.index()].name) : nullptr;
-    wire.object = static_cast<std::uint32_t>(way.object.index());
-    wire.base = way.base ? static_cast<std::int32_t>(way.base.index()) : -1;
-    proto::set_pose(wire.X_AJ, way.X_AJ);
-    proto::set_pose(wire.X_BJ, way.X_BJ);
+  for (const state::Affordance& affordance : state::affordances_of(description)) {
+    proto::WireAffordance& wire = affordances_.emplace_back();
+    wire.kind = static_cast<std::uint32_t>(affordance.kind);
+    wire.agent = affordance.agent ? proto::look_into(description.agents[affordance.agent.index()].name) : nullptr;
+    wire.object = static_cast<std::uint32_t>(affordance.object.index());
+    wire.base = affordance.base ? static_cast<std::int32_t>(affordance.base.index()) : -1;
+    proto::set_pose(wire.X_AJ, affordance.X_AJ);
+    proto::set_pose(wire.X_BJ, affordance.X_BJ);
   }
 }
 

@@ -38,7 +38,7 @@ class Presentation {
   std::vector<proto::WireActivity> activities_;
   std::vector<proto::WireView> views_;
   std::vector<proto::WireEffect> effects_;
-  std::vector<proto::WireWay> ways_;
+  std::vector<proto::WireAffordance> affordances_;
 };
 
 }  // namespace mechane::transport

@@ -125,9 +125,9 @@ void fuzz_presentation(Bytes bytes) {
     effect = bytes.take<proto::WireEffect>();
     effect.name = effect.kind = effect.node = nullptr;
   }
-  std::vector<proto::WireWay> ways(bytes.take<std::uint8_t>() % 4);
-  for (auto& way : ways) {
-    way = bytes.take<proto::WireWay>();
+  std::vector<proto::WireAffordance> affordances(bytes.take<std::uint8_t>() % 4);
+  for (auto& way : affordances) {
+    way = bytes.take<proto::WireAffordance>();
     way.agent = nullptr;
   }
   std::vector<proto::WireQuestion> questions(bytes.take<std::uint8_t>() % 4);
@@ -143,7 +143,7 @@ void fuzz_presentation(Bytes bytes) {
   wire.protocol = proto::kProtocol;
   proto::look_into(wire.views, views);
   proto::look_into(wire.effects, effects);
-  proto::look_into(wire.ways, ways);
+  proto::look_into(wire.affordances, affordances);
   proto::look_into(wire.activities, activities);
   client::WorldPresentation presentation;
   if (!client::parse(wire, presentation)) return;
@@ -151,8 +151,9 @@ void fuzz_presentation(Bytes bytes) {
     must(view.field_of_view_rad > 0 && view.field_of_view_rad < kPi && std::abs(view.X_WV.R.norm() - 1) < 1e-9);
   for (const auto& effect : presentation.effects)
     must(effect.full > 0 && std::abs(effect.direction_B.norm() - 1) < 0.02 && effect.p_BE.allFinite());
-  for (const auto& way : presentation.ways)
-    must(way.X_AJ.p.allFinite() && std::abs(way.X_BJ.R.norm() - 1) < 1e-6 && way.kind <= client::Way::Kind::brought);
+  for (const auto& way : presentation.affordances)
+    must(way.X_AJ.p.allFinite() && std::abs(way.X_BJ.R.norm() - 1) < 1e-6 &&
+         way.kind <= client::Affordance::Kind::brought);
 }
 
 /// What a step waits for, of quantities that are there or not.

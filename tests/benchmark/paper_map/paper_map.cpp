@@ -326,7 +326,7 @@ std::size_t PaperMap::bytes() const noexcept {
 
 namespace {
 
-/// How far along `direction` from `start` in wood (winding > 0) until air; nothing where the ray never leaves it.
+/// How far along `direction` from `start` in solid (winding > 0) until air; nothing where the ray never leaves it.
 std::optional<double> way_out(std::span<const geometry::RayHit> hits, int winding) {
   for (const geometry::RayHit& hit : hits) {
     winding += hit.entering ? 1 : -1;

@@ -51,7 +51,7 @@ struct PaperAnswer {
 };
 
 /// D(eta, omega) of (6): from each place of the superquadric's surface, how far along its inward normal the object's surface lies.
-/// Three kinds of place: a depth >= 0; a place inside the wood ('covered'), whose distance is negative: as far outwards; and one from
+/// Three kinds of place: a depth >= 0; a place inside the solid ('covered'), whose distance is negative: as far outwards; and one from
 /// which no surface is met ('no hit'), which no point ever touches.
 class PaperMap {
  public:
@@ -141,7 +141,7 @@ class PaperMap {
 /// What a map is cast against.
 struct PaperTarget {
   const geometry::MeshQuery& surface_O;  ///< the whole object, not the part's piece: seams between parts are no walls
-  bool closed = true;                    ///< else there is no wood, and what a ray meets first is the surface
+  bool closed = true;                    ///< else there is no solid, and what a ray meets first is the surface
 };
 
 /// Casts a ray from each place of the superquadric along its inward normal (6). A surface beyond the superquadric's far side is 'no

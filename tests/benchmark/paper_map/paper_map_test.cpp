@@ -200,7 +200,7 @@ TEST(PaperMap, WhatNoRayMeetsIsNoHitAndTouchesNothing) {
   EXPECT_TRUE(map.search({0.003F, 0.002F, 0.08F}).hit.hit);
 }
 
-TEST(PaperMap, APlaceInANeighboursWoodIsCoveredAsDeepAsTheWoodGoesOn) {
+TEST(PaperMap, APlaceInANeighboursSolidIsCoveredAsDeepAsTheSolidGoesOn) {
   geometry::Mesh both = test::ball(0.05);
   geometry::Mesh neighbour = test::ball(0.05);
   for (Vec3& v : neighbour.vertices)

@@ -66,7 +66,7 @@ class Barrel : public ::testing::TestWithParam<std::pair<int, double>> {
   }
 };
 
-TEST_P(Barrel, HollowIsAirAndWoodIsWoodAlsoAtTheSeams) {
+TEST_P(Barrel, HollowIsAirAndSolidIsSolidAlsoAtTheSeams) {
   const auto [staves, gap] = GetParam();
   const auto parts = test::barrel(staves, kInner, kOuter, kHalf, 96 / staves, gap);
   BuildConfig config;
@@ -89,8 +89,8 @@ TEST_P(Barrel, HollowIsAirAndWoodIsWoodAlsoAtTheSeams) {
     // Wood: under the outer wall by what must not be missed, and as deep as maps are held to their budget.
     const double missable_m = config.max_error_m + 0.0001;
     const double depth = missable_m + (report.budget.probe_depth_m - missable_m) * random.unit();
-    const Vec3 wood = at(kOuter - depth, angle, z);
-    const collision::MapHit hit = ask(*object, wood);
+    const Vec3 solid = at(kOuter - depth, angle, z);
+    const collision::MapHit hit = ask(*object, solid);
     missed += hit.hit ? 0 : 1;
     if (!hit.hit) continue;
     worst = std::max(worst, std::abs(hit.depth_m - depth));

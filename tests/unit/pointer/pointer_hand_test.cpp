@@ -37,7 +37,7 @@ struct Thing {
     if (hand.grasp_intent < 0.3) senses.holding = false;
     if (!senses.holding) return;
     if (senses.leeway.axle) {
-      const WayLine& axle = *senses.leeway.axle;
+      const AffordanceLine& axle = *senses.leeway.axle;
       const Vec3 x = across(p_WG_from_, axle), y = axle.a_W.cross(x), now = across(hand.X_WH.p, axle);
       const double before = angle;
       angle += std::remainder(std::atan2(now.dot(y), now.dot(x)) - before, 2 * kPi);
@@ -50,7 +50,7 @@ struct Thing {
       senses.X_WB = hand.X_WH * X_HB_;
     }
   }
-  [[nodiscard]] static Vec3 across(const Vec3& p_W, const WayLine& axle) {
+  [[nodiscard]] static Vec3 across(const Vec3& p_W, const AffordanceLine& axle) {
     const Vec3 arm = p_W - axle.p_W;
     return arm - arm.dot(axle.a_W) * axle.a_W;
   }
@@ -138,7 +138,7 @@ RC_GTEST_PROP(PointerHand, round_the_middle_of_a_cranks_picture_is_round_its_axl
   RC_PRE(a_W.norm() > 0.2);
   const picture::Sight sight = sight_from({0, 1, 3}, {0, 1, 0});
   Thing thing;
-  thing.senses.leeway.axle = WayLine{{0, 1, 0}, a_W.normalized()};
+  thing.senses.leeway.axle = AffordanceLine{{0, 1, 0}, a_W.normalized()};
   const Vec3 arm = 0.25 * thing.senses.leeway.axle->a_W.unitOrthogonal();
   const Quat about(Eigen::AngleAxisd(drawn(0, 2 * kPi), thing.senses.leeway.axle->a_W));
   PointerHand hand;
@@ -162,7 +162,7 @@ RC_GTEST_PROP(PointerHand, round_the_middle_of_a_cranks_picture_is_round_its_axl
 TEST(PointerHand, ATrackTakesWhatIsDraggedAlongItAndNotBesideIt) {
   const picture::Sight sight = sight_from({0, 1, 3}, {0, 1, 0});
   Thing thing;
-  thing.senses.leeway.track = WayLine{{0, 1, 0}, Vec3(1, 0, -1).normalized()};
+  thing.senses.leeway.track = AffordanceLine{{0, 1, 0}, Vec3(1, 0, -1).normalized()};
   PointerHand hand;
   take(hand, thing, sight, {0, 1, 0});
   const Vec3 goal = 0.3 * Vec3(1, 0, -1).normalized() + hand.view().p_WH;

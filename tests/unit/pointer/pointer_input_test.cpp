@@ -36,7 +36,7 @@ struct Shelf {
       instance.object = i;
       scene.instances.push_back(instance);
     }
-    presentation.ways = {{client::Way::Kind::taken, "HOLD", 1, {}, {}, {}}};
+    presentation.affordances = {{client::Affordance::Kind::taken, "HOLD", 1, {}, {}, {}}};
     status.enabled_agents = {"HOLD"};
   }
   [[nodiscard]] PointerScene under() const {
@@ -303,7 +303,7 @@ TEST(PointerKeys, ArrowsTurnACrankAsAClockGoesAndBack) {
     for (const auto& [key, clockwise] : {std::pair(PointerKey::right, 1), std::pair(PointerKey::down, 1),
                                          std::pair(PointerKey::left, -1), std::pair(PointerKey::up, -1)}) {
       AtKeys keys;
-      keys.hand->senses.leeway.axle = WayLine{{0.4, 0.4, 0}, {0, 0, facing}};
+      keys.hand->senses.leeway.axle = AffordanceLine{{0.4, 0.4, 0}, {0, 0, facing}};
       keys.take();
       keys.hold(key, 0.8);
       EXPECT_NEAR(keys.hand->turned_rad, -facing * clockwise * 0.8 * 2 * kPi / 3, 0.15) << static_cast<int>(key);

@@ -162,7 +162,7 @@ struct Effect {
 };
 
 /// What a hand can do with an object. A is the base's frame, or W; B the object's.
-struct Way {
+struct Affordance {
   enum class Kind : std::uint8_t {
     taken,    ///< by a hand
     turns,    ///< about z of its joint
@@ -185,7 +185,7 @@ struct WorldPresentation {
   std::vector<Activity> activities;
   std::vector<View> views;  ///< the first is where a display stands
   std::vector<Effect> effects;
-  std::vector<Way> ways;
+  std::vector<Affordance> affordances;
 };
 
 struct WorldEvent {

@@ -1,4 +1,4 @@
-#include "server/record/lane.hpp"
+#include "server/record/journal_channel.hpp"
 
 #include <chrono>
 #include <span>
@@ -20,8 +20,9 @@ std::uint64_t number_of(std::span<const std::byte> record) {
 
 }  // namespace
 
-Lane::Lane(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
-           std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after)
+JournalChannel::JournalChannel(const JournalHeader& header, std::filesystem::path journal,
+                               std::filesystem::path snapshot, std::size_t ring_bytes, std::size_t snapshot_capacity,
+                               Duration retry_after)
     : ring_(ring_bytes),
       snapshots_([snapshot_capacity] {
         Snapshot slot;
@@ -41,7 +42,7 @@ Lane::Lane(const JournalHeader& header, std::filesystem::path journal, std::file
   header_.snapshot = {};
 }
 
-void Lane::push(const TickRecord& record) noexcept {
+void JournalChannel::push(const TickRecord& record) noexcept {
   const std::span<std::byte> buffer(encoded_);
   SpanSink number(buffer);
   put(number, record.tick);
@@ -52,12 +53,12 @@ void Lane::push(const TickRecord& record) noexcept {
   through_tick_.store(record.tick + 1, std::memory_order_release);
 }
 
-void Lane::commit_snapshot(std::uint64_t tick) noexcept {
+void JournalChannel::commit_snapshot(std::uint64_t tick) noexcept {
   snapshots_.writable().tick = tick;
   snapshots_.commit();
 }
 
-void Lane::drain(TimePoint now) {
+void JournalChannel::drain(TimePoint now) {
   write_snapshot();
   if (given_up_ || (rest_until_ && now < *rest_until_)) return discard();
   gather();
@@ -65,7 +66,7 @@ void Lane::drain(TimePoint now) {
 }
 
 // From the ring to the writer. Ticks that the ring had no room for, or that the disk refused before, are a gap that the writer finds.
-void Lane::gather() {
+void JournalChannel::gather() {
   for (auto front = ring_.front(); front.found; front = ring_.front()) {
     const std::uint64_t tick = number_of(front.record);
     writer_.add_encoded(tick, front.record.subspan(kNumberSize));
@@ -74,14 +75,14 @@ void Lane::gather() {
   }
 }
 
-void Lane::discard() {
+void JournalChannel::discard() {
   for (auto front = ring_.front(); front.found; front = ring_.front()) {
     taken_through_ = number_of(front.record) + 1;
     ring_.pop();
   }
 }
 
-void Lane::store(TimePoint now) {
+void JournalChannel::store(TimePoint now) {
   writer_.flush();
   const std::vector<std::byte> bytes = writer_.take_bytes();
   if (bytes.empty() && beginning_.empty()) return;
@@ -96,7 +97,7 @@ void Lane::store(TimePoint now) {
   rest_until_.reset();
 }
 
-Expected<void> Lane::append(std::span<const std::byte> bytes) {
+Expected<void> JournalChannel::append(std::span<const std::byte> bytes) {
   if (!file_.is_open()) {
     auto created = AppendFile::create(journal_path_);
     if (!created) return tl::unexpected(created.error());
@@ -120,7 +121,7 @@ Expected<void> Lane::append(std::span<const std::byte> bytes) {
   return appended;
 }
 
-void Lane::write_snapshot() {
+void JournalChannel::write_snapshot() {
   const Snapshot* snapshot = snapshots_.take();
   if (snapshot == nullptr) return;
   const SnapshotInfo info{header_.world_id,      header_.kiosk,  header_.scenario_id,
@@ -130,24 +131,24 @@ void Lane::write_snapshot() {
   if (written) ++snapshots_written_;
 }
 
-void Lane::sync() {
+void JournalChannel::sync() {
   if (!file_.is_open()) return;
   auto synced = file_.sync();
   sync_problem_ = synced ? std::string() : synced.error().to_string();
 }
 
-const std::string& Lane::problem() const {
+const std::string& JournalChannel::problem() const {
   if (!journal_problem_.empty()) return journal_problem_;
   return sync_problem_.empty() ? snapshot_problem_ : sync_problem_;
 }
 
-std::uint64_t Lane::ticks_lost() const {
+std::uint64_t JournalChannel::ticks_lost() const {
   // What is in the ring still may be stored yet: the disk can have room again before its turn comes.
   if (journal_problem_.empty()) return writer_.lost_ticks();
   return writer_.lost_ticks() + (taken_through_ - stored_.next_tick);
 }
 
-void Lane::finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_snapshot) {
+void JournalChannel::finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_snapshot) {
   write_snapshot();
   if (remove_snapshot) {
     std::error_code ignored;  // it may never have been written

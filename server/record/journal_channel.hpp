@@ -1,4 +1,4 @@
-// Lane: one world's way from its loop to its journal and snapshot file. Inside the record room; others see WorldRecorder.
+// JournalChannel: one world's way from its loop to its journal and snapshot file. Inside the record room; others see WorldRecorder.
 #pragma once
 
 #include <array>
@@ -18,15 +18,15 @@
 namespace mechane::record {
 
 /// The loop side may be called by one thread, the disk side by one other.
-class Lane {
+class JournalChannel {
  public:
   struct Snapshot {
     std::uint64_t tick = 0;
     std::vector<std::byte> bytes;
   };
 
-  Lane(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
-       std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after);
+  JournalChannel(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
+                 std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after);
 
   // The loop side.
   void push(const TickRecord& record) noexcept;

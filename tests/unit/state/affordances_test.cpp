@@ -1,4 +1,4 @@
-#include "server/state/ways.hpp"
+#include "server/state/affordances.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,34 +36,34 @@ WorldDescription workshop() {
 }
 
 TEST(Ways, JointsGraspsPlacesAndFires) {
-  const std::vector<Way> ways = ways_of(workshop());
-  ASSERT_EQ(ways.size(), 4U) << "what is fixed is not taken, what is not there neither";
-  EXPECT_EQ(ways[0].kind, Way::Kind::turns);
-  EXPECT_EQ(ways[0].object, BodyId(1));
-  EXPECT_EQ(ways[0].base, BodyId(0));
-  EXPECT_EQ(ways[0].X_AJ.p, Vec3(0, 1, 0));
-  EXPECT_FALSE(ways[0].agent);
-  EXPECT_EQ(ways[1].kind, Way::Kind::taken);
-  EXPECT_EQ(ways[1].object, BodyId(1));
-  EXPECT_EQ(ways[1].agent, AgentId(0));
-  EXPECT_EQ(ways[2].kind, Way::Kind::placed);
-  EXPECT_EQ(ways[2].X_AJ.p, Vec3(0, 2, 0));
-  EXPECT_NEAR((rotation_vector(ways[2].X_AJ.R) - Vec3(0, 0.5, 0)).norm(), 0, 1e-12);
-  EXPECT_EQ(ways[3].kind, Way::Kind::brought) << "the fire is fixed: the torch comes to it";
-  EXPECT_EQ(ways[3].object, BodyId(2));
-  EXPECT_EQ(ways[3].base, BodyId(0));
-  EXPECT_EQ(ways[3].X_BJ.p, Vec3(0, 0, -0.3));
+  const std::vector<Affordance> affordances = affordances_of(workshop());
+  ASSERT_EQ(affordances.size(), 4U) << "what is fixed is not taken, what is not there neither";
+  EXPECT_EQ(affordances[0].kind, Affordance::Kind::turns);
+  EXPECT_EQ(affordances[0].object, BodyId(1));
+  EXPECT_EQ(affordances[0].base, BodyId(0));
+  EXPECT_EQ(affordances[0].X_AJ.p, Vec3(0, 1, 0));
+  EXPECT_FALSE(affordances[0].agent);
+  EXPECT_EQ(affordances[1].kind, Affordance::Kind::taken);
+  EXPECT_EQ(affordances[1].object, BodyId(1));
+  EXPECT_EQ(affordances[1].agent, AgentId(0));
+  EXPECT_EQ(affordances[2].kind, Affordance::Kind::placed);
+  EXPECT_EQ(affordances[2].X_AJ.p, Vec3(0, 2, 0));
+  EXPECT_NEAR((rotation_vector(affordances[2].X_AJ.R) - Vec3(0, 0.5, 0)).norm(), 0, 1e-12);
+  EXPECT_EQ(affordances[3].kind, Affordance::Kind::brought) << "the fire is fixed: the torch comes to it";
+  EXPECT_EQ(affordances[3].object, BodyId(2));
+  EXPECT_EQ(affordances[3].base, BodyId(0));
+  EXPECT_EQ(affordances[3].X_BJ.p, Vec3(0, 0, -0.3));
 }
 
 TEST(Ways, WithoutNamesAGraspTakesAllThatMoves) {
   WorldDescription world = workshop();
   world.agents = {{"ANY", "simulation.grasp", {}, 1}};
-  const std::vector<Way> ways = ways_of(world);
-  ASSERT_EQ(ways.size(), 3U);
-  EXPECT_EQ(ways[1].object, BodyId(1));
-  EXPECT_EQ(ways[2].object, BodyId(2));
+  const std::vector<Affordance> affordances = affordances_of(world);
+  ASSERT_EQ(affordances.size(), 3U);
+  EXPECT_EQ(affordances[1].object, BodyId(1));
+  EXPECT_EQ(affordances[2].object, BodyId(2));
   world.bodies.resize(6000);
-  EXPECT_EQ(ways_of(world).size(), kMaxWays);
+  EXPECT_EQ(affordances_of(world).size(), kMaxAffordances);
 }
 
 }  // namespace

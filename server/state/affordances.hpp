@@ -9,8 +9,8 @@
 
 namespace mechane::state {
 
-/// A is the base's frame, or W; B the object's. As client::Way; the numbers of the kinds are those on the wire.
-struct Way {
+/// A is the base's frame, or W; B the object's. As client::Affordance; the numbers of the kinds are those on the wire.
+struct Affordance {
   enum class Kind : std::uint8_t { taken, turns, slides, placed, brought };
   Kind kind = Kind::taken;
   AgentId agent;  ///< holds while this agent is enabled; none: always
@@ -21,11 +21,11 @@ struct Way {
 };
 
 /// More are left out: a scene of thousands of loose things, all of which are taken the same way.
-inline constexpr std::size_t kMaxWays = 4096;
+inline constexpr std::size_t kMaxAffordances = 4096;
 
 /// From the joints (turns, slides: the second body against the first) and from the agents of the types simulation.grasp (taken),
 /// geometry.snap (placed) and simulation.lit (brought). Reads their parameters as a checked scenario has them; what names no body of
 /// the world is left out.
-[[nodiscard]] std::vector<Way> ways_of(const WorldDescription& description);
+[[nodiscard]] std::vector<Affordance> affordances_of(const WorldDescription& description);
 
 }  // namespace mechane::state

@@ -13,13 +13,13 @@
 namespace mechane::pointer {
 
 /// Through p_W along the unit vector a_W.
-struct WayLine {
+struct AffordanceLine {
   Vec3 p_W = Vec3::Zero();
   Vec3 a_W = Vec3::UnitZ();
 };
 
 /// Where a body may be meant to go.
-struct WayGoal {
+struct AffordanceGoal {
   Pose X_WB;
   bool turns_too = false;  ///< false: the place alone matters
 };
@@ -27,17 +27,17 @@ struct WayGoal {
 /// What one object can do at this moment. Neither axle nor track: it goes wherever it is carried.
 struct Leeway {
   bool taken = false;  ///< hands may take it
-  std::optional<WayLine> axle;
-  std::optional<WayLine> track;
-  std::vector<WayGoal> goals;
+  std::optional<AffordanceLine> axle;
+  std::optional<AffordanceLine> track;
+  std::vector<AffordanceGoal> goals;
 };
 
 /// The pose of an object of the manifest; none: there is no such object.
 using PoseOf = std::function<std::optional<Pose>(std::uint32_t object)>;
 
-/// `ways` as in the presentation, `enabled` the agents of the present step. A joint counts while its two sides are together. A world
-/// that tells of no ways at all lets everything be taken.
-[[nodiscard]] Leeway leeway_of(std::span<const client::Way> ways, std::span<const std::string> enabled,
+/// `affordances` as in the presentation, `enabled` the agents of the present step. A joint counts while its two sides are together. A world
+/// that tells of no affordances at all lets everything be taken.
+[[nodiscard]] Leeway leeway_of(std::span<const client::Affordance> affordances, std::span<const std::string> enabled,
                                std::uint32_t object, const PoseOf& pose_of);
 
 }  // namespace mechane::pointer

@@ -1,4 +1,4 @@
-#include "server/record/lane.hpp"
+#include "server/record/journal_channel.hpp"
 
 #include <filesystem>
 
@@ -12,26 +12,26 @@
 namespace mechane::record {
 namespace {
 
-void push_ticks(Lane& lane, std::uint64_t begin, std::uint64_t end) {
+void push_ticks(JournalChannel& channel, std::uint64_t begin, std::uint64_t end) {
   for (WorldTick tick{begin, {}, {}, {}}; tick.tick < end; ++tick.tick)
-    lane.push(tick.record());
+    channel.push(tick.record());
 }
 
 // What waits in the ring was once counted as lost, and was then stored after all.
-TEST(Lane, WhatStillWaitsIsNotLost) {
+TEST(JournalChannel, WhatStillWaitsIsNotLost) {
   const test::ScratchFolder scratch;
   const std::filesystem::path folder = scratch.path() / "later";
-  Lane lane(a_header(), folder / "a.journal", folder / "a.snapshot", 1U << 16U, 64, Duration{0});
-  push_ticks(lane, 0, 8);
-  lane.drain(TimePoint{});  // into a folder that is not there
-  EXPECT_FALSE(lane.ok());
-  push_ticks(lane, 8, 10);
-  EXPECT_EQ(lane.ticks_lost(), 8U);
+  JournalChannel channel(a_header(), folder / "a.journal", folder / "a.snapshot", 1U << 16U, 64, Duration{0});
+  push_ticks(channel, 0, 8);
+  channel.drain(TimePoint{});  // into a folder that is not there
+  EXPECT_FALSE(channel.ok());
+  push_ticks(channel, 8, 10);
+  EXPECT_EQ(channel.ticks_lost(), 8U);
 
   ASSERT_TRUE(std::filesystem::create_directory(folder));
-  lane.finish(TimePoint{}, {}, false);
-  EXPECT_TRUE(lane.ok()) << lane.problem();
-  EXPECT_EQ(lane.ticks_lost(), 8U);
+  channel.finish(TimePoint{}, {}, false);
+  EXPECT_TRUE(channel.ok()) << channel.problem();
+  EXPECT_EQ(channel.ticks_lost(), 8U);
   auto reader = JournalReader::open_file(folder / "a.journal");
   ASSERT_TRUE(reader.has_value()) << reader.error().to_string();
   EXPECT_THAT(read_all(*reader),

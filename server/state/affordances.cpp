@@ -1,4 +1,4 @@
-#include "server/state/ways.hpp"
+#include "server/state/affordances.hpp"
 
 #include <algorithm>
 #include <string>
@@ -32,9 +32,10 @@ Vec3 point_of(const ComponentDescription& component, const char* name) {
   return {p[0], p[1], p[2]};
 }
 
-void add_taken(const WorldDescription& description, AgentId agent, std::vector<Way>& out) {
+void add_taken(const WorldDescription& description, AgentId agent, std::vector<Affordance>& out) {
   const auto add = [&](BodyId body) {
-    if (body && !description.bodies[body.index()].fixed) out.push_back({Way::Kind::taken, agent, body, {}, {}, {}});
+    if (body && !description.bodies[body.index()].fixed)
+      out.push_back({Affordance::Kind::taken, agent, body, {}, {}, {}});
   };
   const auto* named = texts_of(description.agents[agent.index()], "bodies");
   if (named == nullptr) {
@@ -46,7 +47,7 @@ void add_taken(const WorldDescription& description, AgentId agent, std::vector<W
     add(description.find_body(name));
 }
 
-void add_place(const WorldDescription& description, AgentId agent, std::vector<Way>& out) {
+void add_place(const WorldDescription& description, AgentId agent, std::vector<Affordance>& out) {
   const ComponentDescription& snap = description.agents[agent.index()];
   const BodyId object = body_of(description, snap, "object");
   if (!object) return;
@@ -54,10 +55,10 @@ void add_place(const WorldDescription& description, AgentId agent, std::vector<W
   const Vec3 about(turn[0], turn[1], turn[2]);
   Pose X_AJ{point_of(snap, "position"), Quat::Identity()};
   if (about.norm() > 1e-9) X_AJ.R = Quat(Eigen::AngleAxisd(turn[3], about.normalized()));
-  out.push_back({Way::Kind::placed, agent, object, body_of(description, snap, "into"), X_AJ, {}});
+  out.push_back({Affordance::Kind::placed, agent, object, body_of(description, snap, "into"), X_AJ, {}});
 }
 
-void add_fire(const WorldDescription& description, AgentId agent, std::vector<Way>& out) {
+void add_fire(const WorldDescription& description, AgentId agent, std::vector<Affordance>& out) {
   const ComponentDescription& lit = description.agents[agent.index()];
   const BodyId flame = body_of(description, lit, "flame");
   const BodyId hearth = body_of(description, lit, "body");
@@ -66,17 +67,17 @@ void add_fire(const WorldDescription& description, AgentId agent, std::vector<Wa
   const Pose burns{point_of(lit, "flamePoint"), Quat::Identity()};
   // A torch is brought to the fire as well as fire to the hearth.
   const bool comes = description.bodies[flame.index()].fixed;
-  out.push_back(comes ? Way{Way::Kind::brought, agent, hearth, flame, burns, at}
-                      : Way{Way::Kind::brought, agent, flame, hearth, at, burns});
+  out.push_back(comes ? Affordance{Affordance::Kind::brought, agent, hearth, flame, burns, at}
+                      : Affordance{Affordance::Kind::brought, agent, flame, hearth, at, burns});
 }
 
 }  // namespace
 
-std::vector<Way> ways_of(const WorldDescription& description) {
-  std::vector<Way> out;
+std::vector<Affordance> affordances_of(const WorldDescription& description) {
+  std::vector<Affordance> out;
   for (const JointDescription& joint : description.joints) {
     if (joint.kind == JointKind::ball || !joint.body2) continue;
-    const Way::Kind kind = joint.kind == JointKind::hinge ? Way::Kind::turns : Way::Kind::slides;
+    const Affordance::Kind kind = joint.kind == JointKind::hinge ? Affordance::Kind::turns : Affordance::Kind::slides;
     out.push_back({kind, {}, joint.body2, joint.body1, joint.X_B1J, joint.X_B2J});
   }
   for (std::size_t i = 0; i < description.agents.size(); ++i) {
@@ -85,7 +86,7 @@ std::vector<Way> ways_of(const WorldDescription& description) {
     if (type == "geometry.snap") add_place(description, AgentId(i), out);
     if (type == "simulation.lit") add_fire(description, AgentId(i), out);
   }
-  if (out.size() > kMaxWays) out.resize(kMaxWays);
+  if (out.size() > kMaxAffordances) out.resize(kMaxAffordances);
   return out;
 }
 
