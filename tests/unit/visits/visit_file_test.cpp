@@ -146,7 +146,9 @@ TEST(VisitFile, OldOnesAndTooManyGo) {
   EXPECT_EQ(file.keep_within(0, 10'000'000).value(), 0U);
   EXPECT_GT(file.keep_within(0, 200'000).value(), 0U);
   const auto left = file.sheets({}).value();
-  EXPECT_GT(left.size(), 30U);
+  // Sheets lie in the order of their random numbers, so that pages are now more and now less full: 30 to 45 fit. At worst a sheet of 2 kB
+  // has two pages of 4 kB for itself, and the last round takes one in twenty too many.
+  EXPECT_GT(left.size(), 15U);
   EXPECT_EQ(left.back().minute, 1199) << "the newest stay";
   EXPECT_LE(fs::file_size(folder.file()), 200'000U);
 }
