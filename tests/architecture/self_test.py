@@ -1,16 +1,23 @@
 #!/usr/bin/env python3
 """The checks checked: each rule must pass a sound little tree and fail the same tree with one violation planted in it."""
 
+import contextlib
+import io
+import json
+import shutil
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import ceilings
 import includes
 import manuals
+import tidy
 import unity
 from functions import functions
+from results import read_junit  # tidy.py knows where it lies
 
 SOUND = {
     "server/base/CMakeLists.txt": "mechane_room(NAME base)\n",
@@ -185,6 +192,53 @@ class Table(unittest.TestCase):
     def test_no_room_reaches_itself(self):
         for room in includes.ARROWS:
             self.assertNotIn(room, includes.reachable(room))
+
+
+@unittest.skipUnless(shutil.which(tidy.TIDY), "no clang-tidy")
+class TidyTogether(unittest.TestCase):
+    """Rooms are looked through several at a time; what is found, and where, must be what each alone would show."""
+
+    def setUp(self):
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
+        (self.root / "tests").mkdir()
+        for name in (".clang-tidy", "tests/.clang-tidy"):
+            shutil.copy(tidy.ROOT / name, self.root / name)
+        self.enterContext(mock.patch.multiple(tidy, ROOT=self.root, CLEAN=self.root / ".cache/tidy"))
+        tidy._includes.cache_clear()
+
+    def check(self, **rooms: str) -> dict[str, str]:
+        """The outcome of each room."""
+        tidy._content.cache_clear()
+        commands = []
+        for name, text in rooms.items():
+            file = self.root / f"server/{name}/{name}.cpp"
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+            commands.append({"directory": str(self.root), "file": str(file), "command": f"clang++ -std=c++20 -I{self.root} -c {file} -o {name}.o"})
+        (self.root / "compile_commands.json").write_text(json.dumps(commands))
+        arguments = ["tidy.py", "--build", str(self.root), "--junit", str(self.root / "tidy.xml")]
+        with mock.patch.object(sys, "argv", arguments), contextlib.redirect_stdout(io.StringIO()):
+            tidy.main()
+        return {case.name.split("/")[1]: case.outcome for case in read_junit(self.root / "tidy.xml").cases}
+
+    def test_a_fault_is_laid_to_the_room_that_has_it(self):
+        good, bad = "int three() {\n  return 3;\n}\n", "int* nothing() {\n  return 0;\n}\n"
+        with mock.patch.object(tidy, "GROUP", 3), mock.patch.dict(tidy.os.environ, MECHANE_JOBS="1"):
+            self.assertEqual(self.check(a=good, b=bad, c="int c();\n"), {"a": "passed", "b": "failed", "c": "passed"})
+
+    def test_names_that_clash_only_together_are_no_fault(self):
+        one = "namespace {\nint one() {\n  return 1;\n}\n}  // namespace\nint %s() {\n  return one();\n}\n"
+        with mock.patch.dict(tidy.os.environ, MECHANE_JOBS="1"):
+            self.assertEqual(self.check(a=one % "a", b=one % "b"), {"a": "passed", "b": "passed"})
+
+    def test_clean_rooms_are_looked_through_once_and_together(self):
+        rooms = {"a": "int a();\n", "b": "int b();\n", "c": "int c();\n"}
+        with mock.patch.object(tidy, "_look_through", wraps=tidy._look_through) as looks, mock.patch.dict(tidy.os.environ, MECHANE_JOBS="1"):
+            self.check(**rooms)
+            self.assertEqual(looks.call_count, 1)
+            self.assertEqual(set(self.check(**rooms).values()), {"passed"})
+            self.assertEqual(looks.call_count, 1)
+            self.assertEqual(self.check(**rooms | {"b": "int* b = 0;\n"}), {"a": "passed", "b": "failed", "c": "passed"})
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 """Runs clang-tidy-14 over our sources, as a build's compile_commands.json compiles them.
 
 Most of its time goes into third-party headers, so a build that compiles each room's sources as one (the sanitizers' do) is looked
-through several times faster. A room that was clean is not looked at again until one of its files, a header of ours that they read, its
+through several times faster, and several rooms together once more so: what belongs to one room lies in that room's namespace. A room that was clean is not looked at again until one of its files, a header of ours that they read, its
 command or the configuration changes: .cache/tidy/ remembers by content.
 """
 
@@ -22,12 +22,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 CLEAN = ROOT / ".cache/tidy"
 TIDY = "clang-tidy-14"
+GROUP = 8  # rooms at most that are looked through together
 # GCC's warnings are errors already; a second compiler's opinion is not asked.
 COMMAND = [TIDY, "--quiet", "--extra-arg=-w", "--extra-arg=-Wno-unknown-warning-option"]
 
 sys.path.insert(0, str(ROOT / "deploy/test_lib"))
 from results import Case, Tally, write_junit  # noqa: E402
 
+_PROGRAM = re.compile(rb"^int main\(|LLVMFuzzerTestOneInput\(", re.MULTILINE)
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
@@ -76,22 +78,98 @@ def _key(entry: dict, configuration: bytes) -> str:
     return digest.hexdigest()
 
 
+def _name(entry: dict, build: Path) -> str:
+    return f"tidy.{_subject(Path(entry['file']).resolve().relative_to(ROOT), build)}"
+
+
+def _is_clean(entry: dict, configuration: bytes) -> bool:
+    return (CLEAN / _key(entry, configuration)).exists()
+
+
+def _remember(entry: dict, configuration: bytes) -> None:
+    (CLEAN / _key(entry, configuration)).touch()
+
+
+def _look_through(source: Path, commands: Path, subject: Path) -> subprocess.CompletedProcess:
+    command = [*COMMAND, "-p", str(commands), *_checks_of(subject), str(source)]
+    return subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=ROOT)
+
+
 def _check(entry: dict, build: Path, configuration: bytes) -> Case:
-    source = Path(entry["file"]).resolve().relative_to(ROOT)
-    remembered = CLEAN / _key(entry, configuration)
-    name = f"tidy.{_subject(source, build)}"
-    if remembered.exists():
-        return Case(name, "passed")
-    command = [*COMMAND, "-p", str(build), *_checks_of(_subject(source, build)), str(ROOT / source)]
+    name = _name(entry, build)
     begun = time.monotonic()
-    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=ROOT)
+    source = Path(entry["file"]).resolve()
+    done = _look_through(source, build, _subject(source.relative_to(ROOT), build))
     seconds = time.monotonic() - begun
     if done.returncode == 0:
-        remembered.touch()
+        _remember(entry, configuration)
         print(f"clean  {name}  {seconds:.1f} s", flush=True)
         return Case(name, "passed", seconds=seconds)
     print(f"FAULTS {name}\n{done.stdout}{done.stderr}", flush=True)
     return Case(name, "failed", done.stdout or done.stderr, seconds)
+
+
+def _flags(entry: dict) -> tuple[list[str], tuple[str, ...]]:
+    """What a command says of folders and macros, which sources looked through together may add up; and what must be the same for all."""
+    words = iter(shlex.split(entry["command"])[1:])
+    added, same = [], []
+    for word in words:
+        if word in ("-o", "-c", "-MT", "-MF"):
+            next(words)
+        elif word == "-isystem":
+            added += [word, next(words)]
+        elif word.startswith(("-I", "-D")):
+            added.append(word)
+        elif not word.startswith(("-W", "-O", "-g", "-fPI", "-MD", "-fsanitize=fuzzer")):
+            same.append(word)
+    return added, tuple(same)
+
+
+def _groups(entries: list[dict], build: Path, jobs: int) -> list[list[dict]]:
+    """Rooms that can be one source: what is no program, with the same checks and options. Each as long as the others, for all jobs."""
+    alike: dict[tuple, list[dict]] = {}
+    for entry in entries:
+        source = Path(entry["file"]).resolve()
+        subject = _subject(source.relative_to(ROOT), build)
+        alone = str(source) if any(_PROGRAM.search(_content(path)) for path in _closure(source, ()) if path.suffix == ".cpp") else ""
+        alike.setdefault((alone, *_checks_of(subject), _flags(entry)[1]), []).append(entry)
+    groups = []
+    for some in alike.values():
+        count = -(-len(some) // GROUP)
+        count = min(len(some), -(-count // jobs) * jobs)
+        groups += [some[i::count] for i in range(count)]
+    return sorted(groups, key=len, reverse=True)
+
+
+def _check_together(number: int, entries: list[dict], build: Path, configuration: bytes) -> list[Case]:
+    """What is found in several rooms together is looked for again in each: their names may only clash."""
+    if len(entries) > 1:
+        folder = CLEAN / f"group-{number}"
+        folder.mkdir(exist_ok=True)
+        source = folder / "rooms.cxx"
+        source.write_text("".join(f'#include "{Path(entry["file"]).resolve()}"\n' for entry in entries))
+        added = [word for entry in entries for word in _flags(entry)[0]]
+        flags = [*_flags(entries[0])[1], *_without_repeats(added), "-c", str(source)]
+        commands = [{"directory": entries[0]["directory"], "file": str(source), "command": shlex.join(["clang++", *flags])}]
+        (folder / "compile_commands.json").write_text(json.dumps(commands))
+        begun = time.monotonic()
+        done = _look_through(source, folder, _subject(Path(entries[0]["file"]).resolve().relative_to(ROOT), build))
+        seconds = time.monotonic() - begun
+        if done.returncode == 0:
+            for entry in entries:
+                _remember(entry, configuration)
+            names = [_name(entry, build) for entry in entries]
+            print(f"clean  {', '.join(names)}  {seconds:.1f} s", flush=True)
+            return [Case(name, "passed", seconds=seconds / len(names)) for name in names]
+        print(f"not clean together: {', '.join(_name(entry, build) for entry in entries)}\n{done.stdout}{done.stderr}", flush=True)
+    return [_check(entry, build, configuration) for entry in entries]
+
+
+def _without_repeats(words: list[str]) -> list[str]:
+    """-isystem and its folder stay together."""
+    pairs = [f"{word}\0{after}" if word == "-isystem" else word
+             for word, before, after in zip(words, ["", *words], [*words[1:], ""]) if before != "-isystem"]
+    return [word for pair in dict.fromkeys(pairs) for word in pair.split("\0")]
 
 
 def _checks_of(subject: Path) -> list[str]:
@@ -135,8 +213,13 @@ def main() -> int:
     configuration = version + " ".join(COMMAND).encode() + _content(ROOT / ".clang-tidy") + _content(ROOT / "tests/.clang-tidy")
     entries = [entry for entry in _entries(arguments.build)
                if not arguments.only or any(word in entry["file"] for word in arguments.only)]
-    with ThreadPoolExecutor(max_workers=int(os.environ.get("MECHANE_JOBS") or os.cpu_count() or 2)) as pool:
-        tally = Tally(list(pool.map(lambda entry: _check(entry, arguments.build, configuration), entries)))
+    clean = [entry for entry in entries if _is_clean(entry, configuration)]
+    tally = Tally([Case(_name(entry, arguments.build), "passed") for entry in clean])
+    jobs = int(os.environ.get("MECHANE_JOBS") or os.cpu_count() or 2)
+    groups = _groups([entry for entry in entries if entry not in clean], arguments.build, jobs)
+    with ThreadPoolExecutor(max_workers=jobs) as pool:
+        for cases in pool.map(lambda group: _check_together(*group, arguments.build, configuration), enumerate(groups)):
+            tally.cases += cases
     if not entries:
         tally.cases.append(Case("tidy", "failed", f"{arguments.build}/compile_commands.json names no source of ours"))
     if arguments.junit:
