@@ -36,6 +36,7 @@ def write_report(path: Path, root: Path, phases: dict[str, Ran]) -> None:
     seconds = round(sum(phase.seconds for phase in phases.values()), 1)
     metrics: dict[str, float] = {"seconds": seconds}
     metrics |= {outcome: total.count(outcome) for outcome in ("passed", "failed", "skipped")}
+    metrics["left_out"] = total.count("left out")
     metrics |= {f"phase_s.{name}": round(phase.seconds, 1) for name, phase in phases.items()}
     path.write_text(json.dumps({
         "name": "test", "commit": machine.commit(root), "cpu": machine.cpu(), "cores": machine.cores(), "simd": machine.simd(),

@@ -1,13 +1,11 @@
 """The test suite's phases, one after another. Run by deploy/test; see there."""
 
 import argparse
-import json
 import os
-import re
+import random
 import shlex
 import shutil
 import signal
-import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -16,12 +14,14 @@ from pathlib import Path
 from typing import Callable
 
 import processes
+from programs import Program, chosen, known_to_ctest, run_program
+from repeat import RARE, named, run_rounds
 from report import Ran, long_cases, whole, write_report
-from results import Case, Tally, read_junit, write_junit
+from results import Case, Tally, read_junit, tail, write_junit
 
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out/test"
-JOBS = str(os.cpu_count() or 2)
+JOBS = os.cpu_count() or 2
 FUZZ_SECONDS = 10
 FUZZ_INPUT_S = 10  # on one input, before it counts as a hang; a mesh is cut, fitted and mapped, under the sanitizers
 SLOW_INPUT_S = {"mesh": 90}
@@ -35,18 +35,6 @@ SANITIZER_ENV = {
     "TSAN_OPTIONS": "halt_on_error=1:second_deadlock_stack=1",
     "MECHANE_PATIENCE": "4",
 }
-
-# Under the address sanitizer a tick takes longer than its millisecond, so a visit played in real time would test the machine only; the
-# others fit, and sample, a thousand times what their neighbours fit and sample too, or need a limit on the address space. A display that draws
-# ends with two blocks of 56 bytes that the graphics driver has kept, and has unloaded itself by then, so that no suppression can name it.
-TOO_SLOW_SANITIZED = ("Visit.test_(two|five|without|a_whole|a_click)", "Visits.test_an_answer", "Assets.test_(a_|another|the_|without)", "Exhibits.test_", "Kiosk.test_", "Touch.test_", "Faults.test_a_(killed_visitor|full_disk)", "ArchimedesScrew.TenThousand",
-                      "SameInputsGiveTheSameBits", "AllocatesNothingAndRepeats", "SeamsAreNotSampled", "Staves/Barrel",
-                      "AFingerEntersABarrel", "WhateverItReturnsBounds", "AFileThatEatsMemory", "unit_geometry.Decompose", "ThinParts",
-                      "AgainstBulletsBoxes", "PaperMap.(Smoothing|OnTheTwo)", "Fit.test_(a_fine_mesh|a_full_disk|a_mesh_becomes|faults_that_can|two_meshes)",
-                      "SameInputSameBits", "AStackOfThree", "AHeapOfAll", "AGearIsOneBrick", "ATrainOfThem", "^exhibits", "Film.test_",
-                      "PlacePictures.look_as", "PlantedFault")
-# What has threads of its own.
-THREADED = ("unit_realtime", "unit_record", "unit_visits", "unit_transport", "unit_client", "unit_content", "unit_collision", "unit_collision_build", "unit_world")
 
 
 @dataclass
@@ -62,8 +50,8 @@ class Phase:
 
 
 def _build_commands(preset: str, targets: tuple[str, ...]) -> tuple[list[str], list[str]]:
-    chosen = ["--target", *targets] if targets else []
-    return ["cmake", "--preset", preset], ["cmake", "--build", f"build/{preset}", "-j", JOBS, *chosen]
+    only = ["--target", *targets] if targets else []
+    return ["cmake", "--preset", preset], ["cmake", "--build", f"build/{preset}", "-j", str(JOBS), *only]
 
 
 def build(preset: str, *targets: str) -> Phase:
@@ -83,75 +71,93 @@ def begin(*commands: list[str]) -> Callable[[], processes.Beside]:
     return lambda: processes.Beside(["sh", "-c", " && ".join(map(shlex.join, commands))], OUT / "beside.log")
 
 
-def ctest(preset: str, what: str, only: str = "", leave_out: str = "", named: str = "", unnamed: str = "",
-          beside: Callable[[], processes.Beside] | None = None) -> Phase:
-    """Runs the tests of a build. Those without DDS run side by side, the others alone (see tests/CMakeLists.txt)."""
-    def run(log: Path) -> Tally:
-        junit = log.with_suffix(".xml")
-        junit.unlink(missing_ok=True)
-        command = ["ctest", "--test-dir", f"build/{preset}", "-j", JOBS, "--output-on-failure", "--no-tests=error",
-                   "--output-junit", str(junit)]
-        command += ["-L", only] if only else []
-        command += ["-LE", leave_out] if leave_out else []
-        command += ["-R", named] if named else []
-        command += ["-E", unnamed] if unnamed else []
-        status = processes.run(command, log, limit_s=2400, env=SANITIZER_ENV if preset in ("asan-ubsan", "tsan") else {})
-        tally = read_junit(junit)
-        if status and not tally.failed:
-            tally.cases.append(Case(f"ctest {preset}", "failed", tail(log)))
-        return tally
-
-    return Phase(f"test {preset} {what}", run, preset, beside)
-
-
-def _gtest_programs(preset: str, log: Path) -> dict[str, list[dict]]:
-    """The in-process tests that CTest knows, by their GoogleTest program."""
-    shown = log.with_suffix(".json")
-    with open(shown, "w") as file:
-        subprocess.run(["ctest", "--test-dir", f"build/{preset}", "-L", "in-process", "--show-only=json-v1"], stdout=file, check=True)
-    programs: dict[str, list[dict]] = {}
-    for test in json.loads(shown.read_text())["tests"]:
-        command = test.get("command", [])
-        if len(command) > 1 and command[1].startswith("--gtest_filter="):
-            programs.setdefault(command[0], []).append(test)
-    return programs
-
-
-def _run_program(program: str, tests: list[dict], log: Path) -> Tally:
-    name = Path(program).name.removeprefix("test_")
-    own_log, junit, flags = (log.with_name(f"{log.stem}-{name}.{end}") for end in ("log", "xml", "flags"))
-    own_log.unlink(missing_ok=True)
+def _run_ctest(preset: str, log: Path, jobs: int, only: str = "", leave_out: str = "", named: str = "", times: int = 1) -> Tally:
+    junit = log.with_suffix(".xml")
     junit.unlink(missing_ok=True)
-    filters = [test["command"][1].removeprefix("--gtest_filter=") for test in tests]
-    flags.write_text("--gtest_filter=" + ":".join(filters) + "\n")
-    stated = {p["name"]: p["value"] for p in tests[0]["properties"]}
-    environment = SANITIZER_ENV | dict(variable.split("=", 1) for variable in stated.get("ENVIRONMENT", []))
-    status = processes.run([program, f"--gtest_flagfile={flags}", f"--gtest_output=xml:{junit}"], own_log, limit_s=900, env=environment)
+    command = ["ctest", "--test-dir", f"build/{preset}", "-j", str(jobs), "--output-on-failure", "--no-tests=error", "--output-junit", str(junit)]
+    command += ["-L", only] if only else []
+    command += ["-LE", leave_out] if leave_out else []
+    command += ["-R", named] if named else []
+    command += ["--repeat", f"until-fail:{times}"] if times > 1 else []
+    status = processes.run(command, log, limit_s=2400 * times, env=environment_of(preset))
     tally = read_junit(junit)
-    for case in tally.cases:
-        case.name = f"{name}.{case.name}"
     if status and not tally.failed:
-        tally.cases.append(Case(name, "failed", tail(own_log)))
+        tally.cases.append(Case(f"ctest {preset}", "failed", tail(log)))
     return tally
 
 
-def programs(preset: str, named: str = "", unnamed: str = "") -> Phase:
-    """Runs the in-process tests of a sanitized build, each program once and whole: what its tests share is made once, and making it is
-    what takes the time there."""
+def environment_of(preset: str) -> dict[str, str]:
+    return SANITIZER_ENV if preset in ("asan-ubsan", "tsan") else {}
+
+
+def end_to_end(preset: str, at_once: int, leave_out: str = "", beside: Callable[[], processes.Beside] | None = None) -> Phase:
+    """Tests of the programs. Those that draw count twice, some run alone: see tests/integration/CMakeLists.txt."""
     def run(log: Path) -> Tally:
-        chosen = {}
-        for program, tests in _gtest_programs(preset, log).items():
-            kept = [t for t in tests if re.search(named, t["name"]) and not (unnamed and re.search(unnamed, t["name"]))]
-            if kept:
-                chosen[program] = kept
-        tally = Tally() if chosen else Tally([Case(f"programs {preset}", "failed", "no test was chosen")])
-        with ThreadPoolExecutor(max_workers=int(JOBS)) as pool:
-            by_length = sorted(chosen, key=lambda program: -len(chosen[program]))
-            for some in pool.map(lambda program: _run_program(program, chosen[program], log), by_length):
-                tally.add(some)
+        return _run_ctest(preset, log, at_once, leave_out="|".join(filter(None, ("program", "in-process", leave_out))))
+
+    return Phase(f"test {preset} end-to-end", run, preset, beside)
+
+
+def programs(preset: str, only: str = "", leave_out: str = "none", others: bool = False) -> Phase:
+    """The GoogleTest programs with the label `only` and without `leave_out`, and the other tests that need no network where asked for."""
+    def run(log: Path) -> Tally:
+        found = chosen(known_to_ctest(ROOT / "build" / preset), only, leave_out)
+        if not found:
+            return Tally([Case(f"programs {preset}", "failed", "no test was chosen")])
+        environment = environment_of(preset)
+
+        def run_all(some: list[Program]) -> Tally:
+            tally = Tally()
+            for program in some:
+                tally.add(run_program(program, log, environment))
+            return tally
+
+        def those_with_a_lock() -> Tally:
+            """One after another, the other tests last: the first fits the exhibits' parts, which the rest find in the cache."""
+            tally = run_all([program for program in found if program.locks])
+            if others:
+                tally.add(_run_ctest(preset, log, 1, only="in-process", leave_out=f"program|{leave_out}"))
+            return tally
+
+        alone = [program for program in found if "alone" in program.labels]
+        tally = Tally()
+        with ThreadPoolExecutor(max_workers=JOBS) as pool:
+            running = [pool.submit(those_with_a_lock)]
+            running += [pool.submit(run_all, [program]) for program in found if program not in alone and not program.locks]
+            for future in running:
+                tally.add(future.result())
+        tally.add(run_all(alone))
         return tally
 
-    return Phase(f"test {preset} programs", run, preset)
+    return Phase(f"test {preset} in-process", run, preset)
+
+
+def repeated_programs(preset: str, rounds: int, seed: int, only: str) -> Phase:
+    """Twice as many at a time as there are cores: a test that needs a core for itself is found too."""
+    def run(log: Path) -> Tally:
+        found = named(chosen(known_to_ctest(ROOT / "build" / preset)), only)
+        if not found:
+            return Tally([Case(f"programs {preset}", "failed", f"no test program's name matches '{only}'")])
+        return run_rounds(found, rounds, seed, log, environment_of(preset), at_once=2 * JOBS)
+
+    return Phase(f"test {preset} in-process, {rounds} times from seed {seed}", run, preset)
+
+
+def repeated_end_to_end(preset: str, rounds: int, only: str) -> Phase:
+    def run(log: Path) -> Tally:
+        return _run_ctest(preset, log, 2 * JOBS, leave_out="program|in-process", only="integration", named=only, times=rounds)
+
+    return Phase(f"test {preset} end-to-end, {rounds} times", run, preset)
+
+
+def repeat_phases(rounds: int, seed: int, only: str) -> list[Phase]:
+    end_to_end_tests = only.startswith("integration.")
+    planned = [build("release")]
+    if not end_to_end_tests:
+        planned.append(repeated_programs("release", rounds, seed, only))
+    if not only or end_to_end_tests:
+        planned.append(repeated_end_to_end("release", -(-rounds // RARE), only))
+    return planned
 
 
 def _fuzz_one(program: Path) -> Case:
@@ -171,7 +177,7 @@ def _fuzz_one(program: Path) -> Case:
 def fuzz() -> Phase:
     def run(log: Path) -> Tally:
         programs = sorted(program for program in (ROOT / "build/asan-ubsan/bin").glob("fuzz_*") if program.is_file())
-        with ThreadPoolExecutor(max_workers=int(JOBS)) as pool:
+        with ThreadPoolExecutor(max_workers=JOBS) as pool:
             tally = Tally(list(pool.map(_fuzz_one, programs)))
         if not programs:
             tally.cases.append(Case("fuzz", "failed", "no fuzzer was built"))
@@ -191,21 +197,15 @@ def tidy() -> Phase:
     return Phase("clang-tidy", run, "asan-ubsan")
 
 
-def tail(log: Path, lines: int = 30) -> str:
-    return "\n".join(log.read_text(errors="replace").splitlines()[-lines:])
-
-
 def phases(quick: bool) -> list[Phase]:
     if quick:
-        return [build("quick", "in_process_tests"), ctest("quick", "in-process", only="in-process", leave_out="slow")]
-    too_slow = "|".join(TOO_SLOW_SANITIZED)
+        return [build("quick", "in_process_tests"), programs("quick", only="in-process", leave_out="slow", others=True)]
+    sanitizers_build = begin(*_build_commands("asan-ubsan", ()), TIDY)
     return [
-        build("release"), ctest("release", "in-process", only="in-process"),
-        ctest("release", "end-to-end", leave_out="in-process", beside=begin(*_build_commands("asan-ubsan", ()), TIDY)),
-        build("asan-ubsan"), programs("asan-ubsan", unnamed=too_slow),
-        ctest("asan-ubsan", "end-to-end", leave_out="architecture|in-process", unnamed=too_slow), fuzz(),
-        build("tsan", *(f"test_{program}" for program in THREADED)),
-        programs("tsan", named=f"^({'|'.join(THREADED)})[.]", unnamed="AFileThatEatsMemory"),
+        build("release"), programs("release", others=True),
+        end_to_end("release", at_once=2 * JOBS, beside=sanitizers_build),  # most of the time these tests wait
+        build("asan-ubsan"), programs("asan-ubsan", leave_out="not-address"), end_to_end("asan-ubsan", at_once=JOBS, leave_out="not-address"), fuzz(),
+        build("tsan", "threaded_tests"), programs("tsan", only="threads"),
         tidy(),
     ]
 
@@ -230,8 +230,8 @@ def run_phase(phase: Phase, log: Path) -> Tally:
 
 
 def report(tally: Tally, log: Path, seconds: float) -> None:
-    skipped = f", {tally.count('skipped')} skipped" if tally.count("skipped") else ""
-    print(f"      {tally.count('passed')} passed, {len(tally.failed)} failed{skipped}, in {clock(seconds)}", flush=True)
+    others = "".join(f", {tally.count(outcome)} {outcome}" for outcome in ("skipped", "left out") if tally.count(outcome))
+    print(f"      {tally.count('passed')} passed, {len(tally.failed)} failed{others}, in {clock(seconds)}", flush=True)
     for case in tally.failed:
         print(f"\n  FAILED  {case.name}   (whole log: {log.relative_to(ROOT)})")
         for line in case.detail.splitlines()[-25:]:
@@ -240,12 +240,12 @@ def report(tally: Tally, log: Path, seconds: float) -> None:
         print()
 
 
-def run_phases(chosen: list[Phase], done: dict[str, Ran]) -> None:
+def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
     """One after another; what each found goes into `done`, so that a run that is interrupted can still be reported."""
     broken: set[str] = set()  # builds that failed: their tests cannot run
     started = time.monotonic()
-    for number, phase in enumerate(chosen, 1):
-        print(f"[{number}/{len(chosen)}  {clock(time.monotonic() - started)}] {phase.title}", flush=True)
+    for number, phase in enumerate(planned, 1):
+        print(f"[{number}/{len(planned)}  {clock(time.monotonic() - started)}] {phase.title}", flush=True)
         if phase.preset in broken:
             print("      not run: its build failed", flush=True)
             continue
@@ -261,7 +261,11 @@ def run_phases(chosen: list[Phase], done: dict[str, Ran]) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="deploy/test")
     parser.add_argument("--quick", action="store_true", help="one build, the tests that need no network, style")
+    parser.add_argument("--repeat", type=int, metavar="N", help=f"in-process tests N times, end-to-end and slow ones N / {RARE} times")
+    parser.add_argument("--seed", type=int, default=random.randrange(1_000_000), help="of --repeat")
+    parser.add_argument("--only", default="", metavar="REGEX", help="of --repeat: programs by name (unit_record), or integration.NAME")
     options = parser.parse_args()
+    planned = phases(options.quick) if options.repeat is None else repeat_phases(options.repeat, options.seed, options.only)
 
     os.chdir(ROOT)
     shutil.rmtree(OUT, ignore_errors=True)
@@ -271,7 +275,7 @@ def main() -> int:
 
     done: dict[str, Ran] = {}
     try:
-        run_phases(phases(options.quick), done)
+        run_phases(planned, done)
     finally:
         processes.end_leftovers(grace_s=0)
         write_report(OUT / "report.json", ROOT, done)

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/exhibit_play.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace mechane {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 std::vector<std::string> shipped_exhibits() {
   namespace fs = std::filesystem;
   std::vector<std::string> names;
-  for (const fs::directory_entry& folder : fs::directory_iterator(fs::path(MECHANE_SOURCE_DIR) / "scenarios")) {
+  for (const fs::directory_entry& folder : fs::directory_iterator(mechane::test::source_folder() / "scenarios")) {
     const std::string name = folder.path().filename().string();
     if (fs::exists(folder.path() / (name + ".x3d"))) names.push_back(name);
   }

@@ -10,6 +10,8 @@
 #include "server/state/world_state.hpp"
 #include "server/world/step.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/sanitizers.hpp"
+#include "tests/support/source_folder.hpp"
 #include "tests/support/visit_hand.hpp"
 
 namespace mechane {
@@ -20,7 +22,7 @@ constexpr std::uint64_t kTicks = 10'000;
 const app::ScenarioStore& store() {
   static const app::ScenarioStore kStore = [] {
     app::Settings settings;
-    settings.scenarios = {std::string(MECHANE_SOURCE_DIR) + "/scenarios/archimedes-screw/archimedes-screw.x3d"};
+    settings.scenarios = {mechane::test::source_folder().string() + "/scenarios/archimedes-screw/archimedes-screw.x3d"};
     return app::ScenarioStore::load(settings).value();
   }();
   return kStore;
@@ -63,6 +65,7 @@ bool has_fma() {
 }
 
 TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("ten thousand ticks, played twice");
   Play first = make_play();
   const std::uint64_t hash = run(first);
   Play second = make_play();
@@ -71,7 +74,7 @@ TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
   if (!has_fma()) GTEST_SKIP() << "the golden hash is of processors with FMA";
   std::ostringstream text;
   text << std::hex << hash;
-  const std::string path = std::string(MECHANE_SOURCE_DIR) + "/tests/golden/archimedes-screw.hash";
+  const std::string path = mechane::test::source_folder().string() + "/tests/golden/archimedes-screw.hash";
   if (std::getenv("MECHANE_ACCEPT_GOLDEN") != nullptr) std::ofstream(path) << text.str() << "\n";
   std::ifstream file(path);
   std::string golden;
@@ -81,7 +84,8 @@ TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
 }
 
 TEST(ArchimedesScrew, TenThousandTicksAllocateNothing) {
-  if (!test::AllocationGuard::available()) GTEST_SKIP() << "a sanitizer's malloc cannot be counted";
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("ten thousand ticks");
+  MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
   Play play = make_play();
   std::uint64_t allocations = 1;
   (void)run(play, &allocations);

@@ -4,9 +4,10 @@ import json
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 
-from harness import ROOT, EndToEnd
+from harness import ROOT, EndToEnd, marked
 
 
+@marked("alone", "not-address")
 class Exhibits(EndToEnd):
     def test_every_visit_is_completed_and_replays(self):
         scenarios = sorted((ROOT / "scenarios").glob("*/*.x3d"))

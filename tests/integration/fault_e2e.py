@@ -7,7 +7,7 @@ import socket
 import time
 import unittest
 
-from harness import SCENARIO, EndToEnd, wait_until
+from harness import SCENARIO, EndToEnd, marked, wait_until
 
 
 class Faults(EndToEnd):
@@ -20,6 +20,7 @@ class Faults(EndToEnd):
         self.assertIn("kiosk-1", second.text())
         self.assertTrue(first.running())
 
+    @marked("not-address")
     def test_a_killed_visitor_lets_go_and_its_successor_is_back_in_the_world(self):
         server = self.server()
         visitor = self.visitor("kiosk-1", "--activity", "use")
@@ -65,6 +66,7 @@ class Faults(EndToEnd):
         self.assertTrue(visitor.running())
         self.assertEqual(again.stop(), 0)
 
+    @marked("not-address")
     def test_a_full_disk_under_the_journal_is_survived(self):
         server = self.server(prefix=self.full_disk(self.folder / "records"))
         visitor = self.visitor("kiosk-1", "--activity", "use")

@@ -4,9 +4,10 @@ import json
 import signal
 import unittest
 
-from harness import EndToEnd, wait_until
+from harness import EndToEnd, marked, wait_until
 
 
+@marked("draws", "not-address")
 class Film(EndToEnd):
     def display(self, *arguments, size="320x180"):
         return self.start("display", "display", "--kiosk", "wall", "--language", "en", "--offscreen", "--size", size, *arguments)

@@ -10,7 +10,7 @@ import sys
 import time
 import unittest
 
-from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, wait_until
+from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, marked, wait_until
 
 LINK = pathlib.Path(__file__).with_name("impaired_link.py")
 
@@ -42,6 +42,7 @@ class Link:
         self.process.stdout.close()
 
 
+@marked("draws", "not-address")
 class Kiosk(EndToEnd):
     def display(self, *arguments, name="wall", prefix=(), environment=None):
         return self.start(name, "display", "--offscreen", "--kiosk", "kiosk-1", "--name", name, "--size", "160x90", "--fps", "10",
@@ -291,6 +292,7 @@ class Kiosk(EndToEnd):
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         self.assertIn("install libegl-mesa0 and libgl1-mesa-dri", result.stderr)
 
+    @marked("alone")
     def test_a_display_behind_a_router_with_delay_and_loss_follows_a_whole_visit(self):
         link = Link(delay=40, jitter=2, loss=0.01)
         self.addCleanup(link.close)

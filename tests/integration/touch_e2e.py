@@ -11,7 +11,7 @@ import unittest
 
 from cursor import Cursor
 from glass import Glass, NoGlass
-from harness import ROOT, EndToEnd, repeat_until, wait_until
+from harness import ROOT, EndToEnd, marked, repeat_until, wait_until
 from touch import TouchVisitor, dot, numbers, placed, sub, turned_by
 
 SIZE = (480, 270)
@@ -26,6 +26,7 @@ def scenario_of(name):
     return ROOT / f"scenarios/{name}/{name}.x3d"
 
 
+@marked("alone", "not-address")
 class Touch(EndToEnd):
     @contextlib.contextmanager
     def visitor_at(self, scenario):

@@ -6,10 +6,11 @@ import subprocess
 import time
 import unittest
 
-from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, repeat_until, wait_until
+from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, marked, repeat_until, wait_until
 
 
 class Visit(EndToEnd):
+    @marked("not-address")
     def test_two_kiosks_complete_both_activities_and_replay(self):
         server = self.server("--worlds", "2")
         visitors = [self.visitor("kiosk-1"), self.visitor("kiosk-2")]
@@ -45,12 +46,14 @@ class Visit(EndToEnd):
         self.assertEqual(report["water_l"], 0)
         self.assertAlmostEqual(report["quantities"].get("turns", 0), 0, delta=0.01)
 
+    @marked("not-address")
     def test_five_centimetres_beside_the_handle_nothing_turns(self):
         # Half the handle's length and 5 cm more along the axis: in the circle's plane the hand would meet the handle after a turn.
         report = self.use_only(visitor_arguments=("--offset", "0.0918", "0.0692", "0"))
         self.assert_nothing_turned(report)
         self.assertEqual(report["holding_ticks"], 0)
 
+    @marked("not-address")
     def test_without_stiffness_nothing_turns(self):
         self.assert_nothing_turned(self.use_only(server_arguments=("--stiffness-scale", "0")))
 
@@ -141,6 +144,7 @@ class Visit(EndToEnd):
         self.assertRegex(result.stdout, r"use: visit turning, step \w+: its moves are over; it waits up to 1 s for the step to be over")
         self.assertRegex(json.loads(file.read_text())["activities"][0]["reason"], r"visit turning, step \w+: nothing more came of it")
 
+    @marked("draws", "not-address")
     def test_a_click_on_a_sign_opens_its_exhibit_and_the_key_home_leads_back(self):
         server = self.server(scenario=[ROOT / "scenarios/village/village.x3d", SCENARIO], records=False)
         with self.screen("640x360") as environment:
@@ -182,6 +186,7 @@ class Visit(EndToEnd):
             self.assertEqual(result.returncode, 2, (command, result.stdout + result.stderr))
             self.assertNotEqual(result.stderr, "", command)
 
+    @marked("not-address")
     def test_a_whole_hand_completes_the_use(self):
         report = self.use_only(visitor_arguments=("--glove",))
         self.assertTrue(report["activities"][0]["done"], report)

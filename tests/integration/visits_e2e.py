@@ -6,7 +6,7 @@ import sqlite3
 import subprocess
 import unittest
 
-from harness import ROOT, SCENARIO, EndToEnd, repeat_until, wait_until
+from harness import ROOT, SCENARIO, EndToEnd, marked, repeat_until, wait_until
 
 VILLAGE = ROOT / "scenarios/village/village.x3d"
 
@@ -133,6 +133,7 @@ class Visits(EndToEnd):
         self.assertEqual(result.returncode, 1)
         self.assertIn("there are no visits' sheets", result.stderr)
 
+    @marked("draws", "not-address")
     def test_an_answer_given_by_a_click_is_on_the_sheet(self):
         self.server(scenario=VILLAGE)
         with self.screen("640x360") as environment:

@@ -8,6 +8,7 @@
 #include "server/app/scenario_store.hpp"
 #include "server/realtime/histogram.hpp"
 #include "server/world/step.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace mechane::test {
 namespace {
@@ -153,7 +154,7 @@ AgentId agent_or_throw(const state::WorldDescription& world, const std::string& 
 
 Exhibit::Exhibit(const std::string& name) {
   app::Settings settings;
-  settings.scenarios = {std::string(MECHANE_SOURCE_DIR) + "/scenarios/" + name + "/" + name + ".x3d"};
+  settings.scenarios = {mechane::test::source_folder().string() + "/scenarios/" + name + "/" + name + ".x3d"};
   const auto store = value_or_throw(app::ScenarioStore::load(settings));
   description_ = store.first();
   config_ = store.world_config();

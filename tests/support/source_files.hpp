@@ -6,11 +6,10 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/source_folder.hpp"
+
 namespace mechane::test {
 
-inline std::filesystem::path source_folder() {
-  return MECHANE_SOURCE_DIR;
-}
 inline std::filesystem::path shipped_file() {
   return source_folder() / "scenarios/archimedes-screw/archimedes-screw.x3d";
 }

@@ -11,6 +11,7 @@
 #include "server/geometry/superquadric_mesh.hpp"
 #include "server/geometry/surface_samples.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 #include "tests/support/superquadric_draw.hpp"
@@ -150,6 +151,7 @@ TEST(PaperMap, SearchingOnBothSidesIsBetterThanThePrintedSideWhereAxesDiffer) {
 
 /// The paper's Figure 4: two spheres in a superquadric that bounds them.
 TEST(PaperMap, OnTheTwoSpheresOfFigure4TheDepthIsTheMeshesWithinAPerCentAndAHalf) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const geometry::Mesh mesh = test::peanut();
   const geometry::MeshQuery query(mesh);
   const PaperMap map = cast_paper_map({query}, ellipsoid({0.45, 0.45, 0.8}), {});
@@ -265,6 +267,7 @@ double force_jumps(const PaperMap& map, double radius_m) {
 }
 
 TEST(PaperMap, SmoothingLowersTheRoughnessOfNormalAndForceAndKeepsTheMeanDepth) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const geometry::Mesh mesh = test::bumpy_ball();
   const geometry::MeshQuery query(mesh);
   const PaperMap rough = cast_paper_map({query}, ellipsoid(Vec3::Constant(0.58)), {});
@@ -281,6 +284,7 @@ TEST(PaperMap, SmoothingLowersTheRoughnessOfNormalAndForceAndKeepsTheMeanDepth) 
 }
 
 TEST(PaperMap, SmoothingLeavesARimWhereItIs) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   std::vector<float> distances(20000, 0.01F);
   for (std::size_t i = 10000; i < 20000; ++i)
     distances[i] = i % 200 < 100 ? std::numeric_limits<float>::quiet_NaN() : -0.02F;
@@ -291,7 +295,7 @@ TEST(PaperMap, SmoothingLeavesARimWhereItIs) {
 }
 
 TEST(PaperMap, ASearchAllocatesNothing) {
-  if (!test::AllocationGuard::available()) GTEST_SKIP() << "a sanitizer has a malloc of its own";
+  MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
   const PaperMap map = bare_map(ellipsoid({0.05, 0.04, 0.06}, 0.8, 0.8));
   const test::AllocationGuard guard;
   EXPECT_TRUE(map.search({0.02F, 0.01F, 0.01F}).hit.hit);

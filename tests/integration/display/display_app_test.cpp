@@ -13,11 +13,12 @@
 #include "client-sdk/recording/frame_recording.hpp"
 #include "client-sdk/recording/recording_codec.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace mechane::display {
 namespace {
 
-const std::filesystem::path kSource = MECHANE_SOURCE_DIR;
+const std::filesystem::path kSource = mechane::test::source_folder();
 
 /// A well-behaved driver, but for one moment.
 int g_asked = 0;

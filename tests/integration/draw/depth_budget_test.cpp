@@ -8,6 +8,7 @@
 #include "client-sdk/recording/recorded_client.hpp"
 #include "client-sdk/scene/scene_builder.hpp"
 #include "server/content/mesh_import.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace mechane::draw {
 namespace {
@@ -46,7 +47,7 @@ DepthOfPlace depth_of(const picture::RenderScene& scene, const picture::SceneAss
 class DepthBudget : public testing::TestWithParam<const char*> {};
 
 TEST_P(DepthBudget, is_kept_at_each_moment_of_a_visit) {
-  const std::filesystem::path root = MECHANE_SOURCE_DIR;
+  const std::filesystem::path root = mechane::test::source_folder();
   const std::string name = GetParam();
   recording::RecordedClient client(
       recording::FrameRecording::open_file(root / "tests/golden/scenes" / (name + ".frames")).value(), {});

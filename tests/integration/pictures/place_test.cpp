@@ -17,6 +17,8 @@
 #include "server/content/mesh_import.hpp"
 #include "tests/integration/pictures/reference_picture.hpp"
 #include "tests/support/picture_likeness.hpp"
+#include "tests/support/sanitizers.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace mechane::display {
 namespace {
@@ -28,7 +30,7 @@ constexpr std::size_t kMoments = 4;  ///< start, middle, a telling one, end
 constexpr double kLeastMean = 0.985;
 constexpr double kLeastWorst = 0.85;
 
-const std::filesystem::path kRoot = MECHANE_SOURCE_DIR;
+const std::filesystem::path kRoot = mechane::test::source_folder();
 
 bool accepts() {
   return std::getenv("MECHANE_ACCEPT_GOLDEN") != nullptr;
@@ -136,6 +138,7 @@ Sheets& sheets() {
 class PlacePictures : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
+    MECHANE_NOT_UNDER_ADDRESS_SANITIZER("the software renderer takes minutes for it");
     auto context = draw::make_offscreen_context(kPicture);
     ASSERT_TRUE(context.has_value()) << context.error().to_string();
     context_ = std::move(*context);

@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "tests/support/property_draw.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/unit/dynamics/coupled.hpp"
 
 namespace mechane::dynamics::test {
@@ -31,6 +32,7 @@ state::Coupling any_coupling(std::size_t i) {
 }
 
 RC_GTEST_PROP(Couplings, ATrainOfThemNeverCreatesEnergy, ()) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   const int count = *rc::gen::inRange(2, 6);
   std::vector<double> inertias;
   std::vector<state::Coupling> couplings;

@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/unit/agents/stage.hpp"
 
 namespace mechane::agents::test {
@@ -291,7 +292,7 @@ TEST(AgentSet, RefusesStepsThatPointNowhere) {
 }
 
 TEST(AgentSet, ATickAllocatesNothing) {
-  if (!mechane::test::AllocationGuard::available()) GTEST_SKIP() << "this build has a sanitizer's own malloc";
+  MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
   Stage stage(two_activities());
   stage.appear(0, hand::HandKind::glove);
   stage.touch(0, BodyId(1), 2, Vec3::UnitX());

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace mechane::cli {
 namespace {
@@ -29,7 +30,7 @@ class ContentTest : public testing::Test {
           "models/archimedes-screw.glb", "pulley-crane/pulley-crane.x3d", "pulley-crane/pulley-crane.md",
           "models/pulley-crane.glb", "models/modelling.py", "REFERENCE.md"}) {
       fs::create_directories((folder_ / "scenarios" / path).parent_path());
-      fs::copy_file(fs::path(MECHANE_SOURCE_DIR) / "scenarios" / path, folder_ / "scenarios" / path);
+      fs::copy_file(mechane::test::source_folder() / "scenarios" / path, folder_ / "scenarios" / path);
     }
   }
   int run(std::string_view verb, const std::vector<std::string>& words = {}) {
@@ -160,7 +161,7 @@ TEST_F(ContentTest, ANameThatSeveralFilesHaveRemovesNone) {
 }
 
 TEST_F(ContentTest, WhatAScenarioOpensIsExportedWithIt) {
-  const fs::path shipped = fs::path(MECHANE_SOURCE_DIR) / "scenarios";
+  const fs::path shipped = mechane::test::source_folder() / "scenarios";
   fs::create_directories(folder_ / "scenarios/village");
   fs::copy_file(shipped / "village/village.x3d", folder_ / "scenarios/village/village.x3d");
   fs::copy_file(shipped / "models/village.glb", folder_ / "scenarios/models/village.glb");
@@ -278,7 +279,7 @@ TEST_F(ContentTest, WhatRefersToARenamedFileIsRetoldAndNotChanged) {
 
 TEST_F(ContentTest, ALicenceNoteSpeaksForWhatSaysNothing) {
   const fs::path scenarios = folder_ / "scenarios";
-  fs::copy_file(fs::path(MECHANE_SOURCE_DIR) / "scenarios/LICENCE", scenarios / "LICENCE");
+  fs::copy_file(mechane::test::source_folder() / "scenarios/LICENCE", scenarios / "LICENCE");
   std::ofstream(scenarios / "pulley-crane/LICENSE") << "SPDX-License-Identifier: CC-BY-4.0\n";
   options_.credits.licence = "CC0-1.0";
   ASSERT_EQ(run("add", {(scenarios / "models/pulley-crane.glb").string()}), 0);

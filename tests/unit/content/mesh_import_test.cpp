@@ -7,8 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/base/sanitized.hpp"
 #include "server/content/scene_codec.hpp"
+#include "tests/support/sanitizers.hpp"
+#include "tests/support/source_folder.hpp"
 #include "tests/unit/content/model_files.hpp"
 
 namespace mechane::content {
@@ -289,7 +290,7 @@ TEST_F(MeshImport, AChildThatClosesItsOutputAndLingersIsKilledToo) {
 }
 
 TEST_F(MeshImport, AFileThatEatsMemoryIsRefused) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer's shadow is larger than any limit";
+  MECHANE_NOT_SANITIZED("a sanitizer's shadow is larger than any limit");
   limits_.memory_bytes = 128ULL << 20U;
   std::string obj;
   for (int i = 0; i < 400'000; ++i)
@@ -300,7 +301,7 @@ TEST_F(MeshImport, AFileThatEatsMemoryIsRefused) {
 }
 
 TEST_F(MeshImport, ReadsMeshesFromElsewhere) {
-  const std::filesystem::path shared = std::filesystem::path(MECHANE_SOURCE_DIR) / "../shared/meshes";
+  const std::filesystem::path shared = mechane::test::source_folder() / "../shared/meshes";
   if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared meshes beside the source tree";
   for (const char* name : {"fandisk.obj", "rocker-arm.obj", "spot.obj"}) {
     const auto scene = import_mesh(shared / name, limits_);
@@ -313,8 +314,7 @@ TEST_F(MeshImport, ReadsMeshesFromElsewhere) {
 }
 
 TEST_F(MeshImport, TheShippedScrewHasItsPartsAndTheyAreClosed) {
-  const auto scene =
-      import_mesh(std::filesystem::path(MECHANE_SOURCE_DIR) / "scenarios/models/archimedes-screw.glb", limits_);
+  const auto scene = import_mesh(mechane::test::source_folder() / "scenarios/models/archimedes-screw.glb", limits_);
   ASSERT_TRUE(scene) << scene.error().to_string();
   const auto inner = collision_parts(*scene, "INNER");
   const auto outer = collision_parts(*scene, "OUTER");

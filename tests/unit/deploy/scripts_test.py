@@ -34,6 +34,13 @@ class Scripts(unittest.TestCase):
             if name and name not in ("--bin", "--out"):  # the script gives these itself
                 self.assertIn(f"deploy/demo {name}", text)
 
+    def test_every_argument_of_the_suite_stands_in_its_help(self):
+        text = run("test", "--help").stdout
+        for name in ("--quick", "--repeat N", "--seed S", "--only", "--no-install"):
+            self.assertIn(name, text)
+        for wrong in (["--repeat"], ["--often"]):
+            self.assertEqual(run("test", *wrong).returncode, 2)
+
     def test_a_wrong_argument_ends_the_demo_before_it_begins(self):
         for wrong in (["--headles"], ["--domain"], ["--domain", "x"], ["--domain", "--all"], ["--all", "now"]):
             with self.subTest(wrong):

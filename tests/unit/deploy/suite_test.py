@@ -6,14 +6,18 @@ import json
 import pathlib
 import sys
 import tempfile
+import threading
+import time
 import unittest
 from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "deploy/test_lib"))
 import suite  # noqa: E402
+from programs import chosen, from_ctest, run_program  # noqa: E402
+from repeat import rounds_of, run_rounds, seeds, worst  # noqa: E402
 from report import Ran, long_cases, write_report  # noqa: E402
-from results import Case, Tally, read_junit, write_junit  # noqa: E402
+from results import LEFT_OUT, Case, Tally, read_junit, write_junit  # noqa: E402
 
 GTEST = """<?xml version="1.0" encoding="UTF-8"?>
 <testsuites tests="3" failures="1" disabled="0" errors="0" time="1.6" name="AllTests">
@@ -25,6 +29,9 @@ Expected equality of these values]]></failure>
     </testcase>
     <testcase name="Waits" status="run" result="skipped" time="0" classname="Mailbox">
       <skipped message="no clock here"><![CDATA[no clock here]]></skipped>
+    </testcase>
+    <testcase name="Lasts" status="run" result="skipped" time="0" classname="Mailbox">
+      <skipped message="a.cpp:9&#x0A;left to other builds: thousands of ticks"><![CDATA[...]]></skipped>
     </testcase>
   </testsuite>
 </testsuites>
@@ -50,9 +57,13 @@ class Results(unittest.TestCase):
     def test_a_case_has_its_suite_its_time_and_what_failed(self):
         cases = self.read(GTEST)
         self.assertEqual([(c.name, c.outcome, c.seconds) for c in cases],
-                         [("Mailbox.Keeps", "passed", 1.25), ("Mailbox.Drops", "failed", 0.35), ("Mailbox.Waits", "skipped", 0)])
+                         [("Mailbox.Keeps", "passed", 1.25), ("Mailbox.Drops", "failed", 0.35), ("Mailbox.Waits", "skipped", 0), ("Mailbox.Lasts", "left out", 0)])
         self.assertIn("a.cpp:7", cases[1].detail)
         self.assertIn("Expected equality of these values", cases[1].detail)
+
+    def test_the_mark_of_the_tests_is_the_one_that_is_known_here(self):
+        marks = (ROOT / "tests/support/sanitizers.hpp").read_text()
+        self.assertEqual(marks.count(f'GTEST_SKIP() << "{LEFT_OUT}: "'), marks.count("#define MECHANE_NOT_"))
 
     def test_ctest_repeats_the_name_and_keeps_the_output(self):
         cases = self.read(CTEST)
@@ -61,7 +72,7 @@ class Results(unittest.TestCase):
         self.assertEqual(cases[1].detail, "not within 30 s")
 
     def test_what_is_written_is_read_again(self):
-        cases = [Case("a.One", "passed", seconds=0.125), Case("a.Two", "failed", "why\nso", 3), Case("a.Three", "skipped")]
+        cases = [Case("a.One", "passed", seconds=0.125), Case("a.Two", "failed", "why\nso", 3), Case("a.Three", "skipped"), Case("a.Four", "left out")]
         write_junit(self.file, "a", Tally(list(cases)))
         self.assertEqual([(c.name, c.outcome, c.seconds) for c in read_junit(self.file).cases], [(c.name, c.outcome, c.seconds) for c in cases])
 
@@ -82,7 +93,7 @@ class Report(unittest.TestCase):
     def test_counts_and_the_time_of_each_phase(self):
         report = self.written({"build-release": Ran(Tally([Case("build", "passed")]), 61.04),
                                "fuzz": Ran(Tally([Case("x", "failed", seconds=2), Case("y", "skipped"), Case("z", "passed")]), 9.5)})
-        self.assertEqual(report["metrics"], {"seconds": 70.5, "passed": 2, "failed": 1, "skipped": 1, "phase_s.build-release": 61.0, "phase_s.fuzz": 9.5})
+        self.assertEqual(report["metrics"], {"seconds": 70.5, "passed": 2, "failed": 1, "skipped": 1, "left_out": 0, "phase_s.build-release": 61.0, "phase_s.fuzz": 9.5})
         self.assertEqual((report["name"], report["seconds"], report["notes"]), ("test", 70.5, ["2.0 s  x  (fuzz)"]))
         for key in ("commit", "cpu", "cores", "simd"):
             self.assertTrue(report[key], key)
@@ -93,6 +104,86 @@ class Report(unittest.TestCase):
         notes = long_cases({"one": Ran(early, 1), "two": Ran(late, 1)})
         self.assertEqual(len(notes), 20)
         self.assertEqual(notes[:3], ["29.0 s  early.29  (one)", "28.5 s  late  (two)", "28.0 s  early.28  (one)"])
+
+
+def listed(*tests):
+    """What CTest lists: (program, test, labels) each."""
+    return {"tests": [{"name": f"{program}.{test}", "command": [f"/bin/test_{program}", f"--gtest_filter={test}"],
+                       "properties": [{"name": "LABELS", "value": [labels]}, {"name": "ENVIRONMENT", "value": ["RC_PARAMS=seed=1"]}]}
+                      for program, test, labels in tests] + [{"name": "architecture.format", "command": ["format.sh"], "properties": []},
+                                                             {"name": "test_b_NOT_BUILT"}]}
+
+
+# In place of a GoogleTest program.
+FAKE = """#!/bin/sh
+for word; do case "$word" in --gtest_output=xml:*) out="${word#--gtest_output=xml:}" ;; esac; done
+echo "[ RUN      ] Mailbox.Drops"
+%s
+"""
+
+
+class Programs(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def test_a_program_is_chosen_by_whole_labels(self):
+        programs = from_ctest(listed(("a", "A.One", "program.in-process"), ("a", "A.Two", "program.in-process"), ("b", "B.One", "program.in-process.slow"),
+                                     ("c", "C.One", "program.alone"), ("d", "D.One", "program.in-process-not")))
+        self.assertEqual([(p.name, p.tests) for p in chosen(programs, only="in-process")], [("b", 1), ("a", 2)])
+        self.assertEqual([p.name for p in chosen(programs, leave_out="slow")], ["a", "c", "d"])
+        self.assertEqual(dict(programs[0].environment), {"RC_PARAMS": "seed=1"})
+
+    def run_fake(self, does, tests=4):
+        fake = self.folder / "test_fake"
+        fake.write_text(FAKE % does)
+        fake.chmod(0o755)
+        (self.folder / "junit.xml").write_text(GTEST)
+        listing = listed(*[("fake", f"Mailbox.{i}", "program") for i in range(tests)])
+        for test in listing["tests"][:tests]:
+            test["command"][0] = str(fake)
+        (program,) = from_ctest(listing)
+        return run_program(program, self.folder / "2-test.log", {}).cases
+
+    def test_its_cases_carry_its_name(self):
+        cases = self.run_fake(f'cp {self.folder}/junit.xml "$out"; exit 1')
+        self.assertEqual([c.name for c in cases], [f"fake.Mailbox.{name}" for name in ("Keeps", "Drops", "Waits", "Lasts")])
+
+    def test_a_program_that_dies_is_a_failure_with_its_last_words(self):
+        (case,) = self.run_fake("kill -SEGV $$")
+        self.assertEqual(case.outcome, "failed")
+        self.assertIn("Mailbox.Drops", case.detail)
+
+    def test_a_test_that_was_not_run_is_a_failure(self):
+        self.assertIn("it ran 4 tests; CTest knows 5", self.run_fake(f'cp {self.folder}/junit.xml "$out"; exit 1', tests=5)[-1].detail)
+
+
+class Repeated(unittest.TestCase):
+    def test_slow_tests_run_a_twentieth_of_the_rounds_but_once_at_least(self):
+        self.assertEqual([rounds_of(frozenset({"in-process"}), n) for n in (1, 200)], [1, 200])
+        self.assertEqual([rounds_of(frozenset({"in-process", "slow"}), n) for n in (1, 20, 21, 200)], [1, 1, 2, 10])
+
+    def test_the_seeds_come_again_and_differ(self):
+        self.assertEqual(seeds(7, 50), seeds(7, 50))
+        self.assertNotEqual(seeds(7, 50), seeds(8, 50))
+        self.assertGreater(len(set(seeds(7, 50))), 45)
+
+    def test_one_failure_among_many_is_a_failure(self):
+        good, bad, late = (Tally([Case("a", outcome, outcome, seconds)]) for outcome, seconds in (("passed", 3), ("failed", 1), ("passed", 2)))
+        (case,) = worst([good, bad, late]).cases
+        self.assertEqual((case.outcome, case.detail, case.seconds), ("failed", "failed", 3))
+
+    def test_a_failure_says_how_it_is_seen_again_and_the_logs_of_good_rounds_go(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        fake = folder / "test_fake"
+        fake.write_text(FAKE % f"""case "$*" in *--gtest_shuffle*random_seed={seeds(7, 3)[1]}) exit 1 ;; esac
+            [ "$RC_PARAMS" != seed=1 ] && echo '<testsuites><testcase name="One" classname="A"/></testsuites>' > "$out" """)
+        fake.chmod(0o755)
+        listing = listed(("fake", "A.One", "program.in-process"))
+        listing["tests"][0]["command"][0] = str(fake)
+        tally = run_rounds(from_ctest(listing), 3, 7, folder / "2-test.log", {}, at_once=2)
+        self.assertEqual(sorted((c.name, c.outcome) for c in tally.cases), [("fake", "failed"), ("fake.A.One", "passed")])
+        self.assertIn(f"RC_PARAMS=seed={seeds(7, 3)[1]} {fake} --gtest_shuffle --gtest_random_seed={seeds(7, 3)[1]}", tally.failed[0].detail)
+        self.assertEqual([file.name for file in folder.glob("2-test*")], [f"2-test-seed-{seeds(7, 3)[1]}-fake.log"])
 
 
 class Phases(unittest.TestCase):
@@ -120,6 +211,40 @@ class Phases(unittest.TestCase):
         for quick in (False, True):
             names = [phase.name for phase in suite.phases(quick)]
             self.assertEqual(len(names), len(set(names)), names)
+
+    def test_programs_with_a_lock_run_one_after_another_and_the_other_tests_behind_them(self):
+        listing = listed(*[(name, "A.One", labels) for name, labels in
+                           (("free", "program"), ("parts1", "program.slow"), ("parts2", "program"), ("timed", "program.alone"), ("left", "program.not-address"))])
+        for test in listing["tests"]:
+            if test["name"].startswith("parts"):
+                test["properties"].append({"name": "RESOURCE_LOCK", "value": ["parts"]})
+        order, lock, held = [], threading.Lock(), []
+
+        def runs(program, log, environment):
+            if program.locks:
+                self.assertEqual(held, [])
+                held.append(program.name)
+                time.sleep(0.05)  # a second one would be seen
+                held.clear()
+            with lock:
+                order.append(program.name)
+            return Tally([Case(program.name, "passed")])
+
+        def ctest(*_, **__):
+            with lock:
+                order.append("others")
+            return Tally([Case("others", "passed")])
+
+        with mock.patch.multiple(suite, known_to_ctest=lambda _: from_ctest(listing), run_program=runs, _run_ctest=ctest):
+            tally = suite.programs("release", leave_out="not-address", others=True).run(suite.OUT / "log")
+        self.assertEqual(sorted(c.name for c in tally.cases), ["free", "others", "parts1", "parts2", "timed"])
+        self.assertEqual([name for name in order if name != "free"], ["parts1", "parts2", "others", "timed"])
+
+    def test_what_is_repeated(self):
+        titles = lambda *options: [phase.title for phase in suite.repeat_phases(*options)]
+        self.assertEqual(titles(30, 5, ""), ["build release", "test release in-process, 30 times from seed 5", "test release end-to-end, 2 times"])
+        self.assertEqual(titles(30, 5, "unit_record"), ["build release", "test release in-process, 30 times from seed 5"])
+        self.assertEqual(titles(30, 5, "integration.Fit"), ["build release", "test release end-to-end, 2 times"])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "server/base/sanitized.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace mechane::display {
 namespace {
@@ -29,7 +29,7 @@ class SpareMemory : public testing::Test {
 #ifndef __GLIBC__
     GTEST_SKIP() << "another allocator";
 #endif
-    if (kSanitized) GTEST_SKIP() << "the sanitizer's allocator";
+    MECHANE_NOT_SANITIZED("the sanitizer's allocator");
     keep_large_blocks_apart();
     before_mib_ = resident_mib();
   }

@@ -3,6 +3,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "tests/support/sanitizers.hpp"
 #include "tests/unit/dynamics/blocks.hpp"
 
 namespace mechane::dynamics::test {
@@ -62,6 +63,7 @@ class PlainBullet {
 };
 
 TEST(AgainstBulletsBoxes, ADroppedBlockRestsAtTheSameHeight) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   const auto fixed = table(0, kFriction);
   for (const Vec3& turn : {Vec3(0, 0.3, 0), Vec3(0.15, 0.3, 0.1), Vec3(kPi / 2, 0, 0.1)}) {
     const auto falling = block("BLOCK", kHalf_m, {{0.01, 0.1, 0.02}, quat_from_rotation_vector(turn)}, kFriction);
@@ -74,6 +76,7 @@ TEST(AgainstBulletsBoxes, ADroppedBlockRestsAtTheSameHeight) {
 }
 
 TEST(AgainstBulletsBoxes, APushedBlockSlidesAsFar) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   const auto fixed = table(0, kFriction);
   for (const double speed : {0.3, 0.7, 1.2}) {
     const auto sliding = block("BLOCK", kHalf_m, {{-0.2, kHalf_m.y(), 0}, Quat::Identity()}, kFriction);

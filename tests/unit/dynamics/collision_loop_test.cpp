@@ -1,6 +1,7 @@
 // What the loop asks of collisions: the same bits, a resume from a state, no allocation.
 #include "server/state/snapshot.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/unit/dynamics/blocks.hpp"
 
 namespace mechane::dynamics::test {
@@ -32,6 +33,7 @@ void stir(Scene& scene, int n) {
 }
 
 TEST(CollisionLoop, SameInputsGiveTheSameBitsAlsoFromASnapshot) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   const state::WorldDescription world = piles(10, 0.01);
   Scene one(world), two(world), resumed(world);
   std::vector<std::byte> bytes;
@@ -58,7 +60,7 @@ TEST(CollisionLoop, SameInputsGiveTheSameBitsAlsoFromASnapshot) {
 }
 
 TEST(CollisionLoop, AStepAllocatesNothing) {
-  if (!mechane::test::AllocationGuard::available()) GTEST_SKIP() << "this build has a sanitizer's own malloc";
+  MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
   Scene scene(piles(20, 0.01));
   const mechane::test::AllocationGuard guard;
   for (int n = 0; n < 1500; ++n) {
@@ -71,6 +73,7 @@ TEST(CollisionLoop, AStepAllocatesNothing) {
 
 /// All in one place: every pair touches at once, more than a step takes.
 TEST(CollisionLoop, AHeapOfAllInOnePlaceAllocatesNothingAndIsNotShotApart) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   state::WorldDescription world = piles(26, 0);
   for (std::size_t i = 1; i < world.bodies.size(); ++i)
     world.bodies[i].X_WB.p = Vec3(1e-3 * static_cast<double>(i % 5), 0.05, 1e-3 * static_cast<double>(i % 7));

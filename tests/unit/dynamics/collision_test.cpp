@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "server/state/world_state.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/unit/dynamics/blocks.hpp"
 
 namespace mechane::dynamics::test {
@@ -33,6 +34,7 @@ TEST(Collision, ADroppedBlockComesToRestOnTheTableAndStays) {
 }
 
 TEST(Collision, AStackOfThreeStands) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   const std::array<Pose, 3> places{at(0, 0.03, 0), at(0.01, 0.09, 0.005, {0, 0.3, 0}),
                                    at(0, 0.15, -0.005, {0, -0.2, 0})};
   Scene scene(world_of({table(), block("LOW", kBlockHalf_m, places[0]), block("MIDDLE", kBlockHalf_m, places[1]),

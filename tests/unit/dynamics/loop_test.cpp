@@ -5,6 +5,7 @@
 
 #include "server/state/snapshot.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/unit/dynamics/scene.hpp"
 
 namespace mechane::dynamics::test {
@@ -58,6 +59,7 @@ void play(Scene& scene, int n) {
 }
 
 TEST(Loop, SameInputsGiveTheSameBits) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   Scene a(workshop()), b(workshop());
   for (int n = 0; n < 10000; ++n) {
     for (Scene* scene : {&a, &b}) {
@@ -90,7 +92,7 @@ TEST(Loop, AWorldMadeFromASnapshotGoesOnWithTheSameBits) {
 }
 
 TEST(Loop, AStepAllocatesNothing) {
-  if (!mechane::test::AllocationGuard::available()) GTEST_SKIP() << "this build has a sanitizer's own malloc";
+  MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
   Scene scene(workshop());
   const mechane::test::AllocationGuard guard;
   for (int n = 0; n < 5000; ++n) {
@@ -102,7 +104,7 @@ TEST(Loop, AStepAllocatesNothing) {
 }
 
 TEST(Loop, TheGuardSeesAnAllocation) {
-  if (!mechane::test::AllocationGuard::available()) GTEST_SKIP() << "this build has a sanitizer's own malloc";
+  MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
   const mechane::test::AllocationGuard guard;
   std::vector<int> numbers(100);
   EXPECT_GE(guard.allocations(), 1u) << numbers.size();

@@ -16,6 +16,7 @@
 #include "server/geometry/piece_region.hpp"
 #include "server/geometry/random.hpp"
 #include "server/geometry/surface_samples.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 
@@ -84,6 +85,7 @@ struct Solid {
 class DecomposeSolid : public testing::TestWithParam<Solid> {};
 
 TEST_P(DecomposeSolid, IsPartedWhereTheEyeDoesAndLosesNothing) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const Mesh mesh = GetParam().mesh();
   const DecomposeConfig config;
   const Decomposition d = taken_apart(mesh, config);
@@ -117,6 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Decompose, DecomposeSolid,
                          [](const auto& solid) { return solid.param.name; });
 
 TEST(Decompose, PointsLieOnTheSurfaceOrOnACutInsideTheSolid) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const Mesh mesh = test::gear();
   const MeshQuery query(mesh);
   const double slack = 1e-6;
@@ -134,6 +137,7 @@ TEST(Decompose, PointsLieOnTheSurfaceOrOnACutInsideTheSolid) {
 }
 
 TEST(Decompose, AnLFallsApartInItsCorner) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const Decomposition d = taken_apart(test::l_shape());
   ASSERT_EQ(d.pieces.size(), 2U);
   for (const Piece& piece : d.pieces) {
@@ -145,6 +149,7 @@ TEST(Decompose, AnLFallsApartInItsCorner) {
 }
 
 TEST(Decompose, APeanutFallsApartAtItsNeck) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const Decomposition d = taken_apart(test::peanut());
   ASSERT_EQ(d.pieces.size(), 2U);
   EXPECT_NEAR(d.pieces[0].volume_m3, d.pieces[1].volume_m3, 0.1 * d.pieces[0].volume_m3);
@@ -153,6 +158,7 @@ TEST(Decompose, APeanutFallsApartAtItsNeck) {
 }
 
 TEST(Decompose, EachToothOfAGearIsAPieceOfItsOwn) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const Decomposition d = taken_apart(test::gear());
   for (int k = 0; k < 12; ++k) {
     const Vec3 tip(0.54 * std::cos(2 * kPi * k / 12), 0.54 * std::sin(2 * kPi * k / 12), 0);
@@ -163,6 +169,7 @@ TEST(Decompose, EachToothOfAGearIsAPieceOfItsOwn) {
 }
 
 TEST(Decompose, SeparateBodiesAreSeparatePiecesHoweverWideTheBound) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   Mesh mesh = test::box({0.2, 0.2, 0.2});
   const Mesh second = test::box({0.1, 0.1, 0.1}, {0.35, 0, 0});
   for (const auto& t : second.triangles)
@@ -172,6 +179,7 @@ TEST(Decompose, SeparateBodiesAreSeparatePiecesHoweverWideTheBound) {
 }
 
 TEST(Decompose, OverlappingPiecesAreOneSolid) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   Mesh mesh = test::box({0.3, 0.1, 0.1});
   const Mesh second = test::box({0.3, 0.1, 0.1}, {0.25, 0, 0});
   for (const auto& t : second.triangles)
@@ -185,6 +193,7 @@ TEST(Decompose, OverlappingPiecesAreOneSolid) {
 }
 
 TEST(Decompose, SameSeedSameBits) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const Mesh mesh = test::gear(7);
   const Decomposition once = taken_apart(mesh);
   const Decomposition again = taken_apart(mesh);
@@ -205,6 +214,7 @@ TEST(Decompose, SameSeedSameBits) {
 }
 
 TEST(Decompose, TheBudgetIsKeptAndAMissOfTheBoundIsSaid) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const Mesh mesh = test::gear();
   for (const std::size_t parts : {1, 5}) {
     const Decomposition d = taken_apart(mesh, {.max_parts = parts});
@@ -216,6 +226,7 @@ TEST(Decompose, TheBudgetIsKeptAndAMissOfTheBoundIsSaid) {
 }
 
 TEST(Decompose, ProgressRisesToOne) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   double last = 0;
   const auto heard = [&](double share) {
     EXPECT_GE(share, last);
@@ -227,6 +238,7 @@ TEST(Decompose, ProgressRisesToOne) {
 }
 
 TEST(Decompose, AnOpenMeshIsOnePieceThatMeetsNothing) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   Mesh mesh = test::box({1, 1, 1});
   mesh.triangles.pop_back();
   const Decomposition d = taken_apart(mesh);
@@ -240,6 +252,7 @@ TEST(Decompose, AnOpenMeshIsOnePieceThatMeetsNothing) {
 }
 
 TEST(Decompose, WhatCannotBeTakenApartIsNamed) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   const auto what = [](const Mesh& mesh, const DecomposeConfig& config = {}) {
     const auto d = decompose(mesh, config);
     return d ? std::string("no error") : d.error().what;
@@ -265,6 +278,7 @@ TEST(Decompose, WhatCannotBeTakenApartIsNamed) {
 
 /// Whatever triangles between a few points: a result or an Error, in a moment.
 RC_GTEST_PROP(Decompose, AnyTrianglesGiveAResultOrAnError, (std::uint64_t seed)) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
   Random random(seed);
   Mesh mesh;
   for (int i = 0; i < 8; ++i)

@@ -4,6 +4,7 @@
 
 #include "client-sdk/recording/recorded_client.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_folder.hpp"
 #include "tests/unit/recording/recording_samples.hpp"
 
 namespace mechane::scene {
@@ -70,7 +71,7 @@ TEST(ShownWorld, APresentationThatComesAfterTheManifestMayBringMeshes) {
   writer.add(recording::RecordKind::frame, at(80), recording::encode(recording::frame_of_visit(2, at(80), {})));
   writer.add(recording::RecordKind::end, at(0), {});
   recording::RecordedClient client(recording::FrameRecording::open_bytes(writer.take_bytes(), "late").value(), {});
-  ShownWorld world(AssetSource{std::string(MECHANE_SOURCE_DIR) + "/scenarios/models", nullptr, nullptr}, "en");
+  ShownWorld world(AssetSource{mechane::test::source_folder().string() + "/scenarios/models", nullptr, nullptr}, "en");
   const TimePoint began(std::chrono::hours(7));
   client.advance(began);
   ASSERT_TRUE(world.hear(client).assets);

@@ -8,6 +8,7 @@
 #include "server/state/world_state.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/crank_world.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/support/scripted_hand.hpp"
 
 namespace mechane::world {
@@ -103,6 +104,7 @@ TEST(Step, TheSameVisitWithoutStiffnessTurnsNothing) {
 }
 
 TEST(Step, SameInputsGiveTheSameBits) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("thousands of ticks");
   Stage first;
   Stage second;
   const test::ScriptedHand hand(kGrip, kAxis, 5);
@@ -118,7 +120,7 @@ TEST(Step, SameInputsGiveTheSameBits) {
 }
 
 TEST(Step, TicksAllocateNothing) {
-  if (!test::AllocationGuard::available()) GTEST_SKIP() << "a sanitizer's malloc cannot be counted";
+  MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
   Stage stage;
   const test::ScriptedHand hand(kGrip, kAxis, 5);
   std::vector<TickInputs> inputs(10'000);
