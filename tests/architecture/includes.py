@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the table of rooms against the #include lines: a new arrow between rooms fails. The table below is ARCHITECTURE.md's."""
+"""Holds the table of rooms against the #include lines: a new arrow between rooms fails. ARCHITECTURE.md shows the same tables."""
 
 import re
 import sys
@@ -136,8 +136,52 @@ def include_fault(room: str, path: Path, name: str, quoted: bool) -> tuple[str, 
     return None
 
 
-def check(root: Path) -> list[Fault]:
+def full_name(name: str) -> str:
+    """A room by its folder's name alone, as ARCHITECTURE.md calls it; unknown names stay as they are."""
+    found = [room for room in ARROWS if room.rsplit("/", 1)[-1] == name]
+    return found[0] if len(found) == 1 else name
+
+
+def rooms_of_page(text: str) -> dict[str, list[str]]:
+    """The table of rooms in ARCHITECTURE.md: a line is 'FOLDER/ ROOM what it is -> ROOMS', the folder where it begins; what has no arrow
+    goes on in the next line."""
+    found: dict[str, list[str]] = {}
+    block = re.search(r"^## Rooms.*?^```\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    folder = ""
+    for line in re.sub(r"\n {10,}", " ", block[1]).splitlines() if block else []:
+        row = re.match(r"(?P<folder>\S+/)?\s*(?P<room>[\w-]*)\s.*?\s->\s*(?P<arrows>[\w, -]+)$", line)
+        if not row:
+            found[line.strip()] = []
+            continue
+        folder = row["folder"] or folder
+        room = "proto" if folder == "proto/" else folder + row["room"]
+        found[room] = sorted(full_name(name.strip()) for name in row["arrows"].split(",") if name.strip() != "-")
+    return found
+
+
+def libraries_of_page(text: str) -> dict[str, list[str]]:
+    block = re.search(r"^\| library \| rooms \|\n\|[-|]+\|\n((?:\|.*\n)+)", text, re.MULTILINE)
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in block[1].splitlines()] if block else []
+    return {row[0]: sorted(full_name(name.strip()) for name in row[1].split(",")) for row in rows}
+
+
+def page_faults(root: Path) -> list[Fault]:
+    """ARCHITECTURE.md shows the tables of this file, room for room."""
+    page = root / "ARCHITECTURE.md"
+    text = read(page) if page.exists() else ""
     faults = []
+    for what, shown, held in (
+            ("rooms", rooms_of_page(text), {room: sorted(others) for room, others in ARROWS.items()}),
+            ("libraries", libraries_of_page(text), {name: sorted(rooms) for name, (_, rooms) in LIBRARIES.items()})):
+        for name in sorted(shown.keys() | held.keys()):
+            if shown.get(name) != held.get(name):
+                faults.append(Fault("page", "ARCHITECTURE.md", 1, f"table of {what}: '{name}' has {shown.get(name, 'no row')}, "
+                                    f"in includes.py {held.get(name, 'no row')}: make them equal"))
+    return faults
+
+
+def check(root: Path) -> list[Fault]:
+    faults = page_faults(root)
     for path in cpp_files(root, "server", "proto", "client-sdk"):
         room = room_of_file(path)
         if room not in ARROWS:

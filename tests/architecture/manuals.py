@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the manuals against the tree: their sizes, that every link and anchor leads somewhere, that each script of deploy/ has its line."""
+"""Holds the manuals against the tree: their sizes; every link, anchor and path leads somewhere; each script of deploy/ has its line."""
 
 import re
 import sys
@@ -15,11 +15,14 @@ COLUMNS = 140
 # Made by a command; a log; and the page that describes all of the house: these may be longer.
 GENERATED = {"scenarios/REFERENCE.md"}
 HISTORY = {"CHANGELOG.md"}
+NOT_NOW = re.compile(r"CHANGELOG\.md|deploy/decisions/.*")  # what was so at the time
+MADE = {"scenarios/catalogue.db"}
 LONGER = {"ARCHITECTURE.md"} | GENERATED | HISTORY
 
 _FENCE = re.compile(r"^\s*```")
 _LINK = re.compile(r"\[[^\[\]]*\]\(([^()\s]+(?:\([^()\s]*\)[^()\s]*)?)\)")
 _HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$")
+_PATH = re.compile(r"(?:server|client-sdk|proto|scenarios|tests|deploy)/[\w./-]+")
 _CODE = re.compile(r"(`+)(.+?)\1")
 
 
@@ -98,6 +101,14 @@ def link_faults(root: Path, path: Path, text: str) -> list[Fault]:
     return faults
 
 
+def path_faults(root: Path, path: Path, text: str) -> list[Fault]:
+    """What stands as code and looks like a path of the repository is one."""
+    return [Fault("path", str(path), line.number, f"there is no {match[2]}")
+            for line in lines_of(text) if not line.code
+            for match in _CODE.finditer(line.text)
+            if _PATH.fullmatch(match[2]) and match[2] not in MADE and not (root / match[2]).exists()]
+
+
 def script_faults(root: Path) -> list[Fault]:
     """Every script that people call has its line in deploy/README.md."""
     manual = root / "deploy/README.md"
@@ -111,6 +122,7 @@ def check(root: Path) -> list[Fault]:
     for path in pages(root):
         text = read(root / path)
         faults += size_faults(path, text) + link_faults(root, path, text)
+        faults += [] if NOT_NOW.fullmatch(str(path)) else path_faults(root, path, text)
     return faults
 
 

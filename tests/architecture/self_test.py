@@ -19,7 +19,18 @@ import unity
 from functions import functions
 from results import read_junit  # tidy.py knows where it lies
 
+def short(rooms) -> str:
+    return ", ".join(room.rsplit("/", 1)[-1] for room in rooms) or "-"
+
+
+# ARCHITECTURE.md with the tables that includes.py holds, in its form.
+PAGE = "## Rooms and who may include whom\n\n```\n" + "".join(
+    f"{'proto/' if room == 'proto' else room.replace('/', '/ ')}  what it is,\n            and what for  -> {short(arrows)}\n"
+    for room, arrows in includes.ARROWS.items()) + "```\n\n| library | rooms |\n|---|---|\n" + "".join(
+    f"| {library} | {short(rooms)} |\n" for library, (_, rooms) in includes.LIBRARIES.items())
+
 SOUND = {
+    "ARCHITECTURE.md": PAGE,
     "server/base/CMakeLists.txt": "mechane_room(NAME base)\n",
     "server/base/a.hpp": "#pragma once\n\nnamespace mechane {\nint a();\n}  // namespace mechane\n",
     "server/base/a.cpp": '#include "server/base/a.hpp"\n\nint mechane::a() { return 1; }\n',
@@ -94,6 +105,15 @@ PLANTED = [
     ("unity-name", "server/world/w.cpp", "namespace {\nint e(const int& y) {\n  return y;\n}\n}  // namespace\n"),
     ("unity-name", "server/world/w.cpp", "int f() {\n  constexpr int kE = 2;\n  return kE;\n}\n"),
     ("unity-name", "server/world/w.cpp", "namespace {\nstruct V {\n};\n}  // namespace\n"),
+    ("page", "ARCHITECTURE.md", "# Nothing of rooms\n"),
+    ("page", "ARCHITECTURE.md", PAGE.replace("-> client, haptic, scenario\n", "-> client, haptic\n")),
+    ("page", "ARCHITECTURE.md", PAGE.replace("-> state, realtime\n", "-> state, realtime, log\n", 1)),
+    ("page", "ARCHITECTURE.md", PAGE.replace("server/ log  what it is,\n            and what for  -> base\n", "")),
+    ("page", "ARCHITECTURE.md", PAGE.replace("```\n\n|", "server/ garden  roses  -> base\n```\n\n|")),
+    ("page", "ARCHITECTURE.md", PAGE.replace("```\n\n|", "server/ garden  roses and no arrow\n```\n\n|")),
+    ("page", "ARCHITECTURE.md", PAGE.replace("| Bullet | dynamics |", "| Bullet | dynamics, world |")),
+    ("page", "ARCHITECTURE.md", PAGE.replace("| SDL | display |\n", "")),
+    ("path", "README.md", "See `server/base/gone.hpp`.\n"),
     ("manual-length", "README.md", "word\n" * 151),
     ("manual-length", "deploy/README.md", "`deploy/run`\n" * 201),
     ("manual-width", "deploy/README.md", "`deploy/run`" + " word" * 30 + "\n"),
@@ -184,6 +204,9 @@ bool operator==(const P& a, const P& b) {
 
 
 class Table(unittest.TestCase):
+    def test_the_page_is_read_whole(self):
+        self.assertEqual(set(includes.ARROWS), set(includes.rooms_of_page(PAGE)))
+
     def test_the_four_rooms_of_the_tick_never_meet(self):
         four = {"server/dynamics", "server/haptics", "server/machines", "server/agents"}
         for room in four:
