@@ -19,10 +19,10 @@ void TonePass::draw(const HdrTarget& from, float exposure, const Extras& extras)
   program_.set("sample_count", from.samples);
   program_.set("exposure", exposure);
   program_.set("bloom", 1);
-  program_.set("nooks", 2);
+  program_.set("openness", 2);
   const bool with = extras.glow != nullptr && extras.openness != nullptr;
   program_.set("bloom_share", with ? extras.glow_share : 0.0F);
-  program_.set("nook_share", with ? extras.nook_share : 0.0F);
+  program_.set("occlusion_share", with ? extras.occlusion_share : 0.0F);
   if (with) {
     glActiveTexture(GL_TEXTURE0 + 1);
     glBindTexture(GL_TEXTURE_2D, extras.glow->get());

@@ -173,19 +173,19 @@ class BloomPass {
 };
 
 /// Where things meet, little of the sky arrives: found from the resolved depth of a picture in which all that is solid was drawn.
-class NookPass {
+class AmbientOcclusionPass {
  public:
-  [[nodiscard]] static Expected<NookPass> create();
+  [[nodiscard]] static Expected<AmbientOcclusionPass> create();
   /// Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const HdrTarget& from, const picture::EyeView& view);
   /// Share of the sky that is open, at half of the size that was drawn last.
   [[nodiscard]] const TextureName& openness() const { return even_->colour; }
 
  private:
-  NookPass(Program nook, Program blur, VertexArrayName none)
-      : nook_(std::move(nook)), blur_(std::move(blur)), no_vertices_(std::move(none)) {}
+  AmbientOcclusionPass(Program occlusion, Program blur, VertexArrayName none)
+      : occlusion_(std::move(occlusion)), blur_(std::move(blur)), no_vertices_(std::move(none)) {}
 
-  Program nook_;
+  Program occlusion_;
   Program blur_;
   VertexArrayName no_vertices_;
   std::optional<FloatTarget> raw_;
@@ -196,10 +196,10 @@ class NookPass {
 class TonePass {
  public:
   struct Extras {
-    const TextureName* glow = nullptr;  ///< null: none, nor nooks
+    const TextureName* glow = nullptr;  ///< null: neither glow nor ambient occlusion
     const TextureName* openness = nullptr;
     float glow_share = 0;
-    float nook_share = 0;
+    float occlusion_share = 0;
   };
   [[nodiscard]] static Expected<TonePass> create();
   void draw(const HdrTarget& from, float exposure, const Extras& extras) const;

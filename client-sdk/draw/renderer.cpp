@@ -68,18 +68,18 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(const RendererSettings& set
   if (!particle) return tl::unexpected(particle.error());
   Expected<BloomPass> bloom = BloomPass::create();
   if (!bloom) return tl::unexpected(bloom.error());
-  Expected<NookPass> nook = NookPass::create();
-  if (!nook) return tl::unexpected(nook.error());
+  Expected<AmbientOcclusionPass> occlusion = AmbientOcclusionPass::create();
+  if (!occlusion) return tl::unexpected(occlusion.error());
   Expected<TonePass> tone = TonePass::create();
   if (!tone) return tl::unexpected(tone.error());
   Expected<CompositePass> composite = CompositePass::create();
   if (!composite) return tl::unexpected(composite.error());
   Expected<OverlayPass> overlay = OverlayPass::create(settings.font_folder);
   if (!overlay) return tl::unexpected(overlay.error());
-  return std::unique_ptr<Renderer>(
-      new Renderer(settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*mirror),
-                                    std::move(*water), std::move(*clear), std::move(*particle), std::move(*bloom),
-                                    std::move(*nook), std::move(*tone), std::move(*composite), std::move(*overlay)}));
+  return std::unique_ptr<Renderer>(new Renderer(
+      settings, Passes{std::move(*shadow), std::move(*opaque), std::move(*sky), std::move(*mirror), std::move(*water),
+                       std::move(*clear), std::move(*particle), std::move(*bloom), std::move(*occlusion),
+                       std::move(*tone), std::move(*composite), std::move(*overlay)}));
 }
 
 Expected<void> Renderer::fit_targets(picture::Stereo stereo, picture::PixelSize picture, bool inset) {
@@ -209,14 +209,15 @@ Expected<void> Renderer::draw_view(const picture::RenderScene& scene, const pict
 Expected<void> Renderer::finish_eye(const picture::RenderScene& scene, const picture::EyeView& view,
                                     const EyeTarget& into) {
   if (auto ok = passes_.bloom.draw(*hdr_, settings_.exposure); !ok) return ok;
-  if (auto ok = passes_.nook.draw(*hdr_, view); !ok) return ok;
-  mark("glow and nooks");
+  if (auto ok = passes_.ambient_occlusion.draw(*hdr_, view); !ok) return ok;
+  mark("glow and ambient occlusion");
   glBindFramebuffer(GL_FRAMEBUFFER, into.target.framebuffer.get());
   const auto width = static_cast<GLsizei>(into.pixels.width);
   const auto height = static_cast<GLsizei>(into.pixels.height);
   glViewport(into.x, into.y, width, height);
-  passes_.tone.draw(*hdr_, settings_.exposure,
-                    {&passes_.bloom.glow(), &passes_.nook.openness(), settings_.glow, settings_.nooks});
+  passes_.tone.draw(
+      *hdr_, settings_.exposure,
+      {&passes_.bloom.glow(), &passes_.ambient_occlusion.openness(), settings_.glow, settings_.ambient_occlusion});
   if (scene.inset) {
     const PixelRectangle place = inset_in(into.pixels, into.seen);
     glViewport(into.x + static_cast<GLint>(place.x), into.y + height - static_cast<GLint>(place.y + place.height),

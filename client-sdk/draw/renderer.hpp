@@ -20,10 +20,10 @@ struct RendererSettings {
   int samples = 4;  ///< a pixel, 1..8
   std::uint32_t shadow_map_size = 2048;
   float exposure = 1.15F;
-  float glow = 0.16F;            ///< of what is too bright for the screen, spread around it
-  float nooks = 0.45F;           ///< how much darker it is where things meet, 0..1
-  bool profile = false;          ///< waits for each pass and keeps its time: pass_times()
-  bool right_eye_first = false;  ///< row_interleaved: the screen's uppermost row is the right eye's
+  float glow = 0.16F;               ///< of what is too bright for the screen, spread around it
+  float ambient_occlusion = 0.45F;  ///< how much darker it is where things meet, 0..1
+  bool profile = false;             ///< waits for each pass and keeps its time: pass_times()
+  bool right_eye_first = false;     ///< row_interleaved: the screen's uppermost row is the right eye's
   std::string font_folder = default_font_folder();
 };
 
@@ -79,7 +79,7 @@ class Renderer {
     ClearPass clear;
     ParticlePass particle;
     BloomPass bloom;
-    NookPass nook;
+    AmbientOcclusionPass ambient_occlusion;
     TonePass tone;
     CompositePass composite;
     OverlayPass overlay;

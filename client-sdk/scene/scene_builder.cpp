@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "client-sdk/scene/country.hpp"
 #include "client-sdk/scene/effect_builder.hpp"
+#include "client-sdk/scene/landscape.hpp"
 #include "client-sdk/scene/river_reach.hpp"
 #include "client-sdk/scene/thing_names.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 /// Under so little water one sees the floor.
 constexpr double kLeastLevel_m = 0.002;
-/// Scenery larger than this is a landscape about what is to be touched, not a machine's stand.
+/// Scenery larger than this is a landscape of its own around what is to be touched, not just the stand of a machine.
 constexpr float kLandscape_m = 40;
 /// How far about what is touched things throw shadows: farther off, haze and distance take them.
 constexpr float kShadowReach_m = 70;
@@ -190,7 +190,7 @@ void SceneBuilder::let_flow() {
   }
 }
 
-bool SceneBuilder::is_landscape() const {
+bool SceneBuilder::brings_landscape() const {
   return !box_W_.isEmpty() && box_W_.sizes().maxCoeff() >= kLandscape_m;
 }
 
@@ -199,7 +199,7 @@ void SceneBuilder::let_grow() {
   if (presentation_ == nullptr || !ground_height_m_) return;
   Eigen::AlignedBox3f scenery_W;
   bool earth = false;
-  CountryPlan plan;
+  LandscapePlan plan;
   for (const Placed& placed : scenery_) {
     if (is_stray(placed.object.X_WB.p)) continue;
     scenery_W.extend(moved(placed.model->box_B, placed.object.X_WB));
@@ -217,7 +217,7 @@ void SceneBuilder::let_grow() {
   plan.clearing_m = std::max(std::hypot(sizes.x(), sizes.z()) / 2 + kClearing_m, kLeastClearing_m);
   plan.to_sun_W = picture::Sun{}.to_sun_W;
   plan.seed = static_cast<std::uint32_t>(100 * sizes.norm());
-  country_ =
+  landscape_ =
       plan.clearing_m < kMostClearing_m ? grow(plan, plants_of(plan), library_) : std::vector<picture::Instance>();
 }
 
@@ -251,7 +251,7 @@ void SceneBuilder::find_place() {
   // The plain lies under the modelled ground, which is never quite level.
   if (!box_W_.isEmpty()) ground_height_m_ = scenery_.empty() ? std::min(box_W_.min().y(), 0.0F) : -0.06F;
   camera_ = standpoint();
-  if (!is_landscape()) return;
+  if (!brings_landscape()) return;
   ground_height_m_ = box_W_.min().y();  // under its rivers too
   const Vec3f reach = Vec3f::Constant(kShadowReach_m);
   shadow_box_W_ = box_W_.intersection({touched - reach, touched + reach});
@@ -260,8 +260,8 @@ void SceneBuilder::find_place() {
 picture::Camera SceneBuilder::standpoint() const {
   if (presentation_ && !presentation_->views.empty() && !is_stray(presentation_->views.front().X_WV.p))
     return above_caption(camera_at(presentation_->views.front(), interest_W_));
-  return is_landscape() ? look_over(interest_W_)
-                        : picture::frame_box(interest_W_, Vec3(0.20, 0.27, 1.0), 40.0 * kPi / 180);
+  return brings_landscape() ? look_over(interest_W_)
+                            : picture::frame_box(interest_W_, Vec3(0.20, 0.27, 1.0), 40.0 * kPi / 180);
 }
 
 Pose SceneBuilder::pose_of(const Placed& placed, const client::Frame* frame) const {
@@ -301,7 +301,7 @@ picture::RenderScene SceneBuilder::build(const client::Frame* frame, const clien
   }
   for (const Placed& placed : scenery_)
     add_object(placed, placed.object.X_WB, frame, scene);
-  if (!is_landscape()) scene.instances.insert(scene.instances.end(), country_.begin(), country_.end());
+  if (!brings_landscape()) scene.instances.insert(scene.instances.end(), landscape_.begin(), landscape_.end());
   if (frame != nullptr) add_what_moves(*frame, status, scene);
   if (status != nullptr) {
     scene.inset = detail(*status);

@@ -50,7 +50,7 @@ class SceneBuilder {
   void find_place();
   void let_flow();
   void let_grow();
-  [[nodiscard]] bool is_landscape() const;
+  [[nodiscard]] bool brings_landscape() const;
   /// Where a display stands: as the scenario says, or before what can be touched.
   [[nodiscard]] picture::Camera standpoint() const;
   [[nodiscard]] std::optional<picture::Inset> detail(const client::WorldStatus& status) const;
@@ -71,7 +71,7 @@ class SceneBuilder {
   std::optional<std::uint32_t> unknown_;
   std::vector<Placed> objects_;  ///< of the manifest
   std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
-  std::vector<picture::Instance> country_;
+  std::vector<picture::Instance> landscape_;
   Eigen::AlignedBox3f grown_about_W_;  ///< empty: not yet
   picture::Camera camera_;
   Eigen::AlignedBox3f box_W_;

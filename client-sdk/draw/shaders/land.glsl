@@ -1,4 +1,4 @@
-// Dry open country in summer: dust, straw-coloured and green turf. By place alone, so that a modelled piece of earth goes over into the plain
+// Dry open land in summer: dust, straw-coloured and green turf. By place alone, so that a modelled piece of earth goes over into the plain
 // about it without an edge. Images: a material's own, laid over the land by metres.
 const float kLandTile_m = 1.9;
 

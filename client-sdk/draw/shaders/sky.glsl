@@ -1,4 +1,4 @@
-// A clear afternoon over dry country: radiance from direction d (unit), without the sun's disc.
+// A clear afternoon over dry land: radiance from direction d (unit), without the sun's disc.
 uniform vec3 to_sun;
 
 vec3 haze_colour() { return vec3(0.50, 0.60, 0.70); }

@@ -1,14 +1,14 @@
 // Linear light to what a screen shows: the samples of a pixel are put together after weighing down the brightest (no ragged edges at
-// glints), darkened in nooks, with a glow about what glares; then ACES (the fit of Stephen Hill: RRT and ODT), then the sRGB curve.
+// glints), darkened by ambient occlusion, with a glow about what glares; then ACES (the fit of Stephen Hill: RRT and ODT), then the sRGB curve.
 in vec2 place;
 out vec4 colour;
 uniform sampler2DMS samples;
 uniform int sample_count;
 uniform float exposure;
 uniform sampler2D bloom;  // what glares, in the picture's own exposure
-uniform sampler2D nooks;  // share of the sky that is open
+uniform sampler2D openness;  // share of the sky that is open
 uniform float bloom_share;
-uniform float nook_share;  // 0: both are left out
+uniform float occlusion_share;  // 0: both are left out
 
 vec3 aces(vec3 c) {
   const mat3 into = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
@@ -30,7 +30,7 @@ void main() {
     sum += c * w;
     weights += w;
   }
-  vec3 light = sum / weights * mix(1.0, texture(nooks, place).r, nook_share);
+  vec3 light = sum / weights * mix(1.0, texture(openness, place).r, occlusion_share);
   light += bloom_share * texture(bloom, place).rgb;
   colour = vec4(srgb(aces(light)), 1.0);
 }

@@ -1,4 +1,4 @@
-#include "client-sdk/scene/country.hpp"
+#include "client-sdk/scene/landscape.hpp"
 
 #include <cmath>
 
@@ -14,8 +14,8 @@ AssetLibrary empty_library() {
 }
 
 /// A machine at (3, -1), and a river 4 m wide along z, 40 m to its right.
-CountryPlan plan_by_a_river() {
-  CountryPlan plan;
+LandscapePlan plan_by_a_river() {
+  LandscapePlan plan;
   plan.middle_W = Vec3f(3, -0.06F, -1);
   plan.clearing_m = 20;
   plan.to_sun_W = picture::Sun{}.to_sun_W;
@@ -30,8 +30,8 @@ float level_distance_m(const Vec3f& a, const Vec3f& b) {
   return std::hypot(a.x() - b.x(), a.z() - b.z());
 }
 
-TEST(Country, grows_about_the_clearing_and_not_in_the_river) {
-  const CountryPlan plan = plan_by_a_river();
+TEST(Landscape, grows_about_the_clearing_and_not_in_the_river) {
+  const LandscapePlan plan = plan_by_a_river();
   const std::vector<Plant> plants = plants_of(plan);
   std::size_t right_of_river = 0;
   EXPECT_GT(plants.size(), 150U);
@@ -44,14 +44,14 @@ TEST(Country, grows_about_the_clearing_and_not_in_the_river) {
   EXPECT_GT(right_of_river, 10U);
 }
 
-TEST(Country, water_without_an_area_wets_nothing) {
-  CountryPlan plan = plan_by_a_river();
+TEST(Landscape, water_without_an_area_wets_nothing) {
+  LandscapePlan plan = plan_by_a_river();
   plan.waters_W.assign(3, {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()});
   EXPECT_GT(plants_of(plan).size(), 150U);
 }
 
-TEST(Country, another_place_has_other_trees) {
-  CountryPlan plan = plan_by_a_river();
+TEST(Landscape, another_place_has_other_trees) {
+  LandscapePlan plan = plan_by_a_river();
   const std::vector<Plant> here = plants_of(plan);
   ++plan.seed;
   const std::vector<Plant> there = plants_of(plan);
@@ -60,7 +60,7 @@ TEST(Country, another_place_has_other_trees) {
   EXPECT_NE(here[0].seed, there[0].seed);
 }
 
-TEST(Country, is_the_same_each_time) {
+TEST(Landscape, is_the_same_each_time) {
   const std::vector<Plant> once = plants_of(plan_by_a_river());
   const std::vector<Plant> again = plants_of(plan_by_a_river());
   ASSERT_EQ(once.size(), again.size());
@@ -70,9 +70,9 @@ TEST(Country, is_the_same_each_time) {
   }
 }
 
-TEST(Country, its_meshes_are_whole_and_their_faces_look_along_their_normals) {
+TEST(Landscape, its_meshes_are_whole_and_their_faces_look_along_their_normals) {
   AssetLibrary library = empty_library();
-  const CountryPlan plan = plan_by_a_river();
+  const LandscapePlan plan = plan_by_a_river();
   std::size_t triangles = 0;
   for (const picture::Instance& instance : grow(plan, plants_of(plan), library)) {
     EXPECT_FALSE(instance.casts_shadow);
@@ -96,8 +96,8 @@ TEST(Country, its_meshes_are_whole_and_their_faces_look_along_their_normals) {
   EXPECT_LT(triangles, 80'000U) << "a processor draws it, too";
 }
 
-TEST(Country, the_farther_away_the_fewer_leaves) {
-  const CountryPlan plan = plan_by_a_river();
+TEST(Landscape, the_farther_away_the_fewer_leaves) {
+  const LandscapePlan plan = plan_by_a_river();
   const auto triangles_at = [&](float away_m) {
     AssetLibrary library = empty_library();
     std::size_t triangles = 0;
@@ -110,8 +110,8 @@ TEST(Country, the_farther_away_the_fewer_leaves) {
   EXPECT_GT(triangles_at(150), 100U);
 }
 
-TEST(Country, shade_lies_away_from_the_sun) {
-  const CountryPlan plan = plan_by_a_river();
+TEST(Landscape, shade_lies_away_from_the_sun) {
+  const LandscapePlan plan = plan_by_a_river();
   for (const auto kind : {Plant::Kind::olive, Plant::Kind::cypress}) {
     AssetLibrary library = empty_library();
     const Plant tree{kind, plan.middle_W + Vec3f(0, 0, -40), 4, 3};

@@ -1,4 +1,4 @@
-// What grows on the plain about an exhibit that brings no landscape of its own: olives in loose groves, some cypresses, brush. It gives the eye
+// The landscape around an exhibit that brings none of its own: olives in loose groves, some cypresses, brush. It gives the eye
 // something between the machine and the hills, in stereo most of all. Scenery: nobody touches it, and it throws no shadows but its own.
 #pragma once
 
@@ -20,7 +20,7 @@ struct Plant {
 };
 
 /// Where things may grow.
-struct CountryPlan {
+struct LandscapePlan {
   Vec3f middle_W = Vec3f::Zero();  ///< on the ground, amid scenery and viewpoint
   float clearing_m = 0;            ///< about the middle, nothing grows: there people stand, stones fly
   Vec3f to_sun_W = Vec3f::UnitY();
@@ -29,13 +29,13 @@ struct CountryPlan {
 };
 
 /// Adds the triangles of a water's mesh, of some hundreds: each place is held against each.
-void add_water(const picture::MeshData& mesh_M, const Eigen::Affine3f& X_WM, CountryPlan& plan);
+void add_water(const picture::MeshData& mesh_M, const Eigen::Affine3f& X_WM, LandscapePlan& plan);
 
 /// The same plan has the same plants, the nearest not always first.
-[[nodiscard]] std::vector<Plant> plants_of(const CountryPlan& plan);
+[[nodiscard]] std::vector<Plant> plants_of(const LandscapePlan& plan);
 
 /// Their meshes, one a material, in W. The farther a plant is from the middle, the fewer and larger are its leaves.
-[[nodiscard]] std::vector<picture::Instance> grow(const CountryPlan& plan, const std::vector<Plant>& plants,
+[[nodiscard]] std::vector<picture::Instance> grow(const LandscapePlan& plan, const std::vector<Plant>& plants,
                                                   AssetLibrary& library);
 
 }  // namespace mechane::scene

@@ -1,4 +1,4 @@
-#include "client-sdk/scene/country.hpp"
+#include "client-sdk/scene/landscape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace mechane::scene {
 namespace {
 
 constexpr float kBrushland_m = 40;  ///< beyond the clearing, as the next
-constexpr float kCountry_m = 190;   ///< then haze has all
+constexpr float kTreeline_m = 190;  ///< farther away, haze hides everything
 constexpr int kBrush = 70;
 constexpr int kTrees = 140;
 constexpr int kCypresses = 9;
@@ -39,7 +39,7 @@ class Dice {
 };
 
 /// Groves are thick here and thin there.
-float thickness(const CountryPlan& plan, const Vec3f& p_W) {
+float thickness(const LandscapePlan& plan, const Vec3f& p_W) {
   const Vec3f q = p_W - plan.middle_W;
   const auto phase = static_cast<float>(plan.seed % 628) / 100;
   return 0.55F + 0.22F * (std::sin(0.071F * q.x() + phase) + std::sin(0.058F * q.z() - phase) +
@@ -118,7 +118,7 @@ void add_crown(const Crown& crown, Growth& pale, Growth& dark, Dice& dice) {
 }
 
 /// How coarse a plant may be: 1 near, twice at twice the distance, until a leaf is a tuft.
-float coarseness(const CountryPlan& plan, const Plant& plant) {
+float coarseness(const LandscapePlan& plan, const Plant& plant) {
   return std::clamp((plant.p_W - plan.middle_W).norm() / kNear_m, 1.0F, 6.0F);
 }
 
@@ -232,7 +232,7 @@ float distance_to_segment_m(const Eigen::Vector2f& p, const Eigen::Vector2f& a, 
 }
 
 /// In water, or on its bank, seen from above.
-bool is_wet(const CountryPlan& plan, const Vec3f& p_W) {
+bool is_wet(const LandscapePlan& plan, const Vec3f& p_W) {
   const auto above = [](const Vec3f& p) { return Eigen::Vector2f(p.x(), p.z()); };
   const Eigen::Vector2f p = above(p_W);
   return std::ranges::any_of(plan.waters_W, [&](const std::array<Vec3f, 3>& triangle) {
@@ -248,7 +248,7 @@ bool is_wet(const CountryPlan& plan, const Vec3f& p_W) {
   });
 }
 
-void scatter(const CountryPlan& plan, Plant::Kind kind, int count, float reach_m, std::vector<Plant>& out) {
+void scatter(const LandscapePlan& plan, Plant::Kind kind, int count, float reach_m, std::vector<Plant>& out) {
   Dice dice(plan.seed, 1 + static_cast<std::uint32_t>(kind));
   const float turn = dice.within(0, 1);
   for (int tries = 0, made = 0; made < count && tries < 20 * count; ++tries) {
@@ -272,7 +272,7 @@ void scatter(const CountryPlan& plan, Plant::Kind kind, int count, float reach_m
 
 }  // namespace
 
-void add_water(const picture::MeshData& mesh_M, const Eigen::Affine3f& X_WM, CountryPlan& plan) {
+void add_water(const picture::MeshData& mesh_M, const Eigen::Affine3f& X_WM, LandscapePlan& plan) {
   for (std::size_t i = 0; i + 2 < mesh_M.indices.size(); i += 3) {
     auto& triangle = plan.waters_W.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
@@ -280,15 +280,16 @@ void add_water(const picture::MeshData& mesh_M, const Eigen::Affine3f& X_WM, Cou
   }
 }
 
-std::vector<Plant> plants_of(const CountryPlan& plan) {
+std::vector<Plant> plants_of(const LandscapePlan& plan) {
   std::vector<Plant> out;
-  scatter(plan, Plant::Kind::olive, kTrees, kCountry_m, out);
-  scatter(plan, Plant::Kind::cypress, kCypresses, kCountry_m, out);
+  scatter(plan, Plant::Kind::olive, kTrees, kTreeline_m, out);
+  scatter(plan, Plant::Kind::cypress, kCypresses, kTreeline_m, out);
   scatter(plan, Plant::Kind::brush, kBrush, kBrushland_m, out);
   return out;
 }
 
-std::vector<picture::Instance> grow(const CountryPlan& plan, const std::vector<Plant>& plants, AssetLibrary& library) {
+std::vector<picture::Instance> grow(const LandscapePlan& plan, const std::vector<Plant>& plants,
+                                    AssetLibrary& library) {
   Grown grown;
   for (const Plant& plant : plants) {
     const float coarse = coarseness(plan, plant);

@@ -6,15 +6,15 @@
 
 namespace mechane::draw {
 
-Expected<NookPass> NookPass::create() {
-  Expected<Program> nook = Program::link({"fullscreen.vert"}, {"nook.frag"});
-  if (!nook) return tl::unexpected(nook.error());
-  Expected<Program> blur = Program::link({"fullscreen.vert"}, {"nook_blur.frag"});
+Expected<AmbientOcclusionPass> AmbientOcclusionPass::create() {
+  Expected<Program> occlusion = Program::link({"fullscreen.vert"}, {"ambient_occlusion.frag"});
+  if (!occlusion) return tl::unexpected(occlusion.error());
+  Expected<Program> blur = Program::link({"fullscreen.vert"}, {"ambient_occlusion_blur.frag"});
   if (!blur) return tl::unexpected(blur.error());
-  return NookPass(std::move(*nook), std::move(*blur), make_vertex_array());
+  return AmbientOcclusionPass(std::move(*occlusion), std::move(*blur), make_vertex_array());
 }
 
-Expected<void> NookPass::draw(const HdrTarget& from, const picture::EyeView& view) {
+Expected<void> AmbientOcclusionPass::draw(const HdrTarget& from, const picture::EyeView& view) {
   const picture::PixelSize half{std::max((from.size.width + 1) / 2, 1U), std::max((from.size.height + 1) / 2, 1U)};
   for (std::optional<FloatTarget>* target : {&raw_, &even_}) {
     if (*target && (*target)->size == half) continue;
@@ -27,18 +27,18 @@ Expected<void> NookPass::draw(const HdrTarget& from, const picture::EyeView& vie
   glDisable(GL_CULL_FACE);
   glBindVertexArray(no_vertices_.get());
   raw_->bind();
-  nook_.use();
+  occlusion_.use();
   const Eigen::Matrix4f& P = view.P;
-  nook_.set("depth", 0);
-  nook_.set("depth_to_m", Eigen::Vector2f(P(2, 2), P(2, 3)));
-  nook_.set("rays", Eigen::Vector4f(1 / P(0, 0), 1 / P(1, 1), P(0, 2) / P(0, 0), P(1, 2) / P(1, 1)));
-  nook_.set("pixels_per_m", 0.5F * static_cast<float>(from.size.height) * P(1, 1));
+  occlusion_.set("depth", 0);
+  occlusion_.set("depth_to_m", Eigen::Vector2f(P(2, 2), P(2, 3)));
+  occlusion_.set("rays", Eigen::Vector4f(1 / P(0, 0), 1 / P(1, 1), P(0, 2) / P(0, 0), P(1, 2) / P(1, 1)));
+  occlusion_.set("pixels_per_m", 0.5F * static_cast<float>(from.size.height) * P(1, 1));
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, from.depth_copy.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   even_->bind();
   blur_.use();
-  blur_.set("nooks", 0);
+  blur_.set("openness", 0);
   glBindTexture(GL_TEXTURE_2D, raw_->colour.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   return {};

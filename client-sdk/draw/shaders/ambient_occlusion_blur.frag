@@ -1,16 +1,16 @@
-// Evens out the pattern of nook.frag, over its four by four places, and over no edge.
+// Evens out the pattern of ambient_occlusion.frag, over its four by four places, and over no edge.
 in vec2 place;
 out vec4 colour;
-uniform sampler2D nooks;
+uniform sampler2D openness;
 
 void main() {
-  ivec2 last = textureSize(nooks, 0) - 1;
+  ivec2 last = textureSize(openness, 0) - 1;
   ivec2 at = ivec2(gl_FragCoord.xy);
-  float far = texelFetch(nooks, at, 0).g;
+  float far = texelFetch(openness, at, 0).g;
   float sum = 0.0;
   float weights = 1e-4;
   for (int i = 0; i < 16; ++i) {
-    vec2 one = texelFetch(nooks, clamp(at + ivec2((i & 3) - 2, (i >> 2) - 2), ivec2(0), last), 0).rg;
+    vec2 one = texelFetch(openness, clamp(at + ivec2((i & 3) - 2, (i >> 2) - 2), ivec2(0), last), 0).rg;
     float w = max(1.0 - abs(one.g - far) / (0.03 * far), 0.0);
     sum += w * one.r;
     weights += w;
