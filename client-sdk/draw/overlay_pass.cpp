@@ -55,7 +55,10 @@ OverlayPass::OverlayPass(Program program, std::unique_ptr<Typesetter> typesetter
 Expected<OverlayPass> OverlayPass::create(const std::string& font_folder) {
   Expected<Program> program = Program::link({"overlay.vert"}, {"overlay.frag"});
   if (!program) return tl::unexpected(program.error());
-  Expected<std::unique_ptr<Typesetter>> typesetter = Typesetter::create(font_folder);
+  GLint most_side = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_side);
+  Expected<std::unique_ptr<Typesetter>> typesetter =
+      Typesetter::create(font_folder, static_cast<std::uint32_t>(most_side));
   if (!typesetter) return tl::unexpected(typesetter.error());
   return OverlayPass(std::move(*program), std::move(*typesetter));
 }
@@ -66,8 +69,8 @@ void OverlayPass::upload_atlas() {
   if (atlas_revision_ == typesetter_->atlas_revision()) return;
   atlas_revision_ = typesetter_->atlas_revision();
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, Typesetter::kAtlasSide, Typesetter::kAtlasSide, 0, GL_RED, GL_UNSIGNED_BYTE,
-               typesetter_->atlas().data());
+  const auto side = static_cast<GLsizei>(typesetter_->atlas_side());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, side, side, 0, GL_RED, GL_UNSIGNED_BYTE, typesetter_->atlas().data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
@@ -85,9 +88,13 @@ void OverlayPass::draw() {
   std::vector<Vertex> vertices;
   for (const OverlayShape& shape : layout_.shapes)
     add_shape(vertices, shape);
-  for (const OverlayText& text : layout_.texts) {
-    const SetLine line = typesetter_->set_line(text.face, text.size_px, text.text);
-    for (const PlacedGlyph& g : line.glyphs) {
+  std::vector<TextLine> lines;
+  for (const OverlayText& text : layout_.texts)
+    lines.push_back({text.face, text.size_px, text.text});
+  const std::vector<SetLine> set = typesetter_->set_lines(lines);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const OverlayText& text = layout_.texts[i];
+    for (const PlacedGlyph& g : set[i].glyphs) {
       const Quad quad{std::round(text.x) + g.x, text.baseline + g.y, g.width, g.height, g.u0, g.v0, g.u1, g.v1};
       add_quad(vertices, quad, text.colour, {0, 0, 0, 0});
     }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include <hb-ft.h>
@@ -63,6 +64,8 @@ class AtlasShelves {
 
 class FreeTypeTypesetter final : public Typesetter {
  public:
+  explicit FreeTypeTypesetter(std::uint32_t most_side) : most_side_(std::max(most_side, kLeastSide)) {}
+
   Expected<void> open(const std::string& folder) {
     FT_Library library = nullptr;
     if (FT_Init_FreeType(&library) != 0)
@@ -72,7 +75,7 @@ class FreeTypeTypesetter final : public Typesetter {
       const std::string path = folder + "/" + kFiles[i];
       FT_Face face = nullptr;
       if (FT_New_Face(library, path.c_str(), 0, &face) != 0) {
-        return fail("the font is missing or is no font", path,
+        return fail("the font is missing, or the file is not a font", path,
                     "install fonts-dejavu-core, or name its folder with --fonts");
       }
       faces_[i].reset(face);
@@ -83,32 +86,17 @@ class FreeTypeTypesetter final : public Typesetter {
     return {};
   }
 
-  SetLine set_line(Face face, int size_px, std::string_view utf8) override {
-    SetLine line;
-    shape(face, size_px, utf8);
-    unsigned count = 0;
-    const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer_.get(), &count);
-    const hb_glyph_position_t* positions = hb_buffer_get_glyph_positions(buffer_.get(), &count);
-    float pen = 0;
-    for (unsigned i = 0; i < count; ++i) {
-      if (infos[i].codepoint == 0) ++line.missing;
-      const AtlasPlace place = glyph(face, size_px, infos[i].codepoint);
-      if (place.width > 0) {
-        // Whole pixels keep stems sharp.
-        const float x = std::round(pen + static_cast<float>(positions[i].x_offset) * kSixtyFourths) +
-                        static_cast<float>(place.left);
-        const float y =
-            -std::round(static_cast<float>(positions[i].y_offset) * kSixtyFourths) - static_cast<float>(place.top);
-        constexpr float kSide = kAtlasSide;
-        line.glyphs.push_back({x, y, static_cast<float>(place.width), static_cast<float>(place.height),
-                               static_cast<float>(place.x) / kSide, static_cast<float>(place.y) / kSide,
-                               static_cast<float>(place.x + place.width) / kSide,
-                               static_cast<float>(place.y + place.height) / kSide});
-      }
-      pen += static_cast<float>(positions[i].x_advance) * kSixtyFourths;
-    }
-    line.width = pen;
-    return line;
+  std::vector<SetLine> set_lines(std::span<const TextLine> lines) override {
+    std::optional<std::vector<SetLine>> set = try_set(lines);
+    if (set) return *set;
+    evict(side_);
+    while (!(set = try_set(lines)) && side_ < most_side_)
+      evict(std::min(2 * side_, most_side_));
+    if (set) return *set;
+    leaves_out_ = true;
+    set = try_set(lines);
+    leaves_out_ = false;
+    return *set;
   }
 
   float width(Face face, int size_px, std::string_view utf8) override {
@@ -121,6 +109,7 @@ class FreeTypeTypesetter final : public Typesetter {
     return pen;
   }
 
+  [[nodiscard]] std::uint32_t atlas_side() const override { return side_; }
   [[nodiscard]] const std::vector<std::uint8_t>& atlas() const override { return atlas_; }
   [[nodiscard]] std::uint64_t atlas_revision() const override { return revision_; }
 
@@ -143,14 +132,57 @@ class FreeTypeTypesetter final : public Typesetter {
     hb_shape(fonts_[static_cast<std::size_t>(face)].get(), buffer_.get(), nullptr, 0);
   }
 
-  AtlasPlace glyph(Face face, int size_px, std::uint32_t index) {
+  /// Nothing: the atlas is full.
+  std::optional<std::vector<SetLine>> try_set(std::span<const TextLine> lines) {
+    std::vector<SetLine> out;
+    out.reserve(lines.size());
+    for (const TextLine& line : lines) {
+      std::optional<SetLine> set = set_line(line);
+      if (!set) return std::nullopt;
+      out.push_back(std::move(*set));
+    }
+    return out;
+  }
+
+  std::optional<SetLine> set_line(const TextLine& text) {
+    SetLine line;
+    shape(text.face, text.size_px, text.utf8);
+    unsigned count = 0;
+    const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer_.get(), &count);
+    const hb_glyph_position_t* positions = hb_buffer_get_glyph_positions(buffer_.get(), &count);
+    const auto side = static_cast<float>(side_);
+    float pen = 0;
+    for (unsigned i = 0; i < count; ++i) {
+      if (infos[i].codepoint == 0) ++line.missing;
+      const std::optional<AtlasPlace> place = glyph(text.face, text.size_px, infos[i].codepoint);
+      if (!place && !leaves_out_) return std::nullopt;
+      if (place && place->width > 0) {
+        // Whole pixels keep stems sharp.
+        const float x = std::round(pen + static_cast<float>(positions[i].x_offset) * kSixtyFourths) +
+                        static_cast<float>(place->left);
+        const float y =
+            -std::round(static_cast<float>(positions[i].y_offset) * kSixtyFourths) - static_cast<float>(place->top);
+        line.glyphs.push_back({x, y, static_cast<float>(place->width), static_cast<float>(place->height),
+                               static_cast<float>(place->x) / side, static_cast<float>(place->y) / side,
+                               static_cast<float>(place->x + place->width) / side,
+                               static_cast<float>(place->y + place->height) / side});
+      }
+      pen += static_cast<float>(positions[i].x_advance) * kSixtyFourths;
+    }
+    line.width = pen;
+    return line;
+  }
+
+  /// Nothing: the atlas is full. A blank has a place of no width.
+  std::optional<AtlasPlace> glyph(Face face, int size_px, std::uint32_t index) {
     const GlyphKey key{face, size_px, index};
     if (const auto found = places_.find(key); found != places_.end()) return found->second;
     FT_Face font = faces_[static_cast<std::size_t>(face)].get();
     AtlasPlace place;
     if (FT_Load_Glyph(font, index, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) == 0) {
       const FT_Bitmap& bitmap = font->glyph->bitmap;
-      if (bitmap.width > 0 && shelves_.place(bitmap.width, bitmap.rows, kAtlasSide, place)) {
+      if (bitmap.width > 0) {
+        if (!shelves_.place(bitmap.width, bitmap.rows, side_, place)) return std::nullopt;
         place.width = bitmap.width;
         place.height = bitmap.rows;
         place.left = font->glyph->bitmap_left;
@@ -158,16 +190,23 @@ class FreeTypeTypesetter final : public Typesetter {
         copy(bitmap, place);
       }
     }
-    // A full atlas leaves later glyphs blank; at the sizes of a display that takes some two thousand glyphs.
     places_.emplace(key, place);
     return place;
+  }
+
+  /// Forgets all glyphs; the atlas has this side from now on.
+  void evict(std::uint32_t side) {
+    places_.clear();
+    shelves_.clear();
+    side_ = side;
+    atlas_.assign(std::size_t{side} * side, 0);
+    ++revision_;
   }
 
   void copy(const FT_Bitmap& bitmap, const AtlasPlace& place) {
     for (std::uint32_t row = 0; row < bitmap.rows; ++row) {
       const std::uint8_t* from = bitmap.buffer + static_cast<std::ptrdiff_t>(row) * bitmap.pitch;
-      std::copy_n(from, bitmap.width,
-                  atlas_.begin() + static_cast<std::ptrdiff_t>(place.y + row) * kAtlasSide + place.x);
+      std::copy_n(from, bitmap.width, atlas_.begin() + static_cast<std::ptrdiff_t>(place.y + row) * side_ + place.x);
     }
     ++revision_;
   }
@@ -178,14 +217,17 @@ class FreeTypeTypesetter final : public Typesetter {
   std::unique_ptr<hb_buffer_t, BufferCloser> buffer_{hb_buffer_create()};
   std::map<GlyphKey, AtlasPlace> places_;
   AtlasShelves shelves_;
-  std::vector<std::uint8_t> atlas_ = std::vector<std::uint8_t>(std::size_t{kAtlasSide} * kAtlasSide);
+  std::uint32_t most_side_;
+  std::uint32_t side_ = kLeastSide;
+  bool leaves_out_ = false;  ///< the atlas cannot grow any more
+  std::vector<std::uint8_t> atlas_ = std::vector<std::uint8_t>(std::size_t{kLeastSide} * kLeastSide);
   std::uint64_t revision_ = 1;
 };
 
 }  // namespace
 
-Expected<std::unique_ptr<Typesetter>> Typesetter::create(const std::string& font_folder) {
-  auto typesetter = std::make_unique<FreeTypeTypesetter>();
+Expected<std::unique_ptr<Typesetter>> Typesetter::create(const std::string& font_folder, std::uint32_t most_side) {
+  auto typesetter = std::make_unique<FreeTypeTypesetter>(most_side);
   if (auto ok = typesetter->open(font_folder); !ok) return tl::unexpected(ok.error());
   return typesetter;
 }

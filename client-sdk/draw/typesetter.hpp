@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,13 @@ struct PlacedGlyph {
   float u0 = 0, v0 = 0, u1 = 0, v1 = 0;
 };
 
+/// One line of UTF-8 to be set at a size in pixels; broken UTF-8 comes out as the font's replacement character.
+struct TextLine {
+  Face face = Face::regular;
+  int size_px = 16;
+  std::string_view utf8;
+};
+
 struct SetLine {
   std::vector<PlacedGlyph> glyphs;  ///< blanks are left out
   float width = 0;                  ///< how far the pen moved, pixels
@@ -28,18 +36,24 @@ struct SetLine {
 /// Called from one thread.
 class Typesetter {
  public:
-  /// Errors: a font of DejaVu (package fonts-dejavu-core) is not in the folder, or is not a font.
-  [[nodiscard]] static Expected<std::unique_ptr<Typesetter>> create(const std::string& font_folder);
+  /// `most_side`: how wide the graphics card lets the atlas become, pixels. Errors: a font of DejaVu (package fonts-dejavu-core) is
+  /// not in the folder, or is not a font.
+  [[nodiscard]] static Expected<std::unique_ptr<Typesetter>> create(const std::string& font_folder,
+                                                                    std::uint32_t most_side = kLeastSide);
   virtual ~Typesetter() = default;
 
-  /// Sets one line of UTF-8 at a size in pixels; broken UTF-8 comes out as the font's replacement character.
-  [[nodiscard]] virtual SetLine set_line(Face face, int size_px, std::string_view utf8) = 0;
+  /// Sets all lines of a picture. Their places in the atlas hold until the next call: where the atlas is full, glyphs of earlier
+  /// pictures are evicted; where this picture's glyphs alone need more room, the atlas grows. Only at `most_side` are glyphs left out.
+  [[nodiscard]] virtual std::vector<SetLine> set_lines(std::span<const TextLine> lines) = 0;
   /// Width alone, without drawing glyphs.
   [[nodiscard]] virtual float width(Face face, int size_px, std::string_view utf8) = 0;
 
-  static constexpr std::uint32_t kAtlasSide = 1024;
+  /// The atlas's side at first; each OpenGL has textures of this size.
+  static constexpr std::uint32_t kLeastSide = 1024;
+  /// Pixels along a side of the atlas, now.
+  [[nodiscard]] virtual std::uint32_t atlas_side() const = 0;
   [[nodiscard]] virtual const std::vector<std::uint8_t>& atlas() const = 0;
-  /// Grows with each glyph that is new in the atlas.
+  /// Changes whenever the atlas does.
   [[nodiscard]] virtual std::uint64_t atlas_revision() const = 0;
 };
 
