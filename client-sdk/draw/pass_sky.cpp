@@ -5,7 +5,7 @@
 namespace mechane::draw {
 
 Expected<SkyPass> SkyPass::create() {
-  Expected<Program> program = Program::link({"fullscreen.vert"}, {"sky.glsl", "noise.glsl", "sky.frag"});
+  Expected<Program> program = Program::link({"fullscreen.vert"}, {"sky.glsl", "noise.glsl", "clouds.glsl", "sky.frag"});
   if (!program) return tl::unexpected(program.error());
   return SkyPass(std::move(*program), make_vertex_array());
 }

@@ -69,8 +69,9 @@ Vec3f irradiance(const SkyHarmonics& sh, const Vec3f& n_W) {
   return sum.cwiseMax(0.0F);
 }
 
-Expected<std::vector<Vec3f>> draw_sky_map(const picture::Sun& sun, picture::PixelSize size) {
-  Expected<Program> program = Program::link({"fullscreen.vert"}, {"sky.glsl", "sky_map.frag"});
+Expected<std::vector<Vec3f>> draw_sky_map(const picture::Sun& sun, picture::PixelSize size, Clouds clouds) {
+  Expected<Program> program =
+      Program::link({"fullscreen.vert"}, {"sky.glsl", "noise.glsl", "clouds.glsl", "sky_map.frag"});
   if (!program) return tl::unexpected(program.error());
   Expected<FloatTarget> target = FloatTarget::create(size);
   if (!target) return tl::unexpected(target.error());
@@ -81,6 +82,7 @@ Expected<std::vector<Vec3f>> draw_sky_map(const picture::Sun& sun, picture::Pixe
   glDisable(GL_CULL_FACE);
   program->use();
   program->set("to_sun", Vec3f(sun.to_sun_W.normalized()));
+  program->set("clouds", clouds == Clouds::drawn ? 1 : 0);
   glBindVertexArray(no_vertices.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   return target->read();
@@ -88,7 +90,7 @@ Expected<std::vector<Vec3f>> draw_sky_map(const picture::Sun& sun, picture::Pixe
 
 Expected<SkyLight> bake_sky(const picture::Sun& sun) {
   constexpr picture::PixelSize kMap{96, 48};
-  const Expected<std::vector<Vec3f>> map = draw_sky_map(sun, kMap);
+  const Expected<std::vector<Vec3f>> map = draw_sky_map(sun, kMap, Clouds::drawn);
   if (!map) return tl::unexpected(map.error());
   const Expected<TextureName> sharp = draw_sky_cube(sun);
   if (!sharp) return tl::unexpected(sharp.error());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,12 +26,15 @@ using SkyHarmonics = std::array<Vec3f, 9>;
 /// The irradiance on a surface with unit normal n_W: what lighting.glsl computes.
 [[nodiscard]] Vec3f irradiance(const SkyHarmonics& sh, const Vec3f& n_W);
 
-/// The sky of sky.glsl as such a map. Needs a current context.
-[[nodiscard]] Expected<std::vector<Vec3f>> draw_sky_map(const picture::Sun& sun, picture::PixelSize size);
+enum class Clouds : std::uint8_t { drawn, none };
+
+/// The sky of sky.glsl as such a map; with clouds, as the picture's background has them. Needs a current context.
+[[nodiscard]] Expected<std::vector<Vec3f>> draw_sky_map(const picture::Sun& sun, picture::PixelSize size,
+                                                        Clouds clouds);
 
 struct SkyLight {
   SkyHarmonics harmonics{};
-  TextureName cube;  ///< see sky_cube.hpp
+  TextureName cube;  ///< without clouds, see sky_cube.hpp
 };
 
 /// Needs a current context.

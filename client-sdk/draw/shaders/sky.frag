@@ -19,13 +19,7 @@ float trees(vec3 d) {
 void main() {
   vec4 p = R_WP * vec4(place * 2.0 - 1.0, 1.0, 1.0);
   vec3 d = normalize(p.xyz / p.w);
-  vec3 sky = sky_radiance(d);
-  if (d.y > 0.0) {
-    // Thin high cloud, drawn out by the wind.
-    vec2 q = d.xz / (d.y + 0.12) * vec2(0.9, 2.2);
-    float cloud = value_noise(q) * 0.5 + value_noise(q * 2.3 + 4.0) * 0.3 + value_noise(q * 5.1 + 9.0) * 0.2;
-    sky = mix(sky, vec3(1.02, 0.99, 0.95), 0.55 * smoothstep(0.48, 0.80, cloud) * smoothstep(0.02, 0.25, d.y));
-  }
+  vec3 sky = with_clouds(sky_radiance(d), d);
   float elevation = d.y / max(length(d.xz), 1e-4);
   float soft = max(fwidth(elevation), 1e-5);
   vec3 far_hills = mix(vec3(0.16, 0.21, 0.25), haze_colour(), 0.72);

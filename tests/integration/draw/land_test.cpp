@@ -71,7 +71,7 @@ TEST_F(DrawnPicture, earth_that_goes_under_the_plain_has_no_rim) {
     return slope - plain;
   };
   const double step = lighter_by(0.4F);
-  EXPECT_GT(step, 14) << "a step of earth is seen as one";
+  EXPECT_GT(step, 12) << "a step of earth is seen as one";
   EXPECT_LT(std::abs(lighter_by(0)), 0.5 * step);
 }
 

@@ -66,6 +66,18 @@ TEST_F(ShadowPicture, what_is_near_and_what_is_far_throws_one) {
   }
 }
 
+TEST_F(ShadowPicture, on_light_ground_it_is_cool_and_not_blue) {
+  NearAndFar floor;
+  // Limestone, and the wall's shadow on it.
+  floor.assets.materials[0].base_colour = Eigen::Vector4f(0.60F, 0.57F, 0.50F, 1);
+  const picture::ImageData image = draw(floor.assets, floor.scene);
+  const Vec3 shadow = colour_at(image, pixel_of(floor.scene, Vec3(1.0, 0, -30)), 1);
+  const Vec3 lit = colour_at(image, pixel_of(floor.scene, Vec3(-3.0, 0, -30)), 1);
+  EXPECT_LT(shadow.y(), lit.y() - 40) << "there is a shadow";
+  EXPECT_LT(shadow.z() / shadow.x(), 1.55) << "as displayed: " << shadow.transpose();
+  EXPECT_GT(shadow.z() / shadow.x(), lit.z() / lit.x()) << "only the sky lights it";
+}
+
 TEST_F(ShadowPicture, edges_are_softer_the_higher_up_they_come_from) {
   NearAndFar board;
   board.assets.meshes.push_back(picture::box_mesh(Vec3(0.4, 0.01, 0.4)));

@@ -75,6 +75,20 @@ Vec3f looked_up(const Texels& map, picture::PixelSize size, const Vec3f& d) {
          v * ((1 - u) * pixel(column, row + 1) + u * pixel(column + 1, row + 1));
 }
 
+/// Skylight on level ground is measured as daylight of 10,000 to 15,000 K; linear sRGB of CIE's daylight has this much more blue than red there.
+constexpr float kBlueOverRed10000K = 1.70F;
+constexpr float kBlueOverRed15000K = 2.29F;
+
+class SkyLightColour : public DrawnPicture {};
+
+TEST_F(SkyLightColour, is_that_of_measured_skylight) {
+  const auto light = bake_sky(picture::Sun{});
+  ASSERT_TRUE(light.has_value());
+  const Vec3f level = irradiance(light->harmonics, Vec3f::UnitY());
+  EXPECT_LT(level.z() / level.x(), kBlueOverRed15000K) << level.transpose();
+  EXPECT_GT(level.z() / level.x(), kBlueOverRed10000K) << level.transpose();
+}
+
 class SkyCube : public DrawnPicture {
  protected:
   static Texels level(const TextureName& cube, int k) { return read_cube(cube, k); }
@@ -84,7 +98,7 @@ class SkyCube : public DrawnPicture {
 TEST_F(SkyCube, a_smooth_mirror_sees_the_sky_itself) {
   const picture::Sun sun;
   constexpr picture::PixelSize kMap{1024, 512};
-  const auto map = draw_sky_map(sun, kMap);
+  const auto map = draw_sky_map(sun, kMap, Clouds::none);
   ASSERT_TRUE(map.has_value());
   const auto light = bake_sky(sun);
   ASSERT_TRUE(light.has_value());
