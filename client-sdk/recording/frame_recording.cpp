@@ -1,9 +1,11 @@
 #include "client-sdk/recording/frame_recording.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <iterator>
 #include <system_error>
 
@@ -12,6 +14,7 @@
 
 #include "client-sdk/recording/recording_codec.hpp"
 #include "server/base/byte_order.hpp"
+#include "server/base/worker.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::recording {
@@ -58,30 +61,67 @@ void RecordingWriter::add(RecordKind kind, Duration time, std::span<const std::b
   sink.append(timed.data(), timed.size());
 }
 
+/// The file, and the thread that writes it.
+class FrameRecorder::Disk {
+ public:
+  Disk(std::filesystem::path path, std::ofstream file) : path_(std::move(path)), file_(std::move(file)) {}
+
+  /// Queues bytes. False: the file takes no more, and the log says why.
+  [[nodiscard]] bool write(std::vector<std::byte> bytes) {
+    if (failed_) return false;
+    if (waiting_.fetch_add(bytes.size()) > kMostWaitingBytes) {
+      tell("ends here: the disk is too slow for it");
+      return false;
+    }
+    worker_.give([this, bytes = std::move(bytes)] { write_now(bytes); });
+    return true;
+  }
+  void tell(const std::string& what) const {
+    log::warning(fmt::format("the recording {} {}; the display goes on", path_.string(), what));
+  }
+
+ private:
+  /// To the disk as it comes: whoever kills a display still has the recording.
+  void write_now(const std::vector<std::byte>& bytes) {
+    waiting_ -= bytes.size();
+    if (failed_) return;
+    file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file_.flush();
+    failed_ = !file_;
+    if (failed_) tell("ends here, it cannot be written: " + std::generic_category().message(errno));
+  }
+
+  std::filesystem::path path_;
+  std::ofstream file_;  // the worker's alone
+  std::atomic<std::uint64_t> waiting_{0};
+  std::atomic<bool> failed_{false};
+  Worker worker_{"recording"};  // last: its jobs use what is above
+};
+
 Expected<FrameRecorder> FrameRecorder::create(const std::filesystem::path& path, const RecorderSettings& settings) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   if (!file) {
     return fail("the recording cannot be written: " + std::generic_category().message(errno), path.string(),
                 "choose another file with --record");
   }
-  return FrameRecorder(path, std::move(file), settings);
+  return FrameRecorder(std::make_unique<Disk>(path, std::move(file)), settings);
 }
 
-FrameRecorder::FrameRecorder(std::filesystem::path path, std::ofstream file, const RecorderSettings& settings)
-    : path_(std::move(path)), file_(std::move(file)), settings_(settings) {
+FrameRecorder::FrameRecorder(std::unique_ptr<Disk> disk, const RecorderSettings& settings)
+    : disk_(std::move(disk)), settings_(settings) {
   settings_.limit_bytes = std::min(settings_.limit_bytes, kMaxRecordingBytes);
 }
 
+FrameRecorder::FrameRecorder(FrameRecorder&&) noexcept = default;
+
 FrameRecorder::~FrameRecorder() {
-  if (!file_.is_open()) return;
-  writer_.add(RecordKind::end, Duration{0}, {});
-  write();
+  if (disk_ && goes_on_) write_end();
 }
 
 void FrameRecorder::hear(TimePoint now, const client::WorldStatus& status,
                          const client::WorldPresentation* presentation,
                          const std::vector<client::SceneObject>& manifest, const client::Frame* newest) {
-  if (!file_.is_open()) return;
+  if (!goes_on_) return;
   if (status_.empty() || status.world != world_) begin_world(status.world);
   // Not later than the frame that comes with it: times never fall, and it is frames that are seen to be late.
   const Duration at = newest != nullptr ? std::min(time_of(*newest), time_of(now)) : time_of(now);
@@ -117,7 +157,7 @@ void FrameRecorder::add_frame(const client::Frame& frame, Duration at) {
 }
 
 void FrameRecorder::hear(TimePoint now, std::span<const client::WorldEvent> events) {
-  if (!file_.is_open() || status_.empty()) return;
+  if (!goes_on_ || status_.empty()) return;
   for (const client::WorldEvent& event : events)
     add(RecordKind::event, time_of(now), encode(event));
 }
@@ -142,23 +182,20 @@ Duration FrameRecorder::time_of(const client::Frame& frame) {
   return received;
 }
 
-/// To the disk as it comes: who kills a display still has the recording.
 void FrameRecorder::write() {
-  const std::vector<std::byte> bytes = writer_.take_bytes();
+  std::vector<std::byte> bytes = writer_.take_bytes();
   if (bytes.empty()) return;
   written_ += bytes.size();
-  file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file_.flush();
-  if (!file_) return stop("cannot be written: " + std::generic_category().message(errno));
-  if (written_ < settings_.limit_bytes || std::exchange(full_, true)) return;
-  writer_.add(RecordKind::end, Duration{0}, {});
-  write();
-  stop("is full");
+  goes_on_ = disk_->write(std::move(bytes));
+  if (!goes_on_ || written_ < settings_.limit_bytes) return;
+  write_end();
+  disk_->tell("is as large as it may be and ends here");
 }
 
-void FrameRecorder::stop(const std::string& why) {
-  log::warning(fmt::format("the recording {} {}; it ends here, the display goes on", path_.string(), why));
-  file_.close();
+void FrameRecorder::write_end() {
+  goes_on_ = false;
+  writer_.add(RecordKind::end, Duration{0}, {});
+  (void)disk_->write(writer_.take_bytes());
 }
 
 Expected<FrameRecording> FrameRecording::open_file(const std::filesystem::path& path) {

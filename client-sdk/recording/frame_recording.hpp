@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,14 +57,18 @@ struct RecorderSettings {
   std::uint64_t limit_bytes = std::uint64_t{256} << 20U;
 };
 
-/// Writes a recording while a display runs. Called on the display's thread; a full disk, or a full measure, ends the recording with a line in the
-/// log and nothing else. The file is whole once the recorder is destroyed; before, all but its last moment is on the disk.
+/// Writes a recording while a display runs. Called on the display's thread, which never waits for the disk: a thread of the recorder's own
+/// writes. A full disk, a disk that is too slow, or the limit of its size ends the recording with a line in the log and nothing else. The file
+/// is whole once the recorder is destroyed; before, all but its last moment is on the disk.
 class FrameRecorder {
  public:
+  /// So much may wait for the disk, which is a minute of most worlds.
+  static constexpr std::uint64_t kMostWaitingBytes = std::uint64_t{16} << 20U;
+
   /// Takes the place of a file of that name. Errors: it cannot be written.
   [[nodiscard]] static Expected<FrameRecorder> create(const std::filesystem::path& path,
                                                       const RecorderSettings& settings);
-  FrameRecorder(FrameRecorder&&) noexcept = default;
+  FrameRecorder(FrameRecorder&&) noexcept;
   FrameRecorder& operator=(FrameRecorder&&) = delete;
   ~FrameRecorder();
 
@@ -76,22 +80,22 @@ class FrameRecorder {
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
  private:
-  FrameRecorder(std::filesystem::path path, std::ofstream file, const RecorderSettings& settings);
+  class Disk;
+  FrameRecorder(std::unique_ptr<Disk> disk, const RecorderSettings& settings);
   void begin_world(const std::string& world);
   void add_frame(const client::Frame& frame, Duration at);
   void add(RecordKind kind, Duration time, std::span<const std::byte> payload);
   [[nodiscard]] Duration time_of(TimePoint now);
   [[nodiscard]] Duration time_of(const client::Frame& frame);
   void write();
-  void stop(const std::string& why);
+  void write_end();
 
-  std::filesystem::path path_;
-  std::ofstream file_;
+  std::unique_ptr<Disk> disk_;  ///< null where this was moved from
+  bool goes_on_ = true;
   RecorderSettings settings_;
   RecordingWriter writer_;
   std::optional<TimePoint> began_;
   std::uint64_t written_ = 0;
-  bool full_ = false;
   std::uint64_t frames_ = 0;
   // Of the world at hand.
   std::string world_;
