@@ -70,69 +70,58 @@ PointerLink::PointerLink(std::string kiosk, std::uint32_t domain)
     : kiosk_(std::move(kiosk)), domain_(domain), thread_([this] { run(); }) {}
 
 PointerLink::~PointerLink() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  wanted_.notify_all();
+  stop_ = true;
+  exchange_.wake();
   thread_.join();
 }
 
 void PointerLink::press(const picture::Sight& sight, picture::PixelPlace place, const picture::Touched& touched) {
-  {
-    const std::lock_guard lock(mutex_);
-    hand_.press(sight, place, touched);
-  }
-  wanted_.notify_all();
+  exchange_.act({PointerAct::Kind::press, place, 0, sight, touched});
 }
 
 void PointerLink::move(picture::PixelPlace place) {
-  const std::lock_guard lock(mutex_);
-  hand_.move(place);
+  exchange_.act({PointerAct::Kind::move, place});
 }
 
 void PointerLink::deepen(double notches) {
-  const std::lock_guard lock(mutex_);
-  hand_.deepen(notches);
+  exchange_.act({PointerAct::Kind::deepen, {}, notches});
 }
 
 void PointerLink::turn(double angle_rad) {
-  const std::lock_guard lock(mutex_);
-  hand_.turn(angle_rad);
+  exchange_.act({PointerAct::Kind::turn, {}, angle_rad});
 }
 
 void PointerLink::release() {
-  const std::lock_guard lock(mutex_);
-  hand_.release();
+  exchange_.act({PointerAct::Kind::release});
 }
 
-PointerView PointerLink::view() const {
-  const std::lock_guard lock(mutex_);
-  return hand_.view();
+void PointerLink::show(PointerLinkState state) {
+  state_ = state;
+  exchange_.publish(state);
 }
 
-PointerLinkState PointerLink::state() const {
-  const std::lock_guard lock(mutex_);
-  return state_;
-}
-
-bool PointerLink::resting() const {
-  return hand_.view().phase == PointerView::Phase::resting;
+bool PointerLink::wait_for_touch(Duration longest) {
+  SystemClock clock;
+  const TimePoint until = clock.now() + longest;
+  for (;;) {
+    exchange_.take_acts();
+    if (stop_) return false;
+    if (!exchange_.resting()) return true;
+    show(state_);
+    const TimePoint now = clock.now();
+    if (now >= until) return false;
+    exchange_.wait(until - now);
+  }
 }
 
 void PointerLink::run() {
   pthread_setname_np(pthread_self(), "pointer-hand");
-  for (;;) {
-    {
-      Lock lock(mutex_);
-      wanted_.wait(lock, [this] { return stop_ || !resting(); });
-      if (stop_) return;
-      state_ = PointerLinkState::waiting;
-    }
+  while (!stop_) {
+    if (!wait_for_touch(kStays)) continue;
+    show(PointerLinkState::waiting);
     const std::unique_ptr<client::Client> client = open();
     if (client) serve(*client);
-    const std::lock_guard lock(mutex_);
-    if (state_ != PointerLinkState::refused) state_ = PointerLinkState::none;
+    if (state_ != PointerLinkState::refused) show(PointerLinkState::none);
   }
 }
 
@@ -154,13 +143,14 @@ std::unique_ptr<client::Client> PointerLink::open() {
     const auto look_again = std::chrono::milliseconds(20);
     while ((*client)->state() != LinkState::refused) {
       if ((*client)->wait_for(LinkState::joined, look_again)) return std::move(*client);
-      const std::lock_guard lock(mutex_);
-      if (stop_ || resting()) return std::move(*client);
+      exchange_.take_acts();
+      show(PointerLinkState::waiting);
+      if (stop_ || exchange_.resting()) return std::move(*client);
     }
   }
-  const std::lock_guard lock(mutex_);
-  state_ = PointerLinkState::refused;
-  hand_ = PointerHand();
+  exchange_.take_acts();
+  exchange_.hand() = PointerHand();
+  show(PointerLinkState::refused);
   return nullptr;
 }
 
@@ -182,31 +172,30 @@ void PointerLink::serve(client::Client& client) {
   SystemClock clock;
   TimePoint last = clock.now();
   TimePoint touched = last;
+  PointerHand& hand = exchange_.hand();
   while (last - touched < kStays) {
     const TimePoint now = clock.now();
     look(client, sensed);
-    Lock lock(mutex_);
+    exchange_.take_acts();
     if (stop_) return;
-    state_ = client.state() == LinkState::joined ? PointerLinkState::joined : PointerLinkState::waiting;
-    const bool joined = state_ == PointerLinkState::joined;
-    // Who holds nothing yet may wait for the server; else the server has let go of everything.
-    if (!joined && hand_.view().phase != PointerView::Phase::reaching) hand_ = PointerHand();
+    const bool joined = client.state() == LinkState::joined;
+    state_ = joined ? PointerLinkState::joined : PointerLinkState::waiting;
+    // A hand that holds nothing yet may wait for the server; else the server has let go of everything.
+    if (!joined && hand.view().phase != PointerView::Phase::reaching) hand = PointerHand();
     if (client.state() == LinkState::refused) return;
-    if (resting()) {
-      wanted_.wait_for(lock, kStays, [this] { return stop_ || !resting(); });
-      last = clock.now();
-      if (resting()) return;
-      touched = last;
+    if (exchange_.resting()) {
+      if (!wait_for_touch(kStays)) return;
+      last = touched = clock.now();
       sensed.looks = 0;  // what was seen before is old
       continue;
     }
     touched = now;
-    const auto senses = sensed.of(hand_.view().object);
+    const auto senses = sensed.of(hand.view().object);
     std::optional<client::HandSample> input;
     // A hand that nobody hears does not move on.
-    if (senses && joined) input = hand_.advance(to_seconds(now - last), *senses);
+    if (senses && joined) input = hand.advance(to_seconds(now - last), *senses);
     last = now;
-    lock.unlock();
+    show(state_);
     if (input) (void)client.send(*input);
     clock.sleep_until(now + kSendEvery);
   }

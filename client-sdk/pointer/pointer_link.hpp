@@ -2,25 +2,16 @@
 // picture does not make a slow hand.
 #pragma once
 
-#include <condition_variable>
+#include <atomic>
 #include <cstdint>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
-#include "client-sdk/pointer/pointer_hand.hpp"
+#include "client-sdk/pointer/pointer_exchange.hpp"
 #include <mechane/client/client.hpp>
 
 namespace mechane::pointer {
-
-/// How the hand stands with the server.
-enum class PointerLinkState : std::uint8_t {
-  none,     ///< nobody touched for a while: no session
-  waiting,  ///< for the server
-  joined,
-  refused,  ///< every hand of the kiosk has an owner
-};
 
 /// A hand that a pointer moves.
 class PointerTouch {
@@ -31,13 +22,13 @@ class PointerTouch {
   virtual void deepen(double notches) = 0;
   virtual void turn(double angle_rad) = 0;
   virtual void release() = 0;
-  [[nodiscard]] virtual PointerView view() const = 0;
-  [[nodiscard]] virtual PointerLinkState state() const = 0;
+  [[nodiscard]] virtual PointerView view() = 0;
+  [[nodiscard]] virtual PointerLinkState state() = 0;
 };
 
 /// The session opens with the first press and ends when nobody has touched for half a minute, so that a picture that is only looked at
 /// takes no hand of the world. It takes the kiosk's last free hand: devices count from the first. Between touches nothing is sent.
-/// The functions are one thread's, the display's; none of them waits for the network.
+/// The functions are one thread's, the display's; none of them waits for the network or for the hand's thread.
 class PointerLink final : public PointerTouch {
  public:
   PointerLink(std::string kiosk, std::uint32_t domain);
@@ -51,27 +42,26 @@ class PointerLink final : public PointerTouch {
   void turn(double angle_rad) override;
   void release() override;
 
-  [[nodiscard]] PointerView view() const override;
-  [[nodiscard]] PointerLinkState state() const override;
+  [[nodiscard]] PointerView view() override { return exchange_.view(); }
+  [[nodiscard]] PointerLinkState state() override { return exchange_.state(); }
 
  private:
-  using Lock = std::unique_lock<std::mutex>;
   struct Sensed;
   void run();
   /// One touch after another, until nobody has touched for long.
   void serve(client::Client& client);
   void look(client::Client& client, Sensed& sensed) const;
   [[nodiscard]] std::unique_ptr<client::Client> open();
-  [[nodiscard]] bool resting() const;
+  /// False: nobody touched, or the link ends.
+  [[nodiscard]] bool wait_for_touch(Duration longest);
+  void show(PointerLinkState state);
 
   const std::string kiosk_;
   const std::uint32_t domain_;
-  mutable std::mutex mutex_;  // for what follows
-  std::condition_variable wanted_;
-  bool stop_ = false;
-  PointerHand hand_;
-  PointerLinkState state_ = PointerLinkState::none;
-  std::thread thread_;  // last
+  PointerExchange exchange_;
+  std::atomic<bool> stop_{false};
+  PointerLinkState state_ = PointerLinkState::none;  ///< the hand's thread's
+  std::thread thread_;                               ///< last
 };
 
 }  // namespace mechane::pointer

@@ -184,8 +184,8 @@ class HandNearby final : public PointerTouch {
   void deepen(double notches) override { hand_.deepen(notches); }
   void turn(double angle_rad) override { hand_.turn(angle_rad); }
   void release() override { hand_.release(); }
-  [[nodiscard]] PointerView view() const override { return hand_.view(); }
-  [[nodiscard]] PointerLinkState state() const override { return PointerLinkState::joined; }
+  [[nodiscard]] PointerView view() override { return hand_.view(); }
+  [[nodiscard]] PointerLinkState state() override { return PointerLinkState::joined; }
 
   void pass(double seconds) {
     constexpr double kStep_s = 0.002;
