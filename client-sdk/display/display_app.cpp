@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include "client-sdk/display/display_loop.hpp"
+#include "client-sdk/display/kiosk_setup.hpp"
 #include "server/base/assert.hpp"
 #include "server/log/log.hpp"
 

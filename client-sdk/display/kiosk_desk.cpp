@@ -103,17 +103,14 @@ void KioskDesk::say(client::WishAnswer answer) {
   next_report_ = {};  // who asked is waiting
 }
 
-void KioskDesk::say_picture(const std::string& file, const std::string& refusal) {
-  for (const std::uint64_t id : std::exchange(picture_for_, {}))
-    say({id, refusal, file});
+void KioskDesk::picture_taken(const std::vector<std::uint64_t>& requests, const std::string& file) {
+  for (const std::uint64_t id : requests)
+    say({id, "", file});
 }
 
-void KioskDesk::picture_taken(const std::string& file) {
-  say_picture(file, "");
-}
-
-void KioskDesk::picture_failed(const Error& error) {
-  say_picture("", error.to_string());
+void KioskDesk::picture_failed(const std::vector<std::uint64_t>& requests, const Error& error) {
+  for (const std::uint64_t id : requests)
+    say({id, error.to_string(), ""});
 }
 
 void KioskDesk::report(const DisplayFacts& facts, TimePoint now) {

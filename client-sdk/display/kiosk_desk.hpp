@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client-sdk/draw/gl_context.hpp"
@@ -94,10 +95,12 @@ class KioskDesk {
   /// Answers what was wished. True where settings changed. `style`: as visitors have it now, with keys of their own.
   [[nodiscard]] bool take_wishes(const picture::OverlayStyle& style);
   [[nodiscard]] const client::DisplaySettings& settings() const { return settings_; }
-  /// Somebody wished for a picture; taken() or failed() answers.
+  /// Somebody asked for a picture.
   [[nodiscard]] bool picture_wanted() const { return !picture_for_.empty(); }
-  void picture_taken(const std::string& file);
-  void picture_failed(const Error& error);
+  /// The ids of those requests: one picture is taken for all of them, and its file, or why there is none, is their answer.
+  [[nodiscard]] std::vector<std::uint64_t> take_picture_requests() { return std::exchange(picture_for_, {}); }
+  void picture_taken(const std::vector<std::uint64_t>& requests, const std::string& file);
+  void picture_failed(const std::vector<std::uint64_t>& requests, const Error& error);
 
   void drawn(Duration took, TimePoint now) { meter_.drawn(took, now); }
   [[nodiscard]] bool report_due(TimePoint now) const { return now >= next_report_; }
@@ -106,7 +109,6 @@ class KioskDesk {
  private:
   void answer(const client::DisplayWish& wish);
   void say(client::WishAnswer answer);
-  void say_picture(const std::string& file, const std::string& refusal);
 
   client::Client& client_;
   DisplayIdentity identity_;
@@ -116,7 +118,7 @@ class KioskDesk {
   TimePoint began_;
   TimePoint next_report_;
   std::string host_;
-  std::vector<std::uint64_t> picture_for_;  ///< ids of wishes
+  std::vector<std::uint64_t> picture_for_;  ///< ids of wishes that no picture was taken for yet
   std::deque<client::WishAnswer> answers_;
 };
 

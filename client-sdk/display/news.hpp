@@ -1,0 +1,68 @@
+// What a display hears from its client: the world, its newest frame, the visitor's head. It also records this, and writes into the log what
+// whoever looks after the kiosk must know.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client-sdk/display/display_app.hpp"
+#include "client-sdk/display/head_view.hpp"
+#include "client-sdk/scene/shown_world.hpp"
+
+namespace mechane::display {
+
+/// Two frames of a world that sends sixty a second: the picture is late by this, and smooth because of it.
+inline constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
+
+/// On the display's thread. `options` and `source` outlive it.
+class News {
+ public:
+  News(const DisplayOptions& options, DisplaySource& source, scene::AssetSource assets)
+      : source_(source),
+        client_(*source.client),
+        knows_screen_(options.screen.known()),
+        world_(std::move(assets), options.language),
+        head_(options.screen) {}
+
+  /// Once a picture: takes status, manifest, frame and head as they are now, and records them.
+  [[nodiscard]] scene::ShownWorld::News take(TimePoint now);
+  /// What happened since the last call; recorded too.
+  [[nodiscard]] std::vector<client::WorldEvent> take_events(TimePoint now);
+  /// After a scene was built: logs what it had to leave out.
+  void tell_what_is_not_drawn(TimePoint now);
+
+  [[nodiscard]] scene::ShownWorld& world() { return world_; }
+  [[nodiscard]] const scene::ShownWorld& world() const { return world_; }
+  /// Null before the first one of this world. While the link is down, the last one stays.
+  [[nodiscard]] const client::Frame* frame() const { return frame_ ? &*frame_ : nullptr; }
+  /// Null: see HeadView::place().
+  [[nodiscard]] const picture::HeadPlace* head() const { return head_.place(); }
+  /// The server sends this world at this moment.
+  [[nodiscard]] bool live() const { return frame_ && client_.state() == client::LinkState::joined; }
+  /// The world's last activity is done.
+  [[nodiscard]] bool finished() const;
+  /// A recording was played to its end.
+  [[nodiscard]] bool over() const { return source_.recorded != nullptr && source_.recorded->over(); }
+  [[nodiscard]] client::Client& client() const { return client_; }
+
+ private:
+  void take_head(TimePoint now);
+  void record(TimePoint now);
+  void tell_refusal();
+
+  DisplaySource& source_;
+  client::Client& client_;
+  bool knows_screen_;
+  scene::ShownWorld world_;
+  HeadView head_;
+  std::optional<client::Frame> frame_;
+  // What the log was told.
+  bool told_head_ = false;
+  std::string told_refusal_;
+  std::string told_stray_;
+  std::optional<TimePoint> unknown_since_;
+  std::optional<std::uint32_t> told_unknown_;
+};
+
+}  // namespace mechane::display

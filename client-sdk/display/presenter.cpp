@@ -1,0 +1,173 @@
+#include "client-sdk/display/presenter.hpp"
+
+#include <utility>
+
+#include "client-sdk/display/spare_memory.hpp"
+#include "client-sdk/scene/thing_names.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::display {
+namespace {
+
+constexpr std::size_t kFrameTimesKept = 20'000;
+/// After this long without a graphics card the display ends, and whoever started it may start it again.
+constexpr Duration kCardComesBack = std::chrono::seconds(60);
+
+}  // namespace
+
+Presenter::Presenter(const DisplayOptions& options, const DisplayRequests& requests, draw::GlContext& context,
+                     Window* window, std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor)
+    : options_(options),
+      requests_(requests),
+      context_(context),
+      window_(window),
+      renderer_(std::move(renderer)),
+      news_(news),
+      visitor_(visitor),
+      soundtrack_(options.sound, !options.offscreen, options.language) {}
+
+LastPicture Presenter::last_picture() const {
+  return {context_.size(), options_.stereo, &renderer_->overlay(), panel_shown_};
+}
+
+void Presenter::replace_assets() {
+  renderer_->forget_assets();
+  upload();
+}
+
+/// The renderer has room for one set of assets.
+void Presenter::upload() {
+  if (const AttractLoop* invitation = visitor_.invitation()) return renderer_->upload(invitation->assets());
+  if (!news_.world().known()) return;
+  renderer_->upload(news_.world().assets());
+  news_.world().add_missing(renderer_->refused());
+  give_spare_memory_back();
+}
+
+/// The visitor's world is seen and heard: no invitation lies before it, and its link is not lost.
+bool Presenter::shows_live_world() const {
+  return news_.live() && visitor_.invitation() == nullptr;
+}
+
+void Presenter::place_camera(picture::RenderScene& scene) const {
+  if (!options_.screen.known()) scene.camera.room_below = caption_room_.room_below();  // as of the last picture
+  const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
+  if (eye.width > 0 && eye.height > 0)
+    scene.camera = picture::for_screen(scene.camera, options_.screen, news_.head(), picture::aspect_of(eye));
+}
+
+picture::RenderScene Presenter::world_scene() const {
+  picture::RenderScene scene = news_.world().build(news_.frame(), news_.client().state());
+  place_camera(scene);
+  return scene;
+}
+
+picture::RenderScene Presenter::compose(TimePoint now) const {
+  if (AttractLoop* invitation = visitor_.invitation()) {
+    picture::RenderScene scene = invitation->build(now, visitor_.language(), visitor_.style());
+    place_camera(scene);
+    return scene;
+  }
+  picture::RenderScene scene = world_scene();
+  visitor_.write(scene, last_picture(), now);
+  name_what_is_meant(scene);
+  // What the pointer, or the link, has to say is more urgent.
+  if (scene.overlay.note.empty() && !scene.overlay.panel && shows_live_world())
+    scene.overlay.note = soundtrack_.in_writing(visitor_.language(), now);
+  return scene;
+}
+
+/// By the display's own pointer, or else by a hand. Words lie in the screen, for both eyes alike.
+void Presenter::name_what_is_meant(picture::RenderScene& scene) const {
+  const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
+  const auto seen = picture::seen_place(scene.camera, picture::Stereo::mono, eye, {});
+  if (!seen) return;
+  for (const auto& meant : {visitor_.pointed_at(), scene.near_hand}) {
+    if (meant && !scene.overlay.label) scene.overlay.label = scene::label_of(scene.named, *meant, seen->sight);
+  }
+}
+
+/// Many or large words cover what they speak of. A picture in true proportions is like a pane of glass: its view stays where it is. And what a
+/// pointer drags must stay under it.
+void Presenter::make_room(picture::RenderScene& scene, TimePoint now) {
+  if (options_.screen.known()) return;
+  if (!scene.overlay.panel && !visitor_.drags())
+    caption_room_.see(renderer_->lay_out(scene, options_.stereo, context_.size()).covered_below, now);
+  scene.camera.room_below = caption_room_.room_below();
+}
+
+Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
+  const auto nothing = [] { return std::optional<Duration>(); };
+  const TimePoint began = clock_.now();
+  soundtrack_.read(shows_live_world() ? news_.world().status() : nullptr, visitor_.language(), now);
+  picture::RenderScene scene = compose(now);
+  const picture::PixelSize size = context_.size();
+  news_.tell_what_is_not_drawn(now);
+  if (context_.lost()) {
+    if (auto ok = recover(); !ok) return tl::unexpected(ok.error());
+  }
+  // A window that is minimised has no pixels.
+  if (size.width < 2 || size.height < 2) return nothing();
+  make_room(scene, now);
+  if (window_ != nullptr) renderer_->begin_at_row(window_->first_row());
+  if (auto drawn = renderer_->draw(scene, options_.stereo, size); !drawn) return survive(drawn.error()).map(nothing);
+  if (options_.offscreen) {
+    draw::Renderer::finish();
+  } else {
+    renderer_->copy_to_window(size);
+  }
+  context_.present();
+  panel_shown_ = scene.overlay.panel.has_value();
+  hear(scene.camera, now);
+  ++frames_;
+  const Duration took = clock_.now() - began;
+  if (frame_ms_.size() < kFrameTimesKept) frame_ms_.push_back(1e3 * to_seconds(took));
+  return took;
+}
+
+void Presenter::hear(const picture::Camera& ears, TimePoint now) {
+  const std::vector<client::WorldEvent> events = news_.take_events(now);
+  const scene::ShownWorld& world = news_.world();
+  const bool live = shows_live_world();
+  soundtrack_.hear({live ? world.status() : nullptr, live ? news_.frame() : nullptr, world.presentation().get(),
+                    world.objects(), events, world.folder()},
+                   ears, visitor_.language(), now);
+}
+
+/// A window may be drawn to a size that the driver has no memory for, and back: it waits for that. Offscreen the size stays wrong.
+Expected<void> Presenter::survive(const Error& error) {
+  if (context_.lost()) return recover();
+  if (options_.offscreen) return tl::unexpected(error);
+  if (told_draw_ != error.what) log::error(error);
+  told_draw_ = error.what;
+  context_.present();  // takes the window's events
+  return {};
+}
+
+Expected<std::unique_ptr<draw::Renderer>> Presenter::begin_drawing() {
+  if (auto ok = context_.renew(); !ok) return tl::unexpected(ok.error());
+  if (context_.lost())
+    return fail("the graphics card is not back yet", "display", "look for its driver's messages in the system's log");
+  return draw::Renderer::create(options_.renderer);
+}
+
+/// What was uploaded is gone, and is uploaded again. The world went on meanwhile.
+Expected<void> Presenter::recover() {
+  log::warning(
+      "the graphics card was reset (by its driver, or the machine slept) and everything on it is lost: the display "
+      "uploads it again");
+  renderer_.reset();
+  const TimePoint lost = clock_.now();
+  auto renderer = begin_drawing();
+  while (!renderer && !requests_.stop && clock_.now() - lost < kCardComesBack) {
+    clock_.sleep_until(clock_.now() + std::chrono::seconds(1));
+    renderer = begin_drawing();
+  }
+  if (!renderer) return tl::unexpected(renderer.error());
+  renderer_ = std::move(*renderer);
+  upload();
+  log::info("the graphics card is back");
+  return {};
+}
+
+}  // namespace mechane::display

@@ -1,0 +1,72 @@
+// Draws what a display shows: composes the scene with its words, draws it, and begins anew where the graphics card has lost everything.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client-sdk/display/caption_room.hpp"
+#include "client-sdk/display/display_app.hpp"
+#include "client-sdk/display/last_picture.hpp"
+#include "client-sdk/display/news.hpp"
+#include "client-sdk/display/soundtrack.hpp"
+#include "client-sdk/display/visitor.hpp"
+#include "client-sdk/display/window.hpp"
+#include "server/base/clock.hpp"
+
+namespace mechane::display {
+
+/// On the display's thread, which is the context's. What is given to the constructor outlives it.
+class Presenter {
+ public:
+  /// `window` is the context's, null offscreen. `renderer` is made in the context as it is now.
+  Presenter(const DisplayOptions& options, const DisplayRequests& requests, draw::GlContext& context, Window* window,
+            std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor);
+
+  /// Frees what was uploaded, and uploads what is shown now.
+  void replace_assets();
+  /// Uploads what came to what is shown now.
+  void upload();
+
+  /// The world's scene with its camera, without words.
+  [[nodiscard]] picture::RenderScene world_scene() const;
+  /// Draws and shows one picture, and lets it be heard. How long that took; none: nothing was drawn, because the window has no pixels or the
+  /// graphics card was lost. Errors: the graphics card does not come back; offscreen, a size that there is no memory for.
+  [[nodiscard]] Expected<std::optional<Duration>> draw(TimePoint now);
+
+  [[nodiscard]] LastPicture last_picture() const;
+  [[nodiscard]] picture::ImageData read_picture() const { return renderer_->read_picture(); }
+  [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  /// What one frame took, of the first 20 000.
+  [[nodiscard]] const std::vector<double>& frame_ms() const { return frame_ms_; }
+  [[nodiscard]] Soundtrack& soundtrack() { return soundtrack_; }
+
+ private:
+  void place_camera(picture::RenderScene& scene) const;
+  [[nodiscard]] picture::RenderScene compose(TimePoint now) const;
+  void name_what_is_meant(picture::RenderScene& scene) const;
+  void make_room(picture::RenderScene& scene, TimePoint now);
+  void hear(const picture::Camera& ears, TimePoint now);
+  [[nodiscard]] bool shows_live_world() const;
+  [[nodiscard]] Expected<void> survive(const Error& error);
+  [[nodiscard]] Expected<void> recover();
+  [[nodiscard]] Expected<std::unique_ptr<draw::Renderer>> begin_drawing();
+
+  const DisplayOptions& options_;
+  const DisplayRequests& requests_;
+  draw::GlContext& context_;
+  Window* window_;
+  std::unique_ptr<draw::Renderer> renderer_;  ///< of the context as it is now
+  News& news_;
+  const Visitor& visitor_;
+  SystemClock clock_;
+  Soundtrack soundtrack_;
+  CaptionRoom caption_room_;
+  bool panel_shown_ = false;  ///< in the last picture
+  std::string told_draw_;
+  std::uint64_t frames_ = 0;
+  std::vector<double> frame_ms_;
+};
+
+}  // namespace mechane::display

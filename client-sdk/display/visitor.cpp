@@ -1,0 +1,155 @@
+#include "client-sdk/display/visitor.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "client-sdk/display/kiosk_setup.hpp"
+#include "client-sdk/picture/picking.hpp"
+#include "client-sdk/pointer/pointer_aid.hpp"
+#include "server/log/log.hpp"
+
+namespace mechane::display {
+
+Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std::unique_ptr<AttractLoop> attract)
+    : window_(window),
+      news_(news),
+      client_(news.client()),
+      panel_(panel_settings(settings_at_start(options))),
+      attract_(std::move(attract)),
+      forces_shown_(options.forces),
+      language_(options.language) {
+  news_.world().show_forces(forces_shown_);
+  // Nothing takes part in a recording.
+  if (options.touch && window_ != nullptr && options.source.play.empty())
+    pointer_.emplace(options.kiosk, options.domain);
+}
+
+void Visitor::forget_world() {
+  if (pointer_) pointer_->forget_world();
+}
+
+void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now) {
+  if (window_ != nullptr) {
+    for (const DisplayKey key : window_->take_keys())
+      take_key(key, now);
+    for (const picture::PixelPlace place : window_->take_clicks())
+      take_click(place, last, scene, now);
+    take_pointer(last, scene, now);
+  }
+  const auto server = client_.server_status();
+  const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
+  panel_.update({news_.world().status(), news_.world().presentation(), news_.frame(), home}, now);
+  send_answers();
+  tell_language();
+  if (panel_.language() == language_) return;
+  language_ = panel_.language();
+  news_.world().set_language(language_);
+}
+
+void Visitor::send_answers() {
+  const visit::VisitorWishes wishes = panel_.take_wishes();
+  if (wishes.home) (void)client_.open_exhibit("");
+  for (const visit::VisitorAnswer& given : wishes.answers) {
+    if (client_.answer(given.when, given.activity, given.question, given.answer) == 0)
+      log::warning("an answer to '" + given.question + "' was not sent: the display is in no world");
+  }
+}
+
+/// The visit's sheet says in which language the visitor was shown the exhibit: told once a world, and when it changes.
+void Visitor::tell_language() {
+  const auto& presentation = news_.world().presentation();
+  if (!presentation || presentation->languages.empty() || client_.state() != client::LinkState::joined) return;
+  const auto& known = presentation->languages;
+  const bool speaks_it = std::ranges::count(known, panel_.language()) > 0;
+  const std::string& shown = speaks_it ? panel_.language() : known.front();
+  if (told_presentation_ == presentation && told_language_ == shown) return;
+  if (client_.tell_language(shown) == 0) return;
+  told_presentation_ = presentation;
+  told_language_ = shown;
+}
+
+bool Visitor::invite(const client::DisplaySettings& settings, TimePoint now) {
+  if (attract_ == nullptr) return false;
+  const std::chrono::duration<double> alone = panel_.alone_for(now);
+  const bool before = std::exchange(invites_, settings.attract && alone.count() >= settings.attract_after_s);
+  if (!invites_) return before;
+  if (!before) attract_->rewind();
+  return attract_->advance(now) || !before;
+}
+
+void Visitor::write(picture::RenderScene& scene, const LastPicture& last, TimePoint now) const {
+  panel_.write(scene.overlay, now);
+  if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
+  if (!pointer_ || !news_.world().known()) return;
+  pointer_->write(scene.overlay, under_pointer(scene, last), language_);
+  if (const auto button = pointer::go_on_button(news_.world().status(), language_); button && !scene.overlay.panel)
+    scene.overlay.corner.insert(scene.overlay.corner.begin(), *button);
+  if (const auto at = pointer_->hovers_at()) scene.overlay.meant = last.button_at(*at);
+}
+
+void Visitor::take_key(DisplayKey key, TimePoint now) {
+  panel_.touch(now);
+  switch (key) {
+    case DisplayKey::home:
+      (void)client_.open_exhibit("");
+      return;
+    case DisplayKey::language:
+      return panel_.next_language(now);
+    case DisplayKey::large_text:
+      return panel_.toggle_large_text();
+    case DisplayKey::high_contrast:
+      return panel_.toggle_high_contrast();
+    case DisplayKey::forces:
+      forces_shown_ = !forces_shown_;
+      return news_.world().show_forces(forces_shown_);
+  }
+}
+
+/// Buttons come first; what lies behind a panel of questions, or behind an invitation, is not meant.
+void Visitor::take_click(picture::PixelPlace place, const LastPicture& last, const SceneNow& scene, TimePoint now) {
+  const auto action = last.button_at(place);
+  if (action && action->kind == picture::OverlayAction::Kind::activity) (void)client_.start_activity(action->value);
+  if (action) return panel_.press(*action, now);
+  panel_.touch(now);
+  if (!invites_ && !last.has_panel && news_.world().known()) click_object(place, last, scene());
+}
+
+/// A click on a sign is as good as a finger.
+void Visitor::click_object(picture::PixelPlace place, const LastPicture& last, const picture::RenderScene& scene) {
+  const auto clicked = picture::object_at(scene, news_.world().assets(), place, last.stereo, last.size);
+  if (!clicked) return;
+  for (const client::SceneObject& object : news_.world().objects()) {
+    if (object.index == *clicked) (void)client_.click(object.name);
+  }
+}
+
+pointer::PointerScene Visitor::under_pointer(const picture::RenderScene& scene, const LastPicture& last) const {
+  const scene::ShownWorld& world = news_.world();
+  return {scene,         world.assets(),  last.stereo,    last.size,
+          news_.frame(), world.objects(), world.status(), world.presentation().get()};
+}
+
+/// The display's own hand hears of everything that is not pressed on a button.
+void Visitor::take_pointer(const LastPicture& last, const SceneNow& scene, TimePoint now) {
+  using Kind = pointer::PointerEvent::Kind;
+  const std::vector<pointer::PointerEvent> events = window_->take_pointer_events();
+  if (!pointer_ || !news_.world().known()) return;
+  if (invites_) {  // whoever comes ends the invitation, and takes nothing yet
+    if (std::ranges::any_of(events, [](const pointer::PointerEvent& e) { return e.kind != Kind::gone; }))
+      panel_.touch(now);
+    return;
+  }
+  if (events.empty() && pointer_->rests(now)) return;  // a scene is not built for nothing
+  const picture::RenderScene built = scene();
+  const pointer::PointerScene under = under_pointer(built, last);
+  for (const pointer::PointerEvent& event : events) {
+    const bool covered =
+        event.kind == Kind::press && (last.has_panel || last.button_at({event.x, event.y}).has_value());
+    pointer_->take(event, under, covered);
+  }
+  pointer_->update(under, now);
+  if (pointer_->take_stirred()) panel_.touch(now);
+}
+
+}  // namespace mechane::display

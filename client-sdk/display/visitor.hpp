@@ -1,0 +1,75 @@
+// The visitor before a display: keys, clicks, mouse and fingers, questions and answers, the language, the way home, and the recorded visit
+// that invites when nobody is there.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "client-sdk/display/attract_loop.hpp"
+#include "client-sdk/display/display_app.hpp"
+#include "client-sdk/display/last_picture.hpp"
+#include "client-sdk/display/news.hpp"
+#include "client-sdk/display/window.hpp"
+#include "client-sdk/pointer/pointer_input.hpp"
+#include "client-sdk/visit/visitor_panel.hpp"
+
+namespace mechane::display {
+
+/// On the display's thread. `options`, `window` and `news` outlive it.
+class Visitor {
+ public:
+  /// The world's scene with its camera, as it would be drawn now. Asked for only where it is needed.
+  using SceneNow = std::function<picture::RenderScene()>;
+
+  /// `window` is null offscreen; then nobody presses anything. `attract` may be null.
+  Visitor(const DisplayOptions& options, Window* window, News& news, std::unique_ptr<AttractLoop> attract);
+
+  /// Another world is shown: what was pointed at is gone.
+  void forget_world();
+  /// Once a picture: takes what was pressed, and sends what follows from it.
+  void take(const LastPicture& last, const SceneNow& scene, TimePoint now);
+  /// Begins, goes on with or ends the invitation. True: all uploaded assets are to be replaced, by those of what is shown now.
+  [[nodiscard]] bool invite(const client::DisplaySettings& settings, TimePoint now);
+  /// Settings that somebody wished for from another machine.
+  void change(const visit::VisitorPanelSettings& settings) { panel_.change(settings); }
+
+  /// What the visitor is offered, and what helps the pointer. Not for an invitation.
+  void write(picture::RenderScene& scene, const LastPicture& last, TimePoint now) const;
+
+  /// The recorded visit, while it is shown; else null.
+  [[nodiscard]] AttractLoop* invitation() const { return invites_ ? attract_.get() : nullptr; }
+  /// Of all words in the picture.
+  [[nodiscard]] const std::string& language() const { return language_; }
+  [[nodiscard]] const picture::OverlayStyle& style() const { return panel_.settings().style; }
+  /// What the pointer would take, or else is on.
+  [[nodiscard]] std::optional<picture::Touched> pointed_at() const {
+    return pointer_ ? pointer_->pointed_at() : std::nullopt;
+  }
+  /// The pointer holds something: what it drags must stay under it.
+  [[nodiscard]] bool drags() const { return pointer_ && !pointer_->is_away(); }
+
+ private:
+  void take_key(DisplayKey key, TimePoint now);
+  void take_click(picture::PixelPlace place, const LastPicture& last, const SceneNow& scene, TimePoint now);
+  void click_object(picture::PixelPlace place, const LastPicture& last, const picture::RenderScene& scene);
+  void take_pointer(const LastPicture& last, const SceneNow& scene, TimePoint now);
+  [[nodiscard]] pointer::PointerScene under_pointer(const picture::RenderScene& scene, const LastPicture& last) const;
+  void send_answers();
+  void tell_language();
+
+  Window* window_;
+  News& news_;
+  client::Client& client_;
+  visit::VisitorPanel panel_;
+  std::optional<pointer::PointerInput> pointer_;
+  std::unique_ptr<AttractLoop> attract_;
+  bool invites_ = false;
+  bool forces_shown_;
+  std::string language_;
+  std::string told_language_;
+  std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told the language
+};
+
+}  // namespace mechane::display
