@@ -102,7 +102,6 @@ class ClientImpl final : public Client {
   struct Server {
     ServerStatus status;
     std::uint64_t incarnation = 0;
-    std::uint64_t sequence = 0;
     TimePoint received;
   };
 
@@ -231,8 +230,7 @@ void ClientImpl::take_servers(TimePoint at) {
     if (!info.valid || !info.alive || !parse(wire, status)) return;
     if (servers_.size() >= kMaxServers && servers_.find(status.server) == servers_.end()) return;
     Server& server = servers_[status.server];
-    if (server.incarnation == wire.incarnation && wire.seq <= server.sequence) return;
-    server = {std::move(status), wire.incarnation, wire.seq, at};
+    server = {std::move(status), wire.incarnation, at};
   });
 }
 

@@ -57,14 +57,9 @@ void HandLink::take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept
     const std::uint64_t epoch = epoch_.load(std::memory_order_relaxed);
     if (!info.valid || wire.user != user_ || wire.session != session_ || epoch == 0 || wire.epoch != epoch) continue;
     if (!parse(wire, arriving_)) continue;
-    if (wire.epoch != epoch_seen_) {
-      epoch_seen_ = wire.epoch;
-      base_ = last_;
-    }
-    arriving_.sequence = base_ + wire.seq;
-    if (arriving_.sequence <= last_) continue;
-    last_ = arriving_.sequence;
     arriving_.received = std::chrono::steady_clock::now();
+    if (order_.offer(wire.epoch, wire.seq, arriving_.received) != hand::SampleOrder::newer) continue;
+    arriving_.sequence = ++taken_;
     forces_.publish(arriving_);
     arrived_.signal();
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "server/hand/freshness.hpp"
 #include "server/realtime/mailbox.hpp"
 #include "server/realtime/wakeup.hpp"
 #include <mechane/client/types.hpp>
@@ -43,11 +44,10 @@ class HandLink {
   std::atomic<std::uint64_t> epoch_{0};
   std::atomic<std::uint64_t> sent_{0};
   proto::HapticInput sending_{};  // the sender's
-  // The force listener's. In a new epoch the server counts from 1 again: its numbers go on where the last epoch's ended.
+  // The force listener's. In a new epoch the server counts from 1 again; the numbers given out rise with each force, whatever its own is.
   ForceSample arriving_;
-  std::uint64_t epoch_seen_ = 0;
-  std::uint64_t base_ = 0;
-  std::uint64_t last_ = 0;
+  hand::SampleAge order_;
+  std::uint64_t taken_ = 0;
   realtime::Mailbox<ForceSample> forces_;
   realtime::Wakeup arrived_;
   proto::Writer<proto::HapticInput> writer_;

@@ -16,7 +16,8 @@ Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client,
 
 bool HapticLoop::take_answer() noexcept {
   const std::optional<ForceSample> sample = client_.newest_force();
-  if (!sample || !age_.offer(client_.session(), sample->sequence, sample->received)) return false;
+  if (!sample) return false;
+  if (age_.offer(client_.session(), sample->sequence, sample->received) != hand::SampleOrder::newer) return false;
   answer_ = *sample;
   ++stats_.answers;
   if (answer_.echo_sequence > 0) round_trip_.record(answer_.received - answer_.echo_sent());

@@ -21,47 +21,87 @@ inline constexpr Duration kZeroBy = std::chrono::milliseconds(50);   ///< and no
   return s * s * (3.0 - 2.0 * s);
 }
 
+/// What a sample's sequence number says of it.
+enum class SampleOrder : std::uint8_t {
+  newer,     ///< to be used
+  older,     ///< repeated, overtaken on the way, or of the session before
+  too_high,  ///< no sender counts that fast: a broken or a false sample
+};
+
 /// Follows the samples of one sender: which is new, and how long ago the last new one came. One thread; no allocation.
+///
+/// One wrong sequence number must not block the hand for good, wherever it comes from: a number that is too high is not taken. A session's
+/// first number has nothing to be held against; where it was wrong, and all that follows is refused for kPatience, samples that count
+/// upwards in step with each other are taken as the sender's (as RFC 3550, appendix A.1, does after two; we ask for more).
 class SampleAge {
  public:
-  /// Takes note of a sample that arrived at `now`. True when it is new: its sequence number is higher than any before
-  /// it in its session, or its session is new. A repeated or older sequence is not new, and neither is a late sample of
-  /// the session before.
-  bool offer(std::uint64_t session, std::uint64_t sequence, TimePoint now) noexcept {
-    if (known_ && session == session_) {
-      if (sequence <= sequence_) return false;
-    } else {
-      if (known_ && had_session_before_ && session == session_before_) return false;
+  static constexpr std::uint64_t kMostPerMillisecond = 10;  ///< no device is faster
+  static constexpr std::uint64_t kSlack = 100;              ///< samples: what a delayed burst may be ahead of its time
+  static constexpr Duration kPatience = std::chrono::milliseconds(500);
+  static constexpr int kInStep = 10;  ///< refused samples
+
+  /// Takes note of a sample that arrived at `now`.
+  SampleOrder offer(std::uint64_t session, std::uint64_t sequence, TimePoint now) noexcept {
+    if (!known_ || session != session_) {
+      if (known_ && had_session_before_ && session == session_before_) return SampleOrder::older;
       had_session_before_ = known_;
       session_before_ = session_;
       session_ = session;
+      return take(sequence, now);
     }
-    known_ = true;
-    sequence_ = sequence;
-    arrived_ = now;
-    return true;
+    if (sequence > last_.sequence && last_.may_precede(sequence, now)) return take(sequence, now);
+    if (counts_in_step(sequence, now) && now - last_.arrived >= kPatience) return take(sequence, now);
+    return sequence > last_.sequence ? SampleOrder::too_high : SampleOrder::older;
   }
 
   /// Time since the last new sample; Duration::max() when none ever came.
   [[nodiscard]] Duration age(TimePoint now) const noexcept {
     if (!known_) return Duration::max();
-    return now > arrived_ ? now - arrived_ : Duration{0};
+    return now > last_.arrived ? now - last_.arrived : Duration{0};
   }
 
   [[nodiscard]] bool known() const noexcept { return known_; }
   [[nodiscard]] std::uint64_t session() const noexcept { return session_; }
-  [[nodiscard]] std::uint64_t sequence() const noexcept { return sequence_; }
+  [[nodiscard]] std::uint64_t sequence() const noexcept { return last_.sequence; }
 
   /// Forgets everything, the last session too: the next sample is new whatever it says.
   void reset() noexcept { *this = SampleAge{}; }
 
  private:
+  struct Mark {
+    std::uint64_t sequence = 0;
+    TimePoint arrived{};
+    /// Whether a sender can have counted from here to `later` (which is higher) by `now`.
+    [[nodiscard]] bool may_precede(std::uint64_t later, TimePoint now) const noexcept {
+      const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(now - arrived).count();
+      const std::uint64_t since_ms = passed > 0 ? static_cast<std::uint64_t>(passed) : 0;
+      return later - sequence <= kSlack + kMostPerMillisecond * since_ms;
+    }
+  };
+
+  SampleOrder take(std::uint64_t sequence, TimePoint now) noexcept {
+    known_ = true;
+    last_ = {sequence, now};
+    in_step_ = 0;
+    return SampleOrder::newer;
+  }
+
+  /// Follows one line of refused samples; another one has its turn when that has ended.
+  bool counts_in_step(std::uint64_t sequence, TimePoint now) noexcept {
+    const bool follows = in_step_ > 0 && sequence > refused_.sequence && refused_.may_precede(sequence, now);
+    if (!follows && in_step_ > 0 && now - refused_.arrived < kPatience) return false;
+    in_step_ = follows ? in_step_ + 1 : 1;
+    refused_ = {sequence, now};
+    return in_step_ >= kInStep;
+  }
+
   bool known_ = false;
   bool had_session_before_ = false;
   std::uint64_t session_ = 0;
   std::uint64_t session_before_ = 0;
-  std::uint64_t sequence_ = 0;
-  TimePoint arrived_{};
+  Mark last_;     // the newest that was taken
+  Mark refused_;  // the newest of those refused that count in step
+  int in_step_ = 0;
 };
 
 }  // namespace mechane::hand

@@ -92,8 +92,9 @@ Reject KioskLink::accept(const proto::HapticInput& wire, TimePoint now) noexcept
   hand.heard_ns.store(now.time_since_epoch().count(), std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
   if (!hand.lane || hand.lane->session != wire.session) return Reject::none;  // its world is still being made
-  if (wire.seq <= hand.lane->last_sequence) return Reject::old_sequence;
-  hand.lane->last_sequence = wire.seq;
+  const hand::SampleOrder order = hand.lane->order.offer(wire.session, wire.seq, now);
+  if (order == hand::SampleOrder::older) return Reject::old_sequence;
+  if (order == hand::SampleOrder::too_high) return Reject::high_sequence;
   arriving_.arrived = now;
   hand.lane->inputs.publish(arriving_);
   return Reject::none;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/hand/freshness.hpp"
 #include "server/realtime/mailbox.hpp"
 #include "server/state/input.hpp"
 #include "server/state/world_state.hpp"
@@ -31,7 +32,7 @@ struct Lane {
   std::shared_ptr<KioskLink> link;  ///< where forces are written
   std::uint32_t user = 0;
   std::uint64_t session = 0;
-  std::uint64_t last_sequence = 0;          ///< the listener's: of the last sample taken
+  hand::SampleAge order;                    ///< the listener's
   realtime::Mailbox<ArrivedSample> inputs;  ///< DDS listener to loop
   realtime::Mailbox<OutgoingForce> forces;  ///< loop to haptic publisher
 };

@@ -54,6 +54,8 @@ std::string_view to_string(Reject reason) {
       return "of a session that does not own the hand";
     case Reject::old_sequence:
       return "repeated or out of order";
+    case Reject::high_sequence:
+      return "with a sequence number that jumped too far";
     case Reject::kinds:
       break;
   }

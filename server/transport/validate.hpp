@@ -33,6 +33,7 @@ enum class Reject : std::uint8_t {
   wrong_kiosk,     ///< the sample names another kiosk than its partition
   wrong_session,   ///< 0, or a session that does not own this hand
   old_sequence,    ///< repeated or older
+  high_sequence,   ///< higher than any device can have counted to
   kinds
 };
 

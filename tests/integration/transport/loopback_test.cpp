@@ -329,6 +329,8 @@ TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   lie(Reject::wrong_session, [](auto& s) { s.session += 2; });
   EXPECT_TRUE(feels(*hand, Vec3(2, 0, 0)));
   lie(Reject::old_sequence, [](auto& s) { s.seq = 1; });
+  lie(Reject::high_sequence, [](auto& s) { s.seq = std::numeric_limits<std::uint64_t>::max(); });
+  EXPECT_TRUE(feels(*hand, Vec3(3, 0, 0))) << "one sample with a false number must not block the hand";
   for (const hand::SentSample& sample : server.samples())
     EXPECT_NE(sample.X_WH.p.x(), -7);
 }

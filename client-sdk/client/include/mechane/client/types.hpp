@@ -25,9 +25,9 @@ using hand::LocalContact;
 
 /// What the server wants a device to render. The device's own ForceGovernor has the last word.
 struct ForceSample : hand::HapticOutput {
-  std::uint64_t sequence = 0;
-  TimePoint received;  ///< on this client's clock
-  Duration waited{0};  ///< how long the input that it answers waited at the server for this tick to take it
+  std::uint64_t sequence = 0;  ///< rises by one with each force that comes
+  TimePoint received;          ///< on this client's clock
+  Duration waited{0};          ///< how long the input that it answers waited at the server for this tick to take it
   /// When the input that it answers was sent, on this client's clock.
   [[nodiscard]] TimePoint echo_sent() const noexcept {
     return TimePoint(Duration(static_cast<std::int64_t>(echo_sent_ns)));
