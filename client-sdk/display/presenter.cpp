@@ -106,8 +106,11 @@ Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
   if (context_.lost()) {
     if (auto ok = recover(); !ok) return tl::unexpected(ok.error());
   }
-  // A window that is minimised has no pixels.
-  if (size.width < 2 || size.height < 2) return nothing();
+  // A window that is minimised has no pixels; it takes events, or it would never be told that it is large again, or to close.
+  if (size.width < 2 || size.height < 2) {
+    context_.present();
+    return nothing();
+  }
   make_room(scene, now);
   if (window_ != nullptr) renderer_->begin_at_row(window_->first_row());
   if (auto drawn = renderer_->draw(scene, options_.stereo, size); !drawn) return survive(drawn.error()).map(nothing);

@@ -27,7 +27,8 @@ class GlContext {
 /// What lost() asks: whether the driver tells of a reset since the last call. Drivers that do not tell of any say no.
 [[nodiscard]] bool driver_was_reset();
 
-/// EGL on Mesa's surfaceless platform: no screen, no X server. Errors: no EGL, no such platform, no OpenGL 3.3.
+/// EGL without a screen or X server: on the first graphics card that has OpenGL 3.3, else on Mesa's surfaceless platform, which draws with
+/// the processor where it must. LIBGL_ALWAYS_SOFTWARE=1 leaves cards out. Errors: no EGL, no such platform, no OpenGL 3.3.
 [[nodiscard]] Expected<std::unique_ptr<GlContext>> make_offscreen_context(picture::PixelSize size);
 
 }  // namespace mechane::draw

@@ -1,6 +1,8 @@
 #include <array>
+#include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -101,11 +103,62 @@ class OffscreenContext final : public GlContext {
   std::string name_;
 };
 
-}  // namespace
+bool has_word(const char* words, std::string_view word) {
+  const std::string_view all = words == nullptr ? "" : words;
+  const std::size_t at = all.find(word);
+  const std::size_t end = at + word.size();
+  return at != std::string_view::npos && (at == 0 || all[at - 1] == ' ') && (end == all.size() || all[end] == ' ');
+}
 
-Expected<std::unique_ptr<GlContext>> make_offscreen_context(picture::PixelSize size) {
-  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  if (extensions == nullptr || std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos) {
+bool is_software(EGLDeviceEXT device) {
+  return has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
+/// Mesa draws with the processor where it has no driver for the card that it was asked for.
+bool fell_back_to_software(EGLDisplay display) {
+  EGLAttrib device = 0;
+  return eglQueryDisplayAttribEXT(display, EGL_DEVICE_EXT, &device) == EGL_FALSE ||
+         is_software(reinterpret_cast<EGLDeviceEXT>(device));
+}
+
+/// Graphics cards, in the system's order. None where Mesa was told to draw with the processor.
+std::vector<EGLDeviceEXT> graphics_cards(const char* extensions) {
+  const char* asked = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+  if (asked != nullptr && std::string_view(asked) != "0" && std::string_view(asked) != "false") return {};
+  const bool enumerates =
+      has_word(extensions, "EGL_EXT_device_base") ||
+      (has_word(extensions, "EGL_EXT_device_enumeration") && has_word(extensions, "EGL_EXT_device_query"));
+  EGLint count = 0;
+  if (!enumerates || !has_word(extensions, "EGL_EXT_platform_device") ||
+      eglQueryDevicesEXT(0, nullptr, &count) == EGL_FALSE || count <= 0)
+    return {};
+  std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
+  if (eglQueryDevicesEXT(count, devices.data(), &count) == EGL_FALSE) return {};
+  devices.resize(static_cast<std::size_t>(count));
+  std::erase_if(devices, is_software);
+  return devices;
+}
+
+struct Opened {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+};
+
+/// On a card that can be opened and has OpenGL 3.3; else nothing.
+Opened open_card(const char* extensions) {
+  for (EGLDeviceEXT device : graphics_cards(extensions)) {
+    EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) continue;
+    eglBindAPI(EGL_OPENGL_API);
+    EGLContext context = fell_back_to_software(display) ? EGL_NO_CONTEXT : make_context(display);
+    if (context != EGL_NO_CONTEXT) return {display, context};
+    eglTerminate(display);
+  }
+  return {};
+}
+
+Expected<Opened> open_surfaceless(const char* extensions) {
+  if (!has_word(extensions, "EGL_MESA_platform_surfaceless")) {
     return fail("this machine's EGL cannot draw without a screen (no EGL_MESA_platform_surfaceless)",
                 "display, offscreen", kRemedy);
   }
@@ -115,13 +168,22 @@ Expected<std::unique_ptr<GlContext>> make_offscreen_context(picture::PixelSize s
   }
   eglBindAPI(EGL_OPENGL_API);
   EGLContext context = make_context(display);
-  if (context == EGL_NO_CONTEXT) {
-    const Error error = no_context();
-    eglTerminate(display);
-    return tl::unexpected(error);
-  }
+  if (context != EGL_NO_CONTEXT) return Opened{display, context};
+  const Error error = no_context();
+  eglTerminate(display);
+  return tl::unexpected(error);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<GlContext>> make_offscreen_context(picture::PixelSize size) {
+  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  Expected<Opened> opened = open_card(extensions);
+  // Mesa alone chooses here, and beside another maker's card it would choose the processor.
+  if (opened->display == EGL_NO_DISPLAY) opened = open_surfaceless(extensions);
+  if (!opened) return tl::unexpected(opened.error());
   keep_driver_loaded();
-  return std::make_unique<OffscreenContext>(display, context, size);
+  return std::make_unique<OffscreenContext>(opened->display, opened->context, size);
 }
 
 }  // namespace mechane::draw

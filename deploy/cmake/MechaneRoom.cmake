@@ -22,10 +22,14 @@ endfunction()
 
 # A program from the given sources, with the project's warnings. What is fast lies in rooms; a program is a shell around them and is
 # optimised lightly, for parsing arguments and matching in tests would else take a third of a whole build. FAST: it is not a shell.
+# One whose name begins with mechane is for people: the target mechane_programs builds it.
 #   mechane_program(mechane-server main.cpp [FAST] LIBS mechane::world ...)
 function(mechane_program name)
   cmake_parse_arguments(PROGRAM "FAST" "" "LIBS" ${ARGN})
   add_executable(${name} ${PROGRAM_UNPARSED_ARGUMENTS})
+  if(name MATCHES "^mechane")
+    add_dependencies(mechane_programs ${name})
+  endif()
   target_include_directories(${name} PRIVATE "${CMAKE_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${PROGRAM_LIBS})
   target_compile_options(${name} PRIVATE ${MECHANE_WARNINGS})

@@ -9,6 +9,7 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include "client-sdk/display/display_loop.hpp"
 #include "client-sdk/display/window.hpp"
 #include "client-sdk/recording/frame_recording.hpp"
 #include "client-sdk/recording/recording_codec.hpp"
@@ -131,6 +132,52 @@ TEST_F(PlayedDisplay, writes_what_sounds) {
   ASSERT_GE(with.size(), 2U);
   EXPECT_EQ(without.front(), with.front()) << "it is heard from this picture on";
   EXPECT_NE(without.back(), with.back());
+}
+
+/// Stands in for a window on a screen: too small to be drawn to, until it has taken its events twice; closed after that.
+class SmallWindow final : public Window {
+ public:
+  explicit SmallWindow(std::unique_ptr<draw::GlContext> context) : context_(std::move(context)) {}
+  [[nodiscard]] std::string renderer_name() const override { return context_->renderer_name(); }
+  [[nodiscard]] picture::PixelSize size() const override {
+    return events_taken < 2 ? picture::PixelSize{1, 200} : picture::PixelSize{320, 180};
+  }
+  void present() override { ++events_taken; }
+  [[nodiscard]] bool lost() const override { return false; }
+  [[nodiscard]] Expected<void> renew() override { return {}; }
+  [[nodiscard]] int first_row() const override { return 0; }
+  [[nodiscard]] bool has_quad_buffer() const override { return false; }
+  [[nodiscard]] bool close_wanted() const override { return events_taken >= 3; }
+  [[nodiscard]] bool take_picture_wanted() override { return false; }
+  [[nodiscard]] std::vector<picture::PixelPlace> take_clicks() override { return {}; }
+  [[nodiscard]] std::vector<pointer::PointerEvent> take_pointer_events() override { return {}; }
+  [[nodiscard]] std::vector<DisplayKey> take_keys() override { return {}; }
+
+  int events_taken = 0;
+
+ private:
+  std::unique_ptr<draw::GlContext> context_;
+};
+
+TEST(SmallWindow, takes_its_events_and_is_drawn_to_when_it_is_large_again) {
+  auto context = draw::make_offscreen_context({320, 180});
+  ASSERT_TRUE(context) << context.error().to_string();
+  SmallWindow window(std::move(*context));
+  DisplayOptions options;
+  options.offscreen = true;  // nothing is copied to a window that is none; what it says counts all the same
+  options.seconds = 60;      // the test's patience
+  options.assets = (kSource / "scenarios/aiolos-sphere").string();
+  options.source.play = (kSource / "tests/golden/scenes/aiolos-sphere.frames").string();
+  auto source = open_source(options.source, {});
+  ASSERT_TRUE(source) << source.error().to_string();
+  auto renderer = draw::Renderer::create(options.renderer);
+  ASSERT_TRUE(renderer) << renderer.error().to_string();
+  DisplayRequests requests;
+  const auto summary =
+      DisplayLoop(options, requests, window, &window, std::move(*renderer), *source, nullptr, nullptr).run();
+  ASSERT_TRUE(summary) << summary.error().to_string();
+  EXPECT_EQ(window.events_taken, 3);
+  EXPECT_EQ(summary->frames, 1U);
 }
 
 TEST(Window, tells_when_there_is_no_screen) {
