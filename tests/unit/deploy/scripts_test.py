@@ -1,6 +1,9 @@
 """What deploy's scripts say when they are asked, or asked wrongly: at once, before anything is installed or built."""
 
+import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -48,6 +51,17 @@ class Scripts(unittest.TestCase):
                 self.assertEqual(result.returncode, 2)
                 self.assertIn("demo: ", result.stderr)
                 self.assertEqual(result.stdout, "")
+
+    def test_the_demo_builds_every_program_that_the_command_starts(self):
+        build = pathlib.Path(os.environ.get("MECHANE_BUILD", ROOT / "build/release"))
+        if not (build / "build.ninja").exists() or shutil.which("ninja") is None:
+            self.skipTest(f"{build} was not made by Ninja")
+        built = subprocess.run(["ninja", "-C", str(build), "-t", "query", "mechane_programs"], capture_output=True, text=True, check=True).stdout
+        programs = re.search(r"kPrograms\{\{(.*?)\}\};", (ROOT / "client-sdk/cli/main.cpp").read_text(), re.DOTALL).group(1)
+        commands = re.findall(r'\{"(\w+)", ', programs)
+        self.assertIn("fit", commands)
+        for program in ("mechane", "mechane-mesh-import", *(f"mechane-{command}" for command in commands)):
+            self.assertRegex(built, rf"(?m)/{program}$")
 
     def test_the_demo_tells_how_far_its_tour_is(self):
         log = ("2026-11-22 13:00:00.000 info visitor: odometer: looking for a server\n"
