@@ -93,7 +93,7 @@ def environment_of(preset: str) -> dict[str, str]:
 def end_to_end(preset: str, at_once: int, leave_out: str = "", beside: Callable[[], processes.Beside] | None = None) -> Phase:
     """Tests of the programs. Those that draw count twice, some run alone: see tests/integration/CMakeLists.txt."""
     def run(log: Path) -> Tally:
-        return _run_ctest(preset, log, at_once, leave_out="|".join(filter(None, ("program", "in-process", leave_out))))
+        return _run_ctest(preset, log, at_once, only="integration", leave_out=leave_out)
 
     return Phase(f"test {preset} end-to-end", run, preset, beside)
 
@@ -145,7 +145,7 @@ def repeated_programs(preset: str, rounds: int, seed: int, only: str) -> Phase:
 
 def repeated_end_to_end(preset: str, rounds: int, only: str) -> Phase:
     def run(log: Path) -> Tally:
-        return _run_ctest(preset, log, 2 * JOBS, leave_out="program|in-process", only="integration", named=only, times=rounds)
+        return _run_ctest(preset, log, 2 * JOBS, only="integration", named=only, times=rounds)
 
     return Phase(f"test {preset} end-to-end, {rounds} times", run, preset)
 
