@@ -94,12 +94,15 @@ struct Faults {
   std::uint64_t backwards = 0;
   std::uint64_t taken = 0;
   std::uint64_t last = 0;
+  std::uint64_t published = 0;
 
   template <class Value>
   void look_at(const Value& value) {
     const std::uint64_t first = read(value.words[0]);
-    for (const auto& word : value.words) {
-      if (read(word) != first) {
+    for (std::size_t i = 0; i < Wide::kWords; ++i) {
+      // Every other look gives the producer time to write what must not change now: else two threads hardly meet on a busy machine.
+      if (i == Wide::kWords / 2 && taken % 2 == 1) std::this_thread::yield();
+      if (read(value.words[i]) != first) {
         ++torn;
         break;
       }
@@ -110,14 +113,18 @@ struct Faults {
   }
 };
 
-// One thread publishes 1 .. count; this one reads until it has seen the last, or `stop_early(faults)`.
+// One thread publishes 1 .. count, and on until some have been taken; this one reads until it has seen the last, or `stop_early(faults)`.
 template <class Value, class Box, class StopEarly>
 Faults race(Box& box, std::uint64_t count, StopEarly stop_early) {
+  constexpr std::uint64_t kFewestTaken = 4;
   std::atomic<bool> done{false};
+  std::atomic<std::uint64_t> taken{0};
+  std::uint64_t published = 0;
   std::thread producer([&] {
     Value value;
-    for (std::uint64_t n = 1; n <= count && !done.load(std::memory_order_relaxed); ++n) {
-      value.set(n);
+    while ((published < count || taken.load(std::memory_order_relaxed) < kFewestTaken) &&
+           !done.load(std::memory_order_relaxed)) {
+      value.set(++published);
       box.publish(value);
     }
     done.store(true, std::memory_order_release);
@@ -126,9 +133,11 @@ Faults race(Box& box, std::uint64_t count, StopEarly stop_early) {
   for (bool last_look = false; !last_look;) {
     last_look = done.load(std::memory_order_acquire);
     if (const Value* value = box.take(); value != nullptr) faults.look_at(*value);
+    taken.store(faults.taken, std::memory_order_relaxed);
     if (stop_early(faults)) done.store(true, std::memory_order_relaxed);
   }
   producer.join();
+  faults.published = published;
   return faults;
 }
 
@@ -139,8 +148,8 @@ void expect_right() {
   const Faults faults = race<Value>(box, kCount, [](const Faults&) { return false; });
   EXPECT_EQ(faults.torn, 0u);
   EXPECT_EQ(faults.backwards, 0u);
-  EXPECT_EQ(faults.last, kCount) << "the last value published must arrive";
-  EXPECT_GT(faults.taken, 1u);
+  EXPECT_GE(faults.published, kCount);
+  EXPECT_EQ(faults.last, faults.published) << "the last value published must arrive";
 }
 
 TEST(Mailbox, IsNeverTornAndNeverGoesBackwards) {
@@ -172,7 +181,6 @@ class WrongMailbox {
 };
 
 TEST(Mailbox, TheRaceCatchesAWrongMailbox) {
-  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor: two threads hardly ever meet";
   WrongMailbox box;
   const Faults faults = race<Wide>(box, 50'000'000, [](const Faults& f) { return f.torn + f.backwards > 0; });
   EXPECT_GT(faults.torn + faults.backwards, 0u);
