@@ -74,7 +74,7 @@ AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
     job.key = key;
     job.address = *address;
     job.extension = plain_extension(name);
-    wishes_.push_back(std::move(job));
+    requests_.push_back(std::move(job));
     fetcher_->wake();
   }
   at->second.may_come = file.state == AssetState::on_its_way;
@@ -97,7 +97,7 @@ bool AssetStore::is_awaited(milliseconds patience) const {
 
 void AssetStore::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    take_wishes();
+    take_requests();
     start_due();
     for (HttpAnswer& answer : fetcher_->wait(until_next())) {
       const std::uint64_t id = answer.id;
@@ -106,21 +106,21 @@ void AssetStore::run(const std::stop_token& stop) {
   }
 }
 
-void AssetStore::take_wishes() {
-  std::vector<Job> wishes;
+void AssetStore::take_requests() {
+  std::vector<Job> requests;
   {
     const std::lock_guard lock(mutex_);
-    wishes.swap(wishes_);
+    requests.swap(requests_);
   }
-  for (Job& wish : wishes) {
-    const std::string& hash = wish.key.second;
+  for (Job& request : requests) {
+    const std::string& hash = request.key.second;
     if (hash.empty()) {
-      wish.remembered = cache_.recall(wish.address).value_or(RememberedFile{});
-    } else if (auto file = cache_.find(hash, wish.extension)) {
-      arrived(wish, std::move(*file));
+      request.remembered = cache_.recall(request.address).value_or(RememberedFile{});
+    } else if (auto file = cache_.find(hash, request.extension)) {
+      arrived(request, std::move(*file));
       continue;
     }
-    jobs_.emplace(next_id_++, std::move(wish));
+    jobs_.emplace(next_id_++, std::move(request));
   }
 }
 

@@ -84,7 +84,7 @@ class AssetStore {
   };
   AssetStore(AssetAddress address, const AssetStoreOptions& options, std::unique_ptr<HttpFetcher> fetcher);
   void run(const std::stop_token& stop);
-  void take_wishes();
+  void take_requests();
   void start_due();
   [[nodiscard]] std::chrono::milliseconds until_next() const;
   void settle(std::uint64_t id, HttpAnswer answer);
@@ -101,7 +101,7 @@ class AssetStore {
   std::uint64_t next_id_ = 1;
   mutable std::mutex mutex_;  ///< guards what follows
   std::map<Key, Asked> files_;
-  std::vector<Job> wishes_;
+  std::vector<Job> requests_;
   std::set<std::string> arrived_;
   std::jthread thread_;  ///< last: it must end first
 };

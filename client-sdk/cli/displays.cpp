@@ -54,26 +54,26 @@ Expected<std::vector<DisplayStatus>> find(client::DisplayWatch& watch, const Dis
 }
 
 /// By session, of those that have answered.
-std::map<std::uint64_t, client::WishAnswer> answers_to(std::uint64_t id, client::DisplayWatch& watch) {
-  std::map<std::uint64_t, client::WishAnswer> answers;
+std::map<std::uint64_t, client::RequestAnswer> answers_to(std::uint64_t id, client::DisplayWatch& watch) {
+  std::map<std::uint64_t, client::RequestAnswer> answers;
   for (const DisplayStatus& display : watch.displays()) {
-    const auto found = std::ranges::find(display.answers, id, &client::WishAnswer::id);
+    const auto found = std::ranges::find(display.answers, id, &client::RequestAnswer::id);
     if (found != display.answers.end()) answers[display.session] = *found;
   }
   return answers;
 }
 
-/// Sends the wish and tells of each display's answer.
-int wish(client::DisplayWatch& watch, const DisplaysOptions& options,
-         const std::vector<client::DisplaySetting>& settings, bool picture) {
+/// Sends the request and tells of each display's answer.
+int request(client::DisplayWatch& watch, const DisplaysOptions& options,
+            const std::vector<client::DisplaySetting>& settings, bool picture) {
   const auto displays = find(watch, options);
   if (!displays) return tell(displays.error(), 1);
-  const auto id = watch.wish(options.kiosk, options.display, settings, picture);
+  const auto id = watch.request(options.kiosk, options.display, settings, picture);
   if (!id) return tell(id.error(), 2);
   SystemClock clock;
   const TimePoint until =
       clock.now() + duration_of(picture ? std::max(options.seconds, kPictureSeconds) : options.seconds);
-  std::map<std::uint64_t, client::WishAnswer> answers;
+  std::map<std::uint64_t, client::RequestAnswer> answers;
   while (answers.size() < displays->size() && clock.now() < until) {
     watch.wait(kLook);
     answers = answers_to(*id, watch);
@@ -107,7 +107,7 @@ int run_displays(const std::string& verb, const DisplaysOptions& options) {
     return tell(Error{"a kiosk has a name", "--kiosk", "write --kiosk kiosk-1; 'mechane displays' lists them"}, 2);
   auto watch = client::DisplayWatch::open(options.domain);
   if (!watch) return tell(watch.error(), 1);
-  if (!verb.empty()) return wish(**watch, options, settings, verb == "picture");
+  if (!verb.empty()) return request(**watch, options, settings, verb == "picture");
   const auto displays = find(**watch, options);
   if (!displays) return tell(displays.error(), 1);
   std::cout << (options.json ? displays_json(*displays) : displays_table(*displays));

@@ -15,7 +15,7 @@ namespace {
 using client::DisplayStatus;
 
 constexpr double kLossWorthTelling = 0.005;
-/// Under this share of the wish, pictures are seen to stutter; under so many a second in any case.
+/// Under this share of the rate asked for, pictures are seen to stutter; under so many a second in any case.
 constexpr double kSlowShare = 0.5;
 constexpr double kSlow_per_s = 20;
 

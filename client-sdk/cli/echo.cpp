@@ -309,7 +309,7 @@ Json to_json(const proto::DisplayStatus& s) {
   j.update({{"showing", proto::string_of(s.showing)}, {"warnings", s.warnings}});
   j.update({{"last_warning", proto::string_of(s.last_warning)}, {"settings", settings(s.settings)}});
   Json answers = Json::array();
-  for (const proto::WireWishAnswer& a : proto::elements(s.answers)) {
+  for (const proto::WireRequestAnswer& a : proto::elements(s.answers)) {
     answers.push_back(
         {{"id", a.id}, {"refusal", proto::string_of(a.refusal)}, {"picture", proto::string_of(a.picture)}});
   }
@@ -317,7 +317,7 @@ Json to_json(const proto::DisplayStatus& s) {
   return j;
 }
 
-Json to_json(const proto::DisplayWish& s) {
+Json to_json(const proto::DisplayRequest& s) {
   Json j = head(s);
   j.update({{"kiosk", text(s.kiosk)}, {"display", text(s.display)}, {"session", s.session}, {"id", s.id}});
   j.update({{"settings", settings(s.settings)}, {"picture", s.picture}});
@@ -446,11 +446,11 @@ constexpr Topic topic() {
 
 int run_echo(const EchoOptions& options) {
   static constexpr Topic kTopics[] = {
-      topic<proto::HapticInput>(), topic<proto::HapticOutput>(),      topic<proto::SceneFrame>(),
-      topic<proto::SceneObject>(), topic<proto::WorldStatus>(),       topic<proto::Event>(),
-      topic<proto::Command>(),     topic<proto::WorldAssignment>(),   topic<proto::ServerStatus>(),
-      topic<proto::KioskStatus>(), topic<proto::WorldPresentation>(), topic<proto::DisplayStatus>(),
-      topic<proto::DisplayWish>(), topic<proto::ViewerHead>()};
+      topic<proto::HapticInput>(),    topic<proto::HapticOutput>(),      topic<proto::SceneFrame>(),
+      topic<proto::SceneObject>(),    topic<proto::WorldStatus>(),       topic<proto::Event>(),
+      topic<proto::Command>(),        topic<proto::WorldAssignment>(),   topic<proto::ServerStatus>(),
+      topic<proto::KioskStatus>(),    topic<proto::WorldPresentation>(), topic<proto::DisplayStatus>(),
+      topic<proto::DisplayRequest>(), topic<proto::ViewerHead>()};
   for (const Topic& t : kTopics) {
     if (options.topic == t.name) return t.run(options);
   }

@@ -35,7 +35,7 @@ bool refused(client::Client& client, std::uint64_t command) {
   });
 }
 
-/// Sends the wish and waits for the world that answers it.
+/// Sends the request and waits for the world that answers it.
 Expected<client::WorldStatus> go_on(client::Client& client, const OpenOptions& options) {
   SystemClock clock;
   const TimePoint until = clock.now() + seconds(options.seconds);

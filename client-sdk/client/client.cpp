@@ -94,8 +94,8 @@ class ClientImpl final : public Client {
   [[nodiscard]] std::optional<ViewerHead> viewer_head() override {
     return display_ ? display_->viewer_head() : std::nullopt;
   }
-  [[nodiscard]] std::vector<DisplayWish> take_display_wishes() override {
-    return display_ ? display_->take_wishes() : std::vector<DisplayWish>();
+  [[nodiscard]] std::vector<DisplayRequest> take_display_requests() override {
+    return display_ ? display_->take_requests() : std::vector<DisplayRequest>();
   }
 
  private:

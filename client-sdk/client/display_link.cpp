@@ -64,9 +64,9 @@ Expected<std::unique_ptr<DisplayLink>> DisplayLink::create(const proto::Particip
   if (!writer) return tl::unexpected(writer.error());
   made->statuses_ = std::move(*writer);
   DisplayLink* const raw = made.get();
-  auto reader = proto::Reader<proto::DisplayWish>::create(participant, "", [raw](auto view) { raw->take(view); });
+  auto reader = proto::Reader<proto::DisplayRequest>::create(participant, "", [raw](auto view) { raw->take(view); });
   if (!reader) return tl::unexpected(reader.error());
-  made->wish_reader_ = std::move(*reader);
+  made->request_reader_ = std::move(*reader);
   auto heads = proto::Reader<proto::ViewerHead>::create(participant, "", [raw](auto view) { raw->take(view); });
   if (!heads) return tl::unexpected(heads.error());
   made->head_reader_ = std::move(*heads);
@@ -85,8 +85,8 @@ bool DisplayLink::report(const DisplayStatus& status) {
   look_at_texts(status, wire);
   std::vector<char*> missing = proto::pointers_to(status.missing);
   std::vector<proto::WireSetting> settings = to_wire(status.settings);
-  std::vector<proto::WireWishAnswer> answers;
-  for (const WishAnswer& answer : status.answers)
+  std::vector<proto::WireRequestAnswer> answers;
+  for (const RequestAnswer& answer : status.answers)
     answers.push_back({answer.id, proto::look_into(answer.refusal), proto::look_into(answer.picture)});
   proto::look_into(wire.missing, missing);
   proto::look_into(wire.settings, settings);
@@ -99,14 +99,14 @@ bool DisplayLink::is_meant(std::string_view kiosk, std::string_view display) con
   return kiosk == kiosk_ && (display.empty() || display == display_);
 }
 
-void DisplayLink::take(proto::ReaderView<proto::DisplayWish> view) {
-  view.take_each([this](const proto::DisplayWish& wire, const proto::SampleInfo& info) {
+void DisplayLink::take(proto::ReaderView<proto::DisplayRequest> view) {
+  view.take_each([this](const proto::DisplayRequest& wire, const proto::SampleInfo& info) {
     if (!info.valid || !is_meant(proto::text_of(wire.kiosk), proto::text_of(wire.display))) return;
-    DisplayWish wish;
-    if (!parse(wire, wish)) return;
+    DisplayRequest request;
+    if (!parse(wire, request)) return;
     const std::lock_guard lock(mutex_);
-    wishes_.push_back(std::move(wish));
-    if (wishes_.size() > kWishes) wishes_.pop_front();
+    requests_.push_back(std::move(request));
+    if (requests_.size() > kRequests) requests_.pop_front();
   });
 }
 
@@ -126,10 +126,10 @@ std::optional<ViewerHead> DisplayLink::viewer_head() {
   return head_;
 }
 
-std::vector<DisplayWish> DisplayLink::take_wishes() {
+std::vector<DisplayRequest> DisplayLink::take_requests() {
   const std::lock_guard lock(mutex_);
-  std::vector<DisplayWish> all(wishes_.begin(), wishes_.end());
-  wishes_.clear();
+  std::vector<DisplayRequest> all(requests_.begin(), requests_.end());
+  requests_.clear();
   return all;
 }
 

@@ -1,4 +1,4 @@
-// DisplayLink: a display's endpoints for whoever looks after it: how it is out, wishes in; and where a tracker sees a visitor's head.
+// DisplayLink: a display's endpoints for whoever looks after it: how it is out, requests in; and where a tracker sees a visitor's head.
 #pragma once
 
 #include <deque>
@@ -14,10 +14,10 @@
 
 namespace mechane::client {
 
-/// report() and take_wishes() are one thread's.
+/// report() and take_requests() are one thread's.
 class DisplayLink {
  public:
-  static constexpr std::size_t kWishes = 32;  ///< more at once are dropped, the oldest first
+  static constexpr std::size_t kRequests = 32;  ///< more at once are dropped, the oldest first
 
   [[nodiscard]] static Expected<std::unique_ptr<DisplayLink>> create(const proto::Participant& participant,
                                                                      const std::string& kiosk,
@@ -27,7 +27,7 @@ class DisplayLink {
 
   /// Kiosk, display and session are the link's own. False where the network did not take it.
   bool report(const DisplayStatus& status);
-  [[nodiscard]] std::vector<DisplayWish> take_wishes();
+  [[nodiscard]] std::vector<DisplayRequest> take_requests();
   /// The newest that was told of this display's screen.
   [[nodiscard]] std::optional<ViewerHead> viewer_head();
 
@@ -35,7 +35,7 @@ class DisplayLink {
   DisplayLink(std::string kiosk, std::string display, std::uint64_t session)
       : kiosk_(std::move(kiosk)), display_(std::move(display)), session_(session) {}
   [[nodiscard]] bool is_meant(std::string_view kiosk, std::string_view display) const;
-  void take(proto::ReaderView<proto::DisplayWish> view);
+  void take(proto::ReaderView<proto::DisplayRequest> view);
   void take(proto::ReaderView<proto::ViewerHead> view);
 
   std::string kiosk_;
@@ -43,11 +43,11 @@ class DisplayLink {
   std::uint64_t session_;
   std::uint64_t sequence_ = 0;
   std::mutex mutex_;  // for what follows
-  std::deque<DisplayWish> wishes_;
+  std::deque<DisplayRequest> requests_;
   std::optional<ViewerHead> head_;
   proto::Writer<proto::DisplayStatus> statuses_;
   // Last: their listeners end first.
-  proto::Reader<proto::DisplayWish> wish_reader_;
+  proto::Reader<proto::DisplayRequest> request_reader_;
   proto::Reader<proto::ViewerHead> head_reader_;
 };
 

@@ -41,7 +41,7 @@ bool parse_lists(const proto::DisplayStatus& wire, DisplayStatus& out) {
   for (const char* file : missing)
     out.missing.push_back(one_line(file));
   out.answers.clear();
-  for (const proto::WireWishAnswer& answer : answers)
+  for (const proto::WireRequestAnswer& answer : answers)
     out.answers.push_back({answer.id, one_line(answer.refusal), one_line(answer.picture)});
   return parse_settings(wire.settings, out.settings);
 }
@@ -97,7 +97,7 @@ bool parse(const proto::ViewerHead& wire, ViewerHead& out) {
   return proto::normalise(out.X_SV);
 }
 
-bool parse(const proto::DisplayWish& wire, DisplayWish& out) {
+bool parse(const proto::DisplayRequest& wire, DisplayRequest& out) {
   if (wire.protocol != proto::kProtocol || wire.id == 0) return false;
   out.id = wire.id;
   out.picture = wire.picture;

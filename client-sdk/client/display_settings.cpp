@@ -108,9 +108,9 @@ Expected<void> apply(const DisplaySetting& setting, DisplaySettings& settings) {
   return fail("a display has no setting " + quoted(setting.name), "setting", "choose one of " + names);
 }
 
-Expected<void> apply(const std::vector<DisplaySetting>& wished, DisplaySettings& settings) {
+Expected<void> apply(const std::vector<DisplaySetting>& requested, DisplaySettings& settings) {
   DisplaySettings changed = settings;
-  for (const DisplaySetting& setting : wished) {
+  for (const DisplaySetting& setting : requested) {
     if (auto ok = apply(setting, changed); !ok) return ok;
   }
   settings = changed;

@@ -24,9 +24,9 @@ class DisplayWatchImpl final : public DisplayWatch {
   explicit DisplayWatchImpl(proto::Participant participant) : participant_(std::move(participant)) {}
 
   [[nodiscard]] Expected<void> open() {
-    auto writer = proto::Writer<proto::DisplayWish>::create(participant_, "");
+    auto writer = proto::Writer<proto::DisplayRequest>::create(participant_, "");
     if (!writer) return tl::unexpected(writer.error());
-    wishes_ = std::move(*writer);
+    requests_ = std::move(*writer);
     auto reader = proto::Reader<proto::DisplayStatus>::create(participant_, "", [this](auto) { news_.signal(); });
     if (!reader) return tl::unexpected(reader.error());
     reader_ = std::move(*reader);
@@ -51,8 +51,8 @@ class DisplayWatchImpl final : public DisplayWatch {
     return all;
   }
 
-  [[nodiscard]] Expected<std::uint64_t> wish(const std::string& kiosk, const std::string& display,
-                                             const std::vector<DisplaySetting>& settings, bool picture) override {
+  [[nodiscard]] Expected<std::uint64_t> request(const std::string& kiosk, const std::string& display,
+                                                const std::vector<DisplaySetting>& settings, bool picture) override {
     if (auto ok = proto::check_name(kiosk, "kiosk"); !ok) return tl::unexpected(ok.error());
     if (!display.empty()) {
       if (auto ok = proto::check_name(display, "display"); !ok) return tl::unexpected(ok.error());
@@ -64,7 +64,7 @@ class DisplayWatchImpl final : public DisplayWatch {
       proto::set_text(wire_settings[i].name, settings[i].name);
       proto::set_text(wire_settings[i].value, settings[i].value);
     }
-    proto::DisplayWish wire{};
+    proto::DisplayRequest wire{};
     proto::set_text(wire.kiosk, kiosk);
     proto::set_text(wire.display, display);
     wire.protocol = proto::kProtocol;
@@ -74,7 +74,7 @@ class DisplayWatchImpl final : public DisplayWatch {
     wire.id = random_number();
     wire.picture = picture;
     proto::look_into(wire.settings, wire_settings);
-    return wishes_.write(wire) ? wire.id : 0;
+    return requests_.write(wire) ? wire.id : 0;
   }
 
  private:
@@ -84,7 +84,7 @@ class DisplayWatchImpl final : public DisplayWatch {
   std::uint64_t sequence_ = 0;
   std::map<Key, DisplayStatus> known_;
   realtime::Wakeup news_;
-  proto::Writer<proto::DisplayWish> wishes_;
+  proto::Writer<proto::DisplayRequest> requests_;
   proto::Reader<proto::DisplayStatus> reader_;  // last: its listener ends first
 };
 

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxRopes = 64;
 inline constexpr std::size_t kMaxRopePoints = 1024;
 inline constexpr std::size_t kMaxAffordances = 4096;
 inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
-inline constexpr std::size_t kMaxSettings = 64;    ///< of one wish or status
+inline constexpr std::size_t kMaxSettings = 64;    ///< of one request or status
 inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers of one status
 
 /// All of these return false, with `out` in no particular state, where the sample is of another protocol version, a number is not
@@ -33,8 +33,8 @@ inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers
 [[nodiscard]] bool parse(const proto::ServerStatus& wire, ServerStatus& out);
 /// Of a display with a name at a kiosk with a name; numbers are finite and not negative, shares at most 1.
 [[nodiscard]] bool parse(const proto::DisplayStatus& wire, DisplayStatus& out);
-/// What is wished is not checked: apply() does.
-[[nodiscard]] bool parse(const proto::DisplayWish& wire, DisplayWish& out);
+/// What is requested is not checked: apply() does.
+[[nodiscard]] bool parse(const proto::DisplayRequest& wire, DisplayRequest& out);
 /// Of a kiosk with a name. Where the head is, whoever uses it limits.
 [[nodiscard]] bool parse(const proto::ViewerHead& wire, ViewerHead& out);
 

@@ -64,7 +64,7 @@ Expected<picture::PixelSize> parse_size(const std::string& text) {
   return size;
 }
 
-Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests) {
+Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySignals& signals) {
   MECHANE_ASSERT(options.fps > 0);
   if (auto ok = make_folder(options.out); !ok) return tl::unexpected(ok.error());
   if (assets::is_web_address(options.assets)) {
@@ -104,7 +104,7 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayReque
   auto attract = open_attract(options, catalogue ? &*catalogue : nullptr);
   if (!attract) return tl::unexpected(attract.error());
   if (source->recorded != nullptr) possible.ask = visit::AskWhen::none;  // nobody is there who answers
-  return DisplayLoop(possible, requests, *context, window, std::move(*renderer), *source,
+  return DisplayLoop(possible, signals, *context, window, std::move(*renderer), *source,
                      catalogue ? &*catalogue : nullptr, std::move(*attract))
       .run();
 }

@@ -73,14 +73,14 @@ struct DisplaySummary {
 };
 
 /// Set from outside (a signal handler): stop at the next frame; take a picture of the next frame.
-struct DisplayRequests {
+struct DisplaySignals {
   std::atomic<bool> stop{false};
   std::atomic<bool> picture{false};
 };
 
 /// Draws until an option or a request says stop. The caller's thread is the display's. Errors: no context, no fonts, a bad kiosk name,
 /// a folder that cannot be written, a catalogue that cannot be read, an address of assets that is none.
-[[nodiscard]] Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplayRequests& requests);
+[[nodiscard]] Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySignals& signals);
 
 /// Reads "1280x720". Errors: not two numbers, or not within 16..8192.
 [[nodiscard]] Expected<picture::PixelSize> parse_size(const std::string& text);

@@ -11,16 +11,16 @@
 
 namespace mechane::display {
 
-DisplayLoop::DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, draw::GlContext& context,
+DisplayLoop::DisplayLoop(const DisplayOptions& options, DisplaySignals& signals, draw::GlContext& context,
                          Window* window, std::unique_ptr<draw::Renderer> renderer, DisplaySource& source,
                          const content::Catalogue* catalogue, std::unique_ptr<AttractLoop> attract)
     : options_(options),
-      requests_(requests),
+      signals_(signals),
       context_(context),
       window_(window),
       news_(options, source, open_assets(options, catalogue)),
       visitor_(options, window, news_, std::move(attract)),
-      presenter_(options, requests, context, window, std::move(renderer), news_, visitor_),
+      presenter_(options, signals, context, window, std::move(renderer), news_, visitor_),
       desk_(*source.client, identity_of(options, context), settings_at_start(options), clock_.now()),
       folder_(options.out, options.stereo) {}
 
@@ -46,7 +46,7 @@ TimePoint DisplayLoop::now() {
 }
 
 bool DisplayLoop::stop_wanted(TimePoint now) const {
-  if (requests_.stop || (window_ != nullptr && window_->close_wanted())) return true;
+  if (signals_.stop || (window_ != nullptr && window_->close_wanted())) return true;
   if (options_.seconds > 0 && now - started_ >= std::chrono::duration<double>(options_.seconds)) return true;
   if (options_.frames > 0 && presenter_.frames() >= options_.frames) return true;
   if (news_.over()) return true;
@@ -73,12 +73,12 @@ void DisplayLoop::take_visitor(TimePoint now) {
   if (visitor_.invite(desk_.settings(), now)) presenter_.replace_assets();
 }
 
-/// What is wished for from another machine, and how the display is.
+/// What is requested from another machine, and how the display is.
 void DisplayLoop::tend_kiosk(TimePoint now) {
-  if (desk_.take_wishes(visitor_.style())) {
-    const client::DisplaySettings& wished = desk_.settings();
-    visitor_.change(panel_settings(wished));
-    presenter_.soundtrack().set_levels(wished.volume, wished.muted);
+  if (desk_.take_requests(visitor_.style())) {
+    const client::DisplaySettings& requested = desk_.settings();
+    visitor_.change(panel_settings(requested));
+    presenter_.soundtrack().set_levels(requested.volume, requested.muted);
   }
   if (!desk_.report_due(now)) return;
   const scene::ShownWorld& world = news_.world();
@@ -89,7 +89,7 @@ void DisplayLoop::tend_kiosk(TimePoint now) {
 
 /// Draws, and takes the pictures that are due or asked for.
 Expected<void> DisplayLoop::show(TimePoint now) {
-  const bool asked = requests_.picture.exchange(false);
+  const bool asked = signals_.picture.exchange(false);
   const bool requested = (window_ != nullptr && window_->take_picture_wanted()) || asked || desk_.picture_wanted();
   const bool only_pictures = options_.offscreen && options_.every_step && options_.film_fps <= 0;
   if (!only_pictures || due_ || requested) {

@@ -20,7 +20,7 @@ namespace mechane::display {
 class DisplayLoop {
  public:
   /// `window` is the context's, null offscreen. `catalogue` and `attract` may be null.
-  DisplayLoop(const DisplayOptions& options, DisplayRequests& requests, draw::GlContext& context, Window* window,
+  DisplayLoop(const DisplayOptions& options, DisplaySignals& signals, draw::GlContext& context, Window* window,
               std::unique_ptr<draw::Renderer> renderer, DisplaySource& source, const content::Catalogue* catalogue,
               std::unique_ptr<AttractLoop> attract);
 
@@ -39,7 +39,7 @@ class DisplayLoop {
   [[nodiscard]] Expected<DisplaySummary> sum_up();
 
   const DisplayOptions& options_;
-  DisplayRequests& requests_;
+  DisplaySignals& signals_;
   draw::GlContext& context_;
   Window* window_;
   SystemClock clock_;

@@ -68,36 +68,36 @@ KioskDesk::KioskDesk(client::Client& client, DisplayIdentity identity, client::D
       next_report_(now),
       host_(host_name()) {}
 
-bool KioskDesk::take_wishes(const picture::OverlayStyle& style) {
+bool KioskDesk::take_requests(const picture::OverlayStyle& style) {
   settings_.large_text = style.text_scale > 1;
   settings_.high_contrast = style.high_contrast;
   const client::DisplaySettings before = settings_;
-  for (const client::DisplayWish& wish : client_.take_display_wishes())
-    answer(wish);
+  for (const client::DisplayRequest& request : client_.take_display_requests())
+    answer(request);
   return settings_ != before;
 }
 
-void KioskDesk::answer(const client::DisplayWish& wish) {
-  if (wish.picture && !identity_.has_folder) {
-    return say({wish.id, "this display has no folder for pictures: start it with --out FOLDER", ""});
+void KioskDesk::answer(const client::DisplayRequest& request) {
+  if (request.picture && !identity_.has_folder) {
+    return say({request.id, "this display has no folder for pictures: start it with --out FOLDER", ""});
   }
-  client::DisplaySettings wished = settings_;
-  if (auto applied = client::apply(wish.settings, wished); !applied)
-    return say({wish.id, applied.error().to_string(), ""});
-  if (wished.attract && !identity_.has_attract && !settings_.attract)
-    return say({wish.id, "this display has no recorded visit to show: start it with --attract FILE", ""});
-  settings_ = wished;
-  for (const client::DisplaySetting& setting : wish.settings)
+  client::DisplaySettings requested = settings_;
+  if (auto applied = client::apply(request.settings, requested); !applied)
+    return say({request.id, applied.error().to_string(), ""});
+  if (requested.attract && !identity_.has_attract && !settings_.attract)
+    return say({request.id, "this display has no recorded visit to show: start it with --attract FILE", ""});
+  settings_ = requested;
+  for (const client::DisplaySetting& setting : request.settings)
     log::info(fmt::format("from afar: {}={}", setting.name, setting.value));
-  if (wish.picture) {
-    picture_for_.push_back(wish.id);
+  if (request.picture) {
+    picture_for_.push_back(request.id);
   } else {
-    say({wish.id, "", ""});
+    say({request.id, "", ""});
   }
 }
 
-void KioskDesk::say(client::WishAnswer answer) {
-  if (!answer.refusal.empty()) log::warning("a wish from afar is refused: " + answer.refusal);
+void KioskDesk::say(client::RequestAnswer answer) {
+  if (!answer.refusal.empty()) log::warning("a request from afar is refused: " + answer.refusal);
   answers_.push_back(std::move(answer));
   if (answers_.size() > kAnswers) answers_.pop_front();
   next_report_ = {};  // who asked is waiting

@@ -1,4 +1,4 @@
-// What a display tells to, and hears from, whoever looks after its kiosk: how it is, once a second; settings and pictures that are wished
+// What a display tells to, and hears from, whoever looks after its kiosk: how it is, once a second; settings and pictures that are requested
 // for. On the display's thread; time is an argument.
 #pragma once
 
@@ -92,8 +92,8 @@ class KioskDesk {
   /// The client outlives the desk.
   KioskDesk(client::Client& client, DisplayIdentity identity, client::DisplaySettings settings, TimePoint now);
 
-  /// Answers what was wished. True where settings changed. `style`: as visitors have it now, with keys of their own.
-  [[nodiscard]] bool take_wishes(const picture::OverlayStyle& style);
+  /// Answers what was requested. True where settings changed. `style`: as visitors have it now, with keys of their own.
+  [[nodiscard]] bool take_requests(const picture::OverlayStyle& style);
   [[nodiscard]] const client::DisplaySettings& settings() const { return settings_; }
   /// Somebody asked for a picture.
   [[nodiscard]] bool picture_wanted() const { return !picture_for_.empty(); }
@@ -107,8 +107,8 @@ class KioskDesk {
   void report(const DisplayFacts& facts, TimePoint now);
 
  private:
-  void answer(const client::DisplayWish& wish);
-  void say(client::WishAnswer answer);
+  void answer(const client::DisplayRequest& request);
+  void say(client::RequestAnswer answer);
 
   client::Client& client_;
   DisplayIdentity identity_;
@@ -118,8 +118,8 @@ class KioskDesk {
   TimePoint began_;
   TimePoint next_report_;
   std::string host_;
-  std::vector<std::uint64_t> picture_for_;  ///< ids of wishes that no picture was taken for yet
-  std::deque<client::WishAnswer> answers_;
+  std::vector<std::uint64_t> picture_for_;  ///< ids of requests that no picture was taken for yet
+  std::deque<client::RequestAnswer> answers_;
 };
 
 }  // namespace mechane::display

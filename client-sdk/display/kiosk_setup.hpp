@@ -16,7 +16,7 @@ namespace mechane::display {
 /// The address has been read once already. `catalogue` may be null.
 [[nodiscard]] scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue);
 
-/// Null where none is wished for. Errors: those of FrameRecording.
+/// Null where none is requested. Errors: those of FrameRecording.
 [[nodiscard]] Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,
                                                                   const content::Catalogue* catalogue);
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace mechane;
 
-display::DisplayRequests g_requests;  // what a signal handler may write
+display::DisplaySignals g_signals;  // what a signal handler may write
 
 /// An option that takes one of some words. CLI11's own way for an enum prints its values, which are no words, where a word is wrong.
 template <class Value>
@@ -198,10 +198,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   options.size = *parsed;
-  std::signal(SIGINT, [](int) { g_requests.stop = true; });
-  std::signal(SIGTERM, [](int) { g_requests.stop = true; });
-  std::signal(SIGUSR1, [](int) { g_requests.picture = true; });
-  const Expected<display::DisplaySummary> summary = display::run_display(options, g_requests);
+  std::signal(SIGINT, [](int) { g_signals.stop = true; });
+  std::signal(SIGTERM, [](int) { g_signals.stop = true; });
+  std::signal(SIGUSR1, [](int) { g_signals.picture = true; });
+  const Expected<display::DisplaySummary> summary = display::run_display(options, g_signals);
   if (!summary) {
     log::error(summary.error());
     return 1;

@@ -15,10 +15,10 @@ constexpr Duration kCardComesBack = std::chrono::seconds(60);
 
 }  // namespace
 
-Presenter::Presenter(const DisplayOptions& options, const DisplayRequests& requests, draw::GlContext& context,
+Presenter::Presenter(const DisplayOptions& options, const DisplaySignals& signals, draw::GlContext& context,
                      Window* window, std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor)
     : options_(options),
-      requests_(requests),
+      signals_(signals),
       context_(context),
       window_(window),
       renderer_(std::move(renderer)),
@@ -162,7 +162,7 @@ Expected<void> Presenter::recover() {
   renderer_.reset();
   const TimePoint lost = clock_.now();
   auto renderer = begin_drawing();
-  while (!renderer && !requests_.stop && clock_.now() - lost < kCardComesBack) {
+  while (!renderer && !signals_.stop && clock_.now() - lost < kCardComesBack) {
     clock_.sleep_until(clock_.now() + std::chrono::seconds(1));
     renderer = begin_drawing();
   }

@@ -21,7 +21,7 @@ namespace mechane::display {
 class Presenter {
  public:
   /// `window` is the context's, null offscreen. `renderer` is made in the context as it is now.
-  Presenter(const DisplayOptions& options, const DisplayRequests& requests, draw::GlContext& context, Window* window,
+  Presenter(const DisplayOptions& options, const DisplaySignals& signals, draw::GlContext& context, Window* window,
             std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor);
 
   /// Frees what was uploaded, and uploads what is shown now.
@@ -54,7 +54,7 @@ class Presenter {
   [[nodiscard]] Expected<std::unique_ptr<draw::Renderer>> begin_drawing();
 
   const DisplayOptions& options_;
-  const DisplayRequests& requests_;
+  const DisplaySignals& signals_;
   draw::GlContext& context_;
   Window* window_;
   std::unique_ptr<draw::Renderer> renderer_;  ///< of the context as it is now

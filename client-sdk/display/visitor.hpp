@@ -32,7 +32,7 @@ class Visitor {
   void take(const LastPicture& last, const SceneNow& scene, TimePoint now);
   /// Begins, goes on with or ends the invitation. True: all uploaded assets are to be replaced, by those of what is shown now.
   [[nodiscard]] bool invite(const client::DisplaySettings& settings, TimePoint now);
-  /// Settings that somebody wished for from another machine.
+  /// Settings that somebody requested from another machine.
   void change(const visit::VisitorPanelSettings& settings) { panel_.change(settings); }
 
   /// What the visitor is offered, and what helps the pointer. Not for an invitation.

@@ -20,7 +20,7 @@ bool is_place(const PointerEvent& event) {
 
 }  // namespace
 
-std::vector<HandWish> PointerFingers::take(const PointerEvent& event, const HandState& hand) {
+std::vector<HandRequest> PointerFingers::take(const PointerEvent& event, const HandState& hand) {
   using Kind = PointerEvent::Kind;
   switch (event.kind) {
     case Kind::press:
@@ -36,33 +36,33 @@ std::vector<HandWish> PointerFingers::take(const PointerEvent& event, const Hand
     case Kind::gone: {
       turning_ = false;
       second_.reset();
-      return first_ ? lift(first_->id) : std::vector<HandWish>{};
+      return first_ ? lift(first_->id) : std::vector<HandRequest>{};
     }
     default:
       return {};
   }
 }
 
-std::vector<HandWish> PointerFingers::press(const PointerEvent& event, const HandState& hand) {
+std::vector<HandRequest> PointerFingers::press(const PointerEvent& event, const HandState& hand) {
   if (!is_place(event)) return {};
   const picture::PixelPlace at{event.x, event.y};
-  std::vector<HandWish> wishes;
+  std::vector<HandRequest> requests;
   // It was never lifted, or its hand has nothing to do any more.
   if (second_ && second_->id == event.finger) second_.reset();
-  if (first_ && first_->id == event.finger) wishes = lift(event.finger);
+  if (first_ && first_->id == event.finger) requests = lift(event.finger);
   if (first_ && !hand.busy) first_ = second_ = std::nullopt;
   if (!first_) {
     first_ = Finger{event.finger, at, 0};
     hand_ = at;
-    wishes.push_back({HandWish::Kind::take, at, 0});
+    requests.push_back({HandRequest::Kind::take, at, 0});
   } else if (!second_ && event.finger != kMouse && first_->id != kMouse) {
     second_ = Finger{event.finger, at, 0};
   }
-  return wishes;
+  return requests;
 }
 
 /// The finger that stays goes on from where the hand is.
-std::vector<HandWish> PointerFingers::lift(FingerId id) {
+std::vector<HandRequest> PointerFingers::lift(FingerId id) {
   if (second_ && second_->id == id) {
     second_.reset();
     return {};
@@ -70,10 +70,10 @@ std::vector<HandWish> PointerFingers::lift(FingerId id) {
   if (!first_ || first_->id != id) return {};
   first_ = std::exchange(second_, std::nullopt);
   if (first_) return {};
-  return {{HandWish::Kind::release, {}, 0}};
+  return {{HandRequest::Kind::release, {}, 0}};
 }
 
-std::vector<HandWish> PointerFingers::move(const PointerEvent& event, const HandState& hand) {
+std::vector<HandRequest> PointerFingers::move(const PointerEvent& event, const HandState& hand) {
   if (!is_place(event)) return {};
   const picture::PixelPlace to{event.x, event.y};
   const bool of_second = second_ && second_->id == event.finger;
@@ -85,41 +85,41 @@ std::vector<HandWish> PointerFingers::move(const PointerEvent& event, const Hand
   if (of_second) return {};
   if (turning_ && moved.id == kMouse) {
     const double turn = kMouseTurn_rad * (to.x - from.x) / std::max(1.0, static_cast<double>(hand.picture.height));
-    return {{HandWish::Kind::twist, {}, turn}};
+    return {{HandRequest::Kind::twist, {}, turn}};
   }
   return {go_by(to.x - from.x, to.y - from.y)};
 }
 
 /// The hand goes with the middle of the two. What is carried keeps to the fingers: it turns as they turn, and looks as much larger as they are
 /// farther apart.
-std::vector<HandWish> PointerFingers::move_pair(Finger& moved, picture::PixelPlace to, const HandState& hand) {
+std::vector<HandRequest> PointerFingers::move_pair(Finger& moved, picture::PixelPlace to, const HandState& hand) {
   const picture::PixelPlace from = moved.at;
   const double x0 = second_->at.x - first_->at.x, y0 = second_->at.y - first_->at.y;
   moved.at = to;
   const double x1 = second_->at.x - first_->at.x, y1 = second_->at.y - first_->at.y;
-  std::vector<HandWish> wishes{go_by((to.x - from.x) / 2, (to.y - from.y) / 2)};
+  std::vector<HandRequest> requests{go_by((to.x - from.x) / 2, (to.y - from.y) / 2)};
   const double least = std::max(1.0, kLeastApart * hand.picture.height);
   const double apart_before = std::hypot(x0, y0), apart = std::hypot(x1, y1);
-  if (apart_before < least || apart < least) return wishes;
-  wishes.push_back({HandWish::Kind::twist, {}, std::atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1)});
-  wishes.push_back({HandWish::Kind::deepen, {}, std::log(apart_before / apart)});
-  return wishes;
+  if (apart_before < least || apart < least) return requests;
+  requests.push_back({HandRequest::Kind::twist, {}, std::atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1)});
+  requests.push_back({HandRequest::Kind::deepen, {}, std::log(apart_before / apart)});
+  return requests;
 }
 
-HandWish PointerFingers::go_by(double dx, double dy) {
+HandRequest PointerFingers::go_by(double dx, double dy) {
   hand_ = {std::clamp(hand_.x + dx, -kFarthest_px, kFarthest_px),
            std::clamp(hand_.y + dy, -kFarthest_px, kFarthest_px)};
-  return {HandWish::Kind::move, hand_, 0};
+  return {HandRequest::Kind::move, hand_, 0};
 }
 
-std::vector<HandWish> PointerFingers::pass(double dt_s) {
-  std::vector<HandWish> wishes;
+std::vector<HandRequest> PointerFingers::pass(double dt_s) {
+  std::vector<HandRequest> requests;
   for (std::optional<Finger>* finger : {&second_, &first_}) {
     if (!*finger || (*finger)->id == kMouse) continue;
     (*finger)->silent_s += std::max(dt_s, 0.0);
-    if ((*finger)->silent_s > kGoneAfter_s) wishes = lift((*finger)->id);
+    if ((*finger)->silent_s > kGoneAfter_s) requests = lift((*finger)->id);
   }
-  return wishes;
+  return requests;
 }
 
 }  // namespace mechane::pointer

@@ -11,7 +11,7 @@
 namespace mechane::pointer {
 
 /// What the hand shall do next.
-struct HandWish {
+struct HandRequest {
   enum class Kind : std::uint8_t { take, move, twist, deepen, release };
   Kind kind = Kind::move;
   picture::PixelPlace place{};  ///< take, move: pixels of the whole picture
@@ -30,11 +30,11 @@ struct HandState {
 class PointerFingers {
  public:
   /// What an event of fingers or buttons means; other events mean nothing here.
-  [[nodiscard]] std::vector<HandWish> take(const PointerEvent& event, const HandState& hand);
-  /// Where a finger wished to take something, there was nothing: until it is lifted it means nothing.
+  [[nodiscard]] std::vector<HandRequest> take(const PointerEvent& event, const HandState& hand);
+  /// Where a finger tried to take something, there was nothing: until it is lifted it means nothing.
   void missed() { first_.reset(); }
   /// A finger that says nothing for half a minute has gone without a word. The mouse may rest as long as it likes.
-  [[nodiscard]] std::vector<HandWish> pass(double dt_s);
+  [[nodiscard]] std::vector<HandRequest> pass(double dt_s);
   [[nodiscard]] bool any() const { return first_.has_value(); }
 
  private:
@@ -43,14 +43,14 @@ class PointerFingers {
     picture::PixelPlace at;
     double silent_s = 0;
   };
-  std::vector<HandWish> press(const PointerEvent& event, const HandState& hand);
-  std::vector<HandWish> lift(FingerId id);
-  std::vector<HandWish> move(const PointerEvent& event, const HandState& hand);
-  std::vector<HandWish> move_pair(Finger& moved, picture::PixelPlace to, const HandState& hand);
-  HandWish go_by(double dx, double dy);
+  std::vector<HandRequest> press(const PointerEvent& event, const HandState& hand);
+  std::vector<HandRequest> lift(FingerId id);
+  std::vector<HandRequest> move(const PointerEvent& event, const HandState& hand);
+  std::vector<HandRequest> move_pair(Finger& moved, picture::PixelPlace to, const HandState& hand);
+  HandRequest go_by(double dx, double dy);
 
   std::optional<Finger> first_, second_;
-  picture::PixelPlace hand_;  // where the hand is wished
+  picture::PixelPlace hand_;  // where the hand is asked to be
   bool turning_ = false;      // the right button is held
 };
 

@@ -88,19 +88,19 @@ void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& s
          scene);
 }
 
-void PointerInput::follow(const std::vector<HandWish>& wishes, const PointerScene& scene) {
-  for (const HandWish& wish : wishes) {
-    if (wish.kind == HandWish::Kind::take) {
-      if (!press(scene, wish.place)) fingers_.missed();
+void PointerInput::follow(const std::vector<HandRequest>& requests, const PointerScene& scene) {
+  for (const HandRequest& request : requests) {
+    if (request.kind == HandRequest::Kind::take) {
+      if (!press(scene, request.place)) fingers_.missed();
     } else if (by_keys_) {
       continue;
-    } else if (wish.kind == HandWish::Kind::move) {
-      const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, wish.place);
+    } else if (request.kind == HandRequest::Kind::move) {
+      const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, request.place);
       if (seen) link_->move(seen->place);
-    } else if (wish.kind == HandWish::Kind::twist) {
-      link_->turn(wish.amount);
-    } else if (wish.kind == HandWish::Kind::deepen) {
-      link_->deepen(wish.amount);
+    } else if (request.kind == HandRequest::Kind::twist) {
+      link_->turn(request.amount);
+    } else if (request.kind == HandRequest::Kind::deepen) {
+      link_->deepen(request.amount);
     } else {
       link_->release();
     }

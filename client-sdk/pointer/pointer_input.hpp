@@ -76,7 +76,7 @@ class PointerInput {
 
  private:
   void take_fingers(const PointerEvent& event, const PointerScene& scene);
-  void follow(const std::vector<HandWish>& wishes, const PointerScene& scene);
+  void follow(const std::vector<HandRequest>& requests, const PointerScene& scene);
   [[nodiscard]] bool press(const PointerScene& scene, picture::PixelPlace whole);
   void go_on_with_keys(const PointerScene& scene, double dt_s);
   void take_key(PointerKey key, const PointerScene& scene);

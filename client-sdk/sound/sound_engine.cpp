@@ -120,15 +120,15 @@ Expected<void> SoundEngine::Impl::open_device() {
     device.reset(alcOpenDevice(nullptr));
   }
   if (!device) return fail("there is no device for sound", "sound", remedy);
-  std::vector<ALCint> wishes{ALC_FREQUENCY, kSoundRate_hz};
+  std::vector<ALCint> requests{ALC_FREQUENCY, kSoundRate_hz};
   // Many sounds at once must not clip.
-  wishes.insert(wishes.end(), {ALC_OUTPUT_LIMITER_SOFT, ALC_TRUE});
+  requests.insert(requests.end(), {ALC_OUTPUT_LIMITER_SOFT, ALC_TRUE});
   if (output == SoundOutput::samples) {
-    wishes.insert(wishes.end(), {ALC_FORMAT_CHANNELS_SOFT, ALC_STEREO_SOFT, ALC_FORMAT_TYPE_SOFT, ALC_SHORT_SOFT});
-    wishes.insert(wishes.end(), {ALC_HRTF_SOFT, ALC_FALSE});
+    requests.insert(requests.end(), {ALC_FORMAT_CHANNELS_SOFT, ALC_STEREO_SOFT, ALC_FORMAT_TYPE_SOFT, ALC_SHORT_SOFT});
+    requests.insert(requests.end(), {ALC_HRTF_SOFT, ALC_FALSE});
   }
-  wishes.push_back(0);
-  context.reset(alcCreateContext(device.get(), wishes.data()));
+  requests.push_back(0);
+  context.reset(alcCreateContext(device.get(), requests.data()));
   if (!context || alcSetThreadContext(context.get()) == ALC_FALSE)
     return fail("the device for sound refuses", "sound", remedy);
   return {};

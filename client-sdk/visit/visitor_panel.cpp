@@ -124,7 +124,7 @@ void VisitorPanel::follow_run(const client::WorldStatus& status, TimePoint now) 
   if (!run_ || run_->world != status.world) {
     hands_.clear();
     stirred_ = now;
-    home_wished_ = false;
+    home_requested_ = false;
   }
   if (anew) {
     asking_.reset();
@@ -170,11 +170,11 @@ void VisitorPanel::update(const VisitorNews& news, TimePoint now) {
   leave_alone(now);
 }
 
-/// Nobody is there: the next visitor shall choose an exhibit, and not find the last one's. Wished once a world.
+/// Nobody is there: the next visitor shall choose an exhibit, and not find the last one's. Requested once a world.
 void VisitorPanel::leave_alone(TimePoint now) {
-  if (settings_.home_after <= Duration{0} || home_.empty() || home_wished_ || !run_) return;
+  if (settings_.home_after <= Duration{0} || home_.empty() || home_requested_ || !run_) return;
   if (now - stirred_ < settings_.home_after) return;
-  wishes_.home = home_wished_ = true;
+  requests_.home = home_requested_ = true;
 }
 
 void VisitorPanel::touch(TimePoint now) {
@@ -187,7 +187,7 @@ void VisitorPanel::press(const picture::OverlayAction& action, TimePoint now) {
   const bool settled = asking_ && now - asking_->shown >= kSettles;
   switch (action.kind) {
     case picture::OverlayAction::Kind::home:
-      wishes_.home = wishes_.home || !home_.empty();
+      requests_.home = requests_.home || !home_.empty();
       return;
     case picture::OverlayAction::Kind::language:
       if (std::ranges::count(other_languages(), action.value) > 0) language_ = action.value;
@@ -213,7 +213,7 @@ void VisitorPanel::answer(const std::string& value, TimePoint now) {
   const auto is_this = [&](const picture::OverlayButton& button) { return button.action.value == value; };
   if (std::ranges::none_of(answer_buttons(question, language_), is_this)) return;
   asking_->answered = true;
-  wishes_.answers.push_back({asking_->when, what->name, question.name, value});
+  requests_.answers.push_back({asking_->when, what->name, question.name, value});
   go_on(now);
 }
 

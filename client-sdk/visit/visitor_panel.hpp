@@ -43,7 +43,7 @@ struct VisitorAnswer {
 };
 
 /// What the display has to do for the visitor.
-struct VisitorWishes {
+struct VisitorRequests {
   bool home = false;
   std::vector<VisitorAnswer> answers;  ///< oldest first
 };
@@ -86,7 +86,7 @@ class VisitorPanel {
   [[nodiscard]] const std::string& language() const { return language_; }
   /// Adds what is offered now.
   void write(picture::OverlayContent& content, TimePoint now) const;
-  [[nodiscard]] VisitorWishes take_wishes() { return std::exchange(wishes_, {}); }
+  [[nodiscard]] VisitorRequests take_requests() { return std::exchange(requests_, {}); }
 
  private:
   /// One going-through of an activity.
@@ -134,10 +134,10 @@ class VisitorPanel {
   bool asked_after_ = false;
   std::optional<TimePoint> last_sign_;  ///< of a visitor; none: there is nobody
   TimePoint stirred_;                   ///< somebody did something last, or this world began
-  bool home_wished_ = false;            ///< in this world
+  bool home_requested_ = false;         ///< in this world
   std::map<std::pair<std::string, std::uint32_t>, KnownHand> hands_;  ///< by kiosk and user
   bool began_ = false;
-  VisitorWishes wishes_;
+  VisitorRequests requests_;
 };
 
 }  // namespace mechane::visit

@@ -204,7 +204,7 @@ std::shared_ptr<const state::WorldDescription> Lobby::next_of(Entry& entry) cons
                                entry.description->id, step.name, step.opens));
     }
   }
-  if (const auto wish = entry.running.port->take_wish()) next = scenarios_.all()[*wish];
+  if (const auto request = entry.running.port->take_request()) next = scenarios_.all()[*request];
   return next;
 }
 

@@ -28,7 +28,7 @@ class Lobby {
   ~Lobby();
 
   void take(const transport::News& news, TimePoint now);
-  /// Lets kiosks go on to another scenario: where a step says so, or somebody wishes it. After the news of a poll.
+  /// Lets kiosks go on to another scenario: where a step says so, or somebody asks for it. After the news of a poll.
   void follow_signs();
   /// Visitors' answers go to the sheets of their visits. Without sheets they are taken, and not kept.
   void take_answers();

@@ -20,7 +20,7 @@ struct UserInput {
 
 enum class CommandKind : std::uint8_t { none = 0, start_activity = 1, restart_activity = 2, next_step = 3, click = 4 };
 
-/// A wish of a person or a program, answered by id with an event.
+/// A request of a person or a program, answered by id with an event.
 struct Command {
   std::uint64_t id = 0;
   CommandKind kind = CommandKind::none;

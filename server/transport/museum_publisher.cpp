@@ -75,7 +75,7 @@ void MuseumPublisher::write_assignments() {
   pending_.clear();
 }
 
-void MuseumPublisher::add(std::unique_ptr<WorldWriter> writer) {
+void MuseumPublisher::add(std::unique_ptr<WorldEndpoints> writer) {
   const std::lock_guard lock(mutex_);
   writer->write_manifest();
   worlds_.push_back(std::move(writer));

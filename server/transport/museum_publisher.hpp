@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "server/realtime/wakeup.hpp"
-#include "server/transport/world_writer.hpp"
+#include "server/transport/world_endpoints.hpp"
 #include <mechane/proto/entity.hpp>
 
 namespace mechane::transport {
@@ -34,7 +34,7 @@ class MuseumPublisher {
   MuseumPublisher& operator=(const MuseumPublisher&) = delete;
 
   /// From now on its manifest, frames, status and events go out.
-  void add(std::unique_ptr<WorldWriter> writer);
+  void add(std::unique_ptr<WorldEndpoints> writer);
   /// Returns when the thread does not touch the port any more; the endpoints are gone then.
   void remove(const WorldPort& port);
   void assign(const std::string& kiosk, const Assignment& assignment);
@@ -54,7 +54,7 @@ class MuseumPublisher {
     bool gone = false;
   };
   std::mutex mutex_;  // for what follows, up to the thread's own
-  std::vector<std::unique_ptr<WorldWriter>> worlds_;
+  std::vector<std::unique_ptr<WorldEndpoints>> worlds_;
   std::map<std::string, Pending> pending_;
   proto::ServerStatus status_;
 

@@ -281,7 +281,7 @@ Expected<WorldPort*> ServerTransport::Impl::open_world(const std::string& world,
         return open_lane(kiosk, user, session);
       },
       [this](const std::shared_ptr<Lane>& lane) { close_lane(lane); });
-  auto writer = WorldWriter::create(participant_, *port, rejects, scenarios);
+  auto writer = WorldEndpoints::create(participant_, *port, rejects, scenarios);
   if (!writer) return tl::unexpected<Error>(writer.error());
   museum_->add(std::move(*writer));
   ports_.push_back(std::move(port));

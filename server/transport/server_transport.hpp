@@ -42,8 +42,8 @@ struct ServerStatusData {
 
 /// What happened at the kiosks since the last poll, in order.
 enum class NewsKind {
-  kiosk_appeared,    ///< its first session came: give it a world, by the session's wishes
-  session_appeared,  ///< any session, after kiosk_appeared for the first; its wishes may differ
+  kiosk_appeared,    ///< its first session came: give it a world, by the session's requests
+  session_appeared,  ///< any session, after kiosk_appeared for the first; its requests may differ
   hand_granted,      ///< the session owns its kiosk's hand `user` now: bind it
   hand_freed,        ///< it does not any more: unbind it
   session_left,      ///< unregistered, or silent for 3 s

@@ -22,9 +22,9 @@ struct Session {
   Role role = Role::watcher;
   std::string program;
   std::string host;
-  std::string scenario;    ///< wish: id of the scenario; empty: the server's first
-  bool was_there = false;  ///< it is no wish: the kiosk was in that scenario last
-  std::string join_kiosk;  ///< wish: share the world of this kiosk; empty: a world of its own
+  std::string scenario;    ///< request: id of the scenario; empty: the server's first
+  bool was_there = false;  ///< it is no request: the kiosk was in that scenario last
+  std::string join_kiosk;  ///< request: share the world of this kiosk; empty: a world of its own
 };
 
 /// A hand came to a session, or was taken from it.
@@ -42,7 +42,7 @@ class SessionTable {
   static constexpr Duration kFirstInputGrace = std::chrono::seconds(3);
   static constexpr std::size_t kMaxSessions = 512;
 
-  /// False when it is known already (its wishes are then brought up to date), or when the table is full.
+  /// False when it is known already (its requests are then brought up to date), or when the table is full.
   bool appeared(const Session& session);
   /// False when it is not known.
   bool left(std::uint64_t session);

@@ -96,9 +96,9 @@ std::size_t WorldPort::free_slot() const {
   return static_cast<std::size_t>(std::find(lanes_.begin(), lanes_.end(), nullptr) - lanes_.begin());
 }
 
-std::optional<std::uint32_t> WorldPort::take_wish() {
+std::optional<std::uint32_t> WorldPort::take_request() {
   std::optional<std::uint32_t> newest;
-  for (std::uint32_t scenario = 0; wishes_.pop(scenario);)
+  for (std::uint32_t scenario = 0; requests_.pop(scenario);)
     newest = scenario;
   return newest;
 }

@@ -87,8 +87,8 @@ class WorldPort {
   [[nodiscard]] std::size_t slot_of(std::uint64_t session) const;
   /// A slot that nobody has; kMaxUsers when all are taken.
   [[nodiscard]] std::size_t free_slot() const;
-  /// The newest wish of somebody at a kiosk of this world: the scenario to go on to, by its place in TransportConfig::scenarios.
-  [[nodiscard]] std::optional<std::uint32_t> take_wish();
+  /// The newest request of somebody at a kiosk of this world: the scenario to go on to, by its place in TransportConfig::scenarios.
+  [[nodiscard]] std::optional<std::uint32_t> take_request();
   /// The next answer of a visitor, in the order in which they came.
   [[nodiscard]] std::optional<VisitAnswer> take_answer();
   /// The newest language that a display has told: by its place in the description's languages.
@@ -108,7 +108,7 @@ class WorldPort {
 
   // The other sides, each for one thread of the transport's.
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
-  bool offer_wish(std::uint32_t scenario) noexcept { return wishes_.push(scenario); }             ///< command listener
+  bool offer_request(std::uint32_t scenario) noexcept { return requests_.push(scenario); }        ///< command listener
   bool offer_answer(const VisitAnswer& answer) noexcept { return answers_.push(answer); }         ///< command listener
   bool offer_language(std::uint32_t language) noexcept { return languages_.push(language); }      ///< command listener
   [[nodiscard]] const SceneSnapshot* take_snapshot() noexcept { return snapshots_.take(); }       ///< scene publisher
@@ -147,7 +147,7 @@ class WorldPort {
   realtime::Mailbox<SceneSnapshot> snapshots_;
   realtime::Ring<state::Event> events_{kEventCapacity};
   realtime::Ring<state::Command> commands_{kCommandCapacity};
-  realtime::Ring<std::uint32_t> wishes_{8};
+  realtime::Ring<std::uint32_t> requests_{8};
   realtime::Ring<VisitAnswer> answers_{64};
   realtime::Ring<std::uint32_t> languages_{8};
   std::atomic<std::uint64_t> events_lost_{0};

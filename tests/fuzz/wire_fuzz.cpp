@@ -200,23 +200,23 @@ std::vector<proto::WireSetting> take_settings(Bytes& bytes) {
   return settings;
 }
 
-/// A wish as a display takes it: whatever it says, the settings stay within their ranges.
-void fuzz_wish(Bytes bytes) {
-  proto::DisplayWish wire{};
+/// A request as a display takes it: whatever it says, the settings stay within their ranges.
+void fuzz_request(Bytes bytes) {
+  proto::DisplayRequest wire{};
   wire.protocol = proto::kProtocol;
   wire.id = bytes.take<std::uint16_t>();
   wire.picture = bytes.take<std::uint8_t>() % 2 == 1;
   std::vector<proto::WireSetting> settings = take_settings(bytes);
   proto::look_into(wire.settings, settings);
-  client::DisplayWish wish;
-  if (!client::parse(wire, wish)) return;
+  client::DisplayRequest request;
+  if (!client::parse(wire, request)) return;
   const client::DisplaySettings before;
   client::DisplaySettings now;
-  const bool taken = client::apply(wish.settings, now).has_value();
+  const bool taken = client::apply(request.settings, now).has_value();
   must(taken || now == before);
   must(now.volume >= 0 && now.volume <= 1 && now.home_after_s >= 0 && now.home_after_s <= 86'400);
   must(now.attract_after_s >= 5 && (now.language == "el" || now.language == "en"));
-  client::DisplaySettings again;  // what is told of them can be wished for
+  client::DisplaySettings again;  // what is told of them can be requested
   must(client::apply(client::settings_of(now), again).has_value());
 }
 
@@ -246,7 +246,7 @@ void fuzz_display(Bytes bytes) {
   wire.last_warning = wire.sound = wire.renderer = proto::look_into(text);
   std::vector<char*> missing(bytes.take<std::uint8_t>() % 80, proto::look_into(text));
   std::vector<proto::WireSetting> settings = take_settings(bytes);
-  std::vector<proto::WireWishAnswer> answers(bytes.take<std::uint8_t>() % 80);
+  std::vector<proto::WireRequestAnswer> answers(bytes.take<std::uint8_t>() % 80);
   proto::look_into(wire.missing, missing);
   proto::look_into(wire.settings, settings);
   proto::look_into(wire.answers, answers);
@@ -264,7 +264,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Bytes rest(data + 1, size - 1);
   if (data[0] >= 0xf0) {
     if (data[0] % 2 == 0) {
-      fuzz_wish(rest);
+      fuzz_request(rest);
     } else {
       fuzz_display(rest);
     }

@@ -1,4 +1,4 @@
-"""A kiosk's life: displays tell how they are and take wishes from afar, several show one world, links delay and lose."""
+"""A kiosk's life: displays tell how they are and take requests from afar, several show one world, links delay and lose."""
 
 import contextlib
 import json

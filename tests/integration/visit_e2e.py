@@ -105,11 +105,11 @@ class Visit(EndToEnd):
         server = self.server(scenario=scenarios)
         wait_until(lambda: "resumed kiosk-1" in server.text(), 20, "the visit is taken up again")
         self.assertEqual(self.scenario_of("kiosk-1"), "archimedes-screw")
-        for kiosk, wish, status, answer in (("kiosk-1", (), 0, "kiosk-1 is at village"),
+        for kiosk, request, status, answer in (("kiosk-1", (), 0, "kiosk-1 is at village"),
                                             ("kiosk-1", ("archimedes-screw",), 0, "kiosk-1 is at archimedes-screw"),
                                             ("kiosk-1", ("archimedes",), 1, "it has village, archimedes-screw"),
                                             ("kiosk-2", (), 1, "name one of: kiosk-1")):
-            result = self.run_command("open", "--kiosk", kiosk, *wish)
+            result = self.run_command("open", "--kiosk", kiosk, *request)
             self.assertEqual(result.returncode, status, result.stdout + result.stderr)
             self.assertIn(answer, result.stdout + result.stderr)
         # A server that no longer has the exhibit brings the kiosk home; what nobody has been in stays an error.
@@ -118,7 +118,7 @@ class Visit(EndToEnd):
         wait_until(lambda: "kiosk-1 was in 'archimedes-screw', which this server was not started with" in server.text(), 20, "the kiosk goes home")
         self.assertEqual(self.scenario_of("kiosk-1"), "village")
         lost = self.visitor("kiosk-3")
-        wait_until(lambda: "this server has no scenario 'archimedes-screw'" in server.text(), 20, "a wish for what is not there is refused")
+        wait_until(lambda: "this server has no scenario 'archimedes-screw'" in server.text(), 20, "a request for what is not there is refused")
         lost.stop()
         self.assertEqual(server.stop(), 0, server.text())
 

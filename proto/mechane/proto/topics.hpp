@@ -28,7 +28,7 @@ using WorldAssignment = ::mechane_WorldAssignment;
 using ServerStatus = ::mechane_ServerStatus;
 using KioskStatus = ::mechane_KioskStatus;
 using DisplayStatus = ::mechane_DisplayStatus;
-using DisplayWish = ::mechane_DisplayWish;
+using DisplayRequest = ::mechane_DisplayRequest;
 using ViewerHead = ::mechane_ViewerHead;
 using WirePose = ::mechane_Pose;
 using WireLocalContact = ::mechane_LocalContact;
@@ -46,7 +46,7 @@ using WireEffect = ::mechane_Effect;
 using WireAffordance = ::mechane_Affordance;
 using HandOwner = ::mechane_HandOwner;
 using WireSetting = ::mechane_DisplaySetting;
-using WireWishAnswer = ::mechane_WishAnswer;
+using WireRequestAnswer = ::mechane_RequestAnswer;
 
 /// Where a topic's endpoints live.
 enum class Place { museum, kiosk, world };
@@ -76,7 +76,7 @@ MECHANE_PROTO_TOPIC(WorldAssignment, museum, world_assignment_qos);
 MECHANE_PROTO_TOPIC(ServerStatus, museum, server_status_qos);
 MECHANE_PROTO_TOPIC(KioskStatus, museum, kiosk_status_qos);
 MECHANE_PROTO_TOPIC(DisplayStatus, museum, display_status_qos);
-MECHANE_PROTO_TOPIC(DisplayWish, museum, command_qos);
+MECHANE_PROTO_TOPIC(DisplayRequest, museum, command_qos);
 MECHANE_PROTO_TOPIC(ViewerHead, museum, viewer_head_qos);
 #undef MECHANE_PROTO_TOPIC
 // clang-format on

@@ -41,8 +41,8 @@ class PlayedDisplay : public testing::Test {
     options.source.play = recording.string();
     options.film_fps = 2;
     options.frames = 2;
-    DisplayRequests requests;
-    const auto summary = run_display(options, requests);
+    DisplaySignals signals;
+    const auto summary = run_display(options, signals);
     EXPECT_TRUE(summary.has_value()) << (summary ? "" : summary.error().to_string());
     std::vector<std::string> pictures;
     if (!summary) return pictures;

@@ -1,4 +1,4 @@
-// Displays and who looks after them, over the loopback: how one is goes out, wishes come in, lies are refused.
+// Displays and who looks after them, over the loopback: how one is goes out, requests come in, lies are refused.
 #include <cstring>
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@ namespace mechane::test {
 namespace {
 
 using client::DisplayStatus;
-using client::WishAnswer;
+using client::RequestAnswer;
 using display::KioskDesk;
 using namespace std::chrono_literals;
 using testing::HasSubstr;
@@ -37,7 +37,7 @@ struct Desk {
   static TimePoint now() { return std::chrono::steady_clock::now(); }
   /// As a display does in each turn of its loop.
   void turn() {
-    if (desk->take_wishes(style)) ++changes;
+    if (desk->take_requests(style)) ++changes;
     display::DisplayFacts facts;
     facts.size = {640, 360};
     if (desk->report_due(now())) desk->report(facts, now());
@@ -58,7 +58,7 @@ class Displays : public ::testing::Test {
     ASSERT_TRUE(opened.has_value()) << opened.error().to_string();
     watch_ = std::move(*opened);
   }
-  /// The status of one of the desks, once it fulfils a wish.
+  /// The status of one of the desks, once it fulfils a request.
   std::optional<DisplayStatus> told(const std::vector<Desk*>& desks, const std::string& name,
                                     const std::function<bool(const DisplayStatus&)>& wanted) {
     std::optional<DisplayStatus> found;
@@ -77,7 +77,7 @@ class Displays : public ::testing::Test {
     return found;
   }
   static bool answers(const DisplayStatus& status, std::uint64_t id) {
-    return std::ranges::find(status.answers, id, &WishAnswer::id) != status.answers.end();
+    return std::ranges::find(status.answers, id, &RequestAnswer::id) != status.answers.end();
   }
 
   LoopbackDomain museum_domain_{kServerDomain, 0};
@@ -85,16 +85,16 @@ class Displays : public ::testing::Test {
   std::unique_ptr<client::DisplayWatch> watch_;
 };
 
-TEST_F(Displays, AWishReachesTheDisplaysThatItNamesAndIsAnsweredInTheirStatus) {
+TEST_F(Displays, ARequestReachesTheDisplaysThatItNamesAndIsAnsweredInTheirStatus) {
   Desk wall("wall"), bystanders("bystanders");
   const std::vector<Desk*> both{&wall, &bystanders};
   ASSERT_TRUE(told(both, "wall", [](const DisplayStatus& s) { return s.width == 640; }));
   ASSERT_TRUE(told(both, "bystanders", [](const DisplayStatus&) { return true; }));
-  const auto one = watch_->wish("kiosk-1", "wall", {{"volume", "0.5"}}, false);
+  const auto one = watch_->request("kiosk-1", "wall", {{"volume", "0.5"}}, false);
   ASSERT_TRUE(one.has_value());
-  const auto all = watch_->wish("kiosk-1", "", {{"language", "en"}}, false);
+  const auto all = watch_->request("kiosk-1", "", {{"language", "en"}}, false);
   ASSERT_TRUE(all.has_value());
-  const auto elsewhere = watch_->wish("kiosk-2", "", {{"mute", "on"}}, false);
+  const auto elsewhere = watch_->request("kiosk-2", "", {{"mute", "on"}}, false);
   ASSERT_TRUE(elsewhere.has_value());
   const auto at_wall = told(both, "wall", [&](const DisplayStatus& s) { return answers(s, *one) && answers(s, *all); });
   const auto beside = told(both, "bystanders", [&](const DisplayStatus& s) { return answers(s, *all); });
@@ -108,20 +108,20 @@ TEST_F(Displays, AWishReachesTheDisplaysThatItNamesAndIsAnsweredInTheirStatus) {
   EXPECT_EQ(at_wall->link, 0U);
 }
 
-TEST_F(Displays, WhatALyingClientWishesIsRefusedAndChangesNothing) {
+TEST_F(Displays, WhatALyingClientRequestsIsRefusedAndChangesNothing) {
   Desk wall("wall");
   ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
-  EXPECT_FALSE(watch_->wish("kiosk-1", "", {{"volume", "2"}}, false).has_value()) << "the honest one asks first";
+  EXPECT_FALSE(watch_->request("kiosk-1", "", {{"volume", "2"}}, false).has_value()) << "the honest one asks first";
   auto participant = proto::Participant::create(kServerDomain);
   ASSERT_TRUE(participant.has_value());
-  auto liar = proto::Writer<proto::DisplayWish>::create(*participant, "");
+  auto liar = proto::Writer<proto::DisplayRequest>::create(*participant, "");
   ASSERT_TRUE(liar.has_value());
   std::vector<proto::WireSetting> lies(2);
   proto::set_text(lies[0].name, "large-text");
   proto::set_text(lies[0].value, "on");
   std::memset(&lies[1], 0xff, sizeof(lies[1]));
   lies[1].name[sizeof(lies[1].name) - 1] = lies[1].value[sizeof(lies[1].value) - 1] = '\0';
-  proto::DisplayWish wire{};
+  proto::DisplayRequest wire{};
   proto::set_text(wire.kiosk, "kiosk-1");
   wire.protocol = proto::kProtocol;
   wire.id = 77;
@@ -142,18 +142,18 @@ TEST_F(Displays, WhatALyingClientWishesIsRefusedAndChangesNothing) {
 TEST_F(Displays, APictureIsAnsweredWhenItIsWrittenAndKeysOfVisitorsAreTold) {
   Desk wall("wall", true);
   ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
-  const auto wished = watch_->wish("kiosk-1", "wall", {}, true);
-  ASSERT_TRUE(wished.has_value());
+  const auto requested = watch_->request("kiosk-1", "wall", {}, true);
+  ASSERT_TRUE(requested.has_value());
   ASSERT_TRUE(eventually([&] { return wall.desk->picture_wanted(); }, 10s, [&] { wall.turn(); }));
   wall.style.high_contrast = true;
   const std::vector<std::uint64_t> requests = wall.desk->take_picture_requests();
   EXPECT_FALSE(wall.desk->picture_wanted()) << "one is enough, while it is being written";
   wall.desk->picture_taken(requests, "out/one.png");
-  const auto status = told({&wall}, "wall", [&](const DisplayStatus& s) { return answers(s, *wished); });
+  const auto status = told({&wall}, "wall", [&](const DisplayStatus& s) { return answers(s, *requested); });
   ASSERT_TRUE(status);
   EXPECT_EQ(status->answers[0].picture, "out/one.png");
   EXPECT_EQ(status->answers[0].refusal, "");
-  EXPECT_EQ(wall.changes, 0) << "a key of a visitor is no wish";
+  EXPECT_EQ(wall.changes, 0) << "a key of a visitor is no request";
   EXPECT_TRUE(told({&wall}, "wall", [](const DisplayStatus& s) {
     return std::ranges::count(s.settings, client::DisplaySetting{"high-contrast", "on"}) == 1;
   }));

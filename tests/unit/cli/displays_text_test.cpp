@@ -76,7 +76,7 @@ TEST(DisplaysText, each_fault_has_its_remark_and_says_what_to_do) {
               "warning 3 of 3: a.glb: no such file");
 }
 
-TEST(DisplaysText, silence_that_was_wished_for_is_no_fault) {
+TEST(DisplaysText, silence_that_was_requested_for_is_no_fault) {
   client::DisplayStatus display = well();
   display.sound.clear();
   display.sound_problem = "muted";

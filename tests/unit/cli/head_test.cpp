@@ -31,9 +31,9 @@ class Museum final : public client::DisplayWatch {
  public:
   void wait(Duration) override {}
   [[nodiscard]] std::vector<client::DisplayStatus> displays() override { return all; }
-  [[nodiscard]] Expected<std::uint64_t> wish(const std::string&, const std::string&,
-                                             const std::vector<client::DisplaySetting>&, bool) override {
-    return fail("nobody wishes here");
+  [[nodiscard]] Expected<std::uint64_t> request(const std::string&, const std::string&,
+                                                const std::vector<client::DisplaySetting>&, bool) override {
+    return fail("nobody requests here");
   }
   void add(const char* kiosk, const char* display) {
     all.emplace_back();

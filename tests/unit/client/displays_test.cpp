@@ -102,13 +102,13 @@ TEST(DisplayStatus, texts_are_one_line_of_bearable_length) {
   EXPECT_EQ(out.sound.size() % 2, 0U) << "no half of a letter";
 }
 
-TEST(DisplayWish, one_that_nobody_can_answer_or_with_too_much_is_no_wish) {
-  proto::DisplayWish wire{};
+TEST(DisplayRequest, one_that_nobody_can_answer_or_with_too_much_is_no_request) {
+  proto::DisplayRequest wire{};
   wire.protocol = proto::kProtocol;
   wire.id = 7;
   std::vector<proto::WireSetting> settings(kMaxSettings);
   proto::look_into(wire.settings, settings);
-  DisplayWish out;
+  DisplayRequest out;
   EXPECT_TRUE(parse(wire, out));
   settings.resize(kMaxSettings + 1);
   proto::look_into(wire.settings, settings);

@@ -38,30 +38,30 @@ class Table {
   void take(const PointerEvent& event) {
     follow(fingers_.take(event, {busy(), hand_.view().phase == PointerView::Phase::holding, kGlassPane}));
   }
-  void follow(const std::vector<HandWish>& wishes) {
-    for (const HandWish& wish : wishes) {
-      ASSERT_TRUE(std::isfinite(wish.amount) && std::isfinite(wish.place.x) && std::isfinite(wish.place.y));
-      switch (wish.kind) {
-        case HandWish::Kind::take:
-          if (wish.place.x < kGlassPane.width / 4.0) {
+  void follow(const std::vector<HandRequest>& requests) {
+    for (const HandRequest& request : requests) {
+      ASSERT_TRUE(std::isfinite(request.amount) && std::isfinite(request.place.x) && std::isfinite(request.place.y));
+      switch (request.kind) {
+        case HandRequest::Kind::take:
+          if (request.place.x < kGlassPane.width / 4.0) {
             fingers_.missed();
           } else {
-            senses_.X_WB.p = picture::point_at(sight_, wish.place, 3);
+            senses_.X_WB.p = picture::point_at(sight_, request.place, 3);
             senses_.holding = false;
-            hand_.press(sight_, wish.place, {7, senses_.X_WB.p});
+            hand_.press(sight_, request.place, {7, senses_.X_WB.p});
           }
           break;
-        case HandWish::Kind::move:
-          hand_.move(wish.place);
-          wished_ = wish.place;
+        case HandRequest::Kind::move:
+          hand_.move(request.place);
+          requested_ = request.place;
           break;
-        case HandWish::Kind::twist:
-          hand_.turn(wish.amount);
+        case HandRequest::Kind::twist:
+          hand_.turn(request.amount);
           break;
-        case HandWish::Kind::deepen:
-          hand_.deepen(wish.amount);
+        case HandRequest::Kind::deepen:
+          hand_.deepen(request.amount);
           break;
-        case HandWish::Kind::release:
+        case HandRequest::Kind::release:
           hand_.release();
           break;
       }
@@ -101,7 +101,7 @@ class Table {
     return -std::atan2(x_W.y(), x_W.x());
   }
   [[nodiscard]] double depth() const { return picture::depth_of(sight_, hand_.view().p_WH); }
-  [[nodiscard]] picture::PixelPlace wished() const { return wished_; }
+  [[nodiscard]] picture::PixelPlace requested() const { return requested_; }
   void wait(double seconds) { follow(fingers_.pass(seconds)); }
 
  private:
@@ -112,7 +112,7 @@ class Table {
   PointerSenses senses_;
   Pose X_HB_;
   std::optional<Pose> last_;
-  picture::PixelPlace wished_;
+  picture::PixelPlace requested_;
 };
 
 void take_in_the_middle(Table& table) {
@@ -158,7 +158,7 @@ RC_GTEST_PROP(PointerFingers, a_motion_of_a_finger_moves_the_hand_by_no_more, ()
   table.take(finger_event(EventKind::move, 1, 640, 360));
   table.take(finger_event(EventKind::press, 2, 800, 300));
   std::map<FingerId, picture::PixelPlace> at{{1, {640, 360}}, {2, {800, 300}}};
-  picture::PixelPlace hand = table.wished();
+  picture::PixelPlace hand = table.requested();
   bool both = true;
   for (int k = 0; k < 40; ++k) {
     const FingerId finger = *rc::gen::element<FingerId>(1, 2);
@@ -167,19 +167,19 @@ RC_GTEST_PROP(PointerFingers, a_motion_of_a_finger_moves_the_hand_by_no_more, ()
     if (at.contains(finger)) {
       table.take(finger_event(EventKind::move, finger, to.x, to.y));
       const double moved = std::hypot(to.x - at[finger].x, to.y - at[finger].y);
-      RC_ASSERT(std::hypot(table.wished().x - hand.x, table.wished().y - hand.y) <= moved + 1e-9);
+      RC_ASSERT(std::hypot(table.requested().x - hand.x, table.requested().y - hand.y) <= moved + 1e-9);
       at[finger] = to;
     }
     if (both && k == 20) {  // one is lifted, and the hand stays where it is
       both = false;
       const FingerId lifted = *rc::gen::element<FingerId>(1, 2);
-      hand = table.wished();
+      hand = table.requested();
       table.take(finger_event(EventKind::release, lifted, at[lifted].x, at[lifted].y));
       at.erase(lifted);
-      RC_ASSERT(table.wished().x == hand.x && table.wished().y == hand.y);
+      RC_ASSERT(table.requested().x == hand.x && table.requested().y == hand.y);
       RC_ASSERT(table.holds());
     }
-    hand = table.wished();
+    hand = table.requested();
   }
 }
 
@@ -206,15 +206,15 @@ TEST(PointerFingers, TheMousesRightButtonTurnsAndDoesNotMove) {
   table.take(finger_event(EventKind::press, kMouse, 640, 360));
   table.pass(1.2);
   table.take(finger_event(EventKind::move, kMouse, 650, 360));
-  const picture::PixelPlace before = table.wished();
+  const picture::PixelPlace before = table.requested();
   table.take(finger_event(EventKind::turn_press, kMouse, 650, 360));
   table.take(finger_event(EventKind::move, kMouse, 1010, 360));
   table.pass(2);
   EXPECT_NEAR(table.turned(), std::numbers::pi / 2, 0.1);
-  EXPECT_EQ(table.wished().x, before.x);
+  EXPECT_EQ(table.requested().x, before.x);
   table.take(finger_event(EventKind::turn_release, kMouse, 1010, 360));
   table.take(finger_event(EventKind::move, kMouse, 1020, 360));
-  EXPECT_NEAR(table.wished().x, before.x + 10, 1e-9) << "it goes on from where it was";
+  EXPECT_NEAR(table.requested().x, before.x + 10, 1e-9) << "it goes on from where it was";
 }
 
 TEST(PointerFingers, AFingerThatWentWithoutAWordLetsGo) {

@@ -86,14 +86,14 @@ TEST_F(VisitorPanelTest, the_way_home_is_offered_where_it_leads_elsewhere) {
   EXPECT_EQ(away.corner[0].action.kind, Press::home);
   EXPECT_EQ(away.corner[0].text, "Village");
   press(panel, Press::home);
-  EXPECT_TRUE(panel.take_wishes().home);
-  EXPECT_FALSE(panel.take_wishes().home);
+  EXPECT_TRUE(panel.take_requests().home);
+  EXPECT_FALSE(panel.take_requests().home);
   status.scenario = "village";
   const picture::OverlayContent there = look(panel);
   ASSERT_EQ(there.corner.size(), 1U);
   EXPECT_EQ(there.corner[0].action.kind, Press::language);
   press(panel, Press::home);
-  EXPECT_FALSE(panel.take_wishes().home);
+  EXPECT_FALSE(panel.take_requests().home);
 }
 
 TEST_F(VisitorPanelTest, a_kiosk_that_is_left_alone_goes_home_by_itself) {
@@ -105,20 +105,20 @@ TEST_F(VisitorPanelTest, a_kiosk_that_is_left_alone_goes_home_by_itself) {
   EXPECT_EQ(look(panel, milliseconds(7500)).note, "Is anybody here? Back to the beginning in 8 s");
   panel.touch(now);
   EXPECT_EQ(look(panel, seconds(5)).note, "");
-  EXPECT_FALSE(panel.take_wishes().home);
+  EXPECT_FALSE(panel.take_requests().home);
   look(panel, seconds(56));
-  EXPECT_TRUE(panel.take_wishes().home);
+  EXPECT_TRUE(panel.take_requests().home);
   look(panel, seconds(100));
-  EXPECT_FALSE(panel.take_wishes().home) << "once: who cannot go home is not asked again and again";
+  EXPECT_FALSE(panel.take_requests().home) << "once: who cannot go home is not asked again and again";
   status.world = "w2";
   status.scenario = "village";
   look(panel, seconds(1));
   look(panel, seconds(100));
-  EXPECT_FALSE(panel.take_wishes().home) << "it is at home";
+  EXPECT_FALSE(panel.take_requests().home) << "it is at home";
   VisitorPanel patient({"en", AskWhen::none, {}});
   look(patient, seconds(1));
   look(patient, seconds(100'000));
-  EXPECT_FALSE(patient.take_wishes().home);
+  EXPECT_FALSE(patient.take_requests().home);
 }
 
 TEST_F(VisitorPanelTest, another_language_stays_while_somebody_is_there) {
@@ -184,7 +184,7 @@ TEST_F(VisitorPanelTest, questions_come_one_by_one_after_the_activity_with_a_far
   ASSERT_TRUE(farewell);
   EXPECT_TRUE(farewell->answers.empty());
   EXPECT_EQ(farewell->text, "Thank you!");
-  const auto given = panel.take_wishes().answers;
+  const auto given = panel.take_requests().answers;
   ASSERT_EQ(given.size(), 2U);
   EXPECT_EQ(given[0].activity, "use");
   EXPECT_EQ(given[0].question, "drum");
@@ -205,7 +205,7 @@ TEST_F(VisitorPanelTest, what_is_skipped_is_not_answered_and_not_thanked_for) {
   const auto farewell = look(panel).panel;
   ASSERT_TRUE(farewell);
   EXPECT_TRUE(farewell->more.empty());
-  EXPECT_TRUE(panel.take_wishes().answers.empty());
+  EXPECT_TRUE(panel.take_requests().answers.empty());
 }
 
 TEST_F(VisitorPanelTest, a_double_tap_answers_once_and_a_wrong_name_never) {
@@ -220,7 +220,7 @@ TEST_F(VisitorPanelTest, a_double_tap_answers_once_and_a_wrong_name_never) {
   const auto second = look(panel, milliseconds(10)).panel;
   ASSERT_TRUE(second);
   EXPECT_TRUE(second->scale) << "the second question is still there";
-  EXPECT_EQ(panel.take_wishes().answers.size(), 1U);
+  EXPECT_EQ(panel.take_requests().answers.size(), 1U);
 }
 
 TEST_F(VisitorPanelTest, questions_go_when_nobody_clicks_or_the_visit_goes_on) {
@@ -256,7 +256,7 @@ TEST_F(VisitorPanelTest, asks_before_only_where_told_and_when_somebody_is_there)
   EXPECT_EQ(panel->goal, "See how");
   (void)look(both);
   press(both, Press::answer, "first");
-  const auto given = both.take_wishes().answers;
+  const auto given = both.take_requests().answers;
   ASSERT_EQ(given.size(), 1U);
   EXPECT_EQ(given[0].when, client::AnswerTime::before);
   status.steps_done = 1;

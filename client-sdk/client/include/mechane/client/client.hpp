@@ -22,7 +22,7 @@ struct ClientConfig {
   Role role = Role::watcher;
   std::string program = "client";  ///< for logs and status: "mechane-display"
   std::string scenario{};  ///< what the kiosk gets where it has no world: id of the scenario; empty: the server's first
-  std::string join_kiosk{};  ///< wish: share the world of this kiosk; empty: a world of one's own
+  std::string join_kiosk{};  ///< request: share the world of this kiosk; empty: a world of one's own
   int fifo_priority = 0;     ///< SCHED_FIFO of the thread that receives forces; 0, or refused: an ordinary thread
   std::uint32_t domain = 0;  ///< DDS domain; the network is set up by CYCLONEDDS_URI
   std::string display{};     ///< name of the display that this client is, among the kiosk's; empty: it is none
@@ -105,8 +105,8 @@ class Client {
   /// Says how this display is; once a second keeps it alive for those who watch. False where the client is no display
   /// (ClientConfig::display), or the network did not take it.
   virtual bool report(const DisplayStatus& /*status*/) { return false; }
-  /// Wishes to this display since the last call, oldest first. Each is to be answered in the next status.
-  [[nodiscard]] virtual std::vector<DisplayWish> take_display_wishes() { return {}; }
+  /// Requests to this display since the last call, oldest first. Each is to be answered in the next status.
+  [[nodiscard]] virtual std::vector<DisplayRequest> take_display_requests() { return {}; }
   /// Where a tracker saw the visitor's head last; none has told yet, or the client is no display.
   [[nodiscard]] virtual std::optional<ViewerHead> viewer_head() { return {}; }
 };

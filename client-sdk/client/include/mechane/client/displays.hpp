@@ -43,21 +43,21 @@ struct DisplaySettingInfo {
 /// Changes one setting. Errors, with nothing changed: no such setting, no such value, out of its range.
 [[nodiscard]] Expected<void> apply(const DisplaySetting& setting, DisplaySettings& settings);
 /// All or none. Errors: of the first that is wrong.
-[[nodiscard]] Expected<void> apply(const std::vector<DisplaySetting>& wished, DisplaySettings& settings);
+[[nodiscard]] Expected<void> apply(const std::vector<DisplaySetting>& requested, DisplaySettings& settings);
 /// As they are now, in the order of display_settings().
 [[nodiscard]] std::vector<DisplaySetting> settings_of(const DisplaySettings& settings);
 /// Reads "volume=0.5". Errors: no '='.
 [[nodiscard]] Expected<DisplaySetting> read_setting(const std::string& text);
 
-/// A wish of somebody who looks after a kiosk.
-struct DisplayWish {
+/// A request of somebody who looks after a kiosk.
+struct DisplayRequest {
   std::uint64_t id = 0;
   std::vector<DisplaySetting> settings;  ///< as they came: not checked
   bool picture = false;
 };
 
-/// What became of a wish.
-struct WishAnswer {
+/// What became of a request.
+struct RequestAnswer {
   std::uint64_t id = 0;
   std::string refusal;  ///< empty: done
   std::string picture;  ///< where it asked for one: its file, on the display's machine
@@ -95,7 +95,7 @@ struct DisplayStatus {
   std::uint64_t warnings = 0;        ///< in its log, since its start
   std::string last_warning;
   std::vector<DisplaySetting> settings;  ///< as they are now
-  std::vector<WishAnswer> answers;       ///< to the last wishes, newest last
+  std::vector<RequestAnswer> answers;    ///< to the last requests, newest last
 };
 
 /// SceneFrames of this client since it was made.
@@ -115,10 +115,10 @@ class DisplayWatch {
   virtual void wait(Duration timeout) = 0;
   /// Those that live, by kiosk, name and session. One that ended or was cut off is soon gone, one that hangs after 15 s.
   [[nodiscard]] virtual std::vector<DisplayStatus> displays() = 0;
-  /// Sends a wish to a kiosk's displays; `display` empty: to all of them. Returns the id that they answer with in their status; 0 where
+  /// Sends a request to a kiosk's displays; `display` empty: to all of them. Returns the id that they answer with in their status; 0 where
   /// the network did not take it. Errors: a bad name, a setting that does not exist or is out of its range.
-  [[nodiscard]] virtual Expected<std::uint64_t> wish(const std::string& kiosk, const std::string& display,
-                                                     const std::vector<DisplaySetting>& settings, bool picture) = 0;
+  [[nodiscard]] virtual Expected<std::uint64_t> request(const std::string& kiosk, const std::string& display,
+                                                        const std::vector<DisplaySetting>& settings, bool picture) = 0;
 };
 
 }  // namespace mechane::client

@@ -1,4 +1,4 @@
-// WorldWriter: one world's endpoints but for the hands', and how its state becomes samples.
+// WorldEndpoints: one world's endpoints but for the hands', and how its state becomes samples.
 #pragma once
 
 #include <atomic>
@@ -15,14 +15,14 @@
 namespace mechane::transport {
 
 /// Made by the main thread; write() is the museum publisher's; commands are checked on a thread of Cyclone's.
-class WorldWriter {
+class WorldEndpoints {
  public:
-  /// `scenarios`: ids of what a kiosk may ask for, home first. The references outlive the writer.
-  [[nodiscard]] static Expected<std::unique_ptr<WorldWriter>> create(const proto::Participant& participant,
-                                                                     WorldPort& port, RejectCounters& rejects,
-                                                                     const std::vector<std::string>& scenarios);
-  WorldWriter(const WorldWriter&) = delete;
-  WorldWriter& operator=(const WorldWriter&) = delete;
+  /// `scenarios`: ids of what a kiosk may ask for, home first. The references outlive it.
+  [[nodiscard]] static Expected<std::unique_ptr<WorldEndpoints>> create(const proto::Participant& participant,
+                                                                        WorldPort& port, RejectCounters& rejects,
+                                                                        const std::vector<std::string>& scenarios);
+  WorldEndpoints(const WorldEndpoints&) = delete;
+  WorldEndpoints& operator=(const WorldEndpoints&) = delete;
 
   [[nodiscard]] WorldPort& port() const { return port_; }
   /// Publishes the manifest and a first status. Once, before write().
@@ -32,8 +32,8 @@ class WorldWriter {
   [[nodiscard]] std::uint64_t writes_failed() const { return failed_; }
 
  private:
-  WorldWriter(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios);
-  void take_wish(const std::string& scenario, std::uint64_t id);
+  WorldEndpoints(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios);
+  void take_request(const std::string& scenario, std::uint64_t id);
   void take_commands(proto::ReaderView<proto::Command> view);
   /// A command that the tick carries out.
   void take_for_tick(const proto::Command& wire);

@@ -1,4 +1,4 @@
-#include "server/transport/world_writer.hpp"
+#include "server/transport/world_endpoints.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -66,7 +66,7 @@ bool same_pose(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-WorldWriter::WorldWriter(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios)
+WorldEndpoints::WorldEndpoints(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios)
     : port_(port), rejects_(rejects), scenarios_(scenarios) {
   const auto& bodies = port.description().bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -76,17 +76,17 @@ WorldWriter::WorldWriter(WorldPort& port, RejectCounters& rejects, const std::ve
   hands_.reserve(hand::kMaxUsers);
 }
 
-Expected<std::unique_ptr<WorldWriter>> WorldWriter::create(const proto::Participant& participant, WorldPort& port,
-                                                           RejectCounters& rejects,
-                                                           const std::vector<std::string>& scenarios) {
-  std::unique_ptr<WorldWriter> made(new WorldWriter(port, rejects, scenarios));
+Expected<std::unique_ptr<WorldEndpoints>> WorldEndpoints::create(const proto::Participant& participant, WorldPort& port,
+                                                                 RejectCounters& rejects,
+                                                                 const std::vector<std::string>& scenarios) {
+  std::unique_ptr<WorldEndpoints> made(new WorldEndpoints(port, rejects, scenarios));
   const std::string partition = proto::world_partition(port.world());
   const auto open = [&](auto& endpoint, auto created) -> std::optional<Error> {
     if (!created) return created.error();
     endpoint = std::move(*created);
     return std::nullopt;
   };
-  WorldWriter* const raw = made.get();
+  WorldEndpoints* const raw = made.get();
   std::optional<Error> fault = open(made->frames_, proto::Writer<proto::SceneFrame>::create(participant, partition));
   if (!fault) fault = open(made->objects_, proto::Writer<proto::SceneObject>::create(participant, partition));
   if (!fault) fault = open(made->status_, proto::Writer<proto::WorldStatus>::create(participant, partition));
@@ -102,14 +102,14 @@ Expected<std::unique_ptr<WorldWriter>> WorldWriter::create(const proto::Particip
   return made;
 }
 
-void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
+void WorldEndpoints::take_commands(proto::ReaderView<proto::Command> view) {
   view.take_each([this](const proto::Command& wire, const proto::SampleInfo& info) {
     if (!info.valid) return;
     if (wire.protocol != proto::kProtocol) return rejects_.add(Reject::wrong_protocol);
     if (!is_new(wire.session, wire.id)) return;
     switch (wire.kind) {
       case mechane_command_open:
-        return take_wish(proto::string_of(wire.argument), wire.id);
+        return take_request(proto::string_of(wire.argument), wire.id);
       case mechane_command_answer:
         return take_answer(proto::string_of(wire.argument), wire.id);
       case mechane_command_language:
@@ -126,7 +126,7 @@ void WorldWriter::take_commands(proto::ReaderView<proto::Command> view) {
   });
 }
 
-void WorldWriter::take_for_tick(const proto::Command& wire) {
+void WorldEndpoints::take_for_tick(const proto::Command& wire) {
   state::Command command;
   command.id = wire.id;
   command.kind = static_cast<state::CommandKind>(wire.kind);
@@ -142,19 +142,19 @@ void WorldWriter::take_for_tick(const proto::Command& wire) {
   if (!port_.offer_command(command)) refuse(wire.id);
 }
 
-void WorldWriter::take_wish(const std::string& scenario, std::uint64_t id) {
+void WorldEndpoints::take_request(const std::string& scenario, std::uint64_t id) {
   const auto found = scenario.empty() ? scenarios_.begin() : std::find(scenarios_.begin(), scenarios_.end(), scenario);
-  if (found == scenarios_.end() || !port_.offer_wish(static_cast<std::uint32_t>(found - scenarios_.begin())))
+  if (found == scenarios_.end() || !port_.offer_request(static_cast<std::uint32_t>(found - scenarios_.begin())))
     refuse(id);
 }
 
-void WorldWriter::take_answer(const std::string& argument, std::uint64_t id) {
+void WorldEndpoints::take_answer(const std::string& argument, std::uint64_t id) {
   const auto answer = read_answer(argument, port_.description());
   if (!answer || !port_.offer_answer(*answer)) return refuse(id);
   reply(id, state::EventKind::command_done);
 }
 
-void WorldWriter::take_language(const std::string& language, std::uint64_t id) {
+void WorldEndpoints::take_language(const std::string& language, std::uint64_t id) {
   const auto& known = port_.description().languages;
   const auto found = std::find(known.begin(), known.end(), language);
   if (found == known.end() || !port_.offer_language(static_cast<std::uint32_t>(found - known.begin())))
@@ -162,7 +162,7 @@ void WorldWriter::take_language(const std::string& language, std::uint64_t id) {
   reply(id, state::EventKind::command_done);
 }
 
-bool WorldWriter::is_new(std::uint64_t session, std::uint64_t id) {
+bool WorldEndpoints::is_new(std::uint64_t session, std::uint64_t id) {
   const auto known = std::find_if(heard_.begin(), heard_.end(), [&](const Heard& h) { return h.session == session; });
   if (known != heard_.end()) {
     if (id <= known->id) return false;
@@ -173,16 +173,16 @@ bool WorldWriter::is_new(std::uint64_t session, std::uint64_t id) {
   return true;
 }
 
-void WorldWriter::refuse(std::uint64_t id) {
+void WorldEndpoints::refuse(std::uint64_t id) {
   reply(id, state::EventKind::command_refused);
 }
 
-void WorldWriter::reply(std::uint64_t id, state::EventKind kind) {
+void WorldEndpoints::reply(std::uint64_t id, state::EventKind kind) {
   // A full ring: somebody sends commands faster than they can be answered; those go unanswered.
   if (!replies_.push({id, kind})) rejects_.add(Reject::bad_value);
 }
 
-void WorldWriter::write_manifest() {
+void WorldEndpoints::write_manifest() {
   const state::WorldDescription& world = port_.description();
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const state::BodyDescription& body = world.bodies[i];
@@ -213,7 +213,7 @@ void WorldWriter::write_manifest() {
   count(presentation_.write(Presentation(port_.world(), world).wire()));
 }
 
-void WorldWriter::write() {
+void WorldEndpoints::write() {
   state::Event event;
   if (const SceneSnapshot* snapshot = port_.take_snapshot()) {
     const bool status_changed = !last_ || !same_progress(*last_, *snapshot);
@@ -237,7 +237,7 @@ void WorldWriter::write() {
   }
 }
 
-bool WorldWriter::moved(const SceneSnapshot& snapshot) const {
+bool WorldEndpoints::moved(const SceneSnapshot& snapshot) const {
   if (!last_ || last_->visible != snapshot.visible || last_->quantities != snapshot.quantities) return true;
   for (const std::uint32_t i : movable_) {
     if (!same_pose(last_->bodies[i], snapshot.bodies[i])) return true;
@@ -245,7 +245,7 @@ bool WorldWriter::moved(const SceneSnapshot& snapshot) const {
   return std::any_of(snapshot.hands.begin(), snapshot.hands.end(), [](const HandSnapshot& h) { return h.present; });
 }
 
-void WorldWriter::write_frame(const SceneSnapshot& snapshot) {
+void WorldEndpoints::write_frame(const SceneSnapshot& snapshot) {
   for (std::size_t i = 0; i < movable_.size(); ++i) {
     bodies_[i].object = movable_[i];
     proto::set_pose(bodies_[i].X_WB, snapshot.bodies[movable_[i]]);
@@ -284,7 +284,7 @@ void WorldWriter::write_frame(const SceneSnapshot& snapshot) {
   count(frames_.write(frame));
 }
 
-void WorldWriter::set_ropes(const SceneSnapshot& snapshot) {
+void WorldEndpoints::set_ropes(const SceneSnapshot& snapshot) {
   const Vec3 g_W = port_.description().gravity_W;
   const Vec3 down_W = g_W.norm() > 0 ? Vec3(g_W.normalized()) : Vec3(0, -1, 0);
   ropes_.resize(snapshot.rope_count);
@@ -301,7 +301,7 @@ void WorldWriter::set_ropes(const SceneSnapshot& snapshot) {
   }
 }
 
-void WorldWriter::write_status(const SceneSnapshot& snapshot) {
+void WorldEndpoints::write_status(const SceneSnapshot& snapshot) {
   const state::WorldDescription& world = port_.description();
   const state::Progress& progress = snapshot.progress;
   const auto* activity = item_at(world.activities, progress.activity);
@@ -355,7 +355,7 @@ void WorldWriter::write_status(const SceneSnapshot& snapshot) {
   count(status_.write(status));
 }
 
-void WorldWriter::write_event(const state::Event& event) {
+void WorldEndpoints::write_event(const state::Event& event) {
   static const std::array<HandSnapshot, hand::kMaxUsers> nobody{};
   const EventNames names = names_of(port_.description(), event, last_ ? last_->hands : nobody);
   proto::Event wire{};
