@@ -57,7 +57,7 @@ bool is_web_address(std::string_view text) {
 
 Expected<AssetAddress> AssetAddress::parse(std::string_view text) {
   const std::string where(text);
-  if (!is_web_address(text)) return fail("it is no address of http or https", where, kAddressRemedy);
+  if (!is_web_address(text)) return fail("it is not an address of http or https", where, kAddressRemedy);
   const bool secure = text.starts_with(kSecure);
   const std::size_t host_at = (secure ? kSecure : kPlain).size();
   const bool odd = std::ranges::any_of(text, [](char c) {

@@ -18,7 +18,7 @@ constexpr milliseconds kLongestSleep{1'000};
 constexpr std::size_t kShownDigits = 8;
 constexpr std::size_t kMostExtension = 8;
 
-/// Of the name: ".glb". The importer goes by it. What is no plain extension is none.
+/// Of the name: ".glb". The importer goes by it. Empty where it is not a plain extension.
 std::string plain_extension(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
   const bool plain = extension.size() > 1 && extension.size() <= kMostExtension &&
@@ -68,7 +68,7 @@ AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
   if (!address) {
     file = {AssetState::amiss, {}, address.error()};
   } else if (!hash.empty() && !is_content_hash(hash)) {
-    file = {AssetState::amiss, {}, Error{"the server's hash of it is none", name, "look at the server's version"}};
+    file = {AssetState::amiss, {}, Error{"the server sent no valid hash for it", name, "look at the server's version"}};
   } else {
     Job job;
     job.key = key;

@@ -134,7 +134,7 @@ class Gatherer {
     auto kind = content::kind_of_file(next.file);
     if (!kind && content::is_piece_of_model(next.file)) kind = ContentKind::model;
     if (!kind) {
-      return fail("this is no content", next.file.string(),
+      return fail("a catalogue does not keep this kind of file", next.file.string(),
                   "content is .x3d, .glb .gltf .obj .stl .ply, .part, .png .jpg .ktx2, .ogg .opus .wav .flac .mp3, .md "
                   ".html .vtt");
     }

@@ -18,7 +18,7 @@ namespace {
 constexpr Duration kTellEvery = std::chrono::milliseconds(16);
 constexpr Duration kAudienceEvery = std::chrono::milliseconds(100);
 constexpr double kFarthest_m = 20;
-/// Seven numbers are shorter. What has no end at all is no tracker's, and must not fill the memory.
+/// Seven numbers are shorter. What has no end at all is not a tracker's, and must not fill the memory.
 constexpr std::size_t kLongestLine = 500;
 constexpr std::size_t kQuoted = 80;
 
@@ -122,7 +122,7 @@ Expected<std::optional<Pose>> read_head(const std::string& line) {
     return fail("no place of a head: " + quoted(line), "tracker", kRemedy);
   const Pose X_SV{{numbers[0], numbers[1], numbers[2]}, Quat(numbers[3], numbers[4], numbers[5], numbers[6])};
   if (!X_SV.p.allFinite() || std::abs(X_SV.R.norm() - 1) > 0.01)
-    return fail("no rotation, or a number that is none: " + quoted(line), "tracker", kRemedy);
+    return fail("no rotation, or a word that is not a number: " + quoted(line), "tracker", kRemedy);
   if (!(X_SV.p.z() > 0) || X_SV.p.norm() > kFarthest_m) {
     return fail(fmt::format("a head is before the screen, and within {} m: {}", kFarthest_m, quoted(line)), "tracker",
                 "write metres from the screen's middle: right, up, towards the visitor; the third is over 0");

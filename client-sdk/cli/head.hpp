@@ -25,7 +25,8 @@ struct HeadOptions {
 };
 
 /// A line of a tracker: "x y z", "x y z qw qx qy qz" (metres and a unit quaternion in S), or "nobody", which gives no pose.
-/// Errors: other words, numbers that are none, a rotation that is none, a place behind the screen or over 20 m from its middle.
+/// Errors: other words, words that are not numbers, a rotation that is not a unit quaternion, a place behind the
+/// screen or over 20 m from its middle.
 [[nodiscard]] Expected<std::optional<Pose>> read_head(const std::string& line);
 
 /// What is said of a tracker's lines that are bad: of the first at once, then of one in a while, for a tracker sends up to 250 a second.

@@ -182,7 +182,7 @@ CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
   return visits;
 }
 
-/// What to say to a first word that is no command; empty: it is one, or an option.
+/// What to say to a first word that is not a command; empty: it is a command, or an option.
 std::string unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

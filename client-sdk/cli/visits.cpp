@@ -47,7 +47,7 @@ class VisitsCommand {
   [[nodiscard]] fs::path file() const {
     return options_.file.empty() ? options_.records / visits::kVisitFileName : options_.file;
   }
-  /// What the options choose. Errors: a date that is none.
+  /// What the options choose. Errors: not a date.
   [[nodiscard]] Expected<VisitChoice> choice() const;
   [[nodiscard]] Expected<std::vector<VisitSheet>> read(const VisitChoice& choice) const;
   /// Of report and list. Says what is wrong itself: then none, and the exit status.

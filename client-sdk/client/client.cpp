@@ -385,7 +385,7 @@ Expected<void> check(const ClientConfig& config) {
     if (auto named = proto::check_name(config.display, "display"); !named) return named;
   }
   if (config.user >= hand::kMaxUsers) {
-    return fail(fmt::format("user {} is none of a kiosk's", config.user), "user", "choose one of 0 to 3");
+    return fail(fmt::format("user {} is not a kiosk's", config.user), "user", "choose one of 0 to 3");
   }
   if (config.program.size() > 31 || config.scenario.size() > 63) {
     return fail("a name is too long", config.program.size() > 31 ? "program" : "scenario",

@@ -102,8 +102,8 @@ Expected<void> apply(const DisplaySetting& setting, DisplaySettings& settings) {
     names += (names.empty() ? "" : ", ") + std::string(way.info.name);
     if (way.info.name != setting.name) continue;
     if (way.read(setting.value, settings)) return {};
-    return fail(fmt::format("{} is no value of {}", quoted(setting.value), way.info.name), std::string(way.info.name),
-                fmt::format("write {}=... with {}", way.info.name, way.info.values));
+    return fail(fmt::format("{} is not a value of {}", quoted(setting.value), way.info.name),
+                std::string(way.info.name), fmt::format("write {}=... with {}", way.info.name, way.info.values));
   }
   return fail("a display has no setting " + quoted(setting.name), "setting", "choose one of " + names);
 }

@@ -22,7 +22,8 @@ inline constexpr std::size_t kMaxSettings = 64;    ///< of one request or status
 inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers of one status
 
 /// All of these return false, with `out` in no particular state, where the sample is of another protocol version, a number is not
-/// finite, a rotation is none, or a count is beyond its limit. Times of receipt and sequences of one's own are the caller's.
+/// finite, a rotation is not a unit quaternion, or a count is beyond its limit. Times of receipt and sequences of
+/// one's own are the caller's.
 /// This one allocates nothing.
 [[nodiscard]] bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept;
 [[nodiscard]] bool parse(const proto::SceneFrame& wire, Frame& out);

@@ -14,7 +14,7 @@ class CaptionRoom {
   static constexpr double kMost = 1.8;  ///< or what is seen becomes too small to work on
   static constexpr double kFollows_s = 0.4;
 
-  /// Once a picture, what its caption covers. The first is taken at once, later ones are followed smoothly: a hint that comes is no cut.
+  /// Once a picture, what its caption covers. The first is taken at once, later ones are followed smoothly: a hint that comes is not a cut.
   void see(double covered_below, TimePoint now);
   /// For Camera::room_below.
   [[nodiscard]] double room_below() const { return room_below_; }

@@ -58,7 +58,7 @@ Expected<picture::PixelSize> parse_size(const std::string& text) {
   const auto last = first ? std::from_chars(cross + 1, end, size.height) : std::from_chars_result{cross, error};
   const auto fits = [](std::uint32_t side) { return side >= 16 && side <= 8192; };
   if (!first || last.ec != std::errc() || last.ptr != end || !fits(size.width) || !fits(size.height)) {
-    return fail("'" + text + "' is no size of a picture", "--size",
+    return fail("'" + text + "' is not a size of a picture", "--size",
                 "write width x height in pixels, 16 to 8192, as in 1280x720");
   }
   return size;

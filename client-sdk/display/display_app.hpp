@@ -79,7 +79,7 @@ struct DisplaySignals {
 };
 
 /// Draws until an option or a request says stop. The caller's thread is the display's. Errors: no context, no fonts, a bad kiosk name,
-/// a folder that cannot be written, a catalogue that cannot be read, an address of assets that is none.
+/// a folder that cannot be written, a catalogue that cannot be read, an address of assets that cannot be read.
 [[nodiscard]] Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySignals& signals);
 
 /// Reads "1280x720". Errors: not two numbers, or not within 16..8192.

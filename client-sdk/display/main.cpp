@@ -19,7 +19,7 @@ using namespace mechane;
 
 display::DisplaySignals g_signals;  // what a signal handler may write
 
-/// An option that takes one of some words. CLI11's own way for an enum prints its values, which are no words, where a word is wrong.
+/// An option that takes one of some words. CLI11's own way for an enum prints its values, which are not words, where a word is wrong.
 template <class Value>
 void add_words(CLI::App& app, const std::string& name, Value& value,
                const std::vector<std::pair<std::string_view, Value>>& words, const std::string& help) {
@@ -47,7 +47,7 @@ CLI::Validator metres(double least, double most) {
             double length = 0;
             const bool is_number = CLI::detail::lexical_cast(text, length);
             if (is_number && length >= least && length <= most) return std::string();
-            return fmt::format("{} is no length of {}; 65 mm is 0.065", text, range);
+            return fmt::format("{} is not a length of {}; 65 mm is 0.065", text, range);
           },
           range};
 }

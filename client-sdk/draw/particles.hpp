@@ -24,7 +24,7 @@ struct Particle {
 void append_particles(const picture::ParticleEffect& effect, std::uint32_t number, const Vec3f& wind_W, double time_s,
                       std::vector<Particle>& out);
 
-/// The drops that a jet falls apart into; a stream that is no jet has none.
+/// The drops that a jet falls apart into; a stream that is not a jet has none.
 void append_drops(const picture::WaterStream& jet, double time_s, std::vector<Particle>& out);
 
 /// What is thrown up where falling water lands, and its foam. `number` tells one stream of a scene from another.

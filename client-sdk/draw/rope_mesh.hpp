@@ -6,7 +6,8 @@
 namespace mechane::draw {
 
 /// Adds the tube to `into`, in W: corners rounded, frames carried along without twist, flat ends. Tangents run along the rope; uv: share of
-/// the way about it, length from the first point in radii. Points that repeat or are no numbers are passed over; fewer than two others: nothing.
+/// the way about it, length from the first point in radii. Points that repeat or are not numbers are passed over;
+/// fewer than two others: nothing.
 void append_rope(const picture::RenderRope& rope, picture::MeshData& into);
 
 }  // namespace mechane::draw

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCastSteps = 64;
 constexpr int kCastHalvings = 8;
-constexpr double kCoveredShare = 0.01;  // of the diagonal: deeper at the very start is no rounding
+constexpr double kCoveredShare = 0.01;  // of the diagonal: deeper at the very start is not rounding
 constexpr std::uint32_t kCovered = 0xB4B0A8;
 constexpr std::uint32_t kNoHit = 0xE4E1DA;
 constexpr std::uint32_t kNoHitDot = 0xA19C92;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kNameColumns = 14;
 
-/// Splits into characters, each a string of its own; what is no printable UTF-8 is a '?'.
+/// Splits into characters, each a string of its own; what is not printable UTF-8 is a '?'.
 std::vector<std::string> characters(std::string_view text) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < text.size();) {

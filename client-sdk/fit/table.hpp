@@ -20,7 +20,7 @@ inline constexpr std::size_t kTableColumns = 100;
 /// Lines of at most kTableColumns, broken at spaces (a longer word stands alone), with what they begin with; ends with a newline.
 [[nodiscard]] std::string wrapped_text(std::string_view text, std::string_view first, std::string_view rest);
 
-/// The text with '?' for control characters and for bytes that are no UTF-8.
+/// The text with '?' for control characters and for bytes that are not UTF-8.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace mechane::fit

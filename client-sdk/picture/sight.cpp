@@ -7,7 +7,7 @@ namespace mechane::picture {
 
 std::optional<SeenPlace> seen_place(const Camera& camera, Stereo stereo, PixelSize picture, PixelPlace place) {
   const PixelSize eye = seen_size(stereo, picture);
-  // Pixels of no screen: what comes of them in float is no number any more.
+  // Pixels of no screen: what comes of them in float is not a number any more.
   constexpr double kAbsurd = 1e6;
   if (eye.width < 2 || eye.height < 2 || !(std::abs(place.x) < kAbsurd) || !(std::abs(place.y) < kAbsurd)) return {};
   const EyePlace seen = eye_at(stereo, picture, place);

@@ -25,7 +25,7 @@ struct SeenPlace {
   Sight sight;
   PixelPlace place;
 };
-/// None where the picture has no pixels, or the place is no number.
+/// None where the picture has no pixels, or the place is not a number.
 [[nodiscard]] std::optional<SeenPlace> seen_place(const Camera& camera, Stereo stereo, PixelSize picture,
                                                   PixelPlace place);
 

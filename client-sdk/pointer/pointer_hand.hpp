@@ -35,7 +35,7 @@ struct PointerView {
   double radius_m = 0;          ///< turn: of the hand's circle
 };
 
-/// All on one thread. Numbers that are none, and pixels of no screen, are as if they had not been said.
+/// All on one thread. Values that are not finite, and pixels outside the screen, are ignored.
 class PointerHand {
  public:
   using Phase = PointerView::Phase;

@@ -318,7 +318,7 @@ Expected<Duration> FrameRecording::moment(const std::string& text) const {
   }
   const auto at = text.find('@');
   const std::optional<double> share = at == std::string::npos ? 0.0 : number(text.substr(at + 1));
-  if (!share || *share > 1) return fail("is no moment of a recording", text, remedy);
+  if (!share || *share > 1) return fail("is not a moment of a recording", text, remedy);
   const std::optional<Span> span = time_of(text.substr(0, at));
   if (!span) return fail("the recording has no such step", text, remedy);
   return span->from + std::chrono::duration_cast<Duration>((span->to - span->from) * *share);

@@ -17,7 +17,8 @@ namespace mechane::recording {
 [[nodiscard]] std::vector<std::byte> encode(const client::WorldEvent& event);
 
 /// These return false, with `out` in no particular state, where the bytes are no such thing as a whole: cut short or too long, a number that
-/// is not finite, a rotation that is none, a control character in a text. What they take is fit to be drawn, as what client::parse() takes
+/// is not finite, a rotation that is not a unit quaternion, a control character in a text. What they take is fit to
+/// be drawn, as what client::parse() takes
 /// is. A frame's time of receipt is the caller's.
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, client::WorldStatus& out);
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, client::WorldPresentation& out);

@@ -11,7 +11,7 @@ constexpr double kMostWidth_m = 0.25;
 constexpr double kFastestJet_m_per_s = 15;
 constexpr double kFastestRiver_m_per_s = 5;
 
-/// m^3/s of a unit of flow; 1 for what is none.
+/// m^3/s of a unit of flow; 1 for other units.
 double flow_scale(const std::string& unit) {
   if (unit == "l/s" || unit == "kg/s") return 1e-3;
   return unit == "l/min" ? 1e-3 / 60 : 1;

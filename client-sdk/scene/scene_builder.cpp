@@ -31,7 +31,7 @@ constexpr float kSharpReach_m = 2.5F;
 constexpr double kStray_m = 10'000;
 
 bool is_stray(const Vec3& p_W) {
-  return !(p_W.array().abs() <= kStray_m).all();  // what is no number is one, too
+  return !(p_W.array().abs() <= kStray_m).all();  // what is not a number is one, too
 }
 
 bool is_stray(const client::HandPose& hand) {

@@ -49,7 +49,7 @@ def _hash(data: bytes) -> str:
 
 
 def _known_files(folder: Path) -> dict[str, dict]:
-    """What the last run left. A damaged list is no list: all is made anew."""
+    """What the last run left. A damaged list is not a list: all is made anew."""
     try:
         entries = json.loads((folder / LIST).read_text())["files"]
         return {entry["file"]: entry for entry in entries}

@@ -62,7 +62,7 @@ def _steps(root: ElementTree.Element) -> list[ElementTree.Element]:
 
 def _fitting(name: str, pattern: re.Pattern, kind: str, file: Path) -> str:
     if not pattern.fullmatch(name):
-        raise Trouble(f"'{name}' is no {kind} that a file can be named by", file, "use letters, digits, '-' and '_'")
+        raise Trouble(f"'{name}' is not a {kind} that a file can be named by", file, "use letters, digits, '-' and '_'")
     return name
 
 
@@ -86,7 +86,7 @@ def _step_lines(scenario: Scenario, step: ElementTree.Element) -> list[Line]:
 def _named_recording(uri: str, line: Line, file: Path) -> Path:
     path = (file.parent / uri).resolve()
     if not path.is_relative_to(file.parent.resolve()) or path.suffix not in SOUNDS or not path.is_file():
-        raise Trouble(f"audio.{line.language} of step {line.step} names '{uri}', which is no sound beside the scenario", file,
+        raise Trouble(f"audio.{line.language} of step {line.step} names '{uri}', which is not a sound beside the scenario", file,
                       "put an .ogg or .wav file there, or remove the key: then the narration is spoken")
     return path
 

@@ -122,7 +122,7 @@ Expected<void> read_order(const Build& build, std::vector<Part>& parts) {
     const std::size_t then =
         at == std::string::npos ? parts.size() : find(std::string_view(line).substr(at + kBefore.size()));
     if (first >= parts.size() || then >= parts.size())
-      return fail(fmt::format("'{}' is no order of two of the parts", line), where,
+      return fail(fmt::format("'{}' is not an order of two of the parts", line), where,
                   "write \"ONE before OTHER\", both named in 'parts'");
     parts[then].after.push_back(first);
   }

@@ -90,7 +90,7 @@ Expected<std::unique_ptr<Agent>> make_lit(const Build& build) {
   if (build.parameters.given("needs")) {
     const state::ComponentDescription& other = build.agent(build.parameters.agent("needs"));
     if (other.type != "simulation.lit" || &other == &build.component)
-      return fail("'" + other.name + "' says of no flame whether it burns", where, "name another simulation.lit");
+      return fail("'" + other.name + "' does not say whether any flame burns", where, "name another simulation.lit");
   }
   const bool door = build.parameters.given("door");
   if (!door && (build.parameters.given("shutAt") || build.parameters.given("smotherTime")))

@@ -33,7 +33,7 @@ Expected<fs::path> file_of(const fs::path& name, const std::vector<CatalogueEntr
     return fail(fmt::format("the catalogue has {} scenarios of the id '{}'", paths.size(), name.string()),
                 catalogue.file().string(), fmt::format("name the file: one of {}", fmt::join(paths, ", ")));
   }
-  return fail(fmt::format("'{}' is no file, and no scenario of the catalogue", name.string()),
+  return fail(fmt::format("'{}' is not a file, and no scenario of the catalogue", name.string()),
               catalogue.file().string(), fmt::format("name one of: {}", fmt::join(ids, ", ")));
 }
 

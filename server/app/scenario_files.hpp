@@ -9,7 +9,8 @@
 
 namespace mechane::app {
 
-/// The scenario file of each name: a path stays as it is, an id that is no path is looked up. With a catalogue, what a scenario or a file
+/// The scenario file of each name: a path stays as it is, an id that is not a path is looked up. With a catalogue,
+/// what a scenario or a file
 /// that it needs differs in is said in the log, and no error: the museum opens, and somebody looks. Reads those files whole. Errors: the
 /// catalogue cannot be read; an id that it does not have.
 [[nodiscard]] Expected<std::vector<std::filesystem::path>> find_scenarios(std::span<const std::filesystem::path> names,

@@ -106,7 +106,8 @@ class TomlReader {
     }
   }
   Expected<void> finish(const toml::table& table, const std::string& prefix) {
-    if (!error_.empty()) return fail(error_, fmt::format("{}:{}", file_, line_), "see server/app/README.md, 'Settings'");
+    if (!error_.empty())
+      return fail(error_, fmt::format("{}:{}", file_, line_), "see server/app/README.md, 'Settings'");
     for (const auto& [key, node] : table) {
       const std::string name = prefix + std::string(key.str());
       if (const auto* inner = node.as_table()) {

@@ -42,7 +42,7 @@ class RadialMap {
 
   /// Depth, normal and surface point; no hit outside the box m <= 1 and outside the surface. Any thread.
   ///
-  /// Whether p is inside, its own ray from the centre says. That ray is no guide to the depth: in a plank it leads most points to the
+  /// Whether p is inside, its own ray from the centre says. That ray is not a guide to the depth: in a plank it leads most points to the
   /// far end. So four tangent planes are asked, where p's own ray and where three lines along the axes meet the surface; the nearest
   /// counts, and one Newton step on the map improves it. Exact for boxes; still no search. Not for the loop, which asks 16 points
   /// at a time.

@@ -45,7 +45,7 @@ Error explain(const SQLite::Exception& e, const fs::path& file, const std::strin
       fmt::format("{}; what --licence, --author and the like said has to be said again", remake_command(file));
   switch (e.getErrorCode()) {
     case SQLITE_NOTADB:
-      return {"this is no catalogue, or its beginning is damaged: SQLite does not know the file", where,
+      return {"this is not a catalogue, or its beginning is damaged: SQLite does not know the file", where,
               "name another file with --catalogue; or, where it was a catalogue: " + anew};
     case SQLITE_CORRUPT:
       return {fmt::format("the catalogue is damaged ({})", e.what()), where, anew};
@@ -268,7 +268,7 @@ std::vector<CatalogueEntry> Catalogue::Connection::read_now() const {
     const std::int64_t bytes = rows.getColumn(5).getInt64();
     // A path that leaves the folder would lead an export, or a display, to other files of the machine.
     if (!kind || !is_inside(entry.path) || !is_hash(entry.hash) || bytes < 0)
-      throw SQLite::Exception("an entry is none: " + entry.path, SQLITE_CORRUPT);
+      throw SQLite::Exception("not a valid entry: " + entry.path, SQLITE_CORRUPT);
     entry.kind = *kind;
     entry.bytes = static_cast<std::uint64_t>(bytes);
     entry.credits = {rows.getColumn(6).getString(), rows.getColumn(7).getString(), rows.getColumn(8).getString(),
@@ -322,7 +322,7 @@ Expected<Catalogue> Catalogue::open(const fs::path& file, Access access) {
                 content_command(file, "add", "FOLDER"));
   }
   if (there && !fs::is_regular_file(file, code))
-    return fail("this is no catalogue but a folder or a device", file.string(), "name a file with --catalogue");
+    return fail("this is not a catalogue but a folder or a device", file.string(), "name a file with --catalogue");
   try {
     auto connection = std::make_unique<Connection>(file, access);
     if (access == Access::write) connection->make_schema();

@@ -22,7 +22,7 @@ inline constexpr std::size_t kContentKinds = 6;
 /// "scenario", "model", ...
 [[nodiscard]] std::string_view word_of(ContentKind kind);
 [[nodiscard]] std::optional<ContentKind> kind_of_word(std::string_view word);
-/// By the ending of a file's name; none for what is no content by itself.
+/// By the ending of a file's name; none for what is not content by itself.
 [[nodiscard]] std::optional<ContentKind> kind_of_file(const std::filesystem::path& file);
 
 /// What is known of a file, and not from its bytes. Empty: unknown.

@@ -13,10 +13,10 @@ struct CatalogueFault {
   enum class Kind : std::uint8_t {
     changed,     ///< the file's bytes are others than when it was added
     gone,        ///< the file is not there
-    missing,     ///< a file that another refers to is no entry
+    missing,     ///< a file that another refers to is not an entry
     language,    ///< words that a scenario says in one of its languages and not in another
     orphan,      ///< nothing refers to it
-    unknown,     ///< a file in the folder that is no entry
+    unknown,     ///< a file in the folder that is not an entry
     twice,       ///< two scenarios of one id
     no_licence,  ///< nobody may know whether it may be shown: a note
   };

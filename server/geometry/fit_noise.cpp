@@ -12,7 +12,7 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kLeastScale = 3e-4;  // of the diagonal
-constexpr double kWithin = 0.7;       // of the points, at least, are no outliers
+constexpr double kWithin = 0.7;       // of the points, at least, are not outliers
 constexpr double kGaussian = 0.9648;  // standard deviation over this quantile of the unsigned distances
 constexpr int kCells = 9;             // along an edge of the cube that carries the simulated points
 constexpr int kStrayCells = 6;

@@ -20,7 +20,7 @@ enum class ForceMode {
 struct ForceConfig {
   ForceMode mode = ForceMode::continuous;
   double friction_speed_m_per_s = 0.02;  ///< below it, friction falls linearly to zero with the speed
-  double damping_depth_m = 0.001;        ///< damping comes in over this depth, so that a first touch is no step
+  double damping_depth_m = 0.001;        ///< damping comes in over this depth, so that a first touch is not a step
   hand::GovernorConfig governor;  ///< the server's own limits: the first word; the client's governor has the last
 };
 

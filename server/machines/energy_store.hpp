@@ -33,7 +33,7 @@ class EnergyStore {
 /// The side of what is thrown.
 class EnergyOffer {
  public:
-  /// Of the machine that the text parameter `parameter` names. Errors: it is no spring, or stands below in the description.
+  /// Of the machine that the text parameter `parameter` names. Errors: it is not a spring, or stands below in the description.
   [[nodiscard]] static Expected<EnergyOffer> find(const Build& build, std::string_view parameter);
 
   /// What the spring offers in this tick, J; 0: nothing.

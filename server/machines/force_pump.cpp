@@ -182,7 +182,7 @@ Expected<void> read_valves(const state::Parameters& p, std::string_view name, Va
     } else if (word == "missing") {
       s.cylinder[i].*valve = Valve::missing;
     } else {
-      return fail("'" + word + "' is no state of a valve", where, "write good, reversed or missing");
+      return fail("'" + word + "' is not a state of a valve", where, "write good, reversed or missing");
     }
   }
   return {};

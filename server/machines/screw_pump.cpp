@@ -25,7 +25,7 @@ namespace {
 constexpr double kTightRate_rad_s = 2.0 * 2 * kPi / 60;  // above it buckets do not leak
 constexpr double kBackBlend_rad_s = 0.2;                 // over which the load changes from forwards to backwards
 constexpr double kEventPeriod_s = 0.5;
-constexpr double kEventLeast_m3 = 1e-5;  // a cup's drop is no event
+constexpr double kEventLeast_m3 = 1e-5;  // a cup's drop is not an event
 constexpr std::size_t kMostBuckets = 256;
 
 struct ScrewPumpSettings {

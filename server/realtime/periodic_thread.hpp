@@ -62,7 +62,7 @@ class PeriodicThread {
   PeriodicThread& operator=(const PeriodicThread&) = delete;
 
   /// Starts the thread; returns when its priority, processor and memory are set, so that report() tells what was
-  /// granted. Rights that are refused are no error: the loop runs without. Errors: a bad configuration, a thread that
+  /// granted. Rights that are refused are not errors: the loop runs without. Errors: a bad configuration, a thread that
   /// cannot be made, started twice.
   [[nodiscard]] Expected<void> start(Tick tick);
 

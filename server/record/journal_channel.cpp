@@ -105,7 +105,7 @@ Expected<void> JournalChannel::append(std::span<const std::byte> bytes) {
   }
   if (!beginning_.empty()) {
     if (auto begun = file_.append(beginning_); !begun) {
-      // An empty file is no journal: try from the start.
+      // An empty file is not a journal: try from the start.
       file_.close();
       std::error_code ignored;
       std::filesystem::remove(journal_path_, ignored);

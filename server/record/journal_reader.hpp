@@ -21,7 +21,7 @@ namespace mechane::record {
 ///     if (journal->end().kind != JournalEnd::Kind::closed) std::cerr << journal->end().message;
 class JournalReader {
  public:
-  /// Errors: no such file, not a journal, another version, a damaged header. Later damage is no error here: see end().
+  /// Errors: no such file, not a journal, another version, a damaged header. Later damage is not an error here: see end().
   [[nodiscard]] static Expected<JournalReader> open_file(const std::filesystem::path& path);
   /// The same from memory. `name` is what errors call it.
   [[nodiscard]] static Expected<JournalReader> open_bytes(std::span<const std::byte> bytes, const std::string& name);

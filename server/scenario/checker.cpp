@@ -36,7 +36,7 @@ Checked check_one(const fs::path& file) {
   return {sorted(problems), world ? world->id : std::string()};
 }
 
-/// A folder is no scenario; those in it can be named.
+/// A folder is not a scenario; those in it can be named.
 x3d::Problem about_folder(const fs::path& folder) {
   for (const char* depth : {"", "*"}) {
     std::error_code code;

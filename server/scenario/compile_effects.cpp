@@ -71,7 +71,7 @@ void check_flow(Compilation& c, const Fields& fields, const state::EffectDescrip
                      "name the node of the mesh file in the key node");
   } else if (node_is_there(c, fields, effect.node) && !effect.node.starts_with("WATER_")) {
     c.problems.error(fields.line("node"), fields.where(),
-                     fmt::format("node '{}' is no water: a display does not let it flow", effect.node),
+                     fmt::format("node '{}' is not water: a display does not let it flow", effect.node),
                      fmt::format("name it WATER_{} in the model, and here", effect.node));
   }
   if (std::hypot(effect.direction_B.x(), effect.direction_B.z()) < 0.1) {
@@ -92,7 +92,7 @@ void check_risen_node(Compilation& c, const Fields& fields, const std::string& n
   const auto shows = [&](const state::BodyDescription& body) { return body.mesh.node == node; };
   if (std::any_of(bodies.begin(), bodies.end(), shows)) return;
   c.problems.error(fields.line("node"), fields.where(),
-                   fmt::format("node '{}' is no water: a display does not raise it", node),
+                   fmt::format("node '{}' is not water: a display does not raise it", node),
                    fmt::format("name it WATER_{} in the model, and here", node));
 }
 

@@ -61,7 +61,7 @@ void check_unit(Compilation& c, const std::string& unit, int line, const std::st
       "m3", "m2", "kg", "g",  "t",   "N",    "kN",   "N m",   "J",     "kJ",   "W",  "m/s", "m/s2", "degC",
       "K",  "%",  "Pa", "Hz", "",    "kg/s", "m3/s", "1/s",   "1/min", "km/h", "kW", "bar", "turns"};
   if (std::find(kKnown.begin(), kKnown.end(), unit) != kKnown.end()) return;
-  c.problems.warning(line, where, fmt::format("the unit '{}' is none that is known: it is only shown", unit),
+  c.problems.warning(line, where, fmt::format("the unit '{}' is not known: it is only shown", unit),
                      suggest(unit, kKnown, "leave it if visitors read it so; of rates rpm and of angles deg convert"));
 }
 

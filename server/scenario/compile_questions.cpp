@@ -40,7 +40,7 @@ Question read_question(Compilation& c, const x3d::Metadata& set, const std::stri
   const Fields fields(&set, question_table(), fmt::format("{}, question {}", activity, set.name), c.problems);
   Question out;
   out.name = set.name;
-  // What is said of a kind that is none holds for all of the question.
+  // What is said of an unknown kind holds for all of the question.
   if (!fields.given("kind")) return out;
   out.kind = fields.string("kind") == "scale" ? Question::Kind::scale : Question::Kind::choice;
   if (out.kind == Question::Kind::choice && fields.strings("answers").size() < 2) {

@@ -41,7 +41,7 @@ void read_languages(Compilation& c, const Fields& fields) {
   }
   for (const std::string& language : c.world.languages) {
     if (!is_language(language)) {
-      c.problems.error(fields.line("languages"), fields.where(), fmt::format("'{}' is no language code", language),
+      c.problems.error(fields.line("languages"), fields.where(), fmt::format("'{}' is not a language code", language),
                        "write a code of BCP 47, like el or en");
     }
   }

@@ -12,10 +12,10 @@ namespace mechane::scenario {
 struct FileReference {
   x3d::NodeId node;
   std::string attribute;
-  std::vector<std::string> urls;  ///< as written: "../models/screw.glb", or what is no path at all
+  std::vector<std::string> urls;  ///< as written: "../models/screw.glb", or what is not a path at all
 };
 
-/// All of them, in the order written. What is no list of strings is left out.
+/// All of them, in the order written. What is not a list of strings is left out.
 [[nodiscard]] std::vector<FileReference> file_references(const x3d::Document& document);
 
 }  // namespace mechane::scenario

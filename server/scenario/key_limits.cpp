@@ -58,7 +58,7 @@ std::optional<x3d::BadValue> range_fault(const Key& key, std::span<const double>
   const std::string example = key.example.empty() ? std::string() : fmt::format(", like {}", key.example);
   if (text != nullptr && !key.choices.empty() && !one_of(*text, key.choices)) {
     const std::string near = text->size() < 3 ? std::string() : nearest(*text, words_of(key.choices));
-    return x3d::BadValue{fmt::format("'{}' is none of: {}", text->substr(0, 80), key.choices),
+    return x3d::BadValue{fmt::format("'{}' is not one of: {}", text->substr(0, 80), key.choices),
                          near.empty() ? "write one of them" + example : fmt::format("did you mean '{}'?", near)};
   }
   for (const double value : numbers) {

@@ -13,7 +13,7 @@ Expected<void> find_in(const content::ImportedScene& scene, const std::string& n
   if (content::find_node(scene, node)) return {};
   std::vector<std::string> names;
   for (const content::ImportedNode& other : scene.nodes) {
-    // What a body is made of is no body, and some exporters leave nodes without a name.
+    // What a body is made of is not a body, and some exporters leave nodes without a name.
     const bool piece = other.name.starts_with("part_") || other.name.starts_with("visual_");
     if (!other.name.empty() && !piece) names.push_back(other.name);
   }

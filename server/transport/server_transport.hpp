@@ -64,7 +64,7 @@ struct News {
 ///     hand_granted:   port->bind_user(port->free_slot(), n.session.kiosk, n.session.user, n.session.id);
 class ServerTransport {
  public:
-  /// Errors: a bad server name, no network interface, a wrong CYCLONEDDS_URI. A refused SCHED_FIFO is no error: see fifo_granted().
+  /// Errors: a bad server name, no network interface, a wrong CYCLONEDDS_URI. A refused SCHED_FIFO is not an error: see fifo_granted().
   [[nodiscard]] static Expected<std::unique_ptr<ServerTransport>> start(const TransportConfig& config);
   /// Worlds must be closed, or their loops stopped.
   ~ServerTransport();

@@ -23,7 +23,7 @@ struct Session {
   std::string program;
   std::string host;
   std::string scenario;    ///< request: id of the scenario; empty: the server's first
-  bool was_there = false;  ///< it is no request: the kiosk was in that scenario last
+  bool was_there = false;  ///< it is not a request: the kiosk was in that scenario last
   std::string join_kiosk;  ///< request: share the world of this kiosk; empty: a world of its own
 };
 

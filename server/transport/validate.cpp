@@ -39,7 +39,7 @@ std::string_view to_string(Reject reason) {
     case Reject::not_finite:
       return "not finite";
     case Reject::bad_rotation:
-      return "with a rotation that is none";
+      return "with a rotation that is not a unit quaternion";
     case Reject::too_far:
       return "over 100 m away";
     case Reject::too_fast:

@@ -52,7 +52,7 @@ Error explain_visits(const SQLite::Exception& e, const fs::path& file, const std
   const std::string where = file.string();
   switch (e.getErrorCode()) {
     case SQLITE_NOTADB:
-      return {"these are no visits' sheets: SQLite does not know the file", where, "name another file with --file"};
+      return {"these are not visits' sheets: SQLite does not know the file", where, "name another file with --file"};
     case SQLITE_CORRUPT:
       return {fmt::format("the file of sheets is damaged ({})", e.what()), where,
               "move it away: the server begins a new one; sqlite3's .recover may save some of the old"};
@@ -164,7 +164,7 @@ struct Row {
 VisitSheet sheet_of(const Row& row) {
   VisitSheet sheet;
   sheet.number = row.text(0);
-  if (!is_number(sheet.number)) damaged("a visit's number is none: " + sheet.number);
+  if (!is_number(sheet.number)) damaged("not a visit's number: " + sheet.number);
   sheet.kiosk = row.text(1);
   sheet.scenario = row.text(2);
   sheet.scenario_hash = row.text(3);
@@ -410,7 +410,7 @@ Expected<VisitFile> VisitFile::open(const fs::path& file, Access access, Trouble
   }
   why = Trouble::foreign;
   if (there && !fs::is_regular_file(file, code))
-    return fail("these are no visits' sheets but a folder or a device", file.string(), "name a file with --file");
+    return fail("these are not visits' sheets but a folder or a device", file.string(), "name a file with --file");
   try {
     auto connection = Connection::open(file, access);
     if (access == Access::write_new) connection->make_schema();

@@ -28,14 +28,14 @@ Expected<SheetAnswer> checked(const state::QuestionDescription& question, const 
     const char* end = given.answer.data() + given.answer.size();
     const auto [at, error] = std::from_chars(given.answer.data(), end, answer.mark);
     if (error != std::errc{} || at != end || answer.mark < 1 || answer.mark > question.marks) {
-      return fail(fmt::format("'{}' is no mark", given.answer), "question " + given.question,
+      return fail(fmt::format("'{}' is not a mark", given.answer), "question " + given.question,
                   fmt::format("answer with 1 to {}", question.marks));
     }
     return answer;
   }
   const auto known = std::ranges::find(question.answers, given.answer, &state::QuestionDescription::Answer::name);
   if (known == question.answers.end()) {
-    return fail(fmt::format("'{}' is none of its answers", given.answer), "question " + given.question,
+    return fail(fmt::format("'{}' is not one of its answers", given.answer), "question " + given.question,
                 "answer with a name that the scenario gives");
   }
   answer.value = given.answer;
@@ -268,7 +268,7 @@ void VisitObserver::activity_done(std::uint64_t tick) {
 }
 
 void VisitObserver::sign(std::uint64_t tick) {
-  if (!activity_ || (!step_ && is_over())) return;  // nothing to do here, or done: playing on is no visit
+  if (!activity_ || (!step_ && is_over())) return;  // nothing to do here, or done: playing on is not a visit
   if (is_over()) begin(tick);
   last_sign_ = tick;
   touched_ = true;

@@ -22,7 +22,8 @@ struct VisitSources {
 
 /// One world's. One thread, not the loop's: it allocates.
 ///
-/// A kiosk's device is there all day, so that a hand that is present is no visitor. A visit begins with the first touch, grasp, pointing,
+/// A kiosk's device is there all day, so that a hand that is present is not a visitor. A visit begins with the first
+/// touch, grasp, pointing,
 /// command or answer, and counts from the start of the activity where that was less than kAway before: reading what to do is part of
 /// it. It ends with the activity, or is 'left' where nothing is seen of the visitor for kAway. Answers to the questions after it are
 /// taken until the next visit begins. An activity that is restarted by somebody who was there a moment ago is the same visit, with a
@@ -48,7 +49,7 @@ class VisitObserver {
   void take(const VisitNote& note);
   /// Time has passed: all notes up to `tick` have been taken, and `lost` never came.
   void look(std::uint64_t tick, std::uint32_t lost);
-  /// Errors: the activity does not ask that, or it is none of its answers.
+  /// Errors: the activity does not ask that, or it is not one of its answers.
   [[nodiscard]] Expected<void> answer(const VisitAnswer& answer);
   /// In which the kiosk speaks from now on. A visit's sheet takes it with the visitor's next sign: a kiosk that goes back to its own
   /// language when the visitor has gone changes nothing.

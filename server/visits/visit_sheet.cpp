@@ -94,7 +94,7 @@ std::int64_t minute_now() {
 }
 
 std::string minute_text(std::int64_t minute) {
-  // Nine thousand years are enough, and more is no date that fmt would print.
+  // Nine thousand years are enough, and more is not a date that fmt would print.
   const std::int64_t last = 253402300799 / 60;
   const auto seconds = static_cast<std::time_t>(std::clamp<std::int64_t>(minute, 0, last) * 60);
   return fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(seconds));
@@ -102,7 +102,7 @@ std::string minute_text(std::int64_t minute) {
 
 Expected<std::int64_t> minute_of_text(std::string_view text) {
   const auto wrong = [&] {
-    return fail("this is no date", std::string(text), "write it as 2026-11-22, or \"2026-11-22 09:40\" (UTC)");
+    return fail("this is not a date", std::string(text), "write it as 2026-11-22, or \"2026-11-22 09:40\" (UTC)");
   };
   const bool has_time = text.size() == 16;
   if ((text.size() != 10 && !has_time) || text[4] != '-' || text[7] != '-') return wrong();

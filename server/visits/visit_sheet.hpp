@@ -48,7 +48,7 @@ struct SheetStep {
   double duration_s = 0;
   StepEnding ending = StepEnding::unfinished;
   bool hint_shown = false;
-  bool whole = true;  ///< false: the visitor came when it had begun; its time is no measure
+  bool whole = true;  ///< false: the visitor came when it had begun; its time is not a measure
   bool operator==(const SheetStep&) const = default;
 };
 

@@ -71,7 +71,7 @@ class MetadataReader {
       return take(parse_numbers(text), MetadataKind::numbers, out.numbers, out);
     if (type == "MetadataInteger") return take(parse_integers(text), MetadataKind::integers, out.numbers, out);
     if (type == "MetadataBoolean") return take(parse_booleans(text), MetadataKind::booleans, out.booleans, out);
-    return refuse(out, fmt::format("{} is no metadata node of X3D", type),
+    return refuse(out, fmt::format("{} is not a metadata node of X3D", type),
                   "use MetadataSet, String, Double, Float, Integer or Boolean");
   }
 

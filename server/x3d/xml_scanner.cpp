@@ -113,7 +113,7 @@ class Scanner {
         return fail(i, "a bare & stands in the text", "write &amp; for the letter &");
       constexpr std::array<std::string_view, 5> kKnown{"amp", "lt", "gt", "quot", "apos"};
       if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end() || is_number(name)) continue;
-      return fail(i, fmt::format("&{}; is no letter that XML knows", name.substr(0, 40)),
+      return fail(i, fmt::format("&{}; is not a letter that XML knows", name.substr(0, 40)),
                   "write the letter itself, in UTF-8; for & write &amp;");
     }
   }

@@ -126,7 +126,7 @@ def _flags(entry: dict) -> tuple[list[str], tuple[str, ...]]:
 
 
 def _groups(entries: list[dict], build: Path, jobs: int) -> list[list[dict]]:
-    """Rooms that can be one source: what is no program, with the same checks and options. Each as long as the others, for all jobs."""
+    """Rooms that can be one source: what is not a program, with the same checks and options. Each as long as the others, for all jobs."""
     alike: dict[tuple, list[dict]] = {}
     for entry in entries:
         source = Path(entry["file"]).resolve()

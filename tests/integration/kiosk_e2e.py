@@ -243,9 +243,9 @@ class Kiosk(EndToEnd):
                 (("--viewer-distance", "2"), "--viewer-distance requires --screen-width"),
                 (("--right-eye-first",), "--right-eye-first requires --stereo rows"),
                 (("--right-eye-first", "--stereo", "sbs"), "--right-eye-first requires --stereo rows"),
-                (("--screen-width", "1200", "--viewer-distance", "2"), "1200 is no length of 0.05 to 50 metres; 65 mm is 0.065"),
-                (("--screen-width", "1.2", "--viewer-distance", "2m"), "2m is no length of 0.1 to 50 metres"),
-                (("--eye-separation", "65"), "65 is no length of 0.01 to 0.2 metres; 65 mm is 0.065")):
+                (("--screen-width", "1200", "--viewer-distance", "2"), "1200 is not a length of 0.05 to 50 metres; 65 mm is 0.065"),
+                (("--screen-width", "1.2", "--viewer-distance", "2m"), "2m is not a length of 0.1 to 50 metres"),
+                (("--eye-separation", "65"), "65 is not a length of 0.01 to 0.2 metres; 65 mm is 0.065")):
             result = self.run_command("display", "--offscreen", "--frames", "1", *arguments)
             self.assertEqual(result.returncode, 2, (arguments, result.stdout + result.stderr))
             self.assertIn(said, result.stderr, arguments)

@@ -69,7 +69,7 @@ def option_fault(name, value, known):
 
 
 def command_faults(words):
-    """What is wrong with a command line, or nothing where it is no command of ours."""
+    """What is wrong with a command line, or nothing where it is not a command of ours."""
     script, program = _SCRIPT.match(words[0]), _PROGRAM.match(words[0])
     if script and (ROOT / "deploy" / script["name"]).is_dir():
         return []
@@ -106,7 +106,7 @@ def command_lines(text):
             for part in re.split(r"&&|\|(?=\s)|;", code):
                 try:
                     words = shlex.split(part, comments=True)
-                except ValueError:  # an apostrophe of a language that is no shell
+                except ValueError:  # an apostrophe of a language that is not a shell
                     continue
                 while words and re.match(r"[A-Z_]+=", words[0]):
                     words.pop(0)

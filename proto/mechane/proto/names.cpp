@@ -12,7 +12,7 @@ bool is_name(std::string_view name) {
 
 Expected<void> check_name(std::string_view name, const std::string& what) {
   if (is_name(name)) return {};
-  return fail("'" + std::string(name.substr(0, 64)) + "' is no name of a " + what, what,
+  return fail("'" + std::string(name.substr(0, 64)) + "' is not a name of a " + what, what,
               "use 1 to 31 characters of A-Z a-z 0-9 - and _");
 }
 

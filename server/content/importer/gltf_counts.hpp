@@ -9,7 +9,7 @@
 
 namespace mechane::content {
 
-/// A file whose JSON is faulty, or that is no glTF, is left to the reader to refuse. Errors: over the limits.
+/// A file whose JSON is faulty, or that is not glTF, is left to the reader to refuse. Errors: over the limits.
 [[nodiscard]] Expected<void> check_gltf_counts(const std::filesystem::path& file, const ImportLimits& limits);
 
 }  // namespace mechane::content

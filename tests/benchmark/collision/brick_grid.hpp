@@ -38,7 +38,7 @@ struct BrickSample {
 /// Whether a sphere around p_G may touch what is inside. The radius is in metres.
 [[nodiscard]] bool brick_reaches(const BrickGrid& grid, const Vec3f& p_G, float radius_m) noexcept;
 
-/// A grid of distances is no exact distance between its nodes: by so much, in cells, a cluster's sphere is taken to be larger.
+/// A grid of distances is not an exact distance between its nodes: by so much, in cells, a cluster's sphere is taken to be larger.
 inline constexpr float kBrickSlack = 0.25F;
 
 /// The whole hand against one object.

@@ -140,7 +140,7 @@ class PaperMap {
 
 /// What a map is cast against.
 struct PaperTarget {
-  const geometry::MeshQuery& surface_O;  ///< the whole object, not the part's piece: seams between parts are no walls
+  const geometry::MeshQuery& surface_O;  ///< the whole object, not the part's piece: seams between parts are not walls
   bool closed = true;                    ///< else there is no solid, and what a ray meets first is the surface
 };
 

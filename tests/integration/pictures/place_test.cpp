@@ -275,7 +275,7 @@ TEST_F(PlantedFault, a_river_that_ends_in_the_land_is_seen) {
 
 TEST_F(PlantedFault, water_that_mirrors_nothing_is_seen) {
   expect_seen("village", [this](Place& place, picture::RenderScene scene) {
-    // A little askew it is no mirror any more; elsewhere nobody would see it.
+    // A little askew it is not a mirror any more; elsewhere nobody would see it.
     for (picture::WaterInstance& water : scene.waters)
       water.X_WM.prerotate(Eigen::AngleAxisf(0.002F, Vec3f::UnitX()));
     return draw(place.assets(), scene);

@@ -153,7 +153,7 @@ TEST_F(Displays, APictureIsAnsweredWhenItIsWrittenAndKeysOfVisitorsAreTold) {
   ASSERT_TRUE(status);
   EXPECT_EQ(status->answers[0].picture, "out/one.png");
   EXPECT_EQ(status->answers[0].refusal, "");
-  EXPECT_EQ(wall.changes, 0) << "a key of a visitor is no request";
+  EXPECT_EQ(wall.changes, 0) << "a key of a visitor is not a request";
   EXPECT_TRUE(told({&wall}, "wall", [](const DisplayStatus& s) {
     return std::ranges::count(s.settings, client::DisplaySetting{"high-contrast", "on"}) == 1;
   }));
@@ -179,7 +179,7 @@ TEST_F(Displays, ATrackersHeadComesToTheScreensThatItIsBefore) {
                          [&] { (void)(*all)->tell(other); }));
   EXPECT_FALSE((*all)->tell({Vec3(0, 0, std::nan("")), Quat::Identity()}));
   EXPECT_FALSE((*all)->tell({Vec3::Zero(), Quat(0, 0, 0, 0)}));
-  EXPECT_TRUE(hears(wall, other.p)) << "what is no pose is not sent";
+  EXPECT_TRUE(hears(wall, other.p)) << "what is not a pose is not sent";
   ASSERT_TRUE(eventually([&] { return !wall.client->viewer_head()->seen; }, 10s, [&] { (void)(*all)->tell_nobody(); }));
   EXPECT_FALSE(client::HeadTracker::open("kiosk 1", "", kServerDomain).has_value());
 }

@@ -234,7 +234,7 @@ TEST(Idle, IsAHandThatRestsOrNone) {
   EXPECT_EQ(stage.value("QUIET.idle"), 0);
   stage.user().V_WH.v = Vec3(0.01, 0, 0);
   stage.run(1.5);
-  EXPECT_NEAR(stage.value("QUIET.time"), 1.5, 1e-6) << "a tremble is no motion";
+  EXPECT_NEAR(stage.value("QUIET.time"), 1.5, 1e-6) << "a tremble is not a motion";
   stage.touch(0, BodyId(1), 0, Vec3::UnitX());
   stage.tick();
   EXPECT_EQ(stage.value("QUIET.time"), 0);

@@ -177,7 +177,7 @@ TEST_F(ContentTest, ABrokenScenarioIsNotAddedAndTheOthersAre) {
   EXPECT_THAT(errors_, HasSubstr("archimedes-screw.x3d:"));
   EXPECT_THAT(out_, HasSubstr("5 added"));
   EXPECT_EQ(run("add", {(folder_ / "scenarios/models/modelling.py").string()}), 1);
-  EXPECT_THAT(errors_, HasSubstr("this is no content"));
+  EXPECT_THAT(errors_, HasSubstr("a catalogue does not keep this kind of file"));
 }
 
 TEST_F(ContentTest, AnExportOfOneExhibitHasWhatItNeedsAndVerifies) {

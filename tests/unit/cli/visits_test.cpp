@@ -163,7 +163,7 @@ TEST_F(VisitsTest, ItIsChosenByScenarioKioskAndDate) {
   EXPECT_EQ(json("")["visits"], 1);
   options_.since = "last week";
   EXPECT_EQ(run(""), 2);
-  EXPECT_THAT(errors_, HasSubstr("last week: this is no date; write it as 2026-11-22"));
+  EXPECT_THAT(errors_, HasSubstr("last week: this is not a date; write it as 2026-11-22"));
 }
 
 TEST_F(VisitsTest, AScenarioOrKioskThatNoSheetKnowsIsToldWithThoseThatAre) {

@@ -229,7 +229,7 @@ constexpr const char* kPrimitive = R"({"attributes":{"POSITION":0}})";
 TEST_F(MeshImport, CopiesAreCountedBeforeTheyAreMade) {
   const auto scene = import("triangle.gltf", triangle_gltf(R"({"children":[1,1]},{"mesh":0})", kPrimitive));
   ASSERT_TRUE(scene) << scene.error().to_string();
-  EXPECT_THAT(scene->nodes, SizeIs(3)) << "a mesh that is placed twice is no fault";
+  EXPECT_THAT(scene->nodes, SizeIs(3)) << "a mesh that is placed twice is not a fault";
   // 2^40 copies in a kilobyte; a node that is its own child; vertices shared by so many meshes that each would have its copy.
   std::string doubled;
   for (int i = 1; i <= 40; ++i)

@@ -228,9 +228,9 @@ class Little(unittest.TestCase):
 
     def test_a_step_cannot_write_elsewhere(self):
         self.write(step("../turn", narration__en="Turn."))
-        self.refuse("'../turn' is no step")
+        self.refuse("'../turn' is not a step")
         self.file.write_text(self.file.read_text().replace('"little"', '"../little"'))
-        self.refuse("'../little' is no scenario")
+        self.refuse("'../little' is not a scenario")
 
     def test_faulty_files_are_told(self):
         self.write(step("turn", narration__en="Turn.") * 2)

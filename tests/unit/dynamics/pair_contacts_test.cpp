@@ -39,7 +39,7 @@ RC_GTEST_PROP(PairContacts, ABoxOnATableIsHeldUpAtItsCornersAndNothingCatchesIt,
     low = low.cwiseMin(p_A);
     high = high.cwiseMax(p_A);
   }
-  // The corners of a box are no samples, but the outermost samples are near.
+  // The corners of a box are not samples, but the outermost samples are near.
   RC_ASSERT(high.x() - low.x() > 1.7 * kBoxHalf_m.x());
   RC_ASSERT(high.z() - low.z() > 1.7 * kBoxHalf_m.z());
 }

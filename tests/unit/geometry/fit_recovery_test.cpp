@@ -1,4 +1,4 @@
-// Whether the fit finds random shapes again, as bench_fit measures it on many more, and what it does with points that are none.
+// Whether the fit finds random shapes again, as bench_fit measures it on many more, and what it does with points that are not finite.
 #include <cmath>
 #include <limits>
 

@@ -267,7 +267,7 @@ TEST(Shot, ErrorsSayWhatToWrite) {
   EXPECT_THAT(with(0, "release", text("pulled")), HasSubstr("name one of: fired"));
   EXPECT_THAT(with(0, "springs", number(1.5)), HasSubstr("write 0, 1 or 2"));
   EXPECT_THAT(with(1, "spring", text("SPRING")), HasSubstr("name one of: SINEW, SHOT"));
-  EXPECT_THAT(with(1, "spring", text("SHOT")), HasSubstr("is no spring, or stands below"));
+  EXPECT_THAT(with(1, "spring", text("SHOT")), HasSubstr("is not a spring, or stands below"));
   EXPECT_THAT(with(1, "body", text("FRAME")), HasSubstr("is fixed"));
   EXPECT_THAT(with(1, "direction", vector(0, 0, 0)), HasSubstr("direction has no direction"));
   EXPECT_THAT(with(1, "target", text("STONE")), HasSubstr("its own target"));

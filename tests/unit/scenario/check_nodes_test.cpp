@@ -93,7 +93,7 @@ TEST(XmlMistakes, NameThePlaceAndTheWayOut) {
   const Mistake mistakes[] = {
       {"info='\"Vitruvius", "info='\"Vitruvius & Vitruvius",
        "a bare & stands in the text; write &amp; for the letter &"},
-      {"info='\"Vitruvius", "info='\"&eacute;", "&eacute; is no letter that XML knows"},
+      {"info='\"Vitruvius", "info='\"&eacute;", "&eacute; is not a letter that XML knows"},
       {"title='Archimedes&apos; screw'", "title='Archimedes' screw'",
        "'screw' in the tag <WorldInfo> has no value; the quote before it ended the value: write &apos; there"},
       {"title='Archimedes&apos; screw'", "title='Archimedes",

@@ -174,7 +174,7 @@ TEST(Check, AQuestionsFaultIsToldOnceAtItsOwnLine) {
   const int first = line_of(edited(next, question + next), "name='liked'");
   const x3d::Problem kind = only_problem("\"scale\"", "\"scael\"");
   EXPECT_EQ(kind.line, first + 1);
-  EXPECT_NE(kind.what.find("'scael' is none of: choice scale"), std::string::npos) << kind.what;
+  EXPECT_NE(kind.what.find("'scael' is not one of: choice scale"), std::string::npos) << kind.what;
   const x3d::Problem key = only_problem("name='kind'", "name='knid'");
   EXPECT_EQ(key.line, first + 1);
   EXPECT_EQ(key.remedy, "did you mean 'kind'?");
@@ -198,7 +198,7 @@ TEST(Check, OneFaultIsOneMessageAtItsLine) {
       {"name='steps'>", "name='stepps'>", "did you mean 'steps'?"},
       {"name='trigger:1'>", "name='triger'>", "did you mean 'trigger:1'?"},
       {"name='tolerance' value='0.06 0.26'", "name='tolerance' value='0.06'", "tolerance has 1 numbers; write 2"},
-      {"value='\">\"'", "value='\">=\"'", "'>=' is none of: < = >; write one of them, like \">\""},
+      {"value='\">\"'", "value='\">=\"'", "'>=' is not one of: < = >; write one of them, like \">\""},
       {"name='value' value='0.5'", "name='value' value='0,5'",
        "it is 2 numbers; write a MetadataDouble with one number, like 40; decimals have a point"},
       {"'\"archimedes-screw\"'", "'\"Archimedes Screw\"'", "64 at most, like archimedes-screw"},

@@ -43,7 +43,7 @@ TEST(Effects, FaultsOfARiverAreSaidWithTheirRemedy) {
   };
   const std::string node = "<MetadataString containerField='value' name='node' value='\"WATER_RIVER\"'/>";
   const std::string way = "<MetadataDouble containerField='value' name='direction' value='0 0 1'/>";
-  expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", "node 'SCENE' is no water", x3d::Severity::error);
+  expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", "node 'SCENE' is not water", x3d::Severity::error);
   expect_problem(way, "", "the direction is not along the water", x3d::Severity::error);
   expect_problem(way, "<MetadataDouble containerField='value' name='direction' value='0 1 0'/>",
                  "the direction is not along the water", x3d::Severity::error);
@@ -66,7 +66,7 @@ TEST(Effects, FaultsAreSaidWithTheirRemedy) {
     EXPECT_GT(problem.line, 0);
     EXPECT_FALSE(problem.remedy.empty());
   };
-  expect_error(compile_text(edited("'\"stream\"'", "'\"streem\"'")), "'streem' is none of: level flow stream");
+  expect_error(compile_text(edited("'\"stream\"'", "'\"streem\"'")), "'streem' is not one of: level flow stream");
   const std::string body = "<MetadataString containerField='value' name='body' value=";
   expect_error(
       compile_text(edited(body + "'\"OUTER\"'/>\n            <MetadataDouble containerField='value' name='point'",

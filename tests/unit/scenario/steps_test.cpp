@@ -147,7 +147,7 @@ TEST(Steps, FaultsSayWhatToDo) {
   expect(with_fill(set_key("trigger:2", key("next", "turn"))), "the key 'quantity' is missing", x3d::Severity::error);
   expect(with_fill(set_key("triger:2", rule("turns", ">", "1"))), "did you mean 'trigger:2'?", x3d::Severity::error);
   expect(with_questions(set_key("q", key("kind", "multiple") + set_key("text", key("question.en", "Why?")))),
-         "'multiple' is none of: choice scale", x3d::Severity::error);
+         "'multiple' is not one of: choice scale", x3d::Severity::error);
   expect(with_questions(set_key("q", key("kind", "choice") + set_key("text", key("question.en", "Why?")))),
          "a choice needs two answers", x3d::Severity::error);
 }

@@ -93,7 +93,7 @@ TEST_P(SoundSynth, a_loop_has_no_click_at_its_seam_and_a_sound_that_plays_once_e
     EXPECT_LT(std::abs(s.back()), 1e-4);
     return;
   }
-  // Of the steps from sample to sample, the one over the seam is no odd one; nor is its change from the step before.
+  // Of the steps from sample to sample, the one over the seam is not an odd one; nor is its change from the step before.
   std::vector<double> jumps;
   for (std::size_t i = 0; i + 1 < s.size(); ++i)
     jumps.push_back(jump(i));

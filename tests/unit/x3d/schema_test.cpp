@@ -95,7 +95,7 @@ TEST(Schema, KnowsWhoIsWhose) {
   EXPECT_NE(body->field("visible"), nullptr) << "of an interface";
   EXPECT_TRUE(schema.accepts(*body->slot("geometry"), "CollidableShape"));
   EXPECT_FALSE(schema.accepts(*body->slot("geometry"), "Shape"));
-  EXPECT_EQ(schema.find("X3DNode"), nullptr) << "abstract types are no elements";
+  EXPECT_EQ(schema.find("X3DNode"), nullptr) << "abstract types are not elements";
 }
 
 }  // namespace

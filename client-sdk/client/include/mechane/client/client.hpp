@@ -25,7 +25,7 @@ struct ClientConfig {
   std::string join_kiosk{};  ///< request: share the world of this kiosk; empty: a world of one's own
   int fifo_priority = 0;     ///< SCHED_FIFO of the thread that receives forces; 0, or refused: an ordinary thread
   std::uint32_t domain = 0;  ///< DDS domain; the network is set up by CYCLONEDDS_URI
-  std::string display{};     ///< name of the display that this client is, among the kiosk's; empty: it is none
+  std::string display{};     ///< name of the display that this client is, among the kiosk's; empty: it is not a display
 };
 
 /// When a question is answered: what was learnt is the difference.
@@ -98,16 +98,16 @@ class Client {
   /// A display tells in which language it shows this world from now on: one of WorldPresentation::languages. Kept with the visit.
   virtual std::uint64_t tell_language(const std::string& language) = 0;
 
-  // What follows concerns displays; a client that is none has nothing to say.
+  // What follows concerns displays; other clients have nothing to say.
 
   /// SceneFrames that came, and that were lost on the way, in this and former worlds.
   [[nodiscard]] virtual FrameTraffic frame_traffic() const { return {}; }
-  /// Says how this display is; once a second keeps it alive for those who watch. False where the client is no display
+  /// Says how this display is; once a second keeps it alive for those who watch. False where the client is not a display
   /// (ClientConfig::display), or the network did not take it.
   virtual bool report(const DisplayStatus& /*status*/) { return false; }
   /// Requests to this display since the last call, oldest first. Each is to be answered in the next status.
   [[nodiscard]] virtual std::vector<DisplayRequest> take_display_requests() { return {}; }
-  /// Where a tracker saw the visitor's head last; none has told yet, or the client is no display.
+  /// Where a tracker saw the visitor's head last; empty: no tracker has told yet, or the client is not a display.
   [[nodiscard]] virtual std::optional<ViewerHead> viewer_head() { return {}; }
 };
 

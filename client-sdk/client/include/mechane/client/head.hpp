@@ -28,7 +28,7 @@ class HeadTracker {
   virtual ~HeadTracker() = default;
 
   /// As often as the tracker knows: 30 to 250 times a second. After half a second of silence the picture goes back to where visitors stand as a
-  /// rule. False where the pose is none, or the network did not take it.
+  /// rule. False where the pose is not valid, or the network did not take it.
   virtual bool tell(const Pose& X_SV) = 0;
   /// Nobody is before the screen any more.
   virtual bool tell_nobody() = 0;
