@@ -111,7 +111,7 @@ void append_inside(const x3d::Document& document, x3d::NodeId element, const std
 }
 
 void remove_element(const x3d::Document& document, x3d::NodeId element, TextEdits& edits) {
-  const x3d::XmlElementSpan& span = document[element].span;
+  const x3d::ElementSpan& span = document[element].span;
   const std::size_t margin = margin_of(document, element).size();
   const std::string_view after = std::string_view(document.source()).substr(span.end);
   // Alone on its line, or the last of it: the line goes too.

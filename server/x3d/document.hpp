@@ -1,5 +1,6 @@
-// An X3D file as a tree: everything that was written, in order, with lines, so that a writer can give it back and an error can say where.
-// DEF and USE are resolved, and nothing is expanded. Knows XML and X3D's naming, nothing of machines.
+// An X3D file as a tree: its elements and texts in the order written, with their places, so that an error can say where and an editor
+// can change one place and leave the rest. DEF and USE are resolved, and nothing is expanded. Knows XML and X3D's naming, nothing of
+// machines.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 #include "server/base/error.hpp"
 #include "server/base/ids.hpp"
 #include "server/x3d/problem.hpp"
-#include "server/x3d/xml_scanner.hpp"
+#include "server/x3d/start_tag.hpp"
 
 namespace mechane::x3d {
 
@@ -27,24 +28,33 @@ struct DocumentLimits {
   std::size_t metadata_bytes = 4u << 20;  ///< of all values of Metadata nodes together
 };
 
-enum class NodeKind : std::uint8_t { element, text, comment, cdata, doctype, declaration, instruction };
+/// Comments, the DOCTYPE and instructions are in Document::source() alone.
+enum class NodeKind : std::uint8_t { element, text };
+
+/// Offsets into the text: <name ...>inner</name>, or <name .../> where tag_end, inner_end and end are the same.
+struct ElementSpan {
+  std::uint32_t begin = 0;
+  std::uint32_t tag_end = 0;    ///< after the start tag
+  std::uint32_t inner_end = 0;  ///< of the end tag's <
+  std::uint32_t end = 0;
+};
 
 struct Attribute {
   std::string name;
-  std::string value;      ///< with its references resolved
-  XmlAttributeSpan span;  ///< where it stands in Document::source()
+  std::string value;   ///< with its references resolved
+  AttributeSpan span;  ///< where it stands in Document::source()
 };
 
 struct Node {
   NodeKind kind = NodeKind::element;
   std::string name;                   ///< of an element: its type, "RigidBody"
-  std::string text;                   ///< of the other kinds
+  std::string text;                   ///< of a text, with its references resolved
   std::vector<Attribute> attributes;  ///< in the order written
-  NodeId parent;                      ///< none for what stands at the top of the file
+  NodeId parent;                      ///< none for the outermost element
   std::vector<NodeId> children;
   NodeId used;  ///< of an element with USE: the element that it stands for
   int line = 0;
-  XmlElementSpan span;  ///< of an element: where it stands in Document::source()
+  ElementSpan span;  ///< of an element: where it stands in Document::source()
 
   /// The attribute's value; null where it is not written.
   [[nodiscard]] const std::string* attribute(std::string_view name) const;
@@ -55,8 +65,6 @@ class Document {
  public:
   [[nodiscard]] const Node& operator[](NodeId id) const { return nodes_[id.index()]; }
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
-  /// What stands at the top: declaration, doctype, comments, and the X3D element.
-  [[nodiscard]] const std::vector<NodeId>& top() const { return top_; }
   [[nodiscard]] NodeId x3d() const { return x3d_; }
   [[nodiscard]] NodeId scene() const { return scene_; }
   /// The element that DEF names, outside prototypes; none where there is none.
@@ -83,7 +91,6 @@ class Document {
   std::filesystem::path path_;
   std::string source_;
   std::vector<Node> nodes_;
-  std::vector<NodeId> top_;
   std::map<std::string, NodeId, std::less<>> defs_;
   NodeId x3d_;
   NodeId scene_;

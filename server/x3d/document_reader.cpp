@@ -1,14 +1,16 @@
-// Bytes to a Document: the caps first, then what keeps it from being XML, then pugixml, then a copy of its tree in the order written, then DEF and USE.
+// Bytes to a Document: the caps first, then one pass of expat that makes the tree, then DEF and USE.
 #include <algorithm>
 #include <fstream>
 #include <memory>
 
+#include <expat.h>
 #include <fmt/format.h>
-#include <pugixml.hpp>
 
+#include "server/base/assert.hpp"
 #include "server/base/utf8.hpp"
 #include "server/x3d/document.hpp"
 #include "server/x3d/uses.hpp"
+#include "server/x3d/xml_fault.hpp"
 
 namespace mechane::x3d {
 namespace {
@@ -34,29 +36,6 @@ class Lines {
   std::vector<std::size_t> ends_;
 };
 
-NodeKind kind_of(pugi::xml_node_type type) {
-  switch (type) {
-    case pugi::node_element:
-      return NodeKind::element;
-    case pugi::node_comment:
-      return NodeKind::comment;
-    case pugi::node_cdata:
-      return NodeKind::cdata;
-    case pugi::node_doctype:
-      return NodeKind::doctype;
-    case pugi::node_declaration:
-      return NodeKind::declaration;
-    case pugi::node_pi:
-      return NodeKind::instruction;
-    default:
-      return NodeKind::text;
-  }
-}
-
-bool is_metadata(const Node& node) {
-  return node.kind == NodeKind::element && node.name.starts_with("Metadata");
-}
-
 std::string megabytes(std::size_t bytes) {
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / (1u << 20));
 }
@@ -76,7 +55,7 @@ class DocumentBuilder {
   }
 
   Expected<Document> build() {
-    if (!check_bytes() || !parse() || !copy_tree() || !find_scene()) return tl::unexpected(problems_.first_error());
+    if (!check_bytes() || !parse() || !find_scene()) return tl::unexpected(problems_.first_error());
     resolve_uses(document_.nodes_, document_.defs_, problems_);
     if (problems_.has_errors()) return tl::unexpected(problems_.first_error());
     document_.source_ = std::string(bytes_);
@@ -118,98 +97,191 @@ class DocumentBuilder {
   }
 
   bool parse() {
-    auto spans = scan_xml(bytes_);
-    if (!spans) {
-      XmlFault& fault = spans.error();
-      return refuse(lines_.at(static_cast<std::ptrdiff_t>(fault.offset)), std::move(fault.element),
-                    "not well-formed XML: " + fault.what, std::move(fault.remedy));
-    }
-    spans_ = std::move(*spans);
-    const auto result = xml_.load_buffer(bytes_.data(), bytes_.size(), pugi::parse_full, pugi::encoding_utf8);
-    if (result) return true;
-    return refuse(lines_.at(result.offset), {}, fmt::format("not well-formed XML: {}", result.description()),
-                  "close what is open and quote every attribute; an XML editor shows the place");
+    const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate("UTF-8"),
+                                                                              &XML_ParserFree);
+    MECHANE_ASSERT(parser != nullptr);  // memory has run out
+    parser_ = parser.get();
+    XML_SetUserData(parser_, this);
+    XML_SetElementHandler(parser_, &on_start, &on_end);
+    XML_SetCharacterDataHandler(parser_, &on_text);
+    XML_SetDefaultHandler(parser_, &on_other);
+    XML_SetEndDoctypeDeclHandler(parser_, &on_doctype_end);
+    XML_SetEntityDeclHandler(parser_, &on_entity);
+    XML_SetAttlistDeclHandler(parser_, &on_attribute_list);
+    XML_SetSkippedEntityHandler(parser_, &on_skipped_entity);
+    const auto status = XML_Parse(parser_, bytes_.data(), static_cast<int>(bytes_.size()), XML_TRUE);
+    if (refused_) return false;
+    if (status == XML_STATUS_OK) return true;
+    const XML_Error code = XML_GetErrorCode(parser_);
+    if (code == XML_ERROR_NO_ELEMENTS && !open_) return refuse_without_x3d();
+    return refuse_as_xml(explain(bytes_, document_.nodes_, open_, {read_, here(), XML_ErrorString(code)}));
   }
 
-  /// Depth first with a stack of our own: a deep file must not use up the program's.
-  bool copy_tree() {
-    struct Open {
-      pugi::xml_node next;
-      NodeId parent;
-    };
-    std::vector<Open> open{{xml_.first_child(), NodeId::none()}};
-    while (!open.empty()) {
-      const pugi::xml_node from = open.back().next;
-      if (!from) {
-        open.pop_back();
-        continue;
-      }
-      open.back().next = from.next_sibling();
-      if (document_.nodes_.size() >= limits_.nodes) return refuse_node_count(lines_.at(from.offset_debug()));
-      if (open.size() > limits_.depth) {
-        return refuse(lines_.at(from.offset_debug()), from.name(),
-                      fmt::format("nodes are nested more than {} deep", limits_.depth),
-                      "flatten the tree; no scenario needs that depth");
-      }
-      const NodeId id = copy_node(from, open.back().parent);
-      if (apart_) {
-        return refuse(document_[id].line, document_.describe(id), "not well-formed XML: it can be read in two ways",
-                      "write this element and the DOCTYPE in the plainest form");
-      }
-      if (metadata_bytes_ > limits_.metadata_bytes) {
-        return refuse(document_[id].line, document_.describe(id),
-                      fmt::format("metadata values take more than {}", megabytes(limits_.metadata_bytes)),
-                      "keep recordings and data in files of their own");
-      }
-      if (has_entities(id)) {
-        return refuse(document_[id].line, "DOCTYPE", "the file declares entities, which are never read",
-                      "write the text in its place and remove <!ENTITY ...>");
-      }
-      if (from.first_child()) open.push_back({from.first_child(), id});
+  bool refuse_as_xml(XmlFault fault) {
+    return refuse(lines_.at(static_cast<std::ptrdiff_t>(fault.offset)), std::move(fault.element),
+                  "not well-formed XML: " + fault.what, std::move(fault.remedy));
+  }
+
+  /// Where the parser stands: at the beginning of what it tells of.
+  [[nodiscard]] std::size_t here() const { return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_)); }
+  /// The end of what it tells of.
+  [[nodiscard]] std::size_t there() const {
+    return here() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_));
+  }
+  [[nodiscard]] int line_here() const { return lines_.at(static_cast<std::ptrdiff_t>(here())); }
+
+  // What the parser calls. It may call once more after it has been stopped, for the end of an empty element.
+
+  static DocumentBuilder* of(void* builder) {
+    auto* self = static_cast<DocumentBuilder*>(builder);
+    return self->refused_ ? nullptr : self;
+  }
+
+  static void XMLCALL on_start(void* builder, const XML_Char* name, const XML_Char** attributes) {
+    if (auto* self = of(builder); self != nullptr) self->stop_unless(self->begin_element(name, attributes));
+  }
+
+  static void XMLCALL on_end(void* builder, const XML_Char*) {
+    if (auto* self = of(builder); self != nullptr) self->stop_unless(self->end_element());
+  }
+
+  static void XMLCALL on_text(void* builder, const XML_Char* text, int length) {
+    auto* self = of(builder);
+    if (self == nullptr) return;
+    if (self->text_.empty()) self->text_line_ = self->line_here();
+    self->text_.append(text, static_cast<std::size_t>(length));
+    self->pass();
+  }
+
+  /// Comments, instructions, blanks beside the outermost element; the ends of a CDATA section, and the pieces of a DOCTYPE.
+  static void XMLCALL on_other(void* builder, const XML_Char*, int) {
+    auto* self = of(builder);
+    if (self == nullptr) return;
+    const std::string_view markup = self->bytes_.substr(self->here());
+    if (markup.starts_with("<!DOCTYPE") || markup.starts_with("<![CDATA[")) self->within_ = true;
+    if (self->open_ && markup.starts_with("]]>")) self->within_ = false;
+    self->pass();
+  }
+
+  static void XMLCALL on_doctype_end(void* builder) {
+    auto* self = of(builder);
+    if (self == nullptr) return;
+    self->within_ = false;
+    self->pass();
+  }
+
+  static void XMLCALL on_entity(void* builder, const XML_Char*, int, const XML_Char*, int, const XML_Char*,
+                                const XML_Char*, const XML_Char*, const XML_Char*) {
+    if (auto* self = of(builder); self != nullptr) {
+      self->stop_unless(self->refuse(self->line_here(), "DOCTYPE", "the file declares entities, which are never read",
+                                     "write the text in its place and remove <!ENTITY ...>"));
     }
+  }
+
+  /// Their defaults would cost memory for each element.
+  static void XMLCALL on_attribute_list(void* builder, const XML_Char*, const XML_Char*, const XML_Char*,
+                                        const XML_Char*, int) {
+    if (auto* self = of(builder); self != nullptr) {
+      self->stop_unless(self->refuse(self->line_here(), "DOCTYPE", "the file declares attributes, which are never read",
+                                     "write them on the elements that need them, and remove <!ATTLIST ...>"));
+    }
+  }
+
+  /// A DOCTYPE that names a file may have declared it there: the parser leaves it out, and we refuse it.
+  static void XMLCALL on_skipped_entity(void* builder, const XML_Char*, int) {
+    auto* self = of(builder);
+    if (self == nullptr || !self->open_) return;  // a DOCTYPE's own
+    self->stop_unless(self->refuse_as_xml(
+        explain(self->bytes_, self->document_.nodes_, self->open_, {self->here(), self->here(), "undefined entity"})));
+  }
+
+  /// What the parser tells of has been read, unless it is in the midst of something.
+  void pass() {
+    if (!within_) read_ = there();
+  }
+
+  void stop_unless(bool good) {
+    if (good) return;
+    refused_ = true;
+    XML_StopParser(parser_, XML_FALSE);
+  }
+
+  bool begin_element(const XML_Char* name, const XML_Char** attributes) {
+    if (!take_text()) return false;
+    const std::size_t begin = here();
+    if (document_.nodes_.size() >= limits_.nodes) return refuse_node_count(line_here());
+    if (depth_ >= limits_.depth) {
+      return refuse(line_here(), name, fmt::format("nodes are nested more than {} deep", limits_.depth),
+                    "flatten the tree; no scenario needs that depth");
+    }
+    auto spans = find_attributes(bytes_, begin);
+    if (!spans) return refuse_as_xml(std::move(spans.error()));
+    Node node;
+    node.name = name;
+    node.line = line_here();
+    node.span.begin = static_cast<std::uint32_t>(begin);
+    node.span.tag_end = static_cast<std::uint32_t>(there());
+    const auto count = static_cast<std::size_t>(XML_GetSpecifiedAttributeCount(parser_)) / 2;
+    MECHANE_ASSERT(spans->size() == count);
+    for (std::size_t i = 0; i < count; ++i)
+      node.attributes.push_back({attributes[2 * i], attributes[2 * i + 1], (*spans)[i]});
+    open_ = add(std::move(node));
+    ++depth_;
+    pass();
+    return check_metadata();
+  }
+
+  bool end_element() {
+    if (!take_text()) return false;
+    Node& node = document_.nodes_[open_.index()];
+    node.span.inner_end = static_cast<std::uint32_t>(here());
+    node.span.end = static_cast<std::uint32_t>(there());
+    open_ = node.parent;
+    --depth_;
+    pass();
     return true;
   }
 
-  NodeId copy_node(const pugi::xml_node& from, NodeId parent) {
-    const NodeId id(document_.nodes_.size());
-    Node node;
-    node.kind = kind_of(from.type());
-    node.name = from.name();
-    node.text = from.value();
-    node.parent = parent;
-    node.line = lines_.at(from.offset_debug());
-    for (const pugi::xml_attribute& a : from.attributes())
-      node.attributes.push_back({a.name(), a.value(), {}});
-    if (node.kind == NodeKind::element) place(node);
-    if (is_metadata(node)) {
-      for (const Attribute& a : node.attributes)
-        metadata_bytes_ += a.value.size();
+  /// The text between two tags, unless it is blank.
+  bool take_text() {
+    if (text_.find_first_not_of(" \t\r\n") != std::string::npos) {
+      if (document_.nodes_.size() >= limits_.nodes) return refuse_node_count(text_line_);
+      Node node;
+      node.kind = NodeKind::text;
+      node.text = text_;
+      node.line = text_line_;
+      add(std::move(node));
     }
+    text_.clear();
+    return true;
+  }
+
+  NodeId add(Node node) {
+    const NodeId id(document_.nodes_.size());
+    node.parent = open_;
+    if (open_) document_.nodes_[open_.index()].children.push_back(id);
     document_.nodes_.push_back(std::move(node));
-    (parent ? document_.nodes_[parent.index()].children : document_.top_).push_back(id);
     return id;
   }
 
-  /// The parser and the scanner meet elements and attributes in the same order.
-  void place(Node& node) {
-    const bool known = elements_ < spans_.elements.size();
-    if (known) node.span = spans_.elements[elements_++];
-    apart_ = apart_ || !known || node.span.attributes != node.attributes.size();
-    if (apart_) return;
-    for (std::size_t i = 0; i < node.attributes.size(); ++i)
-      node.attributes[i].span = spans_.attributes[node.span.first_attribute + i];
+  /// Of the element that is open.
+  bool check_metadata() {
+    const Node& node = document_[open_];
+    if (!node.name.starts_with("Metadata")) return true;
+    for (const Attribute& attribute : node.attributes)
+      metadata_bytes_ += attribute.value.size();
+    if (metadata_bytes_ <= limits_.metadata_bytes) return true;
+    return refuse(node.line, document_.describe(open_),
+                  fmt::format("metadata values take more than {}", megabytes(limits_.metadata_bytes)),
+                  "keep recordings and data in files of their own");
   }
 
-  [[nodiscard]] bool has_entities(NodeId id) const {
-    return document_[id].kind == NodeKind::doctype && document_[id].text.find("<!ENTITY") != std::string::npos;
+  bool refuse_without_x3d() {
+    return refuse(1, {}, "there is no X3D element", "begin with <X3D profile='Interactive' version='4.0'>");
   }
 
   bool find_scene() {
-    for (const NodeId id : document_.top_) {
-      if (document_[id].kind == NodeKind::element && !document_.x3d_) document_.x3d_ = id;
-    }
-    if (!document_.x3d_)
-      return refuse(1, {}, "there is no X3D element", "begin with <X3D profile='Interactive' version='4.0'>");
+    document_.x3d_ = NodeId(0);
     const Node& x3d = document_[document_.x3d_];
     if (x3d.name != "X3D") {
       return refuse(x3d.line, x3d.name, "the file is XML, but not X3D", "its outermost element must be X3D");
@@ -241,10 +313,14 @@ class DocumentBuilder {
   Problems& problems_;
   const DocumentLimits& limits_;
   Lines lines_;
-  XmlSpans spans_;
-  std::size_t elements_ = 0;  // placed so far
-  bool apart_ = false;        // scanner and parser saw different files
-  pugi::xml_document xml_;
+  XML_Parser parser_ = nullptr;  // while it reads
+  bool refused_ = false;         // and said why
+  bool within_ = false;          // a DOCTYPE or a CDATA section, which come in pieces
+  std::size_t read_ = 0;         // the end of what could be read; the beginning of what it is within
+  NodeId open_;                  // the innermost element that is not closed
+  std::size_t depth_ = 0;
+  std::string text_;  // since the last tag
+  int text_line_ = 0;
   Document document_;
   std::size_t metadata_bytes_ = 0;
 };

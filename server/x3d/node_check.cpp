@@ -45,7 +45,7 @@ class NodeChecker {
       const NodeId id = open.back();
       open.pop_back();
       const Node& node = document_[id];
-      if (node.kind == NodeKind::text || node.kind == NodeKind::cdata) check_text(node);
+      if (node.kind == NodeKind::text) check_text(node);
       if (node.kind != NodeKind::element || node.name.find(':') != std::string::npos) continue;
       const NodeType* type = x3d_.find(node.name);
       if (type == nullptr) {

@@ -56,7 +56,7 @@ NO_LOG = {"server/base", "server/geometry", "server/collision", "server/collisio
 LIBRARIES = {
     "Bullet": (re.compile(r"(bt\w+\.h|(bullet|BulletDynamics|BulletCollision|LinearMath)/.*)$"), {"server/dynamics"}),
     "assimp": (re.compile(r"assimp/"), {"server/content"}),
-    "pugixml": (re.compile(r"pugixml"), {"server/x3d"}),
+    "expat": (re.compile(r"expat"), {"server/x3d"}),
     "SQLite": (re.compile(r"(sqlite3|SQLiteCpp)"), {"server/content", "server/visits"}),
     "Cyclone DDS": (re.compile(r"(dds/|ddsc/)"), {"proto", "server/transport", "client-sdk/client", "client-sdk/cli"}),
     "spdlog": (re.compile(r"spdlog/"), {"server/log"}),

@@ -43,15 +43,13 @@ TEST(Document, KeepsEverythingInOrderWithLines) {
       "<Unheard DEF='U' odd='1'>text<![CDATA[raw]]></Unheard>\n<Group USE='G'/><Group DEF='G'/></Scene></X3D>");
   ASSERT_TRUE(r.document) << r.document.error().to_string();
   const Document& d = *r.document;
-  EXPECT_EQ(d[d.top()[0]].kind, NodeKind::declaration);
-  EXPECT_EQ(d[d.top()[1]].kind, NodeKind::doctype);
-  EXPECT_EQ(d[d[d.x3d()].children[0]].text, " one ");
+  EXPECT_EQ(d[d.x3d()].line, 3);
   const NodeId unheard = d.find_def("U");
   EXPECT_EQ(d[unheard].line, 5);
   EXPECT_EQ(*d[unheard].attribute("odd"), "1");
-  ASSERT_EQ(d[unheard].children.size(), 2u);
-  EXPECT_EQ(d[d[unheard].children[1]].kind, NodeKind::cdata);
-  EXPECT_EQ(d[d[unheard].children[1]].text, "raw");
+  ASSERT_EQ(d[unheard].children.size(), 1u);
+  EXPECT_EQ(d[d[unheard].children[0]].kind, NodeKind::text);
+  EXPECT_EQ(d[d[unheard].children[0]].text, "textraw");
   // USE before DEF is resolved, but other readers would not: a warning.
   EXPECT_EQ(d.resolve(d.child_elements(d.scene())[1]), d.find_def("G"));
   ASSERT_EQ(r.problems.all().size(), 1u);
@@ -75,7 +73,7 @@ TEST(Document, UnclosedDeepNestingIsAnError) {
     scene += "<Group>";
   const Read r = read(kHead + scene);
   ASSERT_FALSE(r.document);
-  EXPECT_NE(r.document.error().what.find("well-formed"), std::string::npos);
+  EXPECT_NE(r.document.error().what.find("nested more than 200 deep"), std::string::npos);
 }
 
 TEST(Document, CapsOnSizeCountAndMetadata) {
@@ -113,8 +111,66 @@ TEST(Document, WhatIsNotX3D) {
   expect_error(read("<X3D version='4.0'><Scene>\n<Group></Scene></X3D>"), 2, "well-formed");
   expect_error(read_scene("\n<Group DEF='\xff'/>"), 4, "not UTF-8");
   expect_error(read_scene(std::string("\n<Group/>\0", 10)), 4, "not UTF-8");
-  expect_error(read("<!DOCTYPE X3D [\n<!ENTITY a SYSTEM 'file:///etc/passwd'>]>\n<X3D version='4.0'><Scene/></X3D>"), 1,
+  expect_error(read("<!DOCTYPE X3D [\n<!ENTITY a SYSTEM 'file:///etc/passwd'>]>\n<X3D version='4.0'><Scene/></X3D>"), 2,
                "entities");
+}
+
+TEST(Document, ADoctypeThatOnlyNamesX3dIsReadOver) {
+  const std::string doctype =
+      "<?xml version='1.0' encoding='UTF-8'?>\n"
+      "<!DOCTYPE X3D PUBLIC \"ISO//Web3D//DTD X3D 4.0//EN\" \"https://www.web3d.org/specifications/x3d-4.0.dtd\">\n";
+  const Read r = read("\xEF\xBB\xBF" + doctype + "<X3D version='4.0'><Scene><Group DEF='A'/></Scene></X3D>\n");
+  ASSERT_TRUE(r.document) << r.document.error().to_string();
+  EXPECT_EQ((*r.document)[r.document->find_def("A")].line, 3);
+  // What the named file might declare is never read, so that its names are none that we know.
+  expect_error(read(doctype + "<X3D version='4.0'>\n<Scene><Group DEF='&far;'/></Scene></X3D>"), 4, "&far;");
+  expect_error(read(doctype + "<X3D version='4.0'>\n<Scene>\n&far;</Scene></X3D>"), 5, "&far;");
+}
+
+TEST(Document, NothingIsDeclaredInADoctype) {
+  const std::string scene = "<X3D version='4.0'><Scene>&a;&a;</Scene></X3D>";
+  const auto with = [&](const std::string& declared) { return read("<!DOCTYPE X3D [\n" + declared + "\n]>" + scene); };
+  expect_error(with("<!ENTITY a 'x'>"), 2, "entities");
+  expect_error(with("<!ENTITY % p 'x'>\n%p;"), 2, "entities");
+  expect_error(with("<!-- ha -->\n<!ATTLIST Group DEF CDATA 'A'>"), 3, "declares attributes");
+  expect_error(with("%p;\n<!ENTITY a 'x'>"), 4, "&a;");
+  expect_error(with(""), 3, "&a;");
+  expect_error(read("<!DOCTYPE X3D [\n<!ENTITY"), 1, "DOCTYPE");
+  expect_error(read("<!DOCTYPE X3D\n"), 1, "the DOCTYPE is never closed");
+}
+
+TEST(Document, WhatOnlyAParserKnows) {
+  expect_error(read_scene("a\n]]>"), 4, "]]&gt;");
+  expect_error(read_scene("\n<Group DEF='\x01'/>"), 4, "control character (0x01)");
+  expect_error(read_scene("\n<Group DEF='&#0;'/>"), 4, "invalid character number");
+  expect_error(read("\n<?xml version='1.0'?><X3D version='4.0'><Scene/></X3D>"), 2, "not the first thing in the file");
+  expect_error(read("<!-- nothing -->"), 1, "there is no X3D element");
+  expect_error(read("words"), 1, "text outside of the outermost element");
+}
+
+TEST(Document, PlacesAreThoseOfTheText) {
+  const std::string scene =
+      "<Group\r\n DEF = \"A&amp;&#x3b1;\"\tbboxSize='1 2\r\n3'>one &lt; <!-- > --> two<Group/></Group >";
+  const Read r = read_scene(scene);
+  ASSERT_TRUE(r.document) << r.document.error().to_string();
+  const Document& d = *r.document;
+  const std::string& text = d.source();
+  const Node& group = d[d.find_def("A&\xce\xb1")];
+  EXPECT_EQ(group.line, 3);
+  EXPECT_EQ(text.substr(group.span.begin, group.span.end - group.span.begin), scene);
+  EXPECT_TRUE(text.substr(group.span.tag_end).starts_with("one"));
+  EXPECT_TRUE(text.substr(group.span.inner_end).starts_with("</Group >"));
+  ASSERT_EQ(group.attributes.size(), 2u);
+  EXPECT_EQ(group.attributes[1].value, "1 2 3");
+  const AttributeSpan& span = group.attributes[1].span;
+  EXPECT_EQ(text.substr(span.begin, span.name_end - span.begin), "bboxSize");
+  EXPECT_EQ(text.substr(span.value_begin, span.value_end - span.value_begin), "1 2\r\n3");
+  ASSERT_EQ(group.children.size(), 2u);
+  EXPECT_EQ(d[group.children[0]].text, "one <  two");
+  const Node& inner = d[group.children[1]];
+  EXPECT_EQ(text.substr(inner.span.begin, inner.span.end - inner.span.begin), "<Group/>");
+  EXPECT_EQ(inner.span.tag_end, inner.span.end);
+  EXPECT_EQ(inner.span.inner_end, inner.span.end);
 }
 
 TEST(Document, FilesThatCannotBeRead) {
