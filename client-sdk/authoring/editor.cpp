@@ -207,7 +207,7 @@ Expected<void> Editor::set(std::string_view path, const state::Parameter& value)
   if (there && fits(document_[there].name)) {
     authoring::set_attribute(document_, there, "value", written.value, edits);
   } else if (there) {
-    const x3d::XmlElementSpan& span = document_[there].span;
+    const x3d::ElementSpan& span = document_[there].span;
     edits.replace(span.begin, span.end, element_text(written, name));
   } else {
     std::vector<std::string> sets(spot->rest.begin(), spot->rest.end() - 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -23,18 +24,25 @@ Expected<x3d::Document> read_text(const std::string& text, const fs::path& path)
   return x3d::read_document(text, path, problems);
 }
 
+/// The folder of a file, from the root: a file may be named without one.
+fs::path folder_of(const fs::path& file) {
+  std::error_code code;
+  const fs::path whole = fs::absolute(file, code);
+  return (code ? file : whole).lexically_normal().parent_path();
+}
+
 std::string rebased(const std::string& url, const fs::path& from, const fs::path& to) {
   if (!x3d::is_relative_path(url)) return url;
   // "model.glb#NODE" keeps what stands behind the '#'.
   const std::size_t hash = std::min(url.find('#'), url.size());
-  const fs::path target = fs::absolute(from / url.substr(0, hash)).lexically_normal();
-  return target.lexically_relative(fs::absolute(to).lexically_normal()).generic_string() + url.substr(hash);
+  const fs::path target = (from / url.substr(0, hash)).lexically_normal();
+  return target.lexically_relative(to).generic_string() + url.substr(hash);
 }
 
-/// Paths as they must stand in a file of the folder `to`.
+/// Paths as they must stand in a file of the folder `to`, which is named from the root.
 void rebase_paths(const x3d::Document& document, const fs::path& to, TextEdits& edits) {
-  const fs::path from = document.path().parent_path();
-  if (fs::absolute(from).lexically_normal() == fs::absolute(to).lexically_normal()) return;
+  const fs::path from = folder_of(document.path());
+  if (from == to) return;
   for (scenario::FileReference& reference : scenario::file_references(document)) {
     for (std::string& one : reference.urls)
       one = rebased(one, from, to);
@@ -63,13 +71,13 @@ x3d::NodeId head_of(const x3d::Document& document) {
 }
 
 std::string_view element_text(const x3d::Document& document, x3d::NodeId id) {
-  const x3d::XmlElementSpan& span = document[id].span;
+  const x3d::ElementSpan& span = document[id].span;
   return std::string_view(document.source()).substr(span.begin, span.end - span.begin);
 }
 
 /// What an element holds, without the blanks behind the last of it; empty where it holds nothing.
 std::string inner_text(const x3d::Document& document, x3d::NodeId id) {
-  const x3d::XmlElementSpan& span = document[id].span;
+  const x3d::ElementSpan& span = document[id].span;
   if (span.tag_end == span.end) return {};
   const std::string_view inner =
       std::string_view(document.source()).substr(span.tag_end, span.inner_end - span.tag_end);
@@ -126,7 +134,7 @@ class Merge {
     }
     // X3D wants components first.
     if (!components.empty() && !insert_after_last(head, "component", components)) {
-      const x3d::XmlElementSpan& span = ours_[head].span;
+      const x3d::ElementSpan& span = ours_[head].span;
       if (span.tag_end == span.end) {
         added.insert(0, components);
       } else {
@@ -304,10 +312,11 @@ std::string with_id(const x3d::Document& document, const fs::path& out) {
 Expected<Merged> merge_files(std::span<const std::string> files, const fs::path& out) {
   if (files.size() < 2) return fail("there is nothing to merge", "", "name two files or more");
   Merged merged;
-  auto ours = read_rebased(files.front(), out.parent_path());
+  const fs::path folder = folder_of(out);
+  auto ours = read_rebased(files.front(), folder);
   if (!ours) return tl::unexpected(ours.error());
   for (const std::string& file : files.subspan(1)) {
-    auto theirs = read_rebased(file, out.parent_path());
+    auto theirs = read_rebased(file, folder);
     if (!theirs) return tl::unexpected(theirs.error());
     auto apart = renamed(*ours, *theirs, file, merged.notes);
     if (!apart) return tl::unexpected(apart.error());

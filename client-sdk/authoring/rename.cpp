@@ -75,6 +75,7 @@ class Renamer {
       if (node.name == "ProtoDeclare" || node.name == "ExternProtoDeclare" || node.name == "ProtoInstance")
         rename(id, "name", renames_.prototypes);
       if (inside[i]) continue;
+      if (node.name == "RigidBody") keep_mesh_node(id);
       rename(id, "DEF", renames_.things);
       rename(id, "USE", renames_.things);
       rename_statement(id, node);
@@ -83,6 +84,18 @@ class Renamer {
   }
 
  private:
+  /// A body without the key `node` is the node of its own name in the mesh file, which is not renamed: writes that name down.
+  void keep_mesh_node(x3d::NodeId body) {
+    const std::string* def = document_[body].attribute("DEF");
+    if (def == nullptr || !renames_.things.contains(*def)) return;
+    const x3d::NodeId set = x3d::find_set(document_, body, "mechane:body");
+    if (!set || !x3d::find_child(document_, set, "model") || x3d::find_child(document_, set, "node")) return;
+    append_inside(document_, set,
+                  fmt::format("{}<MetadataString containerField='value' name='node' value='{}'/>",
+                              inner_margin_of(document_, set), escape_attribute(quote_strings({*def}))),
+                  edits_);
+  }
+
   void rename(x3d::NodeId id, std::string_view attribute, const Map& map) {
     const std::string* value = document_[id].attribute(attribute);
     if (value != nullptr && map.contains(*value)) set_attribute(document_, id, attribute, map.at(*value), edits_);

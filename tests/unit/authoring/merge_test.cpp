@@ -122,6 +122,42 @@ TEST_F(MergeFiles, PathsAreRightFromWhereTheResultLies) {
   EXPECT_EQ(found, 2u);
 }
 
+TEST_F(MergeFiles, ABodyWithoutAMeshNodeOfItsOwnKeepsTheOneOfItsFirstName) {
+  const std::string key = "<MetadataString containerField='value' name='node' value='\"INNER\"'/>";
+  const std::string file = write("nodeless.x3d", edited(key, ""));
+  const state::WorldDescription two = merged_world({file, file}, folder / "in/both.x3d");
+  ASSERT_TRUE(two.find_body("INNER_2"));
+  EXPECT_EQ(two.bodies[two.find_body("INNER").index()].mesh.node, "INNER");
+  EXPECT_EQ(two.bodies[two.find_body("INNER_2").index()].mesh.node, "INNER");
+}
+
+/// The working folder of this process, for as long as this lives.
+class InFolder {
+ public:
+  explicit InFolder(const std::filesystem::path& folder) { std::filesystem::current_path(folder); }
+  ~InFolder() { std::filesystem::current_path(before_); }
+  InFolder(const InFolder&) = delete;
+  InFolder& operator=(const InFolder&) = delete;
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+};
+
+TEST_F(MergeFiles, FilesMayBeNamedWithoutAFolder) {
+  const std::string scene = "<X3D version='4.0'><Scene>\n<Inline DEF='IN' url='\"models/a.x3d\"'/>\n</Scene></X3D>";
+  write("one.x3d", scene);
+  const std::string other = write("other.x3d", scene);
+  const InFolder in(folder / "in");
+  const auto here = merge_files(std::vector<std::string>{"one.x3d", other}, "both.x3d");
+  ASSERT_TRUE(here) << here.error().to_string();
+  EXPECT_EQ(here->text.find("../"), std::string::npos) << here->text;
+  std::filesystem::create_directory("deeper");
+  const auto below = merge_files(std::vector<std::string>{"one.x3d", "./other.x3d"}, "deeper/both.x3d");
+  ASSERT_TRUE(below) << below.error().to_string();
+  EXPECT_NE(below->text.find("<Inline DEF='IN' url='\"../models/a.x3d\"'/>"), std::string::npos) << below->text;
+  EXPECT_NE(below->text.find("<Inline DEF='IN_2' url='\"../models/a.x3d\"'/>"), std::string::npos) << below->text;
+}
+
 TEST_F(MergeFiles, RoutesImportsExportsAndPrototypesFollow) {
   const std::string text =
       "<X3D version='4.0'><Scene>\n<Inline DEF='IN' url='\"a.x3d\"'/>\n"
