@@ -113,7 +113,7 @@ class DocumentBuilder {
     if (refused_) return false;
     if (status == XML_STATUS_OK) return true;
     const XML_Error code = XML_GetErrorCode(parser_);
-    if (code == XML_ERROR_NO_ELEMENTS && !open_) return refuse_without_x3d();
+    if (code == XML_ERROR_NO_ELEMENTS && !open_ && !within_) return refuse_without_x3d();
     return refuse_as_xml(explain(bytes_, document_.nodes_, open_, {read_, here(), XML_ErrorString(code)}));
   }
 

@@ -139,7 +139,7 @@ std::optional<XmlFault> reference_fault(std::string_view text, std::size_t begin
     if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end() || is_number_reference(name)) continue;
     return XmlFault{i,
                     {},
-                    fmt::format("&{}; is no letter that XML knows", name.substr(0, 40)),
+                    fmt::format("&{}; is not a letter that XML knows", name.substr(0, 40)),
                     "write the letter itself, in UTF-8; for & write &amp;"};
   }
   return std::nullopt;

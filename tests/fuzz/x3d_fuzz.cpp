@@ -8,6 +8,7 @@
 #include "client-sdk/authoring/rename.hpp"
 #include "server/base/assert.hpp"
 #include "server/scenario/compiler.hpp"
+#include "server/x3d/document.hpp"
 
 namespace authoring = mechane::authoring;
 namespace scenario = mechane::scenario;
