@@ -104,8 +104,11 @@ int run(const Arguments& a, client::Client& client) {
   }
   SystemClock waiting;
   const TimePoint end = waiting.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.seconds));
+  std::string told;
   while (g_stop == 0 && (a.seconds <= 0 || waiting.now() < end)) {
-    if (client.state() == client::LinkState::refused) log::warning(client.refusal());
+    std::string refusal = client.state() == client::LinkState::refused ? client.refusal() : std::string();
+    if (!refusal.empty() && refusal != told) log::warning(refusal);
+    told = std::move(refusal);
     waiting.sleep_until(waiting.now() + std::chrono::milliseconds(200));
   }
   // The force ramps down before the loop ends, so that nobody's hand feels the program stop.

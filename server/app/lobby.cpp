@@ -83,7 +83,7 @@ std::uint32_t Lobby::users() const {
 void Lobby::take(const transport::News& news, TimePoint now) {
   switch (news.kind) {
     case NewsKind::kiosk_appeared:
-      kiosk_appeared(news.session, now);
+      kiosk_appeared(news.session);
       break;
     case NewsKind::session_appeared:
       log::info(who(news.session) + " appeared");
@@ -110,19 +110,51 @@ Lobby::Entry* Lobby::world_of(const std::string& kiosk) {
   return nullptr;
 }
 
-void Lobby::kiosk_appeared(const Session& session, TimePoint) {
-  Entry* entry = world_of(session.kiosk);  // it was away for a moment only
-  if (entry == nullptr && !session.join_kiosk.empty()) {
-    entry = world_of(session.join_kiosk);
-    if (entry == nullptr) {
-      const std::string why = fmt::format("kiosk {} has no world to share; start it first", session.join_kiosk);
-      log::warning(fmt::format("{}: {}", session.kiosk, why));
-      return transport_.refuse_kiosk(session.kiosk, why);
+void Lobby::kiosk_appeared(const Session& session) {
+  if (Entry* entry = world_of(session.kiosk)) return enter(session.kiosk, *entry);  // it was away for a moment only
+  waiting_.push_back({session, {}});
+  serve_waiting();
+}
+
+void Lobby::serve_waiting() {
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    std::string why = why_to_wait(*it);
+    if (why.empty()) {
+      const Session session = it->session;
+      it = waiting_.erase(it);
+      give_world(session);
+      continue;
     }
+    if (why != it->told) {
+      log::warning(fmt::format("{}: {}", it->session.kiosk, why));
+      transport_.refuse_kiosk(it->session.kiosk, why);
+      it->told = std::move(why);
+    }
+    ++it;
+  }
+}
+
+std::string Lobby::why_to_wait(const Waiting& waiting) {
+  const std::string& shared = waiting.session.join_kiosk;
+  if (!shared.empty()) {
+    return world_of(shared) != nullptr
+               ? std::string()
+               : fmt::format("waiting for kiosk {}, whose world it is to share: start it", shared);
+  }
+  if (worlds_.size() < settings_.worlds) return {};
+  return fmt::format(
+      "waiting: all {} worlds of this server are in use. It gets one when its turn comes; start the server with more "
+      "--worlds to "
+      "have more at once",
+      settings_.worlds);
+}
+
+void Lobby::give_world(const Session& session) {
+  Entry* entry = session.join_kiosk.empty() ? nullptr : world_of(session.join_kiosk);
+  if (entry != nullptr) {
     entry->kiosks.push_back(session.kiosk);
     log::info(fmt::format("{} shares world {}", session.kiosk, entry->name));
-  }
-  if (entry == nullptr) {
+  } else {
     auto opened = open_for(session);
     if (!opened) {
       log::error(opened.error());
@@ -130,15 +162,20 @@ void Lobby::kiosk_appeared(const Session& session, TimePoint) {
     }
     entry = *opened;
   }
-  entry->idle_since.reset();
-  transport_.assign_kiosk(session.kiosk, *entry->running.port);
+  enter(session.kiosk, *entry);
+}
+
+void Lobby::enter(const std::string& kiosk, Entry& entry) {
+  entry.idle_since.reset();
+  transport_.assign_kiosk(kiosk, *entry.running.port);
+  // Hands that were granted while the kiosk waited.
+  for (const Session& session : transport_.sessions().sessions()) {
+    const Session* owner = transport_.sessions().owner(kiosk, session.user);
+    if (session.kiosk == kiosk && owner != nullptr && owner->id == session.id) bind_hand(session, entry);
+  }
 }
 
 Expected<Lobby::Entry*> Lobby::open_for(const Session& session) {
-  if (worlds_.size() >= settings_.worlds) {
-    return fail(fmt::format("all {} worlds of this server are in use", settings_.worlds), session.kiosk,
-                "wait for one to be free, or start the server with more --worlds");
-  }
   auto description = session.scenario.empty() ? scenarios_.first() : scenarios_.find(session.scenario);
   if (description == nullptr && session.was_there) {
     log::warning(fmt::format("{} was in '{}', which this server was not started with; it begins at '{}'", session.kiosk,
@@ -296,11 +333,12 @@ void Lobby::take_answers() {
 
 void Lobby::hand_granted(const Session& session) {
   Entry* entry = world_of(session.kiosk);
-  if (entry != nullptr) bind_hand(session, *entry);  // without a world, it was told why
+  if (entry != nullptr) bind_hand(session, *entry);  // else when the kiosk gets a world
 }
 
 void Lobby::bind_hand(const Session& session, Entry& entry) {
   transport::WorldPort& port = *entry.running.port;
+  if (port.slot_of(session.id) < hand::kMaxUsers) return;
   const std::size_t slot = port.free_slot();
   if (slot >= hand::kMaxUsers || !port.bind_user(slot, session.kiosk, session.user, session.id)) {
     log::warning(fmt::format("{}: no place for this hand in world {}, which has {} at most", who(session), entry.name,
@@ -318,6 +356,7 @@ void Lobby::hand_freed(const Session& session) {
 }
 
 void Lobby::kiosk_left(const std::string& kiosk, TimePoint now) {
+  std::erase_if(waiting_, [&](const Waiting& waiting) { return waiting.session.kiosk == kiosk; });
   Entry* entry = world_of(kiosk);
   if (entry == nullptr) return;
   // A kiosk that shares a world goes; the one whose world it is may come back to it.
@@ -340,6 +379,7 @@ void Lobby::tidy(TimePoint now) {
     close(entry, record::WorldRecorder::Snapshot::remove);
     it = worlds_.erase(it);
   }
+  serve_waiting();
 }
 
 void Lobby::close_all() {

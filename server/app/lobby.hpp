@@ -1,6 +1,6 @@
-// Who gets which world: the main thread's policy. A kiosk that appears gets its world; one that asks to join another's shares it; a
-// world without clients is closed after a while; a visitor who touches a sign goes on to another scenario; after a restart a kiosk is
-// put back where it was.
+// Who gets which world: the main thread's policy. A kiosk that appears gets its world, or waits for one; one that asks to join another's
+// shares it; a world without clients is closed after a while; a visitor who touches a sign goes on to another scenario; after a restart a
+// kiosk is put back where it was.
 #pragma once
 
 #include <map>
@@ -51,7 +51,19 @@ class Lobby {
     std::optional<TimePoint> idle_since;
   };
 
-  void kiosk_appeared(const transport::Session& session, TimePoint now);
+  /// A kiosk without a world: while all are in use, or the kiosk whose world it is to share has none.
+  struct Waiting {
+    transport::Session session;
+    std::string told;  ///< why it waits, as it was told last
+  };
+
+  void kiosk_appeared(const transport::Session& session);
+  /// Worlds for those whose waiting is over, first come first; the others are told why they wait.
+  void serve_waiting();
+  /// Empty: it need not wait.
+  [[nodiscard]] std::string why_to_wait(const Waiting& waiting);
+  void give_world(const transport::Session& session);
+  void enter(const std::string& kiosk, Entry& entry);
   void kiosk_left(const std::string& kiosk, TimePoint now);
   void hand_granted(const transport::Session& session);
   void hand_freed(const transport::Session& session);
@@ -81,6 +93,7 @@ class Lobby {
   visits::VisitSheets* sheets_;
   std::vector<std::unique_ptr<WorldLoop>>& loops_;
   std::map<std::string, std::unique_ptr<Entry>> worlds_;
+  std::vector<Waiting> waiting_;                   // in the order in which they came
   std::vector<record::SnapshotFile> from_before_;  // of the run before this one
   std::uint32_t next_number_ = 1;
 };

@@ -66,6 +66,23 @@ class Faults(EndToEnd):
         self.assertTrue(visitor.running())
         self.assertEqual(again.stop(), 0)
 
+    def test_kiosks_that_wait_get_a_world_when_one_is_free(self):
+        server = self.server("--worlds", "1", "--world-idle", "1")
+        first = self.start("haptic-1", "haptic", "--kiosk", "kiosk-1")
+        wait_until(lambda: "in world world-1" in server.text(), 30, "the first hand is in its world")
+        reports = [self.folder / "second.json", self.folder / "third.json"]
+        third = self.start("haptic-3", "haptic", "--kiosk", "kiosk-3", "--join", "kiosk-2", "--report", reports[1])
+        wait_until(lambda: "waiting for kiosk kiosk-2" in third.text(), 10, "the third is told why it waits")
+        second = self.start("haptic-2", "haptic", "--kiosk", "kiosk-2", "--report", reports[0])
+        wait_until(lambda: "all 1 worlds" in second.text(), 10, "the second is told why it waits")
+        self.assertEqual(first.stop(), 0)
+        wait_until(lambda: server.text().count("is in world world-2") == 2, 20, "both are in the next world")
+        time.sleep(0.5)  # of use
+        for hand, report in zip((second, third), reports):
+            self.assertEqual(hand.stop(), 0)
+            self.assertGreater(json.loads(report.read_text())["answers"], 50)
+        self.assertEqual(server.stop(), 0)
+
     @marked("not-address")
     def test_a_full_disk_under_the_journal_is_survived(self):
         server = self.server(prefix=self.full_disk(self.folder / "records"))
