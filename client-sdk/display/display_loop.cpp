@@ -38,11 +38,20 @@ Expected<DisplaySummary> DisplayLoop::run() {
   return sum_up();
 }
 
-/// A film's time goes by its pictures, not by how long they take.
+/// Whether the steps of a recording are drawn, and nothing else of it.
+bool DisplayLoop::draws_recorded_steps() const {
+  return !options_.source.play.empty() && options_.offscreen && options_.every_step && options_.film_fps <= 0;
+}
+
+/// The time of a film, and of a recording whose steps are drawn, goes by the turns of the loop and not by how long they take: however slowly the
+/// machine draws, it misses nothing.
 TimePoint DisplayLoop::now() {
-  if (options_.film_fps <= 0) return clock_.now();
-  const double seconds = static_cast<double>(presenter_.frames()) / options_.film_fps;
-  return started_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+  const auto after = [this](double seconds) {
+    return started_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+  };
+  if (options_.film_fps > 0) return after(static_cast<double>(presenter_.frames()) / options_.film_fps);
+  if (draws_recorded_steps()) return after(static_cast<double>(turns_) / options_.fps);
+  return clock_.now();
 }
 
 bool DisplayLoop::stop_wanted(TimePoint now) const {
@@ -59,6 +68,7 @@ void DisplayLoop::take_news(TimePoint now) {
   if (news.another_world) visitor_.forget_world();
   if (options_.every_step && news_.world().known() && !due_)
     due_ = schedule_.due(now, *news_.world().status(), news.whole);
+  whole_ = news.whole;
   if (visitor_.invitation() != nullptr) return;  // the world behind it is uploaded when it is shown
   if (news.another_world) {
     presenter_.replace_assets();
@@ -134,6 +144,14 @@ void DisplayLoop::wait_for_next(TimePoint began) {
   if (options_.film_fps > 0) return;
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
   const TimePoint now = clock_.now();
+  if (draws_recorded_steps()) {
+    // A recording waits for models that are on their way, as long as a picture would.
+    waited_ = whole_ ? Duration(0) : waited_ + period;
+    if (whole_ || waited_ > PictureSchedule::kPatience) {
+      ++turns_;
+      return;
+    }
+  }
   next_ = std::max(next_ + period, now);
   // Drawing on the processor, a display leaves at least half of the time to the others on the machine. One picture a step leaves more
   // than that, and must be back before a short step is over.

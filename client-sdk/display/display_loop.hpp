@@ -2,6 +2,7 @@
 // which order they are called, when a picture is written, and when the display ends.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ class DisplayLoop {
   [[nodiscard]] Expected<DisplaySummary> run();
 
  private:
+  [[nodiscard]] bool draws_recorded_steps() const;
   [[nodiscard]] TimePoint now();
   [[nodiscard]] bool stop_wanted(TimePoint now) const;
   void take_news(TimePoint now);
@@ -50,6 +52,9 @@ class DisplayLoop {
   PictureSchedule schedule_;
   std::optional<std::string> due_;  ///< name of a picture of this step
   bool last_picture_taken_ = false;
+  bool whole_ = true;        ///< nothing of the scene is on its way here
+  Duration waited_{0};       ///< for what is
+  std::uint64_t turns_ = 0;  ///< of the loop, while the steps of a recording are drawn
   PictureFolder folder_;
   TimePoint started_;
   TimePoint next_;

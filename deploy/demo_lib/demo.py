@@ -13,6 +13,10 @@ import sys
 import time
 import xml.etree.ElementTree
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bench_lib"))
+import machine  # noqa: E402
+import recording  # noqa: E402
+
 VILLAGE, SCREW, ODOMETER = (f"scenarios/{name}/{name}.x3d" for name in ("village", "archimedes-screw", "odometer"))
 # Two visitors work the screw; a third goes through the village, whose two visits touch the screw's sign and the odometer's.
 KIOSKS = {"kiosk-1": SCREW, "kiosk-2": SCREW, "village": VILLAGE}
@@ -20,6 +24,7 @@ LINGER_S = 8  # at the exhibit that a sign opened: a display that draws on the p
 VISIT_LIMIT_S = 240
 START_LIMIT_S = 1200
 TOUR_LIMIT_S = 1200
+DRAW_LIMIT_S = 900
 TOUR_TOLD_EACH_S = 15  # where there is no terminal
 
 
@@ -68,6 +73,10 @@ def read_json(path):
 
 def has_screen():
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def makes_pictures(options):
+    return options.headless or not has_screen()
 
 
 def environment_of(root):
@@ -134,13 +143,10 @@ def start_server(programs, options, scenarios, out):
 def start_clients(programs, options, out):
     domain = ["--domain", str(options.domain)]
     for kiosk in KIOSKS:
-        show = ["display", "--kiosk", kiosk, *domain]
-        if options.headless or not has_screen():
-            show += ["--offscreen", "--size", "1280x720", "--stereo", "sbs" if kiosk == "kiosk-2" else "mono", "--out",
-                     str(out / "pictures" / kiosk), "--every-step", "--fps", "4"]
-        elif kiosk == "kiosk-2":
-            continue
-        programs.start(f"display-{kiosk}", *show)
+        if makes_pictures(options):
+            programs.start(f"display-{kiosk}", *recording.record(kiosk, out / f"{kiosk}.frames"), *domain)
+        elif kiosk != "kiosk-2":
+            programs.start(f"display-{kiosk}", "display", "--kiosk", kiosk, *domain)
     visitors = []
     for kiosk, scenario in KIOSKS.items():
         name = f"visitor-{kiosk}"
@@ -150,6 +156,18 @@ def start_clients(programs, options, out):
     programs.start("haptic", "haptic", "--device", "virtual", "--kiosk", "kiosk-1", "--user", "1", "--report",
                    str(out / "haptic.json"), *domain)
     return visitors
+
+
+def draw_steps(programs, out):
+    """A picture of each step of what was recorded, one kiosk after another; the kiosks that could not be drawn."""
+    failed = []
+    for kiosk in KIOSKS:
+        print(f"  drawing the steps at {kiosk}", flush=True)
+        programs.start(f"draw-{kiosk}", *recording.draw(out / f"{kiosk}.frames", out / "pictures" / kiosk, "1280x720", "--every-step", "--stereo",
+                                                        "sbs" if kiosk == "kiosk-2" else "mono"))
+        if programs.wait(f"draw-{kiosk}", DRAW_LIMIT_S) != 0:
+            failed.append(kiosk)
+    return failed
 
 
 def clear_line():
@@ -217,12 +235,10 @@ def gather(out, visitors, replays):
     missed = [(kiosk, name) for kiosk, name in wanted if not glob.glob(str(out / "pictures" / kiosk / f"{name}-*.png"))]
     metrics = {
         "activities.done": sum(1 for a in activities if a.get("done")),
-        "activities.asked": 2 * len(visitors),
+        "activities.asked": sum(count_visits([scenario]) for scenario in KIOSKS.values()),
         "steps.done": sum(len([s for s in a.get("steps", []) if s.get("done")]) for a in activities),
         "kiosks": len(visitors),
-        "overruns": server.get("overruns", -1),
-        "late_wakeups": server.get("late_wakeups", -1),
-        "preemptions": server.get("preemptions", -1),
+        **{count: server[count] for count in ("overruns", "late_wakeups", "preemptions") if count in server},
         "water_l": round(sum(r.get("water_l", 0) for r in reports), 2),
         "pictures": len(pictures),
         "pictures.wanted": len(wanted),
@@ -237,7 +253,7 @@ def gather(out, visitors, replays):
         values = [r["rtt_us"][key] for r in reports if key in r.get("rtt_us", {})]
         if values:
             metrics[f"rtt_us.{key}"] = max(values)
-    return metrics, activities, sorted(missed)
+    return metrics, activities, sorted(missed), server.get("simd")
 
 
 def pictures_wanted(activities):
@@ -269,30 +285,18 @@ def print_summary(metrics, activities, missed, out):
     print(f"  journals replayed        {metrics['replays.same_hash']} of {metrics['replays.asked']} to the live hash")
     print(f"  pictures of steps        {metrics['pictures.wanted'] - metrics['pictures.missed']:8d}      of {metrics['pictures.wanted']}, in {out / 'pictures'}")
     for kiosk, name in missed:
-        print(f"                           missed: {name} at {kiosk} (drawing took longer than the step)")
+        print(f"                           missed: {name} at {kiosk}")
 
 
 def missing_assets(out):
     """What displays could not find, from the last line of their logs."""
     missing = set()
-    for log in out.glob("display-*.log"):
+    for log in (*out.glob("display-*.log"), *out.glob("draw-*.log")):
         for line in reversed(log.read_text(errors="replace").splitlines()):
             if line.startswith("{"):
                 missing.update(json.loads(line).get("missing_assets", []))
                 break
     return sorted(missing)
-
-
-def commit():
-    result = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
-    return result.stdout.strip() or "unknown"
-
-
-def cpu_model():
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return "unknown"
 
 
 def main():
@@ -306,7 +310,7 @@ def main():
     root, out = pathlib.Path.cwd(), options.out.resolve()
     for stale in ("pictures", "records"):
         shutil.rmtree(out / stale, ignore_errors=True)
-    for stale in (*out.glob("*.json"), *out.glob("*.log")):
+    for stale in (*out.glob("*.json"), *out.glob("*.log"), *out.glob("*.frames")):
         if stale.name != "build.log":
             stale.unlink()
     out.mkdir(parents=True, exist_ok=True)
@@ -323,6 +327,8 @@ def main():
         for name in [n for n in programs.running if n.startswith("display") or n == "haptic"]:
             if programs.stop(name, 30) != 0:
                 problems.append(f"{name} ended badly: see {out / (name + '.log')}")
+        for kiosk in draw_steps(programs, out) if makes_pictures(options) else ():
+            problems.append(f"the steps at {kiosk} could not be drawn: see {out / f'draw-{kiosk}.log'}")
         table = tour(programs, options, out) if options.all else []
         if table is None:
             problems.append(f"not every visit of the tour was completed: see {out / 'tour.log'}")
@@ -331,21 +337,21 @@ def main():
         replays = replay_journals(programs, scenarios, out / "records", 1 if options.all else 2)
     finally:
         programs.stop_all()
-    metrics, activities, missed = gather(out, visitors, replays)
+    metrics, activities, missed, simd = gather(out, visitors, replays)
     if metrics["activities.done"] != metrics["activities.asked"]:
         problems.append("not every activity was completed: see out/demo/visitor-*.log")
     if replays[0] != replays[1] or replays[1] == 0:
         problems.append("a journal did not replay to its live hash: see out/demo/replay-*.log")
-    if metrics["pictures"] == 0 and (options.headless or not has_screen()):
-        problems.append("no picture was made: see out/demo/display-*.log")
+    if missed and makes_pictures(options):
+        problems.append("not every step has its picture: see out/demo/draw-*.log")
     for asset in missing_assets(out):
         problems.append(f"a display showed a plain box instead of {asset}")
     metrics["failed"] = len(problems)
-    report = {"name": "demo", "commit": commit(), "cpu": cpu_model(), "cores": os.cpu_count(), "simd": "scalar",
+    report = {"name": "demo", "commit": machine.commit(root), "cpu": machine.cpu(), "cores": machine.cores(), "simd": simd,
               "seconds": round(time.monotonic() - started, 1), "metrics": metrics, "activities": activities,
               "notes": problems}
     (out / "report.json").write_text(json.dumps(report, indent=2) + "\n")
-    print_summary(metrics, activities, missed if options.headless or not has_screen() else [], out)
+    print_summary(metrics, activities, missed if makes_pictures(options) else [], out)
     for line in table or []:
         print(f"  {line}")
     for problem in problems:

@@ -10,6 +10,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "demo_lib"))
+import recording  # noqa: E402
 from demo import Programs  # noqa: E402
 
 DISSOLVE_S = 0.4
@@ -70,7 +71,7 @@ def record(programs: Programs, place: Place, out: pathlib.Path) -> None:
     server = programs.start("server", "server", "--scenario", *scenarios, "--records", "")
     log = out / "server.log"
     wait_for(lambda: " ready: " in log.read_text(errors="replace") or server.poll() is not None, START_LIMIT_S, "the server is ready")
-    programs.start("display", "display", "--kiosk", "film", "--offscreen", "--every-step", "--size", "32x18", "--record", str(file))
+    programs.start("display", *recording.record("film", file))
     wait_for(lambda: file.exists() and file.stat().st_size > 20_000, 300, f"the display has a world: see {out / 'display.log'}")
     hand = ["--glove"] if place.whole_hand else []
     programs.start("visitor", "visitor", *hand, "--kiosk", "film", "--scenario", place.scenario, "--activity", place.activity, "--linger", "0", "--report",
@@ -93,9 +94,8 @@ def draw(programs: Programs, place: Place, size: str, fps: int, folder: pathlib.
     """Its clip, picture by picture; how many."""
     shutil.rmtree(folder, ignore_errors=True)
     name = f"draw-{folder.name}"
-    programs.start(name, "display", "--play", str(folder.parent / f"{place.name}.frames"), "--play-from", place.clip[0], "--seconds",
-                   str(place.clip[1]), "--assets", f"scenarios/{place.name}", "--offscreen", "--size", size, "--language", "en", "--film-fps", str(fps), "--out",
-                   str(folder))
+    programs.start(name, *recording.draw(folder.parent / f"{place.name}.frames", folder, size, "--play-from", place.clip[0], "--seconds",
+                                         str(place.clip[1]), "--assets", f"scenarios/{place.name}", "--language", "en", "--film-fps", str(fps)))
     if programs.wait(name, DRAW_LIMIT_S) != 0:
         fail(f"{place.name} could not be drawn: see {programs.out / (name + '.log')}")
     return len(list(folder.glob("film-*.png")))
@@ -141,8 +141,8 @@ def make_sheet(programs: Programs, places: list[Place], out: pathlib.Path) -> No
     for i, place in enumerate(places):
         folder = out / f"one-of-{place.name}"
         shutil.rmtree(folder, ignore_errors=True)
-        programs.start("sheet", "display", "--play", str(out / f"{place.name}.frames"), "--play-from", place.moments[2], "--assets",
-                       f"scenarios/{place.name}", "--offscreen", "--size", SHEET_PICTURE, "--language", "en", "--frames", "1", "--out", str(folder))
+        programs.start("sheet", *recording.draw(out / f"{place.name}.frames", folder, SHEET_PICTURE, "--play-from", place.moments[2], "--assets",
+                                                f"scenarios/{place.name}", "--language", "en", "--frames", "1"))
         if programs.wait("sheet", DRAW_LIMIT_S) != 0:
             fail(f"{place.name} could not be drawn: see {out / 'sheet.log'}")
         shutil.move(str(folder / "frame-mono.png"), sheet / f"{i}.png")

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/app/version.hpp"
+#include "server/collision/kernels.hpp"
 
 namespace mechane::app {
 namespace {
@@ -62,6 +63,7 @@ Expected<void> write_report(const std::filesystem::path& file, const std::vector
   }
   const nlohmann::json json = {
       {"version", kVersion},
+      {"simd", collision::best_kernels().name},
       {"ticks", s.ticks},
       {"overruns", s.overruns},
       {"late_wakeups", s.late_wakeups},

@@ -172,12 +172,54 @@ TEST(SmallWindow, takes_its_events_and_is_drawn_to_when_it_is_large_again) {
   ASSERT_TRUE(source) << source.error().to_string();
   auto renderer = draw::Renderer::create(options.renderer);
   ASSERT_TRUE(renderer) << renderer.error().to_string();
-  DisplayRequests requests;
+  DisplaySignals signals;
   const auto summary =
       DisplayLoop(options, requests, window, &window, std::move(*renderer), *source, nullptr, nullptr).run();
   ASSERT_TRUE(summary) << summary.error().to_string();
   EXPECT_EQ(window.events_taken, 3);
   EXPECT_EQ(summary->frames, 1U);
+}
+
+TEST_F(PlayedDisplay, draws_each_step_of_a_recording_however_slowly_it_draws) {
+  constexpr int kSteps = 6;
+  constexpr Duration kStep = std::chrono::milliseconds(700);  // a picture of that size takes longer on a processor
+  const auto file = scratch_.path() / "steps.frames";
+  {
+    const auto recorded =
+        recording::FrameRecording::open_file(kSource / "tests/golden/scenes/aiolos-sphere.frames").value();
+    recording::RecordingWriter writer;
+    const recording::FrameRecording::Record* frame = nullptr;
+    client::WorldStatus status;
+    for (const recording::FrameRecording::Record& record : recorded.records()) {
+      if (record.kind == recording::RecordKind::frame && frame == nullptr) frame = &record;
+      if (frame != nullptr) continue;
+      if (record.kind == recording::RecordKind::status) ASSERT_TRUE(recording::decode(record.content, status));
+      writer.add(record.kind, Duration{0}, record.content);
+    }
+    ASSERT_NE(frame, nullptr);
+    for (int i = 0; i < kSteps; ++i) {
+      status.step = "step-" + std::to_string(i);
+      writer.add(recording::RecordKind::status, i * kStep, recording::encode(status));
+      writer.add(recording::RecordKind::frame, i * kStep, frame->content);
+    }
+    writer.add(recording::RecordKind::frame, kSteps * kStep, frame->content);
+    writer.add(recording::RecordKind::end, kSteps * kStep, {});
+    const std::vector<std::byte> bytes = writer.take_bytes();
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  DisplayOptions options;
+  options.offscreen = true;
+  options.every_step = true;
+  options.size = {1920, 1080};
+  options.assets = (kSource / "scenarios/aiolos-sphere").string();
+  options.out = (scratch_.path() / "steps").string();
+  options.source.play = file.string();
+  DisplaySignals signals;
+  const auto summary = run_display(options, signals);
+  ASSERT_TRUE(summary) << summary.error().to_string();
+  EXPECT_TRUE(summary->steps_missed.empty()) << summary->steps_missed.front();
+  EXPECT_EQ(summary->pictures.size(), static_cast<std::size_t>(kSteps));
 }
 
 TEST(Window, tells_when_there_is_no_screen) {

@@ -1,11 +1,13 @@
 """What deploy's scripts say when they are asked, or asked wrongly: at once, before anything is installed or built."""
 
+import json
 import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -70,6 +72,26 @@ class Scripts(unittest.TestCase):
                "odometer                pushing                   3/3 steps    31.2 s  done\n")
         self.assertEqual(demo.tour_progress(log, 22), "2 of 22 visits, 1 not done | catapult use: wind")
         self.assertEqual(demo.tour_progress("", 22), "0 of 22 visits")
+
+    def test_the_demo_reports_what_the_server_measured_and_nothing_in_its_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder)
+            metrics, _, _, simd = demo.gather(out, [], (0, 0))
+            self.assertIsNone(simd)
+            self.assertNotIn("overruns", metrics)
+            (out / "server.json").write_text('{"simd": "avx2", "overruns": 3, "tick_us": {"p99": 71}}')
+            metrics, _, _, simd = demo.gather(out, [], (0, 0))
+            self.assertEqual((simd, metrics["overruns"], metrics["tick_us.p99"]), ("avx2", 3, 71))
+
+    def test_the_demo_counts_a_step_without_its_picture_as_missed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder)
+            (out / "pictures/kiosk-1").mkdir(parents=True)
+            (out / "pictures/kiosk-1/use-turn-mono.png").touch()
+            (out / "visitor.json").write_text(json.dumps({"activities": [
+                {"kiosk": "kiosk-1", "name": "use", "done": True, "steps": [{"name": "turn", "done": True}]}]}))
+            metrics, _, missed, _ = demo.gather(out, ["visitor"], (0, 0))
+            self.assertEqual((metrics["pictures.wanted"], metrics["pictures.missed"], missed), (2, 1, [("kiosk-1", "use-done")]))
 
     def test_the_demo_counts_the_visits_of_its_tour(self):
         screw = ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d"

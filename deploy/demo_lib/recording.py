@@ -1,0 +1,13 @@
+"""How a visit is recorded while it is played, and drawn afterwards, as slowly as the machine must: for the demo and the film."""
+
+import pathlib
+
+
+def record(kiosk: str, file: pathlib.Path) -> list[str]:
+    """A display that records all that it hears, and draws as little as it can."""
+    return ["display", "--kiosk", kiosk, "--offscreen", "--every-step", "--size", "32x18", "--record", str(file)]
+
+
+def draw(file: pathlib.Path, out: pathlib.Path, size: str, *arguments: str) -> list[str]:
+    """A display that draws of a recording what the arguments say, into a folder."""
+    return ["display", "--play", str(file), "--offscreen", "--size", size, "--out", str(out), *arguments]
