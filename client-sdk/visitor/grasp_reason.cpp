@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "server/state/ways.hpp"
+#include "server/state/affordances.hpp"
 
 namespace mechane::visitor {
 namespace {
@@ -28,9 +28,9 @@ std::optional<bool> flag_in(const state::WorldDescription& world, StepId step, B
 /// The agents that let hands take it.
 std::vector<std::string> takers_of(const state::WorldDescription& world, BodyId body) {
   std::vector<std::string> names;
-  for (const state::Way& way : state::ways_of(world)) {
-    if (way.kind == state::Way::Kind::taken && way.object == body)
-      names.push_back(world.agents[way.agent.index()].name);
+  for (const state::Affordance& affordance : state::affordances_of(world)) {
+    if (affordance.kind == state::Affordance::Kind::taken && affordance.object == body)
+      names.push_back(world.agents[affordance.agent.index()].name);
   }
   return names;
 }

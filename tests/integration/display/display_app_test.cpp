@@ -174,7 +174,7 @@ TEST(SmallWindow, takes_its_events_and_is_drawn_to_when_it_is_large_again) {
   ASSERT_TRUE(renderer) << renderer.error().to_string();
   DisplaySignals signals;
   const auto summary =
-      DisplayLoop(options, requests, window, &window, std::move(*renderer), *source, nullptr, nullptr).run();
+      DisplayLoop(options, signals, window, &window, std::move(*renderer), *source, nullptr, nullptr).run();
   ASSERT_TRUE(summary) << summary.error().to_string();
   EXPECT_EQ(window.events_taken, 3);
   EXPECT_EQ(summary->frames, 1U);
