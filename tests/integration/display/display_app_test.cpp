@@ -193,7 +193,9 @@ TEST_F(PlayedDisplay, draws_each_step_of_a_recording_however_slowly_it_draws) {
     for (const recording::FrameRecording::Record& record : recorded.records()) {
       if (record.kind == recording::RecordKind::frame && frame == nullptr) frame = &record;
       if (frame != nullptr) continue;
-      if (record.kind == recording::RecordKind::status) ASSERT_TRUE(recording::decode(record.content, status));
+      if (record.kind == recording::RecordKind::status) {
+        ASSERT_TRUE(recording::decode(record.content, status));
+      }
       writer.add(record.kind, Duration{0}, record.content);
     }
     ASSERT_NE(frame, nullptr);
