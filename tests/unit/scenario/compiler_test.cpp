@@ -161,7 +161,7 @@ const Fault kFaults[] = {
      "did you mean 'turns'?"},
     {"value='\"PUMP.basin_l\"'", "value='\"PUMP.basin\"'", "PUMP.basin\"", "did you mean 'basin_l'?"},
     {"value='\"PUMP.basin_l\"'", "value='\"PMP.basin_l\"'", "PMP.basin_l", "did you mean 'PUMP'?"},
-    {"name='op' value='\"=\"'", "name='op' value='\"==\"'", "value='\"==\"'", "none of: < = >"},
+    {"name='op' value='\"=\"'", "name='op' value='\"==\"'", "value='\"==\"'", "one of: < = >"},
     {"name='next' value='\"fill\"'", "name='next' value='\"fil\"'", "value='\"fil\"'", "did you mean 'fill'?"},
     {"name='format' value='1'", "name='format' value='2'", "name='format'", "version 2"},
     {"name='id' value='\"archimedes-screw\"'", "name='id' value='\"../etc\"'", "../etc", "cannot be an id"},

@@ -55,7 +55,7 @@ TEST(Fields, FaultsSayLineAndRemedy) {
       {kGood + "<MetadataInteger name='tolerance' value='0.5'/>", 7, "not a whole number"},
       {kGood + "<MetadataDouble name='value' value='5'/>", 7, "already given in line 6"},
       {kGood + "<MetadataString name='next' value='turn'/>", 7, "not in quotes"},
-      {"<MetadataString name='op' value='\">=\"'/>\n", 4, "none of: < = >"},
+      {"<MetadataString name='op' value='\">=\"'/>\n", 4, "one of: < = >"},
       {"<MetadataString name='op' value='\"=\"'/>\n", 3, "the key 'quantity' is missing"},
   };
   for (const Case& c : cases) {

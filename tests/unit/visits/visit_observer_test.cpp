@@ -347,7 +347,7 @@ TEST_F(VisitObserverTest, AnswersAreCheckedAndCounted) {
     EXPECT_THAT(observer_->answer({"use", "easy", mark, AnswerTime::after}).error().remedy, HasSubstr("1 to 5"))
         << mark;
   EXPECT_THAT(observer_->answer({"use", "why", "fire", AnswerTime::after}).error().what,
-              HasSubstr("none of its answers"));
+              HasSubstr("not one of its answers"));
   EXPECT_THAT(observer_->answer({"other", "easy", "4", AnswerTime::after}).error().what, HasSubstr("and use runs"));
   EXPECT_THAT(observer_->answer({"use", "who", "me", AnswerTime::after}).error().what, HasSubstr("asks no 'who'"));
   EXPECT_THAT(observer_->take_changed(), IsEmpty());

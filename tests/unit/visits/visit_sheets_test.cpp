@@ -181,7 +181,7 @@ TEST_F(VisitSheetsTest, AnotherProgramsFileIsLeftAlone) {
   fs::create_directory(config_.file);
   {
     const auto sheets = make();
-    EXPECT_THAT(sheets->status().problem, HasSubstr("no visits' sheets"));
+    EXPECT_THAT(sheets->status().problem, HasSubstr("not visits' sheets"));
     sheets->put(plain_sheet());
   }
   EXPECT_TRUE(fs::is_directory(config_.file));
