@@ -13,7 +13,8 @@ import sys
 import time
 import xml.etree.ElementTree
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bench_lib"))
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "deploy/bench_lib"))
 import machine  # noqa: E402
 import recording  # noqa: E402
 
@@ -235,7 +236,7 @@ def gather(out, visitors, replays):
     missed = [(kiosk, name) for kiosk, name in wanted if not glob.glob(str(out / "pictures" / kiosk / f"{name}-*.png"))]
     metrics = {
         "activities.done": sum(1 for a in activities if a.get("done")),
-        "activities.asked": sum(count_visits([scenario]) for scenario in KIOSKS.values()),
+        "activities.asked": sum(count_visits([ROOT / scenario]) for scenario in KIOSKS.values()),
         "steps.done": sum(len([s for s in a.get("steps", []) if s.get("done")]) for a in activities),
         "kiosks": len(visitors),
         **{count: server[count] for count in ("overruns", "late_wakeups", "preemptions") if count in server},
