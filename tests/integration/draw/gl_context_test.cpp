@@ -58,7 +58,7 @@ class OffscreenDevice : public testing::Test {
     g_card_opens = true;
     g_draws = kCard;
   }
-  ~OffscreenDevice() override {
+  void TearDown() override {
     epoxy_eglQueryDevicesEXT = real_devices_;
     epoxy_eglQueryDeviceStringEXT = real_string_;
     epoxy_eglQueryDisplayAttribEXT = real_attribute_;
