@@ -117,8 +117,9 @@ bool is_software(EGLDeviceEXT device) {
 /// Mesa draws with the processor where it has no driver for the card that it was asked for.
 bool fell_back_to_software(EGLDisplay display) {
   EGLAttrib device = 0;
-  return eglQueryDisplayAttribEXT(display, EGL_DEVICE_EXT, &device) == EGL_FALSE ||
-         is_software(reinterpret_cast<EGLDeviceEXT>(device));
+  if (eglQueryDisplayAttribEXT(display, EGL_DEVICE_EXT, &device) == EGL_FALSE) return true;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): EGL tells pointers as numbers
+  return is_software(reinterpret_cast<EGLDeviceEXT>(device));
 }
 
 /// Graphics cards, in the system's order. None where Mesa was told to draw with the processor.
