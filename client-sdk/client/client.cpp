@@ -108,6 +108,8 @@ class ClientImpl final : public Client {
   void run();
   void report(TimePoint at);
   void take_servers(TimePoint at);
+  /// That of this kiosk stays. Under mutex_.
+  void forget_oldest_server();
   void take_assignments();
   void follow_world(bool server_alive);
   [[nodiscard]] bool server_alive(TimePoint at) const;
@@ -228,10 +230,19 @@ void ClientImpl::take_servers(TimePoint at) {
   server_reader_.view().take_each([&](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
     ServerStatus status;
     if (!info.valid || !info.alive || !parse(wire, status)) return;
-    if (servers_.size() >= kMaxServers && servers_.find(status.server) == servers_.end()) return;
+    if (servers_.size() >= kMaxServers && servers_.find(status.server) == servers_.end()) forget_oldest_server();
     Server& server = servers_[status.server];
     server = {std::move(status), wire.incarnation, at};
   });
+}
+
+void ClientImpl::forget_oldest_server() {
+  auto oldest = servers_.end();
+  for (auto it = servers_.begin(); it != servers_.end(); ++it) {
+    if (assignment_ && it->first == assignment_->server) continue;
+    if (oldest == servers_.end() || it->second.received < oldest->second.received) oldest = it;
+  }
+  servers_.erase(oldest);
 }
 
 void ClientImpl::take_assignments() {

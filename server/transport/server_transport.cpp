@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
+#include <map>
 #include <random>
-#include <set>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -19,6 +20,11 @@ namespace mechane::transport {
 namespace {
 
 constexpr Duration kReportEvery = std::chrono::seconds(1);
+// Of a fault that others keep up, so often: they must not fill the log.
+constexpr Duration kSayAgainAfter = std::chrono::minutes(1);
+// How many strangers are remembered.
+constexpr std::size_t kMostOthers = 64;
+constexpr std::size_t kMostLeftOut = 64;
 
 std::uint64_t random_nonzero() {
   std::random_device device;
@@ -75,11 +81,13 @@ class ServerTransport::Impl {
   void take_kiosks(TimePoint now, std::vector<News>& news);
   void session_appeared(const Session& session, TimePoint now, std::vector<News>& news);
   void session_left(std::uint64_t id, std::vector<News>& news);
+  void leave_out(const Session& session, TimePoint now);
+  void forget_left_out(TimePoint now);
   void drop_silent_sessions(TimePoint now, std::vector<News>& news);
   void settle_hands(TimePoint now, std::vector<News>& news);
   void drop_empty_kiosks(std::vector<News>& news);
   void report(TimePoint now);
-  void warn_of_others();
+  void warn_of_others(TimePoint now);
   [[nodiscard]] std::shared_ptr<Lane> open_lane(const std::string& kiosk, std::uint32_t user, std::uint64_t session);
   void close_lane(const std::shared_ptr<Lane>& lane);
 
@@ -96,7 +104,11 @@ class ServerTransport::Impl {
   const int fifo_priority_;
   HapticPublisher haptic_;
   std::unique_ptr<MuseumPublisher> museum_;
-  std::set<std::uint64_t> others_;  // incarnations of other servers that were warned of
+  std::deque<std::uint64_t> others_;  // incarnations of other servers that were warned of, newest last
+  TimePoint next_warning_of_others_{};
+  // Kiosks that were told that there is no room for them, and when they asked last.
+  std::map<std::string, TimePoint> left_out_;
+  TimePoint next_warning_of_left_out_{};
   proto::Reader<proto::ServerStatus> server_status_;
   proto::Reader<proto::KioskStatus> kiosk_status_;
 };
@@ -128,20 +140,25 @@ std::vector<News> ServerTransport::Impl::poll(TimePoint now) {
   std::vector<News> news;
   take_kiosks(now, news);
   drop_silent_sessions(now, news);
+  forget_left_out(now);
   settle_hands(now, news);
   drop_empty_kiosks(news);
   for (const auto& port : ports_)
     port->collect();
   std::erase_if(closed_lanes_, [](const auto& lane) { return lane.use_count() == 1; });
   report(now);
-  warn_of_others();
+  warn_of_others(now);
   return news;
 }
 
 /// Two servers both answer every kiosk, and each drives the kiosk's hands in a world of its own: a forgotten demo beside the service.
-void ServerTransport::Impl::warn_of_others() {
-  server_status_.view().take_each([this](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
-    if (!info.valid || wire.incarnation == incarnation || !others_.insert(wire.incarnation).second) return;
+void ServerTransport::Impl::warn_of_others(TimePoint now) {
+  server_status_.view().take_each([&](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
+    if (!info.valid || wire.incarnation == incarnation || now < next_warning_of_others_) return;
+    if (std::find(others_.begin(), others_.end(), wire.incarnation) != others_.end()) return;
+    others_.push_back(wire.incarnation);
+    if (others_.size() > kMostOthers) others_.pop_front();
+    next_warning_of_others_ = now + kReportEvery * 10;
     log::warning(
         fmt::format("another server, {} on {}, answers the kiosks of this DDS domain too: stop one of "
                     "the two, or give it a --domain of its own",
@@ -166,6 +183,8 @@ void ServerTransport::Impl::take_kiosks(TimePoint now, std::vector<News>& news) 
 }
 
 void ServerTransport::Impl::session_appeared(const Session& session, TimePoint now, std::vector<News>& news) {
+  const bool known = table.find(session.id) != nullptr;
+  if (!known && table.full()) return leave_out(session, now);
   if (kiosks_.find(session.kiosk) == kiosks_.end()) {
     const std::uint64_t epoch = next_epoch_++;
     auto link = KioskLink::create(participant_, session.kiosk, epoch, rejects, fifo_priority_);
@@ -178,16 +197,43 @@ void ServerTransport::Impl::session_appeared(const Session& session, TimePoint n
     kiosk.assignment.epoch = epoch;
   }
   const bool first = table.sessions_at(session.kiosk) == 0;
-  const bool known = table.find(session.id) != nullptr;
-  if (!table.appeared(session) && !known) {
-    log::warning(fmt::format("{}: too many sessions ({}); {} on {} is left out", session.kiosk,
-                             SessionTable::kMaxSessions, session.program, session.host));
-    return;
-  }
+  (void)table.appeared(session);
+  left_out_.erase(session.kiosk);
   last_status_[session.id] = now;
   if (known) return;
   if (first) news.push_back({NewsKind::kiosk_appeared, session});
   news.push_back({NewsKind::session_appeared, session});
+}
+
+/// A kiosk that nobody of is known is told why it gets no world; at another one the others go on.
+void ServerTransport::Impl::leave_out(const Session& session, TimePoint now) {
+  if (now >= next_warning_of_left_out_) {
+    next_warning_of_left_out_ = now + kSayAgainAfter;
+    log::warning(fmt::format(
+        "{} programs are connected, which is the limit: {} of {} on {} and all further ones are left out until some "
+        "end. See who they are with: mechane echo KioskStatus",
+        SessionTable::kMaxSessions, session.program, session.kiosk, session.host));
+  }
+  if (kiosks_.find(session.kiosk) != kiosks_.end()) return;
+  if (const auto told = left_out_.find(session.kiosk); told != left_out_.end()) {
+    told->second = now;
+    return;
+  }
+  if (left_out_.size() >= kMostLeftOut) return;
+  left_out_[session.kiosk] = now;
+  Assignment assignment;
+  assignment.trouble =
+      fmt::format("the server has no room: {} programs are connected, which is its limit; end some of them",
+                  SessionTable::kMaxSessions);
+  museum_->assign(session.kiosk, assignment);
+}
+
+void ServerTransport::Impl::forget_left_out(TimePoint now) {
+  std::erase_if(left_out_, [&](const auto& entry) {
+    if (now - entry.second <= proto::kKioskLiveliness) return false;
+    museum_->forget(entry.first);
+    return true;
+  });
 }
 
 void ServerTransport::Impl::session_left(std::uint64_t id, std::vector<News>& news) {
@@ -245,8 +291,8 @@ void ServerTransport::Impl::drop_empty_kiosks(std::vector<News>& news) {
 
 void ServerTransport::Impl::report(TimePoint now) {
   if (now < next_report_) return;
-  next_report_ = now + kReportEvery;
   const std::string line = reject_report_.since_last(rejects);
+  next_report_ = now + (line.empty() ? kReportEvery : kSayAgainAfter);
   if (!line.empty()) log::warning(line);
 }
 

@@ -12,7 +12,7 @@ bool SessionTable::appeared(const Session& session) {
     known.join_kiosk = session.join_kiosk;
     return false;
   }
-  if (sessions_.size() >= kMaxSessions) return false;
+  if (full()) return false;
   sessions_.push_back(session);
   if (session.role == Role::hand) hands_[{session.kiosk, session.user}].line.push_back(session.id);
   return true;

@@ -51,6 +51,8 @@ class SessionTable {
   /// Settles who owns what at `now`; frees come before grants. Call it regularly.
   [[nodiscard]] std::vector<HandChange> decide(TimePoint now);
 
+  /// Nobody else is taken until somebody leaves.
+  [[nodiscard]] bool full() const { return sessions_.size() >= kMaxSessions; }
   /// Null when nobody owns the hand. Good until the next change.
   [[nodiscard]] const Session* owner(const std::string& kiosk, std::uint32_t user) const;
   [[nodiscard]] const Session* find(std::uint64_t session) const;

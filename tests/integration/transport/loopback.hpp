@@ -142,6 +142,8 @@ class EchoServer {
   EchoServer& operator=(const EchoServer&) = delete;
 
   [[nodiscard]] const transport::ServerTransport& transport() const { return *transport_; }
+  /// How many programs it knows.
+  [[nodiscard]] std::size_t sessions() const { return sessions_; }
   /// As if nobody had been heard for so long: at its next look the server forgets every session that does not report more often.
   void hear_nothing_for(Duration time) { unheard_ns_ = time.count(); }
   /// Every sample that the loop saw, newest last (the first 100 000).
@@ -171,6 +173,7 @@ class EchoServer {
       for (const transport::News& n :
            transport_->poll(std::chrono::steady_clock::now() + Duration(unheard_ns_.exchange(0))))
         handle(n);
+      sessions_ = transport_->sessions().sessions().size();
       while (const auto answer = port_->take_answer()) {
         const std::lock_guard lock(mutex_);
         answers_.push_back(*answer);
@@ -246,6 +249,7 @@ class EchoServer {
   state::WorldState state_;
   std::atomic<bool> stop_{false};
   std::atomic<std::int64_t> unheard_ns_{0};
+  std::atomic<std::size_t> sessions_{0};
   mutable std::mutex mutex_;
   std::vector<hand::SentSample> samples_;
   std::vector<transport::NewsKind> news_;

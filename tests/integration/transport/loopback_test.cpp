@@ -297,6 +297,54 @@ TEST_F(Loopback, AHandThatWasSilentFeelsAgainHoweverLongItHadBeenInUse) {
   EXPECT_LT(server.samples().size() - arrived_before, 1000u) << "as many answers were thrown away as had come before";
 }
 
+/// One process that says that it is many programs, or many servers.
+template <class T>
+struct Crowd {
+  proto::Participant participant = *proto::Participant::create(kClientDomain);
+  proto::Writer<T> writer = *proto::Writer<T>::create(participant, "");
+};
+
+TEST_F(Loopback, WhoFindsNoRoomIsToldAndComesInWhenOthersHaveLeft) {
+  EchoServer server;
+  auto crowd = std::make_unique<Crowd<proto::KioskStatus>>();
+  ASSERT_TRUE(eventually([&] { return crowd->writer.matched() > 0; }));
+  const auto report = [&] {
+    for (std::uint64_t i = 0; i < transport::SessionTable::kMaxSessions; ++i) {
+      proto::KioskStatus status{};
+      proto::set_text(status.kiosk, "crowd");
+      status.protocol = proto::kProtocol;
+      status.session = 2 * i + 2;
+      status.role = 1;
+      crowd->writer.write(status);
+    }
+  };
+  report();
+  ASSERT_TRUE(eventually([&] { return server.sessions() == transport::SessionTable::kMaxSessions; }));
+  auto late = connect(Role::hand, "late");
+  ASSERT_TRUE(eventually([&] { return late->state() == LinkState::refused; }, 10s, report)) << "told in no way";
+  EXPECT_NE(late->refusal().find("no room"), std::string::npos) << late->refusal();
+
+  crowd.reset();
+  EXPECT_TRUE(late->wait_for(LinkState::joined, 20s));
+}
+
+TEST_F(Loopback, ServersThatCameAndWentDoNotKeepTheNextOneOut) {
+  auto hand = connect(Role::hand);
+  Crowd<proto::ServerStatus> gone;
+  ASSERT_TRUE(eventually([&] { return gone.writer.matched() > 0; }));
+  const std::string none;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    proto::ServerStatus status{};
+    proto::set_text(status.server, fmt::format("a-server-{}", i));
+    status.protocol = proto::kProtocol;
+    status.incarnation = i + 1;
+    status.version = status.host = proto::look_into(none);
+    gone.writer.write(status);
+  }
+  EchoServer server;
+  EXPECT_TRUE(hand->wait_for(LinkState::joined, 10s));
+}
+
 TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   EchoServer server;
   auto hand = connect(Role::hand);
