@@ -1,6 +1,8 @@
 #include "client-sdk/cli/doctor.hpp"
 
 #include <cstdio>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "server/log/printable.hpp"
 #include "server/realtime/machine_check.hpp"
+#include "server/realtime/wakeup.hpp"
+#include <mechane/proto/entity.hpp>
+#include <mechane/proto/names.hpp>
 
 namespace mechane::cli {
 namespace {
@@ -36,14 +42,14 @@ std::string status_word(CheckStatus status) {
   return fmt::format("\033[{}m{}\033[0m", colour, word);
 }
 
-void print_table(const std::vector<CheckResult>& results) {
+void print_table(const std::vector<CheckResult>& results, CheckStatus machine) {
   for (const CheckResult& r : results) {
     fmt::print("{} {:<24} {}\n", status_word(r.status), r.name, r.found);
     if (r.status == CheckStatus::ok) continue;
     fmt::print("{:9}wanted: {}\n", "", r.wanted);
     if (!r.remedy.empty()) fmt::print("{:9}remedy: {}\n", "", r.remedy);
   }
-  switch (realtime::worst_of(results)) {
+  switch (machine) {
     case CheckStatus::ok:
       fmt::print("\nThis machine can hold 1 kHz.\n");
       break;
@@ -56,16 +62,60 @@ void print_table(const std::vector<CheckResult>& results) {
   }
 }
 
+/// Hears what servers say of themselves.
+class ServerListener {
+ public:
+  explicit ServerListener(std::uint32_t domain) : participant_(proto::Participant::create(domain)) {
+    if (!participant_) return;
+    reader_ = proto::Reader<proto::ServerStatus>::create(*participant_, "", [this](auto) { news_.signal(); });
+  }
+  /// One line for each server; waits a moment where none has been heard yet.
+  void add_to(std::vector<CheckResult>& results) {
+    if (!participant_ || !*reader_) {
+      const Error& fault = !participant_ ? participant_.error() : reader_->error();
+      results.push_back(
+          {"servers", CheckStatus::warning, fault.what, "a network on which servers can be heard", fault.remedy});
+      return;
+    }
+    const TimePoint until = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    for (take(); heard_.empty() && std::chrono::steady_clock::now() < until; take())
+      news_.wait(std::chrono::milliseconds(50));
+    for (const auto& [name, result] : heard_)
+      results.push_back(result);
+  }
+
+ private:
+  void take() {
+    (*reader_)->view().take_each([this](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
+      const std::string name = log::printable(proto::text_of(wire.server));
+      if (!info.valid || wire.protocol != proto::kProtocol || (heard_.size() >= 16 && !heard_.contains(name))) return;
+      const std::string overload = log::printable(proto::string_of(wire.overload));
+      heard_[name] = {"server " + name, overload.empty() ? CheckStatus::ok : CheckStatus::warning,
+                      fmt::format("{} of {} worlds, {} hands, {} overruns in {} ticks", wire.worlds, wire.worlds_limit,
+                                  wire.users, wire.overruns, wire.ticks),
+                      "forces each millisecond", overload};
+    });
+  }
+
+  realtime::Wakeup news_;
+  Expected<proto::Participant> participant_;
+  std::optional<Expected<proto::Reader<proto::ServerStatus>>> reader_;
+  std::map<std::string, CheckResult> heard_;
+};
+
 }  // namespace
 
-int run_doctor(bool json, double probe_seconds) {
+int run_doctor(bool json, double probe_seconds, std::uint32_t domain) {
   realtime::MachineCheckOptions options;
   options.probe_time = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(probe_seconds));
   if (!json) fmt::print("Looking at this machine; measuring wake-ups for {:.0f} s ...\n\n", probe_seconds);
   std::fflush(stdout);
-  const std::vector<CheckResult> results = realtime::check_machine(options);
-  json ? print_json(results) : print_table(results);
-  return realtime::worst_of(results) == CheckStatus::bad ? 1 : 0;
+  ServerListener servers(domain);
+  std::vector<CheckResult> results = realtime::check_machine(options);
+  const CheckStatus machine = realtime::worst_of(results);
+  servers.add_to(results);
+  json ? print_json(results) : print_table(results, machine);
+  return machine == CheckStatus::bad ? 1 : 0;
 }
 
 }  // namespace mechane::cli

@@ -285,6 +285,8 @@ bool parse(const proto::ServerStatus& wire, ServerStatus& out) {
   out.wake_us_max = wire.wake_us_max;
   out.realtime = wire.realtime;
   out.records_ok = wire.records_ok;
+  out.input_gaps = wire.input_gaps;
+  out.overload = clean_string(wire.overload);
   return parse_strings(wire.scenarios, out.scenarios);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "server/app/lobby.hpp"
+#include "server/app/overload.hpp"
 #include "server/app/report.hpp"
 #include "server/app/scenario_store.hpp"
 #include "server/app/version.hpp"
@@ -61,6 +62,7 @@ class Server::Impl {
   void say_ready();
   void look(TimePoint now);
   void say_status();
+  void watch_load(const LoopSummary& summary);
 
   Settings settings_;
   SystemClock main_clock_;
@@ -71,6 +73,7 @@ class Server::Impl {
   std::vector<std::unique_ptr<SystemClock>> clocks_;
   std::vector<std::unique_ptr<WorldLoop>> loops_;
   std::unique_ptr<Lobby> lobby_;
+  OverloadWatch overload_;
 };
 
 Expected<void> Server::Impl::start() {
@@ -182,7 +185,23 @@ void Server::Impl::say_status() {
   status.realtime = summary.realtime;
   status.records_ok =
       (recorder_ == nullptr || recorder_->status().records_ok) && (sheets_ == nullptr || sheets_->status().ok);
+  watch_load(summary);
+  status.overload = overload_.words();
   transport_->publish_server_status(status);
+}
+
+void Server::Impl::watch_load(const LoopSummary& summary) {
+  LoadCounts counts;
+  counts.ticks = summary.ticks;
+  counts.overruns = summary.overruns;
+  counts.held_up = summary.skipped + summary.preemptions;
+  counts.input_gaps = transport_->input_gaps();
+  counts.longest_gap = transport_->take_longest_input_gap();
+  if (lobby_->worlds() == 0) {
+    overload_ = OverloadWatch();  // nobody feels it
+  } else if (overload_.look(counts, main_clock_.now())) {
+    overload_.words().empty() ? log::info("the overload is over") : log::warning(overload_.words());
+  }
 }
 
 Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <future>
+#include <utility>
 
 #include <pthread.h>
 #include <sched.h>
 
 #include "server/realtime/priority.hpp"
 #include "server/transport/kiosk_link.hpp"
+#include "server/transport/session_table.hpp"
 
 namespace mechane::transport {
 namespace {
@@ -73,12 +75,22 @@ void HapticPublisher::await_forces() noexcept {
   }
 }
 
+void HapticPublisher::note_age(Lane& lane, Duration age) noexcept {
+  const Duration before = std::exchange(lane.input_age, age);
+  if (age >= before || before <= hand::kHoldFor || before >= SessionTable::kSilence) return;
+  input_gaps_.fetch_add(1, std::memory_order_relaxed);
+  std::int64_t longest = longest_gap_ns_.load(std::memory_order_relaxed);
+  while (longest < before.count() && !longest_gap_ns_.compare_exchange_weak(longest, before.count())) {
+  }
+}
+
 bool HapticPublisher::write_all() noexcept {
   bool any = false;
   for (const auto& lane : lanes_) {
     const OutgoingForce* force = lane->forces.take();
     if (force == nullptr) continue;
     any = true;
+    note_age(*lane, force->waited);
     const TimePoint begin = std::chrono::steady_clock::now();
     if (!lane->link->write(*lane, *force)) failed_.fetch_add(1, std::memory_order_relaxed);
     write_time_.record(std::chrono::steady_clock::now() - begin);

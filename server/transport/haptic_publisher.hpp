@@ -31,12 +31,17 @@ class HapticPublisher {
 
   [[nodiscard]] bool fifo_granted() const { return fifo_granted_.load(); }
   [[nodiscard]] const realtime::LatencyHistogram& write_time() const { return write_time_; }
+  /// Times that a hand which was sending paused for longer than its force holds, but not so long that it had ended.
+  [[nodiscard]] std::uint64_t input_gaps() const { return input_gaps_.load(std::memory_order_relaxed); }
+  /// The longest of them since the last call. One other thread.
+  [[nodiscard]] Duration take_longest_gap() { return Duration(longest_gap_ns_.exchange(0, std::memory_order_relaxed)); }
   [[nodiscard]] std::uint64_t writes_failed() const { return failed_.load(std::memory_order_relaxed); }
 
  private:
   void follow_changes();
   void await_forces() noexcept;
   bool write_all() noexcept;
+  void note_age(Lane& lane, Duration age) noexcept;
 
   realtime::Wakeup wakeup_;
   std::mutex mutex_;  // for wanted_; the thread takes it only when the list has changed
@@ -46,6 +51,8 @@ class HapticPublisher {
   std::atomic<bool> stop_{false};
   std::atomic<bool> fifo_granted_{false};
   std::atomic<std::uint64_t> failed_{0};
+  std::atomic<std::uint64_t> input_gaps_{0};
+  std::atomic<std::int64_t> longest_gap_ns_{0};
   realtime::LatencyHistogram write_time_;
   std::vector<std::shared_ptr<Lane>> lanes_;  // the thread's
   std::uint64_t changes_seen_ = 0;            // the thread's

@@ -33,6 +33,7 @@ struct Lane {
   std::uint32_t user = 0;
   std::uint64_t session = 0;
   hand::SampleAge order;                    ///< the listener's
+  Duration input_age{0};                    ///< the haptic publisher's: as it was with the last force
   realtime::Mailbox<ArrivedSample> inputs;  ///< DDS listener to loop
   realtime::Mailbox<OutgoingForce> forces;  ///< loop to haptic publisher
 };

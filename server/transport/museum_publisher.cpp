@@ -18,10 +18,10 @@ constexpr Duration kStatusEvery = std::chrono::milliseconds(100);
 MuseumPublisher::MuseumPublisher(proto::Writer<proto::ServerStatus> status_writer,
                                  proto::Writer<proto::WorldAssignment> assignment_writer,
                                  const proto::ServerStatus& status)
-    : status_(status),
-      status_writer_(std::move(status_writer)),
-      assignment_writer_(std::move(assignment_writer)),
-      thread_([this] { run(); }) {}
+    : status_(status), status_writer_(std::move(status_writer)), assignment_writer_(std::move(assignment_writer)) {
+  status_.overload = proto::look_into(overload_);
+  thread_ = std::thread([this] { run(); });
+}
 
 MuseumPublisher::~MuseumPublisher() {
   stop_.store(true, std::memory_order_release);
@@ -99,11 +99,13 @@ void MuseumPublisher::forget(const std::string& kiosk) {
   pending_[kiosk] = {{}, true};
 }
 
-void MuseumPublisher::set_status(const proto::ServerStatus& status) {
+void MuseumPublisher::set_status(const proto::ServerStatus& status, const std::string& overload) {
   const std::lock_guard lock(mutex_);
   const std::uint64_t sequence = status_.seq;
   status_ = status;
   status_.seq = sequence;
+  overload_ = overload;
+  status_.overload = proto::look_into(overload_);
 }
 
 }  // namespace mechane::transport

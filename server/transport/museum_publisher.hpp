@@ -41,7 +41,7 @@ class MuseumPublisher {
   /// The kiosk is gone.
   void forget(const std::string& kiosk);
   /// Health; the fields that never change stay.
-  void set_status(const proto::ServerStatus& status);
+  void set_status(const proto::ServerStatus& status, const std::string& overload);
   [[nodiscard]] std::uint64_t writes_failed() const { return failed_.load(std::memory_order_relaxed); }
 
  private:
@@ -57,6 +57,7 @@ class MuseumPublisher {
   std::vector<std::unique_ptr<WorldEndpoints>> worlds_;
   std::map<std::string, Pending> pending_;
   proto::ServerStatus status_;
+  std::string overload_;  // status_ points at it
 
   realtime::Wakeup wakeup_;
   std::atomic<bool> stop_{false};

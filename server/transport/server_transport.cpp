@@ -374,6 +374,7 @@ proto::ServerStatus ServerTransport::Impl::wire_status(const ServerStatusData& d
   wire.wake_us_max = static_cast<float>(data.wake_us_max);
   wire.realtime = data.realtime;
   wire.records_ok = data.records_ok;
+  wire.input_gaps = haptic_.input_gaps();
   return wire;
 }
 
@@ -409,7 +410,7 @@ void ServerTransport::refuse_kiosk(const std::string& kiosk, const std::string& 
   impl_->assign(kiosk, "", why);
 }
 void ServerTransport::publish_server_status(const ServerStatusData& data) {
-  impl_->museum().set_status(impl_->wire_status(data));
+  impl_->museum().set_status(impl_->wire_status(data), data.overload);
 }
 bool ServerTransport::fifo_granted() const {
   return impl_->haptic().fifo_granted();
@@ -419,6 +420,12 @@ const RejectCounters& ServerTransport::rejected() const {
 }
 const realtime::LatencyHistogram& ServerTransport::haptic_write_time() const {
   return impl_->haptic().write_time();
+}
+std::uint64_t ServerTransport::input_gaps() const {
+  return impl_->haptic().input_gaps();
+}
+Duration ServerTransport::take_longest_input_gap() {
+  return impl_->haptic().take_longest_gap();
 }
 std::uint64_t ServerTransport::haptic_writes_failed() const {
   return impl_->haptic().writes_failed();

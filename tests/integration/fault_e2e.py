@@ -83,6 +83,25 @@ class Faults(EndToEnd):
             self.assertGreater(json.loads(report.read_text())["answers"], 50)
         self.assertEqual(server.stop(), 0)
 
+    def test_a_server_that_is_kept_from_its_processor_says_so(self):
+        server = self.server()
+        self.start("haptic", "haptic", "--kiosk", "kiosk-1")
+        wait_until(lambda: "in world world-1" in server.text(), 30, "a hand is in its world")
+        self.assertNotIn("had to wait for a processor", server.text())
+
+        def hold_up():
+            for _ in range(20):
+                server.process.send_signal(signal.SIGSTOP)
+                time.sleep(0.02)
+                server.process.send_signal(signal.SIGCONT)
+                time.sleep(0.02)
+            return "had to wait for a processor" in server.text()
+        wait_until(hold_up, 30, "the server's log tells it")
+        told = json.loads(self.run_command("doctor", "--json", "--probe-seconds", "0").stdout)
+        [entry] = [check for check in told if check["name"] == "server server-1"]
+        self.assertEqual(entry["status"], "warning")
+        self.assertIn("mechane doctor", entry["remedy"])
+
     @marked("not-address")
     def test_a_full_disk_under_the_journal_is_survived(self):
         server = self.server(prefix=self.full_disk(self.folder / "records"))

@@ -212,6 +212,8 @@ struct ServerStatus {
   bool realtime = false;  ///< SCHED_FIFO was granted
   bool records_ok = true;
   std::vector<std::string> scenarios{};  ///< ids of what it can open, home first
+  std::uint64_t input_gaps = 0;          ///< times that a hand which was sending paused for 10 to 500 ms
+  std::string overload{};                ///< what is too much for it, and what to do; empty: nothing
 };
 
 }  // namespace mechane::client
