@@ -141,6 +141,8 @@ Expected<void> validate(const Settings& s) {
         range("force.stiffness_scale", s.stiffness_scale, 0, 10)}) {
     if (!checked) return checked;
   }
+  if (auto governor = hand::ForceGovernor::make(s.force.governor); !governor)
+    return fail(governor.error().what, "settings, [force]", governor.error().remedy);
   if (s.scenarios.empty()) {
     return fail("no scenario is given", "settings",
                 "name at least one: --scenario scenarios/archimedes-screw/archimedes-screw.x3d");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 
 namespace mechane::hand {
 namespace {
@@ -66,8 +67,10 @@ Expected<void> check(const GovernorConfig& c) {
   };
   for (const Range& r : ranges) {
     if (in_range(r.value, r.low, r.high)) continue;
-    return fail(std::to_string(r.value) + " is out of range", std::string("force governor, ") + r.name,
-                "use " + std::to_string(r.low) + " to " + std::to_string(r.high));
+    char what[64], remedy[64];
+    std::snprintf(what, sizeof(what), "%s is %g", r.name, r.value);
+    std::snprintf(remedy, sizeof(remedy), "give a value from %g to %g", r.low, r.high);
+    return fail(what, "force governor", remedy);
   }
   if (c.hold < Duration{0} || c.zero_by <= c.hold) {
     return fail("hold must come before zero_by, and be no less than 0", "force governor", "use 10 ms and 50 ms");

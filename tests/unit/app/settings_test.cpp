@@ -56,5 +56,20 @@ TEST_F(SettingsTest, AFileThatIsMissingOrWrongIsAnError) {
   EXPECT_THAT(misspelt.error().to_string(), HasSubstr("bad.toml:2"));
 }
 
+TEST_F(SettingsTest, AForceLimitOutOfItsRangeIsAnErrorThatNamesIt) {
+  for (const std::string name : {"max_force_n", "max_torque_nm", "max_slew_n_per_s", "stiffness_scale"}) {
+    for (const std::string value : {"-1.0", "1e7", "nan"}) {
+      const auto file = folder_.write("force.toml", "scenarios = ['a.x3d']\n[force]\n" + name + " = " + value + "\n");
+      const auto wrong = read({"--settings", file.string()});
+      ASSERT_FALSE(wrong) << name << " = " << value;
+      EXPECT_THAT(wrong.error().what, HasSubstr(name));
+      EXPECT_THAT(wrong.error().remedy, HasSubstr(" to "));
+    }
+  }
+  for (const std::string flag : {"--max-force=100.5", "--max-force=-0.5", "--max-force=nan", "--stiffness-scale=nan"})
+    EXPECT_FALSE(read({"--scenario=a.x3d", flag})) << flag;
+  EXPECT_TRUE(read({"--scenario=a.x3d", "--max-force=0"})) << "touch can be turned off";
+}
+
 }  // namespace
 }  // namespace mechane::app
