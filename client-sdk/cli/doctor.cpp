@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "client-sdk/client/parse.hpp"
 #include "server/log/printable.hpp"
 #include "server/realtime/machine_check.hpp"
 #include "server/realtime/wakeup.hpp"
@@ -62,6 +63,21 @@ void print_table(const std::vector<CheckResult>& results, CheckStatus machine) {
   }
 }
 
+constexpr std::size_t kMostServers = 16;
+
+CheckResult judge_server(const std::string& name, const proto::ServerStatus& wire) {
+  const std::string wanted = "a force each millisecond for each hand";
+  if (const std::string other = client::other_protocol(wire); !other.empty())
+    return {"server " + name, CheckStatus::warning, fmt::format("protocol {}", wire.protocol),
+            fmt::format("protocol {}", proto::kProtocol), other};
+  const std::string overload = log::printable(proto::string_of(wire.overload));
+  const std::string found = fmt::format(
+      "{} of {} worlds, {} hands; since its start {} ticks, {} of them over 1 ms, {} pauses of hands over 10 ms, the "
+      "longest of the last 10 s {:.0f} ms",
+      wire.worlds, wire.worlds_limit, wire.users, wire.ticks, wire.overruns, wire.input_gaps, wire.input_gap_ms);
+  return {"server " + name, overload.empty() ? CheckStatus::ok : CheckStatus::warning, found, wanted, overload};
+}
+
 /// Hears what servers say of themselves.
 class ServerListener {
  public:
@@ -88,12 +104,8 @@ class ServerListener {
   void take() {
     (*reader_)->view().take_each([this](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
       const std::string name = log::printable(proto::text_of(wire.server));
-      if (!info.valid || wire.protocol != proto::kProtocol || (heard_.size() >= 16 && !heard_.contains(name))) return;
-      const std::string overload = log::printable(proto::string_of(wire.overload));
-      heard_[name] = {"server " + name, overload.empty() ? CheckStatus::ok : CheckStatus::warning,
-                      fmt::format("{} of {} worlds, {} hands, {} overruns in {} ticks", wire.worlds, wire.worlds_limit,
-                                  wire.users, wire.overruns, wire.ticks),
-                      "forces each millisecond", overload};
+      if (!info.valid || (heard_.size() >= kMostServers && !heard_.contains(name))) return;
+      heard_[name] = judge_server(name, wire);
     });
   }
 

@@ -270,7 +270,8 @@ Json to_json(const proto::ServerStatus& s) {
   j.update({{"tick_us_median", s.tick_us_median}, {"tick_us_p99", s.tick_us_p99}, {"tick_us_p999", s.tick_us_p999}});
   j.update({{"tick_us_max", s.tick_us_max}, {"wake_us_p99", s.wake_us_p99}, {"wake_us_max", s.wake_us_max}});
   j.update({{"realtime", s.realtime}, {"records_ok", s.records_ok}, {"scenarios", strings(s.scenarios)}});
-  j.update({{"input_gaps", s.input_gaps}, {"overload", proto::string_of(s.overload)}});
+  j.update({{"input_gaps", s.input_gaps}, {"input_gap_ms", s.input_gap_ms}});
+  j.update({{"overload", proto::string_of(s.overload)}});
   return j;
 }
 

@@ -226,8 +226,7 @@ int add_and_parse(int argc, char** argv) {
   auto* reference_command = app.add_subcommand("reference", "print the manual of the scenario format, as Markdown");
   bool doctor_json = false;
   double probe_s = 2;
-  auto* doctor_command =
-      app.add_subcommand("doctor", "tell whether this machine can hold 1 kHz, and whether servers keep up");
+  auto* doctor_command = app.add_subcommand("doctor", "tell whether this machine can hold 1 kHz and servers keep up");
   doctor_command->add_flag("--json", doctor_json, "as JSON");
   std::uint32_t doctor_domain = 0;
   doctor_command->add_option("--domain", doctor_domain, "DDS domain in which servers are listened for");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -26,6 +27,9 @@ namespace {
 constexpr Duration kLookEvery = std::chrono::milliseconds(20);
 constexpr Duration kReportEvery = std::chrono::seconds(1);
 constexpr std::size_t kMaxServers = 16;
+// A server of another version is told of when it alone has been heard for so long: ours may be heard a moment later.
+constexpr Duration kOtherVersionAfter = std::chrono::seconds(1);
+constexpr Duration kOtherVersionForgotten = std::chrono::seconds(2);
 
 std::uint64_t random_session() {
   std::random_device device;
@@ -108,12 +112,13 @@ class ClientImpl final : public Client {
   void run();
   void report(TimePoint at);
   void take_servers(TimePoint at);
-  /// That of this kiosk stays. Under mutex_.
+  /// The kiosk's own server stays. Under mutex_.
   void forget_oldest_server();
   void take_assignments();
   void follow_world(bool server_alive);
   [[nodiscard]] bool server_alive(TimePoint at) const;
-  [[nodiscard]] LinkState judge(bool server_alive, std::string& why) const;
+  [[nodiscard]] bool any_server_alive(TimePoint at) const;
+  [[nodiscard]] LinkState judge(TimePoint at, bool server_alive, std::string& why) const;
   void enter(LinkState state, std::string why);
   std::uint64_t send_command(proto::CommandKind kind, const std::string& argument);
 
@@ -130,6 +135,9 @@ class ClientImpl final : public Client {
   std::condition_variable changed_;
   std::string refusal_;
   std::map<std::string, Server> servers_;
+  std::string other_version_;  // of a server that was heard lately and speaks another protocol: what to tell
+  TimePoint other_version_since_{};
+  TimePoint other_version_heard_{};
   std::optional<Assignment> assignment_;
   std::unique_ptr<WorldLink> world_;
   std::uint64_t commands_ = 0;
@@ -194,7 +202,7 @@ void ClientImpl::run() {
     const bool alive = server_alive(at);
     follow_world(alive);
     std::string why;
-    const LinkState state = judge(alive, why);
+    const LinkState state = judge(at, alive, why);
     enter(state, std::move(why));
     news_.wait(kLookEvery);
   }
@@ -229,11 +237,19 @@ void ClientImpl::take_servers(TimePoint at) {
   const std::lock_guard lock(mutex_);
   server_reader_.view().take_each([&](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
     ServerStatus status;
-    if (!info.valid || !info.alive || !parse(wire, status)) return;
+    if (!info.valid || !info.alive) return;
+    if (std::string other = other_protocol(wire); !other.empty()) {
+      if (other_version_.empty()) other_version_since_ = at;
+      other_version_ = std::move(other);
+      other_version_heard_ = at;
+      return;
+    }
+    if (!parse(wire, status)) return;
     if (servers_.size() >= kMaxServers && servers_.find(status.server) == servers_.end()) forget_oldest_server();
     Server& server = servers_[status.server];
     server = {std::move(status), wire.incarnation, at};
   });
+  if (at - other_version_heard_ > kOtherVersionForgotten) other_version_.clear();
 }
 
 void ClientImpl::forget_oldest_server() {
@@ -293,10 +309,20 @@ void ClientImpl::follow_world(bool server_alive) {
   world_ = std::move(*made);
 }
 
-LinkState ClientImpl::judge(bool server_alive, std::string& why) const {
+bool ClientImpl::any_server_alive(TimePoint at) const {
+  return std::any_of(servers_.begin(), servers_.end(),
+                     [at](const auto& entry) { return at - entry.second.received < proto::kServerLiveliness; });
+}
+
+LinkState ClientImpl::judge(TimePoint at, bool server_alive, std::string& why) const {
   const LinkState waiting = was_joined_ ? LinkState::lost : LinkState::searching;
   const std::lock_guard lock(mutex_);
-  if (!server_alive) return waiting;
+  if (!server_alive) {
+    if (other_version_.empty() || at - other_version_since_ < kOtherVersionAfter || any_server_alive(at))
+      return waiting;
+    why = other_version_;
+    return LinkState::refused;
+  }
   if (!assignment_->trouble.empty()) {
     why = assignment_->trouble;
     return LinkState::refused;
@@ -304,6 +330,10 @@ LinkState ClientImpl::judge(bool server_alive, std::string& why) const {
   if (assignment_->world.empty()) return waiting;
   if (config_.role == Role::hand) {
     const Assignment::Owner& owner = assignment_->owners[config_.user];
+    if (owner.session == 0 && !assignment_->no_room.empty()) {
+      why = assignment_->no_room;
+      return LinkState::refused;
+    }
     if (owner.session == 0) return waiting;
     if (owner.session != session_) {
       why = fmt::format(

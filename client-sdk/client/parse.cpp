@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "client-sdk/client/clean_text.hpp"
 #include <mechane/proto/convert.hpp>
 
@@ -265,7 +267,7 @@ bool parse(const proto::Event& wire, WorldEvent& out) {
 bool parse(const proto::ServerStatus& wire, ServerStatus& out) {
   if (wire.protocol != proto::kProtocol) return false;
   for (const float v : {wire.tick_us_median, wire.tick_us_p99, wire.tick_us_p999, wire.tick_us_max, wire.wake_us_p99,
-                        wire.wake_us_max}) {
+                        wire.wake_us_max, wire.input_gap_ms}) {
     if (!std::isfinite(v)) return false;
   }
   out.server = clean(wire.server);
@@ -286,6 +288,7 @@ bool parse(const proto::ServerStatus& wire, ServerStatus& out) {
   out.realtime = wire.realtime;
   out.records_ok = wire.records_ok;
   out.input_gaps = wire.input_gaps;
+  out.input_gap_ms = wire.input_gap_ms;
   out.overload = clean_string(wire.overload);
   return parse_strings(wire.scenarios, out.scenarios);
 }
@@ -298,10 +301,19 @@ bool parse(const proto::WorldAssignment& wire, Assignment& out) {
   out.world = clean(wire.world);
   if (!out.world.empty() && !proto::is_name(out.world)) return false;
   out.trouble = clean_string(wire.trouble);
+  out.no_room = clean_string(wire.no_room);
   for (std::size_t i = 0; i < out.owners.size(); ++i) {
     out.owners[i] = {wire.owners[i].session, clean(wire.owners[i].program), clean(wire.owners[i].host)};
   }
   return true;
+}
+
+std::string other_protocol(const proto::ServerStatus& wire) {
+  if (wire.protocol == proto::kProtocol) return {};
+  return fmt::format(
+      "server {} on {} is Mechane {}, which speaks protocol {}; this program speaks protocol {}: install the same "
+      "version of Mechane on both machines",
+      clean(wire.server), clean_string(wire.host), clean_string(wire.version), wire.protocol, proto::kProtocol);
 }
 
 }  // namespace mechane::client

@@ -46,6 +46,7 @@ struct Assignment {
   std::uint64_t epoch = 0;
   std::string world;
   std::string trouble;
+  std::string no_room;
   struct Owner {
     std::uint64_t session = 0;
     std::string program;
@@ -54,5 +55,8 @@ struct Assignment {
   std::array<Owner, hand::kMaxUsers> owners;
 };
 [[nodiscard]] bool parse(const proto::WorldAssignment& wire, Assignment& out);
+
+/// Where the server is of another protocol version than this program: who it is, and what to do. Empty where it is of ours.
+[[nodiscard]] std::string other_protocol(const proto::ServerStatus& wire);
 
 }  // namespace mechane::client

@@ -268,10 +268,7 @@ Expected<void> join(client::Client& client, const VisitOptions& options, const v
                                          : fmt::format("{}: looking for a server", options.client.kiosk));
   }
   if (stop != 0) return fail("stopped before it was in a world", options.client.kiosk);
-  if (client.state() == LinkState::refused) {
-    return fail("the hand was not free in time", options.client.kiosk,
-                "stop the other program, or use another kiosk or user");
-  }
+  if (const std::string why = client.refusal(); !why.empty()) return fail(why, options.client.kiosk);
   return fail("no server answered", options.client.kiosk,
               "start one with 'mechane server', in the same DDS domain and network");
 }

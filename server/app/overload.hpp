@@ -14,34 +14,37 @@ struct LoadCounts {
   std::uint64_t ticks = 0;
   std::uint64_t overruns = 0;    ///< ticks that needed over 1 ms of a processor themselves
   std::uint64_t held_up = 0;     ///< ticks left out, or interrupted for so long that they took over 1 ms
-  std::uint64_t input_gaps = 0;  ///< times that a hand which was sending paused for 10 to 500 ms
+  std::uint64_t input_gaps = 0;  ///< times that a hand which was sending paused for 10 to 100 ms
   Duration longest_gap{0};
 };
 
-/// One thread.
+/// One thread, which is not a loop's.
 class OverloadWatch {
  public:
   static constexpr Duration kWindow = std::chrono::seconds(10);
-  /// Of the window's ticks: more are felt. A machine that keeps up has a few in an hour.
+  /// Share of the window's ticks: a visitor feels more than these. A machine that keeps up has a few in an hour.
   static constexpr double kTolerated = 0.001;
   static constexpr std::uint64_t kToleratedGaps = 20;
 
-  /// Judges the last window when it is over; call it more often. True when what words() says has changed, or is to be said again: once a
-  /// minute while it lasts.
+  /// Call it several times in a window; when the window is over, it is judged. True when words() is to be logged: when the cause has
+  /// changed, and once a minute while it lasts.
   bool look(const LoadCounts& counts, TimePoint now);
 
-  /// What is too much, and what to do; empty: nothing.
+  /// What was too much in the last window, and what to do; empty: nothing.
   [[nodiscard]] const std::string& words() const { return words_; }
+  /// The longest pause of a hand in the last window.
+  [[nodiscard]] Duration longest_gap() const { return longest_gap_; }
 
  private:
   enum class Cause { none, worlds, machine, inputs };
-  [[nodiscard]] Cause judge(const LoadCounts& counts, Duration longest_gap);
+  [[nodiscard]] Cause judge(const LoadCounts& counts);
 
   std::optional<LoadCounts> begin_;  // of the window
   TimePoint began_{};
+  Duration gap_so_far_{0};  // the longest in this window
   Duration longest_gap_{0};
   Cause cause_ = Cause::none;
-  TimePoint told_{};
+  TimePoint logged_{};
   std::string words_;
 };
 

@@ -186,6 +186,7 @@ void Server::Impl::say_status() {
   status.records_ok =
       (recorder_ == nullptr || recorder_->status().records_ok) && (sheets_ == nullptr || sheets_->status().ok);
   watch_load(summary);
+  status.input_gap_ms = to_seconds(overload_.longest_gap()) * 1e3;
   status.overload = overload_.words();
   transport_->publish_server_status(status);
 }
@@ -198,7 +199,7 @@ void Server::Impl::watch_load(const LoopSummary& summary) {
   counts.input_gaps = transport_->input_gaps();
   counts.longest_gap = transport_->take_longest_input_gap();
   if (lobby_->worlds() == 0) {
-    overload_ = OverloadWatch();  // nobody feels it
+    overload_ = OverloadWatch();  // nobody is there to feel it
   } else if (overload_.look(counts, main_clock_.now())) {
     overload_.words().empty() ? log::info("the overload is over") : log::warning(overload_.words());
   }

@@ -9,13 +9,14 @@
 
 #include "server/realtime/priority.hpp"
 #include "server/transport/kiosk_link.hpp"
-#include "server/transport/session_table.hpp"
 
 namespace mechane::transport {
 namespace {
 
 // Longer than a tick should take; a longer one is waited for asleep.
 constexpr Duration kLongestSpin = std::chrono::microseconds(200);
+// A pause that is longer may be meant: a pointer sends nothing between two taps.
+constexpr Duration kLongestGap = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -77,7 +78,7 @@ void HapticPublisher::await_forces() noexcept {
 
 void HapticPublisher::note_age(Lane& lane, Duration age) noexcept {
   const Duration before = std::exchange(lane.input_age, age);
-  if (age >= before || before <= hand::kHoldFor || before >= SessionTable::kSilence) return;
+  if (age >= before || before <= hand::kHoldFor || before > kLongestGap) return;
   input_gaps_.fetch_add(1, std::memory_order_relaxed);
   std::int64_t longest = longest_gap_ns_.load(std::memory_order_relaxed);
   while (longest < before.count() && !longest_gap_ns_.compare_exchange_weak(longest, before.count())) {

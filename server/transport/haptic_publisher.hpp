@@ -31,7 +31,7 @@ class HapticPublisher {
 
   [[nodiscard]] bool fifo_granted() const { return fifo_granted_.load(); }
   [[nodiscard]] const realtime::LatencyHistogram& write_time() const { return write_time_; }
-  /// Times that a hand which was sending paused for longer than its force holds, but not so long that it had ended.
+  /// Times that a hand which was sending paused for longer than its force holds (10 ms) and sent again within 100 ms.
   [[nodiscard]] std::uint64_t input_gaps() const { return input_gaps_.load(std::memory_order_relaxed); }
   /// The longest of them since the last call. One other thread.
   [[nodiscard]] Duration take_longest_gap() { return Duration(longest_gap_ns_.exchange(0, std::memory_order_relaxed)); }

@@ -57,6 +57,7 @@ void MuseumPublisher::write_assignments() {
     proto::WorldAssignment wire{};
     proto::set_text(wire.kiosk, kiosk);
     wire.trouble = proto::look_into(pending.assignment.trouble);
+    wire.no_room = proto::look_into(pending.assignment.no_room);
     wire.protocol = proto::kProtocol;
     wire.seq = ++assignment_sequence_;
     wire.sent_ns = to_ns(std::chrono::steady_clock::now());

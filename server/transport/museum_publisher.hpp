@@ -20,6 +20,7 @@ struct Assignment {
   std::uint64_t epoch = 0;  ///< of the kiosk's link
   std::string world;
   std::string trouble;
+  std::string no_room;                          ///< why a program that comes now gets no hand; empty: it may
   std::array<Session, hand::kMaxUsers> owners;  ///< id 0: nobody
 };
 

