@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "client-sdk/picture/chance.hpp"
 #include "client-sdk/picture/procedural_mesh.hpp"
+#include "server/base/random.hpp"
 
 namespace mechane::draw {
 namespace {
 
 constexpr float kGravity_m_per_s2 = 9.81F;
-constexpr float kTurn = 2 * static_cast<float>(kPi);
 /// Numbers times this, without their whole part, are spread evenly whichever of them one takes from the front (Weyl).
 constexpr double kGolden = 0.6180339887498949;
 
@@ -120,10 +119,10 @@ constexpr std::array<Habit, 5> kHabits{{
 }};
 
 /// A point of the unit disc across `along`.
-Vec3f on_disc(const Vec3f& along, picture::Chance& chance) {
+Vec3f on_disc(const Vec3f& along, ShortRandom& random) {
   const Vec3f u = along.unitOrthogonal();
-  const float r = std::sqrt(chance.draw());
-  const float a = kTurn * chance.draw();
+  const float r = std::sqrt(random.unit());
+  const float a = kTwoPiF * random.unit();
   return r * (std::cos(a) * u + std::sin(a) * along.cross(u));
 }
 
@@ -146,19 +145,19 @@ Age age_of(std::uint32_t particle, double time_s, double life_s) {
 }
 
 Vec3f place_of(const picture::ParticleEffect& effect, const Habit& habit, const Vec3f& wind_W, float t, float radius_m,
-               picture::Chance& chance) {
-  const Vec3f source = effect.p_W + habit.source * effect.size_m * on_disc(effect.direction_W, chance);
-  const Vec3f v = effect.speed_m_per_s * (0.75F + 0.5F * chance.draw()) *
-                  (effect.direction_W + habit.spread * on_disc(effect.direction_W, chance));
+               ShortRandom& random) {
+  const Vec3f source = effect.p_W + habit.source * effect.size_m * on_disc(effect.direction_W, random);
+  const Vec3f v = effect.speed_m_per_s * (0.75F + 0.5F * random.unit()) *
+                  (effect.direction_W + habit.spread * on_disc(effect.direction_W, random));
   const float brake = habit.slowing_s;
   const Vec3f thrown = v * (brake > 0 ? brake * (1 - std::exp(-t / brake)) : t);
   // Carried along by the air the more, the longer it is in it.
   const float carried = brake > 0 ? t * t / (t + brake) : t;
-  const float rise = (habit.rise_m_per_s + habit.rise_sizes_per_s * effect.size_m) * (0.7F + 0.6F * chance.draw());
+  const float rise = (habit.rise_m_per_s + habit.rise_sizes_per_s * effect.size_m) * (0.7F + 0.6F * random.unit());
   Vec3f p = source + thrown + habit.wind * wind_W * carried;
   p.y() += rise * carried - 0.5F * habit.weight * kGravity_m_per_s2 * t * t;
-  const float phase = kTurn * chance.draw();
-  const float turns = kTurn * (0.35F + 0.5F * chance.draw());
+  const float phase = kTwoPiF * random.unit();
+  const float turns = kTwoPiF * (0.35F + 0.5F * random.unit());
   p += habit.swirl * radius_m * Vec3f(std::sin(turns * t + phase), 0, std::cos(1.3F * turns * t + phase));
   return p;
 }
@@ -177,13 +176,13 @@ void append_particles(const picture::ParticleEffect& effect, std::uint32_t numbe
   const float alive = std::min(effect.intensity, 1.0F) * static_cast<float>(habit.count);
   for (std::uint32_t i = 0; static_cast<float>(i) < alive; ++i) {
     const Age age = age_of(i, time_s, habit.life_s);
-    picture::Chance chance(number, i, age.life);
+    ShortRandom random(number, i, age.life);
     Particle particle;
-    particle.seed = chance.draw();
-    particle.spin_rad = kTurn * chance.draw() + (chance.draw() - 0.5F) * 1.5F * age.share;
-    particle.radius_m = habit.start * effect.size_m * (0.7F + 0.6F * chance.draw()) *
+    particle.seed = random.unit();
+    particle.spin_rad = kTwoPiF * random.unit() + (random.unit() - 0.5F) * 1.5F * age.share;
+    particle.radius_m = habit.start * effect.size_m * (0.7F + 0.6F * random.unit()) *
                         (1 + (habit.growth - 1) * (habit.growth > 1 ? std::sqrt(age.share) : age.share));
-    particle.p_W = place_of(effect, habit, wind_W, age.share * habit.life_s, particle.radius_m, chance);
+    particle.p_W = place_of(effect, habit, wind_W, age.share * habit.life_s, particle.radius_m, random);
     const Vec3f young(habit.young[0], habit.young[1], habit.young[2]);
     particle.colour = young + (Vec3f(habit.old[0], habit.old[1], habit.old[2]) - young) * std::sqrt(age.share);
     // The last of them comes and goes as the intensity grows and falls.
@@ -210,18 +209,18 @@ void append_drops(const picture::WaterStream& jet, double time_s, std::vector<Pa
   const Vec3f along = jet.v_W / speed;
   for (std::uint32_t i = 0; i < kDrops; ++i) {
     const Age age = age_of(i, time_s, flight_s);
-    picture::Chance chance(0x1E7U, i, age.life);
+    ShortRandom random(0x1E7U, i, age.life);
     const float t = age.share * flight_s;
     // Some fine drops leave the surface early; the rest is there once the core is gone.
     const bool fine = i % 4 == 0;
-    const float apart_s = (fine ? 0.35F : 0.75F) * broken_s * (0.85F + 0.3F * chance.draw());
+    const float apart_s = (fine ? 0.35F : 0.75F) * broken_s * (0.85F + 0.3F * random.unit());
     if (t < apart_s) continue;
     Particle drop;
     drop.shape = ParticleShape::drop;
-    drop.seed = chance.draw();
-    drop.radius_m = 0.5F * jet.width_m * (fine ? 0.25F + 0.2F * chance.draw() : 0.35F + 0.55F * chance.draw());
-    const Vec3f aside = on_disc(along, chance) * (fine ? 0.055F : 0.03F) * speed * (t - apart_s);
-    drop.p_W = jet.p_WS + jet.v_W * t * (1 + 0.03F * (chance.draw() - 0.5F)) + aside;
+    drop.seed = random.unit();
+    drop.radius_m = 0.5F * jet.width_m * (fine ? 0.25F + 0.2F * random.unit() : 0.35F + 0.55F * random.unit());
+    const Vec3f aside = on_disc(along, random) * (fine ? 0.055F : 0.03F) * speed * (t - apart_s);
+    drop.p_W = jet.p_WS + jet.v_W * t * (1 + 0.03F * (random.unit() - 0.5F)) + aside;
     drop.p_W.y() -= 0.5F * kGravity_m_per_s2 * t * t;
     drop.colour = Vec3f(0.85F, 0.9F, 0.95F);
     drop.opacity = 0.8F * smooth(apart_s, 1.25F * apart_s, t);
@@ -242,15 +241,15 @@ void append_splash(const picture::WaterStream& stream, std::uint32_t number, dou
   const auto drops = static_cast<std::uint32_t>(std::lround(110 * std::clamp(stream.width_m / 0.04F, 0.0F, 1.0F)));
   for (std::uint32_t i = 0; i < drops; ++i) {
     const Age age = age_of(i, time_s, kLife_s);
-    picture::Chance chance(0x5B1A5U + number, i, age.life);
+    ShortRandom random(0x5B1A5U + number, i, age.life);
     const float t = age.share * kLife_s;
     const bool foam = i % 3 == 0;
     Particle drop;
-    drop.seed = chance.draw();
-    drop.spin_rad = kTurn * chance.draw();
-    const Vec3f from = place + 0.6F * stream.width_m * on_disc(Vec3f::UnitY(), chance);
+    drop.seed = random.unit();
+    drop.spin_rad = kTwoPiF * random.unit();
+    const Vec3f from = place + 0.6F * stream.width_m * on_disc(Vec3f::UnitY(), random);
     const Vec3f thrown =
-        speed * (0.20F * on_disc(Vec3f::UnitY(), chance) + (0.10F + 0.24F * chance.draw()) * Vec3f::UnitY());
+        speed * (0.20F * on_disc(Vec3f::UnitY(), random) + (0.10F + 0.24F * random.unit()) * Vec3f::UnitY());
     drop.p_W = from + thrown * t;
     drop.p_W.y() -= 0.5F * kGravity_m_per_s2 * t * t;
     drop.colour = Vec3f(0.88F, 0.92F, 0.95F);
@@ -262,7 +261,7 @@ void append_splash(const picture::WaterStream& stream, std::uint32_t number, dou
       drop.opacity = 0.34F * smooth(0, 0.15F, age.share) * (1 - age.share);
     } else {
       drop.shape = ParticleShape::drop;
-      drop.radius_m = 0.05F * stream.width_m * (0.6F + 1.4F * chance.draw());
+      drop.radius_m = 0.05F * stream.width_m * (0.6F + 1.4F * random.unit());
       drop.opacity = 0.8F * (1 - smooth(0.7F, 1, age.share));
     }
     if (drop.p_W.y() >= place.y()) out.push_back(drop);

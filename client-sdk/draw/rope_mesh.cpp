@@ -111,7 +111,7 @@ void append_rope(const picture::RenderRope& rope, picture::MeshData& into) {
     const Vec3f up_W = ring.along_W.cross(side_W);
     for (std::uint32_t side = 0; side <= kSides; ++side) {
       const float share = static_cast<float>(side) / kSides;
-      const float a = 2 * static_cast<float>(kPi) * share;
+      const float a = kTwoPiF * share;
       const Vec3f n = std::cos(a) * side_W + std::sin(a) * up_W;
       into.positions.push_back(ring.p_WR + rope.radius_m * n);
       into.normals.push_back(n);

@@ -12,8 +12,6 @@
 namespace mechane::draw {
 namespace {
 
-constexpr float kPiF = static_cast<float>(kPi);
-
 /// The real harmonics without their constants, in the shader's order.
 std::array<float, 9> polynomials(const Vec3f& d) {
   return {1,

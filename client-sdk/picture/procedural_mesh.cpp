@@ -144,7 +144,7 @@ MeshData stream_mesh(const WaterStream& stream) {
     const float half_width = 0.5F * stream.width_m * shrink;
     const float half_depth = (stream.jet ? 1.0F : 0.45F) * half_width;
     for (int sector = 0; sector <= kSectors; ++sector) {
-      const float a = 2 * static_cast<float>(kPi) * static_cast<float>(sector) / kSectors;
+      const float a = kTwoPiF * static_cast<float>(sector) / kSectors;
       const Vec3f n = (std::cos(a) * across * half_depth + std::sin(a) * up * half_width).normalized();
       mesh.positions.push_back(p + std::cos(a) * across * half_width + std::sin(a) * up * half_depth);
       mesh.normals.push_back(n);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace mechane::pointer {
 namespace {
@@ -11,7 +10,7 @@ constexpr double kGoneAfter_s = 30;
 // Fingers this near to each other, in shares of the picture's height, tell neither an angle nor a distance.
 constexpr double kLeastApart = 0.04;
 // The mouse's way across as much as the picture's height, with the right button held.
-constexpr double kMouseTurn_rad = std::numbers::pi;
+constexpr double kMouseTurn_rad = kPi;
 constexpr double kFarthest_px = 1e6;
 
 bool is_place(const PointerEvent& event) {

@@ -25,7 +25,7 @@ picture::MeshData turned(std::span<const ArrowRing> rings) {
     const Eigen::Vector2f out = Eigen::Vector2f(a.radius - b.radius, b.x - a.x).normalized();  // along x, and outwards
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int s = 0; s <= kAround; ++s) {
-      const float angle = 2 * static_cast<float>(kPi) * static_cast<float>(s) / kAround;
+      const float angle = kTwoPiF * static_cast<float>(s) / kAround;
       const Vec3f aside(0, std::cos(angle), std::sin(angle));
       for (const ArrowRing& ring : {a, b}) {
         mesh.positions.emplace_back(ring.x * Vec3f::UnitX() + ring.radius * aside);

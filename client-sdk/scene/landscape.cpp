@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client-sdk/picture/chance.hpp"
+#include "server/base/random.hpp"
 
 namespace mechane::scene {
 namespace {
@@ -20,23 +20,14 @@ constexpr float kBank_m = 2.5F;
 /// Over the plain: modelled ground lies a little higher than it.
 constexpr float kShadeHeight_m = 0.09F;
 
-constexpr float kWholeTurn = 2 * static_cast<float>(kPi);
 constexpr float kGoldenShare = 0.61803399F;
 
-class Dice {
- public:
-  explicit Dice(std::uint32_t seed, std::uint32_t of = 0) : chance_(seed, of, 0) {}
-  float within(float low, float high) { return low + (high - low) * chance_.draw(); }
-  Vec3f direction() {
-    const float y = within(-1, 1);
-    const float a = within(0, kWholeTurn);
-    const float r = std::sqrt(std::max(1 - y * y, 0.0F));
-    return {r * std::cos(a), y, r * std::sin(a)};
-  }
-
- private:
-  picture::Chance chance_;
-};
+Vec3f direction(ShortRandom& random) {
+  const float y = random.between(-1, 1);
+  const float a = random.between(0, kTwoPiF);
+  const float r = std::sqrt(std::max(1 - y * y, 0.0F));
+  return {r * std::cos(a), y, r * std::sin(a)};
+}
 
 /// Groves are thick here and thin there.
 float thickness(const LandscapePlan& plan, const Vec3f& p_W) {
@@ -72,7 +63,7 @@ class Growth {
     const Vec3f other = along.cross(side);
     const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
     for (std::uint32_t k = 0; k < kSides; ++k) {
-      const float a = kWholeTurn * static_cast<float>(k) / kSides;
+      const float a = kTwoPiF * static_cast<float>(k) / kSides;
       const Vec3f out = std::cos(a) * side + std::sin(a) * other;
       for (const bool end : {false, true}) {
         mesh_.positions.push_back(end ? Vec3f(to_W + thin_m * out) : Vec3f(from_W + thick_m * out));
@@ -104,15 +95,15 @@ struct Crown {
 };
 
 /// A ball of short leafy twigs: grey-green above, dark below and inside.
-void add_crown(const Crown& crown, Growth& pale, Growth& dark, Dice& dice) {
+void add_crown(const Crown& crown, Growth& pale, Growth& dark, ShortRandom& random) {
   for (int k = 0; k < crown.leaves; ++k) {
-    const Vec3f out = dice.direction();
-    const float depth = dice.within(0.60F, 1.0F);
+    const Vec3f out = direction(random);
+    const float depth = random.between(0.60F, 1.0F);
     const Vec3f p_W = crown.p_W + depth * out.cwiseProduct(crown.half_m);
-    const Vec3f a = crown.leaf_m * dice.direction();
-    const Vec3f b = 0.6F * crown.leaf_m * a.cross(dice.direction()).normalized();
-    const bool bright = 0.5F + 0.5F * out.y() + 1.2F * (depth - 0.85F) + dice.within(-0.25F, 0.25F) > 0.45F;
-    const Vec3f n_W = (out + 0.5F * dice.direction() + Vec3f(0, 0.15F, 0)).normalized();
+    const Vec3f a = crown.leaf_m * direction(random);
+    const Vec3f b = 0.6F * crown.leaf_m * a.cross(direction(random)).normalized();
+    const bool bright = 0.5F + 0.5F * out.y() + 1.2F * (depth - 0.85F) + random.between(-0.25F, 0.25F) > 0.45F;
+    const Vec3f n_W = (out + 0.5F * direction(random) + Vec3f(0, 0.15F, 0)).normalized();
     (bright ? pale : dark).quad({p_W - a, p_W + b, p_W + a, p_W - b}, n_W);
   }
 }
@@ -123,27 +114,27 @@ float coarseness(const LandscapePlan& plan, const Plant& plant) {
 }
 
 void add_olive(const Plant& plant, float coarse, Grown& out) {
-  Dice dice(plant.seed);
+  ShortRandom random(plant.seed);
   const float h = plant.height_m;
   const float leaf_m = 0.030F * h * std::sqrt(coarse);
   const int leaves = static_cast<int>(kLeaves / coarse / 4);
   const Vec3f fork =
-      plant.p_W + h * Vec3f{dice.within(-0.05F, 0.05F), dice.within(0.25F, 0.31F), dice.within(-0.05F, 0.05F)};
+      plant.p_W + h * Vec3f{random.between(-0.05F, 0.05F), random.between(0.25F, 0.31F), random.between(-0.05F, 0.05F)};
   out.bark.limb(plant.p_W - Vec3f(0, 0.2F, 0), fork, 0.055F * h, 0.036F * h);
-  const float turn = dice.within(0, 2);
+  const float turn = random.between(0, 2);
   for (int k = 0; k < 3; ++k) {
-    const float a = turn + 2.094F * static_cast<float>(k) + dice.within(-0.3F, 0.3F);
-    const Vec3f tip = fork + h * Vec3f(0.24F * std::cos(a), dice.within(0.22F, 0.32F), 0.24F * std::sin(a));
+    const float a = turn + 2.094F * static_cast<float>(k) + random.between(-0.3F, 0.3F);
+    const Vec3f tip = fork + h * Vec3f(0.24F * std::cos(a), random.between(0.22F, 0.32F), 0.24F * std::sin(a));
     out.bark.limb(fork, tip, 0.029F * h, 0.010F * h);
-    const float r = h * dice.within(0.20F, 0.26F);
-    add_crown({tip + Vec3f(0, 0.03F * h, 0), {r, 0.78F * r, r}, leaf_m, leaves}, out.pale, out.dark, dice);
+    const float r = h * random.between(0.20F, 0.26F);
+    add_crown({tip + Vec3f(0, 0.03F * h, 0), {r, 0.78F * r, r}, leaf_m, leaves}, out.pale, out.dark, random);
   }
   const float r = 0.28F * h;
-  add_crown({fork + Vec3f(0, 0.36F * h, 0), {r, 0.80F * r, r}, leaf_m, leaves}, out.pale, out.dark, dice);
+  add_crown({fork + Vec3f(0, 0.36F * h, 0), {r, 0.80F * r, r}, leaf_m, leaves}, out.pale, out.dark, random);
 }
 
 void add_cypress(const Plant& plant, float coarse, Grown& out) {
-  Dice dice(plant.seed);
+  ShortRandom random(plant.seed);
   const float h = plant.height_m;
   out.bark.limb(plant.p_W - Vec3f(0, 0.2F, 0), plant.p_W + Vec3f(0, 0.2F * h, 0), 0.022F * h, 0.018F * h);
   // Within, it is too dense to be looked through.
@@ -151,28 +142,27 @@ void add_cypress(const Plant& plant, float coarse, Grown& out) {
   out.cypress.limb(plant.p_W + Vec3f(0, 0.45F * h, 0), plant.p_W + Vec3f(0, 0.88F * h, 0), 0.080F * h, 0.012F * h);
   const int sprays = static_cast<int>(300 / coarse);
   for (int k = 0; k < sprays; ++k) {
-    const float t = dice.within(0, 1);
-    const float r =
-        0.105F * h * std::pow(std::sin(static_cast<float>(kPi) * (0.12F + 0.86F * t)), 0.8F) * (1 - 0.35F * t);
-    const float a = dice.within(0, kWholeTurn);
+    const float t = random.between(0, 1);
+    const float r = 0.105F * h * std::pow(std::sin(kPiF * (0.12F + 0.86F * t)), 0.8F) * (1 - 0.35F * t);
+    const float a = random.between(0, kTwoPiF);
     const Vec3f outwards(std::cos(a), 0, std::sin(a));
     const Vec3f p_W = plant.p_W + r * outwards + Vec3f(0, (0.08F + 0.86F * t) * h, 0);
     const Vec3f side = 0.017F * h * std::sqrt(coarse) * Vec3f(-std::sin(a), 0, std::cos(a));
     const Vec3f foot = p_W + 0.015F * h * outwards - Vec3f(0, 0.02F * h, 0);
-    const Vec3f n_W = (outwards + Vec3f(0, 0.3F, 0) + 0.35F * dice.direction()).normalized();
+    const Vec3f n_W = (outwards + Vec3f(0, 0.3F, 0) + 0.35F * direction(random)).normalized();
     out.cypress.quad({p_W - side, foot, p_W + side, p_W + Vec3f(0, 0.085F * h, 0)}, n_W);
   }
 }
 
 void add_brush(const Plant& plant, float coarse, Grown& out) {
-  Dice dice(plant.seed);
+  ShortRandom random(plant.seed);
   const float h = plant.height_m;
   for (int k = 0; k < 3; ++k) {
-    const float r = h * dice.within(0.45F, 0.75F);
-    const Vec3f p_W = plant.p_W + Vec3f{dice.within(-h, h), 0.45F * r, dice.within(-h, h)};
+    const float r = h * random.between(0.45F, 0.75F);
+    const Vec3f p_W = plant.p_W + Vec3f{random.between(-h, h), 0.45F * r, random.between(-h, h)};
     const float leaf_m = 0.10F * std::sqrt(coarse);
     add_crown({p_W, {r, 0.8F * r, r}, leaf_m, static_cast<int>(48 / coarse)}, k == 0 ? out.pale : out.dark, out.dark,
-              dice);
+              random);
   }
 }
 
@@ -249,21 +239,21 @@ bool is_wet(const LandscapePlan& plan, const Vec3f& p_W) {
 }
 
 void scatter(const LandscapePlan& plan, Plant::Kind kind, int count, float reach_m, std::vector<Plant>& out) {
-  Dice dice(plan.seed, 1 + static_cast<std::uint32_t>(kind));
-  const float turn = dice.within(0, 1);
+  ShortRandom random(plan.seed, 1 + static_cast<std::uint32_t>(kind));
+  const float turn = random.between(0, 1);
   for (int tries = 0, made = 0; made < count && tries < 20 * count; ++tries) {
     // More of them near, where each is seen alone.
-    const float away = plan.clearing_m + reach_m * std::pow(dice.within(0, 1), 1.35F);
+    const float away = plan.clearing_m + reach_m * std::pow(random.between(0, 1), 1.35F);
     // Spread evenly all round, whichever of them are left out.
     const float a =
-        kWholeTurn * std::fmod(kGoldenShare * static_cast<float>(tries) + turn + dice.within(0, 0.02F), 1.0F);
+        kTwoPiF * std::fmod(kGoldenShare * static_cast<float>(tries) + turn + random.between(0, 0.02F), 1.0F);
     Plant plant{kind, plan.middle_W + away * Vec3f(std::cos(a), 0, std::sin(a)), 1,
                 1000 * plan.seed + static_cast<std::uint32_t>(tries)};
-    const float size = dice.within(0, 1);
+    const float size = random.between(0, 1);
     plant.height_m = kind == Plant::Kind::olive     ? 3.0F + 1.4F * size
                      : kind == Plant::Kind::cypress ? 6.5F + 3 * size
                                                     : 0.35F + 0.4F * size;
-    const float wanted = kind == Plant::Kind::olive ? dice.within(0.15F, 0.85F) : 0;
+    const float wanted = kind == Plant::Kind::olive ? random.between(0.15F, 0.85F) : 0;
     if (thickness(plan, plant.p_W) < wanted || is_wet(plan, plant.p_W)) continue;
     out.push_back(plant);
     ++made;

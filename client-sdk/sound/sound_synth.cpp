@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "server/base/assert.hpp"
+#include "server/base/math.hpp"
+#include "server/base/random.hpp"
 
 namespace mechane::sound {
 namespace {
-
-using std::numbers::pi_v;
 
 /// Noise between two frequencies, that flutters. With a decay it is a burst.
 struct NoiseLayer {
@@ -136,23 +136,6 @@ constexpr float kAttack_s = 0.0006F;  ///< of a strike, lest it click
 constexpr float kLowest_hz = 35;      ///< what no loudspeaker of a museum plays, and any offset
 constexpr float kTailShare = 0.15F;   ///< of a sound that plays once: it fades to nothing
 
-/// A generator of our own: the standard's distributions differ from library to library.
-class SoundRandom {
- public:
-  explicit SoundRandom(std::uint32_t seed) : state_(seed * 2654435761U + 1U) {}
-  /// 0 .. 1
-  float unit() {
-    state_ ^= state_ << 13U;
-    state_ ^= state_ >> 17U;
-    state_ ^= state_ << 5U;
-    return static_cast<float>(state_ >> 8U) * 0x1p-24F;
-  }
-  float between(float low, float high) { return low + (high - low) * unit(); }
-
- private:
-  std::uint32_t state_;
-};
-
 /// Second order, Butterworth: Bristow-Johnson's cookbook, Q = 1/sqrt 2.
 class Biquad {
  public:
@@ -169,7 +152,7 @@ class Biquad {
 
  private:
   Biquad(float hz, bool high) {
-    const float w = 2 * pi_v<float> * hz / static_cast<float>(kSoundRate_hz);
+    const float w = kTwoPiF * hz / static_cast<float>(kSoundRate_hz);
     const float alpha = std::sin(w) / std::numbers::sqrt2_v<float>;
     const float a0 = 1 + alpha;
     const float side = high ? -(1 + std::cos(w)) : 1 - std::cos(w);
@@ -186,7 +169,7 @@ std::size_t samples_in(float seconds) {
   return static_cast<std::size_t>(seconds * static_cast<float>(kSoundRate_hz));
 }
 
-void add_noise(const NoiseLayer& layer, SoundRandom& random, std::vector<float>& out) {
+void add_noise(const NoiseLayer& layer, ShortRandom& random, std::vector<float>& out) {
   if (layer.level <= 0) return;
   Biquad low = Biquad::low_pass(layer.high_hz);
   Biquad high = Biquad::high_pass(layer.low_hz);
@@ -219,12 +202,12 @@ void add_ring(const Ring& ring, std::size_t first, std::vector<float>& out) {
   const std::size_t end = std::min(out.size(), first + samples_in(7 * ring.decay_s));
   for (std::size_t i = first; i < end; ++i) {
     const float t = static_cast<float>(i - first) / static_cast<float>(kSoundRate_hz);
-    const float phase = 2 * pi_v<float> * ring.hz * t * (1 + 0.5F * ring.rise * t / ring.decay_s);
+    const float phase = kTwoPiF * ring.hz * t * (1 + 0.5F * ring.rise * t / ring.decay_s);
     out[i] += ring.level * std::min(t / kAttack_s, 1.0F) * std::exp(-t / ring.decay_s) * std::sin(phase);
   }
 }
 
-void add_drops(const DropLayer& layer, SoundRandom& random, std::vector<float>& out) {
+void add_drops(const DropLayer& layer, ShortRandom& random, std::vector<float>& out) {
   if (layer.level <= 0) return;
   float t = 0;
   while (samples_in(t) < out.size()) {
@@ -239,7 +222,7 @@ void add_drops(const DropLayer& layer, SoundRandom& random, std::vector<float>& 
   }
 }
 
-void add_body(const BodyLayer& layer, SoundRandom& random, std::vector<float>& out) {
+void add_body(const BodyLayer& layer, ShortRandom& random, std::vector<float>& out) {
   if (layer.level <= 0) return;
   const float length_s = static_cast<float>(out.size()) / static_cast<float>(kSoundRate_hz);
   const float period_s = layer.strikes_per_s > 0 ? 1 / layer.strikes_per_s : length_s;
@@ -260,7 +243,7 @@ void add_body(const BodyLayer& layer, SoundRandom& random, std::vector<float>& o
 void close_loop(std::vector<float>& samples, std::size_t extra) {
   const std::size_t length = samples.size() - extra;
   for (std::size_t i = 0; i < extra; ++i) {
-    const float angle = pi_v<float> / 2 * static_cast<float>(i) / static_cast<float>(extra);
+    const float angle = kPiF / 2 * static_cast<float>(i) / static_cast<float>(extra);
     samples[i] = samples[i] * std::sin(angle) + samples[length + i] * std::cos(angle);
   }
   samples.resize(length);
@@ -297,7 +280,7 @@ std::string_view name_of(SoundKind kind) {
 SoundClip synthesise(SoundKind kind) {
   const SoundRecipe& recipe = kRecipes[static_cast<std::size_t>(kind)];
   MECHANE_ASSERT(recipe.kind == kind);
-  SoundRandom random(static_cast<std::uint32_t>(kind) + 1U);
+  ShortRandom random(static_cast<std::uint32_t>(kind) + 1U);
   const std::size_t extra = recipe.loops ? samples_in(kSeam_s) : 0;
   SoundClip clip{std::vector<float>(samples_in(recipe.length_s) + extra), recipe.loops};
   for (const NoiseLayer& layer : recipe.noise)

@@ -2,6 +2,8 @@
 // p_WQ the position of point Q in W, f_B_W the force on B expressed in W. SI units.
 #pragma once
 
+#include <numbers>
+
 #include <Eigen/Dense>
 
 namespace mechane {
@@ -11,7 +13,9 @@ using Vec3f = Eigen::Vector3f;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
 
-inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kPi = std::numbers::pi;
+inline constexpr float kPiF = std::numbers::pi_v<float>;
+inline constexpr float kTwoPiF = 2 * kPiF;
 
 /// A rigid transform X_AB: rotates by R_AB, then shifts by p_AB. `R` must be of unit length.
 struct Pose {

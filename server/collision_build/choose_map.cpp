@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "server/geometry/random.hpp"
+#include "server/base/random.hpp"
 
 namespace mechane::collision_build {
 namespace {
@@ -130,7 +130,7 @@ class Trials {
 std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
                                std::span<const SurfacePlace> places, const ErrorBudget& budget, std::size_t count,
                                std::uint64_t seed) {
-  geometry::Random random(seed);
+  Random random(seed);
   std::vector<Probe> probes;
   const std::size_t step = std::max<std::size_t>(1, places.size() / count);
   for (std::size_t i = 0; i < places.size(); i += step) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "server/base/parallel.hpp"
+#include "server/base/random.hpp"
 #include "server/collision/placed_part.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision_build/cast_map.hpp"
@@ -17,7 +18,6 @@
 #include "server/collision_build/solid.hpp"
 #include "server/geometry/mesh_check.hpp"
 #include "server/geometry/mesh_orient.hpp"
-#include "server/geometry/random.hpp"
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::collision_build {
@@ -305,7 +305,7 @@ std::vector<Probe> make_witnesses(const BuildInput& input, std::size_t parts) {
   const auto places = geometry::sample_by_area(input.skin_mesh, count, input.config.seed + 4);
   std::vector<std::vector<Probe>> some((places.size() + kChunk - 1) / kChunk);
   for_each_index(some.size(), [&](std::size_t chunk) {
-    geometry::Random random(input.config.seed + 5 + chunk);
+    Random random(input.config.seed + 5 + chunk);
     for (std::size_t k = kChunk * chunk; k < std::min(places.size(), kChunk * (chunk + 1)); ++k) {
       const double wanted_m = input.budget.missed_m * (1 + (kWitnessDepth - 1) * random.unit());
       const Vec3 p_O = places[k].p - wanted_m * input.skin.triangle_normal(places[k].triangle);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "server/geometry/random.hpp"
+#include "server/base/random.hpp"
 
 namespace mechane::geometry {
 namespace {

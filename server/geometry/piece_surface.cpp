@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "server/geometry/random.hpp"
+#include "server/base/random.hpp"
 
 namespace mechane::geometry {
 namespace {

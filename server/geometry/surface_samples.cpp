@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "server/geometry/random.hpp"
+#include "server/base/random.hpp"
 
 namespace mechane::geometry {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "server/base/math.hpp"
+#include "server/base/random.hpp"
 #include "server/geometry/mesh_query.hpp"
-#include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "server/geometry/surface_samples.hpp"
 
@@ -21,16 +21,16 @@ struct PlacedSuperquadric {
   Pose X_OQ;
 };
 
-inline double between(geometry::Random& random, double low, double high) {
+inline double between(Random& random, double low, double high) {
   return low + (high - low) * random.unit();
 }
 
-inline double gaussian(geometry::Random& random) {
+inline double gaussian(Random& random) {
   const double radius = std::sqrt(-2 * std::log(1 - random.unit()));
   return radius * std::cos(2 * kPi * random.unit());
 }
 
-inline Vec3 gaussian_vector(geometry::Random& random) {
+inline Vec3 gaussian_vector(Random& random) {
   const double x = gaussian(random);
   const double y = gaussian(random);
   return {x, y, gaussian(random)};
@@ -40,7 +40,7 @@ inline Vec3 gaussian_vector(geometry::Random& random) {
 /// of them with a bend, from end to end uniform in 0 to 90 degrees, in any direction; each drawn independently. A draw that folds over
 /// itself is drawn again. Any size from peg to door, any pose.
 inline PlacedSuperquadric draw_superquadric(std::uint64_t seed) {
-  geometry::Random random(seed);
+  Random random(seed);
   PlacedSuperquadric drawn;
   geometry::Superquadric& s = drawn.shape;
   do {
@@ -91,7 +91,7 @@ inline std::vector<Vec3> points_on(const PlacedSuperquadric& placed, const geome
 /// Gaussian noise of `noise_m` in x, y and z; then about the share `outliers` of the points goes anywhere into a box of twice the
 /// points' sides.
 inline void disturb(std::vector<Vec3>& points, double noise_m, double outliers, std::uint64_t seed) {
-  geometry::Random random(seed);
+  Random random(seed);
   Eigen::AlignedBox3d box;
   for (const Vec3& p : points)
     box.extend(p);

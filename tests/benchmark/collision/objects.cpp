@@ -15,7 +15,6 @@ namespace mechane::benchmark {
 namespace {
 
 using geometry::Mesh;
-using geometry::Random;
 
 constexpr double kUnit_m = 0.14;
 constexpr double kPressShare = 0.015;  // of the diagonal: no hand presses deeper

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "server/base/math.hpp"
+#include "server/base/random.hpp"
 #include "server/geometry/mesh.hpp"
-#include "server/geometry/random.hpp"
 #include "server/geometry/superquadric.hpp"
 
 namespace mechane::benchmark {

@@ -34,7 +34,7 @@ struct Aim {
 };
 
 /// At the object's middle from above, up to half a right angle aside.
-Aim aim_at_middle(const SceneObject& object, geometry::Random& random) {
+Aim aim_at_middle(const SceneObject& object, Random& random) {
   const double tilt = kPi / 4 * random.unit();
   const double towards = 2 * kPi * random.unit();
   return {object.X_WO * object.mesh_O.bounds().center(),
@@ -52,7 +52,7 @@ Aim aim_at_surface(const SceneObject& object, const Vec3& p_O, const Vec3& n_O) 
 
 class Grasp {
  public:
-  Grasp(const SceneObject& object, const HandModel& hand, const Aim& aim, geometry::Random& random)
+  Grasp(const SceneObject& object, const HandModel& hand, const Aim& aim, Random& random)
       : object_(object), hand_(hand), query_(object), X_OW_(object.X_WO.inverse()), aim_(aim) {
     const Quat up = Quat::FromTwoVectors(Vec3::UnitZ(), aim.z_W);
     // Any turn about the palm's normal.
@@ -189,7 +189,7 @@ Scene make_scene(std::uint64_t seed, std::size_t steps) {
   scene.seed = seed;
   scene.objects = make_objects(seed);
   scene.hand = make_hand();
-  geometry::Random random(seed + 1000);
+  Random random(seed + 1000);
   for (std::size_t i = 0; i < kSceneObjects; ++i) {
     const Aim aim = aim_at_middle(scene.objects[i], random);
     const Grasp grasp(scene.objects[i], scene.hand, aim, random);
@@ -207,7 +207,7 @@ Scene make_scene_of(SceneObject object, std::uint64_t seed, std::size_t grasps, 
   scene.seed = seed;
   scene.objects.push_back(std::move(object));
   scene.hand = make_hand();
-  geometry::Random random(seed + 2000);
+  Random random(seed + 2000);
   const std::size_t each = steps / grasps;
   for (const Aim& aim : free_aims(scene.objects.front(), grasps, seed + 3000)) {
     const Grasp grasp(scene.objects.front(), scene.hand, aim, random);

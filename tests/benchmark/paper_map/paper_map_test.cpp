@@ -43,7 +43,7 @@ struct PaperProbe {
 /// Points that lie up to `deepest_m` under the surface of a closed mesh.
 std::vector<PaperProbe> probes_under(const geometry::Mesh& mesh, double deepest_m, std::size_t count) {
   const geometry::MeshQuery query(mesh);
-  geometry::Random random(5);
+  Random random(5);
   std::vector<PaperProbe> probes;
   for (const auto& sample : geometry::sample_by_area(mesh, count, 3)) {
     const Vec3 p = sample.p - test::between(random, 0.05, 1) * deepest_m * query.triangle_normal(sample.triangle);
@@ -71,7 +71,7 @@ RC_GTEST_PROP(PaperMap, EverySearchTakesEightEvaluationsALevelAndOne, ()) {
       {{16, 32}, 0}, {{32, 64}, 1}, {{50, 100}, 1}, {{100, 200}, 2}, {{64, 256}, 3}, {{128, 256}, 3}, {{128, 32}, 3}});
   const PaperMap map = bare_map(shape, grid);
   RC_ASSERT(map.levels() == levels);
-  geometry::Random random(*rc::gen::arbitrary<std::uint64_t>());
+  Random random(*rc::gen::arbitrary<std::uint64_t>());
   for (int i = 0; i < 50; ++i) {
     // Any point of the superquadric, near its poles and seams too.
     const Vec3 surface =
@@ -90,7 +90,7 @@ RC_GTEST_PROP(PaperMap, ItsPlacesAndNormalsAreTheSuperquadrics, ()) {
   const geometry::Superquadric shape = test::draw_superquadric(*rc::gen::arbitrary<std::uint64_t>()).shape;
   const PaperMap map = bare_map(shape);
   const auto size = static_cast<float>(shape.a.maxCoeff());
-  geometry::Random random(*rc::gen::arbitrary<std::uint64_t>());
+  Random random(*rc::gen::arbitrary<std::uint64_t>());
   for (int i = 0; i < 50; ++i) {
     const int eta = static_cast<int>(random.below(100));
     const int omega = static_cast<int>(random.below(200));
@@ -108,7 +108,7 @@ TEST(PaperMap, OnASphereTheDepthErrsByTheGridAlone) {
   const PaperMap map = bare_map(ellipsoid(Vec3::Constant(radius)));
   // The nearest place lies aside by half a cell each way at most: P_M is off by `aside`, the depth by what Pythagoras makes of it.
   const double aside = radius * std::hypot(0.5 * kPi / 99, kPi / 200);
-  geometry::Random random(11);
+  Random random(11);
   for (int i = 0; i < 5000; ++i) {
     const double depth = test::between(random, 0.01, 0.2) * radius;
     const Vec3 p = (radius - depth) * test::gaussian_vector(random).normalized();

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "server/base/random.hpp"
 #include "server/collision/object.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision/superquadric_object.hpp"
 #include "server/geometry/mesh_query.hpp"
-#include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "tests/support/property_draw.hpp"
 
@@ -25,7 +25,7 @@ struct Convex {
 const Convex& any_convex() {
   static const std::vector<Convex> shapes = [] {
     std::vector<Convex> made;
-    geometry::Random random(21);
+    Random random(21);
     for (int i = 0; i < 12; ++i) {
       geometry::Superquadric s;
       s.a = Vec3(0.008 + 0.012 * random.unit(), 0.008 + 0.012 * random.unit(), 0.01 + 0.03 * random.unit());

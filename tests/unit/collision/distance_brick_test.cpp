@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "server/base/random.hpp"
 #include "server/collision_build/build_brick.hpp"
 #include "server/geometry/mesh_query.hpp"
-#include "server/geometry/random.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 using Node = std::array<int, 3>;
 
 std::vector<std::uint8_t> any_levels(const DistanceBrick::Grid& grid, std::uint64_t seed) {
-  geometry::Random random(seed);
+  Random random(seed);
   std::vector<std::uint8_t> levels(grid.block_count());
   for (auto& level : levels)
     level = static_cast<std::uint8_t>(random.below(DistanceBrick::kLevels));
@@ -28,7 +28,7 @@ Vec3f place(const DistanceBrick::Grid& grid, const Node& node) {
   return grid.origin_Q + grid.block_m / DistanceBrick::kFinest * Vec3f(Eigen::Vector3i(node.data()).cast<float>());
 }
 
-Vec3f any_place(const BoxView& box, geometry::Random& random) {
+Vec3f any_place(const BoxView& box, Random& random) {
   Vec3f p;
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
@@ -47,7 +47,7 @@ TEST(DistanceBrick, WhatIsLinearIsToldToAStepAtEveryLevel) {
   const auto plane = [&](const Vec3f& p) { return n.dot(p - Vec3f(-0.1F, 0, 0.4F)); };
   const auto brick = DistanceBrick::from_distances(grid, any_levels(grid, 1),
                                                    [&](const Node& node) { return plane(place(grid, node)); });
-  geometry::Random random(2);
+  Random random(2);
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vec3f p = any_place(brick.box(), random);
@@ -69,7 +69,7 @@ TEST(DistanceBrick, BlocksOfDifferentLevelsAgreeOnTheirFaces) {
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
     const auto brick = DistanceBrick::from_distances(
         grid, any_levels(grid, seed), [&](const Node& node) { return -0.3F - depth(place(grid, node)); });
-    geometry::Random random(seed);
+    Random random(seed);
     for (int i = 0; i < 400; ++i) {
       Vec3f p = any_place(brick.box(), random);
       const auto axis = static_cast<Eigen::Index>(random.below(3));
@@ -130,7 +130,7 @@ TEST(BuildBrick, IsFineWhereTheSurfaceBendsAndNowhereElse) {
     ++blocks[static_cast<std::size_t>(DistanceBrick::Entry::unpacked(word).level)];
   EXPECT_GE(blocks[DistanceBrick::kSheets], 100U) << "its twelve edges and eight corners";
   EXPECT_EQ(blocks[1] + blocks[2], 0U);
-  geometry::Random random(3);
+  Random random(3);
   int asked = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Vec3 p = half.cwiseProduct(Vec3(2 * random.unit() - 1, 2 * random.unit() - 1, 2 * random.unit() - 1));
@@ -159,7 +159,7 @@ TEST(BuildBrick, CullsNoSphereThatHoldsAnInsidePoint) {
   ASSERT_TRUE(brick.has_value());
   const Kernels& kernels = kernels_of(InstructionSet::portable);
   constexpr BlockTransform kIdentity{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
-  geometry::Random random(5);
+  Random random(5);
   const BoxView box = brick->box();
   std::size_t culled = 0;
   std::size_t holding = 0;

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "server/base/random.hpp"
 #include "server/collision/kernel_body.hpp"
 #include "server/collision/part_map.hpp"
 #include "server/collision/superquadric_object.hpp"
-#include "server/geometry/random.hpp"
 
 namespace mechane::collision {
 namespace {
@@ -24,11 +24,11 @@ std::vector<const Kernels*> all_kernels() {
   return found;
 }
 
-float between(geometry::Random& random, double least, double most) {
+float between(Random& random, double least, double most) {
   return static_cast<float>(least + (most - least) * random.unit());
 }
 
-BlockTransform any_transform(geometry::Random& random) {
+BlockTransform any_transform(Random& random) {
   BlockTransform X{};
   for (float& r : X.R_BA)
     r = between(random, -1, 1);
@@ -38,7 +38,7 @@ BlockTransform any_transform(geometry::Random& random) {
 }
 
 /// Most near the map, some far away, one not a number.
-PointBlock any_points(geometry::Random& random) {
+PointBlock any_points(Random& random) {
   PointBlock block{};
   for (std::size_t i = 0; i < kLanes; ++i) {
     const double reach = i % 5 == 4 ? 10 : 0.6;
@@ -78,7 +78,7 @@ void expect_same(const Answer& want, const Answer& got, const char* name) {
 
 /// Asks every set of kernels the same of a map; returns how many points were inside.
 template <class Map, class Inside, class Depth>
-std::size_t expect_all_alike(const Map& map, Inside Kernels::*inside, Depth Kernels::*depth, geometry::Random& random) {
+std::size_t expect_all_alike(const Map& map, Inside Kernels::*inside, Depth Kernels::*depth, Random& random) {
   const BlockTransform X = any_transform(random);
   const PointBlock points = any_points(random);
   const auto ask = [&](const Kernels& kernels) {
@@ -94,7 +94,7 @@ std::size_t expect_all_alike(const Map& map, Inside Kernels::*inside, Depth Kern
   return static_cast<std::size_t>(__builtin_popcount(want.inside));
 }
 
-std::vector<std::uint16_t> any_texels(geometry::Random& random, int resolution) {
+std::vector<std::uint16_t> any_texels(Random& random, int resolution) {
   std::vector<std::uint16_t> texels(static_cast<std::size_t>(6 * resolution * resolution));
   for (auto& texel : texels)
     texel = static_cast<std::uint16_t>(20'000 + random.below(20'000));
@@ -102,7 +102,7 @@ std::vector<std::uint16_t> any_texels(geometry::Random& random, int resolution) 
 }
 
 TEST(Kernels, EverySetGivesTheSameBitsForARadialMap) {
-  geometry::Random random(7);
+  Random random(7);
   std::size_t inside = 0;
   for (int round = 0; round < 400; ++round) {
     const int resolution = 16 << random.below(3);
@@ -119,7 +119,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForARadialMap) {
 }
 
 /// Blocks of any level with any values: no distance, but all that a kernel may read.
-DistanceBrick any_brick(geometry::Random& random) {
+DistanceBrick any_brick(Random& random) {
   DistanceBrick::Grid grid;
   for (int& n : grid.blocks)
     n = static_cast<int>(1 + random.below(6));
@@ -143,7 +143,7 @@ DistanceBrick any_brick(geometry::Random& random) {
 }
 
 TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
-  geometry::Random random(8);
+  Random random(8);
   std::size_t inside = 0;
   for (int round = 0; round < 400; ++round) {
     const DistanceBrick brick = any_brick(random);
@@ -152,7 +152,7 @@ TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
   EXPECT_GT(inside, 200U);
 }
 
-SphereBlock any_spheres(geometry::Random& random) {
+SphereBlock any_spheres(Random& random) {
   SphereBlock spheres{};
   for (std::size_t i = 0; i < kLanes; ++i) {
     spheres.x[i] = between(random, -0.3, 0.3);
@@ -165,7 +165,7 @@ SphereBlock any_spheres(geometry::Random& random) {
 
 /// Points of the sphere, 48 to each, that the map calls inside.
 template <class Map>
-bool holds_an_inside_point(const Map& map, const SphereBlock& spheres, std::size_t i, geometry::Random& random) {
+bool holds_an_inside_point(const Map& map, const SphereBlock& spheres, std::size_t i, Random& random) {
   for (int k = 0; k < 48; ++k) {
     const Vec3f direction = Vec3f::NullaryExpr([&] { return between(random, -1, 1); }).normalized();
     const Vec3f center(spheres.x[i], spheres.y[i], spheres.z[i]);
@@ -177,7 +177,7 @@ bool holds_an_inside_point(const Map& map, const SphereBlock& spheres, std::size
 constexpr BlockTransform kIdentity{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
 
 TEST(Kernels, NoSphereThatHoldsAnInsidePointIsCulledAndManyOthersAre) {
-  geometry::Random random(9);
+  Random random(9);
   geometry::Superquadric shape;
   shape.a = Vec3(0.1, 0.06, 0.15);
   shape.e1 = 0.4;
@@ -204,7 +204,7 @@ TEST(Kernels, NoSphereThatHoldsAnInsidePointIsCulledAndManyOthersAre) {
 }
 
 TEST(Kernels, ABrickCullsNoSphereThatHoldsAnInsidePoint) {
-  geometry::Random random(10);
+  Random random(10);
   // A ball of 8 cm, by blocks of any level.
   const DistanceBrick::Grid grid{{5, 5, 5}, Vec3f::Constant(-0.1F), 0.04F};
   std::vector<std::uint8_t> levels(grid.block_count());

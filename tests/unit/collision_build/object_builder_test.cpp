@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "server/base/random.hpp"
 #include "server/collision/object_io.hpp"
 #include "server/collision/samples.hpp"
 #include "server/geometry/mesh_query.hpp"
-#include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/support/shapes.hpp"
@@ -78,7 +78,7 @@ TEST_P(Barrel, HollowIsAirAndSolidIsSolidAlsoAtTheSeams) {
   ASSERT_TRUE(object) << object.error().to_string();
   expect_sound(*object);
 
-  geometry::Random random(11);
+  Random random(11);
   int missed = 0;
   int sideways = 0;
   double worst = 0;

@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "server/base/random.hpp"
 #include "server/geometry/mesh_check.hpp"
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/piece_region.hpp"
-#include "server/geometry/random.hpp"
 #include "server/geometry/surface_samples.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/support/shapes.hpp"

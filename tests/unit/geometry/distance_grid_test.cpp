@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/geometry/random.hpp"
+#include "server/base/random.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 

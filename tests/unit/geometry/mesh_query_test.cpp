@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "server/base/random.hpp"
 #include "server/geometry/mesh_check.hpp"
-#include "server/geometry/random.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -1,0 +1,46 @@
+#include "server/base/worker.hpp"
+
+#include <future>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace mechane {
+namespace {
+
+TEST(Worker, DoesItsJobsInOrderAndWaitsForNone) {
+  std::promise<void> gate;
+  std::vector<int> done;
+  Worker worker("test");
+  worker.give([opened = gate.get_future().share()] { opened.wait(); });
+  for (int i = 0; i < 3; ++i)
+    worker.give([&done, i] { done.push_back(i); });
+  gate.set_value();  // give() came back while the first job was held
+  worker.wait_until_left(0);
+  EXPECT_EQ(done, (std::vector{0, 1, 2}));
+}
+
+TEST(Worker, EndsWhenAllJobsAreDone) {
+  int done = 0;
+  {
+    Worker worker("a name longer than fifteen bytes");
+    for (int i = 0; i < 50; ++i)
+      worker.give([&done] { ++done; });
+  }
+  EXPECT_EQ(done, 50);
+}
+
+TEST(Worker, WaitsUntilFewEnoughAreLeft) {
+  std::promise<void> gate;
+  const auto opened = gate.get_future().share();
+  Worker worker("test");
+  bool first = false;
+  worker.give([&first] { first = true; });
+  worker.give([opened] { opened.wait(); });
+  worker.wait_until_left(1);
+  EXPECT_TRUE(first);
+  gate.set_value();
+}
+
+}  // namespace
+}  // namespace mechane
