@@ -33,7 +33,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   // A force that comes back begins as a visit does, from zero and ramped: after a silence, and after this loop itself stood still,
   // when an answer from before may still be in its socket and look new.
   const Duration too_long = governor_.config().zero_by;
-  if (age >= too_long || dt >= too_long) governor_.reset();
+  if (age >= too_long || dt >= too_long) governor_.reset(governed_);
   hand::GovernorInput wanted;
   wanted.wanted_W = answer_.force_W;
   wanted.finger_force_n = answer_.finger_force_n;
@@ -42,7 +42,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   wanted.V_WH = input.V_WH;
   wanted.age = age;
   wanted.engaged = engaged;
-  rendered_ = governor_.apply(wanted, dt);
+  rendered_ = governor_.apply(governed_, wanted, dt);
   device_.write(rendered_);
 }
 

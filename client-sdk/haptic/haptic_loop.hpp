@@ -48,13 +48,12 @@ class HapticLoop {
   [[nodiscard]] const LoopStats& stats() const noexcept { return stats_; }
   /// From sending a hand to receiving the force that answers it.
   [[nodiscard]] const realtime::LatencyHistogram& round_trip() const noexcept { return round_trip_; }
-  [[nodiscard]] const hand::ForceGovernor& governor() const noexcept { return governor_; }
   [[nodiscard]] const hand::HandForce& rendered() const noexcept { return rendered_; }
   [[nodiscard]] bool holding() const noexcept { return answer_.holding; }
 
  private:
   HapticLoop(client::Client& client, Device& device, RenderMode mode, const hand::ForceGovernor& governor)
-      : client_(client), device_(device), mode_(mode), governor_(governor) {}
+      : client_(client), device_(device), mode_(mode), governor_(governor), governed_(governor.start()) {}
   bool take_answer() noexcept;
   void set_local_contacts() noexcept;
   void render(const client::HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept;
@@ -63,6 +62,7 @@ class HapticLoop {
   Device& device_;
   RenderMode mode_;
   hand::ForceGovernor governor_;
+  hand::GovernorState governed_;
   hand::LocalContactModel local_;
   hand::SampleAge age_;
   client::ForceSample answer_;

@@ -28,10 +28,12 @@ void print_events(const world::World& world, const record::JournalTick& tick) {
   }
 }
 
-void compare(const record::JournalTick& tick, const world::World& world, ReplayResult& result) {
+void compare(const record::JournalTick& tick, const world::World& world, state::StateVersion version,
+             ReplayResult& result) {
   if (!tick.hash) return;
   ++result.hashes_compared;
-  if (*tick.hash != state::state_hash(world.state) && !result.first_difference) result.first_difference = tick.tick;
+  if (*tick.hash != state::state_hash(world.state, version) && !result.first_difference)
+    result.first_difference = tick.tick;
 }
 
 }  // namespace
@@ -46,17 +48,18 @@ Expected<ReplayResult> replay(record::JournalReader& journal,
   world::NoPublisher publisher;
   ReplayResult result;
   record::JournalTick tick;
+  const state::StateVersion version = journal.header().state_version;
   const TimePoint began = clock.now();
   while (journal.next(tick) && !tick.after_loss) {
     if (options.real_time) clock.sleep_until(began + kTickPeriod * static_cast<std::int64_t>(result.ticks));
     world::step(**world, tick.inputs, publisher, timer);
     ++result.ticks;
-    compare(tick, **world, result);
+    compare(tick, **world, version, result);
     if (options.show_events) print_events(**world, tick);
   }
   result.seconds = std::chrono::duration<double>(clock.now() - began).count();
   result.end = journal.end();
-  result.final_hash = state::state_hash((*world)->state);
+  result.final_hash = state::state_hash((*world)->state, version);
   if (result.end.hash) {
     ++result.hashes_compared;
     if (*result.end.hash != result.final_hash && !result.first_difference)

@@ -47,6 +47,23 @@ bool in_range(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
 
+/// Nothing but numbers within the limits leaves here; the state is ready for the next call.
+HandForce finish(GovernorState& state, HandForce out) noexcept {
+  for (std::size_t i = 0; i < kReasonCount; ++i) {
+    if ((out.reasons & (1u << i)) != 0) ++state.counts[i];
+  }
+  // Arithmetic on finite but absurd inputs may still overflow.
+  const bool sane = out.force_W.f.allFinite() && out.force_W.t.allFinite();
+  if (!sane) {
+    out = nothing(out.reasons | kNotFinite);
+    ++state.counts[std::countr_zero(static_cast<std::uint32_t>(kNotFinite))];
+    state.credit_j = std::min(state.credit_j, 0.0);
+    if (!std::isfinite(state.credit_j)) state.credit_j = 0;
+  }
+  state.last = out;
+  return out;
+}
+
 Expected<void> check(const GovernorConfig& c) {
   struct Range {
     const char* name;
@@ -85,77 +102,84 @@ Expected<ForceGovernor> ForceGovernor::make(const GovernorConfig& config) {
   return ForceGovernor(config);
 }
 
-void ForceGovernor::reset() noexcept {
-  last_ = {};
-  ramp_ = 0;
-  gain_ = 0;
-  credit_j_ = config_.energy_margin_j;
+GovernorState ForceGovernor::start() const noexcept {
+  GovernorState state;
+  state.credit_j = config_.energy_margin_j;
+  return state;
 }
 
-HandForce ForceGovernor::apply(const GovernorInput& input, Duration dt) noexcept {
+void ForceGovernor::reset(GovernorState& state) const noexcept {
+  const auto counts = state.counts;
+  state = start();
+  state.counts = counts;
+}
+
+HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input, Duration dt) const noexcept {
   const double dt_s = to_seconds(std::max(dt, Duration{0}));
   const double step_s = std::min(dt_s, to_seconds(kLongestStep));
   std::uint32_t reasons = kNone;
-  const double gain_before = gain_;
-  gain_ = next_gain(input, dt_s, reasons);
-  if (!all_finite(input)) return finish(nothing(reasons | kNotFinite));
-  settle_energy(input.V_WH, dt_s);
+  const double gain_before = state.gain;
+  state.gain = next_gain(state, input, dt_s, reasons);
+  if (!all_finite(input)) return finish(state, nothing(reasons | kNotFinite));
+  settle_energy(state, input.V_WH, dt_s);
 
   Wrench wanted = input.wanted_W;
   bool clamped = clamp_norm(wanted.f, config_.max_force_n);
   clamped |= clamp_norm(wanted.t, config_.max_torque_nm);
 
   // What is on the device falls with the gain at once; the slew limit holds for the way from there.
-  const double fall = gain_ < gain_before ? gain_ / gain_before : 1.0;
-  HandForce out = last_;
+  const double fall = state.gain < gain_before ? state.gain / gain_before : 1.0;
+  HandForce out = state.last;
   out.force_W.f *= fall;
   out.force_W.t *= fall;
-  bool limited = approach(out.force_W.f, gain_ * wanted.f, config_.max_slew_n_per_s * step_s);
-  limited |= approach(out.force_W.t, gain_ * wanted.t, config_.max_torque_slew_nm_per_s * step_s);
+  bool limited = approach(out.force_W.f, state.gain * wanted.f, config_.max_slew_n_per_s * step_s);
+  limited |= approach(out.force_W.t, state.gain * wanted.t, config_.max_torque_slew_nm_per_s * step_s);
   for (std::size_t i = 0; i < kFingers; ++i) {
     const double finger = std::clamp(input.finger_force_n[i], 0.0, config_.max_finger_force_n);
     clamped |= finger != input.finger_force_n[i];
     out.finger_force_n[i] *= fall;
-    limited |= approach(out.finger_force_n[i], gain_ * finger, config_.max_finger_slew_n_per_s * step_s);
+    limited |= approach(out.finger_force_n[i], state.gain * finger, config_.max_finger_slew_n_per_s * step_s);
   }
   if (clamped) reasons |= kClamped;
   if (limited) reasons |= kSlewLimited;
-  if (config_.passivity && gain_ > 0) keep_passive(input.V_WH, dt_s, out.force_W, reasons);
+  if (config_.passivity && state.gain > 0) keep_passive(state, input.V_WH, dt_s, out.force_W, reasons);
   out.reasons = reasons;
-  return finish(out);
+  return finish(state, out);
 }
 
-double ForceGovernor::next_gain(const GovernorInput& input, double dt_s, std::uint32_t& reasons) noexcept {
+double ForceGovernor::next_gain(GovernorState& state, const GovernorInput& input, double dt_s,
+                                std::uint32_t& reasons) const noexcept {
   const double target = input.engaged ? 1.0 : 0.0;
   const double ramp_time = input.engaged ? config_.ramp_up_s : config_.ramp_down_s;
-  if (ramp_ != target) {
+  if (state.ramp != target) {
     reasons |= kRamping;
     if (ramp_time > 0) {
       const double step_s = input.engaged ? std::min(dt_s, to_seconds(kLongestStep)) : dt_s;
-      approach(ramp_, target, step_s / ramp_time);
+      approach(state.ramp, target, step_s / ramp_time);
     } else {
-      ramp_ = target;
+      state.ramp = target;
     }
   }
   const double fresh = freshness(input.age, config_.hold, config_.zero_by);
   if (fresh < 1.0) reasons |= kStale;
-  return fresh * ramp_;
+  return fresh * state.ramp;
 }
 
 // The force of the last call acted while the hand moved on to where it is now: its work comes off the credit (a hand that works
 // against the force pays in).
-void ForceGovernor::settle_energy(const Twist& V_WH, double dt_s) noexcept {
-  const double given_out = (last_.force_W.f.dot(V_WH.v) + last_.force_W.t.dot(V_WH.w)) * dt_s;
-  credit_j_ = std::min(credit_j_ - given_out, config_.energy_credit_j);
+void ForceGovernor::settle_energy(GovernorState& state, const Twist& V_WH, double dt_s) const noexcept {
+  const double given_out = (state.last.force_W.f.dot(V_WH.v) + state.last.force_W.t.dot(V_WH.w)) * dt_s;
+  state.credit_j = std::min(state.credit_j - given_out, config_.energy_credit_j);
   // A velocity that is finite but absurd (1e300 m/s) must not poison the account for ever.
-  credit_j_ = std::max(credit_j_, -config_.energy_credit_j - config_.energy_margin_j);
+  state.credit_j = std::max(state.credit_j, -config_.energy_credit_j - config_.energy_margin_j);
 }
 
-void ForceGovernor::keep_passive(const Twist& V_WH, double dt_s, Wrench& force, std::uint32_t& reasons) noexcept {
+void ForceGovernor::keep_passive(const GovernorState& state, const Twist& V_WH, double dt_s, Wrench& force,
+                                 std::uint32_t& reasons) const noexcept {
   const double power_f = force.f.dot(V_WH.v);
   const double power_t = force.t.dot(V_WH.w);
   if (dt_s <= 0) return;
-  const double excess = power_f + power_t - credit_j_ / dt_s;  // watts over what the account can pay in this step
+  const double excess = power_f + power_t - state.credit_j / dt_s;  // watts over what the account can pay in this step
   if (excess <= 0) return;
   reasons |= kDamped;
   const double positive = std::max(power_f, 0.0) + std::max(power_t, 0.0);
@@ -172,29 +196,13 @@ void ForceGovernor::keep_passive(const Twist& V_WH, double dt_s, Wrench& force, 
   Vec3 damping = -std::min(overdrawn / speed_squared, config_.max_damping_ns_per_m) * V_WH.v;
   clamp_norm(damping, config_.max_slew_n_per_s * std::min(dt_s, to_seconds(kLongestStep)));
   force.f += damping;
-  clamp_norm(force.f, config_.max_force_n * gain_);
+  clamp_norm(force.f, config_.max_force_n * state.gain);
 }
 
-HandForce ForceGovernor::finish(HandForce out) noexcept {
-  for (std::size_t i = 0; i < kReasonCount; ++i) {
-    if ((out.reasons & (1u << i)) != 0) ++counts_[i];
-  }
-  // Arithmetic on finite but absurd inputs may still overflow; nothing but numbers within the limits leaves this class.
-  const bool sane = out.force_W.f.allFinite() && out.force_W.t.allFinite();
-  if (!sane) {
-    out = nothing(out.reasons | kNotFinite);
-    ++counts_[std::countr_zero(static_cast<std::uint32_t>(kNotFinite))];
-    credit_j_ = std::min(credit_j_, 0.0);
-    if (!std::isfinite(credit_j_)) credit_j_ = 0;
-  }
-  last_ = out;
-  return out;
-}
-
-std::uint64_t ForceGovernor::count(ForceReason reason) const noexcept {
+std::uint64_t GovernorState::count(ForceReason reason) const noexcept {
   const auto bits = static_cast<std::uint32_t>(reason);
   if (!std::has_single_bit(bits) || std::countr_zero(bits) >= static_cast<int>(kReasonCount)) return 0;
-  return counts_[static_cast<std::size_t>(std::countr_zero(bits))];
+  return counts[static_cast<std::size_t>(std::countr_zero(bits))];
 }
 
 }  // namespace mechane::hand

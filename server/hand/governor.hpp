@@ -1,5 +1,4 @@
-// ForceGovernor: the last word on every force that reaches a hand. The server runs one per user, the client another
-// one.
+// ForceGovernor: the last word on every force that reaches a hand. The server runs one for its users, the client another one.
 #pragma once
 
 #include <array>
@@ -40,10 +39,25 @@ struct GovernorInput {
   bool engaged = true;                            ///< a visit is on; the governor ramps when this changes
 };
 
-/// One hand's governor. In this order: a number that is not finite makes everything zero at once; force and torque are
-/// clamped as vectors, keeping their direction; the gain (freshness of the sample times the ramp of the visit) scales
-/// them; the slew limit holds their change; the energy observer takes away what the system would give out beyond what
-/// it was given, and damps.
+/// What a governor remembers of one hand between two calls. Plain, so that it stands where its owner keeps all that
+/// changes: a world in its WorldState, a client beside its device. Made by ForceGovernor::start(); one that is
+/// default-made has no margin of energy.
+struct GovernorState {
+  HandForce last;   ///< what is on the device now
+  double ramp = 0;  ///< 0 .. 1
+  double gain = 0;  ///< of the last call: freshness times ramp
+  /// What the hand has put in and not yet got back, plus the margin. Below zero: the observer is damping.
+  double credit_j = 0;
+  std::array<std::uint64_t, kReasonCount> counts{};  ///< how many calls had each reason, by bit
+
+  /// `reason` is one bit.
+  [[nodiscard]] std::uint64_t count(ForceReason reason) const noexcept;
+};
+
+/// The rules for one hand, as functions of a configuration and a state. In this order: a number that is not finite
+/// makes everything zero at once; force and torque are clamped as vectors, keeping their direction; the gain (freshness
+/// of the sample times the ramp of the visit) scales them; the slew limit holds their change; the energy observer takes
+/// away what the system would give out beyond what it was given, and damps.
 ///
 /// The slew limit never delays a safety drop: when the gain falls, what is on the device now falls with it, at once,
 /// and the limit holds for what remains; a fall of the gain to zero is a force of exactly zero. Upwards the limit
@@ -54,7 +68,7 @@ struct GovernorInput {
 /// part along the motion, which can only shrink it, has no limit, while added damping has one; force and torque share
 /// one account.
 ///
-/// One thread; no allocation; the same inputs give the same bits.
+/// Any thread, each with states of its own; no allocation; the same inputs give the same bits.
 class ForceGovernor {
  public:
   /// Errors name the setting that is out of range.
@@ -63,32 +77,25 @@ class ForceGovernor {
   /// The longest time that slew and ramp are counted for in one call: a loop that was held up does not make up for it in one step.
   static constexpr Duration kLongestStep = std::chrono::milliseconds(2);
 
+  /// A hand that was not there before: no force, a ramp to come.
+  [[nodiscard]] GovernorState start() const noexcept;
   /// The force for the next `dt`; call at the device's rate. `dt` <= 0 allows no rise.
-  [[nodiscard]] HandForce apply(const GovernorInput& input, Duration dt) noexcept;
+  [[nodiscard]] HandForce apply(GovernorState& state, const GovernorInput& input, Duration dt) const noexcept;
+  /// Back to the start; counts stay.
+  void reset(GovernorState& state) const noexcept;
 
-  /// Back to the start: no force, a ramp to come. Counters stay.
-  void reset() noexcept;
-
-  /// How many calls had this reason; `reason` is one bit.
-  [[nodiscard]] std::uint64_t count(ForceReason reason) const noexcept;
-  /// What the hand has put in and not yet got back, plus the margin, J. Below zero: the observer is damping.
-  [[nodiscard]] double energy_credit_j() const noexcept { return credit_j_; }
   [[nodiscard]] const GovernorConfig& config() const noexcept { return config_; }
 
  private:
-  explicit ForceGovernor(const GovernorConfig& config) : config_(config), credit_j_(config.energy_margin_j) {}
+  explicit ForceGovernor(const GovernorConfig& config) : config_(config) {}
 
-  [[nodiscard]] double next_gain(const GovernorInput& input, double dt_s, std::uint32_t& reasons) noexcept;
-  void settle_energy(const Twist& V_WH, double dt_s) noexcept;
-  void keep_passive(const Twist& V_WH, double dt_s, Wrench& force, std::uint32_t& reasons) noexcept;
-  HandForce finish(HandForce out) noexcept;
+  [[nodiscard]] double next_gain(GovernorState& state, const GovernorInput& input, double dt_s,
+                                 std::uint32_t& reasons) const noexcept;
+  void settle_energy(GovernorState& state, const Twist& V_WH, double dt_s) const noexcept;
+  void keep_passive(const GovernorState& state, const Twist& V_WH, double dt_s, Wrench& force,
+                    std::uint32_t& reasons) const noexcept;
 
   GovernorConfig config_;
-  HandForce last_;   // what is on the device now
-  double ramp_ = 0;  // 0 .. 1
-  double gain_ = 0;  // of the last call: freshness times ramp
-  double credit_j_ = 0;
-  std::array<std::uint64_t, kReasonCount> counts_{};
 };
 
 }  // namespace mechane::hand

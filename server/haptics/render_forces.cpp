@@ -138,13 +138,17 @@ Expected<ForceRenderer> ForceRenderer::create(const ForceConfig& config) {
   return ForceRenderer(config, *governor);
 }
 
-void ForceRenderer::run(const state::WorldDescription& description, state::WorldState& state) noexcept {
+void ForceRenderer::start(state::WorldState& state) const noexcept {
+  state.governors.fill(governor_.start());
+}
+
+void ForceRenderer::run(const state::WorldDescription& description, state::WorldState& state) const noexcept {
   for (std::size_t i = 0; i < state.users.size(); ++i)
     render_user(description, state, i);
 }
 
 void ForceRenderer::render_user(const state::WorldDescription& description, state::WorldState& state,
-                                std::size_t index) noexcept {
+                                std::size_t index) const noexcept {
   UserState& user = state.users[index];
   const std::uint64_t echo_sequence = user.sample.sequence;
   const std::uint64_t echo_sent_ns = user.sample.sent_ns;
@@ -159,18 +163,15 @@ void ForceRenderer::render_user(const state::WorldDescription& description, stat
     }
     render_grasp(state, user);
   }
-  hand::ForceGovernor& governor = governors_[index];
-  if (user.jumped) governor.reset();
+  hand::GovernorState& governor = state.governors[index];
+  if (user.jumped) governor_.reset(governor);
   hand::GovernorInput input;
   input.wanted_W = user.output.force_W;
   input.finger_force_n = user.output.finger_force_n;
   input.V_WH = user.V_WH;
   input.age = user.age;
   input.engaged = user.present;
-  const hand::HandForce governed = governor.apply(input, kTickPeriod);
-  user.output.force_W = governed.force_W;
-  user.output.finger_force_n = governed.finger_force_n;
-  user.output.reasons = governed.reasons;
+  static_cast<hand::HandForce&>(user.output) = governor_.apply(governor, input, kTickPeriod);
 }
 
 }  // namespace mechane::haptics

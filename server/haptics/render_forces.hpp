@@ -1,8 +1,6 @@
 // Phase 5 of the tick: from contacts and grasps to what the visitor feels and what the bodies get.
 #pragma once
 
-#include <array>
-
 #include "server/hand/governor.hpp"
 #include "server/haptics/hand_model.hpp"
 #include "server/state/world_state.hpp"
@@ -24,24 +22,25 @@ struct ForceConfig {
   hand::GovernorConfig governor;  ///< the server's own limits: the first word; the client's governor has the last
 };
 
-/// Renders the forces of a world's users. Holds one governor per user and nothing else; called by the world's thread only.
+/// Renders the forces of a world's users. Remembers nothing itself: what changes lies in the WorldState. Any thread.
 class ForceRenderer {
  public:
   /// Errors: a setting of the governor that is out of range.
   [[nodiscard]] static Expected<ForceRenderer> create(const ForceConfig& config);
 
+  /// Governors as they are before anybody came.
+  void start(state::WorldState& state) const noexcept;
   /// Writes every user's HapticOutput and adds the opposite forces to the bodies' loads. Allocates nothing.
-  void run(const state::WorldDescription& description, state::WorldState& state) noexcept;
+  void run(const state::WorldDescription& description, state::WorldState& state) const noexcept;
 
  private:
   ForceRenderer(const ForceConfig& config, const hand::ForceGovernor& governor)
-      : config_(config), governors_{governor, governor, governor, governor} {
-    static_assert(hand::kMaxUsers == 4, "one governor a user");
-  }
-  void render_user(const state::WorldDescription& description, state::WorldState& state, std::size_t index) noexcept;
+      : config_(config), governor_(governor) {}
+  void render_user(const state::WorldDescription& description, state::WorldState& state,
+                   std::size_t index) const noexcept;
 
   ForceConfig config_;
-  std::array<hand::ForceGovernor, hand::kMaxUsers> governors_;
+  hand::ForceGovernor governor_;
 };
 
 }  // namespace mechane::haptics

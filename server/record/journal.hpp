@@ -1,6 +1,7 @@
 // The journal: every input and event of a world at tick rate, so that the visit can be run again to the bit.
 //
-// A file is the magic "MECHJRNL" and a version (u32), then frames to the end. A frame is
+// A file is the magic "MECHJRNL" and a version (u32), then frames to the end. The version is that of the state whose hashes it holds
+// (state::StateVersion): a journal is compared over the fields of its time. A frame is
 //
 //     kind u8 | length u32 | checksum u64 | payload of `length` bytes
 //
@@ -20,9 +21,9 @@
 #include <string>
 #include <vector>
 
-namespace mechane::record {
+#include "server/state/world_state.hpp"
 
-inline constexpr std::uint32_t kJournalVersion = 1;
+namespace mechane::record {
 
 /// What a replay needs before the first tick.
 struct JournalHeader {
@@ -35,6 +36,7 @@ struct JournalHeader {
   std::uint64_t start_wall_ns = 0;  ///< since 1970 UTC; for people
   std::uint64_t first_tick = 0;
   std::vector<std::byte> snapshot;  ///< the state before the first tick; empty: as the scenario describes it
+  state::StateVersion state_version = state::kStateVersion;  ///< what the hashes are over
 };
 
 /// How a journal ends.

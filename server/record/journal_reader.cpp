@@ -70,8 +70,11 @@ Expected<void> JournalReader::read_header(const std::string& name) {
     return fail("is not a journal", name, "give a .journal file that a Mechane server wrote");
   }
   ByteSource version_bytes(std::span<const std::byte>(preamble).subspan(sizeof journal_format::kMagic));
-  if (const auto version = version_bytes.get<std::uint32_t>(); version != kJournalVersion) {
-    return fail(fmt::format("is a journal of version {}, and this program reads version {}", version, kJournalVersion),
+  const auto version = version_bytes.get<std::uint32_t>();
+  header_.state_version = static_cast<state::StateVersion>(version);
+  if (!state::is_known(header_.state_version)) {
+    return fail(fmt::format("is a journal of version {}, and this program reads 1 to {}", version,
+                            static_cast<std::uint32_t>(state::kStateVersion)),
                 name, "use the release that wrote it");
   }
   good_offset_ = journal_format::kPreambleSize;

@@ -19,7 +19,7 @@ constexpr std::size_t kFullFrame = 256u << 10;
 JournalWriter::JournalWriter(const JournalHeader& header) {
   VectorSink file(bytes_);
   file.append(reinterpret_cast<const std::byte*>(journal_format::kMagic), sizeof journal_format::kMagic);
-  put(file, kJournalVersion);
+  put(file, static_cast<std::uint32_t>(header.state_version));
   std::vector<std::byte> payload;
   VectorSink sink(payload);
   for (const std::string* text :

@@ -13,7 +13,8 @@ namespace mechane::state {
 template <class Archive, class State>
 class StateWalk {
  public:
-  StateWalk(Archive& archive, State& state) : archive_(archive), state_(state) {}
+  StateWalk(Archive& archive, State& state, StateVersion version = kStateVersion)
+      : archive_(archive), state_(state), version_(version) {}
 
   void run() {
     archive_.bytes(state_.tick);
@@ -30,9 +31,14 @@ class StateWalk {
     for (auto& user : state_.users)
       walk_user(user);
     walk_progress(state_.progress);
-    // Last, so that a world without couplings has the bytes and the hash that it had before there were any.
+    // After what is older, so that a world without couplings has the bytes that it had before there were any.
     for (auto& coupling : state_.couplings)
       walk_coupling(coupling);
+    if (version_ == StateVersion::without_governors) return;
+    for (auto& user : state_.users)
+      archive_.bytes(user.age);
+    for (auto& governor : state_.governors)
+      walk_governor(governor);
   }
 
  private:
@@ -100,6 +106,19 @@ class StateWalk {
     vector(user.output.force_W.f);
     vector(user.output.force_W.t);
   }
+  template <class G>
+  void walk_governor(G& governor) {
+    vector(governor.last.force_W.f);
+    vector(governor.last.force_W.t);
+    for (auto& force : governor.last.finger_force_n)
+      archive_.bytes(force);
+    archive_.bytes(governor.last.reasons);
+    archive_.bytes(governor.ramp);
+    archive_.bytes(governor.gain);
+    archive_.bytes(governor.credit_j);
+    for (auto& count : governor.counts)
+      archive_.bytes(count);
+  }
   template <class P>
   void walk_progress(P& progress) {
     archive_.bytes(progress.activity);
@@ -125,6 +144,7 @@ class StateWalk {
 
   Archive& archive_;
   State& state_;
+  StateVersion version_;
 };
 
 }  // namespace mechane::state

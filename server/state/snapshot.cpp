@@ -12,12 +12,11 @@ namespace mechane::state {
 namespace {
 
 constexpr char kMagic[8] = {'M', 'E', 'C', 'H', 'S', 'N', 'A', 'P'};
-constexpr std::uint32_t kVersion = 1;
 
 /// In front of the fields. All numbers little-endian, as on every machine that the server runs on.
 struct Header {
   char magic[8];
-  std::uint32_t version;
+  StateVersion version;
   std::uint32_t bodies;
   std::uint32_t joints;
   std::uint32_t quantities;
@@ -69,10 +68,10 @@ class ReadArchive {
   bool ok_ = true;
 };
 
-Header header_of(const WorldState& state) {
+Header header_of(const WorldState& state, StateVersion version) {
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof kMagic);
-  header.version = kVersion;
+  header.version = version;
   header.bodies = static_cast<std::uint32_t>(state.bodies.size());
   header.joints = static_cast<std::uint32_t>(state.joints.size());
   header.quantities = static_cast<std::uint32_t>(state.quantities.size());
@@ -97,12 +96,12 @@ bool ids_in_range(const WorldState& state) {
 
 }  // namespace
 
-void write_snapshot(const WorldState& state, std::vector<std::byte>& out) {
-  Header header = header_of(state);
+void write_snapshot(const WorldState& state, std::vector<std::byte>& out, StateVersion version) {
+  Header header = header_of(state, version);
   out.clear();
   out.resize(sizeof header);
   WriteArchive archive(out);
-  StateWalk<WriteArchive, const WorldState>(archive, state).run();
+  StateWalk<WriteArchive, const WorldState>(archive, state, version).run();
   header.body_bytes = out.size() - sizeof header;
   header.checksum = XXH3_64bits(out.data() + sizeof header, header.body_bytes);
   std::memcpy(out.data(), &header, sizeof header);
@@ -114,11 +113,12 @@ Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state
   if (bytes.size() < sizeof header) return fail("the snapshot is cut off in its header", "snapshot", start_anew);
   std::memcpy(&header, bytes.data(), sizeof header);
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) return fail("not a snapshot", "snapshot", start_anew);
-  if (header.version != kVersion) {
-    return fail(fmt::format("the snapshot is of version {}, this program reads {}", header.version, kVersion),
+  if (!is_known(header.version)) {
+    return fail(fmt::format("the snapshot is of version {}, this program reads 1 to {}",
+                            static_cast<std::uint32_t>(header.version), static_cast<std::uint32_t>(kStateVersion)),
                 "snapshot", start_anew);
   }
-  if (!same_tables(header, header_of(state))) {
+  if (!same_tables(header, header_of(state, header.version))) {
     return fail("the snapshot is of another scenario, or of an earlier form of this one", "snapshot", start_anew);
   }
   const auto body = bytes.subspan(sizeof header);
@@ -127,7 +127,7 @@ Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state
   }
   ReadArchive archive(body);
   WorldState read = state;
-  StateWalk<ReadArchive, WorldState>(archive, read).run();
+  StateWalk<ReadArchive, WorldState>(archive, read, header.version).run();
   if (!archive.complete() || !ids_in_range(read)) {
     return fail("the snapshot holds impossible values", "snapshot", start_anew);
   }

@@ -12,7 +12,7 @@ namespace mechane::state {
 
 /// Everything that the next tick reads, but for what the dynamics engine keeps inside (contact caches, warm starts):
 /// so a resume starts a new journal segment. `out` is overwritten; it allocates only when its capacity is too small.
-void write_snapshot(const WorldState& state, std::vector<std::byte>& out);
+void write_snapshot(const WorldState& state, std::vector<std::byte>& out, StateVersion version = kStateVersion);
 
 /// Fills a state that was made from the same description. Errors: wrong magic, version, checksum, or other table sizes.
 [[nodiscard]] Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state);

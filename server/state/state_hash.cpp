@@ -41,9 +41,9 @@ class HashArchive {
 
 }  // namespace
 
-std::uint64_t state_hash(const WorldState& state) noexcept {
+std::uint64_t state_hash(const WorldState& state, StateVersion version) noexcept {
   HashArchive archive;
-  StateWalk<HashArchive, const WorldState>(archive, state).run();
+  StateWalk<HashArchive, const WorldState>(archive, state, version).run();
   return archive.digest();
 }
 

@@ -9,7 +9,7 @@
 
 #include "server/base/ids.hpp"
 #include "server/base/math.hpp"
-#include "server/hand/hand_force.hpp"
+#include "server/hand/governor.hpp"
 #include "server/state/coupling.hpp"
 #include "server/state/description.hpp"
 #include "server/state/event.hpp"
@@ -104,6 +104,7 @@ struct WorldState {
   std::vector<Coupling> couplings;          ///< of the agents; see MemoryLayout::add_coupling
   std::vector<double> memory;  ///< what agents and machines remember: slots given out when the world is built
   std::array<UserState, hand::kMaxUsers> users{};
+  std::array<hand::GovernorState, hand::kMaxUsers> governors{};  ///< by user; a hand that left still ramps down
   Progress progress;
   std::array<Event, kMaxEventsPerTick> events{};  ///< of this tick
   std::uint32_t event_count = 0;
@@ -151,7 +152,17 @@ class MemoryLayout {
   std::vector<Coupling> couplings_;
 };
 
+/// Which fields are hashed and saved. Journals and snapshots say theirs, and are compared and read over these fields.
+enum class StateVersion : std::uint32_t {
+  without_governors = 1,  ///< journals of version 1
+  with_governors = 2,     ///< and with the age of each user's last sample
+};
+inline constexpr StateVersion kStateVersion = StateVersion::with_governors;
+[[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {
+  return version >= StateVersion::without_governors && version <= kStateVersion;
+}
+
 /// 64-bit XXH3 over the bits of everything that the next tick depends on, in a fixed order. Equal hashes: equal worlds.
-[[nodiscard]] std::uint64_t state_hash(const WorldState& state) noexcept;
+[[nodiscard]] std::uint64_t state_hash(const WorldState& state, StateVersion version = kStateVersion) noexcept;
 
 }  // namespace mechane::state

@@ -32,6 +32,7 @@ Expected<std::unique_ptr<World>> World::create(const std::shared_ptr<const state
       new World(description, std::move(*agents), std::move(*machines), config.hand, std::move(*forces)));
   world->state.memory = layout.initial();
   world->agents->start(world->state);
+  world->forces.start(world->state);
   auto dynamics = dynamics::DynamicsWorld::create(*description, world->state);
   if (!dynamics) return tl::unexpected(dynamics.error());
   world->dynamics = std::move(*dynamics);
@@ -58,8 +59,10 @@ Expected<std::unique_ptr<World>> World::resume(const std::shared_ptr<const state
     return fail("the snapshot is at a step that the scenario does not have", "snapshot",
                 "delete it; the world starts from the beginning");
   }
+  // The hands left with the server that stopped, and come back as new ones.
   for (state::UserState& user : state.users)
     user = state::UserState{};
+  (*world)->forces.start(state);
   auto dynamics = dynamics::DynamicsWorld::create(*description, state);
   if (!dynamics) return tl::unexpected(dynamics.error());
   (*world)->dynamics = std::move(*dynamics);

@@ -39,7 +39,7 @@ class World {
   const std::unique_ptr<agents::AgentSet> agents;
   const std::unique_ptr<machines::MachineSet> machines;
   const std::shared_ptr<const haptics::HandModel> hand;
-  haptics::ForceRenderer forces;
+  const haptics::ForceRenderer forces;
   std::unique_ptr<dynamics::DynamicsWorld> dynamics;
 
  private:

@@ -10,6 +10,7 @@
 #include "server/state/world_state.hpp"
 #include "server/world/step.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/golden_machine.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/visit_hand.hpp"
@@ -59,11 +60,6 @@ std::uint64_t run(Play& play, std::uint64_t* allocations = nullptr) {
   return state::state_hash(play.world->state);
 }
 
-/// The mathematics library chooses its code by the processor; only those with FMA give the golden bits.
-bool has_fma() {
-  return __builtin_cpu_supports("fma") != 0 && __builtin_cpu_supports("avx2") != 0;
-}
-
 TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
   MECHANE_NOT_UNDER_ADDRESS_SANITIZER("ten thousand ticks, played twice");
   Play first = make_play();
@@ -71,7 +67,7 @@ TEST(ArchimedesScrew, TenThousandTicksGiveTheGoldenHash) {
   Play second = make_play();
   EXPECT_EQ(run(second), hash) << "two runs in one process must agree";
   EXPECT_GT(first.world->state.joints[0].position, 2 * kPi) << "the visit must do something worth hashing";
-  if (!has_fma()) GTEST_SKIP() << "the golden hash is of processors with FMA";
+  if (!test::gives_golden_bits()) GTEST_SKIP() << "the golden hash is of processors with FMA";
   std::ostringstream text;
   text << std::hex << hash;
   const std::string path = mechane::test::source_folder().string() + "/tests/golden/archimedes-screw.hash";

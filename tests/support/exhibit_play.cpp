@@ -92,7 +92,7 @@ class Play {
     wanted.wanted_W = answer.force_W;
     wanted.finger_force_n = answer.finger_force_n;
     wanted.V_WH = V_WH;
-    device_.write(governor_.apply(wanted, kTickPeriod));
+    device_.write(governor_.apply(governed_, wanted, kTickPeriod));
   }
 
   void note_steps() {
@@ -133,6 +133,7 @@ class Play {
   std::unique_ptr<world::World> world_;
   haptic::VirtualDevice device_;
   hand::ForceGovernor governor_;
+  hand::GovernorState governed_ = governor_.start();
   visitor::VisitPlayer player_;
   std::vector<Pose> X_WB_;  // as last seen
   SystemClock clock_;

@@ -21,19 +21,22 @@ constexpr Duration kDt = 1ms;
 constexpr double kDt_s = 1e-3;
 constexpr std::uint32_t kSafetyDrop = kStale | kRamping | kDamped | kNotFinite;
 
-ForceGovernor make(GovernorConfig config = {}) {
-  auto made = ForceGovernor::make(config);
-  EXPECT_TRUE(made.has_value());
-  return *made;
-}
+/// One hand's rules and what they remember.
+struct OneHand {
+  explicit OneHand(const GovernorConfig& config = {}) : governor(ForceGovernor::make(config).value()) {}
+  HandForce apply(const GovernorInput& input, Duration dt = kDt) { return governor.apply(state, input, dt); }
+
+  ForceGovernor governor;
+  GovernorState state = governor.start();
+};
 
 // A governor that has finished ramping up with a force of `wanted` in x on the device.
-ForceGovernor settled(double wanted_n, GovernorConfig config = {}) {
-  ForceGovernor governor = make(config);
+OneHand settled(double wanted_n, GovernorConfig config = {}) {
+  OneHand governor(config);
   GovernorInput input;
   input.wanted_W.f.x() = wanted_n;
   for (int i = 0; i < 1000; ++i)
-    (void)governor.apply(input, kDt);
+    (void)governor.apply(input);
   return governor;
 }
 
@@ -92,11 +95,11 @@ RC_GTEST_PROP(ForceGovernor, NeverLeavesItsLimitsWhateverComesIn, ()) {
   config.passivity = *rc::gen::arbitrary<bool>();
   config.ramp_up_s = *rc::gen::element(0.0, 0.01, 0.5);
   config.ramp_down_s = *rc::gen::element(0.0, 0.01, 0.1);
-  ForceGovernor governor = make(config);
+  OneHand governor(config);
   HandForce last;
   for (int i = 0; i < 60; ++i) {
     const GovernorInput in = wild_input();
-    const HandForce out = governor.apply(in, kDt);
+    const HandForce out = governor.apply(in);
     RC_ASSERT(out.force_W.f.norm() <= config.max_force_n * (1 + 1e-12));
     RC_ASSERT(out.force_W.t.norm() <= config.max_torque_nm * (1 + 1e-12));
     for (const double f : out.finger_force_n)
@@ -117,83 +120,83 @@ RC_GTEST_PROP(ForceGovernor, NeverLeavesItsLimitsWhateverComesIn, ()) {
 }
 
 TEST(ForceGovernor, LeavesAModestForceAlone) {
-  ForceGovernor governor = settled(1.5);
+  OneHand governor = settled(1.5);
   GovernorInput input;
   input.wanted_W.f = Vec3(1.5, 0, 0);
-  const HandForce out = governor.apply(input, kDt);
+  const HandForce out = governor.apply(input);
   EXPECT_EQ(out.force_W.f, Vec3(1.5, 0, 0));
   EXPECT_EQ(out.reasons, kNone);
 }
 
 TEST(ForceGovernor, ClampsTheVectorAndKeepsItsDirection) {
-  ForceGovernor governor = make({});
+  OneHand governor;
   GovernorInput input;
   input.wanted_W.f = Vec3(30, -40, 0);
   HandForce out;
   for (int i = 0; i < 1000; ++i)
-    out = governor.apply(input, kDt);
+    out = governor.apply(input);
   EXPECT_NEAR(out.force_W.f.norm(), 3.0, 1e-12);
   EXPECT_TRUE(out.force_W.f.normalized().isApprox(Vec3(0.6, -0.8, 0), 1e-12));
   EXPECT_EQ(out.reasons, kClamped);
-  EXPECT_EQ(governor.count(kClamped), 1000u);
+  EXPECT_EQ(governor.state.count(kClamped), 1000u);
 }
 
 TEST(ForceGovernor, HoldsTo10msFallsAtOnceAndIsZeroBy50msHoweverSlowTheSlew) {
   GovernorConfig config;
   config.max_slew_n_per_s = 10;  // 0.01 N a tick: the decay must not wait for it
-  ForceGovernor governor = settled(2.0, config);
+  OneHand governor = settled(2.0, config);
   GovernorInput input;
   input.wanted_W.f = Vec3(2, 0, 0);
   for (int ms = 0; ms <= 60; ++ms) {
     input.age = std::chrono::milliseconds(ms);
-    const HandForce out = governor.apply(input, kDt);
+    const HandForce out = governor.apply(input);
     EXPECT_NEAR(out.force_W.f.x(), 2.0 * freshness(input.age), 1e-9) << ms << " ms";
     EXPECT_EQ(out.force_W.f.x() == 0.0, ms >= 50);
     EXPECT_EQ((out.reasons & kStale) != 0, ms > 10);
   }
   input.age = 0ms;
-  EXPECT_LE(governor.apply(input, kDt).force_W.f.x(), 0.01 + 1e-12) << "back again, the slew limit holds";
+  EXPECT_LE(governor.apply(input).force_W.f.x(), 0.01 + 1e-12) << "back again, the slew limit holds";
 }
 
 TEST(ForceGovernor, RampsUpAtTheStartAndDownAtTheEnd) {
-  ForceGovernor governor = make({});
+  OneHand governor;
   GovernorInput input;
   input.wanted_W.f = Vec3(1, 0, 0);
-  EXPECT_LT(governor.apply(input, kDt).force_W.f.x(), 0.01);
+  EXPECT_LT(governor.apply(input).force_W.f.x(), 0.01);
   HandForce out;
   for (int i = 1; i < 250; ++i)
-    out = governor.apply(input, kDt);
+    out = governor.apply(input);
   EXPECT_NEAR(out.force_W.f.x(), 0.5, 0.01);
   EXPECT_NE(out.reasons & kRamping, 0u);
   for (int i = 0; i < 300; ++i)
-    out = governor.apply(input, kDt);
+    out = governor.apply(input);
   EXPECT_EQ(out.force_W.f.x(), 1.0);
   input.engaged = false;
   for (int i = 0; i < 101; ++i)
-    out = governor.apply(input, kDt);
+    out = governor.apply(input);
   EXPECT_TRUE(is_zero(out));
 }
 
 TEST(ForceGovernor, ALateCallDoesNotMakeUpForTheTimeItMissed) {
   GovernorInput input;
   input.wanted_W.f.x() = 3;
-  ForceGovernor starting = make({});
+  OneHand starting;
   (void)starting.apply(input, 4s);
   EXPECT_LE(starting.apply(input, 4s).force_W.f.norm(), 3 * 2 * to_seconds(ForceGovernor::kLongestStep) / 0.5);
-  ForceGovernor pressing = settled(0.5);
+  OneHand pressing = settled(0.5);
   EXPECT_LE(pressing.apply(input, 20ms).force_W.f.norm(), 0.5 + 1000 * to_seconds(ForceGovernor::kLongestStep));
 }
 
 TEST(ForceGovernor, ANumberThatIsNotFiniteIsNoForceAtAllAndPassesBy) {
-  ForceGovernor governor = settled(2.0);
+  OneHand governor = settled(2.0);
   GovernorInput input;
   input.wanted_W.f = Vec3(std::nan(""), 0, 0);
-  const HandForce out = governor.apply(input, kDt);
+  const HandForce out = governor.apply(input);
   EXPECT_TRUE(is_zero(out));
   EXPECT_EQ(out.reasons, kNotFinite);
-  EXPECT_EQ(governor.count(kNotFinite), 1u);
+  EXPECT_EQ(governor.state.count(kNotFinite), 1u);
   input.wanted_W.f = Vec3(2, 0, 0);
-  EXPECT_NEAR(governor.apply(input, kDt).force_W.f.x(), 1.0, 1e-12) << "1000 N/s in a millisecond";
+  EXPECT_NEAR(governor.apply(input).force_W.f.x(), 1.0, 1e-12) << "1000 N/s in a millisecond";
 }
 
 // A virtual wall whose force comes late: the classic way to make a haptic system put out energy. The hand is a mass that flies against
@@ -211,7 +214,7 @@ Bounce bounce(bool passivity, int delay_ticks, double stiffness, double speed, d
   config.max_force_n = 20;
   config.max_slew_n_per_s = slew;
   config.ramp_up_s = 0;
-  ForceGovernor governor = make(config);
+  OneHand governor(config);
   std::deque<double> late(static_cast<std::size_t>(delay_ticks), 0.0);
   double x = 0.01, v = -speed, force = 0, out_j = 0, peak_j = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -225,7 +228,7 @@ Bounce bounce(bool passivity, int delay_ticks, double stiffness, double speed, d
     input.wanted_W.f.x() = late.front();
     late.pop_front();
     input.V_WH.v.x() = (x - x_before) / kDt_s;
-    force = governor.apply(input, kDt).force_W.f.x();
+    force = governor.apply(input).force_W.f.x();
   }
   return {out_j, peak_j, std::abs(v) / speed};
 }
@@ -266,16 +269,57 @@ TEST(ForceGovernor, RefusesSettingsOutOfRangeByName) {
   EXPECT_THAT(error_of([](auto& c) { c.zero_by = c.hold; }), testing::HasSubstr("zero_by"));
 }
 
+/// A push that the observer must damp, with every field of the state in use.
+GovernorInput lively_input(int i) {
+  GovernorInput input;
+  input.wanted_W = {Vec3(2, std::sin(0.1 * i), 0), Vec3(0, 0.1, 0)};
+  input.finger_force_n = {1, 2, 3, 4, 5};
+  input.V_WH.v.x() = 0.1;
+  input.age = std::chrono::milliseconds(i % 30);
+  return input;
+}
+
+TEST(ForceGovernor, GoesOnFromACopiedStateToTheSameBits) {
+  OneHand one;
+  for (int i = 0; i < 300; ++i)
+    (void)one.apply(lively_input(i));
+  OneHand other;
+  other.state = one.state;
+  for (int i = 300; i < 600; ++i) {
+    const HandForce a = one.apply(lively_input(i));
+    const HandForce b = other.apply(lively_input(i));
+    ASSERT_EQ(a.force_W.f, b.force_W.f) << i;
+    ASSERT_EQ(a.force_W.t, b.force_W.t) << i;
+    ASSERT_EQ(a.finger_force_n, b.finger_force_n) << i;
+    ASSERT_EQ(a.reasons, b.reasons) << i;
+  }
+  EXPECT_EQ(one.state.counts, other.state.counts);
+}
+
+TEST(ForceGovernor, AResetKeepsTheCountsAndNothingElse) {
+  OneHand hand;
+  for (int i = 0; i < 300; ++i)
+    (void)hand.apply(lively_input(i));
+  const auto counts = hand.state.counts;
+  ASSERT_GT(counts[2], 0u) << "the observer must have damped";
+  hand.governor.reset(hand.state);
+  EXPECT_EQ(hand.state.counts, counts);
+  EXPECT_EQ(hand.state.credit_j, hand.governor.start().credit_j);
+  EXPECT_EQ(hand.state.gain, 0);
+  EXPECT_EQ(hand.state.ramp, 0);
+  EXPECT_TRUE(is_zero(hand.state.last));
+}
+
 TEST(ForceGovernor, AllocatesNothing) {
   MECHANE_NOT_SANITIZED("a sanitizer's malloc cannot be counted");
-  ForceGovernor governor = make({});
+  OneHand governor;
   GovernorInput input;
   input.wanted_W.f = Vec3(30, 1, 2);
   input.V_WH.v = Vec3(0.3, 0, 0);
   const test::AllocationGuard guard;
   for (int i = 0; i < 1000; ++i) {
     input.age = std::chrono::milliseconds(i % 70);
-    (void)governor.apply(input, kDt);
+    (void)governor.apply(input);
   }
   EXPECT_EQ(guard.allocations(), 0u);
 }

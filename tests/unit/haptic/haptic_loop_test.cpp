@@ -85,7 +85,7 @@ class HapticLoopTest : public ::testing::Test {
   }
   /// From zero, by no more than the ramp of a visit's start allows, to all of it.
   void expect_ramp() {
-    const double ramp_s = loop_->governor().config().ramp_up_s;
+    const double ramp_s = device_.limits().ramp_up_s;
     for (double t_s = 0; t_s < ramp_s; t_s += to_seconds(kTick))
       ASSERT_LE(tick(true), kPressN * (t_s + 4 * to_seconds(kTick)) / ramp_s) << t_s << " s after the first answer";
     EXPECT_NEAR(tick_for(20ms, true), kPressN, 1e-9);

@@ -36,6 +36,7 @@ class Bench {
  public:
   Bench(const WorldDescription& world, ForceConfig config)
       : world_(world), state_(world), renderer_(ForceRenderer::create(config).value()) {
+    renderer_.start(state_);
     state_.users[0].present = true;
     state_.users[0].freshness = 1;
     for (int i = 0; i < 2000; ++i)

@@ -25,6 +25,10 @@ WorldState sample_state(double x) {
   state.users[2].grasp.active = true;
   state.users[2].grasp.body = BodyId(1);
   state.progress.step = StepId(3);
+  state.users[2].age = Duration(12'345);
+  state.governors[2].last.force_W.f = Vec3(0.5, x, 0);
+  state.governors[2].credit_j = 0.25;
+  state.governors[2].counts[4] = 7;
   return state;
 }
 
@@ -91,6 +95,38 @@ TEST(StateHash, SeesEveryTable) {
   changed = base;
   changed.memory[0] = -changed.memory[0];
   EXPECT_NE(state_hash(changed), hash);
+  changed = base;
+  changed.users[3].age = Duration(1);
+  EXPECT_NE(state_hash(changed), hash);
+}
+
+TEST(StateHash, SeesAllThatAGovernorRemembers) {
+  const WorldState base = sample_state(1);
+  const std::uint64_t hash = state_hash(base);
+  const auto differs = [&](auto change) {
+    WorldState changed = base;
+    change(changed.governors[1]);
+    return state_hash(changed) != hash;
+  };
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.last.force_W.f.x() = 1e-300; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.last.force_W.t.z() = 1e-300; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.last.finger_force_n[4] = 1e-300; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.last.reasons = hand::kDamped; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.ramp = 1e-300; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.gain = 1e-300; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.credit_j = 1e-300; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.counts[5] = 1; }));
+}
+
+TEST(StateHash, OfVersion1KnowsNoGovernor) {
+  const WorldState base = sample_state(1);
+  WorldState changed = base;
+  changed.governors[1].credit_j = 1;
+  changed.users[1].age = Duration(1);
+  EXPECT_EQ(state_hash(changed, StateVersion::without_governors), state_hash(base, StateVersion::without_governors));
+  EXPECT_NE(state_hash(base, StateVersion::without_governors), state_hash(base));
+  changed.bodies[0].X_WB.p.x() = 1e-300;
+  EXPECT_NE(state_hash(changed, StateVersion::without_governors), state_hash(base, StateVersion::without_governors));
 }
 
 }  // namespace
