@@ -267,12 +267,12 @@ Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDesc
 /// Where the kiosk was before a restart, or the scenario's beginning.
 Expected<std::unique_ptr<world::World>> Lobby::make_world(Entry& entry, record::JournalHeader& header) {
   const std::string& kiosk = entry.kiosks.front();
-  if (auto snapshot = take_snapshot_of(kiosk, *entry.description)) {
+  if (const record::SnapshotFile* snapshot = snapshot_of(kiosk, *entry.description)) {
     auto resumed = world::World::resume(entry.description, scenarios_.world_config(), snapshot->state);
     if (resumed) {
       log::info(fmt::format("resumed {} where it was: step {}, tick {}", kiosk,
                             step_name(*entry.description, (*resumed)->state), (*resumed)->state.tick));
-      header.snapshot = std::move(snapshot->state);
+      header.snapshot = snapshot->state;
       header.first_tick = (*resumed)->state.tick + 1;
       return resumed;
     }
@@ -282,22 +282,26 @@ Expected<std::unique_ptr<world::World>> Lobby::make_world(Entry& entry, record::
   return world::World::create(entry.description, scenarios_.world_config());
 }
 
-std::optional<record::SnapshotFile> Lobby::take_snapshot_of(const std::string& kiosk,
-                                                            const state::WorldDescription& description) {
-  std::optional<record::SnapshotFile> found;
-  for (auto it = from_before_.begin(); it != from_before_.end();) {
-    if (it->info.kiosk != kiosk) {
-      ++it;
-      continue;
-    }
-    const double age_s = 1e-9 * static_cast<double>(wall_ns() - std::min(wall_ns(), it->info.wall_ns));
-    const bool usable = it->info.scenario_hash == description.content_hash && age_s <= settings_.resume_within_s;
-    if (usable && (!found || it->info.wall_ns > found->info.wall_ns)) found = *it;
-    std::error_code ignored;
-    std::filesystem::remove(record::snapshot_path(settings_.records, it->info.world_id), ignored);
-    it = from_before_.erase(it);
+const record::SnapshotFile* Lobby::snapshot_of(const std::string& kiosk,
+                                               const state::WorldDescription& description) const {
+  const record::SnapshotFile* found = nullptr;
+  for (const record::SnapshotFile& file : from_before_) {
+    if (file.info.kiosk != kiosk || file.info.scenario_hash != description.content_hash) continue;
+    const double age_s = 1e-9 * static_cast<double>(wall_ns() - std::min(wall_ns(), file.info.wall_ns));
+    if (age_s > settings_.resume_within_s) continue;
+    if (found == nullptr || file.info.wall_ns > found->info.wall_ns) found = &file;
   }
   return found;
+}
+
+std::vector<std::filesystem::path> Lobby::take_snapshots_of(const std::string& kiosk) {
+  std::vector<std::filesystem::path> paths;
+  std::erase_if(from_before_, [&](const record::SnapshotFile& file) {
+    if (file.info.kiosk != kiosk) return false;
+    paths.push_back(record::snapshot_path(settings_.records, file.info.world_id));
+    return true;
+  });
+  return paths;
 }
 
 void Lobby::start_records(Entry& entry, record::JournalHeader header) {
@@ -309,7 +313,9 @@ void Lobby::start_records(Entry& entry, record::JournalHeader header) {
   header.build_id = kVersion;
   std::vector<std::byte> sample;
   state::write_snapshot(entry.running.world->state, sample);
-  entry.running.recorder.emplace(recorder_->open(std::move(header), sample.size() + 4096));
+  auto replaced = take_snapshots_of(header.kiosk);
+  entry.running.recorder.emplace(recorder_->open(std::move(header), sample.size() + 4096, std::move(replaced)));
+  entry.running.keep_snapshot();
 }
 
 void Lobby::start_visits(Entry& entry, bool resumed) {

@@ -78,8 +78,11 @@ class Lobby {
   [[nodiscard]] Expected<Entry*> open(std::vector<std::string> kiosks,
                                       std::shared_ptr<const state::WorldDescription> description);
   [[nodiscard]] Expected<std::unique_ptr<world::World>> make_world(Entry& entry, record::JournalHeader& header);
-  [[nodiscard]] std::optional<record::SnapshotFile> take_snapshot_of(const std::string& kiosk,
-                                                                     const state::WorldDescription& description);
+  /// The newest snapshot that the kiosk can be put back to; null: none.
+  [[nodiscard]] const record::SnapshotFile* snapshot_of(const std::string& kiosk,
+                                                        const state::WorldDescription& description) const;
+  /// Forgets the kiosk's snapshots from before. Their files, which stay until the new world's own snapshot is on the disk.
+  [[nodiscard]] std::vector<std::filesystem::path> take_snapshots_of(const std::string& kiosk);
   void start_records(Entry& entry, record::JournalHeader header);
   void start_visits(Entry& entry, bool resumed);
   /// `went_on_to`: the scenario that its visitors go on to; empty: none.

@@ -22,7 +22,7 @@ std::uint64_t number_of(std::span<const std::byte> record) {
 
 JournalChannel::JournalChannel(const JournalHeader& header, std::filesystem::path journal,
                                std::filesystem::path snapshot, std::size_t ring_bytes, std::size_t snapshot_capacity,
-                               Duration retry_after)
+                               Duration retry_after, std::vector<std::filesystem::path> replaced)
     : ring_(ring_bytes),
       snapshots_([snapshot_capacity] {
         Snapshot slot;
@@ -35,6 +35,7 @@ JournalChannel::JournalChannel(const JournalHeader& header, std::filesystem::pat
       header_(header),
       journal_path_(std::move(journal)),
       snapshot_path_(std::move(snapshot)),
+      replaced_(std::move(replaced)),
       retry_after_(retry_after),
       writer_(header),
       stored_(writer_.position()),
@@ -128,7 +129,15 @@ void JournalChannel::write_snapshot() {
                           header_.scenario_hash, snapshot->tick, wall_now_ns()};
   auto written = write_snapshot_file(snapshot_path_, info, snapshot->bytes);
   snapshot_problem_ = written ? std::string() : written.error().to_string();
-  if (written) ++snapshots_written_;
+  if (!written) return;
+  ++snapshots_written_;
+  remove_replaced();
+}
+
+void JournalChannel::remove_replaced() {
+  std::error_code ignored;
+  for (const std::filesystem::path& path : std::exchange(replaced_, {}))
+    std::filesystem::remove(path, ignored);
 }
 
 void JournalChannel::sync() {
@@ -151,6 +160,7 @@ std::uint64_t JournalChannel::ticks_lost() const {
 void JournalChannel::finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_snapshot) {
   write_snapshot();
   if (remove_snapshot) {
+    remove_replaced();
     std::error_code ignored;  // it may never have been written
     std::filesystem::remove(snapshot_path_, ignored);
   }

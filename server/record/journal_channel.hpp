@@ -25,8 +25,10 @@ class JournalChannel {
     std::vector<std::byte> bytes;
   };
 
+  /// `replaced`: snapshots that go as soon as the first one of this world is on the disk.
   JournalChannel(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
-                 std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after);
+                 std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after,
+                 std::vector<std::filesystem::path> replaced = {});
 
   // The loop side.
   void push(const TickRecord& record) noexcept;
@@ -57,6 +59,7 @@ class JournalChannel {
   void store(TimePoint now);
   [[nodiscard]] Expected<void> append(std::span<const std::byte> bytes);
   void write_snapshot();
+  void remove_replaced();
 
   realtime::ByteRing ring_;
   realtime::Mailbox<Snapshot> snapshots_;
@@ -69,6 +72,7 @@ class JournalChannel {
   JournalHeader header_;         // its snapshot moves into the file's first bytes
   std::filesystem::path journal_path_;
   std::filesystem::path snapshot_path_;
+  std::vector<std::filesystem::path> replaced_;  // until the first snapshot is on the disk
   Duration retry_after_;
   JournalWriter writer_;
   JournalWriter::Position stored_;    // what the file holds

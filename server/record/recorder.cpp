@@ -139,7 +139,8 @@ Recorder::~Recorder() {
   thread_.join();
 }
 
-WorldRecorder Recorder::open(JournalHeader header, std::size_t snapshot_capacity) {
+WorldRecorder Recorder::open(JournalHeader header, std::size_t snapshot_capacity,
+                             std::vector<std::filesystem::path> replaced) {
   if (header.start_wall_ns == 0) header.start_wall_ns = wall_now_ns();
   const std::lock_guard lock(mutex_);
   // A journal of the same millisecond may be on the disk, or about to be.
@@ -152,7 +153,7 @@ WorldRecorder Recorder::open(JournalHeader header, std::size_t snapshot_capacity
   auto entry = std::make_unique<Entry>();
   entry->channel = std::make_unique<JournalChannel>(header, journal_path_of(config_.folder, header, is_taken),
                                                     snapshot_path(config_.folder, header.world_id), config_.ring_bytes,
-                                                    snapshot_capacity, config_.retry_after);
+                                                    snapshot_capacity, config_.retry_after, std::move(replaced));
   entries_.push_back(std::move(entry));
   return {*this, *entries_.back()->channel};
 }
@@ -215,16 +216,17 @@ std::vector<Recorder::Work> Recorder::wait_for_work(bool& stopping) {
 void Recorder::do_work(const std::vector<Work>& work, TimePoint time) {
   const bool sync = time >= next_sync_;
   if (sync) next_sync_ = time + config_.sync_period;
+  for (const Work& w : work) {
+    if (w.finish) continue;
+    w.entry->channel->drain(time);
+    if (sync) w.entry->channel->sync();
+  }
+  // After the others: where visitors went on to another world, its snapshot is on the disk before that of the old world goes.
   bool finished = false;
   for (const Work& w : work) {
-    JournalChannel& channel = *w.entry->channel;
-    if (w.finish) {
-      channel.finish(time, w.final_hash, w.remove_snapshot);
-      finished = true;
-    } else {
-      channel.drain(time);
-      if (sync) channel.sync();
-    }
+    if (!w.finish) continue;
+    w.entry->channel->finish(time, w.final_hash, w.remove_snapshot);
+    finished = true;
   }
   if (!finished && time < next_retention_) return;
   next_retention_ = time + kRetentionPeriod;

@@ -88,7 +88,10 @@ class Recorder {
 
   /// Begins a journal "<folder>/<world>-<start time>.journal". `snapshot_capacity`: bytes of a snapshot of this world, with room to
   /// spare. A start_wall_ns of 0 becomes now. A file that cannot be made now is tried again later. Any thread but the loops.
-  [[nodiscard]] WorldRecorder open(JournalHeader header, std::size_t snapshot_capacity);
+  /// `replaced`: snapshots of earlier worlds that are removed as soon as the first one of this world is on the disk, so that there
+  /// is always one.
+  [[nodiscard]] WorldRecorder open(JournalHeader header, std::size_t snapshot_capacity,
+                                   std::vector<std::filesystem::path> replaced = {});
 
   /// Any thread but the loops.
   [[nodiscard]] RecorderStatus status() const;

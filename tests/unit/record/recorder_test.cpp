@@ -3,6 +3,7 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <future>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -261,6 +262,57 @@ TEST_F(RecorderTest, TheNewestSnapshotIsOnTheDiskAndGoesWithTheVisit) {
   EXPECT_EQ(file->state, std::vector<std::byte>(5, std::byte{2}));
   world.close(1, WorldRecorder::Snapshot::remove);
   EXPECT_TRUE(find_snapshots(folder_).empty());
+}
+
+TEST_F(RecorderTest, AnEarlierSnapshotStaysUntilTheNewOneIsOnTheDisk) {
+  const fs::path earlier = snapshot_path(folder_, "world-1");
+  ASSERT_TRUE(write_snapshot_file(earlier, {}, {}).has_value());
+  auto recorder = make();
+  WorldRecorder unwritten = recorder->open(a_header(), 64, {earlier});
+  unwritten.push(hand_tick(0).record());
+  unwritten.close(1);
+  EXPECT_TRUE(fs::exists(earlier)) << "a world that took no snapshot of its own must leave the earlier one";
+
+  WorldRecorder world = recorder->open(a_header(), 64, {earlier});
+  world.snapshot_buffer().assign(3, std::byte{1});
+  world.commit_snapshot(1000);
+  const fs::path own = snapshot_path(folder_, "kiosk-3");
+  bool never_without = true;
+  ASSERT_TRUE(comes_true([&] {
+    const bool was_there = fs::exists(earlier);
+    never_without = never_without && (was_there || fs::exists(own));
+    return !was_there;
+  }));
+  EXPECT_TRUE(never_without);
+
+  ASSERT_TRUE(write_snapshot_file(earlier, {}, {}).has_value());
+  recorder->open(a_header(), 64, {earlier}).close(1, WorldRecorder::Snapshot::remove);
+  EXPECT_TRUE(find_snapshots(folder_).empty()) << "the visit is over";
+  world.close(1);
+}
+
+TEST_F(RecorderTest, VisitorsWhoGoOnAreNeverWithoutASnapshot) {
+  auto recorder = make();
+  const auto open = [&](int i) {
+    JournalHeader header = a_header();
+    header.world_id = "world-" + std::to_string(i);
+    WorldRecorder world = recorder->open(header, 64);
+    world.snapshot_buffer().assign(3, std::byte{1});
+    world.commit_snapshot(1);
+    return world;
+  };
+  const auto path = [&](int i) { return snapshot_path(folder_, "world-" + std::to_string(i)); };
+  WorldRecorder world = open(0);
+  ASSERT_TRUE(comes_true([&] { return fs::exists(path(0)); }));
+  for (int i = 1; i < 30; ++i) {
+    auto seen = std::async(std::launch::async, [&, i] {
+      return comes_true([&] { return !fs::exists(path(i - 1)); }) && fs::exists(path(i));
+    });
+    WorldRecorder next = open(i);
+    world.close(1, WorldRecorder::Snapshot::remove);
+    world = std::move(next);
+    EXPECT_TRUE(seen.get()) << "world " << i;
+  }
 }
 
 TEST_F(RecorderTest, ASnapshotIsTheOldOneOrTheNewOneWhole) {
