@@ -121,7 +121,7 @@ std::string questions_table(const ActivitySummary& a) {
   Columns table({"question", "asked", "answers", "mean", "spread", "satisfied", "right"});
   for (const QuestionSummary& q : a.questions) {
     const bool scale = !q.at_mark.empty();
-    table.add({shown(q.name), std::string(word_of(q.when)), fmt::format("{}", q.answers),
+    table.add({shown(q.name), std::string(visits::word_of(q.when)), fmt::format("{}", q.answers),
                scale ? fmt::format("{:.2f} of {}", q.mean, q.at_mark.size()) : "-",
                scale ? fmt::format("{:.2f}", q.spread) : "-", scale ? percent(q.satisfied, q.answers) : "-",
                percent(q.right, q.judged)});
@@ -158,7 +158,8 @@ Cells cells_of(const VisitSheet& sheet) {
   for (const auto& [name, time_s] : times)
     cells[fmt::format("{} {} s", sheet.activity, name)] = fmt::format("{:.3f}", time_s);
   for (const SheetAnswer& answer : sheet.answers)
-    cells[fmt::format("{} {}: {}", sheet.activity, word_of(answer.when), answer.question)] = answer_value(answer);
+    cells[fmt::format("{} {}: {}", sheet.activity, visits::word_of(answer.when), answer.question)] =
+        answer_value(answer);
   return cells;
 }
 
@@ -202,7 +203,7 @@ Json json_of(const TimeSpread& time) {
 }
 
 Json json_of(const QuestionSummary& q) {
-  Json json{{"question", q.name}, {"asked", word_of(q.when)}, {"answers", q.answers}};
+  Json json{{"question", q.name}, {"asked", visits::word_of(q.when)}, {"answers", q.answers}};
   if (!q.at_mark.empty()) {
     json.update({{"at_mark", q.at_mark}, {"mean", q.mean}, {"spread", q.spread}, {"satisfied", q.satisfied}});
   } else {
@@ -249,7 +250,7 @@ Json json_of(const ActivitySummary& a) {
 }
 
 Json json_of(const SheetAnswer& answer) {
-  Json json{{"question", answer.question}, {"asked", word_of(answer.when)}};
+  Json json{{"question", answer.question}, {"asked", visits::word_of(answer.when)}};
   if (answer.marks > 0) {
     json.update({{"mark", answer.mark}, {"marks", answer.marks}});
   } else {
@@ -359,7 +360,7 @@ std::string visit_page(const VisitSheet& sheet) {
   for (const SheetAnswer& answer : sheet.answers) {
     const std::string value =
         answer.marks > 0 ? fmt::format("{} of {}", answer.mark, answer.marks) : shown(answer.value);
-    line("answer", fmt::format("{}, {}: {}{}", shown(answer.question), word_of(answer.when), value,
+    line("answer", fmt::format("{}, {}: {}{}", shown(answer.question), visits::word_of(answer.when), value,
                                !answer.right ? "" : (*answer.right ? ", right" : ", wrong")));
   }
   for (const visits::SheetRemark& remark : sheet.remarks)

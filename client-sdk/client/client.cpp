@@ -82,10 +82,10 @@ class ClientImpl final : public Client {
   std::uint64_t open_exhibit(const std::string& scenario) override {
     return send_command(mechane_command_open, scenario);
   }
-  std::uint64_t answer(AnswerTime when, const std::string& activity, const std::string& question,
-                       const std::string& answer) override {
-    const char* const time = when == AnswerTime::before ? "before" : "after";
-    return send_command(mechane_command_answer, fmt::format("{}:{}/{}={}", time, activity, question, answer));
+  std::uint64_t answer(const VisitAnswer& given) override {
+    const char* const time = given.when == AnswerTime::before ? "before" : "after";
+    return send_command(mechane_command_answer,
+                        fmt::format("{}:{}/{}={}", time, given.activity, given.question, given.answer));
   }
   std::uint64_t tell_language(const std::string& language) override {
     return send_command(mechane_command_language, language);

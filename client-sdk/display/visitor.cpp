@@ -50,8 +50,8 @@ void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now
 void Visitor::send_answers() {
   const visit::VisitorRequests requests = panel_.take_requests();
   if (requests.home) (void)client_.open_exhibit("");
-  for (const visit::VisitorAnswer& given : requests.answers) {
-    if (client_.answer(given.when, given.activity, given.question, given.answer) == 0)
+  for (const client::VisitAnswer& given : requests.answers) {
+    if (client_.answer(given) == 0)
       log::warning("an answer to '" + given.question + "' was not sent: the display is in no world");
   }
 }

@@ -148,9 +148,4 @@ std::uint64_t RecordedClient::open_exhibit(const std::string& /*scenario*/) {
   return 0;
 }
 
-std::uint64_t RecordedClient::answer(client::AnswerTime /*when*/, const std::string& /*activity*/,
-                                     const std::string& /*question*/, const std::string& /*answer*/) {
-  return 0;
-}
-
 }  // namespace mechane::recording

@@ -51,8 +51,7 @@ class RecordedClient final : public client::Client {
   std::uint64_t next_step() override { return 0; }
   std::uint64_t click(const std::string& object) override;
   std::uint64_t open_exhibit(const std::string& scenario) override;
-  std::uint64_t answer(client::AnswerTime when, const std::string& activity, const std::string& question,
-                       const std::string& answer) override;
+  std::uint64_t answer(const client::VisitAnswer& /*answer*/) override { return 0; }
   std::uint64_t tell_language(const std::string& /*language*/) override { return 0; }
 
  private:

@@ -35,17 +35,10 @@ struct VisitorNews {
   std::string home{};  ///< id of the scenario that Home leads to; empty: not known
 };
 
-struct VisitorAnswer {
-  client::AnswerTime when = client::AnswerTime::after;
-  std::string activity;
-  std::string question;
-  std::string answer;
-};
-
 /// What the display has to do for the visitor.
 struct VisitorRequests {
   bool home = false;
-  std::vector<VisitorAnswer> answers;  ///< oldest first
+  std::vector<client::VisitAnswer> answers;  ///< oldest first
 };
 
 class VisitorPanel {

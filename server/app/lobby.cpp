@@ -26,15 +26,6 @@ std::string step_name(const state::WorldDescription& description, const state::W
   return state.progress.step ? description.steps[state.progress.step.index()].name : std::string("none");
 }
 
-/// An answer by the names that the scenario gives, as a sheet keeps it.
-visits::VisitAnswer sheet_answer(const state::WorldDescription& description, const transport::VisitAnswer& given) {
-  const state::ActivityDescription& activity = description.activities[given.activity.index()];
-  const state::QuestionDescription& question = activity.questionnaire[given.question];
-  const bool choice = question.kind == state::QuestionDescription::Kind::choice;
-  return {activity.name, question.name, choice ? question.answers[given.answer].name : std::to_string(given.answer),
-          given.after ? visits::AnswerTime::after : visits::AnswerTime::before};
-}
-
 std::string who(const Session& session) {
   return fmt::format("{} of {} (user {}, {} on {})", session.role == transport::Role::hand ? "hand" : "watcher",
                      session.kiosk, session.user, session.program, session.host);
@@ -331,8 +322,7 @@ void Lobby::take_answers() {
     if (language && entry->visits != nullptr) entry->visits->set_language(entry->description->languages[*language]);
     while (const auto given = entry->running.port->take_answer()) {
       if (entry->visits == nullptr) continue;
-      if (auto kept = entry->visits->answer(sheet_answer(*entry->description, *given)); !kept)
-        log::warning(kept.error().to_string());
+      if (auto kept = entry->visits->answer(*given); !kept) log::warning(kept.error().to_string());
     }
   }
 }

@@ -20,7 +20,7 @@ void WorldVisits::look() {
   hand_over();
 }
 
-Expected<void> WorldVisits::answer(const visits::VisitAnswer& answer) {
+Expected<void> WorldVisits::answer(const state::VisitAnswer& answer) {
   look();
   auto taken = observer_.answer(answer);
   hand_over();

@@ -20,8 +20,8 @@ class WorldVisits {
   [[nodiscard]] visits::VisitFeed& feed() { return feed_; }
   /// Takes what the loop has noted. Now and then, so that the feed does not run over.
   void look();
-  /// A visitor's answer. Errors: the activity does not ask that, or it is not one of its answers.
-  [[nodiscard]] Expected<void> answer(const visits::VisitAnswer& answer);
+  /// A visitor's answer. Errors: another activity runs, or nobody was seen at it.
+  [[nodiscard]] Expected<void> answer(const state::VisitAnswer& answer);
   /// The language that the kiosk speaks from now on: "el".
   void set_language(std::string language) { observer_.set_language(std::move(language)); }
   /// The loop has given the world back, and it closes. `cut`: the server stops; else the visitors left, for `went_on_to` where that is

@@ -149,7 +149,7 @@ void WorldEndpoints::take_request(const std::string& scenario, std::uint64_t id)
 }
 
 void WorldEndpoints::take_answer(const std::string& argument, std::uint64_t id) {
-  const auto answer = read_answer(argument, port_.description());
+  const auto answer = state::parse_visit_answer(argument, port_.description());
   if (!answer || !port_.offer_answer(*answer)) return refuse(id);
   reply(id, state::EventKind::command_done);
 }

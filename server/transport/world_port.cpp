@@ -110,8 +110,8 @@ std::optional<std::uint32_t> WorldPort::take_language() {
   return newest;
 }
 
-std::optional<VisitAnswer> WorldPort::take_answer() {
-  VisitAnswer answer;
+std::optional<state::VisitAnswer> WorldPort::take_answer() {
+  state::VisitAnswer answer;
   return answers_.pop(answer) ? std::optional(answer) : std::nullopt;
 }
 

@@ -13,8 +13,8 @@
 #include "server/realtime/ring.hpp"
 #include "server/state/description.hpp"
 #include "server/state/input.hpp"
+#include "server/state/visit_answer.hpp"
 #include "server/state/world_state.hpp"
-#include "server/transport/visit_answer.hpp"
 
 namespace mechane::transport {
 
@@ -90,7 +90,7 @@ class WorldPort {
   /// The newest request of somebody at a kiosk of this world: the scenario to go on to, by its place in TransportConfig::scenarios.
   [[nodiscard]] std::optional<std::uint32_t> take_request();
   /// The next answer of a visitor, in the order in which they came.
-  [[nodiscard]] std::optional<VisitAnswer> take_answer();
+  [[nodiscard]] std::optional<state::VisitAnswer> take_answer();
   /// The newest language that a display has told: by its place in the description's languages.
   [[nodiscard]] std::optional<std::uint32_t> take_language();
   /// Lets go of lanes that the loop has stopped using. ServerTransport::poll() calls it.
@@ -109,7 +109,7 @@ class WorldPort {
   // The other sides, each for one thread of the transport's.
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
   bool offer_request(std::uint32_t scenario) noexcept { return requests_.push(scenario); }        ///< command listener
-  bool offer_answer(const VisitAnswer& answer) noexcept { return answers_.push(answer); }         ///< command listener
+  bool offer_answer(const state::VisitAnswer& answer) noexcept { return answers_.push(answer); }  ///< command listener
   bool offer_language(std::uint32_t language) noexcept { return languages_.push(language); }      ///< command listener
   [[nodiscard]] const SceneSnapshot* take_snapshot() noexcept { return snapshots_.take(); }       ///< scene publisher
   bool take_event(state::Event& out) noexcept { return events_.pop(out); }                        ///< scene publisher
@@ -148,7 +148,7 @@ class WorldPort {
   realtime::Ring<state::Event> events_{kEventCapacity};
   realtime::Ring<state::Command> commands_{kCommandCapacity};
   realtime::Ring<std::uint32_t> requests_{8};
-  realtime::Ring<VisitAnswer> answers_{64};
+  realtime::Ring<state::VisitAnswer> answers_{64};
   realtime::Ring<std::uint32_t> languages_{8};
   std::atomic<std::uint64_t> events_lost_{0};
 

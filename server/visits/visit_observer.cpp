@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,25 +20,15 @@ std::string name_of(const List& list, std::uint32_t index) {
 
 constexpr double kHalfTick_s = 0.5 * kTickSeconds;
 
-Expected<SheetAnswer> checked(const state::QuestionDescription& question, const VisitAnswer& given) {
-  SheetAnswer answer{.question = given.question, .when = given.when};
+SheetAnswer sheet_answer(const state::QuestionDescription& question, const state::VisitAnswer& given) {
+  SheetAnswer answer{.question = question.name, .when = given.when};
   if (question.kind == state::QuestionDescription::Kind::scale) {
     answer.marks = question.marks;
-    const char* end = given.answer.data() + given.answer.size();
-    const auto [at, error] = std::from_chars(given.answer.data(), end, answer.mark);
-    if (error != std::errc{} || at != end || answer.mark < 1 || answer.mark > question.marks) {
-      return fail(fmt::format("'{}' is not a mark", given.answer), "question " + given.question,
-                  fmt::format("answer with 1 to {}", question.marks));
-    }
+    answer.mark = static_cast<int>(given.answer);
     return answer;
   }
-  const auto known = std::ranges::find(question.answers, given.answer, &state::QuestionDescription::Answer::name);
-  if (known == question.answers.end()) {
-    return fail(fmt::format("'{}' is not one of its answers", given.answer), "question " + given.question,
-                "answer with a name that the scenario gives");
-  }
-  answer.value = given.answer;
-  if (!question.correct.empty()) answer.right = given.answer == question.correct;
+  answer.value = question.answers[given.answer].name;
+  if (!question.correct.empty()) answer.right = answer.value == question.correct;
   return answer;
 }
 
@@ -350,34 +339,27 @@ void VisitObserver::look(std::uint64_t tick, std::uint32_t lost) {
   if (tick_ - std::min(tick_, last_sign_) >= kAway) finish(VisitEnding::left, last_sign_, step_);
 }
 
-Expected<void> VisitObserver::answer(const VisitAnswer& given) {
-  if (!activity_) return fail("the scenario has no activity, and asks nothing", description_->id, "see the scenario");
-  const state::ActivityDescription& activity = description_->activities[activity_.index()];
-  if (given.activity != activity.name) {
-    return fail(fmt::format("a question of activity {} was answered, and {} runs", given.activity, activity.name),
+Expected<void> VisitObserver::answer(const state::VisitAnswer& given) {
+  const state::ActivityDescription& asked = description_->activities[given.activity.index()];
+  if (given.activity != activity_) {
+    return fail(fmt::format("a question of activity {} was answered, and {} runs", asked.name,
+                            activity_ ? description_->activities[activity_.index()].name : "none"),
                 description_->id, "ask before another activity begins");
   }
-  const auto& questions = activity.questionnaire;
-  const auto question = std::ranges::find(questions, given.question, &state::QuestionDescription::name);
-  if (question == questions.end()) {
-    return fail(fmt::format("activity {} asks no '{}'", activity.name, given.question), description_->id,
-                "name a question of the activity's questionnaire");
-  }
-  auto answer = checked(*question, given);
-  if (!answer) return tl::unexpected(answer.error());
+  SheetAnswer answer = sheet_answer(asked.questionnaire[given.question], given);
   if (!sheet_ && given.when == AnswerTime::after) {
-    return fail("nobody was seen at the activity that this asks about", "question " + given.question,
+    return fail("nobody was seen at the activity that this asks about", "question " + answer.question,
                 "ask after a visit, and before the activity begins anew");
   }
   if (!sheet_ || (is_over() && given.when == AnswerTime::before)) begin(tick_);
   if (!is_over()) last_sign_ = tick_;
   const auto known = std::ranges::find_if(sheet_->answers, [&](const SheetAnswer& one) {
-    return one.question == answer->question && one.when == answer->when;
+    return one.question == answer.question && one.when == answer.when;
   });
   if (known != sheet_->answers.end()) {
-    *known = std::move(*answer);  // thought better of
+    *known = std::move(answer);  // thought better of
   } else {
-    sheet_->answers.push_back(std::move(*answer));
+    sheet_->answers.push_back(std::move(answer));
   }
   changed_ = true;
   return {};

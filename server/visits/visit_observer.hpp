@@ -49,8 +49,8 @@ class VisitObserver {
   void take(const VisitNote& note);
   /// Time has passed: all notes up to `tick` have been taken, and `lost` never came.
   void look(std::uint64_t tick, std::uint32_t lost);
-  /// Errors: the activity does not ask that, or it is not one of its answers.
-  [[nodiscard]] Expected<void> answer(const VisitAnswer& answer);
+  /// Errors: another activity runs, or nobody was seen at it.
+  [[nodiscard]] Expected<void> answer(const state::VisitAnswer& answer);
   /// In which the kiosk speaks from now on. A visit's sheet takes it with the visitor's next sign: a kiosk that goes back to its own
   /// language when the visitor has gone changes nothing.
   void set_language(std::string language) { language_ = std::move(language); }

@@ -10,19 +10,11 @@
 #include <vector>
 
 #include "server/base/error.hpp"
+#include "server/state/visit_answer.hpp"
 
 namespace mechane::visits {
 
-/// When a question was asked, seen from the activity.
-enum class AnswerTime : std::uint8_t { before, after };
-
-/// A visitor's answer as it comes over the wire.
-struct VisitAnswer {
-  std::string activity;  ///< of the questionnaire
-  std::string question;  ///< its name in the questionnaire
-  std::string answer;    ///< choice: the answer's name; scale: the mark, "1" the lowest
-  AnswerTime when = AnswerTime::after;
-};
+using state::AnswerTime;
 
 /// An answer with what is needed to count it without the scenario.
 struct SheetAnswer {

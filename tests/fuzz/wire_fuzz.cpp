@@ -9,8 +9,8 @@
 
 #include "client-sdk/client/frame_history.hpp"
 #include "client-sdk/client/parse.hpp"
+#include "server/state/visit_answer.hpp"
 #include "server/transport/validate.hpp"
-#include "server/transport/visit_answer.hpp"
 #include <mechane/client/types.hpp>
 #include <mechane/proto/convert.hpp>
 
@@ -187,7 +187,7 @@ void fuzz_answer(const std::uint8_t* data, std::size_t size) {
   one.name = "use";
   one.questionnaire = {choice, scale};
   world.activities = {one, other};
-  const auto answer = transport::read_answer({reinterpret_cast<const char*>(data), size}, world);
+  const auto answer = state::parse_visit_answer({reinterpret_cast<const char*>(data), size}, world);
   if (!answer) return;
   must(answer->activity.index() == 0 && answer->question < 2);
   must(answer->question == 0 ? answer->answer < 2 : answer->answer >= 1 && answer->answer <= 5);

@@ -152,7 +152,7 @@ class EchoServer {
     return samples_;
   }
   /// What visitors have answered.
-  [[nodiscard]] std::vector<transport::VisitAnswer> answers() const {
+  [[nodiscard]] std::vector<state::VisitAnswer> answers() const {
     const std::lock_guard lock(mutex_);
     return answers_;
   }
@@ -254,7 +254,7 @@ class EchoServer {
   mutable std::mutex mutex_;
   std::vector<hand::SentSample> samples_;
   std::vector<transport::NewsKind> news_;
-  std::vector<transport::VisitAnswer> answers_;
+  std::vector<state::VisitAnswer> answers_;
   std::vector<std::uint32_t> languages_;
   std::thread main_;
   std::thread loop_;

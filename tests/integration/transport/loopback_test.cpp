@@ -154,8 +154,8 @@ TEST_F(Loopback, AWatcherLearnsWhatToShowAndItsVisitorAnswers) {
   EXPECT_EQ(frame.ropes[0].points_W.front(), Vec3(0, 0, 0));
   EXPECT_EQ(frame.ropes[0].points_W.back(), Vec3(2, 0, 0));
 
-  const std::uint64_t good = watcher->answer(client::AnswerTime::after, "use", "liked", "4");
-  const std::uint64_t bad = watcher->answer(client::AnswerTime::after, "use", "liked", "6");
+  const std::uint64_t good = watcher->answer({client::AnswerTime::after, "use", "liked", "4"});
+  const std::uint64_t bad = watcher->answer({client::AnswerTime::after, "use", "liked", "6"});
   bool done = false, refused = false;
   EXPECT_TRUE(eventually([&] {
     for (const client::WorldEvent& event : watcher->take_events()) {
@@ -165,7 +165,7 @@ TEST_F(Loopback, AWatcherLearnsWhatToShowAndItsVisitorAnswers) {
     return done && refused && server.answers().size() == 1;
   }));
   EXPECT_EQ(server.answers().at(0).answer, 4U);
-  EXPECT_TRUE(server.answers().at(0).after);
+  EXPECT_EQ(server.answers().at(0).when, state::AnswerTime::after);
 
   const std::uint64_t spoken = watcher->tell_language(shown.languages.at(0));
   const std::uint64_t foreign = watcher->tell_language("tlh");

@@ -38,9 +38,7 @@ class ScriptedClient final : public client::Client {
   std::uint64_t next_step() override { return 0; }
   std::uint64_t click(const std::string&) override { return 0; }
   std::uint64_t open_exhibit(const std::string&) override { return 0; }
-  std::uint64_t answer(client::AnswerTime, const std::string&, const std::string&, const std::string&) override {
-    return 0;
-  }
+  std::uint64_t answer(const client::VisitAnswer&) override { return 0; }
   std::uint64_t tell_language(const std::string&) override { return 0; }
 
  private:

@@ -28,9 +28,6 @@ struct ClientConfig {
   std::string display{};     ///< name of the display that this client is, among the kiosk's; empty: it is not a display
 };
 
-/// When a question is answered: what was learnt is the difference.
-enum class AnswerTime { before, after };
-
 enum class LinkState {
   searching,  ///< no server has answered yet
   joined,     ///< in a world
@@ -91,10 +88,8 @@ class Client {
   /// The kiosks of this world go on to another scenario; empty: home, the server's first. ServerStatus::scenarios has the ids. What
   /// answers is the new world (see world_status()), or command_refused.
   virtual std::uint64_t open_exhibit(const std::string& scenario) = 0;
-  /// A visitor's answer to a question of an activity: the answer's name, or the mark from 1 on. Kept with the visit, without anybody's
-  /// name. command_refused where there is no such question or answer.
-  virtual std::uint64_t answer(AnswerTime when, const std::string& activity, const std::string& question,
-                               const std::string& answer) = 0;
+  /// Kept with the visit, without anybody's name. command_refused where there is no such question or answer.
+  virtual std::uint64_t answer(const VisitAnswer& answer) = 0;
   /// A display tells in which language it shows this world from now on: one of WorldPresentation::languages. Kept with the visit.
   virtual std::uint64_t tell_language(const std::string& language) = 0;
 

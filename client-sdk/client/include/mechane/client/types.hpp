@@ -140,6 +140,17 @@ struct Activity {
   std::vector<Question> questions;
 };
 
+/// When a question is answered: what was learnt is the difference.
+enum class AnswerTime { before, after };
+
+/// A visitor's answer, by the names of the presentation. The server checks it.
+struct VisitAnswer {
+  AnswerTime when = AnswerTime::after;
+  std::string activity;
+  std::string question;
+  std::string answer;  ///< choice: the answer's name; scale: the mark, from 1 on
+};
+
 /// From where to look.
 struct View {
   std::string name;

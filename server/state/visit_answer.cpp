@@ -1,9 +1,9 @@
-#include "server/transport/visit_answer.hpp"
+#include "server/state/visit_answer.hpp"
 
 #include <algorithm>
 #include <charconv>
 
-namespace mechane::transport {
+namespace mechane::state {
 namespace {
 
 /// Takes a beginning off a text; false, and the text as it was, where it begins otherwise.
@@ -13,8 +13,8 @@ bool take(std::string_view& text, std::string_view beginning) {
   return true;
 }
 
-std::optional<std::uint32_t> index_of(const state::QuestionDescription& question, std::string_view answer) {
-  if (question.kind == state::QuestionDescription::Kind::choice) {
+std::optional<std::uint32_t> index_of(const QuestionDescription& question, std::string_view answer) {
+  if (question.kind == QuestionDescription::Kind::choice) {
     const auto it = std::find_if(question.answers.begin(), question.answers.end(),
                                  [&](const auto& possible) { return possible.name == answer; });
     if (it == question.answers.end()) return std::nullopt;
@@ -29,10 +29,11 @@ std::optional<std::uint32_t> index_of(const state::QuestionDescription& question
 
 }  // namespace
 
-std::optional<VisitAnswer> read_answer(std::string_view argument, const state::WorldDescription& world) {
+std::optional<VisitAnswer> parse_visit_answer(std::string_view argument, const WorldDescription& world) {
   VisitAnswer out;
-  out.after = take(argument, "after:");
-  if (!out.after && !take(argument, "before:")) return std::nullopt;
+  const bool after = take(argument, "after:");
+  if (!after && !take(argument, "before:")) return std::nullopt;
+  out.when = after ? AnswerTime::after : AnswerTime::before;
   // Names may hold any sign: they are looked for, not cut out.
   for (std::size_t a = 0; a < world.activities.size(); ++a) {
     std::string_view rest = argument;
@@ -52,4 +53,4 @@ std::optional<VisitAnswer> read_answer(std::string_view argument, const state::W
   return std::nullopt;
 }
 
-}  // namespace mechane::transport
+}  // namespace mechane::state
