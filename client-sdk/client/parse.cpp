@@ -40,7 +40,8 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
 
 bool parse_hand(const proto::WireHandPose& wire, HandPose& out) {
   const auto segments = proto::elements(wire.X_WS);
-  if (segments.empty() || segments.size() > kHandSegments || wire.kind > 1 || !proto::all_finite(wire.f_W))
+  if (segments.empty() || segments.size() > kHandSegments || !hand::is_hand_kind(wire.kind) ||
+      !proto::all_finite(wire.f_W))
     return false;
   out.kiosk = clean(wire.kiosk);
   out.user = wire.user;

@@ -228,11 +228,11 @@ void hand_fields(Fields& f, Hand& h) {
   f.count(h.user);
   auto kind = static_cast<std::uint8_t>(h.kind);
   f.octet(kind);
-  f.must(kind <= 1);
+  f.must(hand::is_hand_kind(kind));
   if constexpr (!std::is_const_v<Hand>) h.kind = static_cast<client::HandKind>(kind);
   f.flag(h.stale);
   f.flag(h.holding);
-  const std::size_t segments = kind == 0 ? 1 : client::kHandSegments;
+  const std::size_t segments = hand::segment_count(static_cast<hand::HandKind>(kind));
   for (std::size_t i = 0; i < segments; ++i)
     f.pose(h.X_WS[i]);
   f.vector(h.force_W);

@@ -20,9 +20,10 @@ SegmentPoses place_hand(const HandBend& bend) {
   SegmentPoses X_HS{};
   X_HS[0].p = Vec3(hand::kPalmHalfLength_m, 0, 0);
   for (std::size_t f = 0; f < client::kFingers; ++f) {
-    const std::array<double, 4> angles{bend[f].aside, bend[f].flexion[0], bend[f].flexion[1], bend[f].flexion[2]};
+    const std::array<double, hand::kFingerJoints> angles{bend[f].aside, bend[f].flexion[0], bend[f].flexion[1],
+                                                         bend[f].flexion[2]};
     hand::place_finger(finger_sizes()[f], 1, f == 0 ? hand::thumb_stand() : Quat::Identity(), angles, Pose{},
-                       std::span<Pose, 3>(X_HS.data() + 1 + 3 * f, 3));
+                       std::span<Pose, hand::kPhalanges>(X_HS.data() + hand::first_segment(f), hand::kPhalanges));
   }
   return X_HS;
 }

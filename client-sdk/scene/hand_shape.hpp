@@ -1,5 +1,5 @@
 // A middle-sized right hand, as the server touches with: where its segments are for given joint angles. Frames as in
-// geometry/hand_skeleton.hpp. Segment 0 is the palm, then three a finger, from the thumb on, from the palm outwards.
+// server/hand/hand_skeleton.hpp. Segment 0 is the palm, then three a finger, from the thumb on, from the palm outwards.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace mechane::scene {
 /// Angles of a finger's joints, radians; 0 is flat. Abduction turns about y, flexion towards the palm.
 struct FingerBend {
   double aside = 0;
-  std::array<double, 3> flexion{};
+  std::array<double, hand::kPhalanges> flexion{};
 };
 using HandBend = std::array<FingerBend, client::kFingers>;
 

@@ -45,7 +45,7 @@ class RestingHand {
     for (std::size_t f = 0; f < client::kFingers; ++f) {
       const hand::FingerSize& size = finger_sizes()[f];
       for (std::size_t k = 0; k < 3; ++k) {
-        const Pose& X = X_HS[1 + 3 * f + k];
+        const Pose& X = X_HS[hand::first_segment(f) + k];
         const double half = 0.5 * size.length_m[k];
         // The last one ends in a ball that reaches as far as the server's finger does.
         const double end = k == 2 ? half - 0.55 * size.radius_m[k] : half;
@@ -131,8 +131,9 @@ HandSkin::HandSkin() {
     };
     pull(std::max(RestingHand::palm(p), 0.0F) + 0.009F, 0);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Bone& bone = hand.bone(1 + 3 * of + k);
-      pull(from_line(p, bone.a, bone.b).first, 1 + 3 * of + k);
+      const std::size_t segment = hand::first_segment(of) + k;
+      const Bone& bone = hand.bone(segment);
+      pull(from_line(p, bone.a, bone.b).first, segment);
     }
     std::ranges::sort(pulls, std::greater<>());
     Hold hold;

@@ -41,7 +41,7 @@ struct Patch {
 
 /// 0 palm, 1 thumb, 2..5 the fingers.
 std::size_t digit_of(std::uint8_t segment) {
-  return segment == 0 ? 0 : (segment - 1u) / 3u + 1u;
+  return segment == 0 ? 0 : hand::finger_of(segment) + 1;
 }
 
 Touch find_touch(const state::UserState& user, BodyId body) {

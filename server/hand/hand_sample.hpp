@@ -19,6 +19,22 @@ inline constexpr std::size_t kHandSegments = 1 + kFingers * kPhalanges;  ///< th
 
 /// How a device shows the hand. A glove moves 16 segments; a one-point device (a stylus, a pointer) has one sphere at its tip.
 enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
+/// Whether a number from outside names a kind.
+[[nodiscard]] constexpr bool is_hand_kind(std::uint64_t number) noexcept {
+  return number <= static_cast<std::uint64_t>(HandKind::glove);
+}
+
+[[nodiscard]] constexpr std::size_t segment_count(HandKind kind) noexcept {
+  return kind == HandKind::glove ? kHandSegments : 1;
+}
+/// The finger's phalanx next to the palm, among the segments.
+[[nodiscard]] constexpr std::size_t first_segment(std::size_t finger) noexcept {
+  return 1 + kPhalanges * finger;
+}
+/// Whose phalanx a segment is; not of the palm, which is segment 0.
+[[nodiscard]] constexpr std::size_t finger_of(std::size_t segment) noexcept {
+  return (segment - 1) / kPhalanges;
+}
 
 /// One sample of a device. What comes from the network is checked before it becomes one: all numbers finite, the rotation of unit length.
 struct HandSample {

@@ -31,7 +31,7 @@ void keep(state::UserState& user, const state::Contact& contact) {
 
 void touch_body(const collision::Object& object, const Pose& X_WB, BodyId body, const HandModel& hand,
                 state::UserState& user) {
-  const std::size_t segments = HandModel::segment_count(user.sample.kind);
+  const std::size_t segments = hand::segment_count(user.sample.kind);
   std::array<PointContact, kContactsPerPair> storage;
   for (std::size_t s = 0; s < segments; ++s) {
     ContactBuffer buffer(storage);

@@ -82,10 +82,6 @@ Expected<HandModel> HandModel::create(const HandSize& size) {
   return model;
 }
 
-std::size_t HandModel::segment_count(HandKind kind) noexcept {
-  return kind == HandKind::glove ? hand::kHandSegments : 1;
-}
-
 std::size_t HandModel::nearest_size(double scale) noexcept {
   std::size_t best = 0;
   for (std::size_t i = 1; i < kScales.size(); ++i) {
@@ -122,7 +118,7 @@ void HandModel::place(const hand::HandSample& sample, const Pose& X_WH,
     hand::place_finger(size_.fingers[f], scale, f == 0 ? thumb_stand_ : Quat::Identity(),
                        std::span<const double, hand::kFingerJoints>(sample.joints.data() + hand::kFingerJoints * f,
                                                                     hand::kFingerJoints),
-                       X_WH, std::span<Pose, 3>(X_WS.data() + 1 + 3 * f, 3));
+                       X_WH, std::span<Pose, hand::kPhalanges>(X_WS.data() + hand::first_segment(f), hand::kPhalanges));
   }
 }
 

@@ -1,6 +1,6 @@
 // The virtual hand: 16 superquadrics (paper, equation 4), placed from a wrist pose and finger joint angles. A one-point device is a
 // single sphere at its tip.
-// Frames and angles of a glove hand: geometry/hand_skeleton.hpp.
+// Frames and angles of a glove hand: server/hand/hand_skeleton.hpp.
 #pragma once
 
 #include <array>
@@ -33,8 +33,6 @@ class HandModel {
   void place(const hand::HandSample& sample, const Pose& X_WH,
              std::array<Pose, hand::kHandSegments>& X_WS) const noexcept;
 
-  /// Segments that a hand of this kind has: 16 or 1.
-  [[nodiscard]] static std::size_t segment_count(hand::HandKind kind) noexcept;
   /// The segment's shape, of the size nearest to the sample's hand_scale.
   [[nodiscard]] const collision::Object& segment(const hand::HandSample& sample, std::size_t index) const noexcept;
   /// Around the whole hand, in H: nothing outside can touch it.

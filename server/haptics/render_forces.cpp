@@ -58,7 +58,7 @@ void add_to_hand(UserState& user, const Vec3& f_H_W, const Vec3& p_WC) {
 void add_to_finger(UserState& user, std::size_t segment, const Vec3& f_H_W) {
   if (user.sample.kind != HandKind::glove || segment == 0) return;
   const double pull_n = f_H_W.dot(HandModel::finger_normal_W(user.X_WS[segment]));
-  user.output.finger_force_n[(segment - 1) / 3] += std::max(0.0, pull_n);
+  user.output.finger_force_n[hand::finger_of(segment)] += std::max(0.0, pull_n);
 }
 
 void add_local_contact(UserState& user, const ContactPatch& patch, const PatchForce& force, const Vec3& v_B_W,

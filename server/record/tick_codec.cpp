@@ -86,7 +86,7 @@ void get_sample(ByteSource& in, SentSample& s) {
   s.sequence = in.get_varint();
   s.sent_ns = in.get_varint();
   const auto kind = in.get<std::uint8_t>();
-  if (kind > static_cast<std::uint8_t>(hand::HandKind::glove)) in.fail();
+  if (!hand::is_hand_kind(kind)) in.fail();
   s.kind = static_cast<hand::HandKind>(kind);
   const std::uint64_t buttons = in.get_varint();
   if (buttons > 0xffffffffu) in.fail();

@@ -89,7 +89,7 @@ bool same_tables(const Header& a, const Header& b) {
 bool ids_in_range(const WorldState& state) {
   for (const UserState& user : state.users) {
     if (user.grasp.active && (!user.grasp.body || user.grasp.body.index() >= state.bodies.size())) return false;
-    if (user.sample.kind != hand::HandKind::one_point && user.sample.kind != hand::HandKind::glove) return false;
+    if (!hand::is_hand_kind(static_cast<std::uint8_t>(user.sample.kind))) return false;
   }
   return true;
 }

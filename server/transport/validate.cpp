@@ -16,7 +16,7 @@ bool finite(const proto::HapticInput& s) {
 }
 
 bool good_values(const proto::HapticInput& s) {
-  return s.user < hand::kMaxUsers && s.kind <= 1 && s.grasp_intent >= 0 && s.grasp_intent <= 1 &&
+  return s.user < hand::kMaxUsers && hand::is_hand_kind(s.kind) && s.grasp_intent >= 0 && s.grasp_intent <= 1 &&
          std::all_of(std::begin(s.joints), std::end(s.joints), [](float a) { return std::abs(a) <= kMaxJointRad; });
 }
 

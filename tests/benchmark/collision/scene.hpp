@@ -12,6 +12,7 @@
 #include "server/base/random.hpp"
 #include "server/geometry/mesh.hpp"
 #include "server/geometry/superquadric.hpp"
+#include "server/hand/hand_sample.hpp"
 
 namespace mechane::benchmark {
 
@@ -19,9 +20,9 @@ inline constexpr std::uint64_t kDefaultSeed = 1;
 inline constexpr std::size_t kDefaultTriangles = 8108;  ///< of the five objects of the default seed
 inline constexpr std::size_t kSceneObjects = 5;
 
-inline constexpr std::size_t kSegments = 16;  ///< the palm, then three for each finger, the thumb first
-inline constexpr std::size_t kFingers = 5;
-inline constexpr std::size_t kJoints = 3;
+using hand::kFingers;
+inline constexpr std::size_t kSegments = hand::kHandSegments;
+inline constexpr std::size_t kJoints = hand::kPhalanges;
 inline constexpr std::size_t kSegmentPoints = 128;
 inline constexpr std::size_t kHandPoints = kSegments * kSegmentPoints;
 inline constexpr std::size_t kClusterPoints = 16;

@@ -131,7 +131,7 @@ Passing any_passing(const ThinPart& part, bool with_palm) {
   hand::HandSample sample;
   sample.kind = *rc::gen::inRange(0, 4) == 0 ? hand::HandKind::one_point : hand::HandKind::glove;
   sample.hand_scale = HandModel::kScales[*rc::gen::inRange<std::size_t>(0, HandModel::kScales.size())];
-  const std::size_t segments = HandModel::segment_count(sample.kind);
+  const std::size_t segments = hand::segment_count(sample.kind);
   const std::size_t first = !with_palm && segments > 1 ? 1 : 0;
   Passing passing;
   passing.part = &part;
