@@ -4,8 +4,10 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "client-sdk/assets/asset_store.hpp"
 #include "server/base/error.hpp"
@@ -13,14 +15,15 @@
 
 namespace mechane::assets {
 
-/// One scenario's. Called from the display's thread only: it reads files whole.
+/// One scenario's. From one thread at a time: it reads files whole.
 class MeshFiles {
  public:
   /// A relative `folder` is in this program's own. `catalogue` may be null, and must outlive this.
   MeshFiles(std::filesystem::path folder, const content::Catalogue* catalogue)
       : folder_(std::move(folder)), catalogue_(catalogue) {}
-  /// In place of a folder, a server. Both must outlive this; `catalogue` may be null.
-  MeshFiles(AssetStore* store, const content::Catalogue* catalogue) : store_(store), catalogue_(catalogue) {}
+  /// In place of a folder, a server. `catalogue` may be null, and must outlive this.
+  MeshFiles(std::shared_ptr<AssetStore> store, const content::Catalogue* catalogue)
+      : store_(std::move(store)), catalogue_(catalogue) {}
 
   /// What the manifest says that the server's file is: content::content_hash(). Empty: it does not say.
   void expect(const std::string& uri, const std::string& hash) { expected_[uri] = hash; }
@@ -37,7 +40,7 @@ class MeshFiles {
   [[nodiscard]] Expected<std::filesystem::path> from_store(const std::string& uri, const std::string& wanted) const;
 
   std::filesystem::path folder_;
-  AssetStore* store_ = nullptr;
+  std::shared_ptr<AssetStore> store_;
   const content::Catalogue* catalogue_;
   std::map<std::string, std::string> expected_;
   std::set<std::string> differing_;

@@ -9,6 +9,7 @@
 #include "client-sdk/display/display_loop.hpp"
 #include "client-sdk/display/kiosk_setup.hpp"
 #include "server/base/assert.hpp"
+#include "server/base/worker.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -76,6 +77,10 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySigna
     if (!opened) return tl::unexpected(opened.error());
     catalogue.emplace(std::move(*opened));
   }
+  // A picture or a film waits for what it shows; a window goes on.
+  std::optional<Worker> worker;
+  if (!options.offscreen) worker.emplace("imports");
+  Worker* beside = worker ? &*worker : nullptr;
   // Before the context: the driver's own threads inherit it. A refusal does no harm.
   if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
   std::unique_ptr<draw::GlContext> context;
@@ -101,11 +106,11 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySigna
   config.domain = options.domain;
   auto source = open_source(options.source, config);
   if (!source) return tl::unexpected(source.error());
-  auto attract = open_attract(options, catalogue ? &*catalogue : nullptr);
+  auto attract = open_attract(options, catalogue ? &*catalogue : nullptr, beside);
   if (!attract) return tl::unexpected(attract.error());
   if (source->recorded != nullptr) possible.ask = visit::AskWhen::none;  // nobody is there who answers
   return DisplayLoop(possible, signals, *context, window, std::move(*renderer), *source,
-                     catalogue ? &*catalogue : nullptr, std::move(*attract))
+                     catalogue ? &*catalogue : nullptr, beside, std::move(*attract))
       .run();
 }
 

@@ -13,12 +13,12 @@ namespace mechane::display {
 
 DisplayLoop::DisplayLoop(const DisplayOptions& options, DisplaySignals& signals, draw::GlContext& context,
                          Window* window, std::unique_ptr<draw::Renderer> renderer, DisplaySource& source,
-                         const content::Catalogue* catalogue, std::unique_ptr<AttractLoop> attract)
+                         const content::Catalogue* catalogue, Worker* worker, std::unique_ptr<AttractLoop> attract)
     : options_(options),
       signals_(signals),
       context_(context),
       window_(window),
-      news_(options, source, open_assets(options, catalogue)),
+      news_(options, source, open_assets(options, catalogue, worker)),
       visitor_(options, window, news_, std::move(attract)),
       presenter_(options, signals, context, window, std::move(renderer), news_, visitor_),
       desk_(*source.client, identity_of(options, context), settings_at_start(options), clock_.now()),

@@ -20,10 +20,11 @@ namespace mechane::display {
 /// One display's life. Made and run on one thread. What is given to the constructor outlives it.
 class DisplayLoop {
  public:
-  /// `window` is the context's, null offscreen. `catalogue` and `attract` may be null.
+  /// `window` is the context's, null offscreen. `catalogue`, `worker` and `attract` may be null. The worker brings what worlds look like; without
+  /// one, drawing waits for that.
   DisplayLoop(const DisplayOptions& options, DisplaySignals& signals, draw::GlContext& context, Window* window,
               std::unique_ptr<draw::Renderer> renderer, DisplaySource& source, const content::Catalogue* catalogue,
-              std::unique_ptr<AttractLoop> attract);
+              Worker* worker, std::unique_ptr<AttractLoop> attract);
 
   [[nodiscard]] Expected<DisplaySummary> run();
 

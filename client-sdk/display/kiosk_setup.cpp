@@ -48,14 +48,14 @@ DisplayIdentity identity_of(const DisplayOptions& options, const draw::GlContext
           options.fps,   !options.out.empty(), !options.attract.empty()};
 }
 
-scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue) {
-  return {options.assets, open_asset_store(options), catalogue};
+scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue, Worker* worker) {
+  return {options.assets, open_asset_store(options), catalogue, worker};
 }
 
-Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,
-                                                    const content::Catalogue* catalogue) {
+Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options, const content::Catalogue* catalogue,
+                                                    Worker* worker) {
   if (options.attract.empty()) return nullptr;
-  return AttractLoop::open(options.attract, open_assets(options, catalogue));
+  return AttractLoop::open(options.attract, open_assets(options, catalogue, worker));
 }
 
 }  // namespace mechane::display

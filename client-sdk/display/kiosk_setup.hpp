@@ -13,11 +13,12 @@ namespace mechane::display {
 [[nodiscard]] visit::VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
 [[nodiscard]] DisplayIdentity identity_of(const DisplayOptions& options, const draw::GlContext& context);
 
-/// The address has been read once already. `catalogue` may be null.
-[[nodiscard]] scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue);
+/// The address has been read once already. `catalogue` and `worker` may be null.
+[[nodiscard]] scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue,
+                                             Worker* worker);
 
 /// Null where none is requested. Errors: those of FrameRecording.
 [[nodiscard]] Expected<std::unique_ptr<AttractLoop>> open_attract(const DisplayOptions& options,
-                                                                  const content::Catalogue* catalogue);
+                                                                  const content::Catalogue* catalogue, Worker* worker);
 
 }  // namespace mechane::display

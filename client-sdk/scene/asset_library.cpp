@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "client-sdk/picture/image_file.hpp"
 #include "client-sdk/picture/procedural_mesh.hpp"
 #include "server/log/log.hpp"
 
@@ -13,8 +12,6 @@ namespace mechane::scene {
 namespace {
 
 constexpr std::string_view kWaterPrefix = "WATER_";
-/// A material of this name is the land around: see MaterialData::land.
-constexpr std::string_view kLandMaterial = "earth";
 
 /// Adds the mesh to `into`, moved by X_BM.
 void merge(picture::MeshData& into, const content::ImportedMesh& mesh, const Eigen::Affine3d& X_BM) {
@@ -65,30 +62,6 @@ bool is_water(const content::ImportedScene& scene, std::uint32_t node) {
   return false;
 }
 
-std::optional<picture::ImageData> decode(const content::ImportedTexture& texture, bool srgb, const std::string& where) {
-  if (texture.encoding == content::TextureEncoding::rgba8) {
-    if (texture.bytes.size() != std::size_t{4} * texture.width * texture.height || texture.bytes.empty()) return {};
-    picture::ImageData image{texture.width, texture.height, {}, srgb};
-    image.rgba.resize(texture.bytes.size());
-    std::ranges::transform(texture.bytes, image.rgba.begin(), [](std::byte b) { return static_cast<std::uint8_t>(b); });
-    return image;
-  }
-  Expected<picture::ImageData> image = picture::decode_image(texture.bytes, where);
-  if (!image) {
-    log::warning(image.error().to_string());
-    return {};
-  }
-  image->srgb = srgb;
-  return std::move(*image);
-}
-
-bool is_clear(const picture::ImageData& image) {
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-    if (image.rgba[i] < 255) return true;
-  }
-  return false;
-}
-
 /// Of a file's node, or of the whole file.
 std::string model_name(const std::string& uri, const std::string& node) {
   return node.empty() ? uri : uri + "#" + node;
@@ -96,7 +69,12 @@ std::string model_name(const std::string& uri, const std::string& node) {
 
 }  // namespace
 
-AssetLibrary::AssetLibrary(Loader loader) : loader_(std::move(loader)) {}
+AssetLibrary::AssetLibrary(FileSource source) : source_(std::move(source)) {}
+
+AssetLibrary::AssetLibrary(Loader loader)
+    : source_([loader = std::move(loader)](const std::string& uri) {
+        return loader(uri).map([&](content::ImportedScene scene) { return prepare(std::move(scene), uri); });
+      }) {}
 
 std::uint32_t AssetLibrary::add_mesh(picture::MeshData mesh) {
   assets_.meshes.push_back(std::move(mesh));
@@ -140,54 +118,32 @@ AssetLibrary::File& AssetLibrary::load(const std::string& uri) {
   const auto found = files_.find(uri);
   if (found != files_.end()) return found->second;
   File file;
-  Expected<content::ImportedScene> scene = loader_(uri);
-  if (scene) {
-    file.first_material = static_cast<std::uint32_t>(assets_.materials.size());
-    add_materials(*scene, uri);
-    file.scene = std::make_unique<content::ImportedScene>(std::move(*scene));
+  Expected<PreparedFile> prepared = source_(uri);
+  if (prepared) {
+    file.first_material = add_materials(std::move(prepared->materials), std::move(prepared->images));
+    file.scene = std::make_unique<content::ImportedScene>(std::move(prepared->scene));
   } else {
     missing_.insert(uri);
-    log::warning(scene.error().to_string() + "; a plain box is shown in its place");
+    log::warning(prepared.error().to_string() + "; a plain box is shown in its place");
   }
   return files_.emplace(uri, std::move(file)).first->second;
 }
 
-void AssetLibrary::add_materials(const content::ImportedScene& scene, const std::string& uri) {
-  // One image may serve as colour in one material and as numbers in another: each use is its own.
-  std::map<std::pair<std::uint32_t, bool>, std::optional<std::uint32_t>> images;
-  const auto image = [&](std::optional<std::uint32_t> texture, bool srgb) -> std::optional<std::uint32_t> {
-    if (!texture || *texture >= scene.textures.size()) return {};
-    const auto [entry, is_new] = images.try_emplace({*texture, srgb});
-    if (is_new) {
-      const content::ImportedTexture& from = scene.textures[*texture];
-      const std::string name = uri + ", texture " + from.name;
-      if (auto decoded = decode(from, srgb, name)) {
-        decoded->name = name;
-        entry->second = add_image(std::move(*decoded));
-      }
+/// Returns the first one's number.
+std::uint32_t AssetLibrary::add_materials(std::vector<picture::MaterialData> materials,
+                                          std::vector<picture::ImageData> images) {
+  const auto first_material = static_cast<std::uint32_t>(assets_.materials.size());
+  const auto first_image = static_cast<std::uint32_t>(assets_.images.size());
+  for (picture::ImageData& image : images)
+    add_image(std::move(image));
+  for (picture::MaterialData& material : materials) {
+    for (auto* image : {&material.base_colour_image, &material.normal_image, &material.metallic_roughness_image,
+                        &material.emissive_image, &material.occlusion_image}) {
+      if (*image) **image += first_image;
     }
-    return entry->second;
-  };
-  for (const content::ImportedMaterial& from : scene.materials) {
-    picture::MaterialData to;
-    to.base_colour = from.base_colour;
-    to.emissive = from.emissive;
-    to.metallic = from.metallic;
-    to.roughness = from.roughness;
-    to.alpha_cutoff = from.alpha_mode == content::AlphaMode::mask ? from.alpha_cutoff : 0.0F;
-    to.double_sided = from.double_sided;
-    to.land = from.name.starts_with(kLandMaterial);
-    to.base_colour_image = image(from.base_colour_texture, true);
-    to.normal_image = image(from.normal_texture, false);
-    to.metallic_roughness_image = image(from.metallic_roughness_texture, false);
-    to.emissive_image = image(from.emissive_texture, true);
-    to.occlusion_image = image(from.occlusion_texture, false);
-    to.occlusion_strength = from.occlusion_strength;
-    // Many tools write BLEND for what nobody can see through; sorting it would cost time, and its shadow.
-    const bool clear_image = to.base_colour_image && is_clear(assets_.images[*to.base_colour_image]);
-    to.clear = from.alpha_mode == content::AlphaMode::blend && (from.base_colour.w() < 1 || clear_image);
-    add_material(to);
+    add_material(material);
   }
+  return first_material;
 }
 
 ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node) {

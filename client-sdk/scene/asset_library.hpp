@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "client-sdk/picture/scene_assets.hpp"
+#include "client-sdk/scene/prepared_file.hpp"
 #include "server/base/error.hpp"
 #include "server/content/imported_scene.hpp"
 
@@ -31,7 +32,10 @@ struct ObjectModel {
 
 class AssetLibrary {
  public:
-  /// Reads a mesh file, named relative to the scenario's folder.
+  /// Gives a mesh file, named relative to the scenario's folder.
+  using FileSource = std::function<Expected<PreparedFile>(const std::string& uri)>;
+  explicit AssetLibrary(FileSource source);
+  /// The same, prepared here.
   using Loader = std::function<Expected<content::ImportedScene>(const std::string& uri)>;
   explicit AssetLibrary(Loader loader);
 
@@ -65,9 +69,9 @@ class AssetLibrary {
   File& load(const std::string& uri);
   ObjectModel build(const std::string& uri, const std::string& node);
   ObjectModel placeholder(const std::string& name, const std::string& why);
-  void add_materials(const content::ImportedScene& scene, const std::string& uri);
+  std::uint32_t add_materials(std::vector<picture::MaterialData> materials, std::vector<picture::ImageData> images);
 
-  Loader loader_;
+  FileSource source_;
   picture::SceneAssets assets_;
   std::map<std::string, File> files_;
   std::map<std::string, ObjectModel> models_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "server/base/random.hpp"
 
@@ -77,7 +78,6 @@ class Growth {
   }
 
   [[nodiscard]] picture::MeshData take() { return std::move(mesh_); }
-  [[nodiscard]] bool empty() const { return mesh_.indices.empty(); }
 
  private:
   picture::MeshData mesh_;
@@ -278,8 +278,7 @@ std::vector<Plant> plants_of(const LandscapePlan& plan) {
   return out;
 }
 
-std::vector<picture::Instance> grow(const LandscapePlan& plan, const std::vector<Plant>& plants,
-                                    AssetLibrary& library) {
+PlantMeshes grow(const LandscapePlan& plan, const std::vector<Plant>& plants) {
   Grown grown;
   for (const Plant& plant : plants) {
     const float coarse = coarseness(plan, plant);
@@ -296,21 +295,25 @@ std::vector<picture::Instance> grow(const LandscapePlan& plan, const std::vector
     }
     add_shade(plant, plan.to_sun_W, grown.shade);
   }
+  return {grown.bark.take(), grown.pale.take(), grown.dark.take(), grown.cypress.take(), grown.shade.take()};
+}
+
+std::vector<picture::Instance> add_plants(PlantMeshes meshes, AssetLibrary& library) {
   std::vector<picture::Instance> out;
-  const auto add = [&](Growth& growth, const picture::MaterialData& material) {
-    if (growth.empty()) return;
-    out.push_back({library.add_mesh(growth.take()),
+  const auto add = [&](picture::MeshData& mesh, const picture::MaterialData& material) {
+    if (mesh.indices.empty()) return;
+    out.push_back({library.add_mesh(std::move(mesh)),
                    library.add_material(material),
                    Eigen::Affine3f::Identity(),
                    false,
                    {},
                    false});
   };
-  add(grown.bark, leaf(0.200F, 0.165F, 0.125F));
-  add(grown.pale, leaf(0.265F, 0.295F, 0.165F));
-  add(grown.dark, leaf(0.135F, 0.165F, 0.078F));
-  add(grown.cypress, leaf(0.055F, 0.085F, 0.038F));
-  add(grown.shade, shade_material(library));
+  add(meshes.bark, leaf(0.200F, 0.165F, 0.125F));
+  add(meshes.pale, leaf(0.265F, 0.295F, 0.165F));
+  add(meshes.dark, leaf(0.135F, 0.165F, 0.078F));
+  add(meshes.cypress, leaf(0.055F, 0.085F, 0.038F));
+  add(meshes.shade, shade_material(library));
   return out;
 }
 

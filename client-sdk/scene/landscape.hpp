@@ -34,8 +34,16 @@ void add_water(const picture::MeshData& mesh_M, const Eigen::Affine3f& X_WM, Lan
 /// The same plan has the same plants, the nearest not always first.
 [[nodiscard]] std::vector<Plant> plants_of(const LandscapePlan& plan);
 
-/// Their meshes, one a material, in W. The farther a plant is from the middle, the fewer and larger are its leaves.
-[[nodiscard]] std::vector<picture::Instance> grow(const LandscapePlan& plan, const std::vector<Plant>& plants,
-                                                  AssetLibrary& library);
+/// Meshes of plants, one a material, in W.
+struct PlantMeshes {
+  picture::MeshData bark, pale, dark, cypress;
+  picture::MeshData shade;  ///< on the ground
+};
+
+/// The farther a plant is from the middle, the fewer and larger are its leaves. Slow; any thread.
+[[nodiscard]] PlantMeshes grow(const LandscapePlan& plan, const std::vector<Plant>& plants);
+
+/// Adds the meshes to the library, each with its material.
+[[nodiscard]] std::vector<picture::Instance> add_plants(PlantMeshes meshes, AssetLibrary& library);
 
 }  // namespace mechane::scene

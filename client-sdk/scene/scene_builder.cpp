@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "client-sdk/scene/effect_builder.hpp"
-#include "client-sdk/scene/landscape.hpp"
 #include "client-sdk/scene/river_reach.hpp"
 #include "client-sdk/scene/thing_names.hpp"
 
@@ -111,8 +110,8 @@ picture::Camera above_caption(picture::Camera camera) {
 
 }  // namespace
 
-SceneBuilder::SceneBuilder(AssetLibrary& library, const std::string& language)
-    : library_(library), hand_(library), arrow_(library), writer_(language), language_(language) {}
+SceneBuilder::SceneBuilder(AssetLibrary& library, const std::string& language, Worker* worker)
+    : library_(library), hand_(library), arrow_(library), writer_(language), language_(language), worker_(worker) {}
 
 void SceneBuilder::set_manifest(const std::vector<client::SceneObject>& objects) {
   objects_.clear();
@@ -217,8 +216,18 @@ void SceneBuilder::let_grow() {
   plan.clearing_m = std::max(std::hypot(sizes.x(), sizes.z()) / 2 + kClearing_m, kLeastClearing_m);
   plan.to_sun_W = picture::Sun{}.to_sun_W;
   plan.seed = static_cast<std::uint32_t>(100 * sizes.norm());
-  landscape_ =
-      plan.clearing_m < kMostClearing_m ? grow(plan, plants_of(plan), library_) : std::vector<picture::Instance>();
+  if (plan.clearing_m >= kMostClearing_m) {
+    landscape_.clear();
+    coming_ = {};
+  } else if (worker_ == nullptr) {
+    landscape_ = add_plants(grow(plan, plants_of(plan)), library_);
+  } else {
+    coming_ = worker_->ask([plan = std::move(plan)] { return grow(plan, plants_of(plan)); });
+  }
+}
+
+void SceneBuilder::take_grown() {
+  if (is_ready(coming_)) landscape_ = add_plants(coming_.get(), library_);
 }
 
 void SceneBuilder::find_place() {

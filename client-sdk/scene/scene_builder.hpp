@@ -2,6 +2,7 @@
 // from the frame.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <set>
@@ -12,19 +13,26 @@
 #include "client-sdk/scene/asset_library.hpp"
 #include "client-sdk/scene/force_arrow.hpp"
 #include "client-sdk/scene/hand_model.hpp"
+#include "client-sdk/scene/landscape.hpp"
 #include "client-sdk/visit/overlay_text.hpp"
+#include "server/base/worker.hpp"
 #include <mechane/client/client.hpp>
 
 namespace mechane::scene {
 
 class SceneBuilder {
  public:
-  SceneBuilder(AssetLibrary& library, const std::string& language);
+  /// With a worker, which outlives this, trees grow on it.
+  SceneBuilder(AssetLibrary& library, const std::string& language, Worker* worker = nullptr);
 
-  /// Takes the manifest; loads what is new in it. Slow (files).
+  /// Takes the manifest, and what is new in it from the library.
   void set_manifest(const std::vector<client::SceneObject>& objects);
   /// Takes what never changes of the world: from where one looks, what is seen beside the bodies. Null: nothing is known of it.
   void set_presentation(std::shared_ptr<const client::WorldPresentation> presentation);
+  /// Trees grow on the worker.
+  [[nodiscard]] bool growing() const { return coming_.valid(); }
+  /// Gives the library the trees that have grown meanwhile.
+  void take_grown();
   /// Of all words, from the next scene on.
   void set_language(const std::string& language);
   /// Whether hands have an arrow of the force that they feel, from the next scene on.
@@ -71,7 +79,9 @@ class SceneBuilder {
   std::optional<std::uint32_t> unknown_;
   std::vector<Placed> objects_;  ///< of the manifest
   std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
+  Worker* worker_;
   std::vector<picture::Instance> landscape_;
+  std::future<PlantMeshes> coming_;    ///< of the next landscape; not valid: there is none
   Eigen::AlignedBox3f grown_about_W_;  ///< empty: not yet
   picture::Camera camera_;
   Eigen::AlignedBox3f box_W_;

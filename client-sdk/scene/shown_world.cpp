@@ -1,8 +1,7 @@
 #include "client-sdk/scene/shown_world.hpp"
 
 #include <filesystem>
-
-#include "server/content/mesh_import.hpp"
+#include <utility>
 
 namespace mechane::scene {
 namespace {
@@ -19,16 +18,16 @@ constexpr std::chrono::seconds kAssetPatience{15};
 
 void ShownWorld::begin() {
   key_ = key_of(*status_);
-  files_ = source_.store ? std::make_unique<assets::MeshFiles>(source_.store.get(), source_.catalogue)
-                         : std::make_unique<assets::MeshFiles>(std::filesystem::path(folder_), source_.catalogue);
-  library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) -> Expected<content::ImportedScene> {
-    const auto file = files_->find(uri);
-    if (!file) return tl::unexpected(file.error());
-    return content::import_mesh(*file);
-  });
-  builder_ = std::make_unique<SceneBuilder>(*library_, language_);
+  importer_ = std::make_unique<MeshImporter>(source_.store
+                                                 ? assets::MeshFiles(source_.store, source_.catalogue)
+                                                 : assets::MeshFiles(std::filesystem::path(folder_), source_.catalogue),
+                                             source_.worker);
+  library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) { return importer_->take(uri); });
+  builder_ = std::make_unique<SceneBuilder>(*library_, language_, source_.worker);
   builder_->show_forces(forces_shown_);
   objects_.clear();
+  unplaced_ = false;
+  arrived_.clear();
   presentation_.reset();
 }
 
@@ -48,8 +47,11 @@ ShownWorld::News ShownWorld::hear(const client::Client& client) {
   }
   take_manifest(client.objects());
   // Asked before what came is taken, lest something comes in between.
-  news.whole = !source_.store || (!objects_.empty() && !source_.store->is_awaited(kAssetPatience));
+  const bool here = !source_.store || (!objects_.empty() && !source_.store->is_awaited(kAssetPatience));
   take_arrived();
+  place();
+  builder_->take_grown();
+  news.whole = here && placed() && arrived_.empty() && !builder_->growing();
   news.assets = library_->size() != before;
   return news;
 }
@@ -59,16 +61,25 @@ void ShownWorld::take_manifest(std::vector<client::SceneObject> objects) {
   if (objects.size() == objects_.size()) return;
   objects_ = std::move(objects);
   for (const client::SceneObject& object : objects_)
-    files_->expect(object.mesh_uri, object.mesh_hash);
-  builder_->set_manifest(objects_);
+    importer_->want(object.mesh_uri, object.mesh_hash);
+  unplaced_ = true;
 }
 
-/// Files that came from the server of assets take their placeholders' place.
+/// Files that came from the server of assets.
 void ShownWorld::take_arrived() {
   if (!source_.store || objects_.empty()) return;
-  bool any = false;
-  for (const std::string& name : source_.store->take_arrived())
-    any = library_->load_again(name) || any;
+  for (const std::string& uri : source_.store->take_arrived()) {
+    importer_->want_again(uri);
+    arrived_.insert(uri);
+  }
+}
+
+/// Objects come into the scene once no file is being read, and files that came from the server of assets take their placeholders' place.
+void ShownWorld::place() {
+  if (importer_->busy()) return;
+  bool any = std::exchange(unplaced_, false);
+  for (const std::string& uri : std::exchange(arrived_, {}))
+    any = library_->load_again(uri) || any;
   if (any) builder_->set_manifest(objects_);
 }
 
@@ -83,8 +94,15 @@ void ShownWorld::show_forces(bool shown) {
 }
 
 picture::RenderScene ShownWorld::build(const client::Frame* frame, client::LinkState link) const {
-  if (builder_) return builder_->build(frame, status(), link);
   picture::RenderScene scene;
+  if (builder_) {
+    scene = builder_->build(frame, status(), link);
+    if (placed()) return scene;
+    if (!scene.ground_height_m) scene.ground_height_m = 0.0F;
+    if (scene.overlay.note.empty())
+      scene.overlay.note = visit::link_note(client::LinkState::searching, false, language_);
+    return scene;
+  }
   scene.ground_height_m = 0.0F;
   scene.camera.p_WT = Vec3(0, 1.2, 0);
   scene.overlay.note = visit::link_note(link, false, language_);

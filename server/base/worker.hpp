@@ -1,12 +1,17 @@
 // One thread that does the jobs it is given, in order: for work that a thread which must not wait hands over (files, imports).
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <future>
+#include <memory>
 #include <mutex>
 #include <thread>
+#include <type_traits>
+#include <utility>
 
 namespace mechane {
 
@@ -22,6 +27,14 @@ class Worker {
 
   /// Any thread: queues a job, which must not throw, and returns at once.
   void give(std::function<void()> job);
+  /// The same for a job with a result, which comes with the future. Whoever drops the future does not wait.
+  template <class Job>
+  [[nodiscard]] auto ask(Job job) -> std::future<std::invoke_result_t<Job&>> {
+    const auto task = std::make_shared<std::packaged_task<std::invoke_result_t<Job&>()>>(std::move(job));
+    auto result = task->get_future();
+    give([task] { (*task)(); });
+    return result;
+  }
   /// Any thread but the worker's own: waits until at most `jobs` are left, the one that runs included.
   void wait_until_left(std::size_t jobs);
 
@@ -34,5 +47,11 @@ class Worker {
   bool stop_ = false;
   std::thread thread_;  // last
 };
+
+/// The result has come and get() does not wait.
+template <class Result>
+[[nodiscard]] bool is_ready(const std::future<Result>& result) {
+  return result.valid() && result.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
 
 }  // namespace mechane

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <optional>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -112,7 +113,8 @@ bool read_all(int fd, Clock::time_point deadline, std::uint64_t most, ChildResul
 }  // namespace
 
 Expected<ChildResult> run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                                std::chrono::milliseconds wall_time, std::uint64_t most_output) {
+                                std::chrono::milliseconds wall_time, std::uint64_t most_output,
+                                const std::stop_token& stop) {
   const Clock::time_point deadline = Clock::now() + wall_time;
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -133,7 +135,13 @@ Expected<ChildResult> run_child(const std::filesystem::path& program, const std:
   }
   theirs.close();
 
+  const auto kill_all = [child] {
+    kill(-child, SIGKILL);
+    kill(child, SIGKILL);
+  };
   ChildResult result;
+  // Gone before the child is waited for: until then its number is nobody else's.
+  std::optional<std::stop_callback<decltype(kill_all)>> when_stopped(std::in_place, stop, kill_all);
   // The raw call: Debian 12's header declares its function without C linkage.
   const Descriptor handle(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
   bool ended = read_all(ours.get(), deadline, most_output, result);
@@ -141,10 +149,8 @@ Expected<ChildResult> run_child(const std::filesystem::path& program, const std:
     result.end = ChildResult::End::timed_out;
     ended = false;
   }
-  if (!ended) {
-    kill(-child, SIGKILL);
-    kill(child, SIGKILL);
-  }
+  if (!ended) kill_all();
+  when_stopped.reset();
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,10 @@ struct ChildResult {
 
 /// Starts `program` in a process group of its own with standard input empty, standard output a pipe to us, standard error ours, no
 /// other descriptor, default signals and ordinary scheduling; reads until it ends. After `wall_time`, or more than `most_output`
-/// bytes, the whole group is killed. Blocks; any thread. The Error is for a program that could not be started.
+/// bytes, or when `stop` asks for it, the whole group is killed. Blocks; any thread. The Error is for a program that could not be started.
 [[nodiscard]] Expected<ChildResult> run_child(const std::filesystem::path& program,
                                               const std::vector<std::string>& arguments,
-                                              std::chrono::milliseconds wall_time, std::uint64_t most_output);
+                                              std::chrono::milliseconds wall_time, std::uint64_t most_output,
+                                              const std::stop_token& stop = {});
 
 }  // namespace mechane::content

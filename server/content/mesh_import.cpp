@@ -94,13 +94,14 @@ tl::unexpected<Error> bad_end(const ChildResult& child, const fs::path& file, co
 
 }  // namespace
 
-Expected<ImportedScene> import_mesh(const fs::path& file, const ImportLimits& limits) {
+Expected<ImportedScene> import_mesh(const fs::path& file, const ImportLimits& limits, const std::stop_token& stop) {
   if (auto good = check_file(file, limits); !good) return tl::unexpected<Error>(good.error());
   const Expected<fs::path> helper = find_helper(limits);
   if (!helper) return tl::unexpected<Error>(helper.error());
   const Expected<ChildResult> child =
-      run_child(*helper, arguments_for(file, limits), limits.wall_time, longest_message(limits));
+      run_child(*helper, arguments_for(file, limits), limits.wall_time, longest_message(limits), stop);
   if (!child) return tl::unexpected<Error>(child.error());
+  if (stop.stop_requested()) return fail("the import was stopped", file.string());
   if (child->end != ChildResult::End::exited || child->output.empty()) return bad_end(*child, file, limits);
   Expected<ImportedScene> scene = decode_scene(child->output, limits);
   if (!scene) {

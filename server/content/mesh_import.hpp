@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 
 #include "server/base/error.hpp"
 #include "server/content/import_limits.hpp"
@@ -14,7 +15,9 @@ namespace mechane::content {
 /// of the loop. The child is the program mechane-mesh-import: limits.helper, or $MECHANE_LIBEXEC/mechane-mesh-import, or beside the
 /// running program, or in ../libexec/mechane from there. It gets no descriptors of ours, limited memory and processor time, and reads
 /// nothing outside the file's own folder. Errors: no such file, a format that is not read, a faulty file, a file over the limits, a
-/// child that crashed, ran too long or took too much memory, no helper program.
-[[nodiscard]] Expected<ImportedScene> import_mesh(const std::filesystem::path& file, const ImportLimits& limits = {});
+/// child that crashed, ran too long or took too much memory, no helper program. When `stop` asks for it, the child is killed and the import
+/// ends at once, with an Error.
+[[nodiscard]] Expected<ImportedScene> import_mesh(const std::filesystem::path& file, const ImportLimits& limits = {},
+                                                  const std::stop_token& stop = {});
 
 }  // namespace mechane::content

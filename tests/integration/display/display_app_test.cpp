@@ -7,12 +7,14 @@
 #include <iterator>
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "client-sdk/display/display_loop.hpp"
 #include "client-sdk/display/window.hpp"
 #include "client-sdk/recording/frame_recording.hpp"
 #include "client-sdk/recording/recording_codec.hpp"
+#include "tests/support/held_worker.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -134,20 +136,18 @@ TEST_F(PlayedDisplay, writes_what_sounds) {
   EXPECT_NE(without.back(), with.back());
 }
 
-/// Stands in for a window on a screen: too small to be drawn to, until it has taken its events twice; closed after that.
-class SmallWindow final : public Window {
+/// Stands in for a window on a screen.
+class StandInWindow : public Window {
  public:
-  explicit SmallWindow(std::unique_ptr<draw::GlContext> context) : context_(std::move(context)) {}
+  StandInWindow() : context_(draw::make_offscreen_context({320, 180}).value()) {}
   [[nodiscard]] std::string renderer_name() const override { return context_->renderer_name(); }
-  [[nodiscard]] picture::PixelSize size() const override {
-    return events_taken < 2 ? picture::PixelSize{1, 200} : picture::PixelSize{320, 180};
-  }
+  [[nodiscard]] picture::PixelSize size() const override { return {320, 180}; }
   void present() override { ++events_taken; }
   [[nodiscard]] bool lost() const override { return false; }
   [[nodiscard]] Expected<void> renew() override { return {}; }
   [[nodiscard]] int first_row() const override { return 0; }
   [[nodiscard]] bool has_quad_buffer() const override { return false; }
-  [[nodiscard]] bool close_wanted() const override { return events_taken >= 3; }
+  [[nodiscard]] bool close_wanted() const override { return false; }
   [[nodiscard]] bool take_picture_wanted() override { return false; }
   [[nodiscard]] std::vector<picture::PixelPlace> take_clicks() override { return {}; }
   [[nodiscard]] std::vector<pointer::PointerEvent> take_pointer_events() override { return {}; }
@@ -159,25 +159,94 @@ class SmallWindow final : public Window {
   std::unique_ptr<draw::GlContext> context_;
 };
 
-TEST(SmallWindow, takes_its_events_and_is_drawn_to_when_it_is_large_again) {
-  auto context = draw::make_offscreen_context({320, 180});
-  ASSERT_TRUE(context) << context.error().to_string();
-  SmallWindow window(std::move(*context));
-  DisplayOptions options;
+/// Too small to be drawn to, until it has taken its events twice; closed after that.
+class SmallWindow final : public StandInWindow {
+ public:
+  [[nodiscard]] picture::PixelSize size() const override {
+    return events_taken < 2 ? picture::PixelSize{1, 200} : StandInWindow::size();
+  }
+  [[nodiscard]] bool close_wanted() const override { return events_taken >= 3; }
+};
+
+Expected<DisplaySummary> run_in(Window& window, DisplayOptions options, Worker* worker) {
   options.offscreen = true;  // nothing is copied to a window that is none; what it says counts all the same
-  options.seconds = 60;      // the test's patience
   options.assets = (kSource / "scenarios/aiolos-sphere").string();
   options.source.play = (kSource / "tests/golden/scenes/aiolos-sphere.frames").string();
   auto source = open_source(options.source, {});
-  ASSERT_TRUE(source) << source.error().to_string();
+  if (!source) return tl::unexpected(source.error());
   auto renderer = draw::Renderer::create(options.renderer);
-  ASSERT_TRUE(renderer) << renderer.error().to_string();
+  if (!renderer) return tl::unexpected(renderer.error());
   DisplaySignals signals;
-  const auto summary =
-      DisplayLoop(options, signals, window, &window, std::move(*renderer), *source, nullptr, nullptr).run();
+  return DisplayLoop(options, signals, window, &window, std::move(*renderer), *source, nullptr, worker, nullptr).run();
+}
+
+TEST(SmallWindow, takes_its_events_and_is_drawn_to_when_it_is_large_again) {
+  SmallWindow window;
+  DisplayOptions options;
+  options.seconds = 60;  // the test's patience
+  const auto summary = run_in(window, options, nullptr);
   ASSERT_TRUE(summary) << summary.error().to_string();
   EXPECT_EQ(window.events_taken, 3);
   EXPECT_EQ(summary->frames, 1U);
+}
+
+constexpr int kHeldPictures = 5;  ///< so many are drawn before any file is read
+
+/// The files of its world can be read only once some pictures were drawn; a key may be pressed before that.
+class WaitingWindow final : public StandInWindow {
+ public:
+  explicit WaitingWindow(bool key) : key_(key) {}
+  void present() override {
+    StandInWindow::present();
+    if (events_taken >= kHeldPictures) worker.let_go_and_wait();
+  }
+  [[nodiscard]] std::vector<DisplayKey> take_keys() override {
+    if (!key_ || events_taken != 2) return {};
+    return {DisplayKey::language};
+  }
+
+  test::HeldWorker worker;
+
+ private:
+  bool key_;
+};
+
+class LoadingDisplay : public testing::Test {
+ protected:
+  /// Of the recording's first pictures, from 1.
+  std::vector<std::string> pictures_in(StandInWindow& window, Worker* worker, const std::string& folder) {
+    DisplayOptions options;
+    options.language = "en";
+    options.out = (scratch_.path() / folder).string();
+    std::filesystem::create_directories(options.out);
+    options.film_fps = 100;
+    options.frames = kHeldPictures + 3;
+    options.screen = {1.2, 1.5, 0};  // its view stays where it is, whatever is written in it
+    const auto summary = run_in(window, options, worker);
+    EXPECT_TRUE(summary) << (summary ? "" : summary.error().to_string());
+    std::vector<std::string> pictures(1);
+    for (std::size_t i = 1; i <= options.frames; ++i) {
+      std::ifstream in(fmt::format("{}/film-{:05}-mono.png", options.out, i), std::ios::binary);
+      pictures.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+      EXPECT_FALSE(pictures.back().empty()) << i;
+    }
+    return pictures;
+  }
+
+  test::ScratchFolder scratch_;
+};
+
+TEST_F(LoadingDisplay, goes_on_drawing_and_hears_its_visitor_until_the_files_are_there) {
+  StandInWindow ready;
+  const std::vector<std::string> wanted = pictures_in(ready, nullptr, "ready");
+  WaitingWindow calm(false), pressed(true);
+  const std::vector<std::string> waited = pictures_in(calm, calm.worker.get(), "calm");
+  const std::vector<std::string> asked = pictures_in(pressed, pressed.worker.get(), "pressed");
+  for (std::size_t i = 1; i <= kHeldPictures; ++i)
+    EXPECT_NE(waited[i], wanted[i]) << i << ": nothing can be read yet";
+  EXPECT_EQ(asked[2], waited[2]);
+  EXPECT_NE(asked[4], waited[4]) << "the key was heard meanwhile: the words are in another language";
+  EXPECT_EQ(waited.back(), wanted.back()) << "all is there, as if it had been from the beginning";
 }
 
 TEST_F(PlayedDisplay, draws_each_step_of_a_recording_however_slowly_it_draws) {

@@ -72,7 +72,7 @@ class AssetStoreTest : public testing::Test {
   test::ScratchFolder scratch_;
   fs::path top_ = scratch_.path();
   AssetStoreOptions options_;
-  std::unique_ptr<AssetStore> store_;
+  std::shared_ptr<AssetStore> store_;
   const std::string body_ = std::string(40'000, 'm') + "esh";
   const std::string hash_ = hash_of(body_);
 };
@@ -328,7 +328,7 @@ TEST_F(AssetStoreTest, a_cache_that_cannot_be_written_costs_the_cache_alone) {
 TEST_F(AssetStoreTest, mesh_files_come_from_the_catalogue_or_the_server) {
   const SmallHttpServer server([&](const std::string&, const std::string&) { return HttpReply{200, body_}; });
   open(server);
-  MeshFiles files(store_.get(), nullptr);
+  MeshFiles files(store_, nullptr);
   files.expect("a.glb", hash_);
   const auto first = files.find("a.glb");
   ASSERT_FALSE(first.has_value());

@@ -1,6 +1,7 @@
 #include "server/base/worker.hpp"
 
 #include <future>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,6 +19,22 @@ TEST(Worker, DoesItsJobsInOrderAndWaitsForNone) {
   gate.set_value();  // give() came back while the first job was held
   worker.wait_until_left(0);
   EXPECT_EQ(done, (std::vector{0, 1, 2}));
+}
+
+TEST(Worker, GivesAJobsResultToWhoeverAskedForIt) {
+  std::promise<void> gate;
+  Worker worker("test");
+  worker.give([opened = gate.get_future().share()] { opened.wait(); });
+  std::future<std::unique_ptr<int>> dropped = worker.ask([] { return std::make_unique<int>(1); });
+  std::future<std::unique_ptr<int>> kept = worker.ask([] { return std::make_unique<int>(2); });
+  dropped = {};
+  EXPECT_FALSE(is_ready(dropped));
+  EXPECT_FALSE(is_ready(kept));
+  gate.set_value();
+  worker.wait_until_left(0);
+  ASSERT_TRUE(is_ready(kept));
+  EXPECT_EQ(*kept.get(), 2);
+  EXPECT_FALSE(is_ready(kept)) << "it was taken";
 }
 
 TEST(Worker, EndsWhenAllJobsAreDone) {

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <map>
+#include <stop_token>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -282,6 +284,21 @@ TEST_F(MeshImport, AHelperThatHangsIsKilledWithItsChildren) {
   const auto started = std::chrono::steady_clock::now();
   EXPECT_THAT(fault_with(folder_.script("hang", "sleep 60 & sleep 60")), HasSubstr("more than 300 ms"));
   EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(20));
+}
+
+TEST_F(MeshImport, AStoppedImportEndsAtOnceWithItsHelper) {
+  const auto begun = folder_.path() / "begun";
+  limits_.helper = folder_.script("hang", "touch '" + begun.string() + "'; sleep 60 & sleep 60");
+  std::stop_source stop;
+  const std::jthread stopper([&](const std::stop_token& over) {
+    while (!over.stop_requested() && !std::filesystem::exists(begun))
+      std::this_thread::yield();
+    stop.request_stop();
+  });
+  const auto scene = import_mesh(folder_.write("cube.obj", cube_obj()), limits_, stop.get_token());
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().what, HasSubstr("stopped")) << "and not killed after 20 s";
+  EXPECT_FALSE(import_mesh(folder_.path() / "cube.obj", {}, stop.get_token())) << "a stop that came before counts, too";
 }
 
 TEST_F(MeshImport, AChildThatClosesItsOutputAndLingersIsKilledToo) {

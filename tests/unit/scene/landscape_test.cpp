@@ -74,7 +74,7 @@ TEST(Landscape, its_meshes_are_whole_and_their_faces_look_along_their_normals) {
   AssetLibrary library = empty_library();
   const LandscapePlan plan = plan_by_a_river();
   std::size_t triangles = 0;
-  for (const picture::Instance& instance : grow(plan, plants_of(plan), library)) {
+  for (const picture::Instance& instance : add_plants(grow(plan, plants_of(plan)), library)) {
     EXPECT_FALSE(instance.casts_shadow);
     EXPECT_FALSE(instance.object) << "nobody takes a tree";
     EXPECT_FALSE(instance.near) << "nor looks for one under a finger";
@@ -102,7 +102,7 @@ TEST(Landscape, the_farther_away_the_fewer_leaves) {
     AssetLibrary library = empty_library();
     std::size_t triangles = 0;
     const Plant olive{Plant::Kind::olive, plan.middle_W + Vec3f(-away_m, 0, 0), 4, 3};
-    for (const picture::Instance& instance : grow(plan, {olive}, library))
+    for (const picture::Instance& instance : add_plants(grow(plan, {olive}), library))
       triangles += library.assets().meshes[instance.mesh].indices.size() / 3;
     return triangles;
   };
@@ -115,7 +115,7 @@ TEST(Landscape, shade_lies_away_from_the_sun) {
   for (const auto kind : {Plant::Kind::olive, Plant::Kind::cypress}) {
     AssetLibrary library = empty_library();
     const Plant tree{kind, plan.middle_W + Vec3f(0, 0, -40), 4, 3};
-    const picture::MeshData& shade = library.assets().meshes[grow(plan, {tree}, library).back().mesh];
+    const picture::MeshData& shade = library.assets().meshes[add_plants(grow(plan, {tree}), library).back().mesh];
     ASSERT_EQ(shade.positions.size(), 4U);
     const Vec3f middle = (shade.positions[0] + shade.positions[2]) / 2;
     // Of a crown's middle at some 0.6 of its height, along the sun's ray.

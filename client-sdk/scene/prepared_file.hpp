@@ -1,0 +1,21 @@
+// A mesh file with its materials and decoded images, ready to be added to an AssetLibrary.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client-sdk/picture/scene_assets.hpp"
+#include "server/content/imported_scene.hpp"
+
+namespace mechane::scene {
+
+struct PreparedFile {
+  content::ImportedScene scene;                  ///< without its textures
+  std::vector<picture::MaterialData> materials;  ///< the scene's; their image numbers are places in `images`
+  std::vector<picture::ImageData> images;
+};
+
+/// Slow; any thread. `uri` names the file in messages. An image that cannot be decoded is logged, and its materials go without it.
+[[nodiscard]] PreparedFile prepare(content::ImportedScene scene, const std::string& uri);
+
+}  // namespace mechane::scene
