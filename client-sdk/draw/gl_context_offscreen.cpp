@@ -4,11 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <link.h>
 
 #include "client-sdk/draw/gl_context.hpp"
 
@@ -17,23 +15,6 @@ namespace {
 
 constexpr const char* kRemedy =
     "install libegl-mesa0 and libgl1-mesa-dri (deploy/install-deps does), or run without --offscreen";
-
-#if defined(__SANITIZE_ADDRESS__)
-/// Keeps the driver's code loaded after its context is gone: a leak report can then name the driver, and tests/support/lsan.supp can
-/// leave Mesa's own leaks out.
-void keep_driver_loaded() {
-  dl_iterate_phdr(
-      [](dl_phdr_info* info, std::size_t, void*) {
-        if (std::string_view(info->dlpi_name).find("_dri.so") != std::string_view::npos) {
-          dlopen(info->dlpi_name, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
-        }
-        return 0;
-      },
-      nullptr);
-}
-#else
-void keep_driver_loaded() {}
-#endif
 
 /// Told of resets where the driver can tell. Null: none, see eglGetError().
 EGLContext make_context(EGLDisplay display) {
@@ -183,7 +164,6 @@ Expected<std::unique_ptr<GlContext>> make_offscreen_context(picture::PixelSize s
   // Mesa alone chooses here, and beside another maker's card it would choose the processor.
   if (opened->display == EGL_NO_DISPLAY) opened = open_surfaceless(extensions);
   if (!opened) return tl::unexpected(opened.error());
-  keep_driver_loaded();
   return std::make_unique<OffscreenContext>(opened->display, opened->context, size);
 }
 
