@@ -15,7 +15,7 @@ World::World(std::shared_ptr<const state::WorldDescription> of, std::unique_ptr<
       agents(std::move(its_agents)),
       machines(std::move(its_machines)),
       hand(std::move(its_hand)),
-      forces(std::move(its_forces)) {}
+      forces(its_forces) {}
 
 Expected<std::unique_ptr<World>> World::create(const std::shared_ptr<const state::WorldDescription>& description,
                                                const WorldConfig& config) {
@@ -28,8 +28,7 @@ Expected<std::unique_ptr<World>> World::create(const std::shared_ptr<const state
   MECHANE_ASSERT(config.hand != nullptr);
   auto forces = haptics::ForceRenderer::create(config.force);
   if (!forces) return tl::unexpected(forces.error());
-  std::unique_ptr<World> world(
-      new World(description, std::move(*agents), std::move(*machines), config.hand, std::move(*forces)));
+  std::unique_ptr<World> world(new World(description, std::move(*agents), std::move(*machines), config.hand, *forces));
   world->state.memory = layout.initial();
   world->agents->start(world->state);
   world->forces.start(world->state);

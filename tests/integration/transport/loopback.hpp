@@ -22,6 +22,7 @@
 #include "server/transport/server_transport.hpp"
 #include <mechane/client/client.hpp>
 #include <mechane/proto/entity.hpp>
+#include <mechane/proto/qos.hpp>
 
 namespace mechane::test {
 
@@ -144,8 +145,9 @@ class EchoServer {
   [[nodiscard]] const transport::ServerTransport& transport() const { return *transport_; }
   /// How many programs it knows.
   [[nodiscard]] std::size_t sessions() const { return sessions_; }
-  /// As if nobody had been heard for so long: at its next look the server forgets every session that does not report more often.
-  void hear_nothing_for(Duration time) { unheard_ns_ = time.count(); }
+  /// As if no client had been heard for longer than a session lives. Reports that wait are taken first: on a busy machine one waits at
+  /// each look, and the client's session would live on.
+  void forget_sessions() { forget_ = true; }
   /// Every sample that the loop saw, newest last (the first 100 000).
   [[nodiscard]] std::vector<hand::SentSample> samples() const {
     const std::lock_guard lock(mutex_);
@@ -170,9 +172,15 @@ class EchoServer {
   void run_main() {
     realtime::Wakeup never;
     while (!stop_) {
-      for (const transport::News& n :
-           transport_->poll(std::chrono::steady_clock::now() + Duration(unheard_ns_.exchange(0))))
+      for (const transport::News& n : transport_->poll(std::chrono::steady_clock::now()))
         handle(n);
+      if (forget_) {
+        const TimePoint later = std::chrono::steady_clock::now() + proto::kKioskLiveliness + std::chrono::seconds(1);
+        for (const transport::News& n : transport_->poll(later)) {
+          if (n.kind == transport::NewsKind::session_left) forget_ = false;
+          handle(n);
+        }
+      }
       sessions_ = transport_->sessions().sessions().size();
       while (const auto answer = port_->take_answer()) {
         const std::lock_guard lock(mutex_);
@@ -249,7 +257,7 @@ class EchoServer {
   transport::WorldPort* port_ = nullptr;
   state::WorldState state_;
   std::atomic<bool> stop_{false};
-  std::atomic<std::int64_t> unheard_ns_{0};
+  std::atomic<bool> forget_{false};
   std::atomic<std::size_t> sessions_{0};
   mutable std::mutex mutex_;
   std::vector<hand::SentSample> samples_;
