@@ -209,7 +209,7 @@ constexpr state::ParameterType kSteamSphereParameters[] = {
      .min = 0,
      .max = 1000},
     {.name = "ambient",
-     .unit = "deg C",
+     .unit = "degC",
      .summary = "around, and of the water at the start",
      .default_value = 20,
      .min = -20,
@@ -259,7 +259,7 @@ constexpr state::ParameterType kSteamSphereParameters[] = {
      .summary = "true: the nozzles drive the hinge to negative angles"},
 };
 constexpr state::ValueType kSteamSphereValues[] = {
-    {.name = "temperature_c", .unit = "deg C", .summary = "of the water", .max = kBoiling_c},
+    {.name = "temperature_c", .unit = "degC", .summary = "of the water", .max = kBoiling_c},
     state::amount("steam_kg_s", "kg/s", "that comes off the water, in real time"),
     state::amount("water_l", "l", "left in the cauldron", "water"),
     {"rate", "rad/s", "of the sphere; the unit rpm converts"},

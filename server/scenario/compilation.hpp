@@ -65,6 +65,14 @@ void compile_hash(Compilation& c);
 
 /// What a careful author would want to hear of a world that compiles: warnings.
 void lint(Compilation& c);
+/// Of bodies that fall, or stay immovable, because an agent is off. Part of lint().
+void lint_bodies(Compilation& c);
+
+/// Whether a step's list of agents has this one.
+[[nodiscard]] bool names(const std::vector<AgentId>& list, AgentId agent);
+
+/// The steps that its triggers and its time-out lead to.
+[[nodiscard]] std::vector<StepId> next_steps(const state::StepDescription& step);
 
 /// All of it.
 void compile_all(Compilation& c);

@@ -1,4 +1,7 @@
 // RigidBody nodes to bodies.
+#include <algorithm>
+#include <optional>
+
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
@@ -88,23 +91,82 @@ void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
   }
 }
 
+/// From small to large.
+Vec3 principal_moments(const Mat3& inertia_kg_m2) {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(inertia_kg_m2, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+bool is_of_a_solid(const Vec3& principal) {
+  return principal[2] <= 1.001 * (principal[0] + principal[1]);
+}
+
 void read_mass(Attributes& attributes, state::BodyDescription& body) {
   body.mass_kg = attributes.number("mass");
   body.inertia_kg_m2 = attributes.symmetric_matrix("inertia");
   body.p_BCm = attributes.vector("centerOfMass");
   if (body.fixed) return;
   if (body.mass_kg <= 0) attributes.error("the mass is 0 kg", "write a mass above 0, or fixed='true'");
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(body.inertia_kg_m2, Eigen::EigenvaluesOnly);
-  const Vec3& principal = solver.eigenvalues();  // from small to large
+  const Vec3 principal = principal_moments(body.inertia_kg_m2);
   if (principal[0] <= 0) {
     attributes.error("the inertia is not positive definite", "write the inertia of a solid body, in kg m^2");
-  } else if (principal[2] > 1.001 * (principal[0] + principal[1])) {
+  } else if (!is_of_a_solid(principal)) {
     attributes.error("no solid body has this inertia: one principal moment is larger than the sum of the others",
-                     "compute it anew from the shape");
-  } else if (!attributes.given("inertia")) {
-    attributes.warning("the inertia is not given and is taken as 1 kg m^2 about every axis",
-                       "write it, computed from the shape");
+                     "compute it anew from the shape, or leave it out: it is computed from a closed mesh");
   }
+}
+
+/// Warns of a mass that no thing of this shape, or none at all, can have.
+void check_mass(Attributes& attributes, const state::BodyDescription& body, const std::optional<Solid>& solid) {
+  constexpr double kAir = 1.2, kOsmium = 22600, kOak = 700;  // kg/m^3; no metal is denser than osmium
+  constexpr double kLeast_kg = 1e-4, kMost_kg = 1e6;         // of what is touched in a museum, where no shape is known
+  const bool closed = solid && solid->is_closed();
+  const double most_m3 = solid ? std::max(solid->volume_m3, solid->box_m3) : 0;
+  if (closed && body.mass_kg < kAir * solid->volume_m3) {
+    attributes.warning(fmt::format("the mass of {:.3g} kg is less than that of air: the mesh encloses {:.3g} m^3",
+                                   body.mass_kg, solid->volume_m3),
+                       fmt::format("write it in kilograms: of oak it is some {:.2g}", kOak * solid->volume_m3));
+  } else if (most_m3 > 0 && body.mass_kg > kOsmium * (closed ? solid->volume_m3 : most_m3)) {
+    const double volume_m3 = closed ? solid->volume_m3 : most_m3;
+    attributes.warning(fmt::format("the mass of {:.3g} kg is more than that of any metal: the mesh {} {:.3g} m^3",
+                                   body.mass_kg, closed ? "encloses" : "fits into", volume_m3),
+                       fmt::format("write it in kilograms, and the mesh in metres: of oak it is some {:.2g}",
+                                   kOak * volume_m3));
+  } else if (!solid && (body.mass_kg < kLeast_kg || body.mass_kg >= kMost_kg)) {
+    attributes.warning(fmt::format("a mass of {:.3g} kg is hardly meant", body.mass_kg), "write it in kilograms");
+  }
+}
+
+/// The inertia that the author left out: from a closed mesh, as of a uniform solid; without one X3D's default stays.
+void complete_inertia(Attributes& attributes, const Expected<std::optional<Solid>>& solid, bool has_mesh,
+                      state::BodyDescription& body) {
+  std::string why = "no mesh is known to compute it from";
+  if (has_mesh && !solid) why = "it cannot be computed: " + solid.error().what;
+  if (has_mesh && solid && !*solid) return;  // nobody has looked, or a fault of the file has been said
+  if (has_mesh && solid && (*solid)->is_closed()) {
+    const Mat3 inertia_kg_m2 = body.mass_kg * (*solid)->inertia_per_kg_m2;
+    const Vec3 principal = principal_moments(inertia_kg_m2);
+    if (principal[0] > 0 && is_of_a_solid(principal)) {
+      body.inertia_kg_m2 = inertia_kg_m2;
+      return;
+    }
+    why = "the mesh crosses itself, so that none can be computed";
+  } else if (has_mesh && solid) {
+    why = fmt::format("the mesh is not closed ({} open edges), so that none can be computed", (*solid)->open_edges);
+  }
+  attributes.warning(
+      fmt::format("the inertia is not given, and {}: it is taken as 1 kg m^2 about every axis", why),
+      "write it, or give the body a closed mesh");
+}
+
+void compare_with_mesh(Compilation& c, Attributes& attributes, state::BodyDescription& body) {
+  if (body.fixed || body.mass_kg <= 0) return;
+  const bool has_mesh = !body.mesh.uri.empty();
+  const bool missing = !attributes.given("inertia");
+  Expected<std::optional<Solid>> solid = std::nullopt;
+  if (has_mesh && (missing || c.loader.has_meshes_at_hand()))
+    solid = c.loader.solid(c.document.path().parent_path() / body.mesh.uri, body.mesh.node);
+  check_mass(attributes, body, solid ? *solid : std::nullopt);
+  if (missing) complete_inertia(attributes, solid, has_mesh, body);
 }
 
 double damping(Attributes& attributes, std::string_view name, double otherwise) {
@@ -129,6 +191,7 @@ void compile_body(Compilation& c, x3d::NodeId id) {
   read_mass(attributes, body);
   read_haptic(c, id, body);
   read_shape(c, id, attributes, body);
+  compare_with_mesh(c, attributes, body);
   c.world.bodies.push_back(std::move(body));
   c.body_lines.push_back(c.document[id].line);
 }

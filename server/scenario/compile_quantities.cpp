@@ -54,15 +54,72 @@ void check_source(Compilation& c, const std::string& source, int line, const std
   }
 }
 
-/// Any word is shown as it is written; but rpm and deg convert, and a slip there gives a wrong number.
-void check_unit(Compilation& c, const std::string& unit, int line, const std::string& where) {
+const std::vector<std::string>& known_units() {
   static const std::vector<std::string> kKnown = {
       "m",  "cm", "mm", "km", "rad", "deg",  "rpm",  "rad/s", "s",     "min",  "h",  "l",   "l/s",  "l/min",
       "m3", "m2", "kg", "g",  "t",   "N",    "kN",   "N m",   "J",     "kJ",   "W",  "m/s", "m/s2", "degC",
       "K",  "%",  "Pa", "Hz", "",    "kg/s", "m3/s", "1/s",   "1/min", "km/h", "kW", "bar", "turns"};
-  if (std::find(kKnown.begin(), kKnown.end(), unit) != kKnown.end()) return;
+  return kKnown;
+}
+
+bool is_known_unit(const std::string& unit) {
+  return std::find(known_units().begin(), known_units().end(), unit) != known_units().end();
+}
+
+/// Any word is shown as it is written; but rpm and deg convert, and a slip there gives a wrong number.
+void check_unit(Compilation& c, const std::string& unit, int line, const std::string& where) {
+  if (is_known_unit(unit)) return;
   c.problems.warning(line, where, fmt::format("the unit '{}' is not known: it is only shown", unit),
-                     suggest(unit, kKnown, "leave it if visitors read it so; of rates rpm and of angles deg convert"));
+                     suggest(unit, known_units(), "leave it if visitors read it so; of rates rpm and of angles deg convert"));
+}
+
+/// What one source is measured in: the unit first, then those that convert from it.
+using Units = std::vector<std::string>;
+
+Units units_of(std::string_view value, std::string_view unit) {
+  Units units{std::string(unit)};
+  if (unit == "rad" && value == "angle") units.emplace_back("deg");
+  if (unit == "rad/s" && value == "rate") units.emplace_back("rpm");
+  if (unit.empty() && value == "turns") units.emplace_back("turns");
+  // Pulled, pushed and fired measure along a slider or about a hinge.
+  if (unit == "m" && value == "travel") units.emplace_back("rad");
+  return units;
+}
+
+Units units_of_joint(const state::JointDescription& joint, std::string_view value) {
+  const bool slides = joint.kind == state::JointKind::slider;
+  if (value == "turns") return units_of(value, "");
+  if (value == "rate") return units_of(value, slides ? "m/s" : "rad/s");
+  return units_of(value, slides ? "m" : "rad");
+}
+
+/// Of a source that is there; nothing for one that is not. A component comes before the joint or body of its name.
+Units units_of_source(const state::WorldDescription& world, const std::string& source) {
+  const std::size_t dot = std::min(source.find('.'), source.size() - 1);
+  const std::string name = source.substr(0, dot), value = source.substr(dot + 1);
+  const auto* agent = find_component(world.agents, name);
+  const auto* machine = find_component(world.machines, name);
+  for (const state::ComponentType* type : {agent != nullptr ? find_agent_type(agent->type) : nullptr,
+                                           machine != nullptr ? find_machine_type(machine->type) : nullptr}) {
+    if (type == nullptr) continue;
+    const auto stated = std::ranges::find(type->values, value, &state::ValueType::name);
+    if (stated != type->values.end()) return units_of(value, stated->unit);
+  }
+  if (const JointId joint = world.find_joint(name)) return units_of_joint(world.joints[joint.index()], value);
+  if (world.find_body(name)) return units_of(value, value == "speed" ? "m/s" : "m");
+  return {};
+}
+
+void check_unit_fits(Compilation& c, const state::QuantityDescription& quantity, int line, const std::string& where) {
+  if (quantity.unit.empty() || quantity.source.empty() || !is_known_unit(quantity.unit)) return;
+  const Units units = units_of_source(c.world, quantity.source);
+  if (units.empty() || std::find(units.begin(), units.end(), quantity.unit) != units.end()) return;
+  const bool plain = units.front().empty();
+  c.problems.warning(line, where,
+                     fmt::format("the unit '{}' does not fit '{}', which {}: the number is not converted",
+                                 quantity.unit, quantity.source,
+                                 plain ? std::string("has no unit") : fmt::format("is in {}", units.front())),
+                     plain ? std::string("leave the unit out") : fmt::format("write {}", fmt::join(units, " or ")));
 }
 
 }  // namespace
@@ -82,6 +139,7 @@ void compile_quantities(Compilation& c) {
       quantity.source = fields.string("source");
       quantity.unit = fields.string("unit");
       check_unit(c, quantity.unit, fields.line("unit"), where);
+      check_unit_fits(c, quantity, fields.line("unit"), where);
       line = fields.line("source");
     } else {
       c.problems.error(item.line, where, "it is neither a source nor a set",

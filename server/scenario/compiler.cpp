@@ -8,6 +8,7 @@
 
 #include "server/base/suggestion.hpp"
 #include "server/content/content_hash.hpp"
+#include "server/content/mesh_import.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -166,6 +167,14 @@ void compile_all(Compilation& c) {
   compile_visits(c);
   compile_hash(c);
   if (!c.problems.has_errors() && c.scenario) lint(c);
+}
+
+Expected<std::optional<Solid>> ObjectLoader::solid(const std::filesystem::path& file, const std::string& node) {
+  const auto scene = content::import_mesh(file);
+  if (!scene) return tl::unexpected(scene.error());
+  const auto parts = content::collision_parts(*scene, node);
+  if (!parts) return tl::unexpected(parts.error());
+  return solid_of(*parts);
 }
 
 Expected<std::string> hash_file(const std::filesystem::path& file) {

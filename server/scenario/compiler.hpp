@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/base/error.hpp"
+#include "server/scenario/solid.hpp"
 #include "server/state/description.hpp"
 #include "server/x3d/document.hpp"
 
@@ -21,6 +23,12 @@ class ObjectLoader {
                                                                                 const std::string& node) = 0;
   /// Whether a mesh file has a node, for bodies that are only drawn. A loader that does not look says yes.
   [[nodiscard]] virtual Expected<void> find_node(const std::filesystem::path&, const std::string&) { return {}; }
+  /// What the mesh of a node says of a body's mass; nothing from a loader that does not look into meshes. This one imports the file anew,
+  /// and is asked only for bodies whose inertia is not given. Errors: those of content::import_mesh and collision_parts.
+  [[nodiscard]] virtual Expected<std::optional<Solid>> solid(const std::filesystem::path& file,
+                                                             const std::string& node);
+  /// Whether solid() costs little: then it is asked for every body, to hold the masses against.
+  [[nodiscard]] virtual bool has_meshes_at_hand() const { return false; }
   /// The name of the file's bytes: content::content_hash(). Fails where the file cannot be read.
   [[nodiscard]] virtual Expected<std::string> content_hash(const std::filesystem::path& file) = 0;
 };

@@ -12,6 +12,9 @@ class FileFinder final : public ObjectLoader {
                                                                         const std::string&) override {
     return nullptr;
   }
+  [[nodiscard]] Expected<std::optional<Solid>> solid(const std::filesystem::path&, const std::string&) override {
+    return std::nullopt;
+  }
   [[nodiscard]] Expected<std::string> content_hash(const std::filesystem::path& file) override {
     return hash_file(file);
   }

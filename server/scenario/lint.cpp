@@ -10,10 +10,6 @@ namespace {
 
 using state::StepDescription;
 
-bool names(const std::vector<AgentId>& list, AgentId agent) {
-  return std::find(list.begin(), list.end(), agent) != list.end();
-}
-
 void check_texts(Compilation& c, const state::Texts& texts, int line, const std::string& where, std::string_view what) {
   std::vector<std::string> missing;
   for (const std::string& language : c.world.languages) {
@@ -85,11 +81,8 @@ void check_reach(Compilation& c) {
     open.pop_back();
     if (reached[id.index()]) continue;
     reached[id.index()] = true;
-    for (const state::TriggerDescription& trigger : c.world.steps[id.index()].triggers) {
-      if (trigger.next) open.push_back(trigger.next);
-    }
-    const StepDescription& left = c.world.steps[id.index()];
-    if (left.timeout_s > 0 && left.timeout_next) open.push_back(left.timeout_next);
+    for (const StepId next : next_steps(c.world.steps[id.index()]))
+      open.push_back(next);
   }
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const StepDescription& step = c.world.steps[i];
@@ -172,10 +165,24 @@ void check_world(Compilation& c) {
 
 }  // namespace
 
+bool names(const std::vector<AgentId>& list, AgentId agent) {
+  return std::find(list.begin(), list.end(), agent) != list.end();
+}
+
+std::vector<StepId> next_steps(const StepDescription& step) {
+  std::vector<StepId> next;
+  for (const state::TriggerDescription& trigger : step.triggers) {
+    if (trigger.next) next.push_back(trigger.next);
+  }
+  if (step.timeout_s > 0 && step.timeout_next) next.push_back(step.timeout_next);
+  return next;
+}
+
 void lint(Compilation& c) {
   check_all_texts(c);
   check_reach(c);
   check_triggers(c);
+  lint_bodies(c);
   check_sounds(c);
   check_visits(c);
   check_world(c);

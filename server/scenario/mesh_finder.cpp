@@ -52,6 +52,15 @@ Expected<void> MeshFinder::find_node(const std::filesystem::path& file, const st
   return *scene == nullptr ? Expected<void>() : find_in(**scene, node);
 }
 
+Expected<std::optional<Solid>> MeshFinder::solid(const std::filesystem::path& file, const std::string& node) {
+  const auto scene = scene_of(file);
+  if (!scene) return tl::unexpected(scene.error());
+  if (*scene == nullptr) return std::nullopt;
+  const auto parts = content::collision_parts(**scene, node);
+  if (!parts) return tl::unexpected(parts.error());
+  return solid_of(*parts);
+}
+
 Expected<std::string> MeshFinder::content_hash(const std::filesystem::path& file) {
   return hash_file(file);
 }

@@ -25,6 +25,10 @@ class MeshFinder final : public ObjectLoader {
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                         const std::string& node) override;
   [[nodiscard]] Expected<void> find_node(const std::filesystem::path& file, const std::string& node) override;
+  /// Nothing where the file could not be imported and that has been said.
+  [[nodiscard]] Expected<std::optional<Solid>> solid(const std::filesystem::path& file,
+                                                     const std::string& node) override;
+  [[nodiscard]] bool has_meshes_at_hand() const override { return true; }
   [[nodiscard]] Expected<std::string> content_hash(const std::filesystem::path& file) override;
 
  private:

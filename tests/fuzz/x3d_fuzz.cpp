@@ -22,6 +22,9 @@ class NoFiles final : public scenario::ObjectLoader {
                                                                             const std::string&) override {
     return nullptr;
   }
+  mechane::Expected<std::optional<scenario::Solid>> solid(const std::filesystem::path&, const std::string&) override {
+    return std::nullopt;
+  }
   mechane::Expected<std::string> content_hash(const std::filesystem::path&) override { return std::string(32, '0'); }
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,11 @@ class FakeLoader final : public ObjectLoader {
     return hash;
   }
 
+  Expected<std::optional<Solid>> solid(const std::filesystem::path&, const std::string&) override { return shape; }
+  bool has_meshes_at_hand() const override { return true; }
+
   std::vector<std::string> loaded;
+  std::optional<Solid> shape;  ///< of every body
   std::string hash = std::string(32, 'a');
   std::string missing_node;
   bool no_files = false;
