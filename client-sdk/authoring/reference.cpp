@@ -271,13 +271,21 @@ std::string reference_page() {
     page += variation_text(variation);
   page += node_tables_text();
   page += key_tables_text();
-  page += components_text("Agents",
-                          "An agent makes things behave (`geometry.*`), or says what a visitor does with them "
-                          "(`simulation.*`). It is a set in `agents`,\n"
-                          "named as you like, with its `type` and its parameters; or it stands on a joint or body as "
-                          "the set `mechane:agent`, is called\n"
-                          "as that is, and need not name it again. Steps switch agents on and off.",
-                          agents::registry());
+  page += components_text(
+      "Agents",
+      "An agent makes things behave (`geometry.*`), or says what a visitor does with them "
+      "(`simulation.*`). It is a set in `agents`,\n"
+      "named as you like, with its `type` and its parameters; or it stands on a joint or body as "
+      "the set `mechane:agent`, is called\n"
+      "as that is, and need not name it again.\n\n"
+      "**Which agents are on.** Steps switch agents on (`enable`) and off (`disable`). Every activity begins with "
+      "all agents on, except those\nthat any step of the scenario enables, in this activity or another: they "
+      "are off until a step enables them. A joint, tie or rope whose\nagent is off holds nothing: enable it in "
+      "the first step, or its bodies fall meanwhile.\n\n"
+      "**A snap that is off** leads nothing home any more, and lets go of nothing: a body that it has placed stays "
+      "fixed there, and no hand\ncan take it, until a step writes `movable` true into its `object:NAME`. With "
+      "`tied` the body stays tied; only a `geometry.breakable` parts it.",
+      agents::registry());
   page += components_text(
       "Machines",
       "A machine is the physics behind a joint: water, springs, steam. It is a set in `machines`, as agents are.",

@@ -62,6 +62,8 @@ constexpr state::ParameterType kBallParameters[] = {
     {.name = "axis",
      .kind = ParameterKind::numbers,
      .summary = "the cone's axis as the bodies stand at the start; none: 0 1 0",
+     .min = -1e4,
+     .max = 1e4,
      .count = 3},
 };
 constexpr state::ValueType kBallValues[] = {

@@ -115,6 +115,8 @@ constexpr state::ParameterType kPointParameters[] = {
      .unit = "m",
      .summary = "the point meant, in its frame; behind a board's face, so that the fingertip is near it only where it "
                 "touches the board",
+     .min = -1e4,
+     .max = 1e4,
      .count = 3},
     {.name = "distance",
      .unit = "m",

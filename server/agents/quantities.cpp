@@ -44,8 +44,9 @@ Expected<Quantities::Source> Quantities::resolve(const state::WorldDescription& 
     }
     if (value == "speed") return Source{From::body_speed, body.index(), 0, 1};
   }
+  const std::string known = known_sources(description, layout);
   return fail("the source '" + quantity.source + "' does not exist", "quantity " + quantity.name,
-              "use one of: " + known_sources(description, layout));
+              known.empty() ? "add an agent, a machine, a joint or a body first" : "use one of: " + known);
 }
 
 Expected<Quantities> Quantities::create(const state::WorldDescription& description, const state::MemoryLayout& layout) {

@@ -127,10 +127,10 @@ void check_mass(Attributes& attributes, const state::BodyDescription& body, cons
                        fmt::format("write it in kilograms: of oak it is some {:.2g}", kOak * solid->volume_m3));
   } else if (most_m3 > 0 && body.mass_kg > kOsmium * (closed ? solid->volume_m3 : most_m3)) {
     const double volume_m3 = closed ? solid->volume_m3 : most_m3;
-    attributes.warning(fmt::format("the mass of {:.3g} kg is more than that of any metal: the mesh {} {:.3g} m^3",
-                                   body.mass_kg, closed ? "encloses" : "fits into", volume_m3),
-                       fmt::format("write it in kilograms, and the mesh in metres: of oak it is some {:.2g}",
-                                   kOak * volume_m3));
+    attributes.warning(
+        fmt::format("the mass of {:.3g} kg is more than that of any metal: the mesh {} {:.3g} m^3", body.mass_kg,
+                    closed ? "encloses" : "fits into", volume_m3),
+        fmt::format("write it in kilograms, and the mesh in metres: of oak it is some {:.2g}", kOak * volume_m3));
   } else if (!solid && (body.mass_kg < kLeast_kg || body.mass_kg >= kMost_kg)) {
     attributes.warning(fmt::format("a mass of {:.3g} kg is hardly meant", body.mass_kg), "write it in kilograms");
   }
@@ -153,9 +153,8 @@ void complete_inertia(Attributes& attributes, const Expected<std::optional<Solid
   } else if (has_mesh && solid) {
     why = fmt::format("the mesh is not closed ({} open edges), so that none can be computed", (*solid)->open_edges);
   }
-  attributes.warning(
-      fmt::format("the inertia is not given, and {}: it is taken as 1 kg m^2 about every axis", why),
-      "write it, or give the body a closed mesh");
+  attributes.warning(fmt::format("the inertia is not given, and {}: it is taken as 1 kg m^2 about every axis", why),
+                     "write it, or give the body a closed mesh");
 }
 
 void compare_with_mesh(Compilation& c, Attributes& attributes, state::BodyDescription& body) {

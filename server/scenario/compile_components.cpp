@@ -41,6 +41,14 @@ state::Parameter to_parameter(const x3d::Metadata& value) {
   return value.numbers;
 }
 
+/// A decimal comma where a parameter takes a fixed count of numbers.
+std::optional<x3d::BadValue> comma_in(const ParameterType& type, const x3d::Metadata& value) {
+  const std::size_t wanted = type.kind == state::ParameterKind::number    ? 1
+                             : type.kind == state::ParameterKind::numbers ? type.count
+                                                                          : 0;
+  return wanted == 0 ? std::nullopt : x3d::comma_fault(value.commas, value.numbers.size(), wanted);
+}
+
 void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentType& type, const std::string& where,
                     state::ComponentDescription& out) {
   const auto known = std::ranges::find(type.parameters, value.name, &ParameterType::name);
@@ -53,6 +61,9 @@ void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentT
              (value.kind == x3d::MetadataKind::booleans && value.booleans.size() != 1)) {
     c.problems.error(value.line, where, fmt::format("the parameter '{}' is not one value", value.name),
                      std::string(known->summary));
+  } else if (const auto comma = comma_in(*known, value)) {
+    c.problems.error(value.line, where, fmt::format("{}: {}", value.name, comma->what), comma->remedy);
+    c.misspelt_parameters.emplace(out.name, value.name);
   } else {
     out.parameters[value.name] = to_parameter(value);
     c.parameter_lines[{out.name, value.name}] = value.line;

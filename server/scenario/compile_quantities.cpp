@@ -69,8 +69,9 @@ bool is_known_unit(const std::string& unit) {
 /// Any word is shown as it is written; but rpm and deg convert, and a slip there gives a wrong number.
 void check_unit(Compilation& c, const std::string& unit, int line, const std::string& where) {
   if (is_known_unit(unit)) return;
-  c.problems.warning(line, where, fmt::format("the unit '{}' is not known: it is only shown", unit),
-                     suggest(unit, known_units(), "leave it if visitors read it so; of rates rpm and of angles deg convert"));
+  c.problems.warning(
+      line, where, fmt::format("the unit '{}' is not known: it is only shown", unit),
+      suggest(unit, known_units(), "leave it if visitors read it so; of rates rpm and of angles deg convert"));
 }
 
 /// What one source is measured in: the unit first, then those that convert from it.
@@ -115,11 +116,11 @@ void check_unit_fits(Compilation& c, const state::QuantityDescription& quantity,
   const Units units = units_of_source(c.world, quantity.source);
   if (units.empty() || std::find(units.begin(), units.end(), quantity.unit) != units.end()) return;
   const bool plain = units.front().empty();
-  c.problems.warning(line, where,
-                     fmt::format("the unit '{}' does not fit '{}', which {}: the number is not converted",
-                                 quantity.unit, quantity.source,
-                                 plain ? std::string("has no unit") : fmt::format("is in {}", units.front())),
-                     plain ? std::string("leave the unit out") : fmt::format("write {}", fmt::join(units, " or ")));
+  c.problems.warning(
+      line, where,
+      fmt::format("the unit '{}' does not fit '{}', which {}: the number is not converted", quantity.unit,
+                  quantity.source, plain ? std::string("has no unit") : fmt::format("is in {}", units.front())),
+      plain ? std::string("leave the unit out") : fmt::format("write {}", fmt::join(units, " or ")));
 }
 
 }  // namespace

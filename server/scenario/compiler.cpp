@@ -113,7 +113,9 @@ std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metada
       if (!c.foreign_languages.insert(language).second) continue;
       c.problems.warning(child.line, where,
                          fmt::format("'{}' is not among the scenario's languages: no text in it is shown", language),
-                         fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
+                         known.empty()
+                             ? std::string("add it to the key languages")
+                             : fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
     } else {
       texts[what][language] = child.strings.front();
     }

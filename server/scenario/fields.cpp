@@ -31,6 +31,26 @@ std::string value_in_words(const x3d::Metadata& m) {
   return count(m.numbers.size(), "number");
 }
 
+/// How many numbers a kind has; 0 for what holds none.
+std::size_t count_of(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::number:
+      return 1;
+    case ValueKind::vector:
+      return 3;
+    case ValueKind::rotation:
+      return 4;
+    case ValueKind::matrix:
+      return 9;
+    case ValueKind::string:
+    case ValueKind::strings:
+    case ValueKind::boolean:
+    case ValueKind::set:
+      break;
+  }
+  return 0;
+}
+
 /// Whether a value is of a kind.
 bool is_of_kind(ValueKind kind, const x3d::Metadata& m) {
   switch (kind) {
@@ -39,13 +59,10 @@ bool is_of_kind(ValueKind kind, const x3d::Metadata& m) {
     case ValueKind::strings:
       return m.kind == x3d::MetadataKind::strings;
     case ValueKind::number:
-      return is_number(m) && m.numbers.size() == 1;
     case ValueKind::vector:
-      return is_number(m) && m.numbers.size() == 3;
     case ValueKind::rotation:
-      return is_number(m) && m.numbers.size() == 4;
     case ValueKind::matrix:
-      return is_number(m) && m.numbers.size() == 9;
+      return is_number(m) && m.numbers.size() == count_of(kind);
     case ValueKind::boolean:
       return m.kind == x3d::MetadataKind::booleans && m.booleans.size() == 1;
     case ValueKind::set:
@@ -105,12 +122,16 @@ bool Fields::has_like(std::string_view pattern) const {
 
 bool Fields::check_value(const Key& key, const x3d::Metadata& value, x3d::Problems& problems) const {
   if (!is_of_kind(key.kind, value)) {
-    const bool comma = key.kind == ValueKind::number && is_number(value) && value.numbers.size() == 2;
+    const auto comma =
+        is_number(value) ? x3d::comma_fault(value.commas, value.numbers.size(), count_of(key.kind)) : std::nullopt;
+    if (comma) {
+      problems.error(value.line, where_, fmt::format("'{}': {}", value.name, comma->what), comma->remedy);
+      return false;
+    }
     problems.error(value.line, where_,
                    fmt::format("'{}' is of the wrong type or count: it is {}", value.name, value_in_words(value)),
-                   fmt::format("write a {}{}{}", kind_in_words(key.kind),
-                               key.example.empty() ? "" : fmt::format(", like {}", key.example),
-                               comma ? "; decimals have a point, a comma parts two numbers" : ""));
+                   fmt::format("write a {}{}", kind_in_words(key.kind),
+                               key.example.empty() ? "" : fmt::format(", like {}", key.example)));
     return false;
   }
   const std::string* text = key.kind == ValueKind::string ? &value.strings.front() : nullptr;

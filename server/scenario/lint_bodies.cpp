@@ -29,10 +29,8 @@ bool joins(const state::JointDescription& joint, BodyId body) {
 /// Whether an agent keeps a body from falling while it is on.
 bool holds(const state::WorldDescription& world, const state::ComponentDescription& agent, BodyId body) {
   if (const JointId joint = agents::switched_joint(world, agent)) return joins(world.joints[joint.index()], body);
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kHolders{{{"geometry.fixed", "body"},
-                                                                                          {"geometry.fixed", "to"},
-                                                                                          {"geometry.rope", "bodies"},
-                                                                                          {"geometry.snap", "object"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kHolders{
+      {{"geometry.fixed", "body"}, {"geometry.fixed", "to"}, {"geometry.rope", "bodies"}, {"geometry.snap", "object"}}};
   return std::ranges::any_of(kHolders, [&](const auto& holder) {
     return agent.type == holder.first && names_body(agent, world.bodies[body.index()].name, holder.second);
   });

@@ -29,6 +29,11 @@ enum class Names { nothing, body, joint, agent, quantity, step, activity, model,
 
 struct Table;
 
+/// How far from the origin anything may be: a slip of a digit is found, and sums of squares stay finite.
+inline constexpr double kFarthest_m = 1e4;
+/// Of the numbers of a direction, and of an angle in radians.
+inline constexpr double kLargest = 1e6;
+
 struct Key {
   std::string_view name;  ///< "trigger:*" stands for every name with that beginning, "*" for any name
   ValueKind kind = ValueKind::string;

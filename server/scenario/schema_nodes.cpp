@@ -14,21 +14,29 @@ constexpr Key kPosition{.name = "position",
                         .kind = vector,
                         .unit = "m",
                         .summary = "where its origin is at the start, in the world",
-                        .example = "0 0.55 0"};
+                        .example = "0 0.55 0",
+                        .min = -kFarthest_m,
+                        .max = kFarthest_m};
 constexpr Key kOrientation{.name = "orientation",
                            .kind = rotation,
                            .unit = "rad",
                            .summary = "how it stands at the start: axis x y z, then the angle",
-                           .example = "0 1 0 1.5708"};
+                           .example = "0 1 0 1.5708",
+                           .min = -kLargest,
+                           .max = kLargest};
 constexpr Key kAnchor{.name = "anchorPoint",
                       .kind = vector,
                       .unit = "m",
                       .summary = "a point of the joint, in the world as it stands at the start",
-                      .example = "0 0.55 0"};
+                      .example = "0 0.55 0",
+                      .min = -kFarthest_m,
+                      .max = kFarthest_m};
 constexpr Key kAxis{.name = "axis",
                     .kind = vector,
                     .summary = "its direction, in the world as it stands at the start; any length but 0",
-                    .example = "0 0 1"};
+                    .example = "0 0 1",
+                    .min = -kLargest,
+                    .max = kLargest};
 
 constexpr Key kX3d[] = {
     {.name = "version", .summary = "of X3D", .example = "4.0", .required = true},
@@ -57,16 +65,30 @@ constexpr Key kInline[] = {
 constexpr Key kViewpoint[] = {
     kDef,
     {.name = "description", .summary = "its name in lists; displays ask for it", .example = "front"},
-    {.name = "position", .kind = vector, .unit = "m", .summary = "where the eye is", .example = "0 1.2 4"},
+    {.name = "position",
+     .kind = vector,
+     .unit = "m",
+     .summary = "where the eye is",
+     .example = "0 1.2 4",
+     .min = -kLargest,
+     .max = kLargest},
     {.name = "orientation",
      .kind = rotation,
      .unit = "rad",
      .summary = "how the eye is turned from looking along -z with y up",
-     .example = "1 0 0 -0.12"},
+     .example = "1 0 0 -0.12",
+     .min = -kLargest,
+     .max = kLargest},
     {.name = "fieldOfView", .kind = number, .unit = "rad", .summary = "how wide it sees", .example = "0.7854"},
 };
 constexpr Key kCollection[] = {
-    {.name = "gravity", .kind = vector, .unit = "m/s2", .summary = "how all bodies fall", .example = "0 -9.81 0"},
+    {.name = "gravity",
+     .kind = vector,
+     .unit = "m/s2",
+     .summary = "how all bodies fall",
+     .example = "0 -9.81 0",
+     .min = -1e3,
+     .max = 1e3},
 };
 constexpr Key kRigidBody[] = {
     kDef,
@@ -81,13 +103,18 @@ constexpr Key kRigidBody[] = {
     {.name = "inertia",
      .kind = matrix,
      .unit = "kg m2",
-     .summary = "about the centre of mass, row by row; left out: computed from a closed mesh and the mass, as of a uniform solid",
-     .example = "20.4 0 0 0 20.3 0 0 0 0.35"},
+     .summary = "about the centre of mass, row by row; left out: computed from a closed mesh and the mass, as of a "
+                "uniform solid",
+     .example = "20.4 0 0 0 20.3 0 0 0 0.35",
+     .min = -1e12,
+     .max = 1e12},
     {.name = "centerOfMass",
      .kind = vector,
      .unit = "m",
      .summary = "from its origin, in its own frame",
-     .example = "0 0 0.1"},
+     .example = "0 0 0.1",
+     .min = -kFarthest_m,
+     .max = kFarthest_m},
     kPosition,
     kOrientation,
     {.name = "useGlobalGravity", .kind = boolean, .summary = "false: it floats, as if balanced"},
@@ -120,8 +147,20 @@ constexpr Key kHinge[] = {
 constexpr Key kSlider[] = {
     kDef,
     kAxis,
-    {.name = "minSeparation", .kind = number, .unit = "m", .summary = "how far it slides back", .example = "0"},
-    {.name = "maxSeparation", .kind = number, .unit = "m", .summary = "how far it slides", .example = "0.4"},
+    {.name = "minSeparation",
+     .kind = number,
+     .unit = "m",
+     .summary = "how far it slides back",
+     .example = "0",
+     .min = -kFarthest_m,
+     .max = kFarthest_m},
+    {.name = "maxSeparation",
+     .kind = number,
+     .unit = "m",
+     .summary = "how far it slides",
+     .example = "0.4",
+     .min = -kFarthest_m,
+     .max = kFarthest_m},
 };
 constexpr Key kBall[] = {kDef, kAnchor};
 

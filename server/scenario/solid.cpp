@@ -21,8 +21,8 @@ Integrals integrals_of(const geometry::Mesh& mesh, const Vec3& about) {
     const Vec3 corners = a + b + c;
     sum.volume += six_volumes / 6;
     sum.first += six_volumes / 24 * corners;
-    sum.second += six_volumes / 120 *
-                  (corners * corners.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+    sum.second +=
+        six_volumes / 120 * (corners * corners.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
   }
   return sum;
 }

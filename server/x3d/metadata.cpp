@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "server/x3d/values.hpp"
-
 namespace mechane::x3d {
 namespace {
 
@@ -67,6 +65,7 @@ class MetadataReader {
     if (type != "MetadataString" && text.find('"') != std::string::npos)
       return refuse(out, fmt::format("a {} holds no words", type), "write a MetadataString, or take the quotes away");
     if (type == "MetadataString") return take(parse_strings(text), MetadataKind::strings, out.strings, out);
+    out.commas = decimal_commas(text);
     if (type == "MetadataDouble" || type == "MetadataFloat")
       return take(parse_numbers(text), MetadataKind::numbers, out.numbers, out);
     if (type == "MetadataInteger") return take(parse_integers(text), MetadataKind::integers, out.numbers, out);

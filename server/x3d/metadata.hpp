@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/x3d/document.hpp"
+#include "server/x3d/values.hpp"
 
 namespace mechane::x3d {
 
@@ -19,6 +20,7 @@ struct Metadata {
   int line = 0;
   std::vector<std::string> strings;
   std::vector<double> numbers;  ///< MetadataDouble, -Float, -Integer: finite
+  DecimalCommas commas;         ///< in the text of the numbers
   std::vector<bool> booleans;
   std::vector<Metadata> children;  ///< of a set: what fills its field `value`
 

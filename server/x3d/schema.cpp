@@ -122,8 +122,7 @@ std::optional<BadValue> Field::fault(std::string_view text) const {
   if (shape.of == Shape::Of::strings) {
     const auto values = parse_strings(text);
     if (values) return std::nullopt;
-    const std::string bare = text.size() > 40 || text.find('"') != std::string_view::npos ? "..." : std::string(text);
-    return BadValue{values.error().what, fmt::format("write {}='\"{}\"'", name, bare)};
+    return BadValue{values.error().what, "write " + in_straight_quotes(name, text)};
   }
   if (shape.of == Shape::Of::booleans) {
     const auto values = parse_booleans(text);
@@ -134,9 +133,8 @@ std::optional<BadValue> Field::fault(std::string_view text) const {
   const auto values = shape.of == Shape::Of::integers ? parse_integers(text) : parse_numbers(text);
   if (!values) return values.error();
   if (auto fault = count_fault(shape, values->size())) {
-    const bool comma = !shape.many && shape.width == 1 && text.find(',') != std::string_view::npos;
-    if (comma) fault->remedy += "; before the fraction stands a point, like 4.2";
-    return fault;
+    auto comma = shape.many ? std::nullopt : comma_fault(decimal_commas(text), values->size(), shape.width);
+    return comma ? comma : fault;
   }
   for (const double value : *values) {
     const bool low = (has_min && (above_min ? value <= min : value < min)) || (shape.unit_interval && value < 0);

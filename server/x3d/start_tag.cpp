@@ -79,7 +79,11 @@ class StartTag {
     skip_spaces();
     const char quote = at_ < text_.size() ? text_[at_] : ' ';
     if (quote != '\'' && quote != '"') {
-      return fail(begin, fmt::format("the value of '{}' in the tag <{}> is not in quotes", shown, tag),
+      // Curly quotes are three bytes in UTF-8, and no word of XML begins so.
+      const bool curly = static_cast<unsigned char>(quote) == 0xe2;
+      return fail(begin,
+                  fmt::format("the value of '{}' in the tag <{}> is {}", shown, tag,
+                              curly ? "in curly quotes, not in straight ones" : "not in quotes"),
                   fmt::format("write {}='...'", shown));
     }
     const std::size_t value = ++at_;

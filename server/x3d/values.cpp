@@ -1,7 +1,9 @@
 #include "server/x3d/values.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -28,7 +30,68 @@ std::string shown(std::string_view word) {
   return std::string(word.substr(0, 40));
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// One comma with digits on both sides and nothing else in between: "12,5", not "1,2,3" or "1, 2".
+bool is_decimal_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  return comma != std::string_view::npos && comma > 0 && comma + 1 < word.size() && is_digit(word[comma - 1]) &&
+         is_digit(word[comma + 1]) && word.find(',', comma + 1) == std::string_view::npos;
+}
+
+constexpr std::string_view kQuotes[] = {"\"",     "'",      "\u201c", "\u201d", "\u201e", "\u201f",
+                                        "\u2018", "\u2019", "\u201a", "\u201b", "\u00ab", "\u00bb"};
+
+/// Takes quotes of any kind off both ends.
+std::string_view without_quotes(std::string_view text) {
+  for (bool found = true; found;) {
+    found = false;
+    for (const std::string_view quote : kQuotes) {
+      const bool first = text.starts_with(quote);
+      if (first) text.remove_prefix(quote.size());
+      const bool last = text.ends_with(quote);
+      if (last) text.remove_suffix(quote.size());
+      found = found || first || last;
+    }
+  }
+  return text;
+}
+
+bool has_quotes(std::string_view text) {
+  return std::any_of(std::begin(kQuotes), std::end(kQuotes),
+                     [&](std::string_view quote) { return text.find(quote) != std::string_view::npos; });
+}
+
 }  // namespace
+
+DecimalCommas decimal_commas(std::string_view text) {
+  constexpr std::string_view kSpaces = " \t\r\n";
+  DecimalCommas found;
+  while (!text.empty()) {
+    const std::size_t begin = std::min(text.find_first_not_of(kSpaces), text.size());
+    const std::size_t end = std::min(text.find_first_of(kSpaces, begin), text.size());
+    const std::string_view word = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    if (is_decimal_comma(word) && found.count++ == 0) found.first = shown(word);
+  }
+  return found;
+}
+
+std::optional<BadValue> comma_fault(const DecimalCommas& commas, std::size_t count, std::size_t wanted) {
+  if (commas.count == 0 || count != wanted + commas.count) return std::nullopt;
+  std::string point = commas.first;
+  point[point.find(',')] = '.';
+  return BadValue{fmt::format("'{}' is read as two numbers, because a comma separates numbers", commas.first),
+                  fmt::format("write a decimal point: {}", point)};
+}
+
+std::string in_straight_quotes(std::string_view attribute, std::string_view text) {
+  const std::string_view bare = without_quotes(text);
+  const bool plain = bare.size() <= 40 && !has_quotes(bare);
+  return fmt::format("{}='\"{}\"'", attribute, plain ? bare : "...");
+}
 
 bool is_relative_path(std::string_view url) {
   return !url.empty() && url.find("://") == std::string_view::npos && url.front() != '/' &&
@@ -79,8 +142,11 @@ Value<std::vector<std::string>> parse_strings(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos) return values;
     if (text[begin] != '"') {
-      const bool plain = text.find('"') == std::string_view::npos && text.size() <= 40;
-      return bad("a string is not in quotes", fmt::format("write value='\"{}\"'", plain ? text.substr(begin) : "..."));
+      const std::string_view rest = text.substr(begin);
+      return bad(static_cast<unsigned char>(rest.front()) >= 0x80 && without_quotes(rest).size() < rest.size()
+                     ? "a string is in curly quotes, not in straight ones"
+                     : "a string is not in quotes",
+                 "write " + in_straight_quotes("value", rest));
     }
     text.remove_prefix(begin + 1);
     std::string value;

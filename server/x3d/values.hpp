@@ -1,6 +1,8 @@
 // X3D's field values in XML attributes, strictly: what is not a value is named, not guessed at.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,18 @@ struct BadValue {
 
 template <class T>
 using Value = tl::expected<T, BadValue>;
+
+/// Words like "12,5", which are read as two numbers each: X3D separates numbers by commas too.
+struct DecimalCommas {
+  std::string first;  ///< the first of them, as written; empty: there is none
+  std::size_t count = 0;
+};
+[[nodiscard]] DecimalCommas decimal_commas(std::string_view text);
+/// Why there are more numbers than wanted, and what to write: where commas that were meant as decimal points make the difference.
+[[nodiscard]] std::optional<BadValue> comma_fault(const DecimalCommas& commas, std::size_t count, std::size_t wanted);
+
+/// What to write for a text that is not in straight double quotes: attribute='"text"', without the curly quotes that it may have.
+[[nodiscard]] std::string in_straight_quotes(std::string_view attribute, std::string_view text);
 
 /// Numbers apart by blanks or commas, all finite.
 [[nodiscard]] Value<std::vector<double>> parse_numbers(std::string_view text);

@@ -21,6 +21,11 @@ TEST(Reference, TheCopyBesideTheScenariosIsFresh) {
       << "write it anew: mechane reference > scenarios/REFERENCE.md";
 }
 
+TEST(Reference, SaysWhichAgentsAreOnAndWhatASnapThatIsOffLeaves) {
+  for (const char* words : {"**Which agents are on.**", "**A snap that is off**"})
+    EXPECT_NE(reference_page().find(words), std::string::npos) << words;
+}
+
 TEST(Reference, TheExampleIsWithoutFault) {
   x3d::Problems problems("example.x3d");
   const auto document = x3d::read_document(reference_example(), "example.x3d", problems);

@@ -199,8 +199,7 @@ TEST(Check, OneFaultIsOneMessageAtItsLine) {
       {"name='trigger:1'>", "name='triger'>", "did you mean 'trigger:1'?"},
       {"name='tolerance' value='0.06 0.26'", "name='tolerance' value='0.06'", "tolerance has 1 numbers; write 2"},
       {"value='\">\"'", "value='\">=\"'", "'>=' is not one of: < = >; write one of them, like \">\""},
-      {"name='value' value='0.5'", "name='value' value='0,5'",
-       "it is 2 numbers; write a MetadataDouble with one number, like 40; decimals have a point"},
+      {"name='value' value='0.5'", "name='value' value='0,5'", "write a decimal point: 0.5"},
       {"'\"archimedes-screw\"'", "'\"Archimedes Screw\"'", "64 at most, like archimedes-screw"},
       {"'\"Bring the screw", "'\"Don't bring the screw", "write &apos; there"},
   };

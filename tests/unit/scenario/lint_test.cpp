@@ -49,8 +49,8 @@ const std::pair<std::string, std::string> kAxleInTurn{
 TEST(Lint, ABodyThatFallsUntilALaterStepHoldsItIsNamed) {
   const std::string falls = with_edits({kHeavy, kAxleLater, kAxleInTurn});
   expect_one_warning(falls, "name='grasp'>", "'INNER'");
-  expect_nothing(with_edits({kHeavy}));                    // its first step enables what holds it
-  expect_nothing(with_edits({kAxleLater, kAxleInTurn}));   // it has no weight
+  expect_nothing(with_edits({kHeavy}));                   // its first step enables what holds it
+  expect_nothing(with_edits({kAxleLater, kAxleInTurn}));  // it has no weight
   // A step that holds it still, and an agent that is on from the start for no step enables it.
   expect_nothing(with_edits(
       {kHeavy,
@@ -67,9 +67,11 @@ TEST(Lint, ABodyThatFallsUntilALaterStepHoldsItIsNamed) {
 
 TEST(Lint, ABodyThatAnAgentOfAnotherActivityAloneHoldsFallsToo) {
   // Without its snap nothing holds the screw while it is put together.
-  const std::string text = with_edits({kHeavy, {"value='\"CARRY\" \"SEAT\"'", "value='\"CARRY\"'"},
-                                       {"name='seat'>\n", "name='seat'>\n<MetadataString containerField='value' "
-                                                          "name='enable' value='\"SEAT\"'/>\n"}});
+  const std::string text = with_edits({kHeavy,
+                                       {"value='\"CARRY\" \"SEAT\"'", "value='\"CARRY\"'"},
+                                       {"name='seat'>\n",
+                                        "name='seat'>\n<MetadataString containerField='value' "
+                                        "name='enable' value='\"SEAT\"'/>\n"}});
   expect_one_warning(text, "name='take'>", "is off");
 }
 
@@ -86,8 +88,8 @@ TEST(Lint, ABodyThatStaysImmovableAfterItsSnapIsOffIsNamed) {
     return compile_text(with_edits({{kSeatStep, kSeatStep + keys}}));
   };
   const auto says = [](const Outcome& outcome) {
-    return std::ranges::any_of(outcome.problems,
-                               [](const x3d::Problem& p) { return p.what.find("stays immovable") != std::string::npos; });
+    return std::ranges::any_of(
+        outcome.problems, [](const x3d::Problem& p) { return p.what.find("stays immovable") != std::string::npos; });
   };
   const Outcome stuck = with_step(kNoSeat);
   ASSERT_TRUE(says(stuck));
@@ -110,8 +112,10 @@ TEST(Lint, ABodyThatStaysImmovableAfterItsSnapIsOffIsNamed) {
 
 TEST(Lint, AUnitThatDoesNotFitItsSourceIsNamed) {
   const auto unit = [](const std::string& source, const std::string& from, const std::string& to) {
-    return with_edits({{"value='\"" + source + "\"'/>\n            <MetadataString containerField='value' name='unit' "
-                        "value='\"" + from + "\"'/>",
+    return with_edits({{"value='\"" + source +
+                            "\"'/>\n            <MetadataString containerField='value' name='unit' "
+                            "value='\"" +
+                            from + "\"'/>",
                         "value='\"" + source + "\"'/>\n<MetadataString containerField='value' name='unit' value='\"" +
                             to + "\"' class='here'/>"}});
   };
