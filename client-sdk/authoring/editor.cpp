@@ -34,8 +34,8 @@ struct Spot {
 };
 
 tl::unexpected<Error> unknown_name(const std::string& name, const Scope& scope, std::string_view path) {
-  return fail(fmt::format("there is no place for '{}'", name), std::string(path),
-              suggest(name, names_in(scope), "a value holds nothing, and an agent needs its type first"));
+  return fail(fmt::format("'{}' cannot be written here", name), std::string(path),
+              suggest(name, names_in(scope), "write into a set; of an agent, write its type first"));
 }
 
 /// The set on a node, or mechane:scenario.
@@ -74,7 +74,7 @@ Expected<Spot> find_spot(const x3d::Document& document, std::string_view path) {
     spot->rest.erase(spot->rest.begin());
   }
   if (spot->rest.size() > 1 && x3d::find_child(document, spot->set, spot->rest.front()))
-    return fail(fmt::format("'{}' is a value and holds nothing", spot->rest.front()), std::string(path),
+    return fail(fmt::format("'{}' is a value, not a set", spot->rest.front()), std::string(path),
                 "remove it first, then write it as a set");
   return spot;
 }
@@ -240,7 +240,8 @@ Expected<void> Editor::add(std::string_view path, std::string_view after) {
   } else {
     const x3d::NodeId sibling = x3d::find_child(document_, spot->set, after);
     if (!sibling || spot->rest.size() > 1)
-      return fail(fmt::format("there is no '{}' to stand after", after), std::string(path), "name a sibling");
+      return fail(fmt::format("'{}' does not exist, so nothing can be put after it", after), std::string(path),
+                  "name a sibling");
     edits.insert(document_[sibling].span.end, text);
   }
   return become(edits.apply(this->text()));

@@ -162,7 +162,7 @@ Expected<std::unique_ptr<Agent>> make_assembled(const Build& build) {
       parts[i].after = {i - 1};
   }
   if (!can_be_built(parts))
-    return fail("some parts wait for each other", where, "remove one of the lines of 'order' that go round");
+    return fail("some parts wait for each other in a circle", where, "remove one line of 'order' from the circle");
   return std::make_unique<Assembled>(build, std::move(parts));
 }
 

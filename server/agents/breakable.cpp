@@ -82,10 +82,10 @@ Expected<std::unique_ptr<Agent>> make_breakable(const Build& build) {
   for (const char* type : {"geometry.fixed", "geometry.gear", "geometry.worm", "geometry.ratchet", "geometry.rope"})
     bears = bears || target.type == type;
   if (!bears)
-    return fail("'" + target.name + "' is a " + target.type + ", which bears no force that could break it", where,
-                "name a hinge, slider, ball, screw, fixed, gear, worm, ratchet, rope, or a snap with tied true");
+    return fail("'" + target.name + "' is a " + target.type + ", which has no force or torque that could break it",
+                where, "name a hinge, slider, ball, screw, fixed, gear, worm, ratchet, rope, or a snap with tied true");
   if (!build.parameters.given("force") && !build.parameters.given("torque"))
-    return fail("nothing breaks it", where, "give force, torque or both");
+    return fail("no limit is given at which it breaks", where, "give force, torque or both");
   return std::make_unique<Breakable>(build, target.name);
 }
 

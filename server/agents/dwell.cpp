@@ -55,7 +55,7 @@ class Dwell final : public Agent {
 
 Expected<std::unique_ptr<Agent>> make_dwell(const Build& build) {
   if (build.parameters.given("body") && build.parameters.body("body") == build.parameters.body("at"))
-    return fail("the body is always at its own place", state::component_place(build.component),
+    return fail("'body' and 'at' are the same body", state::component_place(build.component),
                 "name another body in 'at', or none for the world");
   return std::make_unique<Dwell>(build);
 }

@@ -39,7 +39,8 @@ Expected<std::unique_ptr<Agent>> make_fired(const Build& build) {
   for (const std::string& name : build.parameters.texts("releases")) {
     releases.push_back(build.description.find_agent(name));
     if (releases.back() == build.id)
-      return fail("it releases itself", state::component_place(build.component), "name what it holds: a tie, a rope");
+      return fail("the agent switches itself off", state::component_place(build.component),
+                  "name the agent that holds the load: a geometry.fixed or a geometry.rope");
   }
   return std::make_unique<Fired>(build, *effort, std::move(releases));
 }

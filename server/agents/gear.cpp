@@ -63,7 +63,7 @@ Expected<void> check_joints(const Build& build) {
       return fail(std::string(name) + " is a ball", where, "name a hinge or a slider");
   }
   if (build.parameters.joint("joint1") == build.parameters.joint("joint2"))
-    return fail("a joint meshes with itself", where, "name two joints");
+    return fail("joint1 and joint2 are the same joint", where, "name two joints");
   return {};
 }
 
@@ -72,7 +72,7 @@ Expected<double> read_ratio(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (p.given("ratio") + p.given("teeth") + p.given("radius") != 1)
-    return fail("the ratio is given in no way, or in several", where, "give one of ratio, teeth and radius");
+    return fail("exactly one of ratio, teeth and radius must be given", where, "write one of them");
   const auto hinge = [&](const char* joint) {
     return build.description.joints[p.joint(joint).index()].kind == JointKind::hinge;
   };
@@ -82,11 +82,12 @@ Expected<double> read_ratio(const Build& build) {
   }
   if (p.given("teeth")) {
     if (!hinge("joint1") || !hinge("joint2"))
-      return fail("teeth are counted on two hinges", where, "give ratio or radius for a slider");
+      return fail("teeth are given, but one of the joints is not a hinge", where, "give ratio or radius for a slider");
     return (p.boolean("inside") ? 1 : -1) * p.numbers("teeth")[0] / p.numbers("teeth")[1];
   }
   if (!hinge("joint1") || hinge("joint2"))
-    return fail("a radius is for a pinion and its rack", where, "name a hinge in joint1 and a slider in joint2");
+    return fail("a radius is given, but the joints are not a hinge and a slider", where,
+                "name a hinge in joint1 and a slider in joint2");
   return p.number("radius") * (p.boolean("reverse") ? -1 : 1);
 }
 

@@ -26,13 +26,14 @@ Expected<HandEffort> HandEffort::create(const Build& build, Effort effort) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (!p.given("force") && !p.given("travel"))
-    return fail("neither a force nor a travel is asked for", where, "give force, travel or both");
+    return fail("neither force nor travel is given", where, "write force, travel or both");
   HandEffort out;
   out.effort_ = effort;
   out.body_ = p.body("body");
   out.joint_ = p.joint("joint");
   if (out.joint_ && build.description.joints[out.joint_.index()].kind == state::JointKind::ball)
-    return fail("the joint is a ball, which has no travel", where, "name a hinge or a slider, or none");
+    return fail("the joint is a BallJoint, and travel needs a hinge or a slider", where,
+                "name a hinge or a slider, or none");
   out.has_axis_ = p.given("axis");
   const std::vector<double> axis = p.numbers("axis");
   out.axis_B_ = Vec3(axis[0], axis[1], axis[2]);

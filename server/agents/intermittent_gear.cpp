@@ -60,7 +60,7 @@ Expected<std::unique_ptr<Agent>> make_intermittent_gear(const Build& build) {
       return fail(std::string(name) + " is not a hinge", where, "name a SingleAxisHingeJoint");
   }
   if (build.parameters.joint("joint1") == build.parameters.joint("joint2"))
-    return fail("a joint meshes with itself", where, "name two joints");
+    return fail("joint1 and joint2 are the same joint", where, "name two joints");
   return std::make_unique<IntermittentGear>(build);
 }
 

@@ -43,7 +43,7 @@ Expected<JointSwitch> JointSwitch::create(const Build& build, state::JointKind k
   JointSwitch out;
   out.joint_ = p.joint("joint");
   if (build.description.joints[out.joint_.index()].kind != kind)
-    return fail(fmt::format("the joint '{}' is of another kind", p.text("joint")), where,
+    return fail(fmt::format("the joint '{}' is not of the kind that this agent needs", p.text("joint")), where,
                 fmt::format("name a {}", node));
   if (auto only = check_only_switch(build); !only) return tl::unexpected(only.error());
   if (!names.friction.empty()) out.friction_ = p.number(names.friction) * build.description.effort_scale;

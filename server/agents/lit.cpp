@@ -86,17 +86,18 @@ class Lit final : public Agent {
 Expected<std::unique_ptr<Agent>> make_lit(const Build& build) {
   const std::string where = state::component_place(build.component);
   if (build.parameters.body("body") == build.parameters.body("flame"))
-    return fail("the body is to light itself", where, "name another body in 'flame'");
+    return fail("the body and its flame are the same body", where, "name another body in 'flame'");
   if (build.parameters.given("needs")) {
     const state::ComponentDescription& other = build.agent(build.parameters.agent("needs"));
     if (other.type != "simulation.lit" || &other == &build.component)
-      return fail("'" + other.name + "' does not say whether any flame burns", where, "name another simulation.lit");
+      return fail("'" + other.name + "' is not another simulation.lit, so it cannot say whether a flame burns", where,
+                  "name another simulation.lit");
   }
   const bool door = build.parameters.given("door");
   if (!door && (build.parameters.given("shutAt") || build.parameters.given("smotherTime")))
-    return fail("it says when a door is shut, and names no door", where, "name a joint in 'door'");
+    return fail("shutAt or smotherTime is given, but no door", where, "name a joint in 'door'");
   if (door && !build.parameters.given("shutAt"))
-    return fail("it does not say when the door is shut", where, "write the joint's position in 'shutAt'");
+    return fail("a door is given, but not where it is shut", where, "write the joint's position when shut in 'shutAt'");
   return std::make_unique<Lit>(build);
 }
 

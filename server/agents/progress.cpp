@@ -42,7 +42,7 @@ Expected<void> check_step(const state::WorldDescription& world, const state::Ste
       if (!std::isfinite(rule.value)) return fail("a rule's value is not a number", where, "write a number");
     }
   }
-  if (!(step.timeout_s >= 0)) return fail("the time-out is not a time", where, "write 0 s or more");
+  if (!(step.timeout_s >= 0)) return fail("the time-out is negative or not a number", where, "write 0 s or more");
   if (step.timeout_next && !in_table(step.timeout_next, world.steps.size()))
     return fail("its time-out leads to a step that is not there", where, "name a step, or 'end'");
   return {};

@@ -69,13 +69,13 @@ Expected<std::unique_ptr<Agent>> make_ratchet(const Build& build) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   const JointKind kind = build.description.joints[p.joint("joint").index()].kind;
-  if (kind == JointKind::ball) return fail("a ball has no teeth", where, "name a hinge or a slider");
+  if (kind == JointKind::ball) return fail("a BallJoint cannot have a ratchet", where, "name a hinge or a slider");
   if (p.given("teeth") == p.given("pitch"))
-    return fail("the teeth are given in no way, or in two", where, "give teeth for a hinge, pitch for a slider");
+    return fail("exactly one of teeth and pitch must be given", where, "give teeth for a hinge, pitch for a slider");
   if (p.given("teeth") != (kind == JointKind::hinge))
-    return fail("the teeth are not those of such a joint", where, "give teeth for a hinge, pitch for a slider");
+    return fail("teeth are for a hinge, pitch is for a slider", where, "give teeth for a hinge, pitch for a slider");
   if (p.given("pawl") && p.joint("pawl") == p.joint("joint"))
-    return fail("the pawl is the joint that it holds", where, "name the pawl's own joint, or none");
+    return fail("the pawl's joint and the ratchet's joint are the same", where, "name the pawl's own joint, or none");
   return std::make_unique<Ratchet>(build, p.given("teeth") ? 2 * kPi / p.number("teeth") : p.number("pitch"));
 }
 

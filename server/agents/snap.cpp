@@ -125,7 +125,7 @@ Expected<std::unique_ptr<Agent>> make_snap(const Build& build) {
     return fail("the object '" + p.text("object") + "' is fixed", where,
                 "name a body that can be carried to its place");
   if (p.given("into") && p.body("into") == p.body("object"))
-    return fail("the object is to go into itself", where, "name another body in 'into', or none for the world");
+    return fail("'object' and 'into' are the same body", where, "name another body in 'into', or none for the world");
   const std::vector<double> at = p.numbers("position"), turn = p.numbers("rotation"), axis = p.numbers("axis");
   const Vec3 about(turn[0], turn[1], turn[2]);
   if (about.norm() < 1e-9 && turn[3] != 0)

@@ -8,7 +8,7 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-constexpr double kLeast_m = 1e-3;  // a limb or a string shorter than this is none
+constexpr double kLeast_m = 1e-3;  // shorter limbs and strings are refused
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -60,7 +60,7 @@ Expected<BowLimbs> BowLimbs::make(const Build& build, JointId slider, double dir
     const Vec3 p_NT = side.X_ST.p - made.p_SN_, p_NL = side.X_SL.p - made.p_SN_;
     side.half_m = p_NT.norm();
     if (side.half_m < kLeast_m || std::abs(p_NT.dot(made.draw_S_)) > kLeast_m)
-      return fail("the string at rest does not lie across the draw", where,
+      return fail("the string at rest is too short, or not at right angles to the draw", where,
                   "put the origins of 'strings' at the limbs' tips, level with each other");
     side.across_S = p_NT / side.half_m;
     side.root = {p_NL.dot(side.across_S), p_NL.dot(made.draw_S_)};

@@ -45,7 +45,7 @@ Expected<EnergyOffer> EnergyOffer::find(const Build& build, std::string_view par
   const state::MemorySlot* offered = build.layout.find(name + "." + kOffered);
   const state::MemorySlot* taken = build.layout.find(name + "." + kTaken);
   if (offered == nullptr || taken == nullptr) {
-    return fail("the machine '" + name + "' is not a spring, or stands below this one",
+    return fail("the machine '" + name + "' is not a spring, or is written after this one",
                 state::component_place(build.component),
                 "name a machine.torsion_spring or machine.bow, and write it first");
   }

@@ -192,7 +192,7 @@ Expected<void> read_valves(const state::Parameters& p, std::string_view name, Va
 Expected<void> read_drive(const Build& build, const std::string& where, ForcePumpSettings& s) {
   const state::Parameters& p = build.parameters;
   if (p.given("pistons") == p.given("beam"))
-    return fail("both or neither of 'pistons' and 'beam' are given", where,
+    return fail("exactly one of 'pistons' and 'beam' must be given", where,
                 "name the pistons' sliders, or the hinge of the beam that moves them");
   if (p.given("arm")) s.arm_m = s.handle_m = p.number("arm");
   if (p.given("handleArm")) s.handle_m = p.number("handleArm");

@@ -291,7 +291,7 @@ Expected<Target> read_target(const state::Parameters& p, const std::string& wher
   if (!p.given("target")) return target;
   target.body = p.body("target");
   if (target.body == p.body("body"))
-    return fail("the missile is its own target", where, "name another body in 'target'");
+    return fail("the missile and its target are the same body", where, "name another body in 'target'");
   const auto normal = direction_of(p, "targetNormal", Vec3::UnitZ(), where);
   if (!normal) return tl::unexpected(normal.error());
   target.n_T = *normal;

@@ -146,8 +146,8 @@ Expected<void> read_fire(const Build& build, SteamSphereSettings& s) {
   const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (p.given("fire") == p.given("litBy")) {
-    return fail(p.given("fire") ? "the fire is lit by a quantity and by an agent" : "nothing lights the fire", where,
-                "name a quantity in 'fire', or a simulation.lit in 'litBy', not both");
+    return fail(p.given("fire") ? "both 'fire' and 'litBy' are given" : "neither 'fire' nor 'litBy' is given", where,
+                "name a quantity in 'fire', or a simulation.lit in 'litBy': one of the two");
   }
   if (p.given("fire")) {
     s.fire = build.description.find_quantity(p.text("fire"));
@@ -155,7 +155,8 @@ Expected<void> read_fire(const Build& build, SteamSphereSettings& s) {
   }
   s.lit_by = p.text("litBy");
   if (build.agent(p.agent("litBy")).type != "simulation.lit")
-    return fail("'" + s.lit_by + "' says of no fire whether it burns", where, "name a simulation.lit in 'litBy'");
+    return fail("'" + s.lit_by + "' is not a simulation.lit, so it cannot say whether a fire burns", where,
+                "name a simulation.lit in 'litBy'");
   return {};
 }
 

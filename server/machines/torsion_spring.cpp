@@ -6,7 +6,7 @@
 // load: it drives.
 //
 // Calibration. Philon (Belopoeica 51): the bundle's diameter in dactyls is 1.1 * cbrt(100 * the stone's weight in minas). (Vitruvius
-// X.11.3 has a table for the same, with smaller springs as it has come down to us.) Where an author gives both, they are held against each other.
+// X.11.3 has a table for the same, with smaller springs as it has come down to us.) Where an author gives both, they are checked against each other.
 //
 // The shot. When the release's quantity rises the springs offer their energy to a projectile; while they do, they push nothing.
 // What the stone takes, the arm does not get: until it is at rest again its torque is smaller by that share. So the sum is never more
@@ -114,10 +114,9 @@ Expected<double> read_calibre(const state::Parameters& p, const std::string& whe
   if (!p.given("stoneMass")) return calibre;
   const double philons = philons_calibre_dactyls(p.number("stoneMass"));
   if (std::abs(calibre / philons - 1) > kCalibration) {
-    return fail(
-        fmt::format("springs of {:.1f} dactyls are not made for a stone of {:.1f} minas: Philon asks for {:.1f}",
-                    calibre, p.number("stoneMass") / kMina_kg, philons),
-        where, fmt::format("write {:.4f} for springDiameter, or another stoneMass", philons * kDactyl_m));
+    return fail(fmt::format("springs of {:.1f} dactyls do not fit a stone of {:.1f} minas: Philon's rule gives {:.1f}",
+                            calibre, p.number("stoneMass") / kMina_kg, philons),
+                where, fmt::format("write {:.4f} for springDiameter, or another stoneMass", philons * kDactyl_m));
   }
   return calibre;
 }
@@ -168,7 +167,7 @@ constexpr state::ParameterType kTorsionSpringParameters[] = {
      .max = 1e6},
     {.name = "springDiameter",
      .unit = "m",
-     .summary = "of a bundle; held against Philon's rule where stoneMass is given",
+     .summary = "of a bundle; checked against Philon's rule where stoneMass is given",
      .min = 0.001,
      .max = 2},
     {.name = "stoneMass",

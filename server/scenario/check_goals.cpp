@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What a quantity can come to, in the quantity's own unit, and who says so.
+/// The values that a quantity can have, in its own unit, and what limits them.
 struct Range {
   double min = -kInfinity;
   double max = kInfinity;
@@ -109,7 +109,7 @@ void check_goals(Compilation& c) {
                                  : written.rule.comparison == state::Comparison::greater ? "more than"
                                                                                          : "exactly",
                                  written.rule.value),
-                     "write a value that it can come to");
+                     "write a value that it can reach");
   }
 }
 

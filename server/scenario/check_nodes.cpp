@@ -1,5 +1,5 @@
-// Elements held against our own tables: ranges that we narrow, fields that we do not read, sets of metadata where nobody reads them;
-// and, once a type, what of a right file is not simulated. X3D's own tables have been held against them before (x3d/node_check.hpp).
+// Elements checked against our own tables: ranges that we narrow, fields that we do not read, sets of metadata where nobody reads them;
+// and, once a type, what of a right file is not simulated. X3D's own tables have been checked before (x3d/node_check.hpp).
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -168,7 +168,7 @@ void check_own_sets(Compilation& c) {
     const auto own =
         std::find_if(std::begin(kOwnSets), std::end(kOwnSets), [&](const OwnSet& s) { return s.name == *name; });
     if (own == std::end(kOwnSets)) {
-      c.problems.unknown(c.document[id].line, where, fmt::format("there is no set '{}', and it does nothing", *name),
+      c.problems.unknown(c.document[id].line, where, fmt::format("the set '{}' is unknown and does nothing", *name),
                          *name, known);
     } else if (!one_of(c.document[owner].name, own->owners)) {
       c.problems.error(c.document[id].line, where,

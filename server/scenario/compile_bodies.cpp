@@ -69,8 +69,8 @@ void read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::B
   if (!fields.boolean("touchable")) {
     if (const auto found = c.loader.find_node(file, body.mesh.node); !found) refuse_node(found.error());
     if (!body.collides) return;
-    c.problems.error(fields.line("collides"), fields.where(), "the body is to collide but is not touchable",
-                     "remove touchable false: one shape serves both");
+    c.problems.error(fields.line("collides"), fields.where(), "collides is true, but touchable is false",
+                     "remove touchable false: touch and collisions use one shape");
     return;
   }
   auto object = c.loader.load(file, body.mesh.node);
@@ -86,8 +86,8 @@ void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
   body.effort_scale = fields.number("effortScale");
   body.graspable = fields.boolean("graspable");
   if (body.haptic.dynamic_friction > body.haptic.static_friction) {
-    c.problems.error(fields.line("dynamicFriction"), fields.where(), "friction grows when it slips",
-                     "write a dynamicFriction below the staticFriction");
+    c.problems.error(fields.line("dynamicFriction"), fields.where(), "dynamicFriction is larger than staticFriction",
+                     "write a dynamicFriction that is at most the staticFriction");
   }
 }
 
@@ -132,7 +132,8 @@ void check_mass(Attributes& attributes, const state::BodyDescription& body, cons
                     closed ? "encloses" : "fits into", volume_m3),
         fmt::format("write it in kilograms, and the mesh in metres: of oak it is some {:.2g}", kOak * volume_m3));
   } else if (!solid && (body.mass_kg < kLeast_kg || body.mass_kg >= kMost_kg)) {
-    attributes.warning(fmt::format("a mass of {:.3g} kg is hardly meant", body.mass_kg), "write it in kilograms");
+    attributes.warning(fmt::format("a mass of {:.3g} kg is outside what an exhibit can have", body.mass_kg),
+                       "write it in kilograms");
   }
 }
 

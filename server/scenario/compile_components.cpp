@@ -59,7 +59,7 @@ void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentT
     c.misspelt_parameters.emplace(out.name, nearest(value.name, names));
   } else if (value.kind == x3d::MetadataKind::set ||
              (value.kind == x3d::MetadataKind::booleans && value.booleans.size() != 1)) {
-    c.problems.error(value.line, where, fmt::format("the parameter '{}' is not one value", value.name),
+    c.problems.error(value.line, where, fmt::format("the parameter '{}' must be one value", value.name),
                      std::string(known->summary));
   } else if (const auto comma = comma_in(*known, value)) {
     c.problems.error(value.line, where, fmt::format("{}: {}", value.name, comma->what), comma->remedy);
@@ -70,7 +70,7 @@ void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentT
   }
 }
 
-/// Reads type and parameters. Names and kinds of parameters are held against the type here, where each has its line; values and
+/// Reads type and parameters. Names and kinds of parameters are checked against the type here, where each has its line; values and
 /// references by check_components, when all names are known. Without a type it is kept all the same: what refers to it is right.
 void read_component(Compilation& c, const x3d::Metadata& set, const Registry& registry,
                     state::ComponentDescription& out) {
@@ -124,7 +124,7 @@ void compile_node_agents(Compilation& c, std::string_view node_type, state::Refe
     Attributes attributes(c.document, id, c.problems);
     const std::string name = attributes.text("DEF");
     if (name.empty()) {
-      attributes.error("an element with an agent has no DEF", "give it a name: the agent is called by it");
+      attributes.error("an element with an agent has no DEF", "write a DEF: the agent gets its name");
       continue;
     }
     const std::size_t before = c.world.agents.size();

@@ -67,7 +67,7 @@ bool node_is_there(Compilation& c, const Fields& fields, const std::string& node
 /// A river needs a node that is drawn as water and a direction along its surface; no number drives it.
 void check_flow(Compilation& c, const Fields& fields, const state::EffectDescription& effect) {
   if (effect.node.empty()) {
-    c.problems.error(fields.line("kind"), fields.where(), "nothing flows",
+    c.problems.error(fields.line("kind"), fields.where(), "the flow effect names no node that could flow",
                      "name the node of the mesh file in the key node");
   } else if (node_is_there(c, fields, effect.node) && !effect.node.starts_with("WATER_")) {
     c.problems.error(fields.line("node"), fields.where(),
@@ -76,12 +76,13 @@ void check_flow(Compilation& c, const Fields& fields, const state::EffectDescrip
   }
   if (std::hypot(effect.direction_B.x(), effect.direction_B.z()) < 0.1) {
     c.problems.error(fields.line(fields.given("direction") ? "direction" : "kind"), fields.where(),
-                     "the direction is not along the water", "write a level direction in W, like 0 0 1");
+                     "the direction points up or down, not along the water",
+                     "write a level direction in W, like 0 0 1");
   }
   for (const char* key : {"quantity", "body"}) {
     if (fields.given(key))
-      c.problems.warning(fields.line(key), fields.where(), fmt::format("a flow has no '{}'", key),
-                         "remove it: a river flows in W, always alike");
+      c.problems.warning(fields.line(key), fields.where(), fmt::format("a flow effect does not use '{}'", key),
+                         "remove it: a river flows steadily, in the world's frame");
   }
 }
 
@@ -118,17 +119,19 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
     }
   }
   if (effect.kind == "level" && effect.node.empty()) {
-    c.problems.error(set.line, fields.where(), "nothing rises", "name the node of the mesh file in the key node");
+    c.problems.error(set.line, fields.where(), "the level effect names no node that could rise",
+                     "name the node of the mesh file in the key node");
   } else if (effect.kind == "level") {
     check_risen_node(c, fields, effect.node);
   } else if (effect.kind == "flow") {
     check_flow(c, fields, effect);
   } else if (fields.given("kind") && fields.given("node")) {
-    c.problems.warning(fields.line("node"), fields.where(), fmt::format("a {} has no 'node'", effect.kind),
-                       "remove it: its place is that of body and point");
+    c.problems.warning(fields.line("node"), fields.where(), fmt::format("a {} effect does not use 'node'", effect.kind),
+                       "remove it: body and point say where the effect is");
   }
   if (effect.kind != "flow" && fields.given("node") && !fields.given("quantity")) {
-    c.problems.error(set.line, fields.where(), fmt::format("nothing drives the {}", effect.kind),
+    c.problems.error(set.line, fields.where(),
+                     fmt::format("the {} effect names no quantity that drives it", effect.kind),
                      "name a quantity in the key quantity");
   }
   check_unit(c, fields, effect);

@@ -69,9 +69,9 @@ bool is_known_unit(const std::string& unit) {
 /// Any word is shown as it is written; but rpm and deg convert, and a slip there gives a wrong number.
 void check_unit(Compilation& c, const std::string& unit, int line, const std::string& where) {
   if (is_known_unit(unit)) return;
-  c.problems.warning(
-      line, where, fmt::format("the unit '{}' is not known: it is only shown", unit),
-      suggest(unit, known_units(), "leave it if visitors read it so; of rates rpm and of angles deg convert"));
+  c.problems.warning(line, where, fmt::format("the unit '{}' is not known and is shown as it is", unit),
+                     suggest(unit, known_units(),
+                             "keep it if visitors know it; only rpm (for rates) and deg (for angles) are converted"));
 }
 
 /// What one source is measured in: the unit first, then those that convert from it.
@@ -143,7 +143,7 @@ void compile_quantities(Compilation& c) {
       check_unit_fits(c, quantity, fields.line("unit"), where);
       line = fields.line("source");
     } else {
-      c.problems.error(item.line, where, "it is neither a source nor a set",
+      c.problems.error(item.line, where, "this quantity is neither a source nor a set",
                        "write a MetadataString like \"PUMP.basin_l\"");
       continue;
     }

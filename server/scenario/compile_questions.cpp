@@ -21,18 +21,18 @@ void read_choice(Compilation& c, const Fields& fields, std::map<std::string, sta
                      suggest(out.correct, names, "add it to the answers"));
   }
   if (fields.given("steps"))
-    c.problems.warning(fields.line("steps"), fields.where(), "a choice has no 'steps'", "remove it");
+    c.problems.warning(fields.line("steps"), fields.where(), "a choice does not use 'steps'", "remove it");
 }
 
 void read_scale(Compilation& c, const Fields& fields, std::map<std::string, state::Texts>& texts, Question& out) {
   out.marks = static_cast<int>(fields.number("steps"));
   if (out.marks != fields.number("steps"))
-    c.problems.error(fields.line("steps"), fields.where(), "a scale has a whole number of marks", "write 5");
+    c.problems.error(fields.line("steps"), fields.where(), "the number of marks on a scale must be whole", "write 5");
   out.low = texts["low"];
   out.high = texts["high"];
   for (const char* key : {"answers", "correct"}) {
     if (fields.given(key))
-      c.problems.warning(fields.line(key), fields.where(), fmt::format("a scale has no '{}'", key), "remove it");
+      c.problems.warning(fields.line(key), fields.where(), fmt::format("a scale does not use '{}'", key), "remove it");
   }
 }
 

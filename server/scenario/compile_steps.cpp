@@ -40,7 +40,7 @@ void collect_steps(Compilation& c, Written& activity) {
       c.problems.error(step.line, where, "the step is not a set", "write a MetadataSet");
     } else if (step.name.empty() || step.name == "end") {
       c.problems.error(step.line, where, fmt::format("a step cannot be called '{}'", step.name),
-                       "name it by what is to be done");
+                       "use another name, for example what the visitor does: 'turn'");
     } else if (c.world.find_step(step.name)) {
       c.problems.error(step.line, where, "another activity has a step of this name",
                        "give each step a name of its own");
@@ -159,7 +159,7 @@ void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& 
     rules.push_back(read_rule(c, of_rule, id));
   }
   if (rules.size() < 2 && fields.given("match")) {
-    c.problems.warning(fields.line("match"), fields.where(), "there is nothing to match: the trigger has one rule",
+    c.problems.warning(fields.line("match"), fields.where(), "match has no effect: the trigger has one rule",
                        "remove match, or write the comparisons as rule:1, rule:2");
   }
   state::TriggerDescription trigger;
@@ -181,8 +181,8 @@ void read_timeout(Compilation& c, const Written& activity, const Fields& fields,
   if (step.timeout_s > 0) {
     step.timeout_next = read_next(c, activity, fields, "timeoutNext");
   } else if (fields.given("timeoutNext")) {
-    c.problems.warning(fields.line("timeoutNext"), fields.where(), "the step has no time-out that could lead there",
-                       "add timeoutSeconds, or remove it");
+    c.problems.warning(fields.line("timeoutNext"), fields.where(),
+                       "timeoutNext has no effect: the step has no timeoutSeconds", "add timeoutSeconds, or remove it");
   }
 }
 

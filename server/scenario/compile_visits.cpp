@@ -90,7 +90,7 @@ state::VisitMove compile_move(Compilation& c, const x3d::Metadata& set, const st
       need(c, fields, kind, "angle");
       move.amplitude_rad = fields.number("angle");
       if (fields.given("angle") && move.amplitude_rad == 0) {
-        c.problems.error(fields.line("angle"), fields.where(), "a swing of no angle",
+        c.problems.error(fields.line("angle"), fields.where(), "the angle of this swing is 0",
                          "write how far it goes, in radians");
       }
       move.cycles = fields.number("cycles");

@@ -105,7 +105,7 @@ std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metada
     const auto& known = c.world.languages;
     if (padded.find(" " + what + " ") == std::string::npos || language.empty()) {
       const std::string near = nearest(what, words_of(allowed));
-      c.problems.warning(child.line, where, fmt::format("the text '{}' is shown nowhere", child.name),
+      c.problems.warning(child.line, where, fmt::format("the text '{}' is not shown anywhere", child.name),
                          near.empty() || near == what || language.empty()
                              ? fmt::format("name it <what>.<language>, with what one of: {}", allowed)
                              : fmt::format("did you mean '{}.{}'?", near, language));

@@ -12,7 +12,7 @@
 
 namespace mechane::scenario {
 
-/// A set held against its table of the schema: a key that is nearly a known one is an error, any other unknown key a warning; wrong
+/// A set checked against its table of the schema: a key that is nearly a known one is an error, any other unknown key a warning; wrong
 /// types, counts, ranges and missing keys are errors. Values that were not written, or are wrong, read as the table's default.
 class Fields {
  public:

@@ -143,7 +143,7 @@ void check_visits(Compilation& c) {
     };
     if (std::any_of(c.world.visits.begin(), c.world.visits.end(), plays)) continue;
     c.problems.warning(c.activity_lines[i], "activity " + c.world.activities[i].name,
-                       "no visit plays it: neither tests nor the attract mode can", "add a set to 'visits'");
+                       "no visit plays this activity, so tests and the attract mode cannot", "add a set to 'visits'");
   }
 }
 

@@ -7,7 +7,7 @@
 namespace mechane::x3d {
 namespace {
 
-// A USE copies what it stands for, and copies of copies grow by powers: what one set may come to is bounded.
+// A USE copies what it stands for, and copies of copies grow by powers: so the size of one set is bounded.
 constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostBytes = 8u << 20;
 constexpr std::size_t kDeepest = 64;
@@ -63,7 +63,7 @@ class MetadataReader {
 
   bool read_value(const std::string& type, const std::string& text, Metadata& out) {
     if (type != "MetadataString" && text.find('"') != std::string::npos)
-      return refuse(out, fmt::format("a {} holds no words", type), "write a MetadataString, or take the quotes away");
+      return refuse(out, fmt::format("a {} cannot hold text", type), "write a MetadataString, or remove the quotes");
     if (type == "MetadataString") return take(parse_strings(text), MetadataKind::strings, out.strings, out);
     out.commas = decimal_commas(text);
     if (type == "MetadataDouble" || type == "MetadataFloat")

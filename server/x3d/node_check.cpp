@@ -129,12 +129,15 @@ class NodeChecker {
                                   parent->name, type.name),
                       remedy);
     } else if (fitting.size() > 1) {
-      problems_.error(node.line, document_.describe(id),
-                      fmt::format("it is not said which field of the {} it fills", parent->name), remedy);
+      problems_.error(
+          node.line, document_.describe(id),
+          fmt::format("the containerField is missing: which field of the {} it fills is not clear", parent->name),
+          remedy);
     } else {
       problems_.warning(
           node.line, document_.describe(id),
-          fmt::format("without containerField other readers do not see what it is to the {}", parent->name), remedy);
+          fmt::format("the containerField is missing: other readers cannot tell what it is to the {}", parent->name),
+          remedy);
     }
   }
 

@@ -1,4 +1,4 @@
-// Every element of a document held against X3D's own tables.
+// Checks every element of a document against X3D's own tables.
 #pragma once
 
 #include "server/x3d/document.hpp"

@@ -102,9 +102,9 @@ void find_circles(std::vector<Node>& nodes, Problems& problems) {
       if (!to || marks[to.index()] == Mark::done) continue;
       if (marks[to.index()] == Mark::open) {
         problems.error(node.line, node.name + " USE " + *node.attribute("USE"),
-                       fmt::format("this USE lies inside the element that it stands for (line {}): a circle",
+                       fmt::format("this USE is inside the element that it refers to (line {}), which makes a circle",
                                    nodes[to.index()].line),
-                       "take the USE out of it, or give it an element of its own");
+                       "move the USE out of it, or write an element of its own");
         node.used = NodeId::none();
         continue;
       }

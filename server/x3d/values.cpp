@@ -105,7 +105,7 @@ Value<std::vector<double>> parse_numbers(std::string_view text) {
     double value = 0;
     const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (status == std::errc::result_out_of_range || (status == std::errc{} && !std::isfinite(value))) {
-      return bad(fmt::format("'{}' is not a finite number", shown(word)), "write a number that a machine can have");
+      return bad(fmt::format("'{}' is not a finite number", shown(word)), "write a number between -1e300 and 1e300");
     }
     if (status != std::errc{} || end != digits.data() + digits.size()) {
       return bad(fmt::format("'{}' is not a number", shown(word)), "write digits with a point, like 0.25");

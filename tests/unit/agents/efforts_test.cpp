@@ -112,11 +112,11 @@ TEST(Fired, ReleasesOnceAndIsCockedAgainByItsSwitch) {
 }
 
 TEST(Efforts, RefuseWhatCannotBe) {
-  EXPECT_THAT(error_of(with_effort("simulation.pulled", {})), HasSubstr("give force, travel or both"));
+  EXPECT_THAT(error_of(with_effort("simulation.pulled", {})), HasSubstr("write force, travel or both"));
   EXPECT_THAT(error_of(with_effort("simulation.pushed", {{"force", number({1})}, {"axis", number({0, 0, 0})}})),
               HasSubstr("no direction"));
   EXPECT_THAT(error_of(with_effort("simulation.fired", {{"force", number({1})}, {"releases", text({"EFFORT"})}})),
-              HasSubstr("releases itself"));
+              HasSubstr("switches itself off"));
 }
 
 }  // namespace

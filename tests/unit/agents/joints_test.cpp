@@ -31,7 +31,7 @@ TEST(SliderAgent, SlidesWithItsFrictionToItsStop) {
 TEST(SliderAgent, RefusesWhatCannotBe) {
   state::WorldDescription world = sled_world();
   world.joints[0].kind = state::JointKind::hinge;
-  EXPECT_THAT(error_of(world), HasSubstr("of another kind; name a SliderJoint"));
+  EXPECT_THAT(error_of(world), HasSubstr("this agent needs; name a SliderJoint"));
   world = sled_world();
   world.agents[0].parameters.erase("maxPosition");
   EXPECT_THAT(error_of(world), HasSubstr("only one of minPosition and maxPosition"));

@@ -108,7 +108,7 @@ TEST(Lit, ADoorSaysWhenItIsShut) {
 TEST(Lit, RefusesWhatCannotBe) {
   state::WorldDescription world = with_fire();
   world.agents[0].parameters["flame"] = text({"PART"});
-  EXPECT_THAT(error_of(world), HasSubstr("light itself"));
+  EXPECT_THAT(error_of(world), HasSubstr("are the same body"));
   world = with_fire();
   world.agents[1].parameters["needs"] = text({"HEARTH"});
   EXPECT_THAT(error_of(world), HasSubstr("another simulation.lit"));

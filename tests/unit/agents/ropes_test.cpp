@@ -148,7 +148,7 @@ TEST(BreakableAgent, RefusesWhatCannotBe) {
   EXPECT_THAT(error_of(with_breakable("ROPE", {})), HasSubstr("give force, torque or both"));
   state::WorldDescription world = with_breakable("HOLD", {{"force", number({1})}});
   world.agents.push_back(agent("HOLD", "simulation.grasp", {}));
-  EXPECT_THAT(error_of(world), HasSubstr("bears no force"));
+  EXPECT_THAT(error_of(world), HasSubstr("has no force"));
 }
 
 TEST(GeometryAgents, AllocateNothingAndGoOnFromASnapshotWithTheSameBits) {

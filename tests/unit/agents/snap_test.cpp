@@ -118,7 +118,7 @@ TEST(Snap, RefusesWhatCannotBe) {
   EXPECT_THAT(error_of(world), HasSubstr("is fixed"));
   world = with_snap();
   world.agents[0].parameters["into"] = text({"PART"});
-  EXPECT_THAT(error_of(world), HasSubstr("into itself"));
+  EXPECT_THAT(error_of(world), HasSubstr("'object' and 'into' are the same"));
   world = with_snap();
   world.agents[0].parameters["rotation"] = number({0, 0, 0, 1});
   EXPECT_THAT(error_of(world), HasSubstr("no axis"));

@@ -194,12 +194,12 @@ TEST(Editor, RefusesWhatTheSchemaDoesNotKnowAndChangesNothing) {
   expect(editor.set("activities/use/steps/fill/hintSeconds", Numbers{-1}), "0 to 3600");
   expect(editor.set("machines/PUMP/basinCapacty", Numbers{1}), "did you mean 'basinCapacity'?");
   expect(editor.set("INER/mechane:haptic/stiffness", Numbers{1}), "did you mean 'INNER'?");
-  expect(editor.set("id/name", Numbers{1}), "is a value and holds nothing");
+  expect(editor.set("id/name", Numbers{1}), "is a value, not a set");
   expect(editor.set("", Numbers{1}), "empty");
   expect(editor.set_attribute("INNER", "masss", "1"), "did you mean 'mass'?");
   expect(editor.set_attribute("INNER", "mass", "heavy"), "'heavy' is not a number");
   expect(editor.add("activities/use/steps/fill"), "is there already");
-  expect(editor.add("activities/use/steps/x", "nowhere"), "to stand after");
+  expect(editor.add("activities/use/steps/x", "nowhere"), "name a sibling");
   expect(editor.remove("activities/use/steps/nowhere"), "nothing to remove");
   EXPECT_EQ(editor.text(), before);
 }

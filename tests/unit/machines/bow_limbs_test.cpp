@@ -87,7 +87,7 @@ TEST(BowLimbs, ErrorsSayWhatToWrite) {
   EXPECT_THAT(error_of(world), HasSubstr("give limbs and strings with two bodies each"));
   world = limbed_world();
   world.bodies[world.find_body("STRING_B").index()].X_WB.p += Vec3(0.1, 0.1, 0.2);
-  EXPECT_THAT(error_of(world), HasSubstr("the string at rest does not lie across the draw"));
+  EXPECT_THAT(error_of(world), HasSubstr("not at right angles to the draw"));
   world = limbed_world();
   world.bodies[world.find_body("LIMB_A").index()].fixed = true;
   EXPECT_THAT(error_of(world), HasSubstr("the body 'LIMB_A' is fixed"));

@@ -118,7 +118,7 @@ TEST(TorsionSpring, IsHeldAgainstPhilonsCalibration) {
   };
   EXPECT_EQ(with(11, 10), "");
   EXPECT_EQ(with(20, 60), "");
-  EXPECT_THAT(with(11, 20), HasSubstr("Philon asks for 13.9"));
+  EXPECT_THAT(with(11, 20), HasSubstr("Philon's rule gives 13.9"));
   EXPECT_THAT(with(8, 10), HasSubstr("write 0.2035 for springDiameter"));
 }
 
@@ -267,13 +267,13 @@ TEST(Shot, ErrorsSayWhatToWrite) {
   EXPECT_THAT(with(0, "release", text("pulled")), HasSubstr("name one of: fired"));
   EXPECT_THAT(with(0, "springs", number(1.5)), HasSubstr("write 0, 1 or 2"));
   EXPECT_THAT(with(1, "spring", text("SPRING")), HasSubstr("name one of: SINEW, SHOT"));
-  EXPECT_THAT(with(1, "spring", text("SHOT")), HasSubstr("is not a spring, or stands below"));
+  EXPECT_THAT(with(1, "spring", text("SHOT")), HasSubstr("is not a spring, or is written after"));
   EXPECT_THAT(with(1, "body", text("FRAME")), HasSubstr("is fixed"));
   EXPECT_THAT(with(1, "direction", vector(0, 0, 0)), HasSubstr("direction has no direction"));
-  EXPECT_THAT(with(1, "target", text("STONE")), HasSubstr("its own target"));
+  EXPECT_THAT(with(1, "target", text("STONE")), HasSubstr("are the same body"));
   state::WorldDescription world = catapult_world();
   std::swap(world.machines[0], world.machines[1]);
-  EXPECT_THAT(error_of(world), HasSubstr("stands below"));
+  EXPECT_THAT(error_of(world), HasSubstr("is written after"));
 }
 
 }  // namespace

@@ -223,7 +223,7 @@ TEST(ForcePump, ErrorsSayWhatToWrite) {
   EXPECT_THAT(error_of(pump_with("inletValves", text("upside down"))), HasSubstr("write good, reversed or missing"));
   EXPECT_THAT(error_of(pump_with("inletValves", std::vector<std::string>{"good", "good", "good"})),
               HasSubstr("one for each"));
-  EXPECT_THAT(error_of(pump_with("pistons", text("BEAM"))), HasSubstr("both or neither of 'pistons' and 'beam'"));
+  EXPECT_THAT(error_of(pump_with("pistons", text("BEAM"))), HasSubstr("exactly one of 'pistons' and 'beam'"));
   EXPECT_THAT(error_of(pump_with("cylinders", number(1.5))), HasSubstr("not a whole number"));
   state::WorldDescription world = pump_world();
   world.machines[0].parameters.erase("arm");

@@ -185,10 +185,10 @@ TEST(SteamSphere, SaysWhatTheFireIsLitBy) {
   EXPECT_THAT(error_of(sphere_lit_by("simulation.dwell")), HasSubstr("name a simulation.lit in 'litBy'"));
   state::WorldDescription both = sphere_lit_by("simulation.lit");
   both.machines[0].parameters["fire"] = text("lit");
-  EXPECT_THAT(error_of(both), HasSubstr("not both"));
+  EXPECT_THAT(error_of(both), HasSubstr("both 'fire' and 'litBy'"));
   state::WorldDescription none = sphere_world();
   none.machines[0].parameters.erase("fire");
-  EXPECT_THAT(error_of(none), HasSubstr("line 5, machine.steam_sphere STEAM: nothing lights the fire"));
+  EXPECT_THAT(error_of(none), HasSubstr("line 5, machine.steam_sphere STEAM: neither 'fire' nor 'litBy' is given"));
   EXPECT_THAT(error_of(sphere_lit_by("simulation.lit")), HasSubstr("'FIRE' has no value 'lit'"));
 }
 

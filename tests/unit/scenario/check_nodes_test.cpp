@@ -68,7 +68,7 @@ const Slip kSlips[] = {
      "containerField='bodyy1': a SingleAxisHingeJoint has no such field for a RigidBody; write "
      "containerField='body1' or 'body2'"},
     {"<RigidBody containerField='body1' USE='OUTER'/>", "<RigidBody USE='OUTER'/>", "<RigidBody USE='OUTER'/>",
-     "it is not said which field of the SingleAxisHingeJoint it fills"},
+     "which field of the SingleAxisHingeJoint it fills"},
     {"<SingleAxisHingeJoint DEF", "<Box/>\n<SingleAxisHingeJoint DEF", "<Box/>",
      "a Box cannot stand in a RigidBodyCollection; move it into a Shape"},
     {"containerField='metadata' name='mechane:agent'", "containerField='metdata' name='mechane:agent'", "metdata",
@@ -82,7 +82,7 @@ const Slip kSlips[] = {
     {"</Scene>", "<ROUTE fromNode='INER' fromField='position' toNode='OUTER' toField='position'/></Scene>", "<ROUTE",
      "fromNode: no element has the DEF 'INER'; did you mean 'INNER'?"},
     {"<MetadataString containerField='value' name='op'", "<MetadataDouble containerField='value' name='op'",
-     "<MetadataDouble containerField='value' name='op'", "a MetadataDouble holds no words; write a MetadataString"},
+     "<MetadataDouble containerField='value' name='op'", "a MetadataDouble cannot hold text; write a MetadataString"},
     {"name='next' value='\"seat\"'", "name='next' value='seat'", "value='seat'", "write value='\"seat\"'"},
     {"</Scene>", "stray</Scene>", "stray</Scene>", "the text 'stray' between elements does nothing",
      x3d::Severity::warning},

@@ -121,7 +121,8 @@ TEST(Check, WarnsOfWhatIsLikelyNotMeant) {
   expect_warning("name='next' value='\"seat\"'", "name='next' value='\"end\"'", "no trigger leads to this step");
   expect_warning("name='caption.el' value='\"Γυρίστε", "name='captoin.el' value='\"Γυρίστε",
                  "the caption is missing in: el");
-  expect_warning("name='activity' value='\"assemble\"'", "name='activity' value='\"use\"'", "no visit plays it");
+  expect_warning("name='activity' value='\"assemble\"'", "name='activity' value='\"use\"'",
+                 "no visit plays this activity");
   expect_warning("value='\"CARRY\" \"SEAT\"'/>",
                  "value='\"SEAT\"'/><MetadataString containerField='value' name='disable' value='\"CARRY\"'/>",
                  "can never fire");

@@ -153,7 +153,7 @@ const Fault kFaults[] = {
      "              <MetadataDouble containerField='value' name='turns' value='9'",
      "value='\"swing\"'/>\n              <MetadataString containerField='value' name='joint' value='\"AXLE\"'/>\n"
      "              <MetadataDouble containerField='value' name='angle' value='0'",
-     "name='angle' value='0'", "a swing of no angle"},
+     "name='angle' value='0'", "the angle of this swing is 0"},
     {"axis='-0.79", "axis='0 0 0' class='", "<SingleAxisHingeJoint", "has no length"},
     {"containerField='body2' USE='INNER'", "containerField='body2' USE='INER'", "USE='INER'", "did you mean 'INNER'?"},
     {"containerField='body2' USE='INNER'", "containerField='body2' USE='OUTER'", "<SingleAxisHingeJoint", "to itself"},
@@ -174,7 +174,7 @@ const Fault kFaults[] = {
     {"name='node' value='\"INNER\"'/>",
      "name='node' value='\"INNER\"'/>\n<MetadataBoolean containerField='value' name='touchable' value='false'/>"
      "<MetadataBoolean containerField='value' name='collides' value='true'/>",
-     "name='collides'", "to collide but is not touchable"},
+     "name='collides'", "collides is true, but touchable is false"},
     {"name='node' value='\"INNER\"'/>",
      "name='node' value='\"INNER\"'/>\n<MetadataDouble containerField='value' name='restitution' value='1.5'/>",
      "name='restitution'", "restitution"},
@@ -232,7 +232,7 @@ TEST(Compiler, ABodyHasATitleForVisitorsWhereTheAuthorGivesOne) {
   EXPECT_TRUE(untitled.world && title_of(untitled).empty());
   EXPECT_TRUE(untitled.problems.empty()) << "not every body is one for visitors";
   EXPECT_FALSE(compile_text(edited("name='title.el' value='\"Ο κύλινδρος", "name='titel.el' value='\"Ο κύλινδρος"))
-                   .find("is shown nowhere")
+                   .find("is not shown anywhere")
                    .what.empty());
 }
 

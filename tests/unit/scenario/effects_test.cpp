@@ -44,14 +44,14 @@ TEST(Effects, FaultsOfARiverAreSaidWithTheirRemedy) {
   const std::string node = "<MetadataString containerField='value' name='node' value='\"WATER_RIVER\"'/>";
   const std::string way = "<MetadataDouble containerField='value' name='direction' value='0 0 1'/>";
   expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", "node 'SCENE' is not water", x3d::Severity::error);
-  expect_problem(way, "", "the direction is not along the water", x3d::Severity::error);
-  expect_problem(way, "<MetadataDouble containerField='value' name='direction' value='0 1 0'/>",
-                 "the direction is not along the water", x3d::Severity::error);
-  expect_problem(node, node + "<MetadataString containerField='value' name='quantity' value='\"flow\"'/>",
-                 "a flow has no 'quantity'", x3d::Severity::warning);
-  expect_problem("<MetadataString containerField='value' name='kind' value='\"flow\"'/>",
-                 "<MetadataString containerField='value' name='kind' value='\"level\"'/>", "nothing drives the level",
+  expect_problem(way, "", "not along the water", x3d::Severity::error);
+  expect_problem(way, "<MetadataDouble containerField='value' name='direction' value='0 1 0'/>", "not along the water",
                  x3d::Severity::error);
+  expect_problem(node, node + "<MetadataString containerField='value' name='quantity' value='\"flow\"'/>",
+                 "a flow effect does not use 'quantity'", x3d::Severity::warning);
+  expect_problem("<MetadataString containerField='value' name='kind' value='\"flow\"'/>",
+                 "<MetadataString containerField='value' name='kind' value='\"level\"'/>",
+                 "names no quantity that drives it", x3d::Severity::error);
 }
 
 TEST(Quantities, AnUnknownUnitIsWarnedOf) {
@@ -82,7 +82,7 @@ TEST(Effects, FaultsAreSaidWithTheirRemedy) {
   expect_error(compile_text(driven_by("speed")), "a stream is driven by a flow, and 'speed' has the unit 'rpm'");
   expect_error(compile_text(edited("value='-0.5083 0 0.8612'", "value='0 0 0'")), "the direction has no length");
   expect_error(compile_text(edited("<MetadataString containerField='value' name='node' value='\"WATER_BASIN\"'/>", "")),
-               "nothing rises");
+               "names no node that could rise");
   expect_error(compile_text(edited("'\"BASIN_VIEW\"'", "'\"BASIN_VIW\"'")), "did you mean 'BASIN_VIEW'?");
 }
 

@@ -152,8 +152,8 @@ TEST(Lint, AMassThatNoThingOfItsShapeHasIsNamed) {
   for (const char* kg : {"42", "700", "7800"})
     expect_nothing(mass(kg), cube());
   expect_nothing(mass("0.001"), cube(false));  // a skin of paper weighs little
-  expect_one_warning(mass("0.00001"), at, "hardly meant");
-  expect_one_warning(mass("1000000"), at, "hardly meant");
+  expect_one_warning(mass("0.00001"), at, "outside what an exhibit can have");
+  expect_one_warning(mass("1000000"), at, "outside what an exhibit can have");
 }
 
 TEST(Inertia, IsComputedFromAClosedMeshWhereItIsNotGiven) {

@@ -131,7 +131,7 @@ TEST(Steps, FaultsSayWhatToDo) {
   };
   expect(with_fill(number_key("timeoutSeconds", "45") + key("timeoutNext", "trun")), "did you mean 'turn'?",
          x3d::Severity::error);
-  expect(with_fill(key("timeoutNext", "turn")), "no time-out that could lead there", x3d::Severity::warning);
+  expect(with_fill(key("timeoutNext", "turn")), "timeoutNext has no effect", x3d::Severity::warning);
   expect(with_fill(text_key("opens", "../village/village.x3d")), "cannot be a scenario's id", x3d::Severity::error);
   expect(with_fill(text_key("opens", "")), "cannot be a scenario's id", x3d::Severity::error);
   const std::string first = "<MetadataSet containerField='value' name='grasp'>\n";
@@ -140,7 +140,7 @@ TEST(Steps, FaultsSayWhatToDo) {
   expect(with_fill(number_key("timeoutSecond", "4")), "did you mean 'timeoutSeconds'?", x3d::Severity::error);
   expect(with_fill(set_key("trigger:2", set_key("rule:1", rule("trns", ">", "1")))), "did you mean 'turns'?",
          x3d::Severity::error);
-  expect(with_fill(set_key("trigger:2", rule("turns", ">", "1") + key("match", "any"))), "nothing to match",
+  expect(with_fill(set_key("trigger:2", rule("turns", ">", "1") + key("match", "any"))), "match has no effect",
          x3d::Severity::warning);
   expect(with_fill(set_key("trigger:2", set_key("rule:1", key("quantity", "turns")))), "the key 'op' is missing",
          x3d::Severity::error);
