@@ -97,14 +97,8 @@ class Assembled final : public Agent {
 
 /// The snap's object and tolerance. Its own parameters are checked when it is made; what is wrong there is said there.
 void read_snap(const state::WorldDescription& world, const state::ComponentDescription& snap, Part& part) {
-  const auto object = snap.parameters.find("object");
-  if (object != snap.parameters.end()) {
-    const auto* texts = std::get_if<std::vector<std::string>>(&object->second);
-    if (texts != nullptr && texts->size() == 1) part.object = world.find_body(texts->front());
-  }
-  const auto tolerance = snap.parameters.find("tolerance");
-  if (tolerance == snap.parameters.end()) return;
-  const auto* numbers = std::get_if<std::vector<double>>(&tolerance->second);
+  if (const std::string* object = snap.written_text("object")) part.object = world.find_body(*object);
+  const auto* numbers = snap.written<std::vector<double>>("tolerance");
   if (numbers == nullptr || numbers->size() != 2) return;
   part.reach_m = (*numbers)[0];
   part.reach_rad = (*numbers)[1];

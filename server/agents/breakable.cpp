@@ -70,8 +70,7 @@ class Breakable final : public Agent {
 };
 
 bool is_tied_snap(const state::ComponentDescription& agent) {
-  const auto it = agent.parameters.find("tied");
-  const bool* tied = it == agent.parameters.end() ? nullptr : std::get_if<bool>(&it->second);
+  const bool* tied = agent.written<bool>("tied");
   return agent.type == "geometry.snap" && tied != nullptr && *tied;
 }
 

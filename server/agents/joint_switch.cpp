@@ -15,10 +15,8 @@ constexpr std::array<std::string_view, 4> kSwitches{"geometry.hinge", "geometry.
 
 JointId switched_joint(const state::WorldDescription& description, const state::ComponentDescription& agent) {
   if (std::find(kSwitches.begin(), kSwitches.end(), agent.type) == kSwitches.end()) return {};
-  const auto it = agent.parameters.find("joint");
-  if (it == agent.parameters.end()) return {};
-  const auto* texts = std::get_if<std::vector<std::string>>(&it->second);
-  return texts != nullptr && texts->size() == 1 ? description.find_joint(texts->front()) : JointId::none();
+  const std::string* joint = agent.written_text("joint");
+  return joint != nullptr ? description.find_joint(*joint) : JointId::none();
 }
 
 namespace {

@@ -37,13 +37,9 @@ Expected<std::unique_ptr<Agent>> make_placed(const Build& build) {
     return fail("'" + snap.name + "' is a " + snap.type, state::component_place(build.component),
                 "name a geometry.snap");
   // The snap's own parameters are checked when it is made; here its object only names the event's body.
-  BodyId object;
-  const auto it = snap.parameters.find("object");
-  if (it != snap.parameters.end()) {
-    const auto* texts = std::get_if<std::vector<std::string>>(&it->second);
-    if (texts != nullptr && texts->size() == 1) object = build.description.find_body(texts->front());
-  }
-  return std::make_unique<Placed>(build, snap.name, object);
+  const std::string* object = snap.written_text("object");
+  return std::make_unique<Placed>(build, snap.name,
+                                  object != nullptr ? build.description.find_body(*object) : BodyId::none());
 }
 
 constexpr state::ParameterType kPlacedParameters[] = {

@@ -6,7 +6,8 @@
 // load: it drives.
 //
 // Calibration. Philon (Belopoeica 51): the bundle's diameter in dactyls is 1.1 * cbrt(100 * the stone's weight in minas). (Vitruvius
-// X.11.3 has a table for the same, with smaller springs as it has come down to us.) Where an author gives both, they are checked against each other.
+// X.11.3 has a table for the same, with smaller springs as it has come down to us.) Where an author gives both, they are checked against
+// each other.
 //
 // The shot. When the release's quantity rises the springs offer their energy to a projectile; while they do, they push nothing.
 // What the stone takes, the arm does not get: until it is at rest again its torque is smaller by that share. So the sum is never more

@@ -1,6 +1,7 @@
 // What the stages of one compilation share. Inside this room only.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -73,6 +74,10 @@ void lint_bodies(Compilation& c);
 
 /// The steps that its triggers and its time-out lead to.
 [[nodiscard]] std::vector<StepId> next_steps(const state::StepDescription& step);
+
+/// The steps that can be reached from these, they included, each once, through steps that pass; without `passes` all do.
+[[nodiscard]] std::vector<StepId> steps_from(const state::WorldDescription& world, std::vector<StepId> open,
+                                             const std::function<bool(StepId)>& passes = {});
 
 /// All of it.
 void compile_all(Compilation& c);

@@ -115,22 +115,21 @@ void read_mass(Attributes& attributes, state::BodyDescription& body) {
   }
 }
 
-/// Warns of a mass that no thing of this shape, or none at all, can have.
+/// Warns of a mass that nothing of this shape can have; without a shape, of one that no exhibit has.
 void check_mass(Attributes& attributes, const state::BodyDescription& body, const std::optional<Solid>& solid) {
   constexpr double kAir = 1.2, kOsmium = 22600, kOak = 700;  // kg/m^3; no metal is denser than osmium
   constexpr double kLeast_kg = 1e-4, kMost_kg = 1e6;         // of what is touched in a museum, where no shape is known
   const bool closed = solid && solid->is_closed();
-  const double most_m3 = solid ? std::max(solid->volume_m3, solid->box_m3) : 0;
+  const double room_m3 = closed ? solid->volume_m3 : solid ? std::max(solid->volume_m3, solid->box_m3) : 0;
   if (closed && body.mass_kg < kAir * solid->volume_m3) {
     attributes.warning(fmt::format("the mass of {:.3g} kg is less than that of air: the mesh encloses {:.3g} m^3",
                                    body.mass_kg, solid->volume_m3),
                        fmt::format("write it in kilograms: of oak it is some {:.2g}", kOak * solid->volume_m3));
-  } else if (most_m3 > 0 && body.mass_kg > kOsmium * (closed ? solid->volume_m3 : most_m3)) {
-    const double volume_m3 = closed ? solid->volume_m3 : most_m3;
+  } else if (room_m3 > 0 && body.mass_kg > kOsmium * room_m3) {
     attributes.warning(
         fmt::format("the mass of {:.3g} kg is more than that of any metal: the mesh {} {:.3g} m^3", body.mass_kg,
-                    closed ? "encloses" : "fits into", volume_m3),
-        fmt::format("write it in kilograms, and the mesh in metres: of oak it is some {:.2g}", kOak * volume_m3));
+                    closed ? "encloses" : "fits into", room_m3),
+        fmt::format("write it in kilograms, and the mesh in metres: of oak it is some {:.2g}", kOak * room_m3));
   } else if (!solid && (body.mass_kg < kLeast_kg || body.mass_kg >= kMost_kg)) {
     attributes.warning(fmt::format("a mass of {:.3g} kg is outside what an exhibit can have", body.mass_kg),
                        "write it in kilograms");
@@ -140,10 +139,16 @@ void check_mass(Attributes& attributes, const state::BodyDescription& body, cons
 /// The inertia that the author left out: from a closed mesh, as of a uniform solid; without one X3D's default stays.
 void complete_inertia(Attributes& attributes, const Expected<std::optional<Solid>>& solid, bool has_mesh,
                       state::BodyDescription& body) {
-  std::string why = "no mesh is known to compute it from";
-  if (has_mesh && !solid) why = "it cannot be computed: " + solid.error().what;
-  if (has_mesh && solid && !*solid) return;  // nobody has looked, or a fault of the file has been said
-  if (has_mesh && solid && (*solid)->is_closed()) {
+  std::string why;
+  if (!has_mesh) {
+    why = "no mesh is known to compute it from";
+  } else if (!solid) {
+    why = "it cannot be computed: " + solid.error().what;
+  } else if (!*solid) {
+    return;  // the loader does not look into meshes, or has reported the file
+  } else if (!(*solid)->is_closed()) {
+    why = fmt::format("the mesh is not closed ({} open edges), so that none can be computed", (*solid)->open_edges);
+  } else {
     const Mat3 inertia_kg_m2 = body.mass_kg * (*solid)->inertia_per_kg_m2;
     const Vec3 principal = principal_moments(inertia_kg_m2);
     if (principal[0] > 0 && is_of_a_solid(principal)) {
@@ -151,8 +156,6 @@ void complete_inertia(Attributes& attributes, const Expected<std::optional<Solid
       return;
     }
     why = "the mesh crosses itself, so that none can be computed";
-  } else if (has_mesh && solid) {
-    why = fmt::format("the mesh is not closed ({} open edges), so that none can be computed", (*solid)->open_edges);
   }
   attributes.warning(fmt::format("the inertia is not given, and {}: it is taken as 1 kg m^2 about every axis", why),
                      "write it, or give the body a closed mesh");

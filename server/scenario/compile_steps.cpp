@@ -268,13 +268,9 @@ void check_first(Compilation& c, const Written& activity) {
 void open_switched_joints(state::WorldDescription& world) {
   for (const state::StepDescription& step : world.steps) {
     for (const AgentId agent : step.enable) {
-      const auto it = world.agents[agent.index()].parameters.find("joint");
-      if (!world.agents[agent.index()].type.starts_with("geometry.") ||
-          it == world.agents[agent.index()].parameters.end())
-        continue;
-      const auto* names = std::get_if<std::vector<std::string>>(&it->second);
-      if (names == nullptr || names->size() != 1) continue;
-      if (const JointId joint = world.find_joint(names->front())) world.joints[joint.index()].enabled_at_start = false;
+      const std::string* name = world.agents[agent.index()].written_text("joint");
+      if (name == nullptr || !world.agents[agent.index()].type.starts_with("geometry.")) continue;
+      if (const JointId joint = world.find_joint(*name)) world.joints[joint.index()].enabled_at_start = false;
     }
   }
 }

@@ -27,7 +27,7 @@ class ObjectLoader {
   /// and is asked only for bodies whose inertia is not given. Errors: those of content::import_mesh and collision_parts.
   [[nodiscard]] virtual Expected<std::optional<Solid>> solid(const std::filesystem::path& file,
                                                              const std::string& node);
-  /// Whether solid() costs little: then it is asked for every body, to hold the masses against.
+  /// Whether solid() costs little: it is then asked for every body, to check the mass.
   [[nodiscard]] virtual bool has_meshes_at_hand() const { return false; }
   /// The name of the file's bytes: content::content_hash(). Fails where the file cannot be read.
   [[nodiscard]] virtual Expected<std::string> content_hash(const std::filesystem::path& file) = 0;

@@ -71,19 +71,13 @@ void check_all_texts(Compilation& c) {
 }
 
 void check_reach(Compilation& c) {
-  std::vector<bool> reached(c.world.steps.size(), false);
-  std::vector<StepId> open;
+  std::vector<StepId> first;
   for (const state::ActivityDescription& activity : c.world.activities) {
-    if (activity.first) open.push_back(activity.first);
+    if (activity.first) first.push_back(activity.first);
   }
-  while (!open.empty()) {
-    const StepId id = open.back();
-    open.pop_back();
-    if (reached[id.index()]) continue;
+  std::vector<bool> reached(c.world.steps.size(), false);
+  for (const StepId id : steps_from(c.world, std::move(first)))
     reached[id.index()] = true;
-    for (const StepId next : next_steps(c.world.steps[id.index()]))
-      open.push_back(next);
-  }
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const StepDescription& step = c.world.steps[i];
     if (!reached[i]) {
@@ -176,6 +170,22 @@ std::vector<StepId> next_steps(const StepDescription& step) {
   }
   if (step.timeout_s > 0 && step.timeout_next) next.push_back(step.timeout_next);
   return next;
+}
+
+std::vector<StepId> steps_from(const state::WorldDescription& world, std::vector<StepId> open,
+                               const std::function<bool(StepId)>& passes) {
+  std::vector<bool> seen(world.steps.size(), false);
+  std::vector<StepId> found;
+  while (!open.empty()) {
+    const StepId id = open.back();
+    open.pop_back();
+    if (seen[id.index()] || (passes && !passes(id))) continue;
+    seen[id.index()] = true;
+    found.push_back(id);
+    const std::vector<StepId> next = next_steps(world.steps[id.index()]);
+    open.insert(open.end(), next.begin(), next.end());
+  }
+  return found;
 }
 
 void lint(Compilation& c) {

@@ -1,4 +1,4 @@
-// Bodies that fall, or that nobody can move any more, because an agent is off: warnings.
+// Warnings of bodies that fall, or that nobody can move any more, because an agent is off.
 #include <algorithm>
 #include <array>
 
@@ -115,71 +115,42 @@ void check_falls(Compilation& c) {
   }
 }
 
-/// The steps that may come after `from`, it not among them unless it comes again.
-std::vector<StepId> steps_after(const state::WorldDescription& world, StepId from) {
-  std::vector<StepId> found;
-  std::vector<StepId> open{from};
-  while (!open.empty()) {
-    const StepId at = open.back();
-    open.pop_back();
-    for (const StepId next : next_steps(world.steps[at.index()])) {
-      if (std::find(found.begin(), found.end(), next) != found.end()) continue;
-      found.push_back(next);
-      open.push_back(next);
-    }
-  }
-  return found;
-}
-
 /// Whether an agent may be on when the step begins, before the step switches it.
 bool may_be_on(const state::WorldDescription& world, StepId step, AgentId agent) {
   const StepId first = world.activities[world.steps[step.index()].activity.index()].first;
-  std::vector<bool> seen(world.steps.size(), false);
-  std::vector<StepId> open;
+  std::vector<StepId> on;
   // Steps in which it is on, from wherever it is switched on.
   for (std::size_t i = 0; i < world.steps.size(); ++i) {
     const bool begins = StepId(i) == first && on_at_start(world, agent);
     if (world.steps[i].activity == world.steps[step.index()].activity && on_after(world.steps[i], agent, begins))
-      open.push_back(StepId(i));
+      on.push_back(StepId(i));
   }
-  while (!open.empty()) {
-    const StepId at = open.back();
-    open.pop_back();
-    for (const StepId next : next_steps(world.steps[at.index()])) {
-      if (next == step) return true;
-      if (seen[next.index()] || !on_after(world.steps[next.index()], agent, true)) continue;
-      seen[next.index()] = true;
-      open.push_back(next);
-    }
-  }
-  return false;
-}
-
-bool is_tied(const state::ComponentDescription& snap) {
-  const auto tied = snap.parameters.find("tied");
-  const bool* value = tied == snap.parameters.end() ? nullptr : std::get_if<bool>(&tied->second);
-  return value != nullptr && *value;
+  const auto stays_on = [&](StepId id) { return on_after(world.steps[id.index()], agent, true); };
+  return std::ranges::any_of(steps_from(world, std::move(on), stays_on), [&](StepId id) {
+    const std::vector<StepId> next = next_steps(world.steps[id.index()]);
+    return std::find(next.begin(), next.end(), step) != next.end();
+  });
 }
 
 /// A snap that is switched off lets go of nothing: what it has placed stands still for good.
 void check_stuck(Compilation& c, StepId id, AgentId snap) {
   const state::ComponentDescription& agent = c.world.agents[snap.index()];
-  const auto object = agent.parameters.find("object");
-  if (agent.type != "geometry.snap" || is_tied(agent) || object == agent.parameters.end()) return;
-  const auto* texts = std::get_if<std::vector<std::string>>(&object->second);
-  const BodyId body = texts != nullptr && texts->size() == 1 ? c.world.find_body(texts->front()) : BodyId::none();
-  if (!body || moved_by_machine(c.world, texts->front()) || !may_be_on(c.world, id, snap)) return;
+  const std::string* object = agent.written_text("object");
+  const bool* tied = agent.written<bool>("tied");
+  if (agent.type != "geometry.snap" || (tied != nullptr && *tied) || object == nullptr) return;
+  const BodyId body = c.world.find_body(*object);
+  if (!body || moved_by_machine(c.world, *object) || !may_be_on(c.world, id, snap)) return;
   const StepDescription& step = c.world.steps[id.index()];
   const auto settles = [&](StepId later) {
     const StepDescription& s = c.world.steps[later.index()];
     return says_movable(s, body) || names(s.enable, snap);
   };
-  if (says_movable(step, body) || std::ranges::any_of(steps_after(c.world, id), settles)) return;
+  if (says_movable(step, body) || std::ranges::any_of(steps_from(c.world, next_steps(step)), settles)) return;
   c.problems.warning(
       c.step_lines[id.index()], "step " + step.name,
       fmt::format("'{}' is switched off, but a body that it has placed stays immovable: '{}' cannot be taken or fall",
-                  agent.name, texts->front()),
-      fmt::format("write movable into object:{} of this step: true frees it, false keeps it there", texts->front()));
+                  agent.name, *object),
+      fmt::format("write movable into object:{} of this step: true frees it, false keeps it there", *object));
 }
 
 void check_snaps(Compilation& c) {

@@ -6,22 +6,15 @@
 namespace mechane::state {
 namespace {
 
-const std::vector<std::string>* texts_of(const ComponentDescription& component, const char* name) {
-  const auto found = component.parameters.find(name);
-  return found == component.parameters.end() ? nullptr : std::get_if<std::vector<std::string>>(&found->second);
-}
-
 BodyId body_of(const WorldDescription& description, const ComponentDescription& component, const char* name) {
-  const auto* texts = texts_of(component, name);
+  const auto* texts = component.written<std::vector<std::string>>(name);
   return texts == nullptr || texts->empty() ? BodyId{} : description.find_body(texts->front());
 }
 
 /// As many as were asked for; zeros where the author wrote none.
 std::vector<double> numbers_of(const ComponentDescription& component, const char* name, std::size_t count) {
   std::vector<double> out(count, 0.0);
-  const auto found = component.parameters.find(name);
-  const auto* written =
-      found == component.parameters.end() ? nullptr : std::get_if<std::vector<double>>(&found->second);
+  const auto* written = component.written<std::vector<double>>(name);
   for (std::size_t i = 0; written != nullptr && i < std::min(count, written->size()); ++i)
     out[i] = (*written)[i];
   return out;
@@ -37,7 +30,7 @@ void add_taken(const WorldDescription& description, AgentId agent, std::vector<A
     if (body && !description.bodies[body.index()].fixed)
       out.push_back({Affordance::Kind::taken, agent, body, {}, {}, {}});
   };
-  const auto* named = texts_of(description.agents[agent.index()], "bodies");
+  const auto* named = description.agents[agent.index()].written<std::vector<std::string>>("bodies");
   if (named == nullptr) {
     for (std::size_t i = 0; i < description.bodies.size(); ++i)
       add(BodyId(i));

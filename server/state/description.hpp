@@ -85,6 +85,18 @@ struct ComponentDescription {
   std::string type;  ///< "geometry.hinge", "simulation.grasp", "machine.screw_pump" ...
   std::map<std::string, Parameter> parameters;
   int line = 0;
+
+  /// A parameter as it was written, before it is checked against the type; null where it is not there, or of another type than T.
+  template <class T>
+  [[nodiscard]] const T* written(const std::string& parameter) const {
+    const auto it = parameters.find(parameter);
+    return it == parameters.end() ? nullptr : std::get_if<T>(&it->second);
+  }
+  /// The same of a parameter that is one text; null also where it is several.
+  [[nodiscard]] const std::string* written_text(const std::string& parameter) const {
+    const auto* texts = written<std::vector<std::string>>(parameter);
+    return texts != nullptr && texts->size() == 1 ? &texts->front() : nullptr;
+  }
 };
 
 struct QuantityDescription {

@@ -22,7 +22,7 @@ using Value = tl::expected<T, BadValue>;
 
 /// Words like "12,5", which are read as two numbers each: X3D separates numbers by commas too.
 struct DecimalCommas {
-  std::string first;  ///< the first of them, as written; empty: there is none
+  std::string first;  ///< the first such word, as written; empty if there are none
   std::size_t count = 0;
 };
 [[nodiscard]] DecimalCommas decimal_commas(std::string_view text);

@@ -56,8 +56,6 @@ TEST(Lint, ABodyThatFallsUntilALaterStepHoldsItIsNamed) {
       {kHeavy,
        kAxleLater,
        kAxleInTurn,
-       {"<MetadataSet containerField='value' name='grasp'>\n",
-        "<MetadataSet containerField='value' name='grasp'><!-- -->\n"},
        {"value='\"HOLD\" \"COUNTER\"'/>\n                <MetadataSet containerField='value' name='object:INNER'>\n "
         "                 <MetadataBoolean containerField='value' name='movable' value='true'/>",
         "value='\"HOLD\" \"COUNTER\"'/>\n                <MetadataSet containerField='value' name='object:INNER'>\n "
