@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "server/base/markup.hpp"
+#include "server/base/utf8.hpp"
+
 namespace mechane::assets {
 namespace {
 
@@ -12,28 +15,6 @@ constexpr std::string_view kPlain = "http://";
 constexpr std::string_view kSecure = "https://";
 constexpr const char* kAddressRemedy =
     "write the address of the scenario's folder, as in http://server:8000/archimedes-screw";
-
-bool is_control(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-}
-
-/// RFC 3986, 2.3: what stands for itself everywhere.
-bool is_unreserved(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' ||
-         c == '_' || c == '~';
-}
-
-std::string escaped(std::string_view part) {
-  std::string out;
-  for (const char c : part) {
-    if (is_unreserved(c)) {
-      out += c;
-    } else {
-      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-  }
-  return out;
-}
 
 std::vector<std::string_view> parts_of(std::string_view path) {
   std::vector<std::string_view> parts;
@@ -57,7 +38,8 @@ bool is_web_address(std::string_view text) {
 
 Expected<AssetAddress> AssetAddress::parse(std::string_view text) {
   const std::string where(text);
-  if (!is_web_address(text)) return fail("it is not an address of http or https", where, kAddressRemedy);
+  if (!is_web_address(text))
+    return fail(ErrorCode::invalid_value, "the address does not begin with http:// or https://", where, kAddressRemedy);
   const bool secure = text.starts_with(kSecure);
   const std::size_t host_at = (secure ? kSecure : kPlain).size();
   const bool odd = std::ranges::any_of(text, [](char c) {
@@ -65,15 +47,19 @@ Expected<AssetAddress> AssetAddress::parse(std::string_view text) {
            std::string_view(" \"<>\\^`{|}?#@").find(c) != std::string_view::npos;
   });
   if (odd)
-    return fail("an address of assets has no user, no query, and no character that must be escaped", where,
+    return fail(ErrorCode::invalid_value,
+                "the address contains a user name, a query, a fragment or a character that must be escaped", where,
                 kAddressRemedy);
   while (text.size() > host_at && text.ends_with('/'))
     text.remove_suffix(1);
   std::vector<std::string_view> parts = parts_of(text.substr(host_at));
-  if (parts.front().empty() || parts.front().front() == ':') return fail("it names no host", where, kAddressRemedy);
+  if (parts.front().empty() || parts.front().front() == ':')
+    return fail(ErrorCode::missing, "the address has no host name", where, kAddressRemedy);
   const bool bad_part =
       std::any_of(parts.begin() + 1, parts.end(), [](std::string_view part) { return part.empty() || is_dots(part); });
-  if (bad_part) return fail("its path has an empty part, or '.' or '..'", where, kAddressRemedy);
+  if (bad_part)
+    return fail(ErrorCode::invalid_value, "the path of the address has an empty part, or '.' or '..'", where,
+                kAddressRemedy);
   std::string folder;
   if (parts.size() > 1) {
     folder = parts.back();
@@ -87,26 +73,28 @@ Expected<AssetAddress> AssetAddress::parse(std::string_view text) {
 
 Expected<std::string> AssetAddress::of(std::string_view name) const {
   const std::string where = fmt::format("'{}'", name);
-  if (name.empty()) return fail("an asset without a name cannot be fetched", text(), "name a file in the scenario");
-  if (std::ranges::any_of(name, is_control))
-    return fail("a name with control characters is not fetched", text(), "rename the file");
+  if (name.empty())
+    return fail(ErrorCode::missing, "a file without a name cannot be fetched", text(), "name a file in the scenario");
+  if (std::ranges::any_of(name, [](char c) { return is_control(c); }))
+    return fail(ErrorCode::invalid_value, "the file's name contains control characters", text(), "rename the file");
   std::vector<std::string> path;
-  path.push_back(folder_);  // empty at the root of a server: a way out of it leads there as well
+  path.push_back(folder_);  // empty at the root of a server, whose ".." is the root itself
   for (const std::string_view part : parts_of(name)) {
     if (part.empty())
-      return fail("a name must be relative, and none of its parts empty", where,
+      return fail(ErrorCode::invalid_value, "the name is not a relative path, or has an empty part", where,
                   "name files as in ../models/screw.glb");
     if (part == "..") {
       if (path.empty())
-        return fail("the name leads out of " + root_, where,
-                    "let the scenario name files beside its own folder at most, and give the scenario's folder");
+        return fail(ErrorCode::invalid_value, "the name leads out of " + root_, where,
+                    "let the scenario name files in its own folder or in one beside it, and give the address of the "
+                    "scenario's folder");
       path.pop_back();
     } else if (part != ".") {
-      path.push_back(escaped(part));
+      path.push_back(escape_percent(part));
     }
   }
   if (path.empty() || is_dots(parts_of(name).back()))
-    return fail("it names a folder, not a file", where, "name a file");
+    return fail(ErrorCode::invalid_value, "this is the name of a folder, not of a file", where, "name a file");
   if (path.front().empty()) path.erase(path.begin());
   return fmt::format("{}{}", root_, fmt::join(path, "/"));
 }

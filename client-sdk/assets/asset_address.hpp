@@ -1,4 +1,4 @@
-// From an asset's name to its address on the web: names come from a scenario, which nobody vouches for.
+// From an asset's name to its address on the web. Names come from a scenario, which is not trusted.
 #pragma once
 
 #include <string>
@@ -8,23 +8,23 @@
 
 namespace mechane::assets {
 
-/// True for what is to be fetched rather than read from a folder: it begins with http:// or https://.
+/// True for an address, which is fetched and not read from a folder: it begins with http:// or https://.
 [[nodiscard]] bool is_web_address(std::string_view text);
 
 /// The address of a scenario's folder on an HTTP server.
 class AssetAddress {
  public:
-  /// Reads "http://host:port/path/of/scenario", already percent-encoded. Errors: neither http nor https; no host; a user's name (it
-  /// would stand in logs), a query, a fragment, '.' or '..' or a character that no address may have.
+  /// Reads "http://host:port/path/of/scenario", already percent-encoded. Errors: neither http nor https; no host; a
+  /// user name (it would appear in logs), a query, a fragment, '.' or '..', a character that must be escaped.
   [[nodiscard]] static Expected<AssetAddress> parse(std::string_view text);
 
-  /// The address of a file, named relative to the scenario's folder, with '/' between its parts; each part is escaped. As exhibits share
-  /// models, a name may lead to the folder that the scenario's folder stands in ("../models/screw.glb"), and no higher; at the root of a
-  /// web server, which has nothing above it, both are that root, as a browser reads it. Errors: it leads higher, or it is empty, absolute,
-  /// has an empty part or a control character.
+  /// The address of a file whose name is relative to the scenario's folder, with '/' between its parts; each part is
+  /// escaped. As exhibits share models, a name may lead to the parent of the scenario's folder ("../models/screw.glb"),
+  /// but no higher; at the root of a web server, ".." is the root itself, as in a browser. Errors: the name leads
+  /// higher, is empty or absolute, or has an empty part or a control character.
   [[nodiscard]] Expected<std::string> of(std::string_view name) const;
 
-  /// https: then a redirect must not lead to plain http.
+  /// Whether it is https; then a redirect must not lead to plain http.
   [[nodiscard]] bool secure() const { return secure_; }
   /// For people.
   [[nodiscard]] std::string text() const { return root_ + folder_; }
@@ -34,7 +34,7 @@ class AssetAddress {
       : secure_(secure), root_(std::move(root)), folder_(std::move(folder)) {}
 
   bool secure_;
-  std::string root_;    ///< no name leads out of it; ends with '/'
+  std::string root_;    ///< no name may lead out of it; ends with '/'
   std::string folder_;  ///< the scenario's folder in it, without '/'; empty: the root itself
 };
 

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "server/base/whole_file.hpp"
 #include "server/content/content_hash.hpp"
-#include "server/content/whole_file.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::assets {
@@ -42,7 +42,7 @@ std::vector<CachedFile> files_below(const fs::path& folder) {
 }
 
 void touch(const fs::path& file) {
-  std::error_code ignored;  // on a read-only disk the order of use is lost, no more
+  std::error_code ignored;  // on a read-only disk only the order of use is lost
   fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
 }
 
@@ -79,7 +79,7 @@ std::optional<fs::path> AssetCache::find(const std::string& hash, const std::str
     in_use_.insert(file);
     return file;
   }
-  log::warning(fmt::format("{}: it was damaged on this disk; it is fetched again", file.string()));
+  log::warning(fmt::format("{}: the copy on this disk is damaged; the file is fetched again", file.string()));
   fs::remove(file, code);
   return {};
 }
@@ -87,23 +87,23 @@ std::optional<fs::path> AssetCache::find(const std::string& hash, const std::str
 Expected<fs::path> AssetCache::keep(std::span<const std::byte> bytes, const std::string& hash,
                                     const std::string& extension) {
   const fs::path file = place_of(hash, extension);
-  const Expected<void> written = content::write_whole(file, bytes);
+  const Expected<void> written = write_whole(file, bytes, WholeFile::shared);
   if (written) {
-    touch(file);  // the clock that find() uses, which is finer than the file system's
+    touch(file);  // sets the time by the clock of find(), which is finer than the file system's
     in_use_.insert(file);
     make_room();
     return file;
   }
   if (!std::exchange(told_no_room_, true)) {
     log::warning(
-        fmt::format("{}: {}; files are fetched anew at each start until the folder has room and may be "
-                    "written: see --asset-cache",
+        fmt::format("{}: {}; until this folder has room and can be written, files are fetched again at each start "
+                    "(see --asset-cache)",
                     written.error().where, written.error().what));
   }
   return keep_aside(bytes, hash + extension);
 }
 
-/// The second place has room where the disk has none: it is memory.
+/// Puts the file into a temporary folder, or into /dev/shm, which is memory and has room when the disk is full.
 Expected<fs::path> AssetCache::keep_aside(std::span<const std::byte> bytes, const std::string& name) {
   std::error_code code;
   for (const fs::path& place : {fs::temp_directory_path(code), fs::path("/dev/shm")}) {
@@ -115,10 +115,10 @@ Expected<fs::path> AssetCache::keep_aside(std::span<const std::byte> bytes, cons
       if (mkdtemp(fresh.data()) == nullptr) continue;
       aside = *asides_.insert(fs::path(fresh)).first;
     }
-    if (content::write_whole(aside / name, bytes)) return aside / name;
+    if (write_whole(aside / name, bytes, WholeFile::shared)) return aside / name;
   }
-  return fail("there is no room for it on any disk", folder_.string(),
-              "make room, or choose a folder with --asset-cache");
+  return fail(ErrorCode::io_failure, "a fetched file fits neither in this folder nor in a temporary one",
+              folder_.string(), "free some disk space, or choose another folder with --asset-cache");
 }
 
 void AssetCache::make_room() const {
@@ -155,7 +155,7 @@ void AssetCache::remember(const std::string& address, const RememberedFile& file
   const nlohmann::ordered_json note{
       {"address", address}, {"hash", file.hash}, {"etag", file.etag}, {"modified", file.modified}};
   const std::string text = note.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  (void)content::write_whole(note_of(address), std::as_bytes(std::span(text)));
+  (void)write_whole(note_of(address), std::as_bytes(std::span(text)), WholeFile::shared);
 }
 
 }  // namespace mechane::assets

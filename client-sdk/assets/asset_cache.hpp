@@ -1,4 +1,5 @@
-// Fetched files on this machine's disk, by content: what a display starts with when the server of its assets is away.
+// Fetched files on this machine's disk, by content. With them a display can start while its web server is not
+// reachable.
 #pragma once
 
 #include <cstddef>
@@ -13,32 +14,34 @@
 
 namespace mechane::assets {
 
-/// What was last known of a file that nobody gave a hash of.
+/// What is remembered of a file whose hash was not given.
 struct RememberedFile {
-  std::string hash;  ///< content::content_hash() of the bytes that came
+  std::string hash;  ///< content::content_hash() of the fetched bytes
   std::string etag;
   std::string modified;
 };
 
-/// Called from one thread. Several displays may share a folder: files come into it whole, under their final name, or not at all.
+/// Called from one thread. Several displays may share a folder: files appear in it complete, under their final name.
 class AssetCache {
  public:
-  /// The folder is made when the first file is kept. Over `limit_bytes`, the files that were not used for the longest time go.
+  /// The folder is made when the first file is kept. Above `limit_bytes`, the files that were not used for the longest
+  /// time are removed.
   AssetCache(std::filesystem::path folder, std::uint64_t limit_bytes);
   ~AssetCache();
   AssetCache(const AssetCache&) = delete;
   AssetCache& operator=(const AssetCache&) = delete;
 
-  /// The file of this content, read through: what was damaged is removed, and told. `extension` is that of the file's name.
+  /// The file with this content; it is read completely, and removed with a warning if it is damaged. `extension` is
+  /// that of the file's name.
   [[nodiscard]] std::optional<std::filesystem::path> find(const std::string& hash, const std::string& extension);
 
-  /// Writes a file of this content. Where the folder cannot hold it (full, not ours to write), it goes to a folder of temporary files
-  /// until the cache is destroyed, and the log says so once. Files that this cache gave out or took in are not removed for others'
-  /// sake, so a scenario may be larger than the limit. Errors: there is no room anywhere.
+  /// Writes a file with this content. Where the folder cannot take it (full, or no permission), it goes to a temporary
+  /// folder until the cache is destroyed, and the log says so once. Files that this cache has used are not removed to
+  /// make room, so a scenario may be larger than the limit. Errors: no room anywhere.
   [[nodiscard]] Expected<std::filesystem::path> keep(std::span<const std::byte> bytes, const std::string& hash,
                                                      const std::string& extension);
 
-  /// By a file's whole address. What cannot be read or written is as if it were not there.
+  /// By a file's full address. What cannot be read or written counts as not remembered.
   [[nodiscard]] std::optional<RememberedFile> recall(const std::string& address) const;
   void remember(const std::string& address, const RememberedFile& file) const;
 
@@ -51,11 +54,12 @@ class AssetCache {
   std::filesystem::path folder_;
   std::uint64_t limit_bytes_;
   std::set<std::filesystem::path> in_use_;
-  std::set<std::filesystem::path> asides_;  ///< folders of temporary files, ours to remove
+  std::set<std::filesystem::path> asides_;  ///< temporary folders, removed by the destructor
   bool told_no_room_ = false;
 };
 
-/// 32 small hexadecimal digits, as content::content_hash() writes them: only such a text becomes part of a path.
+/// Whether the text is 32 lower-case hexadecimal digits, as from content::content_hash(): only then may it be part of a
+/// path.
 [[nodiscard]] bool is_content_hash(const std::string& text);
 
 }  // namespace mechane::assets

@@ -15,10 +15,9 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLongestSleep{1'000};
-constexpr std::size_t kShownDigits = 8;
 constexpr std::size_t kMostExtension = 8;
 
-/// Of the name: ".glb". The importer goes by it. Empty where it is not a plain extension.
+/// The name's extension (".glb"), by which the importer chooses its format. Empty where it is not a plain extension.
 std::string plain_extension(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
   const bool plain = extension.size() > 1 && extension.size() <= kMostExtension &&
@@ -26,6 +25,15 @@ std::string plain_extension(const std::string& name) {
                        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
                      });
   return plain ? extension : std::string();
+}
+
+/// A server's answer that is not the file.
+Error error_of(const HttpAnswer& answer, const std::string& address) {
+  const char* remedy = "check that this server runs and has the file; the display will ask for it again";
+  if (!answer.problem.empty()) return {answer.code, answer.problem, address, remedy};
+  const bool gone = answer.status == 404 || answer.status == 410;
+  return {gone ? ErrorCode::not_found : ErrorCode::io_failure,
+          fmt::format("the server answers with HTTP status {}", answer.status), address, remedy};
 }
 
 }  // namespace
@@ -59,7 +67,7 @@ AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
   const std::lock_guard lock(mutex_);
   const auto [at, is_new] = files_.try_emplace(key);
   AssetFile& file = at->second.file;
-  // Another display that shares the cache may have made room.
+  // Another display that shares the cache may have removed the file to make room.
   std::error_code code;
   const bool gone = file.state == AssetState::here && !std::filesystem::exists(file.file, code);
   if (!is_new && !gone) return file;
@@ -68,7 +76,10 @@ AssetFile AssetStore::find(const std::string& name, const std::string& hash) {
   if (!address) {
     file = {AssetState::amiss, {}, address.error()};
   } else if (!hash.empty() && !is_content_hash(hash)) {
-    file = {AssetState::amiss, {}, Error{"the server sent no valid hash for it", name, "look at the server's version"}};
+    file = {AssetState::amiss,
+            {},
+            Error{ErrorCode::invalid_value, "the server sent an invalid hash for this file", name,
+                  "install the same version of Mechane on server and display"}};
   } else {
     Job job;
     job.key = key;
@@ -99,10 +110,8 @@ void AssetStore::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     take_requests();
     start_due();
-    for (HttpAnswer& answer : fetcher_->wait(until_next())) {
-      const std::uint64_t id = answer.id;
-      settle(id, std::move(answer));
-    }
+    for (const HttpAnswer& answer : fetcher_->wait(until_next()))
+      settle(answer);
   }
 }
 
@@ -142,8 +151,8 @@ milliseconds AssetStore::until_next() const {
   return std::max(least, milliseconds(0));
 }
 
-void AssetStore::settle(std::uint64_t id, HttpAnswer answer) {
-  Job& job = jobs_.at(id);
+void AssetStore::settle(const HttpAnswer& answer) {
+  Job& job = jobs_.at(answer.id);
   job.asked = false;
   const bool same = answer.problem.empty() && answer.status == 304;
   const bool whole = answer.problem.empty() && answer.status == 200;
@@ -153,23 +162,24 @@ void AssetStore::settle(std::uint64_t id, HttpAnswer answer) {
   } else if (use_remembered(job, same)) {
     done = true;
   } else if (same) {
-    // What the cache had is gone or damaged: the whole file, at once.
+    // The cached copy is gone or damaged: fetch the whole file at once.
     job.remembered = {};
   } else {
-    const std::string what =
-        answer.problem.empty() ? fmt::format("the server answers {}", answer.status) : answer.problem;
-    again(job, {what, job.address, "look whether that server runs and has the file; it is asked for again"});
+    again(job, error_of(answer, job.address));
   }
-  if (done) jobs_.erase(id);
+  if (done) jobs_.erase(answer.id);
 }
 
 bool AssetStore::take_bytes(Job& job, const HttpAnswer& answer) {
   const std::string& wanted = job.key.second;
   const std::string hash = content::content_hash(std::span(answer.bytes));
   if (!wanted.empty() && hash != wanted) {
-    again(job, {fmt::format("its content is {}, the server's of the exhibits is {}: it is not used",
-                            hash.substr(0, kShownDigits), wanted.substr(0, kShownDigits)),
-                job.address, "bring that server the exhibits' files (mechane content export); it is asked for again"});
+    again(job, {ErrorCode::conflict,
+                fmt::format("the web server's file has content {}, the exhibit server's has {}: it is not used",
+                            content::short_hash(hash), content::short_hash(wanted)),
+                job.address,
+                "copy the exhibits' files to the web server (mechane content export); the display will ask for this "
+                "file again"});
     return false;
   }
   Expected<std::filesystem::path> file = cache_.keep(answer.bytes, hash, job.extension);
@@ -182,12 +192,13 @@ bool AssetStore::take_bytes(Job& job, const HttpAnswer& answer) {
   return true;
 }
 
-/// `fresh`: the server says that its file is still that one.
+/// `fresh`: the server has confirmed that its file is still the remembered one.
 bool AssetStore::use_remembered(Job& job, bool fresh) {
   if (job.remembered.hash.empty()) return false;
   auto file = cache_.find(job.remembered.hash, job.extension);
   if (!file) return false;
-  if (!fresh) log::warning(fmt::format("{}: the server cannot give it now; the copy kept here is used", job.address));
+  if (!fresh)
+    log::warning(fmt::format("{}: the server does not deliver it now; the copy in the cache is used", job.address));
   arrived(job, std::move(*file));
   return true;
 }

@@ -55,7 +55,7 @@ std::size_t take_bytes(char* data, std::size_t one, std::size_t count, void* to)
   return size;
 }
 
-/// What a server said may come back to it in a header of ours: one line of plain text.
+/// Whether a server's text may be sent back to it in a header: it must be one line of plain text.
 bool fits_header(const std::string& text) {
   return !text.empty() && text.size() < 512 && std::ranges::all_of(text, [](char c) { return c >= 0x20 && c < 0x7f; });
 }
@@ -74,13 +74,20 @@ Headers conditions(const HttpRequest& request) {
   return Headers(list);
 }
 
-std::string problem_of(const Transfer& transfer, CURLcode code) {
-  if (code == CURLE_OK) return {};
-  if (transfer.too_big || code == CURLE_FILESIZE_EXCEEDED)
-    return fmt::format("it is larger than {} bytes", transfer.limit);
-  if (code == CURLE_OPERATION_TIMEDOUT) return "the server takes too long";
-  if (code == CURLE_TOO_MANY_REDIRECTS) return "the server sends on from address to address";
-  return transfer.words.front() != '\0' ? transfer.words.data() : curl_easy_strerror(code);
+void note_problem(Transfer& transfer, CURLcode code) {
+  if (code == CURLE_OK) return;
+  HttpAnswer& answer = transfer.answer;
+  if (transfer.too_big || code == CURLE_FILESIZE_EXCEEDED) {
+    answer.code = ErrorCode::too_large;
+    answer.problem = fmt::format("the file is larger than {} bytes", transfer.limit);
+  } else if (code == CURLE_OPERATION_TIMEDOUT) {
+    answer.code = ErrorCode::timed_out;
+    answer.problem = "the server takes too long";
+  } else if (code == CURLE_TOO_MANY_REDIRECTS) {
+    answer.problem = "the server redirects too often";
+  } else {
+    answer.problem = transfer.words.front() != '\0' ? transfer.words.data() : curl_easy_strerror(code);
+  }
 }
 
 }  // namespace
@@ -89,8 +96,8 @@ struct HttpFetcher::Impl {
   HttpLimits limits;
   std::map<CURL*, std::unique_ptr<Transfer>> transfers;
   std::unique_ptr<CURLM, MultiFree> multi;
-  std::deque<HttpRequest> waiting;  ///< for one of `at_once` places
-  std::vector<HttpAnswer> refused;  ///< that never began
+  std::deque<HttpRequest> waiting;  ///< more than `at_once`
+  std::vector<HttpAnswer> refused;  ///< of requests that could not begin
 
   void begin(const HttpRequest& request);
   std::vector<HttpAnswer> move_on();
@@ -108,7 +115,7 @@ void HttpFetcher::Impl::prepare(Transfer& transfer, const HttpRequest& request) 
   curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, 1L);
   curl_easy_setopt(easy, CURLOPT_MAXREDIRS, limits.redirects);
   curl_easy_setopt(easy, CURLOPT_NOSIGNAL, 1L);
-  curl_easy_setopt(easy, CURLOPT_QUICK_EXIT, 1L);  // an end does not wait for a name server
+  curl_easy_setopt(easy, CURLOPT_QUICK_EXIT, 1L);  // do not wait for a name server at the end
   curl_easy_setopt(easy, CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(limits.connect.count()));
   curl_easy_setopt(easy, CURLOPT_TIMEOUT_MS, static_cast<long>(limits.whole.count()));
   curl_easy_setopt(easy, CURLOPT_LOW_SPEED_LIMIT, kStallBytesPerSecond);
@@ -130,7 +137,7 @@ void HttpFetcher::Impl::collect(std::vector<HttpAnswer>& into) {
     const auto found = transfers.find(easy);
     MECHANE_ASSERT(found != transfers.end());
     Transfer& transfer = *found->second;
-    transfer.answer.problem = problem_of(transfer, code);
+    note_problem(transfer, code);
     curl_easy_getinfo(easy, CURLINFO_RESPONSE_CODE, &transfer.answer.status);
     transfer.answer.etag = header_of(easy, "ETag");
     transfer.answer.modified = header_of(easy, "Last-Modified");
@@ -148,13 +155,14 @@ HttpFetcher::~HttpFetcher() {
 }
 
 Expected<std::unique_ptr<HttpFetcher>> HttpFetcher::create(const HttpLimits& limits) {
-  // Once a process; the library asks for it before any other call.
+  // The library requires this once per process, before any other call.
   static const CURLcode begun = curl_global_init(CURL_GLOBAL_DEFAULT);
   auto impl = std::make_unique<Impl>();
   impl->limits = limits;
   if (begun == CURLE_OK) impl->multi.reset(curl_multi_init());
   if (!impl->multi)
-    return fail("files cannot be fetched: libcurl does not start", "http", "install libcurl4 and its certificates");
+    return fail(ErrorCode::not_supported, "files cannot be fetched: libcurl does not start", "http",
+                "install libcurl4 and ca-certificates");
   return std::unique_ptr<HttpFetcher>(new HttpFetcher(std::move(impl)));
 }
 
@@ -167,7 +175,8 @@ void HttpFetcher::Impl::begin(const HttpRequest& request) {
   CURL* easy = transfer->easy.get();
   if (easy != nullptr) prepare(*transfer, request);
   if (easy == nullptr || curl_multi_add_handle(multi.get(), easy) != CURLM_OK) {
-    transfer->answer.problem = "no memory for a connection";
+    transfer->answer.code = ErrorCode::too_large;
+    transfer->answer.problem = "not enough memory for a connection";
     refused.push_back(std::move(transfer->answer));
     return;
   }

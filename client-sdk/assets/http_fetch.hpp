@@ -14,7 +14,7 @@ namespace mechane::assets {
 
 struct HttpLimits {
   std::chrono::milliseconds connect{5'000};
-  std::chrono::seconds stall{15};            ///< under 1000 bytes a second for so long: given up
+  std::chrono::seconds stall{15};            ///< a transfer that is slower than 1000 bytes/s for so long is given up
   std::chrono::milliseconds whole{600'000};  ///< for one file
   std::uint64_t bytes = 256ULL << 20U;       ///< of one file
   long redirects = 3;
@@ -22,7 +22,7 @@ struct HttpLimits {
   bool secure_only = false;  ///< redirects to plain http are refused
 };
 
-/// `etag` and `modified` are what the server said with an earlier answer; where they are not empty, it may answer 304.
+/// `etag` and `modified` are from an earlier answer of the server; where they are not empty, it may answer 304.
 struct HttpRequest {
   std::uint64_t id = 0;
   std::string address;
@@ -32,14 +32,15 @@ struct HttpRequest {
 
 struct HttpAnswer {
   std::uint64_t id = 0;
-  std::string problem;  ///< empty: the answer came whole, with `status`. For people
+  std::string problem;                     ///< for people; empty: the whole answer arrived, with `status`
+  ErrorCode code = ErrorCode::io_failure;  ///< of the problem
   long status = 0;
   std::vector<std::byte> bytes;
   std::string etag;
   std::string modified;
 };
 
-/// Called from one thread, but for wake().
+/// All on one thread, except wake().
 class HttpFetcher {
  public:
   /// Errors: the library has no memory or no TLS.
@@ -48,11 +49,11 @@ class HttpFetcher {
   HttpFetcher(const HttpFetcher&) = delete;
   HttpFetcher& operator=(const HttpFetcher&) = delete;
 
-  /// Begins; the answer comes from wait().
+  /// Begins a request; wait() returns its answer.
   void start(HttpRequest request);
-  /// Moves bytes until an answer is there, or wake() was called, or `at_most` has gone by.
+  /// Transfers bytes until an answer is complete, wake() is called, or `at_most` has passed.
   [[nodiscard]] std::vector<HttpAnswer> wait(std::chrono::milliseconds at_most);
-  /// Any thread: wait() returns soon.
+  /// Makes wait() return soon. Any thread.
   void wake();
 
  private:

@@ -10,7 +10,7 @@
 namespace mechane::assets {
 namespace {
 
-constexpr std::size_t kHashDigits = 8;  // enough for a person to tell two apart
+constexpr std::size_t kHashDigits = 8;  // enough for a person to distinguish two hashes
 
 }  // namespace
 
@@ -37,14 +37,16 @@ Expected<std::filesystem::path> MeshFiles::find(const std::string& uri) {
   if (other.empty()) {
     const std::string here = folder_.is_relative() ? "start the display in the server's folder, or " : "";
     return fail(
-        "no file of this name, and none of this content in a catalogue", (folder_ / uri).string(),
-        here + "give --assets FOLDER, or --catalogue of what 'mechane content export' wrote on the server's machine");
+        ErrorCode::not_found, "the file is not here, and a catalogue with its content is not here either",
+        (folder_ / uri).string(),
+        here +
+            "give --assets FOLDER, or --catalogue with the export of 'mechane content export' on the server's machine");
   }
   differing_.insert(uri);
-  log::warning(
-      fmt::format("{}: its content is {}, the server's is {}: what is seen may not be what is felt; bring the server's "
-                  "files here (mechane content export)",
-                  other.string(), other_hash.substr(0, kHashDigits), wanted.substr(0, kHashDigits)));
+  log::warning(fmt::format(
+      "{}: its content is {}, the server's is {}, so visitors may see another shape than they feel; copy the "
+      "server's files to this machine (mechane content export)",
+      other.string(), other_hash.substr(0, kHashDigits), wanted.substr(0, kHashDigits)));
   return other;
 }
 
@@ -52,7 +54,7 @@ Expected<std::filesystem::path> MeshFiles::from_store(const std::string& uri, co
   AssetFile file = store_->find(uri, wanted);
   if (file.state == AssetState::here) return std::move(file.file);
   if (file.state == AssetState::amiss) return tl::unexpected(std::move(file.error));
-  return fail("it is being fetched", uri);
+  return fail(ErrorCode::busy, "the file is being fetched", uri, "wait: it is shown as soon as it is here");
 }
 
 }  // namespace mechane::assets

@@ -1,5 +1,5 @@
-// Where the mesh files of a scenario lie on this machine: in a catalogue, by content, or in a folder, by name, or in the cache of what is
-// fetched from a server of assets.
+// Finds the mesh files of a scenario on this machine: in a catalogue by content, in a folder by name, or in the cache
+// of files fetched from a web server.
 #pragma once
 
 #include <filesystem>
@@ -15,25 +15,26 @@
 
 namespace mechane::assets {
 
-/// One scenario's. From one thread at a time: it reads files whole.
+/// The files of one scenario. One thread at a time; slow, as it reads whole files.
 class MeshFiles {
  public:
-  /// A relative `folder` is in this program's own. `catalogue` may be null, and must outlive this.
+  /// A relative `folder` starts from this program's working folder. `catalogue` may be null, and must outlive this.
   MeshFiles(std::filesystem::path folder, const content::Catalogue* catalogue)
       : folder_(std::move(folder)), catalogue_(catalogue) {}
-  /// In place of a folder, a server. `catalogue` may be null, and must outlive this.
+  /// With a web server in place of a folder. `catalogue` may be null, and must outlive this.
   MeshFiles(std::shared_ptr<AssetStore> store, const content::Catalogue* catalogue)
       : store_(std::move(store)), catalogue_(catalogue) {}
 
-  /// What the manifest says that the server's file is: content::content_hash(). Empty: it does not say.
+  /// Sets the hash of the server's file, from the manifest: content::content_hash(). Empty: unknown.
   void expect(const std::string& uri, const std::string& hash) { expected_[uri] = hash; }
 
-  /// The file whose content the server has, from the catalogue or else from the folder. Where no file's is that, the folder's file, or the
-  /// catalogue's that should be: a warning says that what is seen may not be what is felt. From a server comes that content or none. Errors:
-  /// there is no file at all, or it is still being fetched (AssetStore::take_arrived() says when it is here).
+  /// The file with the server's content, from the catalogue or else from the folder. Where neither has it, a file of the
+  /// same name but other content is used, with a warning: visitors may then see another shape than they feel. Files from
+  /// a web server are used only with the server's content. Errors: not_found; busy, while the file is being fetched
+  /// (AssetStore::take_arrived() returns it when it has arrived).
   [[nodiscard]] Expected<std::filesystem::path> find(const std::string& uri);
 
-  /// uris whose file here is not the server's.
+  /// uris whose file here differs from the server's.
   [[nodiscard]] const std::set<std::string>& differing() const { return differing_; }
 
  private:

@@ -1,13 +1,13 @@
 #include "client-sdk/authoring/editor.hpp"
 
-#include <fstream>
-#include <system_error>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "client-sdk/authoring/key_scope.hpp"
 #include "client-sdk/authoring/text_edits.hpp"
 #include "server/base/suggestion.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/scenario/attributes.hpp"
 #include "server/x3d/metadata.hpp"
 
@@ -26,7 +26,7 @@ std::vector<std::string> split_path(std::string_view path) {
   return names;
 }
 
-/// Where a path leads: the innermost set that is there, and the names that are not.
+/// Where a path leads: the innermost set that exists, and the rest of the path.
 struct Spot {
   x3d::NodeId set;
   Scope scope;
@@ -34,23 +34,23 @@ struct Spot {
 };
 
 tl::unexpected<Error> unknown_name(const std::string& name, const Scope& scope, std::string_view path) {
-  return fail(fmt::format("'{}' cannot be written here", name), std::string(path),
-              suggest(name, names_in(scope), "write into a set; of an agent, write its type first"));
+  return fail(ErrorCode::unknown_name, fmt::format("'{}' cannot be written here", name), std::string(path),
+              suggest(name, names_in(scope), "name a key within a set; write an agent's type before its parameters"));
 }
 
-/// The set on a node, or mechane:scenario.
+/// The first set of a path: one on a node, or mechane:scenario.
 Expected<Spot> find_root(const x3d::Document& document, std::string_view path) {
   std::vector<std::string> names = split_path(path);
-  if (names.empty()) return fail("the path is empty", "", "name a key, like activities/use/steps");
+  if (names.empty()) return fail(ErrorCode::missing, "the path is empty", "", "name a key, like activities/use/steps");
   if (names.size() > 1 && names[1].starts_with("mechane:")) {
     const x3d::NodeId owner = document.find_def(names[0]);
     if (!owner)
-      return fail(fmt::format("no element has the DEF '{}'", names[0]), std::string(path),
+      return fail(ErrorCode::unknown_name, fmt::format("no element has the DEF '{}'", names[0]), std::string(path),
                   suggest(names[0], document.defs(""), "give an element that DEF"));
     const x3d::NodeId set = x3d::find_set(document, owner, names[1]);
     if (!set)
-      return fail(fmt::format("{} has no set '{}'", document.describe(owner), names[1]), std::string(path),
-                  "write the set into the file first");
+      return fail(ErrorCode::missing, fmt::format("{} has no set '{}'", document.describe(owner), names[1]),
+                  Place(std::string(path), document[owner].line), "write the set into the file first");
     names.erase(names.begin(), names.begin() + 2);
     return Spot{set, scope_of_set(document, set), std::move(names)};
   }
@@ -58,14 +58,16 @@ Expected<Spot> find_root(const x3d::Document& document, std::string_view path) {
     if (const x3d::NodeId set = x3d::find_set(document, info, "mechane:scenario"))
       return Spot{set, scope_of_set(document, set), std::move(names)};
   }
-  return fail("the file has no 'mechane:scenario'", std::string(path), "begin with a copy of a scenario");
+  return fail(ErrorCode::missing, "the file has no 'mechane:scenario'", std::string(path),
+              "begin with a copy of a scenario");
 }
 
-/// Down from the root as far as sets are there; the last name of the path always stays in the rest.
+/// Goes down from the first set as far as sets exist; the last name of the path always stays in the rest.
 Expected<Spot> find_spot(const x3d::Document& document, std::string_view path) {
   auto spot = find_root(document, path);
   if (!spot) return spot;
-  if (spot->rest.empty()) return fail("the path ends at a whole set", std::string(path), "name a key in it");
+  if (spot->rest.empty())
+    return fail(ErrorCode::invalid_value, "the path ends at a whole set", std::string(path), "name a key in it");
   while (spot->rest.size() > 1) {
     const x3d::NodeId child = x3d::find_child(document, spot->set, spot->rest.front());
     if (!child || document[child].name != "MetadataSet") break;
@@ -73,13 +75,15 @@ Expected<Spot> find_spot(const x3d::Document& document, std::string_view path) {
     spot->set = child;
     spot->rest.erase(spot->rest.begin());
   }
-  if (spot->rest.size() > 1 && x3d::find_child(document, spot->set, spot->rest.front()))
-    return fail(fmt::format("'{}' is a value, not a set", spot->rest.front()), std::string(path),
-                "remove it first, then write it as a set");
+  const x3d::NodeId value =
+      spot->rest.size() > 1 ? x3d::find_child(document, spot->set, spot->rest.front()) : x3d::NodeId::none();
+  if (value)
+    return fail(ErrorCode::conflict, fmt::format("'{}' is a value, not a set", spot->rest.front()),
+                Place(std::string(path), document[value].line), "remove it first, then write it as a set");
   return spot;
 }
 
-/// Whether a set of that name may be made here; its scope.
+/// The scope of a new set of that name; an error where it may not be here.
 Expected<Scope> scope_of_new(const x3d::Document& document, const Scope& scope, const std::string& name,
                              std::string_view path) {
   const Scope inner = scope_of_child(document, scope, name, x3d::NodeId::none());
@@ -91,7 +95,7 @@ std::string numbers_in_words(const std::vector<double>& numbers) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-/// A value's element type and text; an error where it is not of the leaf's kind.
+/// A value as metadata: the type of its element, and its text.
 struct WrittenValue {
   std::string_view element;
   std::string value;
@@ -126,7 +130,7 @@ Expected<void> check_value(const Scope& scope, const std::string& name, const st
   const Leaf leaf = leaf_of(scope, name);
   if (!leaf.known) return unknown_name(name, scope, path);
   if (!is_of(leaf.kind, value, scope.holds == Holds::parameters))
-    return fail("the value is of the wrong type or count", std::string(path),
+    return fail(ErrorCode::invalid_value, "the value is of the wrong type or count", std::string(path),
                 fmt::format("write a {}", scenario::kind_in_words(leaf.kind)));
   const scenario::Key* key = scope.holds == Holds::keys ? scope.table->find(name) : nullptr;
   if (key == nullptr) return {};
@@ -134,7 +138,7 @@ Expected<void> check_value(const Scope& scope, const std::string& name, const st
   const auto* texts = std::get_if<std::vector<std::string>>(&value);
   const std::string* text = texts != nullptr && key->kind == scenario::ValueKind::string ? &texts->front() : nullptr;
   if (const auto fault = scenario::range_fault(*key, numbers != nullptr ? *numbers : std::vector<double>(), text))
-    return fail(fault->what, std::string(path), fault->remedy);
+    return fail(ErrorCode::invalid_value, fault->what, std::string(path), fault->remedy);
   return {};
 }
 
@@ -143,7 +147,7 @@ std::string element_text(const WrittenValue& written, const std::string& name) {
                      escape_attribute(written.value));
 }
 
-/// Sets one in the other, from the outside in, around a text.
+/// Nested sets, the first outermost, around a text.
 std::string in_sets(const std::vector<std::string>& names, const std::string& margin, const std::string& text) {
   std::string out = margin;
   std::string deep = margin;
@@ -226,8 +230,9 @@ Expected<void> Editor::add(std::string_view path, std::string_view after) {
     if (!inner) return tl::unexpected(inner.error());
     scope = *inner;
   }
-  if (x3d::find_child(document_, spot->set, spot->rest.front()))
-    return fail(fmt::format("'{}' is there already", spot->rest.front()), std::string(path), "take another name");
+  if (const x3d::NodeId there = x3d::find_child(document_, spot->set, spot->rest.front()))
+    return fail(ErrorCode::duplicate, fmt::format("'{}' exists already", spot->rest.front()),
+                Place(std::string(path), document_[there].line), "take another name");
   TextEdits edits;
   const std::string margin = inner_margin_of(document_, spot->set);
   const std::vector<std::string> outer(spot->rest.begin(), spot->rest.end() - 1);
@@ -240,8 +245,8 @@ Expected<void> Editor::add(std::string_view path, std::string_view after) {
   } else {
     const x3d::NodeId sibling = x3d::find_child(document_, spot->set, after);
     if (!sibling || spot->rest.size() > 1)
-      return fail(fmt::format("'{}' does not exist, so nothing can be put after it", after), std::string(path),
-                  "name a sibling");
+      return fail(ErrorCode::unknown_name, fmt::format("'{}' does not exist, so nothing can be put after it", after),
+                  std::string(path), "name a set beside the new one");
     edits.insert(document_[sibling].span.end, text);
   }
   return become(edits.apply(this->text()));
@@ -252,7 +257,7 @@ Expected<void> Editor::remove(std::string_view path) {
   if (!spot) return tl::unexpected(spot.error());
   const x3d::NodeId there =
       spot->rest.size() == 1 ? x3d::find_child(document_, spot->set, spot->rest.front()) : x3d::NodeId::none();
-  if (!there) return fail("there is nothing to remove", std::string(path), "check the path");
+  if (!there) return fail(ErrorCode::unknown_name, "there is nothing to remove", std::string(path), "check the path");
   TextEdits edits;
   remove_element(document_, there, edits);
   return become(edits.apply(text()));
@@ -261,7 +266,7 @@ Expected<void> Editor::remove(std::string_view path) {
 Expected<void> Editor::set_attribute(std::string_view def, std::string_view field, std::string_view value) {
   const x3d::NodeId element = document_.find_def(def);
   if (!element)
-    return fail(fmt::format("no element has the DEF '{}'", def), std::string(def),
+    return fail(ErrorCode::unknown_name, fmt::format("no element has the DEF '{}'", def), std::string(def),
                 suggest(std::string(def), document_.defs(""), "give an element that DEF"));
   const x3d::NodeType* type = x3d::Schema::standard().find(document_[element].name);
   const x3d::Field* known = type == nullptr ? nullptr : type->field(field);
@@ -271,12 +276,14 @@ Expected<void> Editor::set_attribute(std::string_view def, std::string_view fiel
       for (const x3d::Field& f : type->fields)
         names.emplace_back(f.name);
     }
-    return fail(fmt::format("a {} has no field '{}'", document_[element].name, field), std::string(def),
-                suggest(std::string(field), names, "its type is not one of X3D"));
+    return fail(ErrorCode::unknown_name, fmt::format("a {} has no field '{}'", document_[element].name, field),
+                Place(std::string(def), document_[element].line),
+                suggest(std::string(field), names, "name an element of X3D: X3D has no such type"));
   }
   const scenario::Table* read = scenario::find_node_table(type->name);
   if (const auto fault = scenario::attribute_fault(*known, read == nullptr ? nullptr : read->find(field), value))
-    return fail(fmt::format("{}: {}", field, fault->what), std::string(def), fault->remedy);
+    return fail(ErrorCode::invalid_value, fmt::format("{}: {}", field, fault->what),
+                Place(std::string(def), document_[element].line), fault->remedy);
   TextEdits edits;
   authoring::set_attribute(document_, element, field, value, edits);
   return become(edits.apply(text()));
@@ -291,22 +298,7 @@ Expected<void> Editor::save(const std::filesystem::path& file) const {
 }
 
 Expected<void> write_file(const std::filesystem::path& file, std::string_view text) {
-  std::filesystem::path beside = file;
-  beside += ".new";
-  {
-    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.flush();
-    if (!out) {
-      std::error_code ignored;
-      std::filesystem::remove(beside, ignored);
-      return fail("the file cannot be written", file.string(), "check the folder, its rights and the space left");
-    }
-  }
-  std::error_code status;
-  std::filesystem::rename(beside, file, status);
-  if (status) return fail(status.message(), file.string(), "check the folder and its rights");
-  return {};
+  return write_whole(file, std::as_bytes(std::span(text)), WholeFile::document);
 }
 
 }  // namespace mechane::authoring

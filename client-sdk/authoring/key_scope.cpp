@@ -16,7 +16,7 @@ Scope of_table(const scenario::Table& table) {
   return {Holds::keys, &table, scenario::Names::nothing, {}, nullptr};
 }
 
-/// A component's type, as its key `type` says.
+/// A component's type, by its key `type`.
 const state::ComponentType* type_in(const x3d::Document& document, x3d::NodeId set,
                                     std::span<const state::ComponentType> types) {
   const x3d::NodeId element = set ? x3d::find_child(document, set, "type") : x3d::NodeId::none();
@@ -109,7 +109,7 @@ Leaf leaf_of(const Scope& scope, std::string_view name) {
     const scenario::Key* key = scope.table->find(name);
     return key == nullptr || key->kind == scenario::ValueKind::set ? Leaf{} : Leaf{true, key->kind, key->names};
   }
-  // A quantity may be a string alone: its source.
+  // A quantity may be written as just a string: its source.
   if (scope.holds == Holds::named && scope.naming == scenario::Names::quantity)
     return {true, scenario::ValueKind::string, scenario::Names::source};
   if (scope.holds != Holds::parameters) return {};

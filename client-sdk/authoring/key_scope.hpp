@@ -1,4 +1,4 @@
-// What a set of metadata may hold, by the schema: for whoever walks the tree of a file (an editor, a merge).
+// What a set of metadata may hold, by the schema: for the editor and the merge, which walk the tree of a file.
 #pragma once
 
 #include <span>
@@ -14,34 +14,34 @@ namespace mechane::authoring {
 
 struct Scope {
   enum class Holds {
-    nothing,     ///< not ours
+    nothing,     ///< it is not one of our sets
     keys,        ///< the keys of `table`
-    named,       ///< sets named as the author likes, each with the keys of `table`
+    named,       ///< sets with names of the author's choice, each with the keys of `table`
     components,  ///< the same, each an agent or a machine
-    parameters,  ///< those of one agent or machine, beside its type
+    parameters,  ///< the type and the parameters of one agent or machine
   };
   Holds holds = Holds::nothing;
   const scenario::Table* table = nullptr;
-  scenario::Names naming = scenario::Names::nothing;  ///< what the free names of `named` and `components` are names of
+  scenario::Names naming = scenario::Names::nothing;  ///< what the author's names in `named` and `components` name
   std::span<const state::ComponentType> types;
   const state::ComponentType* type = nullptr;  ///< of `parameters`; null where it is not known
 };
 
-/// What a value may be.
+/// The kind of a value, and what it names.
 struct Leaf {
   bool known = false;
   scenario::ValueKind kind = scenario::ValueKind::string;
   scenario::Names names = scenario::Names::nothing;
 };
 
-/// Of a set that stands on a node: "mechane:scenario", "mechane:agent" and so on; `id` is the set's element.
+/// The scope of a set on a node: "mechane:scenario", "mechane:agent" and so on; `id` is the set's element.
 [[nodiscard]] Scope scope_of_set(const x3d::Document& document, x3d::NodeId id);
-/// Of a set in a set. `child` may be none: then the name alone decides, and an agent's type is not known.
+/// The scope of a set within a set. `child` may be none: then only the name decides, and an agent's type is not known.
 [[nodiscard]] Scope scope_of_child(const x3d::Document& document, const Scope& scope, std::string_view name,
                                    x3d::NodeId child);
-/// Of a value in a set.
+/// The kind of a value in a set.
 [[nodiscard]] Leaf leaf_of(const Scope& scope, std::string_view name);
-/// Names that a set may hold, for suggestions; empty where they are free.
+/// Names that a set may hold, for suggestions; empty where the author chooses them.
 [[nodiscard]] std::vector<std::string> names_in(const Scope& scope);
 
 }  // namespace mechane::authoring

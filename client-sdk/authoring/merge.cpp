@@ -24,7 +24,7 @@ Expected<x3d::Document> read_text(const std::string& text, const fs::path& path)
   return x3d::read_document(text, path, problems);
 }
 
-/// The folder of a file, from the root: a file may be named without one.
+/// The absolute folder of a file, which may be named without a folder.
 fs::path folder_of(const fs::path& file) {
   std::error_code code;
   const fs::path whole = fs::absolute(file, code);
@@ -33,13 +33,13 @@ fs::path folder_of(const fs::path& file) {
 
 std::string rebased(const std::string& url, const fs::path& from, const fs::path& to) {
   if (!x3d::is_relative_path(url)) return url;
-  // "model.glb#NODE" keeps what stands behind the '#'.
+  // "model.glb#NODE" keeps what follows the '#'.
   const std::size_t hash = std::min(url.find('#'), url.size());
   const fs::path target = (from / url.substr(0, hash)).lexically_normal();
   return target.lexically_relative(to).generic_string() + url.substr(hash);
 }
 
-/// Paths as they must stand in a file of the folder `to`, which is named from the root.
+/// Makes the paths of a file relative to the folder `to`, which is absolute.
 void rebase_paths(const x3d::Document& document, const fs::path& to, TextEdits& edits) {
   const fs::path from = folder_of(document.path());
   if (from == to) return;
@@ -50,7 +50,7 @@ void rebase_paths(const x3d::Document& document, const fs::path& to, TextEdits& 
   }
 }
 
-/// mechane:scenario; none where there is none.
+/// The set mechane:scenario; none where the file has none.
 x3d::NodeId tree_of(const x3d::Document& document) {
   for (const x3d::NodeId info : document.elements("WorldInfo")) {
     if (const x3d::NodeId set = x3d::find_set(document, info, "mechane:scenario")) return set;
@@ -75,7 +75,7 @@ std::string_view element_text(const x3d::Document& document, x3d::NodeId id) {
   return std::string_view(document.source()).substr(span.begin, span.end - span.begin);
 }
 
-/// What an element holds, without the blanks behind the last of it; empty where it holds nothing.
+/// The content of an element, without the blanks at its end; may be empty.
 std::string inner_text(const x3d::Document& document, x3d::NodeId id) {
   const x3d::ElementSpan& span = document[id].span;
   if (span.tag_end == span.end) return {};
@@ -99,7 +99,7 @@ std::string value_of(const x3d::Document& document, x3d::NodeId set, std::string
   return value != nullptr ? *value : std::string();
 }
 
-/// Adds one document to another. Both have their paths right and no name in common.
+/// Adds one document to another. Both have their final paths, and no name in common.
 class Merge {
  public:
   Merge(const x3d::Document& ours, const x3d::Document& theirs, std::vector<std::string>& notes)
@@ -109,7 +109,7 @@ class Merge {
     merge_head();
     merge_tree();
     merge_collections();
-    // All that is left of their Scene, in the order written.
+    // What is left of their Scene, in the order written.
     const std::string left = taken_.apply(theirs_.source());
     const auto rest = read_text(left, theirs_.path());
     if (!rest) return tl::unexpected(rest.error());
@@ -144,7 +144,7 @@ class Merge {
     if (!added.empty()) append_inside(ours_, head, added, edits_);
   }
 
-  /// Who made it, and under which licence, stays with the work.
+  /// Author and licence stay with the work.
   bool is_credit(x3d::NodeId meta) const {
     const std::string* name = theirs_[meta].attribute("name");
     return name != nullptr && scenario::one_of(*name, "license creator contributor translator reference rights source");
@@ -155,7 +155,7 @@ class Merge {
     return std::any_of(all.begin(), all.end(), [&](x3d::NodeId id) { return element_text(ours_, id) == text; });
   }
 
-  /// The higher level of the two; a text to add where ours has none of it.
+  /// Raises our component to the higher level of the two; returns the text to add where we do not have the component.
   std::string merged_component(x3d::NodeId head, x3d::NodeId theirs, const std::string& margin) {
     const std::string* name = theirs_[theirs].attribute("name");
     const std::string* level = theirs_[theirs].attribute("level");
@@ -189,8 +189,9 @@ class Merge {
     const std::string scale = value_of(ours_, tree, "effortScale");
     const std::string their_scale = value_of(theirs_, other, "effortScale");
     if (scale != their_scale) {
-      notes_.push_back(fmt::format("effortScale: '{}' of the first file is kept, '{}' of {} is not: a world has one",
-                                   scale, their_scale, theirs_.path().string()));
+      notes_.push_back(
+          fmt::format("effortScale: '{}' of the first file is kept, '{}' of {} is not: a scenario has one effort scale",
+                      scale, their_scale, theirs_.path().string()));
     }
     remove_element(theirs_, other, taken_);
   }
@@ -205,7 +206,7 @@ class Merge {
     if (languages.size() > before && key) set_attribute(ours_, key, "value", quote_strings(languages), edits_);
   }
 
-  /// Their bodies move in our first collection: a world has one gravity.
+  /// Moves their bodies into our first collection: a world has one gravity.
   void merge_collections() {
     const x3d::NodeId collection = first_of(ours_, "RigidBodyCollection");
     const x3d::NodeId other = first_of(theirs_, "RigidBodyCollection");
@@ -216,9 +217,8 @@ class Merge {
       return numbers ? *numbers : std::vector<double>();
     };
     if (gravity(ours_, collection) != gravity(theirs_, other))
-      notes_.push_back(
-          fmt::format("gravity: that of the first file is kept, that of {} is not", theirs_.path().string()));
-    // X3D wants bodies before joints. What stands before an element, a comment say, goes with it.
+      notes_.push_back(fmt::format("gravity: the first file's is kept, that of {} is not", theirs_.path().string()));
+    // X3D wants bodies before joints. Text before an element, such as a comment, moves with it.
     std::string bodies;
     std::string rest;
     std::size_t from = theirs_[other].span.tag_end;
@@ -232,7 +232,7 @@ class Merge {
     remove_element(theirs_, other, taken_);
   }
 
-  /// Behind our last child of a type; false where there is none.
+  /// Inserts after our last child of a type; false where we have none.
   bool insert_after_last(x3d::NodeId parent, std::string_view type, const std::string& text) {
     x3d::NodeId last;
     for (const x3d::NodeId id : ours_.child_elements(parent)) {
@@ -242,7 +242,7 @@ class Merge {
     return static_cast<bool>(last);
   }
 
-  /// By a USE, a ROUTE or an EXPORT: it must stay where it is.
+  /// Whether a USE, a ROUTE or an EXPORT refers to an element, which must then stay where it is.
   bool is_referred_to(x3d::NodeId id) const {
     const std::string* def = theirs_[id].attribute("DEF");
     if (def == nullptr) return false;
@@ -276,7 +276,7 @@ void note_renames(const Renames& renames, const std::string& file, std::vector<s
   note("the effect", renames.effects);
 }
 
-/// Reads a file with its paths made right for the folder where the result will lie.
+/// Reads a file, with its paths made relative to the folder of the result.
 Expected<x3d::Document> read_rebased(const std::string& file, const fs::path& to) {
   x3d::Problems problems(file);
   auto document = x3d::read_document(fs::path(file), problems);
@@ -295,7 +295,7 @@ Expected<x3d::Document> renamed(const x3d::Document& ours, const x3d::Document& 
   return read_text(edits.apply(theirs.source()), file);
 }
 
-/// The id is the new file's name, where that can be one.
+/// Takes the new file's name as the id, where it can be one.
 std::string with_id(const x3d::Document& document, const fs::path& out) {
   const x3d::NodeId tree = tree_of(document);
   const x3d::NodeId id = tree ? x3d::find_child(document, tree, "id") : x3d::NodeId::none();
@@ -310,7 +310,8 @@ std::string with_id(const x3d::Document& document, const fs::path& out) {
 }  // namespace
 
 Expected<Merged> merge_files(std::span<const std::string> files, const fs::path& out) {
-  if (files.size() < 2) return fail("there is nothing to merge", "", "name two files or more");
+  if (files.size() < 2)
+    return fail(ErrorCode::missing, "fewer than two files are given", "", "name two files or more to merge");
   Merged merged;
   const fs::path folder = folder_of(out);
   auto ours = read_rebased(files.front(), folder);

@@ -19,18 +19,18 @@ namespace {
 constexpr std::string_view kIntroduction = R"(# The scenario format
 
 An exhibit of Mechane is one X3D file with mesh files (`.glb`) beside it. X3D is a standard for scenes in XML; any text editor opens it.
-X3D says what stands where: bodies, the joints between them, from where one looks. What X3D cannot say, what visitors are to do and
-what happens then, stands in its metadata, in sets whose names begin with `mechane:`.
+X3D says what is where: bodies, the joints between them, the viewpoints. What X3D cannot say, what visitors do and what
+happens then, is written in its metadata, in sets whose names begin with `mechane:`.
 
-This page lists everything that may be written. It is made by `mechane reference` from the tables that the program itself reads by.
+This page lists everything that may be written. `mechane reference` makes it from the tables by which the program itself reads files.
 
 ## How to work
 
-1. Copy an exhibit that is near to yours, or the example below, and give it an `id` of its own: no server takes two of one id.
+1. Copy an exhibit that is like yours, or the example below, and give it a new `id`: a server cannot have two exhibits with the same id.
 2. Change it, and run `mechane check FILE.x3d`. It names each mistake with its line, and says what to write instead.
-   Errors keep the exhibit from running; warnings are likely not meant; notes say what Mechane leaves aside.
+   With errors the exhibit cannot run; warnings are of what is likely not meant; notes are of what Mechane ignores.
 3. Try it: `mechane server --scenario FILE.x3d`, in another window `mechane display`, and in a third `mechane visitor --scenario FILE.x3d`,
-   which plays its visits as a hand would. After a change start the server anew: the display finds it. A copy in another folder needs its
+   which plays its visits as a hand would. After a change restart the server: the display finds it. A copy in another folder needs its
    mesh files where its `url` says.
 4. `mechane merge A.x3d B.x3d -o C.x3d` puts two exhibits into one.
 
@@ -46,10 +46,10 @@ This page lists everything that may be written. It is made by `mechane reference
 | yes or no | `<MetadataBoolean containerField='value' name='KEY' value='true'/>` |
 | set | `<MetadataSet containerField='value' name='KEY'> ... </MetadataSet>` |
 
-- `containerField` is always written: `'metadata'` for the set on a node itself, `'value'` for all that stands in a set.
+- `containerField` is always written: `'metadata'` for the set on a node itself, `'value'` for everything in a set.
 - Lengths are metres, masses kilograms, times seconds, angles radians. A half turn is 3.1416, a quarter 1.5708.
 - The letters `&`, `<` and, in single quotes, `'` are written `&amp;`, `&lt;` and `&apos;`. Greek needs no tricks: save as UTF-8.
-- A name is free, but each is given once. Names are how things find each other: a joint finds its bodies, a trigger its quantity.
+- You choose the names, but each name is used once. Names are how things find each other: a joint finds its bodies, a trigger its quantity.
 
 ## An example
 
@@ -67,7 +67,7 @@ A `.glb` (glTF 2.0 in one file), in metres, with y up, as Blender exports it. It
 |---|---|
 | of a body's name, or the one that the body's `node` names | the body's shape, with all that lies below it. What counts is how the shape lies in the node; where the node lies in the file does not matter |
 | `part_*` below such a node | what a hand feels: a closed surface, best near to convex. Where a body has none, each mesh is such a part |
-| `SCENE` | ground and scenery: drawn where it stands in the file, touched by nobody |
+| `SCENE` | ground and scenery: drawn where it is in the file, and cannot be touched |
 | `WATER_*` | drawn as water. A `level` effect raises it: let it lie at the floor. A `flow` lets it flow, and carries it on over the plain where the model ends: let it reach the model's border, straight across |
 | any other | is not drawn |
 
@@ -168,7 +168,7 @@ std::string node_row(const scenario::Key& key, const x3d::NodeType& type) {
               key.required ? "**required**" : code(value), std::string(key.summary), code(key.example)});
 }
 
-/// With a capital at its beginning.
+/// The words, beginning with a capital letter.
 std::string sentence(std::string_view words) {
   std::string text(words);
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');

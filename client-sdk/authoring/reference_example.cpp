@@ -118,15 +118,15 @@ constexpr Piece kStepPieces[] = {
 )",
      R"(                  <MetadataString containerField='value' name='next' value='"end"'/>
 )"},
-    {"In the `text` of `once`, what is read aloud, and what is shown to whom does not get on", "once/text",
+    {"In the `text` of `once`, what is read aloud, and a hint for visitors who do not get on", "once/text",
      R"(<MetadataString containerField='value' name='narration.en' value='"The spokes are of ash, the tyre is of iron."'/>
 <MetadataString containerField='value' name='hint.en' value='"Bring your hand to the rim, and close it."'/>
 )"},
     {"In `once`, after how long that is", "once",
      R"(<MetadataDouble containerField='value' name='hintSeconds' value='15'/>
 )"},
-    {"In `steps`, the step that follows. Both rules must hold for a second; after half a minute it is over at all "
-     "events",
+    {"In `steps`, the step that follows. Both rules must hold for a second; after half a minute it ends in "
+     "any case",
      "steps",
      R"(<MetadataSet containerField='value' name='run-out'>
   <MetadataSet containerField='value' name='text'>
@@ -273,7 +273,7 @@ constexpr Piece kLanguagePieces[] = {
 };
 
 constexpr Piece kSignPieces[] = {
-    {"In `agents`, who sees the finger", "agents", R"(<MetadataSet containerField='value' name='POINT'>
+    {"In `agents`, the agent that sees the finger", "agents", R"(<MetadataSet containerField='value' name='POINT'>
   <MetadataString containerField='value' name='type' value='"simulation.point"'/>
   <MetadataString containerField='value' name='body' value='"POST"'/>
 </MetadataSet>
@@ -288,7 +288,8 @@ constexpr Piece kSignPieces[] = {
   <MetadataString containerField='value' name='next' value='"to-screw"'/>
 </MetadataSet>
 )"},
-    {"In `steps`, the step that opens the other by its `id`; where the server has none of that id, the visitor is soon "
+    {"In `steps`, the step that opens the other by its `id`; where the server has no such scenario, the visitor is "
+     "soon "
      "back",
      "steps", R"(<MetadataSet containerField='value' name='to-screw'>
   <MetadataString containerField='value' name='opens' value='"archimedes-screw"'/>
@@ -309,7 +310,7 @@ constexpr Variation kVariations[] = {
     {"A machine, and what is seen and heard of it",
      "Let the axle turn a small screw that lifts water into a tub. The mesh file has one node more, `WATER_TUB`.",
      kMachinePieces},
-    {"Another language", "Each text is written once for each language; `mechane check` names those that lack.",
+    {"Another language", "Each text is written once for each language; `mechane check` names the missing ones.",
      kLanguagePieces},
     {"A sign to another exhibit",
      "A finger on a body, or a click on it, lets the kiosk go on to another scenario of the server. To make the post "
@@ -318,7 +319,7 @@ constexpr Variation kVariations[] = {
      kSignPieces},
 };
 
-/// The place before the line that ends the set which `path` leads to; in the example a set ends where its line began.
+/// Where the last line of the set at `path` begins. In the example the end tag of a set is indented like its start tag.
 std::size_t end_of_set(const std::string& file, std::string_view path) {
   std::size_t at = 0;
   std::string indent;

@@ -1,4 +1,4 @@
-// The example of the manual of the scenario format: a whole file, and what may be added to it. A test reads each.
+// The example in the manual of the scenario format: a whole file, and additions to it. A test reads each.
 #pragma once
 
 #include <span>
@@ -9,12 +9,11 @@ namespace mechane::authoring {
 
 /// What one chapter of the manual adds to the example.
 struct Variation {
-  /// Some lines of the file. Where a piece stands alone (`instead` is not empty) it takes that line's place.
+  /// Some lines to add to the file; or, where `instead` is not empty, to put in place of that text.
   struct Piece {
-    std::string_view where;  ///< for people: "In `agents`, who sees the finger"
-    std::string_view
-        into;  ///< names of sets, each in the one before: "steps/once/text"; the piece goes to the end of the last
-    std::string_view text;  ///< XML
+    std::string_view where;  ///< for people: "In `agents`, the agent that sees the finger"
+    std::string_view into;   ///< the set to add it to, at its end: names of nested sets, "steps/once/text"
+    std::string_view text;   ///< XML
     std::string_view instead = {};
   };
   std::string_view title;
@@ -22,12 +21,12 @@ struct Variation {
   std::span<const Piece> pieces;
 };
 
-/// The whole file that the page begins with: a scenario that checks without fault but for its mesh file.
+/// The whole file with which the page begins: a scenario without problems, except that its mesh file does not exist.
 [[nodiscard]] std::string reference_example();
 
 [[nodiscard]] std::span<const Variation> reference_variations();
 
-/// The example with one of them in it: without fault as well.
+/// The example with one variation in it: also without problems.
 [[nodiscard]] std::string reference_example_with(const Variation& variation);
 
 }  // namespace mechane::authoring

@@ -12,12 +12,12 @@ namespace {
 using Holds = Scope::Holds;
 using Map = std::map<std::string, std::string>;
 
-/// Whether an element lies in a prototype's body, whose DEFs are its own.
+/// Whether each element is in a prototype's body, which has its own DEFs.
 std::vector<bool> in_prototypes(const x3d::Document& document) {
   std::vector<bool> inside(document.size(), false);
   for (std::size_t i = 0; i < document.size(); ++i) {
     const x3d::Node& node = document[x3d::NodeId(i)];
-    // Parents stand before their children.
+    // Parents come before their children.
     inside[i] = node.name == "ProtoBody" || (node.parent && inside[node.parent.index()]);
   }
   return inside;
@@ -84,7 +84,7 @@ class Renamer {
   }
 
  private:
-  /// A body without the key `node` is the node of its own name in the mesh file, which is not renamed: writes that name down.
+  /// A body without the key `node` takes the node of its own name in the mesh file, which is not renamed: adds the key with that name.
   void keep_mesh_node(x3d::NodeId body) {
     const std::string* def = document_[body].attribute("DEF");
     if (def == nullptr || !renames_.things.contains(*def)) return;
@@ -109,7 +109,7 @@ class Renamer {
       const std::string local = attribute_of(node, "localDEF");
       const std::string as = attribute_of(node, "AS");
       rename(id, "localDEF", renames_.things);
-      // What other files import keeps its name, unless another export has it.
+      // The name that other files import stays the same, unless another export has it.
       const std::string outside = changed(renames_.exports, as.empty() ? local : as);
       if (outside != changed(renames_.things, local) || !as.empty())
         set_attribute(document_, id, "AS", outside, edits_);
@@ -143,7 +143,7 @@ class Renamer {
   }
 
   void rename_set(x3d::NodeId set, const Scope& scope) {
-    // A set of ours may lie in another one.
+    // One of our sets may be within another one.
     if (!done_.insert(set.index()).second) return;
     for (const x3d::NodeId child : document_.child_elements(set)) {
       if (!document_[child].name.starts_with("Metadata") || document_[child].used) continue;
@@ -182,7 +182,7 @@ class Renamer {
     if (!values) return;
     bool any = false;
     for (std::string& value : *values) {
-      // A source is "PUMP.basin_l": a thing and one of its values.
+      // A source, "PUMP.basin_l", is a name and one of its values.
       const std::size_t end = names == scenario::Names::source ? std::min(value.find('.'), value.size()) : value.size();
       const Map& of = names == scenario::Names::source ? renames_.things : *map;
       const auto it = of.find(value.substr(0, end));

@@ -1,5 +1,5 @@
-// Names of a scenario, and renaming them wherever they stand: DEF and USE, ROUTE, IMPORT and EXPORT, prototypes, and the metadata,
-// by what the schema says of each key.
+// Finds the names of a scenario, and renames them everywhere: in DEF and USE, ROUTE, IMPORT and EXPORT, prototypes, and the metadata,
+// where the schema says which keys hold names.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace mechane::authoring {
 
-/// Names by what they name. DEFs, agents and machines share one space: quantities and agents find them by one name.
+/// Names by what they name. DEFs, agents and machines share one name space, because quantities and agents refer to all of them.
 struct NamesOf {
   std::set<std::string> things;  ///< DEFs outside prototypes, imported names, agents, machines
   std::set<std::string> prototypes;
@@ -42,10 +42,10 @@ struct Renames {
   }
 };
 
-/// For each name of `theirs` that `ours` has too: the name with a number behind it that neither has, NAME_2 or NAME_3 ...
+/// For each name of `theirs` that `ours` has too: a new name with a number, NAME_2, NAME_3 ..., that neither has.
 [[nodiscard]] Renames renames_for(const NamesOf& ours, const NamesOf& theirs);
 
-/// The changes that make every name in a file what `renames` says.
+/// Adds the edits that rename every name in a file by `renames`.
 void rename_in(const x3d::Document& document, const Renames& renames, TextEdits& edits);
 
 }  // namespace mechane::authoring

@@ -103,7 +103,7 @@ void append_inside(const x3d::Document& document, x3d::NodeId element, const std
   if (node.span.tag_end == node.span.end) {
     return edits.replace(node.span.end - 2, node.span.end, fmt::format(">{}{}</{}>", text, own, node.name));
   }
-  // Behind the last thing in it, so that the blanks before its end tag stay where they are.
+  // After its last content, so that the blanks before its end tag stay where they are.
   const std::string_view inner = source.substr(node.span.tag_end, node.span.inner_end - node.span.tag_end);
   const std::size_t last = inner.find_last_not_of(kSpace);
   if (last != std::string_view::npos) return edits.insert(node.span.tag_end + last + 1, text);
@@ -114,7 +114,7 @@ void remove_element(const x3d::Document& document, x3d::NodeId element, TextEdit
   const x3d::ElementSpan& span = document[element].span;
   const std::size_t margin = margin_of(document, element).size();
   const std::string_view after = std::string_view(document.source()).substr(span.end);
-  // Alone on its line, or the last of it: the line goes too.
+  // Where nothing follows on its line, the margin before it is removed too.
   const std::size_t next = after.find_first_not_of(kBlank);
   const bool ends_line = next != std::string_view::npos && (after[next] == '\n' || after[next] == '\r');
   edits.replace(span.begin - (ends_line ? margin : 0), span.end, "");

@@ -1,4 +1,4 @@
-// Changes to the text of an XML file that leave every byte beside them as it was.
+// Changes to the text of an XML file that leave all other bytes as they were.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace mechane::authoring {
 
-/// Collects changes against one text, and makes them all at once. A change in what another one replaces is left out; those at the same
-/// place are made in the order given.
+/// Collects changes to one text, and makes them all at once. A change within a part that another one replaces is dropped; changes at the
+/// same place are made in the order given.
 class TextEdits {
  public:
   void replace(std::size_t begin, std::size_t end, std::string with);
@@ -32,19 +32,18 @@ class TextEdits {
 void set_attribute(const x3d::Document& document, x3d::NodeId element, std::string_view name, std::string_view value,
                    TextEdits& edits);
 
-/// Puts a text (elements, with the line end and the blanks before each) behind all that an element holds. An element written as
-/// <a/> becomes <a>...</a>.
+/// Adds a text (elements, with the line end and the blanks before each) at the end of an element's content. <a/> becomes <a>...</a>.
 void append_inside(const x3d::Document& document, x3d::NodeId element, const std::string& text, TextEdits& edits);
 
-/// Takes an element out, with the line end and the blanks before it.
+/// Removes an element, with the line end and the blanks before it.
 void remove_element(const x3d::Document& document, x3d::NodeId element, TextEdits& edits);
 
-/// What stands before an element on its line: a line end and blanks. Empty where other things stand before it.
+/// The line end and the blanks before an element; empty where it is not the first thing on its line.
 [[nodiscard]] std::string_view margin_of(const x3d::Document& document, x3d::NodeId element);
-/// The margin for something inside an element: that of what it holds already, or one step deeper than its own.
+/// The margin for something inside an element: that of its last child, or its own and one step more.
 [[nodiscard]] std::string inner_margin_of(const x3d::Document& document, x3d::NodeId element);
 
-/// A text as it may stand in an attribute in such quotes: &, <, the quote and line ends are written as references.
+/// A text escaped for an attribute in such quotes: &, <, the quote, tabs and line ends become references.
 [[nodiscard]] std::string escape_attribute(std::string_view text, char quote = '\'');
 
 /// A list of strings as X3D writes them: "one" "two".

@@ -21,7 +21,7 @@ using content::Catalogue;
 using content::CatalogueEntry;
 using content::CatalogueFault;
 
-/// One run of a verb: where it speaks, and what it was told.
+/// One run of a verb, with its options and output streams.
 class ContentCommand {
  public:
   ContentCommand(const ContentOptions& options, std::ostream& out, std::ostream& errors)
@@ -42,13 +42,13 @@ class ContentCommand {
   [[nodiscard]] std::string command(std::string_view verb, const std::string& word = {}) const {
     return content::content_command(options_.catalogue, verb, word);
   }
-  /// An open catalogue, all that it has, and of that what the words name: without words all.
+  /// An open catalogue, all its entries, and those that the words name (without words: all).
   struct Read {
     Catalogue catalogue;
     std::vector<CatalogueEntry> all;
     std::vector<CatalogueEntry> named;
   };
-  /// Errors: no catalogue, and a word that names no entry; where `one_each`, also one that names several.
+  /// Errors: no catalogue; a word that names no entry; with `one_each`, also a word that names several.
   Expected<Read> read(Catalogue::Access access = Catalogue::Access::read, bool one_each = false) const;
   Expected<std::vector<CatalogueEntry>> named(const std::vector<CatalogueEntry>& all, bool one_each) const;
   Expected<Gathered> gather_files() const;
@@ -61,7 +61,7 @@ class ContentCommand {
 
 Expected<ContentCommand::Read> ContentCommand::read(Catalogue::Access access, bool one_each) const {
   std::error_code code;
-  // Only `add` makes a catalogue where there is none.
+  // Only `add` creates a catalogue.
   const bool there = fs::exists(options_.catalogue, code);
   auto catalogue = Catalogue::open(options_.catalogue, there ? access : Catalogue::Access::read);
   if (!catalogue) return tl::unexpected(catalogue.error());
@@ -80,12 +80,13 @@ Expected<std::vector<CatalogueEntry>> ContentCommand::named(const std::vector<Ca
   for (const std::string& word : options_.words) {
     const std::vector<CatalogueEntry> entries = content::find_entries(all, word);
     if (entries.empty()) {
-      return fail("the catalogue has nothing of this name, path or hash", word, command("list") + " shows what it has");
+      return fail(ErrorCode::unknown_name, "no file in the catalogue has this name, path or hash", word,
+                  command("list") + " lists its files");
     }
     if (one_each && entries.size() > 1) {
       std::vector<std::string> paths;
       std::ranges::transform(entries, std::back_inserter(paths), &CatalogueEntry::path);
-      return fail(fmt::format("it names {} files", paths.size()), word,
+      return fail(ErrorCode::conflict, fmt::format("this names {} files", paths.size()), word,
                   fmt::format("name one by its path: {}", fmt::join(paths, ", ")));
     }
     for (const CatalogueEntry& entry : entries) {
@@ -95,7 +96,7 @@ Expected<std::vector<CatalogueEntry>> ContentCommand::named(const std::vector<Ca
   return found;
 }
 
-/// Files first: where none of them can be added, no new catalogue is left behind.
+/// Reads the files first, so that no new catalogue is created if none can be added.
 Expected<Gathered> ContentCommand::gather_files() const {
   std::error_code code;
   if (!fs::exists(options_.catalogue, code))
@@ -114,9 +115,9 @@ void ContentCommand::say_changes(const Catalogue::Changes& changes) {
   };
   say(changes.added, "added", "");
   say(changes.changed, "changed", "");
-  say(changes.retold, "retold", ": the same file, of which something else is known now");
-  fmt::print(out_, "{}: {} added, {} changed, {}{} as they were\n", options_.catalogue.string(), changes.added.size(),
-             changes.changed.size(), changes.retold.empty() ? "" : fmt::format("{} retold, ", changes.retold.size()),
+  say(changes.retold, "updated", ": the same file, with other information about it");
+  fmt::print(out_, "{}: {} added, {} changed, {}{} unchanged\n", options_.catalogue.string(), changes.added.size(),
+             changes.changed.size(), changes.retold.empty() ? "" : fmt::format("{} updated, ", changes.retold.size()),
              changes.same);
 }
 
@@ -136,9 +137,10 @@ int ContentCommand::add() {
 
 int ContentCommand::list() {
   if (!options_.kind.empty() && !content::kind_of_word(options_.kind)) {
-    fmt::print(errors_,
-               "mechane content list: there is no kind '{}'; name scenario, model, part, texture, sound or text\n",
-               options_.kind);
+    fmt::print(
+        errors_,
+        "mechane content list: '{}' is not a kind of content; choose scenario, model, part, texture, sound or text\n",
+        options_.kind);
     return 2;
   }
   auto content = read();
@@ -187,7 +189,8 @@ int ContentCommand::remove() {
   if (!removed) return failed(removed.error());
   for (const std::string& path : paths)
     fmt::print(out_, "removed  {}\n", shown(path));
-  fmt::print(out_, "{}: {} removed; the files are where they were\n", options_.catalogue.string(), *removed);
+  fmt::print(out_, "{}: {} removed from the catalogue; the files themselves stay\n", options_.catalogue.string(),
+             *removed);
   return 0;
 }
 
@@ -195,19 +198,21 @@ int ContentCommand::export_to() {
   const auto content = read();
   if (!content) return failed(content.error());
   const std::vector<CatalogueEntry> entries = content::with_all_referred(content->all, content->named);
-  if (entries.empty()) return failed({"the catalogue is empty", options_.catalogue.string(), command("add", "FOLDER")});
+  if (entries.empty())
+    return failed(
+        {ErrorCode::missing, "the catalogue is empty", options_.catalogue.string(), command("add", "FOLDER")});
   for (const CatalogueEntry& entry : entries) {
     for (const std::string& path : entry.refers_to) {
       if (!std::ranges::binary_search(entries, path, {}, &CatalogueEntry::path))
-        return failed(
-            {fmt::format("it needs {}, which the catalogue does not know", path), entry.path, command("add", path)});
+        return failed({ErrorCode::missing, fmt::format("it needs {}, which is not in the catalogue", path), entry.path,
+                       command("add", path)});
     }
   }
   const auto done = content::export_content(content->catalogue, entries, options_.folder);
   if (!done) return failed(done.error());
   const std::size_t along = entries.size() - content->named.size();
-  fmt::print(out_, "{}: {} files, {}, each read back and right{}\n", options_.folder, done->files,
-             size_text(done->bytes), done->replaced ? "; the older export is gone" : "");
+  fmt::print(out_, "{}: {} files, {}, each read back and correct{}\n", options_.folder, done->files,
+             size_text(done->bytes), done->replaced ? "; the older export was replaced" : "");
   if (along > 0)
     fmt::print(out_, "{} named, and {} that they refer to: models, sounds, pages, scenarios that their signs open\n",
                content->named.size(), along);

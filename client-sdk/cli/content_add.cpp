@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using content::CatalogueEntry;
 using content::ContentKind;
 
-/// "el" of "screw.el.md"; empty where there is none.
+/// "el" for "screw.el.md"; empty where the name has no language.
 std::string language_in_name(const fs::path& file) {
   const std::string code = file.stem().extension().string();
   const bool language =
@@ -27,7 +27,8 @@ std::string language_in_name(const fs::path& file) {
   return language ? code.substr(1) : "";
 }
 
-/// A folder's LICENCE or LICENSE, by its lines as SPDX has them ("SPDX-License-Identifier: CC0-1.0"); empty where there is none.
+/// The credits in a folder's LICENCE or LICENSE, from its SPDX lines ("SPDX-License-Identifier: CC0-1.0"); empty if
+/// there are none.
 content::Credits read_licence_note(const fs::path& folder) {
   content::Credits credits;
   for (const char* name : {"LICENCE", "LICENSE"}) {
@@ -69,7 +70,7 @@ class Gatherer {
       if (entry != made_.end()) refer_to_scenario(entry->second, id);
     }
     for (auto& [path, entry] : made_) {
-      const auto language = languages_.find(path);  // what a scenario says of its sound
+      const auto language = languages_.find(path);  // given by the scenario that uses the sound
       if (language != languages_.end() && entry.languages.empty()) entry.languages = {language->second};
       result_.entries.push_back(std::move(entry));
     }
@@ -79,12 +80,12 @@ class Gatherer {
  private:
   struct Waiting {
     fs::path file;
-    bool named = true;  ///< by a person: the options are meant for it
+    bool named = true;  ///< by a person, so that the options apply to it
   };
 
   void take_word(const std::string& word) {
     std::error_code code;
-    // A path as `verify` writes it will do as well: from the catalogue's folder.
+    // A path from the catalogue's folder, as `verify` prints it, is accepted as well.
     if (!fs::exists(word, code) && content::is_inside(word) && fs::exists(folder_ / word, code)) {
       waiting_.push_back({folder_ / word});
       return;
@@ -97,8 +98,8 @@ class Gatherer {
     if (!files) {
       result_.errors.push_back(files.error());
     } else if (files->empty()) {
-      result_.errors.push_back(
-          {"there is no content in this folder", word, "name a folder with scenarios, models, sounds"});
+      result_.errors.push_back({ErrorCode::not_found, "nothing in this folder is content of an exhibit", word,
+                                "name a folder with scenarios, models or sounds"});
     } else {
       for (const fs::path& file : *files)
         waiting_.push_back({file});
@@ -108,7 +109,7 @@ class Gatherer {
   void take_file(const Waiting& next) {
     std::error_code code;
     if (!fs::exists(next.file, code)) {
-      result_.errors.push_back({"there is no such file", next.file.string(), "check its name"});
+      result_.errors.push_back({ErrorCode::not_found, "the file does not exist", next.file.string(), "check its name"});
       return;
     }
     const auto path = content::path_inside(folder_, next.file);
@@ -118,8 +119,10 @@ class Gatherer {
     }
     if (made_.contains(*path)) return;
     if (fs::is_symlink(next.file, code)) {
-      result_.errors.push_back({"this is a link, and an export or another machine would not have what it leads to",
-                                next.file.string(), "put a copy of the file here, or name the file itself"});
+      result_.errors.push_back(
+          {ErrorCode::not_supported,
+           "this is a link, and an export or another machine would not have the file that it leads to",
+           next.file.string(), "put a copy of the file here, or name the file itself"});
       return;
     }
     auto entry = entry_of(next, *path);
@@ -134,7 +137,7 @@ class Gatherer {
     auto kind = content::kind_of_file(next.file);
     if (!kind && content::is_piece_of_model(next.file)) kind = ContentKind::model;
     if (!kind) {
-      return fail("a catalogue does not keep this kind of file", next.file.string(),
+      return fail(ErrorCode::not_supported, "a catalogue does not keep this kind of file", next.file.string(),
                   "content is .x3d, .glb .gltf .obj .stl .ply, .part, .png .jpg .ktx2, .ogg .opus .wav .flac .mp3, .md "
                   ".html .vtt");
     }
@@ -149,7 +152,7 @@ class Gatherer {
     entry.hash = std::move(*hash);
     std::error_code code;
     entry.bytes = fs::file_size(next.file, code);
-    if (entry.bytes == 0) return fail("the file is empty", next.file.string(), "make it again");
+    if (entry.bytes == 0) return fail(ErrorCode::damaged, "the file is empty", next.file.string(), "make it again");
     entry.refers_to.clear();
     entry.wordings.clear();
     if (*kind == ContentKind::scenario) {
@@ -166,7 +169,7 @@ class Gatherer {
     return entry;
   }
 
-  /// A model must be one that the server and the displays will read.
+  /// Checks that server and displays can read the model, and adds the files that it refers to.
   Expected<void> take_model(const fs::path& file, bool as_it_was, CatalogueEntry& entry) {
     if (!as_it_was) {
       if (const auto scene = content::import_mesh(file); !scene) return tl::unexpected(scene.error());
@@ -183,7 +186,7 @@ class Gatherer {
     return {};
   }
 
-  /// To a file that `entry` names, there or not: verify says what is not there.
+  /// Adds a reference to a file that `entry` names. The file may be missing: verify reports this.
   Expected<void> refer_to(const fs::path& other, CatalogueEntry& entry, const std::string& language = {}) {
     const auto path = content::path_inside(folder_, other);
     if (!path) return tl::unexpected(path.error());
@@ -217,7 +220,7 @@ class Gatherer {
     return {};
   }
 
-  /// A scenario to which visitors go on from `entry`. Where there is none of that id they stay, so it may be absent.
+  /// Adds a reference to a scenario to which visitors go on from `entry`. It may be missing: visitors then stay.
   void refer_to_scenario(CatalogueEntry& entry, const std::string& id) const {
     for (const auto* entries : {&made_, &known_}) {
       for (const auto& [path, other] : *entries) {
@@ -228,7 +231,7 @@ class Gatherer {
     }
   }
 
-  /// A scenario's pages, a model's parts: they lie beside it under its name.
+  /// Adds references to a scenario's pages, or a model's parts: files beside it with the same name.
   template <class Fits>
   void refer_to_beside(const fs::path& file, CatalogueEntry& entry, const Fits& fits) {
     std::error_code code;
@@ -249,7 +252,7 @@ class Gatherer {
     }
   }
 
-  /// What neither a person nor the file has said, a LICENCE says for all in its folder; the nearest, up to the catalogue's folder.
+  /// Takes credits that neither a person nor the file gives from the nearest LICENCE, up to the catalogue's folder.
   void take_licence_beside(const fs::path& file, CatalogueEntry& entry) {
     if (!entry.credits.licence.empty()) return;
     std::error_code code;
@@ -277,7 +280,7 @@ class Gatherer {
   std::map<std::string, CatalogueEntry> made_;
   std::multimap<std::string, std::string> opened_;  ///< ids of scenarios, by the path of the one that opens them
   std::map<std::string, std::string> languages_;    ///< of sounds, by path
-  std::map<fs::path, content::Credits> notes_;      ///< of folders that were asked for a LICENCE
+  std::map<fs::path, content::Credits> notes_;      ///< from the LICENCE of each folder, as far as read
   Gathered result_;
 };
 

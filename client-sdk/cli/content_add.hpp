@@ -1,4 +1,4 @@
-// What `mechane content add` makes of a file.
+// Makes the catalogue entries for `mechane content add`.
 #pragma once
 
 #include <map>
@@ -16,8 +16,9 @@ struct Gathered {
   std::vector<Error> errors;                     ///< of files that cannot be added
 };
 
-/// Entries of the files and folders that the options name, and of what scenarios among them refer to. `known` is what the catalogue
-/// says now: what neither the options nor the file tell stays as it was. Reads every file; writes nothing.
+/// Entries of the files and folders that the options name, and of the files that scenarios among them refer to. `known`
+/// are the catalogue's present entries: what neither the options nor the file give is kept from them. Reads every file;
+/// writes nothing.
 [[nodiscard]] Gathered gather(const ContentOptions& options, const std::filesystem::path& folder,
                               const std::vector<content::CatalogueEntry>& known);
 

@@ -1,13 +1,16 @@
 #include "client-sdk/cli/content_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include "client-sdk/cli/columns.hpp"
+#include "server/base/utf8.hpp"
+#include "server/content/content_hash.hpp"
 
 namespace mechane::cli {
 namespace {
@@ -16,33 +19,18 @@ using content::CatalogueEntry;
 using content::CatalogueFault;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kShownDigits = 8;
-
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-/// As fmt pads: letters, not bytes.
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](unsigned char c) { return (c & 0xc0U) != 0x80U; }));
-}
-
-std::string or_dash(const std::string& text) {
-  return text.empty() ? "-" : shown(text);
-}
-
-std::string count(std::size_t number, const char* one, const char* more) {
-  return fmt::format("{} {}", number, number == 1 ? one : more);
 }
 
 std::string total(std::span<const CatalogueEntry> entries) {
   std::uint64_t bytes = 0;
   for (const CatalogueEntry& entry : entries)
     bytes += entry.bytes;
-  return fmt::format("{}, {}", count(entries.size(), "file", "files"), size_text(bytes));
+  return fmt::format("{}, {}", count_text(entries.size(), "file", "files"), size_text(bytes));
 }
 
-/// What is not said in a language of the entry: a line each, the language before the first.
+/// The texts that are missing in a language of the entry: one line each, the first with the language.
 void write_lacking(const CatalogueEntry& entry, std::string& page) {
   for (const std::string& language : entry.languages) {
     std::string head = "lacks in " + shown(language);
@@ -55,10 +43,16 @@ void write_lacking(const CatalogueEntry& entry, std::string& page) {
 
 }  // namespace
 
-std::string shown(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
+std::string shown(const std::string& text) {
+  return without_controls(text);
+}
+
+std::string or_dash(const std::string& text) {
+  return text.empty() ? "-" : shown(text);
+}
+
+std::string count_text(std::size_t number, const char* one, const char* more) {
+  return fmt::format("{} {}", number, number == 1 ? one : more);
 }
 
 std::string size_text(std::uint64_t bytes) {
@@ -68,27 +62,13 @@ std::string size_text(std::uint64_t bytes) {
 }
 
 std::string entries_table(std::span<const CatalogueEntry> entries) {
-  std::vector<std::array<std::string, 8>> rows;
-  rows.push_back({"kind", "name", "languages", "licence", "version", "size", "hash", "path"});
+  Columns table({"kind", "name", "languages", "licence", "version", "size", "hash", "path"}, "<<<<<><");
   for (const CatalogueEntry& e : entries) {
-    rows.push_back({std::string(word_of(e.kind)), or_dash(e.name),
-                    or_dash(fmt::format("{}", fmt::join(e.languages, " "))), or_dash(e.credits.licence),
-                    or_dash(e.credits.version), size_text(e.bytes), e.hash.substr(0, kShownDigits), shown(e.path)});
+    table.add({std::string(word_of(e.kind)), or_dash(e.name), or_dash(fmt::format("{}", fmt::join(e.languages, " "))),
+               or_dash(e.credits.licence), or_dash(e.credits.version), size_text(e.bytes), content::short_hash(e.hash),
+               shown(e.path)});
   }
-  std::array<std::size_t, 8> widths{};
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], letters(row[i]));
-  }
-  std::string table;
-  if (!entries.empty()) {
-    for (const auto& row : rows) {
-      for (std::size_t i = 0; i + 1 < row.size(); ++i)
-        table += i == 5 ? fmt::format("{:>{}}  ", row[i], widths[i]) : fmt::format("{:<{}}  ", row[i], widths[i]);
-      table += row.back() + "\n";
-    }
-  }
-  return table + total(entries) + "\n";
+  return (table.is_empty() ? "" : table.text()) + total(entries) + "\n";
 }
 
 std::string entry_page(const CatalogueEntry& entry, std::span<const CatalogueEntry> all) {
@@ -112,7 +92,7 @@ std::string entry_page(const CatalogueEntry& entry, std::span<const CatalogueEnt
   }
   line("refers to", fmt::format("{}", fmt::join(entry.refers_to, ", ")));
   line("used by", fmt::format("{}", fmt::join(users, ", ")));
-  if (!entry.wordings.empty()) line("words", count(entry.wordings.size(), "text", "texts") + " to read or hear");
+  if (!entry.wordings.empty()) line("words", count_text(entry.wordings.size(), "text", "texts") + " to read or hear");
   write_lacking(entry, page);
   return page;
 }
@@ -157,7 +137,7 @@ std::string faults_text(std::span<const CatalogueFault> faults, std::span<const 
     text += fmt::format("note: {} files have no licence, {} the first; {}\n", notes.size(), shown(notes[0]->path),
                         notes[0]->remedy);
   }
-  const std::string verdict = errors == 0 ? "each as the catalogue says" : count(errors, "fault", "faults");
+  const std::string verdict = errors == 0 ? "all as recorded in the catalogue" : count_text(errors, "fault", "faults");
   return text + fmt::format("{}: {}\n", total(entries), verdict);
 }
 

@@ -1,4 +1,5 @@
-// How `mechane content` writes entries and faults, for people and for programs.
+// The output of `mechane content`: entries and faults, for people and for programs; and words that other commands use
+// too.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +11,24 @@
 
 namespace mechane::cli {
 
-/// Text from a file as a terminal may show it: control characters, which could drive the terminal, are '?'.
-[[nodiscard]] std::string shown(std::string text);
+/// Text from a file, safe for a terminal: '?' replaces control characters.
+[[nodiscard]] std::string shown(const std::string& text);
+/// The same; a dash where it is empty.
+[[nodiscard]] std::string or_dash(const std::string& text);
+/// "1 file", "2 files".
+[[nodiscard]] std::string count_text(std::size_t number, const char* one, const char* more);
 /// "812 B", "5.4 MB".
 [[nodiscard]] std::string size_text(std::uint64_t bytes);
 
-/// A line an entry under a head, and a last line that counts them.
+/// A header, one line per entry, and a last line with their number.
 [[nodiscard]] std::string entries_table(std::span<const content::CatalogueEntry> entries);
-/// All that is known of one entry; `all` tells what uses it.
+/// All that is known of one entry; `all` shows what uses it.
 [[nodiscard]] std::string entry_page(const content::CatalogueEntry& entry,
                                      std::span<const content::CatalogueEntry> all);
 /// An array of objects with the fields of CatalogueEntry.
 [[nodiscard]] std::string entries_json(std::span<const content::CatalogueEntry> entries);
 
-/// A line a fault, notes of one kind in one line, and a last line that counts.
+/// One line per fault, notes of one kind in one line, and a last line with the counts.
 [[nodiscard]] std::string faults_text(std::span<const content::CatalogueFault> faults,
                                       std::span<const content::CatalogueEntry> entries);
 [[nodiscard]] std::string faults_json(std::span<const content::CatalogueFault> faults);

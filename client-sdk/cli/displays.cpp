@@ -15,9 +15,9 @@ namespace {
 using client::DisplayStatus;
 
 constexpr Duration kLook = std::chrono::milliseconds(50);
-/// Each reports once a second: when no new one was found for longer, all are known.
+/// Each display reports once a second, so when no new one was found for longer, all are known.
 constexpr Duration kStill = std::chrono::milliseconds(1500);
-/// A picture that is drawn on the processor takes its time.
+/// Drawing on the processor can be slow.
 constexpr double kPictureSeconds = 20;
 
 int tell(const Error& error, int status) {
@@ -29,7 +29,7 @@ Duration duration_of(double s) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(s));
 }
 
-/// All that live, once no new one is found any more.
+/// All running displays; returns when no new one is found any more.
 std::vector<DisplayStatus> find_all(client::DisplayWatch& watch, const DisplaysOptions& options) {
   SystemClock clock;
   const TimePoint until = clock.now() + duration_of(options.seconds);
@@ -53,7 +53,7 @@ Expected<std::vector<DisplayStatus>> find(client::DisplayWatch& watch, const Dis
   return found;
 }
 
-/// By session, of those that have answered.
+/// The answers so far, by session.
 std::map<std::uint64_t, client::RequestAnswer> answers_to(std::uint64_t id, client::DisplayWatch& watch) {
   std::map<std::uint64_t, client::RequestAnswer> answers;
   for (const DisplayStatus& display : watch.displays()) {
@@ -63,7 +63,7 @@ std::map<std::uint64_t, client::RequestAnswer> answers_to(std::uint64_t id, clie
   return answers;
 }
 
-/// Sends the request and tells of each display's answer.
+/// Sends the request and prints each display's answer.
 int request(client::DisplayWatch& watch, const DisplaysOptions& options,
             const std::vector<client::DisplaySetting>& settings, bool picture) {
   const auto displays = find(watch, options);
@@ -104,7 +104,9 @@ int run_displays(const std::string& verb, const DisplaysOptions& options) {
     settings.push_back(*setting);
   }
   if (!verb.empty() && options.kiosk.empty())
-    return tell(Error{"a kiosk has a name", "--kiosk", "write --kiosk kiosk-1; 'mechane displays' lists them"}, 2);
+    return tell(Error{ErrorCode::missing, "no kiosk was named", "--kiosk",
+                      "write --kiosk kiosk-1; 'mechane displays' lists the kiosks"},
+                2);
   auto watch = client::DisplayWatch::open(options.domain);
   if (!watch) return tell(watch.error(), 1);
   if (!verb.empty()) return request(**watch, options, settings, verb == "picture");

@@ -9,13 +9,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/cli/columns.hpp"
+#include <mechane/client/client.hpp>
+
 namespace mechane::cli {
 namespace {
 
 using client::DisplayStatus;
 
 constexpr double kLossWorthTelling = 0.005;
-/// Under this share of the rate asked for, pictures are seen to stutter; under so many a second in any case.
+/// Below this share of the requested rate pictures visibly stutter; below the next rate in any case.
 constexpr double kSlowShare = 0.5;
 constexpr double kSlow_per_s = 20;
 
@@ -25,21 +28,23 @@ std::string_view link_name(const DisplayStatus& display) {
   return kLinks[std::min<std::size_t>(display.link, kLinks.size() - 1)];
 }
 
-/// Mesa's rasterisers on the processor.
+/// Whether it is one of Mesa's software rasterisers.
 bool draws_on_processor(const std::string& renderer) {
   return std::ranges::any_of(std::array<std::string_view, 3>{"llvmpipe", "softpipe", "swrast"},
                              [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 
 std::string link_remark(const DisplayStatus& display) {
-  switch (display.link) {
-    case 0:
-      return "it looks for a server: start one (its first start takes minutes), or look at the cable and "
+  switch (static_cast<client::LinkState>(display.link)) {
+    case client::LinkState::searching:
+      return "it is looking for a server: start one (its first start takes minutes), or check the cable and "
              "CYCLONEDDS_URI (mechane doctor)";
-    case 2:
+    case client::LinkState::refused:
       return "the server refuses: " + display.refusal;
-    case 3:
-      return "the server has fallen silent: the last picture stays, and it goes on by itself when the server is back";
+    case client::LinkState::lost:
+      return "the server has fallen silent: the last picture stays, and the display continues by itself when the "
+             "server "
+             "is back";
     default:
       return {};
   }
@@ -57,30 +62,6 @@ std::string setting_of(const DisplayStatus& display, std::string_view name) {
 std::string sound_word(const DisplayStatus& display) {
   if (setting_of(display, "mute") == "on") return "muted";
   return display.sound.empty() ? "none" : "volume " + setting_of(display, "volume");
-}
-
-/// Columns as wide as their widest cell; the last one is not filled.
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
-  // Of characters, not bytes: names of hosts and devices may be Greek.
-  const auto width = [](const std::string& text) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
-  };
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], width(row[i]));
-  }
-  std::string out;
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      out += row[i];
-      if (i + 1 < row.size()) out += std::string(widths[i] - width(row[i]) + 2, ' ');
-    }
-    out += "\n";
-  }
-  return out;
 }
 
 std::vector<std::string> row_of(const DisplayStatus& display) {
@@ -109,7 +90,7 @@ bool shares_name(const DisplayStatus& display, const std::vector<DisplayStatus>&
          }) > 1;
 }
 
-/// With what only all of them together tell.
+/// The remarks on one display, including those that need all displays.
 std::vector<std::string> remarks_among(const DisplayStatus& display, const std::vector<DisplayStatus>& displays) {
   std::vector<std::string> remarks = remarks_of(display);
   if (shares_name(display, displays)) {
@@ -120,7 +101,7 @@ std::vector<std::string> remarks_among(const DisplayStatus& display, const std::
   return remarks;
 }
 
-/// To three digits behind the point: a float of the wire has no more to say, and 0.8 is not 0.800000011920929.
+/// Rounds to three decimals, the precision of the wire's float: 0.8, not 0.800000011920929.
 double rounded(double number) {
   return std::round(1000 * number) / 1000;
 }
@@ -137,18 +118,19 @@ nlohmann::ordered_json settings_json(const DisplayStatus& display) {
 std::vector<std::string> remarks_of(const DisplayStatus& display) {
   std::vector<std::string> remarks;
   if (std::string link = link_remark(display); !link.empty()) remarks.push_back(std::move(link));
-  if (display.width < 2 || display.height < 2) remarks.emplace_back("its window is minimised: nobody sees it");
+  if (display.width < 2 || display.height < 2) remarks.emplace_back("its window is minimised: restore it");
   if (draws_on_processor(display.renderer)) {
     remarks.push_back("it draws on the processor (" + display.renderer + "): install the graphics card's driver");
   }
   const bool slow = display.pictures_per_s < kSlow_per_s && display.pictures_per_s < kSlowShare * display.wanted_per_s;
   if (slow && !display.offscreen && display.uptime_s > 10) {
-    remarks.push_back(fmt::format("{:.1f} pictures a second are few: choose a smaller --size or a faster graphics card",
-                                  display.pictures_per_s));
+    remarks.push_back(
+        fmt::format("{:.1f} pictures a second are too few: choose a smaller --size or a faster graphics card",
+                    display.pictures_per_s));
   }
   if (display.frames_lost >= kLossWorthTelling) {
     remarks.push_back(fmt::format(
-        "{:.1f} % of the scene's frames are lost on the way: look at the cable and the switch; use no Wi-Fi",
+        "{:.1f} % of the scene's frames are lost on the network: check the cable and the switch; do not use Wi-Fi",
         100 * display.frames_lost));
   }
   if (display.missing_total > 0) {
@@ -169,26 +151,25 @@ bool is_meant(const DisplayStatus& display, const std::string& kiosk, const std:
 
 Error no_display(const std::vector<DisplayStatus>& all, const std::string& kiosk, const std::string& display) {
   if (all.empty()) {
-    return {"no display answered", "network",
+    return {ErrorCode::not_found, "no display answered", "network",
             "start one with 'mechane display', in the same DDS domain and network (mechane doctor)"};
   }
   std::set<std::string> names;
   for (const DisplayStatus& other : all)
     names.insert(name_of(other));
-  return {"there is no such display", kiosk + "/" + (display.empty() ? "*" : display),
-          fmt::format("there are: {}", fmt::join(names, ", "))};
+  return {ErrorCode::unknown_name, "there is no such display", kiosk + "/" + (display.empty() ? "*" : display),
+          fmt::format("name one of: {}", fmt::join(names, ", "))};
 }
 
 std::string displays_table(const std::vector<DisplayStatus>& displays) {
-  std::vector<std::vector<std::string>> rows{
-      {"display", "link", "shows", "picture", "a second", "ms median/p99", "lost %", "sound", "host"}};
+  Columns table({"display", "link", "shows", "picture", "a second", "ms median/p99", "lost %", "sound", "host"}, "<");
   std::string notes;
   for (const DisplayStatus& display : displays) {
-    rows.push_back(row_of(display));
+    table.add(row_of(display));
     for (const std::string& remark : remarks_among(display, displays))
       notes += name_of(display) + ": " + remark + "\n";
   }
-  return aligned(rows) + (notes.empty() ? "" : "\n" + notes);
+  return table.text() + (notes.empty() ? "" : "\n" + notes);
 }
 
 std::string displays_json(const std::vector<DisplayStatus>& displays) {

@@ -1,4 +1,4 @@
-// What `mechane displays` prints: a table, what a technician should look at, JSON.
+// The output of `mechane displays`: a table, remarks for the technician, JSON.
 #pragma once
 
 #include <string>
@@ -9,20 +9,21 @@
 
 namespace mechane::cli {
 
-/// What is not as it should be with one display, and what to do; empty: all is well.
+/// The faults of one display, and what to do; empty: all is well.
 [[nodiscard]] std::vector<std::string> remarks_of(const client::DisplayStatus& display);
 
-/// This kiosk's, and this display of it; empty names mean any.
+/// Whether a display has these names of kiosk and display; empty names match any.
 [[nodiscard]] bool is_meant(const client::DisplayStatus& display, const std::string& kiosk, const std::string& name);
 
-/// Why no display is meant by this kiosk's name and this display's (empty: any), where `all` live.
+/// The error when none of `all` has these names of kiosk and display (empty: any).
 [[nodiscard]] Error no_display(const std::vector<client::DisplayStatus>& all, const std::string& kiosk,
                                const std::string& display);
 
-/// A line a display, then the remarks.
+/// One line per display, then the remarks.
 [[nodiscard]] std::string displays_table(const std::vector<client::DisplayStatus>& displays);
 
-/// One JSON object a display, each on a line of its own, with its remarks. The wire's numbers are rounded to what they mean.
+/// One JSON object per display, each on a line of its own, with its remarks. Numbers are rounded to the wire's
+/// precision.
 [[nodiscard]] std::string displays_json(const std::vector<client::DisplayStatus>& displays);
 
 }  // namespace mechane::cli

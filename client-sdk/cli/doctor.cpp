@@ -35,7 +35,7 @@ void print_json(const std::vector<CheckResult>& results) {
   fmt::print("{}\n", list.dump(2));
 }
 
-/// Status words in colour where a person looks, plain in a file.
+/// The status, in colour on a terminal, plain otherwise.
 std::string status_word(CheckStatus status) {
   const std::string word = fmt::format("{:<8}", realtime::name_of(status));
   if (isatty(STDOUT_FILENO) == 0) return word;
@@ -78,14 +78,14 @@ CheckResult judge_server(const std::string& name, const proto::ServerStatus& wir
   return {"server " + name, overload.empty() ? CheckStatus::ok : CheckStatus::warning, found, wanted, overload};
 }
 
-/// Hears what servers say of themselves.
+/// Receives the status of servers.
 class ServerListener {
  public:
   explicit ServerListener(std::uint32_t domain) : participant_(proto::Participant::create(domain)) {
     if (!participant_) return;
     reader_ = proto::Reader<proto::ServerStatus>::create(*participant_, "", [this](auto) { news_.signal(); });
   }
-  /// One line for each server; waits a moment where none has been heard yet.
+  /// Adds a line for each server; waits a moment if none has been heard yet.
   void add_to(std::vector<CheckResult>& results) {
     if (!participant_ || !*reader_) {
       const Error& fault = !participant_ ? participant_.error() : reader_->error();

@@ -5,8 +5,8 @@
 
 namespace mechane::cli {
 
-/// Prints a table, or JSON, of what was found, what is wanted and what to do. Servers of the DDS domain are listened for while wake-ups
-/// are measured. Returns 0 when nothing is bad, else 1.
+/// Prints a table, or JSON, of what was found, what is required and what to do. Listens for servers in the DDS domain
+/// while it measures wake-ups. Returns 0 when nothing is bad, else 1.
 [[nodiscard]] int run_doctor(bool json, double probe_seconds, std::uint32_t domain);
 
 }  // namespace mechane::cli

@@ -156,7 +156,7 @@ Json to_json(const proto::WireQuestion& q) {
   for (const auto& a : proto::elements(q.answers))
     answers.push_back({{"name", proto::string_of(a.name)}, {"text", texts(a.text)}});
   return {{"name", proto::string_of(q.name)},
-          {"kind", q.kind == 0 ? "choice" : "scale"},
+          {"kind", q.kind == mechane_question_choice ? "choice" : "scale"},
           {"text", texts(q.text)},
           {"answers", answers},
           {"marks", q.marks},
@@ -277,8 +277,10 @@ Json to_json(const proto::ServerStatus& s) {
 
 Json to_json(const proto::KioskStatus& s) {
   Json j = head(s);
-  j.update(
-      {{"kiosk", text(s.kiosk)}, {"session", s.session}, {"user", s.user}, {"role", s.role == 0 ? "hand" : "watcher"}});
+  j.update({{"kiosk", text(s.kiosk)},
+            {"session", s.session},
+            {"user", s.user},
+            {"role", s.role == mechane_role_hand ? "hand" : "watcher"}});
   j.update({{"program", text(s.program)}, {"host", text(s.host)}, {"process_id", s.process_id}});
   j.update({{"scenario", text(s.scenario)}, {"was_there", s.was_there != 0}, {"join_kiosk", text(s.join_kiosk)}});
   return j;
@@ -333,14 +335,14 @@ Json to_json(const proto::ViewerHead& s) {
   return j;
 }
 
-/// Whether a sample's key names the kiosk and world that were asked for.
+/// Whether a sample's key has the requested kiosk and world.
 bool wanted(const Json& j, const EchoOptions& options) {
   const bool kiosk = options.kiosk.empty() || !j.contains("kiosk") || j["kiosk"] == options.kiosk;
   return kiosk && (options.world.empty() || !j.contains("world") || j["world"] == options.world);
 }
 
 void print(const std::string& topic, const Json& j, bool as_json) {
-  constexpr auto kReplace = Json::error_handler_t::replace;  // a text from the network need not be UTF-8
+  constexpr auto kReplace = Json::error_handler_t::replace;  // texts from the network need not be UTF-8
   if (as_json) {
     std::cout << j.dump(-1, ' ', false, kReplace) << std::endl;
     return;
@@ -362,10 +364,10 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
   ~Watch() { std::signal(SIGINT, previous_); }
 
-  /// The reader's listener: something came. Any thread.
+  /// Called by the reader's listener when something has arrived. Any thread.
   void wake() { news_.signal(); }
 
-  /// Waits for news; whether to look again. Silence is told once, for it looks like a fault of the program's.
+  /// Waits for news; returns whether to look again. Reports silence once, which would otherwise look like a fault.
   [[nodiscard]] bool goes_on(std::uint64_t seen, const std::string& waits_for) {
     news_.wait(kLookEvery);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin_;

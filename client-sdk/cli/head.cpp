@@ -18,13 +18,14 @@ namespace {
 constexpr Duration kTellEvery = std::chrono::milliseconds(16);
 constexpr Duration kAudienceEvery = std::chrono::milliseconds(100);
 constexpr double kFarthest_m = 20;
-/// Seven numbers are shorter. What has no end at all is not a tracker's, and must not fill the memory.
+/// Longer than seven numbers ever are. Input without line ends does not come from a tracker, and must not fill the
+/// memory.
 constexpr std::size_t kLongestLine = 500;
 constexpr std::size_t kQuoted = 80;
 
 volatile std::sig_atomic_t head_interrupted = 0;
 
-/// The same place again and again, as a tracker would, until it is enough.
+/// Sends the same pose again and again, as a tracker would, for `seconds`.
 int hold(client::HeadTracker& tracker, const Pose& X_SV, double seconds, Audience& audience, std::ostream& err) {
   std::signal(SIGINT, [](int) { head_interrupted = 1; });
   std::signal(SIGTERM, [](int) { head_interrupted = 1; });
@@ -39,7 +40,7 @@ int hold(client::HeadTracker& tracker, const Pose& X_SV, double seconds, Audienc
   return 0;
 }
 
-/// Reads to the line's end; what is over the longest is left out.
+/// Reads to the line's end; what exceeds the longest line is dropped.
 bool read_line(std::istream& in, std::string& line) {
   using Traits = std::istream::traits_type;
   line.clear();
@@ -51,7 +52,7 @@ bool read_line(std::istream& in, std::string& line) {
   return true;
 }
 
-/// As it may stand on a terminal, whatever the tracker sent.
+/// The line in quotes, without characters that could drive a terminal.
 std::string quoted(const std::string& line) {
   std::string out = line.substr(0, kQuoted);
   std::ranges::replace_if(
@@ -70,7 +71,7 @@ std::string BadLines::hear(std::size_t number, const Error& error, TimePoint now
   said_ = now;
   const std::size_t others = std::exchange(unsaid_, 0);
   return fmt::format("line {}: {}{}", number, error.to_string(),
-                     others == 0 ? "" : fmt::format(" ({} more were bad since the last that was told)", others));
+                     others == 0 ? "" : fmt::format(" ({} more bad lines since the last message)", others));
 }
 
 void Audience::look(TimePoint now, std::ostream& err) {
@@ -80,7 +81,8 @@ void Audience::look(TimePoint now, std::ostream& err) {
   known_ = std::ranges::any_of(all, [this](const client::DisplayStatus& d) { return is_meant(d, kiosk_, display_); });
   if (known_ || now - began_ < kTime) return;
   known_ = true;
-  err << "mechane head: " << no_display(all, kiosk_, display_).to_string() << ". It goes on, for one that comes later\n"
+  err << "mechane head: " << no_display(all, kiosk_, display_).to_string()
+      << ". Positions are still sent, for a display that starts later\n"
       << std::flush;
 }
 
@@ -103,7 +105,7 @@ int pass_on(client::HeadTracker& tracker, std::istream& in, std::ostream& err, A
   }
   (void)tracker.tell_nobody();
   if (bad.count() > 1) err << "mechane head: " << bad.count() << " of " << number << " lines were bad\n";
-  // Few lines are soon read: whoever tries it with a name that is mistyped hears of that, too.
+  // A short input is read before displays have answered: wait for them, so that a mistyped name is reported here too.
   for (; number > 0 && !audience.is_known(); audience.look(clock.now(), err))
     clock.sleep_until(clock.now() + kAudienceEvery);
   return number > 0 && bad.count() == number ? 1 : 0;
@@ -119,13 +121,21 @@ Expected<std::optional<Pose>> read_head(const std::string& line) {
     ++count;
   words.clear();
   if (std::string rest; words >> rest || (count != 3 && count != 7))
-    return fail("no place of a head: " + quoted(line), "tracker", kRemedy);
+    return fail(ErrorCode::invalid_value, "this is not the position of a head: " + quoted(line), "tracker", kRemedy);
   const Pose X_SV{{numbers[0], numbers[1], numbers[2]}, Quat(numbers[3], numbers[4], numbers[5], numbers[6])};
-  if (!X_SV.p.allFinite() || std::abs(X_SV.R.norm() - 1) > 0.01)
-    return fail("no rotation, or a word that is not a number: " + quoted(line), "tracker", kRemedy);
+  if (!X_SV.p.allFinite())
+    return fail(ErrorCode::invalid_value, "a number is not finite: " + quoted(line), "tracker", kRemedy);
+  if (!(std::abs(X_SV.R.norm() - 1) <= 0.01)) {
+    return fail(ErrorCode::invalid_value,
+                fmt::format("the rotation is not a unit quaternion (norm {:.3g}): {}", X_SV.R.norm(), quoted(line)),
+                "tracker", kRemedy);
+  }
   if (!(X_SV.p.z() > 0) || X_SV.p.norm() > kFarthest_m) {
-    return fail(fmt::format("a head is before the screen, and within {} m: {}", kFarthest_m, quoted(line)), "tracker",
-                "write metres from the screen's middle: right, up, towards the visitor; the third is over 0");
+    return fail(ErrorCode::invalid_value,
+                fmt::format("the head is not in front of the screen and within {} m of its middle: {}", kFarthest_m,
+                            quoted(line)),
+                "tracker",
+                "write metres from the screen's middle: right, up, towards the visitor; the third number is above 0");
   }
   return std::optional<Pose>(X_SV);
 }
@@ -138,7 +148,11 @@ int run_head(const HeadOptions& options, std::istream& in, std::ostream& err) {
   std::optional<Pose> held;
   if (!options.at.empty()) {
     const auto read = read_head(fmt::format("{}", fmt::join(options.at, " ")));
-    if (!read) return tell({read.error().what, "--at", read.error().remedy}, 2);
+    if (!read) {
+      Error error = read.error();
+      error.where = "--at";
+      return tell(error, 2);
+    }
     held = *read;
   }
   auto tracker = client::HeadTracker::open(options.kiosk, options.display, options.domain);

@@ -40,19 +40,19 @@ constexpr std::array<Program, 6> kPrograms{{
     {"display", "show a world, in a window or to pictures"},
     {"haptic", "run a haptic device, real or virtual"},
     {"visitor", "play a scenario's visit like a person"},
-    {"fit", "make meshes ready for touch, and report how true they feel"},
+    {"fit", "make meshes ready for touch, and report how accurately they feel"},
     {"replay", "run a journal again and compare its state hashes"},
 }};
 
 CLI::App* add_echo(CLI::App& app, cli::EchoOptions& echo) {
   CLI::App* command = app.add_subcommand("echo", "print what goes over the wire");
   command->add_option("topic", echo.topic, "topic, e.g. SceneFrame; without one: the list");
-  command->add_option("--kiosk", echo.kiosk, "only this kiosk; of the topics of a world: of the world that it is in");
+  command->add_option("--kiosk", echo.kiosk, "only this kiosk; for topics of a world: only its world");
   command->add_option("--world", echo.world, "only this world");
   command->add_option("--domain", echo.domain, "DDS domain");
-  command->add_option("--count", echo.count, "stop after so many samples; 0: until interrupted");
+  command->add_option("--count", echo.count, "stop after this many samples; 0: until interrupted");
   command->add_option("--seconds", echo.seconds,
-                      "stop after so long, with status 1 where nothing came; 0: until interrupted");
+                      "stop after this time, with status 1 if nothing was received; 0: until interrupted");
   command->add_flag("--json", echo.json, "one JSON object a line");
   return command;
 }
@@ -63,14 +63,15 @@ CLI::App* add_open(CLI::App& app, cli::OpenOptions& open) {
   command->add_option("--kiosk", open.kiosk, "name of the kiosk")
       ->capture_default_str()
       ->check([](const std::string& name) {
-        return name.empty() ? "a kiosk has a name: write --kiosk kiosk-1" : std::string();
+        return name.empty() ? "the kiosk's name is empty: write --kiosk kiosk-1" : std::string();
       });
   command->add_option("--domain", open.domain, "DDS domain");
   return command;
 }
 
 CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
-  CLI::App* displays = app.add_subcommand("displays", "tell how all displays are, with remarks; change what they do");
+  CLI::App* displays =
+      app.add_subcommand("displays", "show the state of all displays, with remarks; change their settings");
   displays->require_subcommand(0, 1);
   displays->add_option("--kiosk", o.kiosk, "only this kiosk's");
   displays->add_option("--display", o.display, "only the display of this name (mechane display --name)");
@@ -79,7 +80,7 @@ CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();
   displays->add_flag("--json", o.json, "one JSON object a line");
-  std::string help = "change settings of a kiosk's displays, until they end:";
+  std::string help = "change settings of a kiosk's displays, until they are restarted:";
   for (const client::DisplaySettingInfo& setting : client::display_settings())
     help += " " + std::string(setting.name) + " (" + std::string(setting.values) + ")";
   CLI::App* set = displays->add_subcommand("set", help);
@@ -87,23 +88,24 @@ CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
   CLI::App* picture =
       displays->add_subcommand("picture", "let a kiosk's displays write what they show into their --out folder");
   for (CLI::App* command : {set, picture})
-    command->fallthrough();  // --kiosk may stand behind the verb
+    command->fallthrough();  // --kiosk may follow the verb
   return displays;
 }
 
 CLI::App* add_head(CLI::App& app, cli::HeadOptions& o) {
-  CLI::App* head =
-      app.add_subcommand("head", "tell a kiosk's displays where the visitor's head is, for a tracker, or to try it");
+  CLI::App* head = app.add_subcommand(
+      "head", "send the position of the visitor's head to a kiosk's displays, for a tracker, or to try it");
   head->add_option("--kiosk", o.kiosk, "whose displays")->capture_default_str();
-  head->add_option("--display", o.display, "only the display of this name; without: all of the kiosk");
+  head->add_option("--display", o.display, "only the display of this name; without: all displays of the kiosk");
   head->add_option("--domain", o.domain, "DDS domain");
   head->add_option("--at", o.at,
                    "between the eyes, metres from the middle of the screen: right, up, towards the visitor")
       ->expected(3);
-  head->add_option("--seconds", o.seconds, "with --at: how long it is told; 0: until Ctrl-C")
+  head->add_option("--seconds", o.seconds, "with --at: how long it is sent; 0: until Ctrl-C")
       ->check(CLI::NonNegativeNumber);
   head->footer(
-      "Without --at it reads lines from its standard input, one for each look of the tracker: 'x y z', or 'x y z qw qx "
+      "Without --at it reads lines from its standard input, one for each reading of the tracker: 'x y z', or 'x y z qw "
+      "qx "
       "qy qz', or "
       "'nobody'.");
   return head;
@@ -111,65 +113,66 @@ CLI::App* add_head(CLI::App& app, cli::HeadOptions& o) {
 
 void add_content_add(CLI::App& content, cli::ContentOptions& o) {
   CLI::App* add = content.add_subcommand(
-      "add", "take files into the catalogue, or take them anew; of scenarios also what they need");
+      "add", "add or update files in the catalogue; for scenarios also the files that they need");
   add->add_option("files", o.words, "files and folders, in the catalogue's folder")->required();
-  add->add_option(
-      "--licence", o.credits.licence,
-      "e.g. Apache-2.0; wins over what a file says of itself, as all of these do; where neither says, a file LICENCE "
-      "or LICENSE beside it or above does, by its lines SPDX-License-Identifier and SPDX-FileCopyrightText");
+  add->add_option("--licence", o.credits.licence,
+                  "e.g. Apache-2.0; overrides what the file says, like the following options; if neither is given, a "
+                  "file LICENCE or "
+                  "LICENSE in its folder or above counts, with its lines SPDX-License-Identifier and "
+                  "SPDX-FileCopyrightText");
   add->add_option("--author", o.credits.author, "who made it");
-  add->add_option("--source", o.credits.source, "where it comes from, or what it follows");
+  add->add_option("--source", o.credits.source, "where it comes from, or what it is based on");
   add->add_option("--version", o.credits.version, "of the file");
   add->add_option("--tag", o.tags, "a word to find it by; may be given several times");
   add->add_option("--language", o.languages, "a language that it is in; may be given several times");
 }
 
 CLI::App* add_content(CLI::App& app, cli::ContentOptions& o) {
-  CLI::App* content = app.add_subcommand("content", "keep the catalogue of scenarios, models, sounds and texts");
+  CLI::App* content = app.add_subcommand("content", "manage the catalogue of scenarios, models, sounds and texts");
   content->require_subcommand(1);
   content->add_option("--catalogue", o.catalogue, "the catalogue's file, beside what it describes")
       ->capture_default_str();
   add_content_add(*content, o);
-  CLI::App* list = content->add_subcommand("list", "print what the catalogue has");
+  CLI::App* list = content->add_subcommand("list", "print the catalogue's entries");
   list->add_option("--kind", o.kind, "only scenario, model, part, texture, sound or text");
   list->add_option("--tag", o.tag, "only what has this tag");
   list->add_option("--language", o.language, "only what is in this language");
   CLI::App* show = content->add_subcommand("show", "print all that is known of a file");
-  show->add_option("names", o.words, "name, path, or hash (its first six digits will do)")->required();
+  show->add_option("names", o.words, "name, path, or hash (its first six digits are enough)")->required();
   CLI::App* verify = content->add_subcommand(
-      "verify", "report changed and missing files, missing languages, orphans; status 1 where there are any");
-  content->add_subcommand("remove", "forget files; they stay where they are")
+      "verify", "report changed and missing files, missing languages, orphans; status 1 if there are any");
+  content->add_subcommand("remove", "remove files from the catalogue; the files themselves stay")
       ->add_option("names", o.words, "name, path, or hash")
       ->required();
-  CLI::App* out =
-      content->add_subcommand("export", "copy content, all that it refers to, and a catalogue of it, for a kiosk");
-  out->add_option("folder", o.folder, "a new or empty folder, or that of an older export")->required();
-  out->add_option(
-      "names", o.words,
-      "only these, and what they refer to: models, sounds, pages, the scenarios that signs open; without: all");
+  CLI::App* out = content->add_subcommand(
+      "export", "copy content, all files that it refers to, and a catalogue of them, for a kiosk");
+  out->add_option("folder", o.folder, "a new or empty folder, or one with an older export")->required();
+  out->add_option("names", o.words,
+                  "only these and the files that they refer to: models, sounds, pages, the scenarios that signs open; "
+                  "without: all");
   for (CLI::App* command : {list, show, verify})
     command->add_flag("--json", o.json, "as JSON");
   for (CLI::App* command : content->get_subcommands({}))
-    command->fallthrough();  // --catalogue may stand behind the verb
+    command->fallthrough();  // --catalogue may follow the verb
   return content;
 }
 
 CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
-  CLI::App* visits = app.add_subcommand("visits", "tell what visitors did and said: tables, CSV, a plot");
+  CLI::App* visits = app.add_subcommand("visits", "report what visitors did and answered: tables, CSV, a plot");
   visits->require_subcommand(0, 1);
-  visits->add_option("--records", o.records, "the server's folder of records, which has the sheets")
+  visits->add_option("--records", o.records, "the server's folder of records, with the file of visits")
       ->capture_default_str();
-  visits->add_option("--file", o.file, "or the file of sheets itself");
+  visits->add_option("--file", o.file, "or the file of visits itself");
   visits->add_option("--since", o.since, "only visits that began then or later: 2026-11-22, or with a time, in UTC");
   visits->add_option("--scenario", o.scenario, "only visits to this scenario (its id)");
   visits->add_option("--kiosk", o.kiosk, "only visits at this kiosk");
   visits->add_option("--csv", o.csv, "write single visits to this file, for a spreadsheet");
   visits->add_option("--svg", o.svg, "draw the report to this file");
   CLI::App* list = visits->add_subcommand("list", "print the newest visits, with their numbers");
-  list->add_option("--last", o.last, "so many; 0: all")->capture_default_str();
-  CLI::App* show = visits->add_subcommand("show", "print all of one visit's sheet");
-  CLI::App* remark = visits->add_subcommand("remark", "add an observer's remark to a visit's sheet");
-  CLI::App* forget = visits->add_subcommand("forget", "delete sheets: of one visit, or of all before a date");
+  list->add_option("--last", o.last, "how many; 0: all")->capture_default_str();
+  CLI::App* show = visits->add_subcommand("show", "print all of one visit's record");
+  CLI::App* remark = visits->add_subcommand("remark", "add an observer's remark to a visit's record");
+  CLI::App* forget = visits->add_subcommand("forget", "delete the records of one visit, or of all before a date");
   for (CLI::App* command : {show, remark})
     command->add_option("visit", o.visit, "its number; the first four letters may do")->required();
   remark->add_option("text", o.text, "up to 2000 bytes; name nobody in it")->required();
@@ -178,11 +181,11 @@ CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
   for (CLI::App* command : {visits, list, show})
     command->add_flag("--json", o.json, "as JSON");
   for (CLI::App* command : visits->get_subcommands({}))
-    command->fallthrough();  // --records may stand behind the verb
+    command->fallthrough();  // --records may follow the verb
   return visits;
 }
 
-/// What to say to a first word that is not a command; empty: it is a command, or an option.
+/// The message for a first word that is not a command; empty: it is a command, or an option.
 std::string unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -220,17 +223,17 @@ int add_and_parse(int argc, char** argv) {
   std::vector<std::string> merge_files;
   std::string merged_file;
   auto* merge_command =
-      app.add_subcommand("merge", "put several scenarios into one file, with names that clash renamed");
+      app.add_subcommand("merge", "combine several scenarios into one file, and rename names that clash");
   merge_command->add_option("files", merge_files, "X3D files, two or more")->required();
   merge_command->add_option("-o,--output", merged_file, "the file to write")->required();
   auto* reference_command = app.add_subcommand("reference", "print the manual of the scenario format, as Markdown");
   bool doctor_json = false;
   double probe_s = 2;
-  auto* doctor_command = app.add_subcommand("doctor", "tell whether this machine can hold 1 kHz and servers keep up");
+  auto* doctor_command = app.add_subcommand("doctor", "check whether this machine can hold 1 kHz and servers keep up");
   doctor_command->add_flag("--json", doctor_json, "as JSON");
   std::uint32_t doctor_domain = 0;
-  doctor_command->add_option("--domain", doctor_domain, "DDS domain in which servers are listened for");
-  doctor_command->add_option("--probe-seconds", probe_s, "how long wake-ups are measured");
+  doctor_command->add_option("--domain", doctor_domain, "DDS domain in which to listen for servers");
+  doctor_command->add_option("--probe-seconds", probe_s, "how long to measure wake-ups");
   if (const std::string fault = argc > 1 ? unknown_command(app, argv[1]) : std::string(); !fault.empty()) {
     std::cerr << fault;
     return 2;
@@ -238,7 +241,7 @@ int add_and_parse(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
   }
   if (*echo_command) return cli::run_echo(echo);
   if (*open_command) return cli::run_open(open);

@@ -24,8 +24,8 @@ Duration seconds(double s) {
 
 std::string known(const client::Client& client) {
   const auto server = client.server_status();
-  return server ? fmt::format("it has {}", fmt::join(server->scenarios, ", "))
-                : std::string("mechane echo ServerStatus lists its own");
+  return server ? fmt::format("name one of: {}", fmt::join(server->scenarios, ", "))
+                : std::string("'mechane echo ServerStatus' lists its scenarios");
 }
 
 bool refused(client::Client& client, std::uint64_t command) {
@@ -42,21 +42,26 @@ Expected<client::WorldStatus> go_on(client::Client& client, const OpenOptions& o
   std::optional<client::WorldStatus> now = client.world_status();
   for (; !now && clock.now() < until; now = client.world_status())
     clock.sleep_until(clock.now() + kLookEvery);
-  if (!now) return fail("the kiosk's world says nothing of itself", options.kiosk, "see the server's log");
+  if (!now)
+    return fail(ErrorCode::timed_out, "the kiosk's world sent no status", options.kiosk, "see the server's log");
   const std::string before = now->world;
   const std::uint64_t command = client.open_exhibit(options.scenario);
   while (clock.now() < until) {
     if (refused(client, command)) {
-      return fail(fmt::format("the server has no scenario '{}'", options.scenario), options.kiosk, known(client));
+      return fail(ErrorCode::unknown_name, fmt::format("the server has no scenario '{}'", options.scenario),
+                  options.kiosk, known(client));
     }
     now = client.world_status();
     if (now && now->world != before) return *now;
     clock.sleep_until(clock.now() + kLookEvery);
   }
-  return fail("the kiosk is still where it was", options.kiosk, "see the server's log");
+  return fail(ErrorCode::timed_out,
+              fmt::format("the kiosk did not go on to another exhibit within {:g} s", options.seconds), options.kiosk,
+              "see the server's log");
 }
 
-/// A kiosk that nobody stands at would get a world by being asked for: a name that was mistyped must not.
+/// Checks that a display or device has joined the kiosk: merely asking for a kiosk makes the server open a world for
+/// it, which must not happen for a mistyped name.
 Expected<void> find_kiosk(const OpenOptions& options) {
   auto participant = proto::Participant::create(options.domain);
   if (!participant) return tl::unexpected(participant.error());
@@ -79,19 +84,20 @@ Expected<void> find_kiosk(const OpenOptions& options) {
     });
     if (kiosks.contains(options.kiosk)) return {};
     server_here = server_here || !kiosks.empty();
-    // Once a server is found, it tells of all its kiosks at about the same time.
+    // Once a server is found, it announces all its kiosks at about the same time.
     if (server_here && !server_before) until = std::min(until, clock.now() + seconds(0.2 * options.seconds));
     news.wait(kLookEvery);
   } while (clock.now() < until);
   if (!server_here) {
-    return fail("no server answered", options.kiosk,
+    return fail(ErrorCode::not_found, "no server answered", options.kiosk,
                 "start one with 'mechane server', in the same DDS domain and network (mechane doctor)");
   }
   if (kiosks.empty()) {
-    return fail("a server is there, and nobody at any kiosk: no display, no device", options.kiosk,
+    return fail(ErrorCode::not_found, "a server runs, but no display and no device has joined any kiosk", options.kiosk,
                 fmt::format("start 'mechane display --kiosk {}' first", options.kiosk));
   }
-  return fail("there is no kiosk of this name", options.kiosk, fmt::format("name one of: {}", fmt::join(kiosks, ", ")));
+  return fail(ErrorCode::unknown_name, "there is no kiosk of this name", options.kiosk,
+              fmt::format("name one of: {}", fmt::join(kiosks, ", ")));
 }
 
 Expected<client::WorldStatus> open(const OpenOptions& options) {
@@ -100,7 +106,8 @@ Expected<client::WorldStatus> open(const OpenOptions& options) {
   if (!client) return tl::unexpected(client.error());
   if (!(*client)->wait_for(client::LinkState::joined, seconds(options.seconds))) {
     const std::string why = (*client)->refusal();
-    return fail(why.empty() ? "the kiosk's world does not answer" : why, options.kiosk, "see the server's log");
+    return fail(why.empty() ? ErrorCode::timed_out : ErrorCode::busy,
+                why.empty() ? "the kiosk's world does not answer" : why, options.kiosk, "see the server's log");
   }
   return go_on(**client, options);
 }

@@ -3,17 +3,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <system_error>
 
 #include <unistd.h>
 
-namespace mechane::cli {
+#include "server/base/program_folder.hpp"
 
-std::filesystem::path program_folder() {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::filesystem::path(".") : self.parent_path();
-}
+namespace mechane::cli {
 
 int become(const std::string& name, const std::vector<std::string>& arguments) {
   std::string program = (program_folder() / name).string();

@@ -1,17 +1,13 @@
-// Finds and runs the other programs of Mechane, which lie beside this one.
+// Runs the other programs of Mechane, in the folder of this one.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace mechane::cli {
 
-/// The folder of the running program.
-[[nodiscard]] std::filesystem::path program_folder();
-
-/// Becomes the program `name` (same process, so signals and systemd see it directly). Returns only when that failed, with the exit
-/// status to give, after saying why on stderr.
+/// Replaces this process by the program `name`, so that signals and systemd reach it directly. Returns only on failure,
+/// with the exit status, after a message on stderr.
 [[nodiscard]] int become(const std::string& name, const std::vector<std::string>& arguments);
 
 }  // namespace mechane::cli

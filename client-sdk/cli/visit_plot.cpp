@@ -20,7 +20,7 @@ namespace {
 using visits::AnswerTime;
 using visits::VisitEnding;
 
-// The colours of the bench's plots.
+// The colours of the benchmarks' plots.
 constexpr const char* kInk = "#1f1e1b";
 constexpr const char* kQuiet = "#6b6a64";
 constexpr const char* kGrid = "#e4e2da";
@@ -37,17 +37,16 @@ constexpr double kRow = 28;
 constexpr double kFootOfAxis = 30;
 constexpr std::size_t kLongestName = 26;
 
-/// Text of a file as XML may have it; what is not UTF-8 ends it.
+/// A file's text, escaped for XML; it ends at the first byte that is not UTF-8.
 std::string escaped(const std::string& text) {
   return escape_markup(shown(text.substr(0, first_bad_utf8(text).value_or(text.size()))));
 }
 
-/// At most `letters` of it; UTF-8 is not cut in the middle of a letter.
+/// At most `letters` letters of a text; UTF-8 letters are not cut.
 std::string shortened(const std::string& text, std::size_t letters) {
   std::size_t seen = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool starts = (static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80U;
-    if (starts && ++seen > letters) return text.substr(0, i) + "…";
+    if (begins_letter(text[i]) && ++seen > letters) return text.substr(0, i) + "…";
   }
   return text;
 }
@@ -59,7 +58,7 @@ struct TextStyle {
   bool bold = false;
 };
 
-/// Draws from the top down; what is drawn first lies under what comes later.
+/// Draws from the top down; later shapes cover earlier ones.
 class Sheet {
  public:
   double y = 0;
@@ -103,7 +102,7 @@ class Sheet {
   std::string body_;
 };
 
-/// 1, 2 or 5 of a decade, so that some five marks reach `highest`.
+/// A step of 1, 2 or 5 times a power of ten, so that about five marks reach `highest`.
 double step_of_axis(double highest) {
   const double decade = std::pow(10, std::floor(std::log10(highest / 5)));
   for (const double m : {1.0, 2.0, 5.0, 10.0}) {
@@ -112,7 +111,7 @@ double step_of_axis(double highest) {
   return 10 * decade;
 }
 
-/// Parts of a whole side by side, each with its share in it where there is room.
+/// Draws the parts of a whole side by side, each with its percentage if there is room.
 struct Part {
   std::size_t count;
   std::string colour;
@@ -180,7 +179,7 @@ void draw_steps(Sheet& sheet, const ActivitySummary& a) {
   const double top = sheet.y;
   sheet.y += kRow * static_cast<double>(a.steps.size());
   draw_axis(sheet, top, highest);
-  sheet.y = top;  // the rows lie over the axis
+  sheet.y = top;  // the rows cover the axis
   for (const StepSummary& step : a.steps) {
     const double middle = sheet.y + kRow / 2;
     sheet.name(middle + 4, step.name);
@@ -198,7 +197,7 @@ void draw_steps(Sheet& sheet, const ActivitySummary& a) {
   sheet.y += kFootOfAxis;
 }
 
-/// From warm at the lowest mark over grey to blue at the highest.
+/// From a warm colour at the lowest mark over grey to blue at the highest.
 Part part_of_mark(std::size_t mark, std::size_t marks, std::size_t count) {
   struct Colour {
     double r, g, b;

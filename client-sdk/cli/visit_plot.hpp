@@ -1,4 +1,4 @@
-// What visitors did and said, as one picture for a wall or a report.
+// What visitors did and answered, as one picture for a wall or a report.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace mechane::cli {
 
-/// SVG 1.1, no script, no file but itself: of each activity how visits ended, how long each step took, what the marks were, and right
-/// answers before and after.
+/// Self-contained SVG 1.1 without scripts: for each activity how visits ended, how long each step took, the marks, and
+/// the right answers before and after.
 [[nodiscard]] std::string visits_svg(std::span<const ActivitySummary> activities);
 
 }  // namespace mechane::cli

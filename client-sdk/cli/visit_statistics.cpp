@@ -9,29 +9,29 @@ namespace mechane::cli {
 namespace {
 
 using visits::AnswerTime;
-using visits::SheetAnswer;
-using visits::SheetStep;
+using visits::RecordedAnswer;
+using visits::RecordedStep;
 using visits::StepEnding;
 using visits::VisitEnding;
-using visits::VisitSheet;
+using visits::VisitRecord;
 
-/// A summary while it grows.
+/// A summary under construction.
 class ActivityCount {
  public:
-  void add(const VisitSheet& sheet) {
-    if (out_.visits == 0 || sheet.minute < out_.first_minute) out_.first_minute = sheet.minute;
-    out_.last_minute = std::max(out_.last_minute, sheet.minute);
+  void add(const VisitRecord& record) {
+    if (out_.visits == 0 || record.minute < out_.first_minute) out_.first_minute = record.minute;
+    out_.last_minute = std::max(out_.last_minute, record.minute);
     ++out_.visits;
-    ++out_.ended[static_cast<std::size_t>(sheet.ending)];
-    out_.remarks += sheet.remarks.size();
-    out_.incomplete += sheet.notes_lost > 0 ? 1 : 0;
-    add_steps(sheet);
-    for (const SheetAnswer& answer : sheet.answers)
+    ++out_.ended[static_cast<std::size_t>(record.ending)];
+    out_.remarks += record.remarks.size();
+    out_.incomplete += record.notes_lost > 0 ? 1 : 0;
+    add_steps(record);
+    for (const RecordedAnswer& answer : record.answers)
       add_answer(answer);
-    if (sheet.ending != VisitEnding::done && sheet.ending != VisitEnding::left) return;
-    out_.done_alone += sheet.done_alone() ? 1 : 0;
-    if (sheet.ending == VisitEnding::done && sheet.from_start) times_.push_back(sheet.duration_s);
-    for (const visits::SheetMistake& mistake : sheet.mistakes)
+    if (record.ending != VisitEnding::done && record.ending != VisitEnding::left) return;
+    out_.done_alone += record.done_alone() ? 1 : 0;
+    if (record.ending == VisitEnding::done && record.from_start) times_.push_back(record.duration_s);
+    for (const visits::RecordedMistake& mistake : record.mistakes)
       out_.mistakes[static_cast<std::size_t>(mistake.kind)] += mistake.count;
   }
 
@@ -54,16 +54,16 @@ class ActivityCount {
   struct StepCount {
     StepSummary out;
     std::vector<double> times;
-    double places = 0;  // sum over visits of where it first came
+    double places = 0;  // sum over visits of the step's place in the order
   };
 
-  void add_steps(const VisitSheet& sheet) {
-    for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
-      const SheetStep& step = sheet.steps[i];
+  void add_steps(const VisitRecord& record) {
+    for (std::size_t i = 0; i < record.steps.size(); ++i) {
+      const RecordedStep& step = record.steps[i];
       StepCount& count = steps_[step.name];
       count.out.name = step.name;
-      const bool first = std::none_of(sheet.steps.begin(), sheet.steps.begin() + static_cast<std::ptrdiff_t>(i),
-                                      [&](const SheetStep& earlier) { return earlier.name == step.name; });
+      const bool first = std::none_of(record.steps.begin(), record.steps.begin() + static_cast<std::ptrdiff_t>(i),
+                                      [&](const RecordedStep& earlier) { return earlier.name == step.name; });
       count.out.visits += first ? 1 : 0;
       count.places += first ? static_cast<double>(i) : 0;
       ++count.out.ended[static_cast<std::size_t>(step.ending)];
@@ -73,13 +73,13 @@ class ActivityCount {
     }
   }
 
-  void add_answer(const SheetAnswer& answer) {
+  void add_answer(const RecordedAnswer& answer) {
     QuestionSummary& question = questions_[{answer.when, answer.question}];
     question.name = answer.question;
     question.when = answer.when;
     ++question.answers;
     if (answer.marks > 0) {
-      // A scenario that was changed may have asked the same with another scale.
+      // An older version of the scenario may have used another scale for the same question.
       question.at_mark.resize(std::max(question.at_mark.size(), static_cast<std::size_t>(answer.marks)));
       ++question.at_mark[static_cast<std::size_t>(answer.mark - 1)];
       question.satisfied += 2 * answer.mark > answer.marks + 1 ? 1 : 0;
@@ -131,10 +131,10 @@ double ActivitySummary::mistakes_a_visit() const {
   return whole() == 0 ? 0 : static_cast<double>(sum) / static_cast<double>(whole());
 }
 
-std::vector<ActivitySummary> summarise(std::span<const VisitSheet> sheets) {
+std::vector<ActivitySummary> summarise(std::span<const VisitRecord> records) {
   std::map<std::pair<std::string, std::string>, ActivityCount> counts;
-  for (const VisitSheet& sheet : sheets)
-    counts[{sheet.scenario, sheet.activity}].add(sheet);
+  for (const VisitRecord& record : records)
+    counts[{record.scenario, record.activity}].add(record);
   std::vector<ActivitySummary> activities;
   for (auto& [key, count] : counts) {
     activities.push_back(count.finish());

@@ -1,4 +1,4 @@
-// What many visits' sheets say together, activity by activity.
+// Statistics of the records of many visits, for each activity.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "server/visits/visit_sheet.hpp"
+#include "server/visits/visit_record.hpp"
 
 namespace mechane::cli {
 
-/// Of times in seconds. Without any, both are 0.
+/// Median and 90th percentile of times in seconds; both 0 if there are none.
 struct TimeSpread {
   std::size_t count = 0;
   double median_s = 0;
@@ -23,8 +23,8 @@ struct TimeSpread {
 
 struct StepSummary {
   std::string name;
-  std::size_t visits = 0;              ///< that came to it
-  std::array<std::size_t, 4> ended{};  ///< by StepEnding; a step gone through twice counts twice
+  std::size_t visits = 0;              ///< that reached it
+  std::array<std::size_t, 4> ended{};  ///< by StepEnding; a repeated step counts twice
   std::size_t hints = 0;
   TimeSpread time;  ///< of those that were done, and seen from their beginning
 };
@@ -47,33 +47,34 @@ struct ActivitySummary {
   std::string activity;
   std::size_t visits = 0;
   std::array<std::size_t, 4> ended{};  ///< by VisitEnding
-  std::size_t done_alone = 0;          ///< of the done: without hint, time-out or skipped step
+  std::size_t done_alone = 0;          ///< of those done: without hint, time-out or skipped step
   TimeSpread time;                     ///< of the done that were seen from the activity's start
   std::array<std::size_t, visits::kMistakeKinds> mistakes{};
   std::size_t hints = 0;
   std::size_t remarks = 0;
-  std::size_t incomplete = 0;  ///< visits of which the server could not note all
+  std::size_t incomplete = 0;  ///< visits that the server could not record completely
   std::int64_t first_minute = 0;
   std::int64_t last_minute = 0;
   std::vector<StepSummary> steps;          ///< in the order in which visitors came to them
   std::vector<QuestionSummary> questions;  ///< before, then after
 
-  /// Visits that show what a visitor could do: neither still running nor cut off by a server's stop.
+  /// Complete visits: neither still running nor cut off by a server's stop.
   [[nodiscard]] std::size_t whole() const;
   [[nodiscard]] double mistakes_a_visit() const;
 };
 
 /// By scenario, then by activity.
-[[nodiscard]] std::vector<ActivitySummary> summarise(std::span<const visits::VisitSheet> sheets);
+[[nodiscard]] std::vector<ActivitySummary> summarise(std::span<const visits::VisitRecord> records);
 
-/// Of all scale questions after visits: the published evaluation reports the share of satisfied visitors (section 6: over 95 %).
+/// Of all scale questions after visits: the published evaluation reports the share of satisfied visitors (section 6:
+/// over 95 %).
 struct Satisfaction {
   std::size_t marks = 0;
   std::size_t satisfied = 0;
 };
 [[nodiscard]] Satisfaction satisfaction_of(std::span<const ActivitySummary> activities);
 
-/// None of nothing.
+/// None if `all` is 0.
 [[nodiscard]] std::optional<double> share_of(std::size_t part, std::size_t all);
 
 }  // namespace mechane::cli

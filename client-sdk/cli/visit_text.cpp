@@ -7,59 +7,23 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/cli/columns.hpp"
 #include "client-sdk/cli/content_text.hpp"
 
 namespace mechane::cli {
 namespace {
 
 using visits::MistakeKind;
-using visits::SheetAnswer;
-using visits::SheetMistake;
-using visits::SheetStep;
+using visits::RecordedAnswer;
+using visits::RecordedMistake;
+using visits::RecordedStep;
 using visits::StepEnding;
 using visits::VisitEnding;
-using visits::VisitSheet;
+using visits::VisitRecord;
 using Json = nlohmann::ordered_json;
 
 std::size_t at(auto ending) {
   return static_cast<std::size_t>(ending);
-}
-
-/// Letters, not bytes: fmt pads so too.
-std::size_t letters_of(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](unsigned char c) { return (c & 0xc0U) != 0x80U; }));
-}
-
-/// Columns as wide as they must be: the first to the left, the others to the right.
-class Columns {
- public:
-  explicit Columns(std::vector<std::string> head) { rows_.push_back(std::move(head)); }
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  [[nodiscard]] bool is_empty() const { return rows_.size() == 1; }
-  [[nodiscard]] std::string text(const std::string& indent, std::size_t to_the_left = 1) const {
-    std::vector<std::size_t> widths(rows_.front().size());
-    for (const auto& row : rows_) {
-      for (std::size_t i = 0; i < row.size(); ++i)
-        widths[i] = std::max(widths[i], letters_of(row[i]));
-    }
-    std::string out;
-    for (const auto& row : rows_) {
-      std::string line = indent;
-      for (std::size_t i = 0; i < row.size(); ++i)
-        line +=
-            i < to_the_left ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
-      line.erase(line.find_last_not_of(' ') + 1);
-      out += line + "\n";
-    }
-    return out;
-  }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
-
-std::string count_text(std::size_t n, const char* one, const char* more) {
-  return fmt::format("{} {}", n, n == 1 ? one : more);
 }
 
 std::string percent(std::size_t part, std::size_t all) {
@@ -69,10 +33,6 @@ std::string percent(std::size_t part, std::size_t all) {
 
 std::string seconds_text(const TimeSpread& time, double value_s) {
   return time.count == 0 ? std::string("-") : fmt::format("{:.1f}", value_s);
-}
-
-std::string named_or_dash(const std::string& text) {
-  return text.empty() ? std::string("-") : shown(text);
 }
 
 std::string days(std::int64_t first, std::int64_t last) {
@@ -107,7 +67,7 @@ std::string mistakes_line(const ActivitySummary& a) {
 }
 
 std::string steps_table(const ActivitySummary& a) {
-  Columns table({"step", "visits", "done", "median s", "p90 s", "hints", "timed out", "skipped"});
+  Columns table({"step", "visits", "done", "median s", "p90 s", "hints", "timed out", "skipped"}, "<>");
   for (const StepSummary& step : a.steps) {
     table.add({shown(step.name), fmt::format("{}", step.visits), fmt::format("{}", step.ended[at(StepEnding::done)]),
                seconds_text(step.time, step.time.median_s), seconds_text(step.time, step.time.p90_s),
@@ -118,7 +78,7 @@ std::string steps_table(const ActivitySummary& a) {
 }
 
 std::string questions_table(const ActivitySummary& a) {
-  Columns table({"question", "asked", "answers", "mean", "spread", "satisfied", "right"});
+  Columns table({"question", "asked", "answers", "mean", "spread", "satisfied", "right"}, "<<>");
   for (const QuestionSummary& q : a.questions) {
     const bool scale = !q.at_mark.empty();
     table.add({shown(q.name), std::string(visits::word_of(q.when)), fmt::format("{}", q.answers),
@@ -126,7 +86,7 @@ std::string questions_table(const ActivitySummary& a) {
                scale ? fmt::format("{:.2f}", q.spread) : "-", scale ? percent(q.satisfied, q.answers) : "-",
                percent(q.right, q.judged)});
   }
-  return table.is_empty() ? "" : "\n" + table.text("  ", 2);
+  return table.is_empty() ? "" : "\n" + table.text("  ");
 }
 
 std::string dumped(const Json& json) {
@@ -143,48 +103,48 @@ std::string field(std::string text) {
   return quoted + "\"";
 }
 
-std::string answer_value(const SheetAnswer& answer) {
+std::string answer_value(const RecordedAnswer& answer) {
   return answer.marks > 0 ? fmt::format("{}", answer.mark) : answer.value;
 }
 
-/// Columns that not every visit has: by what they are called.
+/// The columns that not every visit has, by their headings.
 using Cells = std::map<std::string, std::string>;
 
-Cells cells_of(const VisitSheet& sheet) {
+Cells cells_of(const VisitRecord& record) {
   Cells cells;
   std::map<std::string, double> times;
-  for (const SheetStep& step : sheet.steps)
+  for (const RecordedStep& step : record.steps)
     times[step.name] += step.duration_s;
   for (const auto& [name, time_s] : times)
-    cells[fmt::format("{} {} s", sheet.activity, name)] = fmt::format("{:.3f}", time_s);
-  for (const SheetAnswer& answer : sheet.answers)
-    cells[fmt::format("{} {}: {}", sheet.activity, visits::word_of(answer.when), answer.question)] =
+    cells[fmt::format("{} {} s", record.activity, name)] = fmt::format("{:.3f}", time_s);
+  for (const RecordedAnswer& answer : record.answers)
+    cells[fmt::format("{} {}: {}", record.activity, visits::word_of(answer.when), answer.question)] =
         answer_value(answer);
   return cells;
 }
 
-std::vector<std::string> fixed_cells(const VisitSheet& sheet) {
-  const auto steps = [&](const auto& fits) { return fmt::format("{}", std::ranges::count_if(sheet.steps, fits)); };
-  std::vector<std::string> cells{sheet.number,
-                                 visits::minute_text(sheet.minute),
-                                 sheet.kiosk,
-                                 sheet.scenario,
-                                 sheet.scenario_hash,
-                                 sheet.activity,
-                                 sheet.language,
-                                 std::string(word_of(sheet.ending)),
-                                 sheet.done_alone() ? "yes" : "no",
-                                 sheet.from_start ? "yes" : "no",
-                                 fmt::format("{:.3f}", sheet.duration_s),
-                                 fmt::format("{}", sheet.hands),
-                                 sheet.went_on_to,
-                                 steps([](const SheetStep& s) { return s.hint_shown; }),
-                                 steps([](const SheetStep& s) { return s.ending == StepEnding::timed_out; }),
-                                 steps([](const SheetStep& s) { return s.ending == StepEnding::skipped; })};
+std::vector<std::string> fixed_cells(const VisitRecord& record) {
+  const auto steps = [&](const auto& fits) { return fmt::format("{}", std::ranges::count_if(record.steps, fits)); };
+  std::vector<std::string> cells{record.number,
+                                 visits::minute_text(record.minute),
+                                 record.kiosk,
+                                 record.scenario,
+                                 record.scenario_hash,
+                                 record.activity,
+                                 record.language,
+                                 std::string(word_of(record.ending)),
+                                 record.done_alone() ? "yes" : "no",
+                                 record.from_start ? "yes" : "no",
+                                 fmt::format("{:.3f}", record.duration_s),
+                                 fmt::format("{}", record.hands),
+                                 record.went_on_to,
+                                 steps([](const RecordedStep& s) { return s.hint_shown; }),
+                                 steps([](const RecordedStep& s) { return s.ending == StepEnding::timed_out; }),
+                                 steps([](const RecordedStep& s) { return s.ending == StepEnding::skipped; })};
   for (std::size_t k = 0; k < visits::kMistakeKinds; ++k)
-    cells.push_back(fmt::format("{}", sheet.count_of(static_cast<MistakeKind>(k))));
+    cells.push_back(fmt::format("{}", record.count_of(static_cast<MistakeKind>(k))));
   std::vector<std::string> remarks;
-  for (const visits::SheetRemark& remark : sheet.remarks)
+  for (const visits::RecordedRemark& remark : record.remarks)
     remarks.push_back(remark.text);
   cells.push_back(fmt::format("{}", fmt::join(remarks, "\n")));
   return cells;
@@ -249,7 +209,7 @@ Json json_of(const ActivitySummary& a) {
           {"questions", questions}};
 }
 
-Json json_of(const SheetAnswer& answer) {
+Json json_of(const RecordedAnswer& answer) {
   Json json{{"question", answer.question}, {"asked", visits::word_of(answer.when)}};
   if (answer.marks > 0) {
     json.update({{"mark", answer.mark}, {"marks", answer.marks}});
@@ -260,9 +220,9 @@ Json json_of(const SheetAnswer& answer) {
   return json;
 }
 
-Json json_of(const VisitSheet& sheet) {
+Json json_of(const VisitRecord& record) {
   Json steps = Json::array();
-  for (const SheetStep& s : sheet.steps) {
+  for (const RecordedStep& s : record.steps) {
     steps.push_back({{"step", s.name},
                      {"duration_s", s.duration_s},
                      {"ending", word_of(s.ending)},
@@ -270,28 +230,28 @@ Json json_of(const VisitSheet& sheet) {
                      {"whole", s.whole}});
   }
   Json mistakes = Json::array();
-  for (const SheetMistake& m : sheet.mistakes)
+  for (const RecordedMistake& m : record.mistakes)
     mistakes.push_back({{"kind", word_of(m.kind)}, {"subject", m.subject}, {"count", m.count}});
   Json answers = Json::array();
-  for (const SheetAnswer& answer : sheet.answers)
+  for (const RecordedAnswer& answer : record.answers)
     answers.push_back(json_of(answer));
   Json remarks = Json::array();
-  for (const visits::SheetRemark& remark : sheet.remarks)
+  for (const visits::RecordedRemark& remark : record.remarks)
     remarks.push_back({{"when", visits::minute_text(remark.minute)}, {"text", remark.text}});
-  return {{"visit", sheet.number},
-          {"began", visits::minute_text(sheet.minute)},
-          {"kiosk", sheet.kiosk},
-          {"scenario", sheet.scenario},
-          {"scenario_hash", sheet.scenario_hash},
-          {"activity", sheet.activity},
-          {"language", sheet.language},
-          {"ending", word_of(sheet.ending)},
-          {"done_alone", sheet.done_alone()},
-          {"from_start", sheet.from_start},
-          {"duration_s", sheet.duration_s},
-          {"hands", sheet.hands},
-          {"went_on_to", sheet.went_on_to},
-          {"notes_lost", sheet.notes_lost},
+  return {{"visit", record.number},
+          {"began", visits::minute_text(record.minute)},
+          {"kiosk", record.kiosk},
+          {"scenario", record.scenario},
+          {"scenario_hash", record.scenario_hash},
+          {"activity", record.activity},
+          {"language", record.language},
+          {"ending", word_of(record.ending)},
+          {"done_alone", record.done_alone()},
+          {"from_start", record.from_start},
+          {"duration_s", record.duration_s},
+          {"hands", record.hands},
+          {"went_on_to", record.went_on_to},
+          {"notes_lost", record.notes_lost},
           {"steps", steps},
           {"mistakes", mistakes},
           {"answers", answers},
@@ -325,50 +285,51 @@ std::string visits_report(std::span<const ActivitySummary> activities) {
   return text + "\n";
 }
 
-std::string visits_list(std::span<const VisitSheet> sheets) {
+std::string visits_list(std::span<const VisitRecord> records) {
   Columns table({"visit", "began (UTC)", "kiosk", "scenario", "activity", "ending", "time s", "errors", "hints",
-                 "answers", "remarks"});
-  for (const VisitSheet& sheet : sheets) {
+                 "answers", "remarks"},
+                "<<<<<<>");
+  for (const VisitRecord& record : records) {
     std::uint32_t mistakes = 0;
-    for (const SheetMistake& mistake : sheet.mistakes)
+    for (const RecordedMistake& mistake : record.mistakes)
       mistakes += mistake.count;
-    const auto hints = std::ranges::count_if(sheet.steps, [](const SheetStep& step) { return step.hint_shown; });
-    table.add({sheet.number, visits::minute_text(sheet.minute), shown(sheet.kiosk), shown(sheet.scenario),
-               shown(sheet.activity), std::string(word_of(sheet.ending)), fmt::format("{:.1f}", sheet.duration_s),
-               fmt::format("{}", mistakes), fmt::format("{}", hints), fmt::format("{}", sheet.answers.size()),
-               fmt::format("{}", sheet.remarks.size())});
+    const auto hints = std::ranges::count_if(record.steps, [](const RecordedStep& step) { return step.hint_shown; });
+    table.add({record.number, visits::minute_text(record.minute), shown(record.kiosk), shown(record.scenario),
+               shown(record.activity), std::string(word_of(record.ending)), fmt::format("{:.1f}", record.duration_s),
+               fmt::format("{}", mistakes), fmt::format("{}", hints), fmt::format("{}", record.answers.size()),
+               fmt::format("{}", record.remarks.size())});
   }
-  return (table.is_empty() ? "" : table.text("", 6)) + count_text(sheets.size(), "visit", "visits") + "\n";
+  return (table.is_empty() ? "" : table.text()) + count_text(records.size(), "visit", "visits") + "\n";
 }
 
-std::string visit_page(const VisitSheet& sheet) {
-  std::string page = fmt::format("{}: {}, {}\n", sheet.number, shown(sheet.scenario), shown(sheet.activity));
+std::string visit_page(const VisitRecord& record) {
+  std::string page = fmt::format("{}: {}, {}\n", record.number, shown(record.scenario), shown(record.activity));
   const auto line = [&](const char* what, const std::string& text) { page += fmt::format("  {:<9} {}\n", what, text); };
-  line("began", visits::minute_text(sheet.minute) + " UTC, at " + shown(sheet.kiosk));
-  line("language", named_or_dash(sheet.language));
-  line("hands", fmt::format("{}", sheet.hands));
-  line("ending", fmt::format("{} after {:.1f} s{}{}", word_of(sheet.ending), sheet.duration_s,
-                             sheet.from_start ? "" : ", begun in the midst",
-                             sheet.went_on_to.empty() ? "" : ", went on to " + shown(sheet.went_on_to)));
-  for (const SheetStep& step : sheet.steps)
+  line("began", visits::minute_text(record.minute) + " UTC, at " + shown(record.kiosk));
+  line("language", or_dash(record.language));
+  line("hands", fmt::format("{}", record.hands));
+  line("ending", fmt::format("{} after {:.1f} s{}{}", word_of(record.ending), record.duration_s,
+                             record.from_start ? "" : ", begun in the midst",
+                             record.went_on_to.empty() ? "" : ", went on to " + shown(record.went_on_to)));
+  for (const RecordedStep& step : record.steps)
     line("step", fmt::format("{}: {}, {:.1f} s{}{}", shown(step.name), word_of(step.ending), step.duration_s,
                              step.hint_shown ? ", with a hint" : "", step.whole ? "" : ", seen in part"));
-  for (const SheetMistake& mistake : sheet.mistakes)
+  for (const RecordedMistake& mistake : record.mistakes)
     line("error", fmt::format("{}{}, {}", word_of(mistake.kind),
                               mistake.subject.empty() ? "" : " (" + shown(mistake.subject) + ")",
                               count_text(mistake.count, "time", "times")));
-  for (const SheetAnswer& answer : sheet.answers) {
+  for (const RecordedAnswer& answer : record.answers) {
     const std::string value =
         answer.marks > 0 ? fmt::format("{} of {}", answer.mark, answer.marks) : shown(answer.value);
     line("answer", fmt::format("{}, {}: {}{}", shown(answer.question), visits::word_of(answer.when), value,
                                !answer.right ? "" : (*answer.right ? ", right" : ", wrong")));
   }
-  for (const visits::SheetRemark& remark : sheet.remarks)
+  for (const visits::RecordedRemark& remark : record.remarks)
     line("remark", fmt::format("{}: {}", visits::minute_text(remark.minute), shown(remark.text)));
   return page;
 }
 
-std::string visits_csv(std::span<const VisitSheet> sheets) {
+std::string visits_csv(std::span<const VisitRecord> records) {
   std::vector<std::string> head{"visit",      "began (UTC)", "kiosk",      "scenario",   "scenario hash", "activity",
                                 "language",   "ending",      "done alone", "from start", "duration s",    "hands",
                                 "went on to", "hints",       "timed out",  "skipped"};
@@ -376,14 +337,14 @@ std::string visits_csv(std::span<const VisitSheet> sheets) {
     head.emplace_back(word_of(static_cast<MistakeKind>(k)));
   head.emplace_back("remarks");
   Cells columns;
-  for (const VisitSheet& sheet : sheets)
-    columns.merge(cells_of(sheet));
+  for (const VisitRecord& record : records)
+    columns.merge(cells_of(record));
   for (const auto& [name, unused] : columns)
     head.push_back(name);
   std::string csv = csv_line(head);
-  for (const VisitSheet& sheet : sheets) {
-    std::vector<std::string> line = fixed_cells(sheet);
-    const Cells cells = cells_of(sheet);
+  for (const VisitRecord& record : records) {
+    std::vector<std::string> line = fixed_cells(record);
+    const Cells cells = cells_of(record);
     for (const auto& [name, unused] : columns) {
       const auto cell = cells.find(name);
       line.push_back(cell == cells.end() ? "" : cell->second);
@@ -406,10 +367,10 @@ std::string report_json(std::span<const ActivitySummary> activities) {
                  {"activities", list}});
 }
 
-std::string sheets_json(std::span<const VisitSheet> sheets) {
+std::string visits_json(std::span<const VisitRecord> records) {
   Json list = Json::array();
-  for (const VisitSheet& sheet : sheets)
-    list.push_back(json_of(sheet));
+  for (const VisitRecord& record : records)
+    list.push_back(json_of(record));
   return dumped(list);
 }
 

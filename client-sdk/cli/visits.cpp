@@ -1,9 +1,6 @@
 #include "client-sdk/cli/visits.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <ostream>
 #include <set>
 
@@ -15,6 +12,7 @@
 #include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
 #include "server/base/suggestion.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/visits/visit_file.hpp"
 
 namespace mechane::cli {
@@ -23,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using visits::VisitChoice;
 using visits::VisitFile;
-using visits::VisitSheet;
+using visits::VisitRecord;
 
 constexpr int kWrongArguments = 2;
 
-/// One run of a verb: where it speaks, and what it was told.
+/// One run of a verb, with its options and output streams.
 class VisitsCommand {
  public:
   VisitsCommand(const VisitsOptions& options, std::ostream& out, std::ostream& errors)
@@ -47,13 +45,13 @@ class VisitsCommand {
   [[nodiscard]] fs::path file() const {
     return options_.file.empty() ? options_.records / visits::kVisitFileName : options_.file;
   }
-  /// What the options choose. Errors: not a date.
+  /// The visits that the options choose. Errors: not a date.
   [[nodiscard]] Expected<VisitChoice> choice() const;
-  [[nodiscard]] Expected<std::vector<VisitSheet>> read(const VisitChoice& choice) const;
-  /// Of report and list. Says what is wrong itself: then none, and the exit status.
-  std::optional<std::vector<VisitSheet>> chosen_sheets(int& status);
-  /// A name to choose by that no sheet has, where there are sheets.
-  [[nodiscard]] std::optional<Error> unknown_name(std::span<const VisitSheet> all) const;
+  [[nodiscard]] Expected<std::vector<VisitRecord>> read(const VisitChoice& choice) const;
+  /// The visits for report and list. On an error, prints it, sets `status` and returns none.
+  std::optional<std::vector<VisitRecord>> chosen_records(int& status);
+  /// The error for a scenario or kiosk that no visit has, if there are visits at all.
+  [[nodiscard]] std::optional<Error> unknown_name(std::span<const VisitRecord> all) const;
   int write(const fs::path& path, const std::string& text);
 
   const VisitsOptions& options_;
@@ -73,96 +71,90 @@ Expected<VisitChoice> VisitsCommand::choice() const {
   return choice;
 }
 
-Expected<std::vector<VisitSheet>> VisitsCommand::read(const VisitChoice& choice) const {
+Expected<std::vector<VisitRecord>> VisitsCommand::read(const VisitChoice& choice) const {
   const auto opened = VisitFile::open(file(), VisitFile::Access::read);
   if (!opened) return tl::unexpected(opened.error());
-  return opened->sheets(choice);
+  return opened->records(choice);
 }
 
-std::optional<Error> VisitsCommand::unknown_name(std::span<const VisitSheet> all) const {
+std::optional<Error> VisitsCommand::unknown_name(std::span<const VisitRecord> all) const {
   struct Filter {
     const char* what;
     const std::string& wanted;
-    std::string VisitSheet::*of;
+    std::string VisitRecord::*of;
   };
-  for (const Filter& filter : {Filter{"scenario", options_.scenario, &VisitSheet::scenario},
-                               Filter{"kiosk", options_.kiosk, &VisitSheet::kiosk}}) {
+  for (const Filter& filter : {Filter{"scenario", options_.scenario, &VisitRecord::scenario},
+                               Filter{"kiosk", options_.kiosk, &VisitRecord::kiosk}}) {
     std::set<std::string> known;
-    for (const VisitSheet& sheet : all)
-      known.insert(sheet.*filter.of);
+    for (const VisitRecord& record : all)
+      known.insert(record.*filter.of);
     if (filter.wanted.empty() || known.empty() || known.contains(filter.wanted)) continue;
     const std::vector<std::string> names(known.begin(), known.end());
-    return Error{fmt::format("no sheet is of the {} '{}'", filter.what, filter.wanted), file().string(),
-                 suggest(filter.wanted, names, "")};
+    return Error{ErrorCode::unknown_name, fmt::format("no visit has the {} '{}'", filter.what, filter.wanted),
+                 file().string(), suggest(filter.wanted, names, "")};
   }
   return std::nullopt;
 }
 
-std::optional<std::vector<VisitSheet>> VisitsCommand::chosen_sheets(int& status) {
+std::optional<std::vector<VisitRecord>> VisitsCommand::chosen_records(int& status) {
   const auto chosen = choice();
   if (!chosen) {
     status = failed(chosen.error(), kWrongArguments);
     return std::nullopt;
   }
-  auto sheets = read(*chosen);
-  // A name that is known may have no sheet in the time that was asked for.
-  const auto all = sheets && sheets->empty() ? read({}) : Expected<std::vector<VisitSheet>>();
-  if (!sheets || !all) {
-    status = failed(!sheets ? sheets.error() : all.error());
+  auto records = read(*chosen);
+  // A known name may have no visit in the requested time.
+  const auto all = records && records->empty() ? read({}) : Expected<std::vector<VisitRecord>>();
+  if (!records || !all) {
+    status = failed(!records ? records.error() : all.error());
     return std::nullopt;
   }
   if (const auto unknown = unknown_name(*all)) {
     status = failed(*unknown, kWrongArguments);
     return std::nullopt;
   }
-  return std::move(*sheets);
+  return std::move(*records);
 }
 
 int VisitsCommand::write(const fs::path& path, const std::string& text) {
-  errno = 0;
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  if (!out) {
-    return failed({fmt::format("the file cannot be written: {}", std::strerror(errno)), path.string(),
-                   "check its folder, the rights and the disk's space"});
-  }
+  if (auto ok = write_whole(path, std::as_bytes(std::span(text)), WholeFile::document); !ok) return failed(ok.error());
   fmt::print(errors_, "wrote {}\n", path.string());
   return 0;
 }
 
 int VisitsCommand::report() {
   int status = 0;
-  const auto sheets = chosen_sheets(status);
-  if (!sheets) return status;
-  const std::vector<ActivitySummary> activities = summarise(*sheets);
+  const auto records = chosen_records(status);
+  if (!records) return status;
+  const std::vector<ActivitySummary> activities = summarise(*records);
   out_ << (options_.json ? report_json(activities) : visits_report(activities));
-  if (!options_.csv.empty()) status = std::max(status, write(options_.csv, visits_csv(*sheets)));
+  if (!options_.csv.empty()) status = std::max(status, write(options_.csv, visits_csv(*records)));
   if (!options_.svg.empty()) status = std::max(status, write(options_.svg, visits_svg(activities)));
   return status;
 }
 
 int VisitsCommand::list() {
   int status = 0;
-  auto sheets = chosen_sheets(status);
-  if (!sheets) return status;
-  if (options_.last > 0 && sheets->size() > options_.last)
-    sheets->erase(sheets->begin(), sheets->end() - static_cast<std::ptrdiff_t>(options_.last));
-  out_ << (options_.json ? sheets_json(*sheets) : visits_list(*sheets));
+  auto records = chosen_records(status);
+  if (!records) return status;
+  if (options_.last > 0 && records->size() > options_.last)
+    records->erase(records->begin(), records->end() - static_cast<std::ptrdiff_t>(options_.last));
+  out_ << (options_.json ? visits_json(*records) : visits_list(*records));
   return 0;
 }
 
 int VisitsCommand::show() {
-  const auto sheets = read({.number = options_.visit});
-  if (!sheets) return failed(sheets.error());
-  if (sheets->empty())
-    return failed({"there is no visit of this number", options_.visit, "mechane visits list shows the numbers"});
+  const auto records = read({.number = options_.visit});
+  if (!records) return failed(records.error());
+  if (records->empty())
+    return failed({ErrorCode::unknown_name, "there is no visit with this number", options_.visit,
+                   "'mechane visits list' shows the numbers"});
   if (options_.json) {
-    out_ << sheets_json(*sheets);
+    out_ << visits_json(*records);
     return 0;
   }
-  for (const VisitSheet& sheet : *sheets)
-    out_ << (&sheet == sheets->data() ? "" : "\n") << visit_page(sheet);
+  for (const VisitRecord& record : *records)
+    out_ << (&record == records->data() ? "" : "\n") << visit_page(record);
   return 0;
 }
 
@@ -177,7 +169,9 @@ int VisitsCommand::remark() {
 
 int VisitsCommand::forget() {
   if (options_.visit.empty() == options_.before.empty()) {
-    return failed({"say what to forget", "mechane visits forget", "name one visit, or --before DATE"}, kWrongArguments);
+    return failed({options_.visit.empty() ? ErrorCode::missing : ErrorCode::conflict, "it is not clear what to delete",
+                   "mechane visits forget", "give either one visit or --before DATE"},
+                  kWrongArguments);
   }
   const auto chosen = choice();
   if (!chosen) return failed(chosen.error(), kWrongArguments);
@@ -185,13 +179,15 @@ int VisitsCommand::forget() {
   if (!opened) return failed(opened.error());
   if (!options_.visit.empty()) {
     if (options_.visit.size() < 4)
-      return failed({"too few letters for a number", options_.visit, "mechane visits list shows the numbers"});
-    const auto sheets = opened->sheets({.number = options_.visit});
-    if (!sheets) return failed(sheets.error());
-    if (sheets->size() != 1) {
-      return failed({sheets->empty() ? std::string("there is no visit of this number")
-                                     : fmt::format("{} visits begin so", sheets->size()),
-                     options_.visit, "mechane visits list shows the numbers"});
+      return failed({ErrorCode::invalid_value, "the number has fewer than four letters", options_.visit,
+                     "'mechane visits list' shows the numbers"});
+    const auto records = opened->records({.number = options_.visit});
+    if (!records) return failed(records.error());
+    if (records->size() != 1) {
+      return failed({records->empty() ? ErrorCode::unknown_name : ErrorCode::conflict,
+                     records->empty() ? std::string("there is no visit with this number")
+                                      : fmt::format("the numbers of {} visits begin like this", records->size()),
+                     options_.visit, "'mechane visits list' shows the numbers"});
     }
   }
   const auto forgotten = opened->forget(*chosen);

@@ -1,17 +1,15 @@
-// Texts from the network, as they may stand on a terminal: line ends and tabs stay, other control characters go.
+// Makes texts from the network safe for a terminal: removes control characters except line ends and tabs.
 #pragma once
 
 #include <string>
 
+#include "server/base/utf8.hpp"
 #include <mechane/proto/names.hpp>
 
 namespace mechane::client {
 
 [[nodiscard]] inline std::string clean(std::string text) {
-  std::erase_if(text, [](char c) {
-    const auto u = static_cast<unsigned char>(c);
-    return (u < 0x20 && c != '\n' && c != '\t') || u == 0x7f;
-  });
+  std::erase_if(text, is_control_in_lines);
   return text;
 }
 [[nodiscard]] inline std::string clean_string(const char* text) {

@@ -4,22 +4,22 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
-#include <random>
 #include <thread>
 
 #include <fmt/format.h>
-#include <pthread.h>
 #include <unistd.h>
 
 #include "client-sdk/client/display_link.hpp"
 #include "client-sdk/client/hand_link.hpp"
 #include "client-sdk/client/parse.hpp"
 #include "client-sdk/client/world_link.hpp"
+#include "server/base/thread_setup.hpp"
 #include "server/log/log.hpp"
 #include "server/realtime/wakeup.hpp"
 #include <mechane/client/client.hpp>
 #include <mechane/proto/convert.hpp>
 #include <mechane/proto/entity.hpp>
+#include <mechane/proto/identity.hpp>
 
 namespace mechane::client {
 namespace {
@@ -27,15 +27,9 @@ namespace {
 constexpr Duration kLookEvery = std::chrono::milliseconds(20);
 constexpr Duration kReportEvery = std::chrono::seconds(1);
 constexpr std::size_t kMaxServers = 16;
-// A server of another version is told of when it alone has been heard for so long: ours may be heard a moment later.
+// A server of another version is reported only after this long without one of ours, which may answer a moment later.
 constexpr Duration kOtherVersionAfter = std::chrono::seconds(1);
 constexpr Duration kOtherVersionForgotten = std::chrono::seconds(2);
-
-std::uint64_t random_session() {
-  std::random_device device;
-  const std::uint64_t high = device();
-  return ((high << 32) | device()) | 1u;
-}
 
 TimePoint now() {
   return std::chrono::steady_clock::now();
@@ -45,7 +39,7 @@ class ClientImpl final : public Client {
  public:
   ClientImpl(ClientConfig config, proto::Participant participant)
       : config_(std::move(config)),
-        session_(random_session()),
+        session_(proto::random_id()),
         participant_(std::move(participant)),
         scenario_(config_.scenario) {}
   ~ClientImpl() override;
@@ -112,7 +106,7 @@ class ClientImpl final : public Client {
   void run();
   void report(TimePoint at);
   void take_servers(TimePoint at);
-  /// The kiosk's own server stays. Under mutex_.
+  /// Forgets servers that fell silent, except the kiosk's own. Under mutex_.
   void forget_oldest_server();
   void take_assignments();
   void follow_world(bool server_alive);
@@ -135,20 +129,20 @@ class ClientImpl final : public Client {
   std::condition_variable changed_;
   std::string refusal_;
   std::map<std::string, Server> servers_;
-  std::string other_version_;  // of a server that was heard lately and speaks another protocol: what to tell
+  std::string other_version_;  // what to report of a server that was heard lately and speaks another protocol
   TimePoint other_version_since_{};
   TimePoint other_version_heard_{};
   std::optional<Assignment> assignment_;
   std::unique_ptr<WorldLink> world_;
   std::uint64_t commands_ = 0;
 
-  // The link thread's.
+  // Used by the link thread only.
   bool was_joined_ = false;
   std::string world_name_;
   std::uint64_t world_incarnation_ = 0;
   TimePoint next_report_{};
   std::uint64_t report_sequence_ = 0;
-  std::string scenario_;  // that the kiosk was in last, or is to begin with
+  std::string scenario_;  // the kiosk's last scenario, or the one to begin with
   bool was_there_ = false;
   proto::Writer<proto::KioskStatus> kiosk_status_;
 
@@ -161,8 +155,7 @@ class ClientImpl final : public Client {
 };
 
 Expected<void> ClientImpl::open() {
-  char host[64] = {};
-  host_ = ::gethostname(host, sizeof(host) - 1) == 0 ? host : "unknown";
+  host_ = proto::host_name();
   auto writer = proto::Writer<proto::KioskStatus>::create(participant_, "");
   if (!writer) return tl::unexpected<Error>(writer.error());
   kiosk_status_ = std::move(*writer);
@@ -193,7 +186,7 @@ ClientImpl::~ClientImpl() {
 }
 
 void ClientImpl::run() {
-  pthread_setname_np(pthread_self(), "client-link");
+  set_up_thread("client-link");
   while (!stop_.load(std::memory_order_acquire)) {
     const TimePoint at = now();
     report(at);
@@ -218,11 +211,11 @@ void ClientImpl::report(TimePoint at) {
   wire.seq = ++report_sequence_;
   wire.sent_ns = to_ns(at);
   wire.user = config_.user;
-  wire.role = config_.role == Role::hand ? 0 : 1;
+  wire.role = config_.role == Role::hand ? mechane_role_hand : mechane_role_watcher;
   proto::set_text(wire.program, config_.program);
   proto::set_text(wire.host, host_);
   wire.process_id = static_cast<std::uint32_t>(::getpid());
-  // A server that starts anew shall put the kiosk back where it went to, not where it began.
+  // After a restart, the server returns the kiosk to the scenario that it went on to, not to its first one.
   if (std::string now_in = store_.scenario(); !now_in.empty()) {
     scenario_ = std::move(now_in);
     was_there_ = true;
@@ -230,7 +223,7 @@ void ClientImpl::report(TimePoint at) {
   wire.was_there = was_there_ ? 1 : 0;
   proto::set_text(wire.scenario, scenario_);
   proto::set_text(wire.join_kiosk, config_.join_kiosk);
-  if (!kiosk_status_.write(wire)) log::warning("client: the network did not take this process' status");
+  if (!kiosk_status_.write(wire)) log::warning("client: the status of this process could not be sent");
 }
 
 void ClientImpl::take_servers(TimePoint at) {
@@ -283,8 +276,8 @@ bool ClientImpl::server_alive(TimePoint at) const {
 }
 
 void ClientImpl::follow_world(bool server_alive) {
-  if (!server_alive) return;                      // a server that comes back finds its clients where they were
-  const std::string wanted = assignment_->world;  // written by this thread only
+  if (!server_alive) return;                      // keep the link for a server that comes back
+  const std::string wanted = assignment_->world;  // only this thread writes it
   const std::uint64_t incarnation = assignment_->incarnation;
   if (hand_) hand_->accept_epoch(assignment_->epoch);
   if (wanted == world_name_ && incarnation == world_incarnation_) return;
@@ -295,9 +288,9 @@ void ClientImpl::follow_world(bool server_alive) {
     const std::lock_guard lock(mutex_);
     link = std::move(world_);
   }
-  link.reset();  // waits for its listeners
+  link.reset();  // waits until its listeners have ended
   store_.clear();
-  const std::uint64_t number = world_number_.fetch_add(1) + 1;  // frames of the world before are not this one's
+  const std::uint64_t number = world_number_.fetch_add(1) + 1;  // frames of the previous world do not count
   if (wanted.empty()) return;
   auto made = WorldLink::create(participant_, wanted, number, store_);
   if (!made) {
@@ -337,9 +330,8 @@ LinkState ClientImpl::judge(TimePoint at, bool server_alive, std::string& why) c
     if (owner.session == 0) return waiting;
     if (owner.session != session_) {
       why = fmt::format(
-          "hand {} of {} belongs to {} on {}; stop that program, or take another user or kiosk: this hand joins by "
-          "itself when it "
-          "is free",
+          "hand {} of {} belongs to {} on {}; stop that program, or choose another user or kiosk: this hand joins by "
+          "itself as soon as it is free",
           config_.user, config_.kiosk, owner.program, owner.host);
       return LinkState::refused;
     }
@@ -412,7 +404,7 @@ std::vector<WorldEvent> ClientImpl::take_events() {
 std::uint64_t ClientImpl::send_command(proto::CommandKind kind, const std::string& argument) {
   const std::lock_guard lock(mutex_);
   if (!world_) return 0;
-  // 20 bits of the session tell clients apart; 52 bits in all, so that an event's value holds the id exactly.
+  // 20 bits of the session distinguish clients; with 52 bits in all, an event's value (a double) holds the id exactly.
   const std::uint64_t id = ((session_ >> 1 & 0xfffffu) << 32) | (++commands_ & 0xffffffffu);
   return world_->send_command(session_, id, kind, argument) ? id : 0;
 }
@@ -426,11 +418,16 @@ Expected<void> check(const ClientConfig& config) {
     if (auto named = proto::check_name(config.display, "display"); !named) return named;
   }
   if (config.user >= hand::kMaxUsers) {
-    return fail(fmt::format("user {} is not a kiosk's", config.user), "user", "choose one of 0 to 3");
+    return fail(ErrorCode::invalid_value, fmt::format("a kiosk has no user {}", config.user), "user",
+                "choose one of 0 to 3");
   }
-  if (config.program.size() > 31 || config.scenario.size() > 63) {
-    return fail("a name is too long", config.program.size() > 31 ? "program" : "scenario",
-                "a program has 31 characters at most, a scenario 63");
+  constexpr std::size_t kMostProgram = sizeof(proto::KioskStatus::program) - 1;
+  constexpr std::size_t kMostScenario = sizeof(proto::KioskStatus::scenario) - 1;
+  const bool long_program = config.program.size() > kMostProgram;
+  if (long_program || config.scenario.size() > kMostScenario) {
+    return fail(
+        ErrorCode::too_large, "the name is too long", long_program ? "program" : "scenario",
+        fmt::format("a program's name has at most {} characters, a scenario's {}", kMostProgram, kMostScenario));
   }
   return {};
 }

@@ -27,7 +27,7 @@ void write_numbers(const DisplayStatus& status, proto::DisplayStatus& wire) {
   wire.warnings = status.warnings;
 }
 
-/// The wire's texts look into the status.
+/// The wire's texts point into the status, which must outlive them.
 void look_at_texts(const DisplayStatus& status, proto::DisplayStatus& wire) {
   wire.version = proto::look_into(status.version);
   wire.host = proto::look_into(status.host);
@@ -94,7 +94,7 @@ bool DisplayLink::report(const DisplayStatus& status) {
   return statuses_.write(wire);
 }
 
-/// No display named: all of the kiosk.
+/// A request without a display's name is for all displays of the kiosk.
 bool DisplayLink::is_meant(std::string_view kiosk, std::string_view display) const {
   return kiosk == kiosk_ && (display.empty() || display == display_);
 }

@@ -1,4 +1,5 @@
-// DisplayLink: a display's endpoints for whoever looks after it: how it is out, requests in; and where a tracker sees a visitor's head.
+// DisplayLink: a display's endpoints for technicians and trackers: sends its status, receives requests and the position
+// of the visitor's head.
 #pragma once
 
 #include <deque>
@@ -14,10 +15,10 @@
 
 namespace mechane::client {
 
-/// report() and take_requests() are one thread's.
+/// report() and take_requests() are called by one thread.
 class DisplayLink {
  public:
-  static constexpr std::size_t kRequests = 32;  ///< more at once are dropped, the oldest first
+  static constexpr std::size_t kRequests = 32;  ///< kept at most; the oldest are dropped
 
   [[nodiscard]] static Expected<std::unique_ptr<DisplayLink>> create(const proto::Participant& participant,
                                                                      const std::string& kiosk,
@@ -25,10 +26,10 @@ class DisplayLink {
   DisplayLink(const DisplayLink&) = delete;
   DisplayLink& operator=(const DisplayLink&) = delete;
 
-  /// Kiosk, display and session are the link's own. False where the network did not take it.
+  /// The link fills in kiosk, display and session. False where the status could not be sent.
   bool report(const DisplayStatus& status);
   [[nodiscard]] std::vector<DisplayRequest> take_requests();
-  /// The newest that was told of this display's screen.
+  /// The newest head position that was sent to this display.
   [[nodiscard]] std::optional<ViewerHead> viewer_head();
 
  private:
@@ -46,7 +47,7 @@ class DisplayLink {
   std::deque<DisplayRequest> requests_;
   std::optional<ViewerHead> head_;
   proto::Writer<proto::DisplayStatus> statuses_;
-  // Last: their listeners end first.
+  // Declared last, so that their listeners end before the rest is destroyed.
   proto::Reader<proto::DisplayRequest> request_reader_;
   proto::Reader<proto::ViewerHead> head_reader_;
 };

@@ -2,24 +2,26 @@
 
 #include "client-sdk/client/clean_text.hpp"
 #include "client-sdk/client/parse.hpp"
+#include "server/base/utf8.hpp"
+#include <mechane/client/client.hpp>
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::client {
 namespace {
 
-/// Longer texts are cut: a status is a line on a technician's screen.
+static_assert(mechane_link_searching == static_cast<int>(LinkState::searching));
+static_assert(mechane_link_joined == static_cast<int>(LinkState::joined));
+static_assert(mechane_link_refused == static_cast<int>(LinkState::refused));
+static_assert(mechane_link_lost == static_cast<int>(LinkState::lost));
+
+/// Longer texts are cut, because a status is one line on a technician's screen.
 constexpr std::size_t kMostText = 500;
 
 std::string one_line(const char* text) {
   std::string line = clean_string(text);
   for (char& c : line)
     c = c == '\n' || c == '\t' ? ' ' : c;
-  if (line.size() > kMostText) {
-    std::size_t end = kMostText;
-    while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xc0u) == 0x80u)
-      --end;
-    line.resize(end);
-  }
+  line.resize(utf8_beginning(line, kMostText).size());
   return line;
 }
 
@@ -49,7 +51,7 @@ bool parse_lists(const proto::DisplayStatus& wire, DisplayStatus& out) {
 }  // namespace
 
 bool parse(const proto::DisplayStatus& wire, DisplayStatus& out) {
-  if (wire.protocol != proto::kProtocol || wire.link > 3) return false;
+  if (wire.protocol != proto::kProtocol || wire.link > mechane_link_lost) return false;
   if (!proto::is_name(proto::text_of(wire.kiosk)) || !proto::is_name(proto::text_of(wire.display))) return false;
   for (const float number : {wire.pictures_per_s, wire.picture_ms_median, wire.picture_ms_p99, wire.wanted_per_s,
                              wire.frames_per_s, wire.frames_lost}) {

@@ -1,5 +1,4 @@
 #include <map>
-#include <random>
 #include <tuple>
 
 #include "client-sdk/client/parse.hpp"
@@ -7,17 +6,10 @@
 #include <mechane/client/displays.hpp>
 #include <mechane/proto/convert.hpp>
 #include <mechane/proto/entity.hpp>
+#include <mechane/proto/identity.hpp>
 
 namespace mechane::client {
 namespace {
-
-constexpr std::size_t kMostDisplays = 1000;
-
-std::uint64_t random_number() {
-  std::random_device device;
-  const std::uint64_t high = device();
-  return ((high << 32) | device()) | 1u;
-}
 
 class DisplayWatchImpl final : public DisplayWatch {
  public:
@@ -71,7 +63,7 @@ class DisplayWatchImpl final : public DisplayWatch {
     wire.seq = ++sequence_;
     wire.sent_ns = to_ns(std::chrono::steady_clock::now());
     wire.session = session_;
-    wire.id = random_number();
+    wire.id = proto::random_id();
     wire.picture = picture;
     proto::look_into(wire.settings, wire_settings);
     return requests_.write(wire) ? wire.id : 0;
@@ -80,7 +72,7 @@ class DisplayWatchImpl final : public DisplayWatch {
  private:
   using Key = std::tuple<std::string, std::string, std::uint64_t>;
   proto::Participant participant_;
-  const std::uint64_t session_ = random_number();
+  const std::uint64_t session_ = proto::random_id();
   std::uint64_t sequence_ = 0;
   std::map<Key, DisplayStatus> known_;
   realtime::Wakeup news_;

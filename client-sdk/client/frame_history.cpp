@@ -7,7 +7,7 @@ namespace mechane::client {
 namespace {
 
 constexpr std::int64_t kJumpNs = 250'000'000;
-// Of the way to a longer delay, a frame: 16 ms of jitter move the estimate by 80 us.
+// How far a frame moves the estimate towards a longer delay, as a share: 16 ms of jitter move it by 80 us.
 constexpr std::int64_t kCreep = 200;
 constexpr Duration kLeastStep = std::chrono::milliseconds(10);
 
@@ -27,7 +27,7 @@ const HandPose* same_hand(const Frame& frame, const HandPose& hand) {
 
 TimePoint ClockOffset::to_local(std::uint64_t sent_ns, TimePoint received) {
   const auto sent = static_cast<std::int64_t>(sent_ns);
-  // Unsigned arithmetic wraps where a lying sender would overflow.
+  // Unsigned arithmetic wraps where wrong times of a sender would overflow.
   const auto measured = static_cast<std::int64_t>(to_ns(received) - sent_ns);
   const auto later =
       static_cast<std::int64_t>(static_cast<std::uint64_t>(measured) - static_cast<std::uint64_t>(offset_ns_));
@@ -70,7 +70,7 @@ void interpolate(const Frame& a, const Frame& b, double t, Frame& out) {
 void FrameHistory::add(const Frame& frame, std::uint64_t sent_ns) {
   const TimePoint time = offset_.to_local(sent_ns, frame.received);
   if (!frames_.empty() && frame.sequence <= frames_.back().frame.sequence) return;
-  // The estimate may step back by a little; times must rise.
+  // The estimate may step back a little, but times must rise.
   const TimePoint least = frames_.empty() ? time : frames_.back().time + std::chrono::microseconds(1);
   frames_.push_back({std::max(time, least), frame});
   if (frames_.size() > kFrames) frames_.pop_front();
@@ -93,7 +93,7 @@ bool FrameHistory::at(TimePoint at, Frame& out) const {
   if (after == frames_.end()) --after;
   const auto before = std::prev(after);
   const Duration gap = after->time - before->time;
-  // Beyond the last frame, two frames that came almost together say little about speed.
+  // For extrapolation, two frames that are almost simultaneous say little about speed.
   const Duration step = at > after->time ? std::max(gap, kLeastStep) : gap;
   const double beyond = at > after->time ? 1.0 : 0.0;
   const Duration since = at > after->time ? at - after->time : at - before->time;

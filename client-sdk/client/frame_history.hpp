@@ -7,8 +7,9 @@
 
 namespace mechane::client {
 
-/// Where the sender's clock stands against ours, from pairs of (sent, received): the smallest delay seen, which creeps up slowly so
-/// that clocks may drift, and starts anew after a jump. Jitter of the network does not reach it.
+/// Estimates the offset between the sender's clock and ours from pairs of (sent, received). It is the smallest delay
+/// seen; it rises slowly, to follow a drift of the clocks, and starts again after a jump. Jitter of the network has no
+/// effect.
 class ClockOffset {
  public:
   /// The moment of sending, on our clock plus the smallest delay.
@@ -19,8 +20,8 @@ class ClockOffset {
   std::int64_t offset_ns_ = 0;
 };
 
-/// The scene at share `t` of the way from `a` (0) to `b` (1), beyond 1 extrapolated: positions and quantities linear, rotations by
-/// slerp the short way. What is not in both, and all else, is b's. Pure.
+/// The scene at share `t` of the way from `a` (0) to `b` (1), beyond 1 extrapolated: positions and quantities linear,
+/// rotations by slerp along the shorter arc. Everything else, and what is not in both, is taken from b. Pure.
 void interpolate(const Frame& a, const Frame& b, double t, Frame& out);
 
 /// One thread at a time.
@@ -32,8 +33,8 @@ class FrameHistory {
   /// Frames out of order are dropped.
   void add(const Frame& frame, std::uint64_t sent_ns);
   void clear();
-  /// The scene at `at`: interpolated; before the first known frame that one; after the last, extrapolated by at most 50 ms. False
-  /// when there is none.
+  /// The scene at `at`, interpolated. Before the first known frame: the first frame; after the last: extrapolated by at
+  /// most 50 ms. False when no frame is known.
   [[nodiscard]] bool at(TimePoint at, Frame& out) const;
 
  private:

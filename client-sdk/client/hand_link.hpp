@@ -14,7 +14,7 @@
 
 namespace mechane::client {
 
-/// Lives as long as its client. send() is one thread's, newest_force() and wait_force() are one thread's.
+/// Lives as long as its client. send() is called by one thread, newest_force() and wait_force() by one thread.
 class HandLink {
  public:
   [[nodiscard]] static Expected<std::unique_ptr<HandLink>> create(const proto::Participant& participant,
@@ -23,9 +23,10 @@ class HandLink {
   HandLink(const HandLink&) = delete;
   HandLink& operator=(const HandLink&) = delete;
 
-  /// Both endpoints have found the server's.
+  /// Both endpoints are connected to the server's.
   [[nodiscard]] bool matched() const { return writer_.matched() > 0 && reader_.matched() > 0; }
-  /// Forces of another epoch are out of date: of a server that was replaced, or of a link that it has made anew. 0: none is taken.
+  /// Only forces of this epoch are taken. Others are out of date: from a server that was replaced, or from a link that
+  /// it has since renewed. 0: no forces are taken.
   void accept_epoch(std::uint64_t epoch) { epoch_.store(epoch, std::memory_order_relaxed); }
 
   bool send(const HandSample& input) noexcept;
@@ -43,15 +44,16 @@ class HandLink {
   int fifo_priority_;
   std::atomic<std::uint64_t> epoch_{0};
   std::atomic<std::uint64_t> sent_{0};
-  proto::HapticInput sending_{};  // the sender's
-  // The force listener's. In a new epoch the server counts from 1 again; the numbers given out rise with each force, whatever its own is.
+  proto::HapticInput sending_{};  // used by the sending thread only
+  // Used by the force listener only. The server counts from 1 again in each epoch, but the numbers that are given out
+  // must rise with each force.
   ForceSample arriving_;
   hand::SampleAge order_;
   std::uint64_t taken_ = 0;
   realtime::Mailbox<ForceSample> forces_;
   realtime::Wakeup arrived_;
   proto::Writer<proto::HapticInput> writer_;
-  proto::Reader<proto::HapticOutput> reader_;  // last: its listener ends first
+  proto::Reader<proto::HapticOutput> reader_;  // declared last, so that its listener ends first
 };
 
 }  // namespace mechane::client

@@ -1,9 +1,9 @@
 #include <chrono>
-#include <random>
 
 #include <mechane/client/head.hpp>
 #include <mechane/proto/convert.hpp>
 #include <mechane/proto/entity.hpp>
+#include <mechane/proto/identity.hpp>
 
 namespace mechane::client {
 namespace {
@@ -17,8 +17,7 @@ class HeadTrackerImpl final : public HeadTracker {
     proto::set_text(wire_.kiosk, kiosk);
     proto::set_text(wire_.display, display);
     wire_.protocol = proto::kProtocol;
-    std::random_device device;
-    wire_.session = (static_cast<std::uint64_t>(device()) << 32) | 1U;
+    wire_.session = proto::random_id();
   }
 
   bool tell(const Pose& X_SV) override {

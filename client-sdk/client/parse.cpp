@@ -11,6 +11,12 @@
 namespace mechane::client {
 namespace {
 
+static_assert(mechane_affordance_taken == static_cast<int>(Affordance::Kind::taken));
+static_assert(mechane_affordance_turns == static_cast<int>(Affordance::Kind::turns));
+static_assert(mechane_affordance_slides == static_cast<int>(Affordance::Kind::slides));
+static_assert(mechane_affordance_placed == static_cast<int>(Affordance::Kind::placed));
+static_assert(mechane_affordance_brought == static_cast<int>(Affordance::Kind::brought));
+
 bool parse_pose(const proto::WirePose& wire, Pose& out) noexcept {
   if (!proto::all_finite(wire)) return false;
   out = proto::to_pose(wire);
@@ -88,7 +94,7 @@ bool parse_rope(const proto::WireRope& wire, RopeShape& out) {
   return true;
 }
 
-/// Each element by its own function; false where there are too many, or one is refused.
+/// Parses each element; false where there are too many, or one is invalid.
 template <class Sequence, class Out, class Parse>
 bool parse_each(const Sequence& wire, std::size_t most, std::vector<Out>& out, Parse&& parse_one) {
   const auto items = proto::elements(wire);
@@ -107,18 +113,18 @@ bool parse_answer(const proto::WireAnswer& wire, Question::Answer& out) {
 }
 
 bool parse_question(const proto::WireQuestion& wire, Question& out) {
-  if (wire.kind > 1 || wire.marks > 100) return false;
+  if (wire.kind > mechane_question_scale || wire.marks > 100) return false;
   out.name = clean_string(wire.name);
-  out.kind = static_cast<Question::Kind>(wire.kind);
+  out.kind = wire.kind == mechane_question_scale ? Question::Kind::scale : Question::Kind::choice;
   out.marks = wire.marks;
   return parse_texts(wire.text, out.text) && parse_texts(wire.low, out.low) && parse_texts(wire.high, out.high) &&
-         parse_each(wire.answers, kMaxPresented, out.answers, parse_answer);
+         parse_each(wire.answers, mechane_kMaxPresented, out.answers, parse_answer);
 }
 
 bool parse_activity(const proto::WireActivity& wire, Activity& out) {
   out.name = clean_string(wire.name);
   return parse_texts(wire.title, out.title) && parse_texts(wire.goal, out.goal) &&
-         parse_each(wire.questions, kMaxPresented, out.questions, parse_question);
+         parse_each(wire.questions, mechane_kMaxPresented, out.questions, parse_question);
 }
 
 bool parse_view(const proto::WireView& wire, View& out) {
@@ -147,7 +153,7 @@ bool parse_effect(const proto::WireEffect& wire, Effect& out) {
 }
 
 bool parse_affordance(const proto::WireAffordance& wire, Affordance& out) {
-  if (wire.kind > static_cast<std::uint32_t>(Affordance::Kind::brought) || wire.object >= kMaxObjects) return false;
+  if (wire.kind > mechane_affordance_brought || wire.object >= kMaxObjects) return false;
   if (wire.base >= static_cast<std::int32_t>(kMaxObjects)) return false;
   out.kind = static_cast<Affordance::Kind>(wire.kind);
   out.agent = clean_string(wire.agent);
@@ -249,10 +255,10 @@ bool parse(const proto::WorldPresentation& wire, WorldPresentation& out) {
   if (wire.protocol != proto::kProtocol) return false;
   out.world = clean(wire.world);
   return parse_strings(wire.languages, out.languages) &&
-         parse_each(wire.activities, kMaxPresented, out.activities, parse_activity) &&
-         parse_each(wire.views, kMaxPresented, out.views, parse_view) &&
-         parse_each(wire.effects, kMaxPresented, out.effects, parse_effect) &&
-         parse_each(wire.affordances, kMaxAffordances, out.affordances, parse_affordance);
+         parse_each(wire.activities, mechane_kMaxPresented, out.activities, parse_activity) &&
+         parse_each(wire.views, mechane_kMaxPresented, out.views, parse_view) &&
+         parse_each(wire.effects, mechane_kMaxPresented, out.effects, parse_effect) &&
+         parse_each(wire.affordances, mechane_kMaxAffordances, out.affordances, parse_affordance);
 }
 
 bool parse(const proto::Event& wire, WorldEvent& out) {

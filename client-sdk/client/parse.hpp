@@ -1,4 +1,5 @@
-// From the wire to the client's own structs. What is not fit to be used is refused as a whole: nothing behind checks again.
+// From the wire to the client's own structs. An invalid sample is refused as a whole, so that no later code checks
+// again.
 #pragma once
 
 #include <optional>
@@ -16,15 +17,14 @@ inline constexpr std::size_t kMaxHands = 16;
 inline constexpr std::size_t kMaxTexts = 64;
 inline constexpr std::size_t kMaxRopes = 64;
 inline constexpr std::size_t kMaxRopePoints = 1024;
-inline constexpr std::size_t kMaxAffordances = 4096;
-inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
-inline constexpr std::size_t kMaxSettings = 64;    ///< of one request or status
-inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers of one status
+inline constexpr std::size_t kMaxSettings = 64;  ///< of one request or status
+inline constexpr std::size_t kMaxListed = 64;    ///< missing files or answers of one status
 
-/// All of these return false, with `out` in no particular state, where the sample is of another protocol version, a number is not
-/// finite, a rotation is not a unit quaternion, or a count is beyond its limit. Times of receipt and sequences of
-/// one's own are the caller's.
-/// This one allocates nothing.
+/// All of these return false, with `out` in an unspecified state, where the sample is of another protocol version, a
+/// number is not finite, a rotation is not a unit quaternion, or a count is beyond its limit. The caller sets times of
+/// receipt and its own sequence numbers.
+/// This one allocates nothing. Of a contact also checked: its normal is of unit length. Its stiffness, damping and
+/// friction are 0 where they are negative, and it is valid for a second at most.
 [[nodiscard]] bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept;
 [[nodiscard]] bool parse(const proto::SceneFrame& wire, Frame& out);
 [[nodiscard]] bool parse(const proto::SceneObject& wire, SceneObject& out);
@@ -32,11 +32,11 @@ inline constexpr std::size_t kMaxListed = 64;      ///< missing files or answers
 [[nodiscard]] bool parse(const proto::WorldPresentation& wire, WorldPresentation& out);
 [[nodiscard]] bool parse(const proto::Event& wire, WorldEvent& out);
 [[nodiscard]] bool parse(const proto::ServerStatus& wire, ServerStatus& out);
-/// Of a display with a name at a kiosk with a name; numbers are finite and not negative, shares at most 1.
+/// Also checked: display and kiosk have valid names; numbers are not negative, shares at most 1.
 [[nodiscard]] bool parse(const proto::DisplayStatus& wire, DisplayStatus& out);
-/// What is requested is not checked: apply() does.
+/// The requested settings are not checked here, but by apply().
 [[nodiscard]] bool parse(const proto::DisplayRequest& wire, DisplayRequest& out);
-/// Of a kiosk with a name. Where the head is, whoever uses it limits.
+/// Also checked: the kiosk has a valid name. The position is limited where it is used.
 [[nodiscard]] bool parse(const proto::ViewerHead& wire, ViewerHead& out);
 
 /// What a WorldAssignment means for one kiosk.
@@ -56,7 +56,8 @@ struct Assignment {
 };
 [[nodiscard]] bool parse(const proto::WorldAssignment& wire, Assignment& out);
 
-/// Where the server is of another protocol version than this program: who it is, and what to do. Empty where it is of ours.
+/// For a server of another protocol version than this program's: which server it is, and what to do. Empty for the same
+/// version.
 [[nodiscard]] std::string other_protocol(const proto::ServerStatus& wire);
 
 }  // namespace mechane::client

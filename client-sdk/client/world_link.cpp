@@ -8,7 +8,7 @@
 namespace mechane::client {
 namespace {
 
-/// A larger gap is another writer's count, or a lie; no link loses a minute and goes on.
+/// A larger gap does not count as lost frames: it comes from another writer's numbers, or from wrong ones.
 constexpr std::uint64_t kMostLostAtOnce = 3600;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// WorldLink: a client's endpoints in one world, and what came through them.
+// WorldLink: a client's endpoints in one world, and what they have received.
 #pragma once
 
 #include <deque>
@@ -16,16 +16,16 @@
 
 namespace mechane::client {
 
-/// What is known of the world that the client is in. Listeners fill it; any thread of the client's reads it.
+/// What is known of the client's world. Listeners fill it; any thread of the client reads it.
 struct WorldStore {
   static constexpr std::size_t kEvents = 256;
 
-  /// A frame with the world that it belongs to: a mailbox may still hold one of the world before.
+  /// A frame with the number of its world: the mailbox may still hold a frame of the previous world.
   struct Numbered {
     std::uint64_t world = 0;
     Frame frame;
   };
-  realtime::Mailbox<Numbered> newest;  // frame listener to the reader of newest_frame()
+  realtime::Mailbox<Numbered> newest;  // from the frame listener to newest_frame()
 
   std::mutex mutex;  // for what follows
   FrameHistory history;
@@ -35,14 +35,14 @@ struct WorldStore {
   std::deque<WorldEvent> events;
   FrameTraffic traffic;  ///< of all worlds
 
-  /// Another world: what was known of the last one goes, but for events that nobody has taken.
+  /// Begins another world: forgets the last one, except for events that have not been taken yet.
   void clear();
   /// Id of the scenario of this world; empty where it is not known yet.
   [[nodiscard]] std::string scenario();
 };
 
-/// The link thread makes and destroys it; the end waits for listeners. A world's partition cannot change: another world, or the same
-/// one of a restarted server, gets a new link.
+/// Made and destroyed by the link thread; the destructor waits for the listeners. Each world has its own partition, so
+/// another world, or the same one of a restarted server, gets a new link.
 class WorldLink {
  public:
   /// `number` tells worlds apart within one client. `store` outlives the link.
@@ -52,7 +52,7 @@ class WorldLink {
   WorldLink(const WorldLink&) = delete;
   WorldLink& operator=(const WorldLink&) = delete;
 
-  /// All endpoints have found their peers.
+  /// All endpoints are connected to their peers.
   [[nodiscard]] bool matched() const;
   bool send_command(std::uint64_t session, std::uint64_t id, proto::CommandKind kind, const std::string& argument);
 
@@ -67,7 +67,7 @@ class WorldLink {
   std::string world_;
   std::uint64_t number_;
   WorldStore& store_;
-  Frame arriving_;  // the frame listener's, as the next
+  Frame arriving_;  // this and the next are used by the frame listener only
   std::uint64_t last_frame_ = 0;
   std::uint64_t command_sequence_ = 0;
   proto::Writer<proto::Command> commands_;

@@ -1,7 +1,6 @@
 #include "client-sdk/display/attract_loop.hpp"
 
 #include "client-sdk/visit/overlay_text.hpp"
-#include "server/log/log.hpp"
 
 namespace mechane::display {
 namespace {
@@ -15,7 +14,7 @@ recording::PlaySettings over_and_over() {
   return settings;
 }
 
-/// Calm: no step, no gauge, no question of somebody else's visit.
+/// Without the recorded visit's steps, gauges and questions.
 picture::OverlayContent invitation(const client::WorldStatus* status, const std::string& language,
                                    const picture::OverlayStyle& style) {
   picture::OverlayContent content;
@@ -32,7 +31,6 @@ picture::OverlayContent invitation(const client::WorldStatus* status, const std:
 Expected<std::unique_ptr<AttractLoop>> AttractLoop::open(const std::string& file, scene::AssetSource assets) {
   auto recording = recording::FrameRecording::open_file(file);
   if (!recording) return tl::unexpected(recording.error());
-  if (recording->cut_off()) log::warning("the recording " + file + " was cut off; what there is, is shown");
   return std::unique_ptr<AttractLoop>(new AttractLoop(std::move(*recording), std::move(assets)));
 }
 

@@ -1,5 +1,5 @@
-// What a display shows while nobody is there: a recorded visit, over and over, and an invitation. Only seen: nobody is asked anything, no hand
-// feels anything, and the kiosk's own world goes on behind it.
+// What a display shows while nobody is there: a recorded visit in a loop, and an invitation. It is only shown: no
+// questions, no forces; the kiosk's own world continues behind it.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace mechane::display {
 
-/// On the display's thread. The renderer has room for one set of assets: who shows this uploads assets() whenever advance() says so.
+/// On the display's thread. The renderer holds one set of assets: upload assets() whenever advance() says so.
 class AttractLoop {
  public:
   /// Errors: those of FrameRecording.
@@ -18,13 +18,13 @@ class AttractLoop {
   AttractLoop(const AttractLoop&) = delete;
   AttractLoop& operator=(const AttractLoop&) = delete;
 
-  /// From its beginning.
+  /// Starts from the beginning.
   void rewind() { recorded_.rewind(); }
-  /// To what is seen at `now`. True where other assets are needed than before: all that was uploaded is to be forgotten.
+  /// Advances to `now`. True when other assets are needed than before: everything that was uploaded is to be replaced.
   [[nodiscard]] bool advance(TimePoint now);
-  /// Once advance() has said that there are any.
+  /// Only after advance() has returned true.
   [[nodiscard]] const picture::SceneAssets& assets() const { return world_.assets(); }
-  /// With the invitation, first in `language`.
+  /// The scene with the invitation, first in `language`.
   [[nodiscard]] picture::RenderScene build(TimePoint now, const std::string& language,
                                            const picture::OverlayStyle& style);
 

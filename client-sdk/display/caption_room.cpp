@@ -6,7 +6,7 @@
 namespace mechane::display {
 
 void CaptionRoom::see(double covered_below, TimePoint now) {
-  // What was seen in the height that is left by a caption of two lines is now seen in the height that is left.
+  // The scene's part that was visible above a caption of two lines must fit above the present caption.
   const double left = std::clamp(1 - covered_below, 0.01, 1.0);
   const double wanted = std::clamp((1 - kFramedFor) / left, 1.0, kMost);
   const double s = seen_ ? 1 - std::exp(-std::max(to_seconds(now - *seen_), 0.0) / kFollows_s) : 1.0;

@@ -1,4 +1,4 @@
-// Many or large words cover what they speak of: the view then makes room above them. Pure: all that is timed takes the display's clock as an argument.
+// Makes room in the view for long or large captions, which would cover the scene. Pure: the time is an argument.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,15 @@ namespace mechane::display {
 
 class CaptionRoom {
  public:
-  /// Of the picture's height, covered from below: scenes are framed for captions of two lines.
+  /// Share of the picture's height that a caption of two lines covers; scenes are framed for this.
   static constexpr double kFramedFor = 0.33;
-  static constexpr double kMost = 1.8;  ///< or what is seen becomes too small to work on
+  static constexpr double kMost = 1.8;  ///< with more, things would become too small to work on
   static constexpr double kFollows_s = 0.4;
 
-  /// Once a picture, what its caption covers. The first is taken at once, later ones are followed smoothly: a hint that comes is not a cut.
+  /// Takes the share that the caption covers; call it once a picture. The first is used at once, later ones are
+  /// followed smoothly, so that a new hint does not make the picture jump.
   void see(double covered_below, TimePoint now);
-  /// For Camera::room_below.
+  /// The value for Camera::room_below.
   [[nodiscard]] double room_below() const { return room_below_; }
 
  private:

@@ -20,17 +20,19 @@ Expected<void> make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    return fail("the folder for pictures cannot be made: " + error.message(), folder, "choose another with --out");
+    return fail(ErrorCode::io_failure, "the folder for pictures cannot be made: " + error.message(), folder,
+                "choose another with --out");
   return {};
 }
 
-/// What the options ask for, as far as the window can do it; null: offscreen.
+/// The options, reduced to what the window can do. `window` is null offscreen.
 DisplayOptions possible_options(const DisplayOptions& options, const Window* window) {
   DisplayOptions possible = options;
   if (options.stereo == picture::Stereo::quad_buffer && (window == nullptr || !window->has_quad_buffer())) {
     log::warning(
-        "this display has no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs, "
-        "top-bottom, rows or anaglyph");
+        "this display cannot show a picture for each eye (quad-buffered stereo), so it shows a mono picture: try "
+        "--stereo "
+        "sbs, top-bottom, rows or anaglyph");
     possible.stereo = picture::Stereo::mono;
   }
   return possible;
@@ -59,7 +61,7 @@ Expected<picture::PixelSize> parse_size(const std::string& text) {
   const auto last = first ? std::from_chars(cross + 1, end, size.height) : std::from_chars_result{cross, error};
   const auto fits = [](std::uint32_t side) { return side >= 16 && side <= 8192; };
   if (!first || last.ec != std::errc() || last.ptr != end || !fits(size.width) || !fits(size.height)) {
-    return fail("'" + text + "' is not a size of a picture", "--size",
+    return fail(ErrorCode::invalid_value, "'" + text + "' is not the size of a picture", "--size",
                 "write width x height in pixels, 16 to 8192, as in 1280x720");
   }
   return size;
@@ -77,11 +79,11 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySigna
     if (!opened) return tl::unexpected(opened.error());
     catalogue.emplace(std::move(*opened));
   }
-  // A picture or a film waits for what it shows; a window goes on.
+  // Pictures and films wait for their models; a window does not.
   std::optional<Worker> worker;
   if (!options.offscreen) worker.emplace("imports");
   Worker* beside = worker ? &*worker : nullptr;
-  // Before the context: the driver's own threads inherit it. A refusal does no harm.
+  // Before the context is made, so that the driver's threads inherit it. Without permission nothing changes.
   if (options.offscreen) setpriority(PRIO_PROCESS, 0, 10);
   std::unique_ptr<draw::GlContext> context;
   Window* window = nullptr;
@@ -108,7 +110,7 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySigna
   if (!source) return tl::unexpected(source.error());
   auto attract = open_attract(options, catalogue ? &*catalogue : nullptr, beside);
   if (!attract) return tl::unexpected(attract.error());
-  if (source->recorded != nullptr) possible.ask = visit::AskWhen::none;  // nobody is there who answers
+  if (source->recorded != nullptr) possible.ask = visit::AskWhen::none;  // nobody can answer
   return DisplayLoop(possible, signals, *context, window, std::move(*renderer), *source,
                      catalogue ? &*catalogue : nullptr, beside, std::move(*attract))
       .run();

@@ -38,13 +38,13 @@ Expected<DisplaySummary> DisplayLoop::run() {
   return sum_up();
 }
 
-/// Whether the steps of a recording are drawn, and nothing else of it.
+/// Whether only the steps of a recording are drawn.
 bool DisplayLoop::draws_recorded_steps() const {
   return !options_.source.play.empty() && options_.offscreen && options_.every_step && options_.film_fps <= 0;
 }
 
-/// The time of a film, and of a recording whose steps are drawn, goes by the turns of the loop and not by how long they take: however slowly the
-/// machine draws, it misses nothing.
+/// The time of a film, or of a recording whose steps are drawn, is counted in turns of the loop, so that a slow machine
+/// misses nothing.
 TimePoint DisplayLoop::now() {
   const auto after = [this](double seconds) {
     return started_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
@@ -69,7 +69,7 @@ void DisplayLoop::take_news(TimePoint now) {
   if (options_.every_step && news_.world().known() && !due_)
     due_ = schedule_.due(now, *news_.world().status(), news.whole);
   whole_ = news.whole;
-  if (visitor_.invitation() != nullptr) return;  // the world behind it is uploaded when it is shown
+  if (visitor_.invitation() != nullptr) return;  // the world behind the invitation is uploaded when it is shown again
   if (news.another_world) {
     presenter_.replace_assets();
   } else if (news.assets) {
@@ -83,7 +83,7 @@ void DisplayLoop::take_visitor(TimePoint now) {
   if (visitor_.invite(desk_.settings(), now)) presenter_.replace_assets();
 }
 
-/// What is requested from another machine, and how the display is.
+/// Handles requests from other machines, and sends the display's status.
 void DisplayLoop::tend_kiosk(TimePoint now) {
   if (desk_.take_requests(visitor_.style())) {
     const client::DisplaySettings& requested = desk_.settings();
@@ -97,7 +97,7 @@ void DisplayLoop::tend_kiosk(TimePoint now) {
                now);
 }
 
-/// Draws, and takes the pictures that are due or asked for.
+/// Draws, and takes the pictures that are due or requested.
 Expected<void> DisplayLoop::show(TimePoint now) {
   const bool asked = signals_.picture.exchange(false);
   const bool requested = (window_ != nullptr && window_->take_picture_wanted()) || asked || desk_.picture_wanted();
@@ -123,7 +123,8 @@ void DisplayLoop::take_pictures(bool requested) {
   }
 }
 
-/// A picture that a person asked for costs only itself where the disk is full; one that an option asked for ends the display.
+/// If a picture cannot be written: one that was requested by a person is only reported, one that an option asked for
+/// ends the display.
 Expected<void> DisplayLoop::answer(const std::vector<PictureFolder::Written>& pictures) {
   for (const PictureFolder::Written& picture : pictures) {
     if (picture.result) {
@@ -145,7 +146,7 @@ void DisplayLoop::wait_for_next(TimePoint began) {
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.0 / options_.fps));
   const TimePoint now = clock_.now();
   if (draws_recorded_steps()) {
-    // A recording waits for models that are on their way, as long as a picture would.
+    // A recording waits for models that are being loaded, as long as a picture would.
     waited_ = whole_ ? Duration(0) : waited_ + period;
     if (whole_ || waited_ > PictureSchedule::kPatience) {
       ++turns_;
@@ -153,8 +154,8 @@ void DisplayLoop::wait_for_next(TimePoint began) {
     }
   }
   next_ = std::max(next_ + period, now);
-  // Drawing on the processor, a display leaves at least half of the time to the others on the machine. One picture a step leaves more
-  // than that, and must be back before a short step is over.
+  // When drawing on the processor, a display leaves at least half of the time to other programs. With one picture per
+  // step it leaves more anyway, and must not miss a short step.
   if (options_.offscreen && !options_.every_step)
     next_ = std::max(next_, now + std::min<Duration>(now - began, std::chrono::seconds(1)));
   clock_.sleep_until(next_);
@@ -162,7 +163,7 @@ void DisplayLoop::wait_for_next(TimePoint began) {
 
 Expected<DisplaySummary> DisplayLoop::sum_up() {
   if (auto ok = answer(folder_.finish()); !ok) return tl::unexpected(ok.error());
-  // Who named a folder and no moment gets what was seen last.
+  // With a folder but no chosen moment, the last picture is written.
   if (options_.offscreen && summary_.pictures.empty() && presenter_.frames() > 0 && folder_.wanted()) {
     folder_.write(presenter_.read_picture(), "last");
     if (auto ok = answer(folder_.finish()); !ok) log::warning(ok.error().to_string());

@@ -1,5 +1,5 @@
-// The display's loop: one picture after another. What is heard, what the visitor does, and what is drawn are three classes; here stands in
-// which order they are called, when a picture is written, and when the display ends.
+// The display's loop: one picture after another. It calls the classes for news, visitor and drawing in order, and
+// decides when a picture is written and when the display ends.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@
 
 namespace mechane::display {
 
-/// One display's life. Made and run on one thread. What is given to the constructor outlives it.
+/// One display. Made and run on one thread. The constructor's arguments must outlive it.
 class DisplayLoop {
  public:
-  /// `window` is the context's, null offscreen. `catalogue`, `worker` and `attract` may be null. The worker brings what worlds look like; without
-  /// one, drawing waits for that.
+  /// `window` is the context's, null offscreen. `catalogue`, `worker` and `attract` may be null. The worker loads
+  /// models; without one, drawing waits for them.
   DisplayLoop(const DisplayOptions& options, DisplaySignals& signals, draw::GlContext& context, Window* window,
               std::unique_ptr<draw::Renderer> renderer, DisplaySource& source, const content::Catalogue* catalogue,
               Worker* worker, std::unique_ptr<AttractLoop> attract);
@@ -51,11 +51,11 @@ class DisplayLoop {
   Presenter presenter_;
   KioskDesk desk_;
   PictureSchedule schedule_;
-  std::optional<std::string> due_;  ///< name of a picture of this step
+  std::optional<std::string> due_;  ///< name of this step's picture, if it is due
   bool last_picture_taken_ = false;
-  bool whole_ = true;        ///< nothing of the scene is on its way here
-  Duration waited_{0};       ///< for what is
-  std::uint64_t turns_ = 0;  ///< of the loop, while the steps of a recording are drawn
+  bool whole_ = true;        ///< no part of the scene is still being loaded
+  Duration waited_{0};       ///< how long such parts were awaited
+  std::uint64_t turns_ = 0;  ///< turns of the loop, while the steps of a recording are drawn
   PictureFolder folder_;
   TimePoint started_;
   TimePoint next_;

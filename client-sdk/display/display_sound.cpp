@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "client-sdk/visit/subtitles.hpp"
+#include "server/base/program_folder.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::display {
@@ -11,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that is one file's in its folder, and no way out of it.
+/// Whether a name is that of a file directly in a folder, and does not lead out of it.
 bool is_plain(const std::string& name) {
   return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
@@ -56,9 +58,7 @@ std::string narration_file(const client::WorldStatus& status, const std::string&
 
 std::string built_narration_folder() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return {};
-  const fs::path folder = program.parent_path().parent_path() / "narration";
+  const fs::path folder = program_folder().parent_path() / "narration";
   return fs::is_directory(folder, error) ? folder.string() : std::string();
 }
 
@@ -71,17 +71,16 @@ void DisplaySound::hear(const picture::Camera& ears, std::vector<sound::SoundSou
                         const client::WorldStatus* status, const std::string& scenario_folder) {
   sound::SoundScene scene{at(ears), std::move(sources), {}};
   if (status != nullptr && !status->done) {
-    // Looked for once a step: the disk is not asked at every picture.
+    // Once per step, so that the disk is not searched for every picture.
     const std::string id = visit::narration_id(*status) + " " + language_;
     if (id != narration_.id) {
       narration_ = {id, narration_file(*status, language_, scenario_folder, narration_folder_)};
       const auto said = status->narration.find(language_);
       if (narration_.file.empty() && said != status->narration.end() && told_.insert(id).second)
-        log::warning(
-            fmt::format("step '{}' has no narration in '{}' here: its words are shown, and not heard; let "
-                        "deploy/narration speak it, or "
-                        "give --narration FOLDER",
-                        status->step, language_));
+        log::warning(fmt::format(
+            "step '{}' has no narration in language '{}' on this machine, so its words are only shown: record it with "
+            "deploy/narration, or give --narration FOLDER",
+            status->step, language_));
     }
     if (!narration_.file.empty()) scene.narration = narration_;
   }

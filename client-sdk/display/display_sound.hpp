@@ -1,4 +1,4 @@
-// What a display lets be heard: what sounds in the frame, and each step's narration.
+// The sound of a display: the frame's effects, and each step's narration.
 #pragma once
 
 #include <memory>
@@ -15,26 +15,27 @@ namespace mechane::display {
 struct SoundSettings {
   bool on = true;
   double volume = 0.8;    ///< 0..1
-  std::string narration;  ///< folder with SCENARIO/STEP.LANGUAGE.wav, .ogg or .flac; empty: that of the programs' build
+  std::string narration;  ///< folder with SCENARIO/STEP.LANGUAGE.wav, .ogg or .flac; empty: the one beside the programs
 };
 
-/// The file of a step's narration in one language: what the author named, by its path from the scenario's folder, else that of the
-/// narration's folder. Empty where there is none; names that lead out of their folder find nothing.
+/// The file of a step's narration in one language: the author's file, a path from the scenario's folder, or else the
+/// one in the narration folder. Empty if there is none; names that lead out of their folder are ignored.
 [[nodiscard]] std::string narration_file(const client::WorldStatus& status, const std::string& language,
                                          const std::string& scenario_folder, const std::string& narration_folder);
 
-/// The folder `narration` beside that of the running program; empty where there is none.
+/// The folder `narration` beside the running program's folder; empty if there is none.
 [[nodiscard]] std::string built_narration_folder();
 
-/// Made and called on the display's thread; the player has its own, and a missing sound card is told once and costs nothing else.
+/// Made and called on the display's thread; the player has its own. A missing sound card is reported once and has no
+/// other effect.
 class DisplaySound {
  public:
   DisplaySound(const SoundSettings& settings, std::string language);
 
-  /// Once a picture. `status` may be null: nobody speaks then.
+  /// Call it once a picture. With a null `status`, nobody speaks.
   void hear(const picture::Camera& ears, std::vector<sound::SoundSource> sources, const client::WorldStatus* status,
             const std::string& scenario_folder);
-  /// From the next picture on: what is read aloud begins anew in it.
+  /// Changes the language from the next picture on; the narration starts again in it.
   void set_language(const std::string& language) { language_ = language; }
   void set_levels(const sound::SoundLevels& levels) { player_.set_levels(levels); }
   [[nodiscard]] sound::SoundState state() const { return player_.state(); }
@@ -43,7 +44,7 @@ class DisplaySound {
   std::string narration_folder_;
   std::string language_;
   sound::Narration narration_;
-  std::set<std::string> told_;  ///< steps that have none
+  std::set<std::string> told_;  ///< steps without narration that were logged
   sound::SoundPlayer player_;
 };
 

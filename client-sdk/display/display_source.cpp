@@ -3,13 +3,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "server/log/log.hpp"
-
 namespace mechane::display {
 namespace {
 
 bool same_file(const std::string& one, const std::string& other) {
-  std::error_code not_there;  // then there is nothing to lose
+  std::error_code not_there;  // a missing file cannot be overwritten
   return !one.empty() && !other.empty() && std::filesystem::equivalent(one, other, not_there);
 }
 
@@ -18,7 +16,8 @@ bool same_file(const std::string& one, const std::string& other) {
 Expected<void> check_recordings(const SourceOptions& options, const std::string& attract) {
   const bool played = same_file(options.record, options.play);
   if (!played && !same_file(options.record, attract)) return {};
-  return fail(std::string("this is the file of ") + (played ? "--play" : "--attract") + ", and would be overwritten",
+  return fail(ErrorCode::conflict,
+              std::string("this is the file of ") + (played ? "--play" : "--attract") + ", and would be overwritten",
               "--record " + options.record, "give --record another name");
 }
 
@@ -31,7 +30,6 @@ Expected<DisplaySource> open_source(const SourceOptions& options, const client::
   } else {
     auto recording = recording::FrameRecording::open_file(options.play);
     if (!recording) return tl::unexpected(recording.error());
-    if (recording->cut_off()) log::warning("the recording " + options.play + " was cut off; what there is, is shown");
     recording::PlaySettings player = options.player;
     if (!options.play_from.empty()) {
       const auto from = recording->moment(options.play_from);

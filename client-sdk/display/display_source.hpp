@@ -1,4 +1,4 @@
-// Where a display has its worlds from: a server, or a recording in its place; and where they are recorded to.
+// Where a display gets its worlds from (a server or a recording), and where it records them to.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@ namespace mechane::display {
 
 struct SourceOptions {
   std::string play;                ///< file of a recording; empty: a server
-  std::string play_from;           ///< FrameRecording::moment(); empty: the beginning
-  recording::PlaySettings player;  ///< `from` is taken from play_from
+  std::string play_from;           ///< for FrameRecording::moment(); empty: the beginning
+  recording::PlaySettings player;  ///< its `from` is set from play_from
   std::string record;              ///< file; empty: nothing is recorded
   recording::RecorderSettings recorder;
 };
@@ -23,12 +23,12 @@ struct SourceOptions {
 /// Used on the display's thread.
 struct DisplaySource {
   std::unique_ptr<client::Client> client;
-  recording::RecordedClient* recorded = nullptr;  ///< that client, where it is a recording
+  recording::RecordedClient* recorded = nullptr;  ///< the same client, if it is a recording
   std::optional<recording::FrameRecorder> recorder;
 };
 
-/// Errors: `record` is a recording that is read, too, by this name or another (a link, another spelling): it would be gone before it was shown.
-/// `attract`: file of the recording that is shown while nobody is there; empty: none.
+/// Errors: `record` is also read as a recording, by this name or another (a link, another spelling), and would be
+/// overwritten. `attract`: file of the recording that is shown while nobody is there; empty: none.
 [[nodiscard]] Expected<void> check_recordings(const SourceOptions& options, const std::string& attract);
 
 /// Errors: those of Client::connect(), of FrameRecording and of FrameRecorder.

@@ -6,17 +6,17 @@
 namespace mechane::display {
 namespace {
 
-/// Nobody walks faster before a screen; a tracker that takes somebody else's head for the visitor's jumps.
+/// Visitors move more slowly than this; faster jumps occur when a tracker switches to another person's head.
 constexpr double kFollow_m_per_s = 3;
-/// Back to the usual place, so that nobody is startled.
+/// Time constant of the return to the usual place, slow enough not to startle anybody.
 constexpr double kReturn_m_per_s = 0.4;
 constexpr double kTurn_per_s = 4;
-/// Shares of the screen's width: nearer, or farther to its side, a picture is but a stripe.
+/// Limits in shares of the screen's width: nearer, or farther to the side, the picture would be only a stripe.
 constexpr double kNearest = 0.25;
 constexpr double kFarthest = 10;
-/// Tangent, seen from the screen's middle.
+/// Largest tangent of the head's direction, seen from the screen's middle.
 constexpr double kSteepest = 1.2;
-/// Of the line between the eyes: past it two pictures side by side do not go together any more.
+/// Largest tilt of the line between the eyes: beyond it, the two eyes' pictures cannot be fused.
 constexpr double kLeastAcross = 0.5;
 
 }  // namespace

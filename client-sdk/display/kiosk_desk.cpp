@@ -7,20 +7,9 @@
 #include <unistd.h>
 
 #include "server/log/log.hpp"
+#include <mechane/proto/identity.hpp>
 
 namespace mechane::display {
-namespace {
-
-double seconds_of(Duration d) {
-  return std::chrono::duration<double>(d).count();
-}
-
-std::string host_name() {
-  char host[64] = {};
-  return ::gethostname(host, sizeof(host) - 1) == 0 ? std::string(host) : std::string("unknown");
-}
-
-}  // namespace
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -31,7 +20,7 @@ double percentile(std::vector<double> values, double share) {
 
 void PictureMeter::drawn(Duration took, TimePoint now) {
   ++total_;
-  pictures_.push_back({now, 1e3 * seconds_of(took)});
+  pictures_.push_back({now, 1e3 * to_seconds(took)});
   while (now - pictures_.front().at > kWindow)
     pictures_.pop_front();
 }
@@ -41,18 +30,18 @@ PictureMeter::Rate PictureMeter::rate(TimePoint now) const {
   for (const Picture& picture : pictures_) {
     if (now - picture.at <= kWindow) took.push_back(picture.ms);
   }
-  const double over_s = seconds_of(std::min<Duration>(kWindow, now - began_));
+  const double over_s = to_seconds(std::min<Duration>(kWindow, now - began_));
   if (took.empty() || over_s <= 0) return {};
   return {static_cast<double>(took.size()) / over_s, percentile(took, 0.5), percentile(took, 0.99)};
 }
 
 TrafficMeter::Rate TrafficMeter::rate(const client::FrameTraffic& now_counted, TimePoint now) {
   counts_.push_back({now, now_counted});
-  // One older than the window stays: the rate is counted from it.
+  // One sample older than the window is kept, as the start of the rate.
   while (counts_.size() > 2 && now - counts_[1].at >= kWindow)
     counts_.pop_front();
   const Count& first = counts_.front();
-  const double over_s = seconds_of(now - first.at);
+  const double over_s = to_seconds(now - first.at);
   const double came = static_cast<double>(now_counted.received - first.traffic.received);
   const double lost = static_cast<double>(now_counted.lost - first.traffic.lost);
   if (over_s <= 0 || came + lost <= 0) return {};
@@ -66,7 +55,7 @@ KioskDesk::KioskDesk(client::Client& client, DisplayIdentity identity, client::D
       meter_(now),
       began_(now),
       next_report_(now),
-      host_(host_name()) {}
+      host_(proto::host_name()) {}
 
 bool KioskDesk::take_requests(const picture::OverlayStyle& style) {
   settings_.large_text = style.text_scale > 1;
@@ -88,7 +77,7 @@ void KioskDesk::answer(const client::DisplayRequest& request) {
     return say({request.id, "this display has no recorded visit to show: start it with --attract FILE", ""});
   settings_ = requested;
   for (const client::DisplaySetting& setting : request.settings)
-    log::info(fmt::format("from afar: {}={}", setting.name, setting.value));
+    log::info(fmt::format("set from another machine: {}={}", setting.name, setting.value));
   if (request.picture) {
     picture_for_.push_back(request.id);
   } else {
@@ -97,10 +86,10 @@ void KioskDesk::answer(const client::DisplayRequest& request) {
 }
 
 void KioskDesk::say(client::RequestAnswer answer) {
-  if (!answer.refusal.empty()) log::warning("a request from afar is refused: " + answer.refusal);
+  if (!answer.refusal.empty()) log::warning("a request from another machine was refused: " + answer.refusal);
   answers_.push_back(std::move(answer));
   if (answers_.size() > kAnswers) answers_.pop_front();
-  next_report_ = {};  // who asked is waiting
+  next_report_ = {};  // report at once: somebody is waiting for the answer
 }
 
 void KioskDesk::picture_taken(const std::vector<std::uint64_t>& requests, const std::string& file) {
@@ -146,7 +135,7 @@ void KioskDesk::report(const DisplayFacts& facts, TimePoint now) {
   }
   status.renderer = identity_.renderer;
   if (!facts.sound) {
-    status.sound_problem = identity_.offscreen ? "it has no window: nothing is heard" : "muted";
+    status.sound_problem = identity_.offscreen ? "without a window there is no sound" : "muted";
   } else {
     status.sound = facts.sound->device;
     status.sound_problem = settings_.muted ? "muted" : facts.sound->problem;
@@ -157,7 +146,7 @@ void KioskDesk::report(const DisplayFacts& facts, TimePoint now) {
   status.last_warning = trouble.last;
   status.settings = client::settings_of(settings_);
   status.answers.assign(answers_.begin(), answers_.end());
-  (void)client_.report(status);  // the next second brings another
+  (void)client_.report(status);  // after a failure, the next one follows in a second
 }
 
 }  // namespace mechane::display

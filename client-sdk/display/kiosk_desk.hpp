@@ -1,5 +1,5 @@
-// What a display tells to, and hears from, whoever looks after its kiosk: how it is, once a second; settings and pictures that are requested
-// for. On the display's thread; time is an argument.
+// A display's link to technicians: sends its status once a second, receives requests for settings and pictures. On the
+// display's thread; time is an argument.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace mechane::display {
 /// The value below which `share` (0..1) of them lie; 0 of none.
 [[nodiscard]] double percentile(std::vector<double> values, double share);
 
-/// Pictures a second, and what one takes, of the last seconds.
+/// Pictures per second and time per picture, over the last seconds.
 class PictureMeter {
  public:
   static constexpr Duration kWindow = std::chrono::seconds(5);
@@ -45,7 +45,7 @@ class PictureMeter {
   std::deque<Picture> pictures_;
 };
 
-/// Frames that came and that were lost, of the last seconds, from counts that only rise.
+/// Frames that were received and lost in the last seconds, from rising counts.
 class TrafficMeter {
  public:
   static constexpr Duration kWindow = std::chrono::seconds(10);
@@ -63,15 +63,15 @@ class TrafficMeter {
   std::deque<Count> counts_;
 };
 
-/// What never changes of a display.
+/// The constant properties of a display.
 struct DisplayIdentity {
   std::string kiosk;
   std::string name;
   std::string renderer;
   bool offscreen = false;
   double wanted_per_s = 60;
-  bool has_folder = false;   ///< for pictures
-  bool has_attract = false;  ///< a recorded visit to show
+  bool has_folder = false;   ///< has a folder for pictures
+  bool has_attract = false;  ///< has a recorded visit to show
 };
 
 /// What the display's loop knows at the time of a report.
@@ -79,7 +79,7 @@ struct DisplayFacts {
   picture::PixelSize size;
   const client::WorldStatus* world = nullptr;      ///< null: none is known
   const std::set<std::string>* missing = nullptr;  ///< null: nothing was loaded yet
-  std::optional<sound::SoundState> sound;          ///< none: it makes no sound
+  std::optional<sound::SoundState> sound;          ///< none: the display has no sound
   bool attracts = false;                           ///< a recorded visit is shown
 };
 
@@ -89,15 +89,16 @@ class KioskDesk {
   static constexpr std::size_t kAnswers = 8;
   static constexpr std::size_t kMissingNamed = 8;
 
-  /// The client outlives the desk.
+  /// The client must outlive the desk.
   KioskDesk(client::Client& client, DisplayIdentity identity, client::DisplaySettings settings, TimePoint now);
 
-  /// Answers what was requested. True where settings changed. `style`: as visitors have it now, with keys of their own.
+  /// Answers requests. True if settings changed. `style`: as visitors have set it with keys.
   [[nodiscard]] bool take_requests(const picture::OverlayStyle& style);
   [[nodiscard]] const client::DisplaySettings& settings() const { return settings_; }
-  /// Somebody asked for a picture.
+  /// Whether somebody requested a picture.
   [[nodiscard]] bool picture_wanted() const { return !picture_for_.empty(); }
-  /// The ids of those requests: one picture is taken for all of them, and its file, or why there is none, is their answer.
+  /// Takes the ids of these requests. One picture is taken for all of them; their answer is its file, or why there is
+  /// none.
   [[nodiscard]] std::vector<std::uint64_t> take_picture_requests() { return std::exchange(picture_for_, {}); }
   void picture_taken(const std::vector<std::uint64_t>& requests, const std::string& file);
   void picture_failed(const std::vector<std::uint64_t>& requests, const Error& error);
@@ -118,7 +119,7 @@ class KioskDesk {
   TimePoint began_;
   TimePoint next_report_;
   std::string host_;
-  std::vector<std::uint64_t> picture_for_;  ///< ids of requests that no picture was taken for yet
+  std::vector<std::uint64_t> picture_for_;  ///< ids of requests that still wait for a picture
   std::deque<client::RequestAnswer> answers_;
 };
 

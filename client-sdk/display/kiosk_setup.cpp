@@ -6,14 +6,14 @@
 namespace mechane::display {
 namespace {
 
-/// None where assets are a folder's.
+/// None if assets come from a folder.
 std::unique_ptr<assets::AssetStore> open_asset_store(const DisplayOptions& display) {
   if (!assets::is_web_address(display.assets)) return nullptr;
   assets::AssetStoreOptions options;
   options.cache_folder = display.asset_cache;
   options.cache_bytes = std::uint64_t{display.asset_cache_mib} << 20U;
   auto address = assets::AssetAddress::parse(display.assets);
-  MECHANE_ASSERT(address.has_value());  // run_display() has read it
+  MECHANE_ASSERT(address.has_value());  // checked by run_display()
   auto store = assets::AssetStore::open(std::move(*address), options);
   if (store) return std::move(*store);
   log::error(store.error());

@@ -1,4 +1,4 @@
-// A display's options, as the parts of its life at a kiosk want them.
+// Makes the parts of a display from its options.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace mechane::display {
 [[nodiscard]] visit::VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
 [[nodiscard]] DisplayIdentity identity_of(const DisplayOptions& options, const draw::GlContext& context);
 
-/// The address has been read once already. `catalogue` and `worker` may be null.
+/// The address must be valid. `catalogue` and `worker` may be null.
 [[nodiscard]] scene::AssetSource open_assets(const DisplayOptions& options, const content::Catalogue* catalogue,
                                              Worker* worker);
 

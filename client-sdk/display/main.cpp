@@ -17,9 +17,9 @@ namespace {
 
 using namespace mechane;
 
-display::DisplaySignals g_signals;  // what a signal handler may write
+display::DisplaySignals g_signals;  // set by signal handlers
 
-/// An option that takes one of some words. CLI11's own way for an enum prints its values, which are not words, where a word is wrong.
+/// An option that takes one of several words. CLI11's own transformer would print numbers for a wrong word.
 template <class Value>
 void add_words(CLI::App& app, const std::string& name, Value& value,
                const std::vector<std::pair<std::string_view, Value>>& words, const std::string& help) {
@@ -40,7 +40,7 @@ void add_words(CLI::App& app, const std::string& name, Value& value,
       ->default_str(usual);
 }
 
-/// A length. Who writes 65 between the eyes means millimetres, and hears what that is here.
+/// A length in metres. For values such as 65 (between the eyes, in millimetres), the message shows how to write them.
 CLI::Validator metres(double least, double most) {
   const std::string range = fmt::format("{} to {} metres", least, most);
   return {[=](std::string& text) {
@@ -52,14 +52,14 @@ CLI::Validator metres(double least, double most) {
           range};
 }
 
-/// Of two eyes before a screen.
+/// Options of stereo and the screen.
 void add_stereo_options(CLI::App& app, display::DisplayOptions& o) {
   add_words(
       app, "--stereo", o.stereo, picture::stereo_names(),
-      "how two eyes see one picture: whole halves side by side (sbs) or one above the other; the same squeezed, as a "
-      "3D television wants them; red-cyan glasses, rows in turn, a driver's two buffers; or one eye alone");
+      "how the pictures of two eyes are shown: side by side (sbs) or one above the other; the same squeezed, for a 3D "
+      "television; for red-cyan glasses; in alternating rows; in a driver's two buffers; or one eye only");
   app.add_flag("--right-eye-first", o.renderer.right_eye_first,
-               "with --stereo rows: the uppermost row is the right eye's");
+               "with --stereo rows: the uppermost row belongs to the right eye");
   auto* width = app.add_option("--screen-width", o.screen.width_m,
                                "of the picture that one eye sees; with --viewer-distance, depth has its true "
                                "proportions")
@@ -73,7 +73,7 @@ void add_stereo_options(CLI::App& app, display::DisplayOptions& o) {
       ->check(metres(0.01, 0.2));
 }
 
-/// What one option means only together with another.
+/// Checks of options that depend on each other.
 void check_together(const display::DisplayOptions& o) {
   if (o.renderer.right_eye_first && o.stereo != picture::Stereo::row_interleaved)
     throw CLI::RequiresError("--right-eye-first", "--stereo rows");
@@ -81,18 +81,18 @@ void check_together(const display::DisplayOptions& o) {
     throw CLI::ValidationError(ok.error().to_string());
 }
 
-/// Of its life at a kiosk, from morning to evening.
+/// Options for the daily operation of a kiosk.
 void add_kiosk_options(CLI::App& app, display::DisplayOptions& o) {
-  app.add_option("--name", o.name, "of this display, where the kiosk has several (mechane displays)")
+  app.add_option("--name", o.name, "name of this display, if the kiosk has several (see mechane displays)")
       ->capture_default_str();
   app.add_option("--home-after", o.home_after_s,
                  "seconds without a hand's motion or a click after which the kiosk goes home; 0: never")
       ->check(CLI::Range(0.0, 86'400.0));
   app.add_option("--attract", o.attract,
-                 "recording (--record) that is shown while nobody is there, with an invitation to touch")
+                 "recording (made with --record) to show while nobody is there, with an invitation to touch")
       ->check(CLI::ExistingFile);
   app.add_option("--attract-after", o.attract_after_s,
-                 "seconds without a hand's motion or touch or a click after which it is shown")
+                 "show it after this many seconds without a motion, touch or click")
       ->check(CLI::Range(5.0, 86'400.0))
       ->capture_default_str();
 }
@@ -103,9 +103,9 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_flag("--offscreen", o.offscreen, "draw without a window or a screen");
   app.add_option("--size", size, "width x height, pixels")->capture_default_str();
   app.add_flag("--full-screen", o.full_screen,
-               "fill the screen from the start, without a cursor while the mouse rests; key F11");
+               "fill the screen from the start, and hide the cursor while the mouse rests; key F11");
   app.add_option("--language", o.language,
-                 "language of all words; visitors may change it (key L), without them it comes back")
+                 "language of all words; visitors can change it (key L), and it returns when they have gone")
       ->check(CLI::IsMember({"el", "en"}))
       ->capture_default_str();
   add_words<visit::AskWhen>(
@@ -113,63 +113,65 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
       {{"none", visit::AskWhen::none}, {"after", visit::AskWhen::after}, {"both", visit::AskWhen::both}},
       "when visitors are asked an activity's questions");
   app.add_flag_callback(
-      "--large-text", [&o] { o.overlay.text_scale = picture::kLargeText; }, "words 1.35 times as large; key +");
+      "--large-text", [&o] { o.overlay.text_scale = picture::kLargeText; }, "make words 1.35 times as large; key +");
   app.add_flag("--high-contrast", o.overlay.high_contrast, "white and yellow words on black; key C");
-  app.add_flag("--force-arrows", o.forces, "an arrow at each hand, of the force that it feels; key F");
+  app.add_flag("--force-arrows", o.forces, "show the force on each hand as an arrow; key F");
   app.add_option("--assets", o.assets,
-                 "folder, or address (http://server/scenario, or http://server:8000/ where its root is the scenarios' "
-                 "folder), that mesh files are relative to; without: the scenario's folder");
+                 "folder or address to which mesh files are relative: http://server/scenario, or http://server:8000/ "
+                 "if its root is "
+                 "the scenarios' folder; without: the scenario's folder");
   app.add_option("--asset-cache", o.asset_cache,
-                 "folder that keeps what was fetched; without: mechane/assets in $XDG_CACHE_HOME or ~/.cache");
-  app.add_option("--asset-cache-mib", o.asset_cache_mib, "the most that is kept there; what was not used for long goes")
+                 "folder for fetched files; without: mechane/assets in $XDG_CACHE_HOME or ~/.cache");
+  app.add_option("--asset-cache-mib", o.asset_cache_mib,
+                 "its size limit in MiB; the files that were not used for the longest time are removed")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
   app.add_option("--catalogue", o.catalogue,
-                 "catalogue (mechane content) in which mesh files are looked for first, by their content");
+                 "catalogue (see mechane content) in which mesh files are looked up first, by their content");
   app.add_option("--fonts", o.renderer.font_folder, "folder of the DejaVu fonts")->capture_default_str();
   app.add_option("--out", o.out,
-                 "folder for pictures (PNG); SIGUSR1, or P in the window, asks for one; offscreen, the last one where "
-                 "no other was written");
-  app.add_flag("--every-step", o.every_step, "a picture of each step; offscreen, draw nothing else");
-  app.add_option("--frames", o.frames, "stop after so many frames, the last one a picture");
-  app.add_option("--seconds", o.seconds, "stop after so long")->check(CLI::NonNegativeNumber);
+                 "folder for pictures (PNG); SIGUSR1, or key P in the window, takes one; offscreen, the last picture "
+                 "is written if no "
+                 "other was");
+  app.add_flag("--every-step", o.every_step, "write a picture of each step; offscreen, draw nothing else");
+  app.add_option("--frames", o.frames, "stop after this many frames, and write the last one as a picture");
+  app.add_option("--seconds", o.seconds, "stop after this time")->check(CLI::NonNegativeNumber);
   app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
-  // As callbacks: of a flag that sets false, CLI11's help would say --no-touch{false}.
+  // As callbacks, because for a flag that sets false CLI11's help would print --no-touch{false}.
   app.add_flag_callback(
-      "--no-touch", [&o] { o.touch = false; },
-      "mouse, finger and keys take nothing: the picture is for looking at, and for clicks on signs");
+      "--no-touch", [&o] { o.touch = false; }, "mouse, fingers and keys move no hand: they can only click on signs");
   app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   app.add_flag_callback(
-      "--mute", [&o] { o.sound.on = false; }, "let nothing be heard");
+      "--mute", [&o] { o.sound.on = false; }, "play no sound");
   app.add_option("--narration", o.sound.narration,
-                 "folder of deploy/narration; without: that beside the programs, where they were built");
+                 "folder with the recordings of deploy/narration; without: the one beside the programs");
   app.add_option("--fps", o.fps, "frames a second, at most")->check(CLI::Range(0.1, 240.0))->capture_default_str();
 }
 
 void add_recording_options(CLI::App& app, display::DisplayOptions& o) {
-  app.add_option("--record", o.source.record,
-                 "file that all that is shown is recorded to, to be played without a server; a file of that name goes");
-  app.add_option("--record-fps", o.source.recorder.fps, "frames a second that are recorded, at most")
+  app.add_option(
+      "--record", o.source.record,
+      "record all that is shown to this file, to be played without a server; an existing file is overwritten");
+  app.add_option("--record-fps", o.source.recorder.fps, "frames per second to record, at most")
       ->check(CLI::Range(1.0, 240.0))
       ->capture_default_str();
   app.add_option_function<std::uint64_t>(
          "--record-mib", [&o](std::uint64_t mib) { o.source.recorder.limit_bytes = mib << 20U; },
-         "the recording ends where it is so large; without: 256")
+         "size in MiB at which the recording ends; without: 256")
       ->check(CLI::Range(1, 1024));
-  auto* play = app.add_option("--play", o.source.play, "recording that is shown in a server's place");
-  app.add_option("--speed", o.source.player.speed, "of a recording; 1: as it was")
+  auto* play = app.add_option("--play", o.source.play, "recording to show in place of a server's world");
+  app.add_option("--speed", o.source.player.speed, "speed of a recording; 1: as recorded")
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str()
       ->needs(play);
   app.add_option("--play-from", o.source.play_from,
-                 "where the recording begins: a second, as 12.5, or a step and a share of it, as turn@0.4")
+                 "where in the recording to begin: seconds, as in 12.5, or a step and a share of it, as in turn@0.4")
       ->needs(play);
-  app.add_flag("--play-again", o.source.player.again, "begin the recording anew when it is over")->needs(play);
-  app.add_option(
-         "--film-fps", o.film_fps,
-         "write every picture of a recording to --out, so many for each second, however long each takes to draw")
+  app.add_flag("--play-again", o.source.player.again, "play the recording again when it is over")->needs(play);
+  app.add_option("--film-fps", o.film_fps,
+                 "write every picture of a recording to --out, this many per second, however long each takes to draw")
       ->check(CLI::Range(0.1, 240.0))
       ->needs(play);
 }
@@ -189,7 +191,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     check_together(options);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
   }
   log::start("mechane-display", log::Level::info);
   const Expected<picture::PixelSize> parsed = display::parse_size(size);

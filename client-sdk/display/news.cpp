@@ -9,7 +9,7 @@
 namespace mechane::display {
 namespace {
 
-/// After this long without being named, an object has no manifest.
+/// An object that moves but is not in the manifest is reported after this time.
 constexpr Duration kManifestComes = std::chrono::seconds(5);
 
 }  // namespace
@@ -55,23 +55,23 @@ std::vector<client::WorldEvent> News::take_events(TimePoint now) {
   return events;
 }
 
-/// Visitors see a calm picture; whoever looks after the kiosk needs the reason.
+/// Visitors see a calm picture; the log tells technicians the reason.
 void News::tell_refusal() {
   std::string refusal = client_.state() == client::LinkState::refused ? client_.refusal() : std::string();
   if (refusal == told_refusal_) return;
   told_refusal_ = std::move(refusal);
-  if (!told_refusal_.empty()) log::warning("no exhibit yet: " + told_refusal_);
+  if (!told_refusal_.empty()) log::warning("there is no exhibit to show yet: " + told_refusal_);
 }
 
 void News::tell_what_is_not_drawn(TimePoint now) {
   if (const std::string stray = world_.stray(); !stray.empty() && stray != told_stray_) {
     told_stray_ = stray;
-    log::warning(told_stray_ + " is kilometres away and not drawn: its world has come apart; begin the activity anew");
+    log::warning(told_stray_ + " is kilometres away and is not drawn: its simulation has failed; restart the activity");
   }
   const auto unknown = world_.unknown();
   if (!unknown) return unknown_since_.reset();
   if (!unknown_since_) unknown_since_ = now;
-  // Until then its manifest may still be on its way.
+  // Until then, the manifest may still be arriving.
   if (now - *unknown_since_ < kManifestComes || std::exchange(told_unknown_, unknown) == unknown) return;
   log::warning(
       fmt::format("object {} moves, but the server's list of objects does not contain it, so it is not drawn: check "

@@ -1,5 +1,5 @@
-// What a display hears from its client: the world, its newest frame, the visitor's head. It also records this, and writes into the log what
-// whoever looks after the kiosk must know.
+// What a display hears from its client: the world, its newest frame, the visitor's head. It also records this, and
+// logs what a technician must know.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@
 
 namespace mechane::display {
 
-/// Two frames of a world that sends sixty a second: the picture is late by this, and smooth because of it.
+/// The picture's delay: two frames at 60 frames per second, for smooth interpolation.
 inline constexpr Duration kInterpolationDelay = std::chrono::milliseconds(33);
 
-/// On the display's thread. `options` and `source` outlive it.
+/// On the display's thread. `options` and `source` must outlive it.
 class News {
  public:
   News(const DisplayOptions& options, DisplaySource& source, scene::AssetSource assets)
@@ -25,7 +25,7 @@ class News {
         world_(std::move(assets), options.language),
         head_(options.screen) {}
 
-  /// Once a picture: takes status, manifest, frame and head as they are now, and records them.
+  /// Takes the current status, manifest, frame and head; records all but the head. Call it once a picture.
   [[nodiscard]] scene::ShownWorld::News take(TimePoint now);
   /// What happened since the last call; recorded too.
   [[nodiscard]] std::vector<client::WorldEvent> take_events(TimePoint now);
@@ -34,15 +34,15 @@ class News {
 
   [[nodiscard]] scene::ShownWorld& world() { return world_; }
   [[nodiscard]] const scene::ShownWorld& world() const { return world_; }
-  /// Null before the first one of this world. While the link is down, the last one stays.
+  /// Null before this world's first frame. While the link is down, the last frame stays.
   [[nodiscard]] const client::Frame* frame() const { return frame_ ? &*frame_ : nullptr; }
-  /// Null: see HeadView::place().
+  /// See HeadView::place().
   [[nodiscard]] const picture::HeadPlace* head() const { return head_.place(); }
-  /// The server sends this world at this moment.
+  /// Whether the server is sending this world at the moment.
   [[nodiscard]] bool live() const { return frame_ && client_.state() == client::LinkState::joined; }
-  /// The world's last activity is done.
+  /// Whether the world's last activity is done.
   [[nodiscard]] bool finished() const;
-  /// A recording was played to its end.
+  /// Whether a recording was played to its end.
   [[nodiscard]] bool over() const { return source_.recorded != nullptr && source_.recorded->over(); }
   [[nodiscard]] client::Client& client() const { return client_; }
 
@@ -57,7 +57,7 @@ class News {
   scene::ShownWorld world_;
   HeadView head_;
   std::optional<client::Frame> frame_;
-  // What the log was told.
+  // What has been logged.
   bool told_head_ = false;
   std::string told_refusal_;
   std::string told_stray_;

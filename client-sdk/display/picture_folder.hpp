@@ -1,4 +1,4 @@
-// The folder that a display writes its pictures to. Encoding a PNG takes longer than drawing it: a thread of its own does that.
+// The folder for a display's pictures. Encoding a PNG takes longer than drawing it, so a thread of its own does it.
 #pragma once
 
 #include <cstdint>
@@ -13,33 +13,33 @@
 
 namespace mechane::display {
 
-/// Owns a thread. The functions are the display's thread's.
+/// Owns a thread. The functions are called on the display's thread.
 class PictureFolder {
  public:
-  /// So many pictures wait in memory; who brings one more waits for the first to be written.
+  /// How many pictures may wait in memory; the next call waits until one has been written.
   static constexpr std::size_t kMostWaiting = 4;
 
   struct Written {
     std::string path;
-    bool requested = false;               ///< by a person, and not by an option
-    std::vector<std::uint64_t> requests;  ///< that asked for it over the network
+    bool requested = false;               ///< by a person, not by an option
+    std::vector<std::uint64_t> requests;  ///< ids of its requests over the network
     Expected<void> result;
   };
 
-  /// `folder` exists; empty: nothing is written.
+  /// `folder` must exist; empty: nothing is written.
   PictureFolder(std::string folder, picture::Stereo stereo) : folder_(std::move(folder)), stereo_(stereo) {}
   PictureFolder(const PictureFolder&) = delete;
   PictureFolder& operator=(const PictureFolder&) = delete;
 
   [[nodiscard]] bool wanted() const { return !folder_.empty(); }
-  /// Queues a picture to be written under this name, in the place of a file that has it.
+  /// Queues a picture to be written under this name; an existing file is replaced.
   void write(picture::ImageData picture, const std::string& name);
-  /// The same under a new name: files that are there already, of an earlier run or of another display, stay.
+  /// The same under a new name: existing files, of an earlier run or of another display, are kept.
   void write_requested(picture::ImageData picture, std::vector<std::uint64_t> requests);
 
-  /// What was written, or could not be, since the last call; in order.
+  /// The pictures that were written, or failed, since the last call; in order.
   [[nodiscard]] std::vector<Written> take_written();
-  /// The same once nothing waits any more.
+  /// The same after waiting until all pictures are written.
   [[nodiscard]] std::vector<Written> finish();
 
  private:

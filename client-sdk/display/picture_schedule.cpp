@@ -17,7 +17,8 @@ std::string file_name(const std::string& text) {
 std::optional<std::string> PictureSchedule::due(TimePoint now, const client::WorldStatus& status, bool whole) {
   if (status.activity.empty()) return {};
   std::string name = file_name(status.activity) + "-" + (status.done ? "done" : file_name(status.step));
-  // Exhibits may have steps of one name: the first that comes has it, the next one's begins with its exhibit.
+  // Steps of different exhibits may have the same name: the first keeps it, for the next the exhibit's name is put in
+  // front.
   const std::string& owner = owner_.try_emplace(name, status.scenario).first->second;
   if (owner != status.scenario) name = file_name(status.scenario) + "-" + name;
   if (name != present_) {

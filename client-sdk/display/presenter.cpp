@@ -10,7 +10,7 @@ namespace mechane::display {
 namespace {
 
 constexpr std::size_t kFrameTimesKept = 20'000;
-/// After this long without a graphics card the display ends, and whoever started it may start it again.
+/// After this time without a graphics card the display ends; systemd may start it again.
 constexpr Duration kCardComesBack = std::chrono::seconds(60);
 
 }  // namespace
@@ -35,7 +35,7 @@ void Presenter::replace_assets() {
   upload();
 }
 
-/// The renderer has room for one set of assets.
+/// The assets to upload: the renderer holds one set.
 void Presenter::upload() {
   if (const AttractLoop* invitation = visitor_.invitation()) return renderer_->upload(invitation->assets());
   if (!news_.world().known()) return;
@@ -44,13 +44,13 @@ void Presenter::upload() {
   give_spare_memory_back();
 }
 
-/// The visitor's world is seen and heard: no invitation lies before it, and its link is not lost.
+/// Whether the visitor's world is shown: there is no invitation in front of it, and its link is not lost.
 bool Presenter::shows_live_world() const {
   return news_.live() && visitor_.invitation() == nullptr;
 }
 
 void Presenter::place_camera(picture::RenderScene& scene) const {
-  if (!options_.screen.known()) scene.camera.room_below = caption_room_.room_below();  // as of the last picture
+  if (!options_.screen.known()) scene.camera.room_below = caption_room_.room_below();  // from the last picture
   const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
   if (eye.width > 0 && eye.height > 0)
     scene.camera = picture::for_screen(scene.camera, options_.screen, news_.head(), picture::aspect_of(eye));
@@ -71,13 +71,14 @@ picture::RenderScene Presenter::compose(TimePoint now) const {
   picture::RenderScene scene = world_scene();
   visitor_.write(scene, last_picture(), now);
   name_what_is_meant(scene);
-  // What the pointer, or the link, has to say is more urgent.
+  // Notes about the pointer or the link are more urgent.
   if (scene.overlay.note.empty() && !scene.overlay.panel && shows_live_world())
     scene.overlay.note = soundtrack_.in_writing(visitor_.language(), now);
   return scene;
 }
 
-/// By the display's own pointer, or else by a hand. Words lie in the screen, for both eyes alike.
+/// Adds the name of the thing at the display's own pointer, or else at a hand. Words lie in the screen's plane, the
+/// same for both eyes.
 void Presenter::name_what_is_meant(picture::RenderScene& scene) const {
   const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
   const auto seen = picture::seen_place(scene.camera, picture::Stereo::mono, eye, {});
@@ -87,8 +88,8 @@ void Presenter::name_what_is_meant(picture::RenderScene& scene) const {
   }
 }
 
-/// Many or large words cover what they speak of. A picture in true proportions is like a pane of glass: its view stays where it is. And what a
-/// pointer drags must stay under it.
+/// Makes room for long or large captions. Not for a picture in true proportions, whose view must stay like a window's,
+/// and not while a pointer drags something, which must stay under it.
 void Presenter::make_room(picture::RenderScene& scene, TimePoint now) {
   if (options_.screen.known()) return;
   if (!scene.overlay.panel && !visitor_.drags())
@@ -106,7 +107,7 @@ Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
   if (context_.lost()) {
     if (auto ok = recover(); !ok) return tl::unexpected(ok.error());
   }
-  // A window that is minimised has no pixels; it takes events, or it would never be told that it is large again, or to close.
+  // A minimised window has no pixels, but must process events, or it would never notice that it is restored or closed.
   if (size.width < 2 || size.height < 2) {
     context_.present();
     return nothing();
@@ -137,27 +138,29 @@ void Presenter::hear(const picture::Camera& ears, TimePoint now) {
                    ears, visitor_.language(), now);
 }
 
-/// A window may be drawn to a size that the driver has no memory for, and back: it waits for that. Offscreen the size stays wrong.
+/// A window may be enlarged beyond the driver's memory, and made smaller again: it waits for that. Offscreen, this is
+/// an error.
 Expected<void> Presenter::survive(const Error& error) {
   if (context_.lost()) return recover();
   if (options_.offscreen) return tl::unexpected(error);
   if (told_draw_ != error.what) log::error(error);
   told_draw_ = error.what;
-  context_.present();  // takes the window's events
+  context_.present();  // processes the window's events
   return {};
 }
 
 Expected<std::unique_ptr<draw::Renderer>> Presenter::begin_drawing() {
   if (auto ok = context_.renew(); !ok) return tl::unexpected(ok.error());
   if (context_.lost())
-    return fail("the graphics card is not back yet", "display", "look for its driver's messages in the system's log");
+    return fail(ErrorCode::busy, "the graphics card is not back yet", "display",
+                "look for its driver's messages in the system's log");
   return draw::Renderer::create(options_.renderer);
 }
 
-/// What was uploaded is gone, and is uploaded again. The world went on meanwhile.
+/// Uploads everything again after the graphics card has lost it. The world has continued meanwhile.
 Expected<void> Presenter::recover() {
   log::warning(
-      "the graphics card was reset (by its driver, or the machine slept) and everything on it is lost: the display "
+      "the graphics card was reset (by its driver, or because the machine slept) and has lost everything: the display "
       "uploads it again");
   renderer_.reset();
   const TimePoint lost = clock_.now();

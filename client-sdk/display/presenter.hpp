@@ -1,4 +1,5 @@
-// Draws what a display shows: composes the scene with its words, draws it, and begins anew where the graphics card has lost everything.
+// Draws what a display shows: composes the scene with its words, draws it, and starts again when the graphics card has
+// lost everything.
 #pragma once
 
 #include <memory>
@@ -17,28 +18,29 @@
 
 namespace mechane::display {
 
-/// On the display's thread, which is the context's. What is given to the constructor outlives it.
+/// On the display's thread, which is the context's. The constructor's arguments must outlive it.
 class Presenter {
  public:
   /// `window` is the context's, null offscreen. `renderer` is made in the context as it is now.
   Presenter(const DisplayOptions& options, const DisplaySignals& signals, draw::GlContext& context, Window* window,
             std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor);
 
-  /// Frees what was uploaded, and uploads what is shown now.
+  /// Frees everything that was uploaded, and uploads what is shown now.
   void replace_assets();
-  /// Uploads what came to what is shown now.
+  /// Uploads what is new in what is shown now.
   void upload();
 
   /// The world's scene with its camera, without words.
   [[nodiscard]] picture::RenderScene world_scene() const;
-  /// Draws and shows one picture, and lets it be heard. How long that took; none: nothing was drawn, because the window has no pixels or the
-  /// graphics card was lost. Errors: the graphics card does not come back; offscreen, a size that there is no memory for.
+  /// Draws and shows one picture, with its sound. Returns the time that it took; none: nothing was drawn, because the
+  /// window has no pixels or the graphics card was lost. Errors: the graphics card does not come back; offscreen, no
+  /// memory for this size.
   [[nodiscard]] Expected<std::optional<Duration>> draw(TimePoint now);
 
   [[nodiscard]] LastPicture last_picture() const;
   [[nodiscard]] picture::ImageData read_picture() const { return renderer_->read_picture(); }
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
-  /// What one frame took, of the first 20 000.
+  /// The times of the first 20 000 frames.
   [[nodiscard]] const std::vector<double>& frame_ms() const { return frame_ms_; }
   [[nodiscard]] Soundtrack& soundtrack() { return soundtrack_; }
 
@@ -57,7 +59,7 @@ class Presenter {
   const DisplaySignals& signals_;
   draw::GlContext& context_;
   Window* window_;
-  std::unique_ptr<draw::Renderer> renderer_;  ///< of the context as it is now
+  std::unique_ptr<draw::Renderer> renderer_;  ///< in the present context
   News& news_;
   const Visitor& visitor_;
   SystemClock clock_;

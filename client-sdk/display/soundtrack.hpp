@@ -1,4 +1,4 @@
-// What is heard of a world, and what is written of it for those who do not hear it.
+// The sounds of a world, and their captions for visitors who do not hear them.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace mechane::display {
 
-/// A moment of a world.
+/// The state of a world at one moment.
 struct HeardWorld {
   const client::WorldStatus* status = nullptr;  ///< null: nobody speaks
   const client::Frame* frame = nullptr;         ///< null: nothing sounds
@@ -26,18 +26,18 @@ struct HeardWorld {
 /// On the display's thread.
 class Soundtrack {
  public:
-  /// `audible`: there is somebody to hear it. Without, words are written all the same.
+  /// `audible`: whether sound is played; captions are shown in any case.
   Soundtrack(const SoundSettings& settings, bool audible, const std::string& language);
 
-  /// Before a picture is composed: what is read aloud now.
+  /// Call it before a picture is composed: takes what is read aloud now.
   void read(const client::WorldStatus* status, const std::string& language, TimePoint now);
-  /// What is said and what sounds, in writing.
+  /// Adds subtitles and sound captions.
   [[nodiscard]] std::string in_writing(const std::string& language, TimePoint now) const;
-  /// After a picture was drawn.
+  /// Call it after a picture was drawn.
   void hear(const HeardWorld& world, const picture::Camera& ears, const std::string& language, TimePoint now);
 
   void set_levels(double volume, bool muted);
-  /// None: it makes no sound.
+  /// None: there is no sound.
   [[nodiscard]] std::optional<sound::SoundState> state() const;
 
  private:

@@ -10,9 +10,11 @@ namespace mechane::display {
 
 void keep_large_blocks_apart() {
 #ifdef __GLIBC__
-  // So large are the blocks in which Mesa's rasteriser on the processor keeps a picture's triangles.
-  (void)::mallopt(M_MMAP_THRESHOLD, 64 << 10);
-  (void)::mallopt(M_TRIM_THRESHOLD, 1 << 20);
+  // Mesa's software rasteriser takes and frees a picture's triangles in blocks of 64 KiB. They have to stay in the heap: as mappings of
+  // their own, or from a heap that shrinks after each picture, the system clears their pages each time, which took four fifths of a
+  // picture.
+  (void)::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+  (void)::mallopt(M_TRIM_THRESHOLD, 16 << 20);
 #endif
 }
 

@@ -1,14 +1,15 @@
-// What a display no longer needs goes back to the system: a kiosk's display lives for months, and goes from exhibit to exhibit. For glibc;
-// with another allocator these do nothing.
+// Returns memory that a display no longer needs to the system: it runs for months and changes its exhibits. For glibc;
+// with another allocator these functions do nothing.
 #pragma once
 
 namespace mechane::display {
 
-/// Once, first of all. glibc raises its threshold for blocks of their own with each that is freed, and keeps images and meshes in one heap
-/// instead, which what lies between them holds up: through all exhibits and back it held some 130 MiB more.
+/// Call it once, at the start. glibc raises its mmap threshold with each freed block, and then keeps images and meshes
+/// in its heap, which small blocks between them prevent from shrinking: after all exhibits it held about 130 MiB more.
 void keep_large_blocks_apart();
 
-/// When much was freed, as between two exhibits: pages of the heap that hold nothing. Some milliseconds. Any thread.
+/// Returns empty pages of the heap. Call it when much was freed, as between two exhibits. Takes some milliseconds. Any
+/// thread.
 void give_spare_memory_back();
 
 }  // namespace mechane::display

@@ -10,8 +10,18 @@
 #include "server/log/log.hpp"
 
 namespace mechane::display {
+namespace {
 
-Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std::unique_ptr<AttractLoop> attract)
+bool lets_go(const pointer::PointerEvent& event) {
+  using Kind = pointer::PointerEvent::Kind;
+  return event.kind == Kind::release || event.kind == Kind::turn_release || event.kind == Kind::gone ||
+         event.kind == Kind::key_up;
+}
+
+}  // namespace
+
+Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std::unique_ptr<AttractLoop> attract,
+                 std::unique_ptr<pointer::PointerTouch> hand)
     : window_(window),
       news_(news),
       client_(news.client()),
@@ -20,9 +30,10 @@ Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std:
       forces_shown_(options.forces),
       language_(options.language) {
   news_.world().show_forces(forces_shown_);
-  // Nothing takes part in a recording.
-  if (options.touch && window_ != nullptr && options.source.play.empty())
-    pointer_.emplace(options.kiosk, options.domain);
+  // A recording cannot be touched.
+  if (!options.touch || window_ == nullptr || !options.source.play.empty()) return;
+  if (!hand) hand = std::make_unique<pointer::PointerLink>(options.kiosk, options.domain);
+  pointer_.emplace(std::move(hand));
 }
 
 void Visitor::forget_world() {
@@ -56,7 +67,7 @@ void Visitor::send_answers() {
   }
 }
 
-/// The visit's sheet says in which language the visitor was shown the exhibit: told once a world, and when it changes.
+/// The visit's record says in which language the visitor was shown the exhibit: told once a world, and when it changes.
 void Visitor::tell_language() {
   const auto& presentation = news_.world().presentation();
   if (!presentation || presentation->languages.empty() || client_.state() != client::LinkState::joined) return;
@@ -80,7 +91,7 @@ bool Visitor::invite(const client::DisplaySettings& settings, TimePoint now) {
 
 void Visitor::write(picture::RenderScene& scene, const LastPicture& last, TimePoint now) const {
   panel_.write(scene.overlay, now);
-  if (scene.overlay.panel) scene.inset.reset();  // it would lie before the questions
+  if (scene.overlay.panel) scene.inset.reset();  // it would cover the questions
   if (!pointer_ || !news_.world().known()) return;
   pointer_->write(scene.overlay, under_pointer(scene, last), language_);
   if (const auto button = pointer::go_on_button(news_.world().status(), language_); button && !scene.overlay.panel)
@@ -106,7 +117,7 @@ void Visitor::take_key(DisplayKey key, TimePoint now) {
   }
 }
 
-/// Buttons come first; what lies behind a panel of questions, or behind an invitation, is not meant.
+/// Buttons have priority; clicks do not go through a panel of questions or an invitation.
 void Visitor::take_click(picture::PixelPlace place, const LastPicture& last, const SceneNow& scene, TimePoint now) {
   const auto action = last.button_at(place);
   if (action && action->kind == picture::OverlayAction::Kind::activity) (void)client_.start_activity(action->value);
@@ -115,7 +126,7 @@ void Visitor::take_click(picture::PixelPlace place, const LastPicture& last, con
   if (!invites_ && !last.has_panel && news_.world().known()) click_object(place, last, scene());
 }
 
-/// A click on a sign is as good as a finger.
+/// A click on a sign counts as a touch.
 void Visitor::click_object(picture::PixelPlace place, const LastPicture& last, const picture::RenderScene& scene) {
   const auto clicked = picture::object_at(scene, news_.world().assets(), place, last.stereo, last.size);
   if (!clicked) return;
@@ -130,17 +141,18 @@ pointer::PointerScene Visitor::under_pointer(const picture::RenderScene& scene, 
           news_.frame(), world.objects(), world.status(), world.presentation().get()};
 }
 
-/// The display's own hand hears of everything that is not pressed on a button.
+/// The display's own hand gets all events, except presses on buttons.
 void Visitor::take_pointer(const LastPicture& last, const SceneNow& scene, TimePoint now) {
   using Kind = pointer::PointerEvent::Kind;
-  const std::vector<pointer::PointerEvent> events = window_->take_pointer_events();
+  std::vector<pointer::PointerEvent> events = window_->take_pointer_events();
   if (!pointer_ || !news_.world().known()) return;
-  if (invites_) {  // whoever comes ends the invitation, and takes nothing yet
+  if (invites_) {  // the first press only ends the invitation; but what was held before it may be released
     if (std::ranges::any_of(events, [](const pointer::PointerEvent& e) { return e.kind != Kind::gone; }))
       panel_.touch(now);
-    return;
+    std::erase_if(events, [](const pointer::PointerEvent& e) { return !lets_go(e); });
+    if (events.empty()) return;
   }
-  if (events.empty() && pointer_->rests(now)) return;  // a scene is not built for nothing
+  if (events.empty() && pointer_->rests(now)) return;  // no scene is needed
   const picture::RenderScene built = scene();
   const pointer::PointerScene under = under_pointer(built, last);
   for (const pointer::PointerEvent& event : events) {

@@ -1,5 +1,5 @@
-// The visitor before a display: keys, clicks, mouse and fingers, questions and answers, the language, the way home, and the recorded visit
-// that invites when nobody is there.
+// The visitor in front of a display: keys, clicks, mouse and fingers, questions and answers, the language, going home,
+// and the recorded visit that is shown as an invitation when nobody is there.
 #pragma once
 
 #include <functional>
@@ -17,37 +17,39 @@
 
 namespace mechane::display {
 
-/// On the display's thread. `options`, `window` and `news` outlive it.
+/// On the display's thread. `options`, `window` and `news` must outlive it.
 class Visitor {
  public:
-  /// The world's scene with its camera, as it would be drawn now. Asked for only where it is needed.
+  /// Gives the world's scene with its camera, as it would be drawn now. Called only if needed.
   using SceneNow = std::function<picture::RenderScene()>;
 
-  /// `window` is null offscreen; then nobody presses anything. `attract` may be null.
-  Visitor(const DisplayOptions& options, Window* window, News& news, std::unique_ptr<AttractLoop> attract);
+  /// `window` is null offscreen, where nothing can be pressed. `attract` may be null. `hand`: what the pointer moves;
+  /// null: a hand of the kiosk.
+  Visitor(const DisplayOptions& options, Window* window, News& news, std::unique_ptr<AttractLoop> attract,
+          std::unique_ptr<pointer::PointerTouch> hand = nullptr);
 
-  /// Another world is shown: what was pointed at is gone.
+  /// Another world is shown: forgets what was pointed at.
   void forget_world();
-  /// Once a picture: takes what was pressed, and sends what follows from it.
+  /// Takes what was pressed, and sends what follows from it. Call it once a picture.
   void take(const LastPicture& last, const SceneNow& scene, TimePoint now);
-  /// Begins, goes on with or ends the invitation. True: all uploaded assets are to be replaced, by those of what is shown now.
+  /// Begins, continues or ends the invitation. True: replace all uploaded assets by those of what is shown now.
   [[nodiscard]] bool invite(const client::DisplaySettings& settings, TimePoint now);
-  /// Settings that somebody requested from another machine.
+  /// Applies settings that were requested from another machine.
   void change(const visit::VisitorPanelSettings& settings) { panel_.change(settings); }
 
-  /// What the visitor is offered, and what helps the pointer. Not for an invitation.
+  /// Adds the visitor's buttons and panels, and the pointer's hints. Not for an invitation.
   void write(picture::RenderScene& scene, const LastPicture& last, TimePoint now) const;
 
   /// The recorded visit, while it is shown; else null.
   [[nodiscard]] AttractLoop* invitation() const { return invites_ ? attract_.get() : nullptr; }
-  /// Of all words in the picture.
+  /// Language of all words in the picture.
   [[nodiscard]] const std::string& language() const { return language_; }
   [[nodiscard]] const picture::OverlayStyle& style() const { return panel_.settings().style; }
-  /// What the pointer would take, or else is on.
+  /// The thing that the pointer would take, or else is on.
   [[nodiscard]] std::optional<picture::Touched> pointed_at() const {
     return pointer_ ? pointer_->pointed_at() : std::nullopt;
   }
-  /// The pointer holds something: what it drags must stay under it.
+  /// Whether the pointer holds something, which must stay under it.
   [[nodiscard]] bool drags() const { return pointer_ && !pointer_->is_away(); }
 
  private:
@@ -69,7 +71,8 @@ class Visitor {
   bool forces_shown_;
   std::string language_;
   std::string told_language_;
-  std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told the language
+  std::shared_ptr<const client::WorldPresentation>
+      told_presentation_;  ///< of the world that was last told the language
 };
 
 }  // namespace mechane::display

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include <epoxy/gl.h>
-// Our main() is our own.
+// Do not let SDL replace main().
 #define SDL_MAIN_HANDLED
 #include <SDL2/SDL.h>
 #include <fmt/format.h>
@@ -12,11 +13,11 @@
 namespace mechane::display {
 namespace {
 
-/// More than anybody does between two pictures.
+/// More events than occur between two pictures.
 constexpr std::size_t kMostEvents = 10'000;
-/// Full screen, a mouse that rests so long is not seen.
+/// In full screen, the cursor is hidden after the mouse has rested this long.
 constexpr std::uint64_t kCursorStays_ms = 3'000;
-/// So long after a finger, what the mouse says is the screen's own doing: X moves the cursor to where a finger was.
+/// Mouse motions within this time after a touch come from the touch screen: X moves the cursor to the finger.
 constexpr std::uint64_t kFingersEcho_ms = 500;
 
 std::optional<pointer::PointerKey> pointer_key(SDL_Scancode key, bool shifted) {
@@ -46,14 +47,14 @@ std::optional<pointer::PointerKey> pointer_key(SDL_Scancode key, bool shifted) {
   }
 }
 
-/// A finger on the glass. SDL's numbers are unique on one screen only, and may come again.
+/// A finger on the glass. SDL's numbers are unique on one screen only, and may be reused.
 struct FingerDown {
   SDL_TouchID screen = 0;
   SDL_FingerID number = 0;
   pointer::FingerId id = pointer::kMouse;
 };
 
-/// Where no window manager does it, a window that fills the screen must lie there before.
+/// Without a window manager, a window must be moved to the screen before it can fill it.
 void fill_screen(SDL_Window* window) {
   SDL_Rect screen;
   if (SDL_GetDisplayBounds(std::max(SDL_GetWindowDisplayIndex(window), 0), &screen) == 0) {
@@ -63,7 +64,7 @@ void fill_screen(SDL_Window* window) {
   SDL_SetWindowFullscreen(window, SDL_WINDOW_FULLSCREEN_DESKTOP);
 }
 
-/// Told of resets where the driver can tell, and made current. Null: none, see SDL_GetError().
+/// Makes a context that reports resets, where the driver supports this, and makes it current. Null: see SDL_GetError().
 SDL_GLContext make_context(SDL_Window* window) {
   SDL_GLContext context = nullptr;
   for (const bool told : {true, false}) {
@@ -76,7 +77,7 @@ SDL_GLContext make_context(SDL_Window* window) {
   return context;
 }
 
-/// Who made the window ends SDL with it: there is one window in a process.
+/// Ends SDL in its destructor: there is one window per process.
 class SdlWindow final : public Window {
  public:
   SdlWindow(SDL_Window* window, SDL_GLContext context)
@@ -95,7 +96,8 @@ class SdlWindow final : public Window {
     SDL_GL_DeleteContext(context_);
     context_ = make_context(window_);
     if (context_ == nullptr)
-      return fail(std::string("no OpenGL 3.3: ") + SDL_GetError(), "display, window", "wait for the graphics driver");
+      return fail(ErrorCode::busy, std::string("the window has no OpenGL 3.3 at present: ") + SDL_GetError(),
+                  "display, window", "wait for the graphics driver");
     return {};
   }
   [[nodiscard]] picture::PixelSize size() const override {
@@ -153,7 +155,7 @@ class SdlWindow final : public Window {
         if (event.key.repeat == 0) take_key(event.key);
         return;
       case SDL_TEXTINPUT:
-        // Where the plus is on a keyboard, only its own layout knows.
+        // The place of the plus key depends on the keyboard's layout.
         if (std::string_view(static_cast<const char*>(event.text.text)) == "+") keys_.push_back(DisplayKey::large_text);
         return;
       case SDL_MOUSEBUTTONDOWN:
@@ -173,14 +175,14 @@ class SdlWindow final : public Window {
   }
   void take_window(const SDL_WindowEvent& event) {
     if (event.event == SDL_WINDOWEVENT_LEAVE) say({pointer::PointerEvent::Kind::left});
-    // Nobody tells a window that is not looked at when a finger or a button goes up.
+    // A window without focus does not receive the release of a finger or button.
     if (event.event == SDL_WINDOWEVENT_FOCUS_LOST || event.event == SDL_WINDOWEVENT_HIDDEN ||
         event.event == SDL_WINDOWEVENT_MINIMIZED) {
       fingers_.clear();
       say({pointer::PointerEvent::Kind::gone});
     }
   }
-  /// By its place, whatever its letter is in the visitor's alphabet.
+  /// By the key's place, whatever its letter in the visitor's alphabet.
   void take_key(const SDL_KeyboardEvent& event) {
     const SDL_Scancode key = event.keysym.scancode;
     if (event.type == SDL_KEYDOWN) {
@@ -217,7 +219,7 @@ class SdlWindow final : public Window {
   void take_wheel(const SDL_MouseWheelEvent& event) {
     if (event.which == SDL_TOUCH_MOUSEID) return;
     const bool turns = (SDL_GetModState() & KMOD_SHIFT) != 0;
-    // Some mice roll sideways while Shift is held.
+    // With some mice, the wheel scrolls sideways while Shift is held.
     const double rolled = turns && event.preciseY == 0 ? event.preciseX : event.preciseY;
     pointer::PointerEvent said{turns ? pointer::PointerEvent::Kind::turn_wheel : pointer::PointerEvent::Kind::wheel};
     said.amount = event.direction == SDL_MOUSEWHEEL_FLIPPED ? -rolled : rolled;
@@ -234,12 +236,12 @@ class SdlWindow final : public Window {
       fingers_.push_back({event.touchId, event.fingerId, ++last_finger_});
       return say_finger(pointer::PointerEvent::Kind::press, event, last_finger_);
     }
-    if (known == fingers_.end()) return;  // it came down before the window looked
+    if (known == fingers_.end()) return;  // it was pressed before the window existed
     if (event.type == SDL_FINGERMOTION) return say_finger(pointer::PointerEvent::Kind::move, event, known->id);
     say_finger(pointer::PointerEvent::Kind::release, event, known->id);
     fingers_.erase(known);
   }
-  /// A screen that was unplugged lifts no finger.
+  /// Releases the fingers of a screen that was unplugged.
   void forget_lost_fingers() {
     for (std::ptrdiff_t i = std::ssize(fingers_) - 1; i >= 0; --i) {
       const SDL_TouchID screen = fingers_[static_cast<std::size_t>(i)].screen;
@@ -256,7 +258,7 @@ class SdlWindow final : public Window {
     say(said);
   }
 
-  /// The mouse is told in the window's units; a picture may have more pixels than those.
+  /// Mouse positions are in window units; the picture may have more pixels.
   void say_mouse(pointer::PointerEvent::Kind kind, int x, int y) {
     int width = 0, height = 0;
     SDL_GetWindowSize(window_, &width, &height);
@@ -264,7 +266,7 @@ class SdlWindow final : public Window {
     const picture::PixelSize picture = size();
     say({kind, x * static_cast<double>(picture.width) / width, y * static_cast<double>(picture.height) / height});
   }
-  /// Fingers come in shares of the window.
+  /// Finger positions are in shares of the window's size.
   void say_finger(pointer::PointerEvent::Kind kind, const SDL_TouchFingerEvent& event, pointer::FingerId id) {
     const picture::PixelSize picture = size();
     pointer::PointerEvent said{kind, static_cast<double>(event.x) * picture.width,
@@ -272,7 +274,7 @@ class SdlWindow final : public Window {
     said.finger = id;
     say(said);
   }
-  /// Who writes faster than pictures are drawn loses motions, never the end of one.
+  /// When the queue is full, motions are dropped, but never the last one.
   void say(const pointer::PointerEvent& event) {
     if (event.kind == pointer::PointerEvent::Kind::move && events_.size() >= kMostEvents) return;
     events_.push_back(event);
@@ -291,11 +293,11 @@ class SdlWindow final : public Window {
   SDL_Window* window_;
   SDL_GLContext context_;
   std::string name_;
-  SDL_Rect small_{80, 80, 1280, 720};  ///< when it does not fill the screen
+  SDL_Rect small_{80, 80, 1280, 720};  ///< place and size when it does not fill the screen
   bool close_wanted_ = false;
   bool picture_wanted_ = false;
   bool cursor_shown_ = true;
-  bool touched_ = false;  ///< a finger came after the mouse's last motion
+  bool touched_ = false;  ///< a finger was used after the mouse's last motion
   std::uint64_t mouse_ms_ = SDL_GetTicks64();
   std::uint64_t finger_ms_ = 0;
   pointer::FingerId last_finger_ = pointer::kMouse;
@@ -313,24 +315,24 @@ std::string text_of(const char* name) {
 void set_hints() {
   SDL_SetHint(SDL_HINT_APP_NAME, "Mechane");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-  // A finger is a finger: it shall not come a second time as a mouse.
+  // Do not repeat finger events as mouse events.
   SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");
   SDL_SetHint(SDL_HINT_MOUSE_TOUCH_EVENTS, "0");
-  // The click that brings the window to the front is a visitor's click too.
+  // The click that focuses the window counts as a visitor's click too.
   SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
   SDL_SetHint(SDL_HINT_VIDEO_MINIMIZE_ON_FOCUS_LOSS, "0");
   SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
 }
 
-/// Only screens that somebody sees: SDL would go on to ones that exist in memory alone.
+/// Opens a real screen only: SDL would also try its offscreen drivers.
 Expected<void> open_screen() {
   const std::string remedy = "start it in a desktop session (DISPLAY set), or give --offscreen";
   const std::string x11 = text_of("DISPLAY"), wayland = text_of("WAYLAND_DISPLAY");
   set_hints();
   if (text_of("SDL_VIDEODRIVER").empty()) {
     if (x11.empty() && wayland.empty())
-      return fail("cannot open a window: neither DISPLAY nor WAYLAND_DISPLAY names a screen", "display, window",
-                  remedy);
+      return fail(ErrorCode::not_found, "cannot open a window: neither DISPLAY nor WAYLAND_DISPLAY names a screen",
+                  "display, window", remedy);
     const std::string drivers = std::string(x11.empty() ? "" : "x11") + (!x11.empty() && !wayland.empty() ? "," : "") +
                                 (wayland.empty() ? "" : "wayland");
     SDL_SetHint(SDL_HINT_VIDEODRIVER, drivers.c_str());
@@ -338,6 +340,7 @@ Expected<void> open_screen() {
   SDL_SetMainReady();
   if (SDL_Init(SDL_INIT_VIDEO) == 0) return {};
   return fail(
+      ErrorCode::not_found,
       fmt::format("cannot open a window: {} (DISPLAY is '{}', WAYLAND_DISPLAY is '{}')", SDL_GetError(), x11, wayland),
       "display, window", remedy);
 }
@@ -347,17 +350,17 @@ struct OpenedWindow {
   SDL_GLContext context = nullptr;
 };
 
-/// Both or none.
+/// The window and its context; both null on failure.
 OpenedWindow open_window(picture::PixelSize size, const std::string& title, bool stereo) {
   SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
   SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
   SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
   for (const SDL_GLattr channel : {SDL_GL_RED_SIZE, SDL_GL_GREEN_SIZE, SDL_GL_BLUE_SIZE})
     SDL_GL_SetAttribute(channel, 8);
-  // Depth and anti-aliasing are of the renderer's own targets.
+  // The renderer's own targets have depth and anti-aliasing.
   SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
   SDL_GL_SetAttribute(SDL_GL_MULTISAMPLEBUFFERS, 0);
-  // SDL opens no window at all where the driver lacks this.
+  // Without driver support for this, SDL opens no window at all.
   SDL_GL_SetAttribute(SDL_GL_STEREO, stereo ? 1 : 0);
   const std::uint32_t flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
   OpenedWindow opened;
@@ -383,10 +386,10 @@ Expected<std::unique_ptr<Window>> make_window(picture::PixelSize size, const std
   if (opened.window == nullptr) {
     const std::string reason = SDL_GetError();
     SDL_Quit();
-    return fail("no window with OpenGL 3.3: " + reason, "display, window",
+    return fail(ErrorCode::not_supported, "cannot open a window with OpenGL 3.3: " + reason, "display, window",
                 "install a graphics driver, or give --offscreen");
   }
-  // A kiosk that nobody touches for a while shall still be seen.
+  // A kiosk must stay visible when nobody touches it for a while.
   SDL_DisableScreenSaver();
   auto context = std::make_unique<SdlWindow>(opened.window, opened.context);
   if (options.full_screen) context->toggle_full_screen();

@@ -13,7 +13,7 @@
 
 namespace mechane::display {
 
-/// A key that means something to the display itself.
+/// A key for the display itself.
 enum class DisplayKey : std::uint8_t {
   home,           ///< Home
   language,       ///< L
@@ -24,29 +24,29 @@ enum class DisplayKey : std::uint8_t {
 
 class Window : public draw::GlContext {
  public:
-  /// The screen's row that the picture's uppermost is; 0 where nobody can tell (Wayland).
+  /// The screen row of the picture's uppermost row; 0 if unknown (Wayland).
   [[nodiscard]] virtual int first_row() const = 0;
-  /// Whether it has a picture for each eye (Stereo::quad_buffer).
+  /// Whether it can show a picture for each eye (Stereo::quad_buffer).
   [[nodiscard]] virtual bool has_quad_buffer() const = 0;
-  /// The visitor, or the operator, closed the window (Esc or its button).
+  /// Whether the window was closed (Esc or its button).
   [[nodiscard]] virtual bool close_wanted() const = 0;
-  /// A picture was asked for (key P) since the last call.
+  /// Whether a picture was requested (key P) since the last call.
   [[nodiscard]] virtual bool take_picture_wanted() = 0;
   /// Where the left button or a finger was pressed since the last call, in order.
   [[nodiscard]] virtual std::vector<picture::PixelPlace> take_clicks() = 0;
-  /// What was done with pointer and keys since the last call, in order; take_clicks() tells of presses as well.
+  /// Pointer and key events since the last call, in order; presses are also in take_clicks().
   [[nodiscard]] virtual std::vector<pointer::PointerEvent> take_pointer_events() = 0;
   /// The keys pressed since the last call, in order.
   [[nodiscard]] virtual std::vector<DisplayKey> take_keys() = 0;
 };
 
 struct WindowOptions {
-  bool quad_buffer = false;  ///< with a picture for each eye where the driver has such; has_quad_buffer() tells
+  bool quad_buffer = false;  ///< a picture for each eye, if the driver supports it; see has_quad_buffer()
   bool full_screen = false;  ///< fills the screen from the start; F11 changes it
 };
 
-/// The only window of the process. Filling the screen, it shows no cursor while the mouse rests; nor does it where fingers touch. While it lives
-/// no screen saver comes. Errors: no screen to open a window on, no OpenGL 3.3.
+/// The only window of the process. In full screen it hides the cursor while the mouse rests, and while fingers are
+/// used. It disables the screen saver. Errors: no screen for a window, no OpenGL 3.3.
 [[nodiscard]] Expected<std::unique_ptr<Window>> make_window(picture::PixelSize size, const std::string& title,
                                                             const WindowOptions& options = {});
 

@@ -8,11 +8,11 @@
 namespace mechane::draw {
 namespace {
 
-/// Halves the triangles along the longest side of what their middles span, until pieces are small enough.
+/// Halves the triangles along the longest side of their centroids' box, until pieces are small enough.
 void halve(const picture::MeshData& mesh, const std::vector<Vec3f>& middles, std::span<std::uint32_t> triangles,
            std::uint32_t most, PiecedIndices& out) {
   if (triangles.size() <= most) {
-    // Within a piece the file's own order stays.
+    // Within a piece, the file's order is kept.
     std::ranges::sort(triangles);
     MeshPiece piece{
         static_cast<std::uint32_t>(out.indices.size()), static_cast<std::uint32_t>(3 * triangles.size()), {}};

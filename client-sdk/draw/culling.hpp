@@ -1,4 +1,4 @@
-// What of a scene can be in a picture at all: boxes against the picture's edges, and large meshes cut into pieces that have a box each.
+// Culling: tests boxes against the edges of the picture, and cuts large meshes into pieces with a box each.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace mechane::draw {
 
-/// Whether no part of the box can be within the picture. PV_MC: from the mesh's frame to clip space. Boxes across a corner may be taken for
-/// seen; one that is seen is never taken for hidden. An empty box is outside.
+/// Whether no part of the box can be in the picture. PV_MC: from the mesh's frame to clip space. Conservative: a hidden
+/// box across a corner may count as visible, but never the reverse. An empty box is outside.
 [[nodiscard]] bool is_outside(const Eigen::Matrix4f& PV_MC, const Eigen::AlignedBox3f& box_M);
 
-/// How far the box is from the eye; 0 within it.
+/// Distance from the eye to the box; 0 inside it.
 [[nodiscard]] float distance_m(const Eigen::Affine3f& X_WM, const Eigen::AlignedBox3f& box_M, const Vec3f& p_WE);
 
 /// Some triangles of a mesh that lie near each other.
@@ -22,7 +22,7 @@ struct MeshPiece {
   Eigen::AlignedBox3f box_M;
 };
 
-/// The mesh's triangles in another order, piece after piece; each of at most `most` triangles.
+/// The mesh's triangles reordered into pieces of at most `most` triangles.
 struct PiecedIndices {
   std::vector<std::uint32_t> indices;
   std::vector<MeshPiece> pieces;

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kRemedy =
     "install libegl-mesa0 and libgl1-mesa-dri (deploy/install-deps does), or run without --offscreen";
 
-/// Told of resets where the driver can tell. Null: none, see eglGetError().
+/// A context that reports resets, where the driver supports this. Null: failed, see eglGetError().
 EGLContext make_context(EGLDisplay display) {
   constexpr EGLint kMajor = EGL_CONTEXT_MAJOR_VERSION, kMinor = EGL_CONTEXT_MINOR_VERSION;
   const std::array<EGLint, 11> told{kMajor,
@@ -43,7 +43,9 @@ EGLContext make_context(EGLDisplay display) {
 }
 
 Error no_context() {
-  return {fmt::format("no OpenGL 3.3 core context (EGL error 0x{:x})", eglGetError()), "display, offscreen", kRemedy};
+  return {ErrorCode::not_supported,
+          fmt::format("there is no OpenGL 3.3 core context (EGL error 0x{:x})", eglGetError()), "display, offscreen",
+          kRemedy};
 }
 
 class OffscreenContext final : public GlContext {
@@ -95,15 +97,15 @@ bool is_software(EGLDeviceEXT device) {
   return has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
 }
 
-/// Mesa draws with the processor where it has no driver for the card that it was asked for.
+/// Whether Mesa draws with the processor, because it has no driver for the requested card.
 bool fell_back_to_software(EGLDisplay display) {
   EGLAttrib device = 0;
   if (eglQueryDisplayAttribEXT(display, EGL_DEVICE_EXT, &device) == EGL_FALSE) return true;
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): EGL tells pointers as numbers
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): EGL returns pointers as numbers
   return is_software(reinterpret_cast<EGLDeviceEXT>(device));
 }
 
-/// Graphics cards, in the system's order. None where Mesa was told to draw with the processor.
+/// Graphics cards, in the system's order. None where Mesa was set to draw with the processor.
 std::vector<EGLDeviceEXT> graphics_cards(const char* extensions) {
   const char* asked = std::getenv("LIBGL_ALWAYS_SOFTWARE");
   if (asked != nullptr && std::string_view(asked) != "0" && std::string_view(asked) != "false") return {};
@@ -126,7 +128,7 @@ struct Opened {
   EGLContext context = EGL_NO_CONTEXT;
 };
 
-/// On a card that can be opened and has OpenGL 3.3; else nothing.
+/// A context on the first card that can be opened and has OpenGL 3.3, if there is one.
 Opened open_card(const char* extensions) {
   for (EGLDeviceEXT device : graphics_cards(extensions)) {
     EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
@@ -141,12 +143,14 @@ Opened open_card(const char* extensions) {
 
 Expected<Opened> open_surfaceless(const char* extensions) {
   if (!has_word(extensions, "EGL_MESA_platform_surfaceless")) {
-    return fail("this machine's EGL cannot draw without a screen (no EGL_MESA_platform_surfaceless)",
+    return fail(ErrorCode::not_supported,
+                "this machine's EGL cannot draw without a screen (no EGL_MESA_platform_surfaceless)",
                 "display, offscreen", kRemedy);
   }
   EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
-    return fail(fmt::format("EGL did not start (error 0x{:x})", eglGetError()), "display, offscreen", kRemedy);
+    return fail(ErrorCode::not_supported, fmt::format("EGL did not start (error 0x{:x})", eglGetError()),
+                "display, offscreen", kRemedy);
   }
   eglBindAPI(EGL_OPENGL_API);
   EGLContext context = make_context(display);
@@ -161,7 +165,7 @@ Expected<Opened> open_surfaceless(const char* extensions) {
 Expected<std::unique_ptr<GlContext>> make_offscreen_context(picture::PixelSize size) {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   Expected<Opened> opened = open_card(extensions);
-  // Mesa alone chooses here, and beside another maker's card it would choose the processor.
+  // Without a device, Mesa would choose, and would draw with the processor beside a card of another driver.
   if (opened->display == EGL_NO_DISPLAY) opened = open_surfaceless(extensions);
   if (!opened) return tl::unexpected(opened.error());
   return std::make_unique<OffscreenContext>(opened->display, opened->context, size);

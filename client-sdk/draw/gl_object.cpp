@@ -26,40 +26,35 @@ void delete_program(std::uint32_t name) noexcept {
   glDeleteProgram(name);
 }
 
+namespace {
+
+/// One new name from a glGen...() function.
+template <class Name, class Generate>
+Name generated(Generate generate) {
+  GLuint name = 0;
+  generate(1, &name);
+  return Name(name);
+}
+
+}  // namespace
+
 TextureName make_texture() {
-  GLuint name = 0;
-  glGenTextures(1, &name);
-  return TextureName(name);
+  return generated<TextureName>(glGenTextures);
 }
-
 BufferName make_buffer() {
-  GLuint name = 0;
-  glGenBuffers(1, &name);
-  return BufferName(name);
+  return generated<BufferName>(glGenBuffers);
 }
-
 VertexArrayName make_vertex_array() {
-  GLuint name = 0;
-  glGenVertexArrays(1, &name);
-  return VertexArrayName(name);
+  return generated<VertexArrayName>(glGenVertexArrays);
 }
-
 FramebufferName make_framebuffer() {
-  GLuint name = 0;
-  glGenFramebuffers(1, &name);
-  return FramebufferName(name);
+  return generated<FramebufferName>(glGenFramebuffers);
 }
-
 RenderbufferName make_renderbuffer() {
-  GLuint name = 0;
-  glGenRenderbuffers(1, &name);
-  return RenderbufferName(name);
+  return generated<RenderbufferName>(glGenRenderbuffers);
 }
-
 SamplerName make_sampler() {
-  GLuint name = 0;
-  glGenSamplers(1, &name);
-  return SamplerName(name);
+  return generated<SamplerName>(glGenSamplers);
 }
 
 void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes) {

@@ -1,5 +1,5 @@
-// Names of OpenGL objects that delete themselves. A current context is needed where they are made, used and destroyed; all on the
-// thread that owns the context.
+// Names of OpenGL objects that delete themselves. A current context is needed where they are made, used and destroyed;
+// all on the thread that owns the context.
 #pragma once
 
 #include <cstddef>
@@ -61,7 +61,7 @@ using ProgramName = GlName<delete_program>;
 [[nodiscard]] RenderbufferName make_renderbuffer();
 [[nodiscard]] SamplerName make_sampler();
 
-/// Says how the vertices of the bound buffer lie: attribute i has sizes[i] floats, one attribute behind the other.
+/// Describes the vertices of the bound buffer: attribute i has sizes[i] floats, one attribute after another.
 void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes);
 
 }  // namespace mechane::draw

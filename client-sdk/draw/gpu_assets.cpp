@@ -13,15 +13,15 @@
 namespace mechane::draw {
 namespace {
 
-/// Triangles of a piece: fewer are culled more finely, and cost more calls.
+/// Triangles per piece: smaller pieces are culled more finely, but need more calls.
 constexpr std::uint32_t kPiece = 1000;
-/// Texture units of material.glsl's images, in the order of their bits; light has those between.
+/// Texture units of material.glsl's images, in the order of their bits; the units in between are for lighting.
 constexpr std::array<std::uint8_t, 5> kImageUnits{0, 1, 2, 3, 8};
 
-/// None, or the first of those since this was last asked.
+/// The first OpenGL error since the last call, or GL_NO_ERROR.
 GLenum first_error() {
   GLenum first = GL_NO_ERROR;
-  // A lost context may answer without end.
+  // A lost context may return errors without end.
   for (int i = 0; i < 8; ++i) {
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR) break;
@@ -43,7 +43,7 @@ TextureName upload_image(const picture::ImageData& image) {
 }
 
 std::vector<Vec3f> middles_of(const picture::MeshData& mesh, const std::vector<std::uint32_t>& indices) {
-  // As the pieces have the triangles, which is not as the file has them.
+  // In the order of the pieces, not of the file.
   std::vector<Vec3f> out;
   out.reserve(indices.size() / 3);
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
@@ -77,7 +77,7 @@ void draw_ranges(const VertexArrayName& vertex_array, const std::vector<MeshPiec
                             instances);
 }
 
-/// Of mesh.vert and depth.vert; as many as every driver has room for.
+/// The array size in mesh.vert and depth.vert, for which every driver has room.
 constexpr std::size_t kMostInstances = 32;
 
 void set_models(const Program& program, std::span<const Eigen::Affine3f> X_WM) {
@@ -85,7 +85,7 @@ void set_models(const Program& program, std::span<const Eigen::Affine3f> X_WM) {
   std::vector<Eigen::Matrix3f> normals;
   for (const Eigen::Affine3f& X : X_WM) {
     models.emplace_back(X.matrix());
-    // A mesh squeezed flat has no inverse; its normals then stay as they are.
+    // A mesh that is scaled flat has no inverse; its normals are not transformed then.
     const Eigen::Matrix3f linear = X.linear();
     normals.emplace_back(std::abs(linear.determinant()) > 1e-12F ? Eigen::Matrix3f(linear.inverse().transpose())
                                                                  : Eigen::Matrix3f(Eigen::Matrix3f::Identity()));
@@ -156,7 +156,7 @@ void GpuAssets::upload(const picture::SceneAssets& assets) {
 }
 
 TextureName GpuAssets::image_or_none(const picture::ImageData& image) {
-  (void)first_error();  // what was before is not this image's
+  (void)first_error();  // earlier errors do not concern this image
   TextureName texture = upload_image(image);
   const GLenum error = first_error();
   if (error == GL_NO_ERROR) return texture;
@@ -173,7 +173,7 @@ GpuAssets::GpuMesh GpuAssets::mesh_or_placeholder(const picture::MeshData& mesh)
   refuse(mesh.name, fmt::format("a mesh of {} triangles", mesh.indices.size() / 3), error,
          "a plain box is shown in its place");
   gpu = upload_mesh(picture::placeholder_mesh());
-  // Where there is no room for a box either, nothing stands there.
+  // If there is no room for a box either, nothing is drawn there.
   return first_error() == GL_NO_ERROR ? std::move(gpu) : upload_mesh({});
 }
 
@@ -198,7 +198,8 @@ void GpuAssets::refuse(const std::string& name, const std::string& what, std::ui
                        const std::string& instead) {
   const std::string whose = name.empty() ? "the display's own " + what : name;
   const bool no_room = error == GL_OUT_OF_MEMORY;
-  const Error said{fmt::format("the graphics card {} {}", no_room ? "has no room for" : "does not take", what), whose,
+  const Error said{ErrorCode::too_large,
+                   fmt::format("the graphics card {} {}", no_room ? "has no room for" : "cannot hold", what), whose,
                    no_room
                        ? "simplify the model or make its images smaller, or give the display a card with more memory"
                        : "make it smaller"};
@@ -229,7 +230,7 @@ void GpuAssets::draw(const InstanceRun& run, const Program& program) const {
       ranges.push_back(piece);
     }
   }
-  // One call draws one range of many instances, or many ranges of one.
+  // One call draws one range for many instances, or many ranges of one instance.
   const std::size_t together = ranges.size() < run.X_WM.size() ? kMostInstances : 1;
   for (std::size_t first = 0; first < run.X_WM.size(); first += together) {
     const std::span some = std::span(run.X_WM).subspan(first, std::min(together, run.X_WM.size() - first));

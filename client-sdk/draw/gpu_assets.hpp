@@ -1,4 +1,5 @@
-// Meshes, materials and images on the graphics card. Grows with SceneAssets; nothing is taken away before the renderer ends.
+// Meshes, materials and images on the graphics card. Grows with SceneAssets; nothing is removed before the renderer
+// ends.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +22,17 @@ inline constexpr int kVertexFloats = 12;
 /// Describes the vertex format to the bound vertex array, from the bound array buffer.
 void describe_vertices();
 
-/// Interleaved vertices of a mesh; what is missing is filled with defaults.
+/// Interleaved vertices of a mesh; missing attributes get defaults.
 [[nodiscard]] std::vector<float> interleave(const picture::MeshData& mesh);
 
-/// A mesh that is made anew for each frame.
+/// A mesh that is made for each frame.
 class StreamedMesh {
  public:
   /// Needs a current context, as all here does.
   [[nodiscard]] static StreamedMesh create();
   void upload(const picture::MeshData& mesh);
   [[nodiscard]] bool empty() const { return index_count_ == 0; }
-  /// As GpuAssets::draw.
+  /// Like GpuAssets::draw.
   void draw() const;
 
  private:
@@ -43,23 +44,23 @@ class StreamedMesh {
 
 class GpuAssets {
  public:
-  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged. What the card does not take is logged; a
-  /// plain box stands for such a mesh, and a material goes without such an image.
+  /// Uploads what was added to `assets` since the last call. The earlier part must be unchanged. What does not fit on
+  /// the card is logged; such a mesh is replaced by a plain box, such an image is left out of its materials.
   void upload(const picture::SceneAssets& assets);
-  /// Names of the meshes and images that the card did not take.
+  /// Names of the meshes and images that did not fit on the card.
   [[nodiscard]] const std::set<std::string>& refused() const { return refused_; }
   /// Draws the triangles; the program, with its uniforms, must be in use.
   void draw(std::uint32_t mesh) const;
-  /// What the mesh is cut into, so that what is out of sight need not be drawn.
+  /// The mesh's pieces, for culling.
   [[nodiscard]] const std::vector<MeshPiece>& pieces(std::uint32_t mesh) const;
-  /// Draws them, where they are: sets what set_model() sets. The program must be in use.
+  /// Draws a run's instances, and sets the uniforms of set_model(). The program must be in use.
   void draw(const InstanceRun& run, const Program& program) const;
-  /// Draws some of the triangles, in the order given.
+  /// Draws some of the triangles, in the given order.
   void draw_triangles(std::uint32_t mesh, std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] bool is_clear(std::uint32_t material) const;
-  /// Of each triangle, in the mesh's frame.
+  /// The centroid of each triangle, in the mesh's frame.
   [[nodiscard]] const std::vector<Vec3f>& triangle_middles(std::uint32_t mesh) const;
-  /// Whether all its images for the plain are there.
+  /// Whether the material has all images that the plain needs.
   [[nodiscard]] bool is_land(std::uint32_t material) const;
   /// Sets uniforms and texture units of material.glsl, and face culling.
   void use_material(std::uint32_t material, const Program& program) const;
@@ -79,7 +80,7 @@ class GpuAssets {
   void refuse(const std::string& name, const std::string& what, std::uint32_t error, const std::string& instead);
 
   std::vector<GpuMesh> meshes_;
-  std::vector<TextureName> images_;  ///< none: the card did not take it
+  std::vector<TextureName> images_;  ///< empty name: it did not fit on the card
   std::vector<picture::MaterialData> materials_;
   std::set<std::string> refused_;
 };

@@ -1,4 +1,4 @@
-// What looks alike is drawn together: one call for many trees, not one for each.
+// Groups equal pieces into one draw call: one call for many trees.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace mechane::draw {
 
-/// Pieces of one instance's mesh that are to be drawn, one behind the other.
+/// Pieces of one instance's mesh that are to be drawn one after another.
 struct ShownPieces {
-  float order = 0;  ///< what has another is drawn apart
+  float order = 0;  ///< pieces of different order are not grouped
   std::uint32_t instance = 0;
   std::vector<std::uint32_t> pieces;
 };
@@ -23,7 +23,7 @@ struct InstanceRun {
   std::vector<Eigen::Affine3f> X_WM;  ///< of each instance
 };
 
-/// In the order of the first of each run.
+/// Runs, in the order of their first members.
 [[nodiscard]] std::vector<InstanceRun> runs_of(const std::vector<picture::Instance>& instances,
                                                const std::vector<ShownPieces>& shown);
 

@@ -11,28 +11,42 @@ namespace {
 Expected<void> check_complete(const char* what, picture::PixelSize size) {
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status == GL_FRAMEBUFFER_COMPLETE) return {};
-  return fail(
-      fmt::format("the graphics driver has no {} of {}x{} (status 0x{:x})", what, size.width, size.height, status),
-      "display", "choose a smaller --size, or update the graphics driver");
+  return fail(status == GL_FRAMEBUFFER_UNSUPPORTED ? ErrorCode::not_supported : ErrorCode::too_large,
+              fmt::format("the graphics driver cannot make a {} of {}x{} pixels (status 0x{:x})", what, size.width,
+                          size.height, status),
+              "display", "choose a smaller --size, or update the graphics driver");
 }
 
-void no_filter(GLenum kind) {
+void clamp_to_edge(GLenum kind) {
   glTexParameteri(kind, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(kind, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/// Makes `texture` a depth picture and the framebuffer's only attachment. Leaves both bound.
+/// Makes `texture` a depth picture and the framebuffer's depth attachment. Leaves both bound.
 void attach_depth_texture(const FramebufferName& framebuffer, const TextureName& texture, picture::PixelSize size) {
   glBindTexture(GL_TEXTURE_2D, texture.get());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, static_cast<GLsizei>(size.width),
                static_cast<GLsizei>(size.height), 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  no_filter(GL_TEXTURE_2D);
+  clamp_to_edge(GL_TEXTURE_2D);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.get(), 0);
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
+}
+
+/// Makes `texture` a colour picture and the framebuffer's colour attachment. Leaves both bound.
+void attach_colour_texture(const FramebufferName& framebuffer, const TextureName& texture, picture::PixelSize size,
+                           GLint format, GLenum type, GLint filter) {
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, format, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), 0,
+               GL_RGBA, type, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  clamp_to_edge(GL_TEXTURE_2D);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.get(), 0);
 }
 
 }  // namespace
@@ -74,7 +88,7 @@ Expected<MirrorTarget> MirrorTarget::create(picture::PixelSize size) {
   glBindTexture(GL_TEXTURE_2D, target.colour.get());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  no_filter(GL_TEXTURE_2D);
+  clamp_to_edge(GL_TEXTURE_2D);
   glBindRenderbuffer(GL_RENDERBUFFER, target.depth.get());
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
@@ -101,7 +115,7 @@ Expected<ShadowTarget> ShadowTarget::create(std::uint32_t size, std::uint32_t la
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  no_filter(GL_TEXTURE_2D_ARRAY);
+  clamp_to_edge(GL_TEXTURE_2D_ARRAY);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     glSamplerParameteri(target.plain_depth.get(), filter, GL_NEAREST);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -120,14 +134,7 @@ void ShadowTarget::bind_layer(std::uint32_t layer) const {
 
 Expected<PictureTarget> PictureTarget::create(picture::PixelSize size) {
   PictureTarget target{make_framebuffer(), make_texture(), size};
-  glBindTexture(GL_TEXTURE_2D, target.colour.get());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), 0,
-               GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  no_filter(GL_TEXTURE_2D);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+  attach_colour_texture(target.framebuffer, target.colour, size, GL_RGBA8, GL_UNSIGNED_BYTE, GL_NEAREST);
   if (auto ok = check_complete("picture", size); !ok) return tl::unexpected(ok.error());
   return target;
 }
@@ -152,13 +159,7 @@ picture::ImageData PictureTarget::read() const {
 
 Expected<FloatTarget> FloatTarget::create(picture::PixelSize size) {
   FloatTarget target{make_framebuffer(), make_texture(), size};
-  glBindTexture(GL_TEXTURE_2D, target.colour.get());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), 0,
-               GL_RGBA, GL_FLOAT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  no_filter(GL_TEXTURE_2D);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+  attach_colour_texture(target.framebuffer, target.colour, size, GL_RGBA16F, GL_FLOAT, GL_LINEAR);
   if (auto ok = check_complete("half-float picture", size); !ok) return tl::unexpected(ok.error());
   return target;
 }

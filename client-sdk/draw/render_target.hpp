@@ -1,4 +1,4 @@
-// Where passes draw to: a multisampled HDR picture, a shadow map, a finished 8-bit picture.
+// The targets of passes: a multisampled HDR picture, a shadow map, a finished 8-bit picture.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct HdrTarget {
   picture::PixelSize size;
   int samples = 1;
   FramebufferName depth_copy_framebuffer;
-  TextureName depth_copy;  ///< one sample a pixel, as resolve_depth() left it
+  TextureName depth_copy;  ///< one sample a pixel, written by resolve_depth()
 
   [[nodiscard]] static Expected<HdrTarget> create(picture::PixelSize size, int samples);
   /// Copies the depth to where shaders can read it, and leaves `framebuffer` bound.
@@ -33,11 +33,12 @@ struct MirrorTarget {
   picture::PixelSize size;
 
   [[nodiscard]] static Expected<MirrorTarget> create(picture::PixelSize size);
-  /// Draws go to all of it from now on; it is empty, and lets all through.
+  /// Binds and clears it, with a viewport of its full size, and disables the stencil test.
   void begin() const;
 };
 
-/// Square depth textures, one a layer. Read with comparison; with `plain_depth` bound to the same unit, as the depths themselves.
+/// Square depth textures, one per layer. They are read with comparison, or, with the sampler `plain_depth` bound to the
+/// same unit, as plain depths.
 struct ShadowTarget {
   FramebufferName framebuffer;
   TextureName depth;
@@ -45,7 +46,7 @@ struct ShadowTarget {
   std::uint32_t size = 0;
 
   [[nodiscard]] static Expected<ShadowTarget> create(std::uint32_t size, std::uint32_t layers);
-  /// Draws go to this layer from now on.
+  /// Binds this layer for drawing.
   void bind_layer(std::uint32_t layer) const;
 };
 
@@ -60,14 +61,14 @@ struct PictureTarget {
   [[nodiscard]] picture::ImageData read() const;
 };
 
-/// One float picture without depth: the sky's map (radiance, rows from the zenith down), or a step between a picture and another.
+/// One float picture without depth: the sky's map (radiance, rows from the zenith down), or an intermediate picture.
 struct FloatTarget {
   FramebufferName framebuffer;
   TextureName colour;
   picture::PixelSize size;
 
   [[nodiscard]] static Expected<FloatTarget> create(picture::PixelSize size);
-  /// Draws go to all of it from now on.
+  /// Binds it with a viewport of its full size.
   void bind() const;
   [[nodiscard]] std::vector<Vec3f> read() const;
 };

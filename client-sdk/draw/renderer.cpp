@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include "client-sdk/draw/rope_mesh.hpp"
+#include "client-sdk/draw/passes/rope_mesh.hpp"
 #include "server/base/assert.hpp"
 
 namespace mechane::draw {
@@ -26,7 +26,7 @@ Expected<void> fit(std::optional<PictureTarget>& target, picture::PixelSize size
   return {};
 }
 
-/// Each eye has a picture of its own first.
+/// Whether each eye is first drawn to a picture of its own.
 bool is_put_together(picture::Stereo stereo) {
   return stereo == picture::Stereo::anaglyph || stereo == picture::Stereo::row_interleaved ||
          stereo == picture::Stereo::quad_buffer;
@@ -41,7 +41,7 @@ void copy_to_buffer(const PictureTarget& from, picture::PixelSize window, GLenum
                     GL_LINEAR);
 }
 
-/// The close-up's place in an eye's picture of so many pixels, which is seen in the proportions of `seen`.
+/// The close-up's place in an eye's picture of `size` pixels that is seen in the proportions of `seen`.
 PixelRectangle inset_in(picture::PixelSize pixels, picture::PixelSize seen) {
   const PixelRectangle place = inset_rectangle(seen);
   const auto across = [&](std::uint32_t x) { return x * pixels.width / seen.width; };
@@ -109,7 +109,7 @@ Expected<void> Renderer::fit_sky(const picture::Sun& sun) {
 Expected<void> Renderer::draw(const picture::RenderScene& scene, picture::Stereo stereo, picture::PixelSize size) {
   const picture::PixelSize eye_pixels = picture::eye_size(stereo, size);
   if (eye_pixels.width == 0 || eye_pixels.height == 0) {
-    return fail("the picture has no pixels", "display", "give a --size of at least 2x2");
+    return fail(ErrorCode::invalid_value, "the picture has no pixels", "display", "give a --size of at least 2x2");
   }
   const picture::PixelSize seen = picture::seen_size(stereo, size);
   if (auto ok = fit_targets(stereo, size, scene.inset.has_value()); !ok) return ok;
@@ -142,7 +142,7 @@ Expected<void> Renderer::draw(const picture::RenderScene& scene, picture::Stereo
   return {};
 }
 
-/// What has another shape in each picture.
+/// Uploads meshes that have another shape in each picture.
 void Renderer::upload_moving(const picture::RenderScene& scene) {
   picture::MeshData ropes;
   for (const picture::RenderRope& rope : scene.ropes)
@@ -174,7 +174,7 @@ Renderer::EyeTarget Renderer::target_of(picture::Stereo stereo, std::size_t eye)
   const auto index = static_cast<std::int32_t>(eye);
   EyeTarget out{is_put_together(stereo) ? *eyes_[eye] : *picture_, size, picture::seen_size(stereo, picture_->size)};
   if (picture::is_side_by_side(stereo)) out.x = index * static_cast<std::int32_t>(size.width);
-  // OpenGL counts rows from below.
+  // OpenGL counts rows from the bottom.
   if (picture::is_top_bottom(stereo))
     out.y = static_cast<std::int32_t>(picture_->size.height) - (1 + index) * static_cast<std::int32_t>(size.height);
   return out;

@@ -1,4 +1,5 @@
-// Draws a RenderScene: one eye or two, pass after pass. Made, used and destroyed on the thread of a current OpenGL context.
+// Draws a RenderScene: one eye or two, pass after pass. Made, used and destroyed on the thread of a current OpenGL
+// context.
 #pragma once
 
 #include <array>
@@ -9,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "client-sdk/draw/overlay_pass.hpp"
-#include "client-sdk/draw/passes.hpp"
+#include "client-sdk/draw/passes/passes.hpp"
+#include "client-sdk/draw/text/overlay_pass.hpp"
 #include "client-sdk/picture/render_scene.hpp"
 #include "client-sdk/picture/stereo.hpp"
 
@@ -20,14 +21,14 @@ struct RendererSettings {
   int samples = 4;  ///< a pixel, 1..8
   std::uint32_t shadow_map_size = 2048;
   float exposure = 1.15F;
-  float glow = 0.16F;               ///< of what is too bright for the screen, spread around it
-  float ambient_occlusion = 0.45F;  ///< how much darker it is where things meet, 0..1
-  bool profile = false;             ///< waits for each pass and keeps its time: pass_times()
+  float glow = 0.16F;               ///< share of too bright light that is spread around it
+  float ambient_occlusion = 0.45F;  ///< how much places where things meet are darkened, 0..1
+  bool profile = false;             ///< waits for each pass and measures it: pass_times()
   bool right_eye_first = false;     ///< row_interleaved: the screen's uppermost row is the right eye's
   std::string font_folder = default_font_folder();
 };
 
-/// What a pass took, waited for.
+/// The duration of a pass.
 struct PassTime {
   const char* pass = "";
   double wall_ms = 0;
@@ -36,33 +37,35 @@ struct PassTime {
 
 class Renderer {
  public:
-  /// Errors: the driver refuses a shader or a target; a font is missing.
+  /// Errors: the driver rejects a shader or a target; a font is missing.
   [[nodiscard]] static Expected<std::unique_ptr<Renderer>> create(const RendererSettings& settings);
 
   /// Uploads what is new in `assets`.
   void upload(const picture::SceneAssets& assets) { assets_.upload(assets); }
-  /// Of all that was uploaded, what the graphics card did not take: see GpuAssets.
+  /// What did not fit on the graphics card: see GpuAssets.
   [[nodiscard]] const std::set<std::string>& refused() const { return assets_.refused(); }
-  /// Frees all that was uploaded: another scenario begins.
+  /// Frees all that was uploaded, for another scenario.
   void forget_assets() {
     assets_ = {};
     passes_.shadow.forget();
   }
-  /// How many shadow maps were drawn: none in a picture in which nothing has moved.
+  /// How many shadow maps have been drawn; none are added by a picture in which nothing moved.
   [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return passes_.shadow.times_drawn(); }
-  /// Row-interleaved screens have a row for each eye in turn, wherever a window begins: the screen's row of the pictures' uppermost from now on.
+  /// For row-interleaved screens, whose rows belong to the eyes alternately: sets the screen row of the picture's
+  /// uppermost row.
   void begin_at_row(int row) { odd_row_ = row % 2 != 0; }
   /// Draws into the renderer's own picture. Errors: no memory for targets of this size.
   [[nodiscard]] Expected<void> draw(const picture::RenderScene& scene, picture::Stereo stereo, picture::PixelSize size);
-  /// The last picture, upper row first. Waits for the graphics card. Of quad_buffer, that eye's.
+  /// The last picture, upper row first. Waits for the graphics card. With quad_buffer: the picture of that eye.
   [[nodiscard]] picture::ImageData read_picture(picture::Eye eye = picture::Eye::left) const;
-  /// Of the last picture, in the order drawn; both eyes' stand one after the other. Empty without RendererSettings::profile.
+  /// The passes of the last picture in drawing order, first one eye's, then the other's. Empty without
+  /// RendererSettings::profile.
   [[nodiscard]] const std::vector<PassTime>& pass_times() const { return pass_times_; }
-  /// Where the scene's words go, before it is drawn.
+  /// Lays out the scene's words, before it is drawn.
   const OverlayLayout& lay_out(const picture::RenderScene& scene, picture::Stereo stereo, picture::PixelSize size) {
     return passes_.overlay.lay_out(scene, picture::seen_size(stereo, size));
   }
-  /// What the last picture has over it, in pixels of one eye's.
+  /// The overlay of the last picture, in pixels of one eye's picture.
   [[nodiscard]] const OverlayLayout& overlay() const { return passes_.overlay.layout(); }
   /// Waits until the last picture is drawn.
   static void finish();
@@ -88,12 +91,12 @@ class Renderer {
   [[nodiscard]] Expected<void> fit_targets(picture::Stereo stereo, picture::PixelSize picture, bool inset);
   [[nodiscard]] Expected<void> fit_sky(const picture::Sun& sun);
   void upload_moving(const picture::RenderScene& scene);
-  /// Begins to measure; with a name: ends a pass and begins the next.
+  /// Starts measuring; with a name: ends this pass and starts the next.
   void mark(const char* pass);
   [[nodiscard]] Expected<void> draw_view(const picture::RenderScene& scene, const picture::EyeView& view,
                                          const ShadowSetup& shadows, const HdrTarget& target);
-  /// Where an eye's finished picture goes: into `pixels` of `target`, the lower left corner at (x, y). What is laid out over it has the
-  /// proportions of `seen`.
+  /// The place of an eye's finished picture: `pixels` of `target`, with the lower left corner at (x, y). Its overlay is
+  /// laid out in the proportions of `seen`.
   struct EyeTarget {
     const PictureTarget& target;
     picture::PixelSize pixels;
@@ -111,13 +114,13 @@ class Renderer {
   Passes passes_;
   GpuAssets assets_;
   StreamedMesh ropes_ = StreamedMesh::create();
-  std::vector<StreamedMesh> soft_bodies_;  ///< the first of them are the scene's
+  std::vector<StreamedMesh> soft_bodies_;  ///< the first ones are the scene's
   SkyLight sky_;
   std::optional<picture::Sun> baked_sun_;
   std::optional<HdrTarget> hdr_;
   std::optional<HdrTarget> inset_;
   std::optional<PictureTarget> picture_;              ///< quad_buffer: not used
-  std::array<std::optional<PictureTarget>, 2> eyes_;  ///< left and right, where they are put together afterwards
+  std::array<std::optional<PictureTarget>, 2> eyes_;  ///< left and right, if they are combined afterwards
   picture::Stereo last_ = picture::Stereo::mono;
   std::vector<PassTime> pass_times_;
   std::chrono::steady_clock::time_point wall_mark_;

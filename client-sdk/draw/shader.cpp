@@ -47,7 +47,8 @@ Expected<GLuint> compile(GLenum stage, std::initializer_list<std::string_view> f
   if (compiled == GL_FALSE) {
     std::string reason = log_of(shader, false);
     glDeleteShader(shader);
-    return fail("the graphics driver refused a shader: " + reason, names, "update the graphics driver");
+    return fail(ErrorCode::not_supported, "the graphics driver does not compile a shader: " + reason, names,
+                "update the graphics driver");
   }
   return shader;
 }
@@ -72,7 +73,7 @@ Expected<Program> Program::link(std::initializer_list<std::string_view> vertex,
   GLint linked = 0;
   glGetProgramiv(program.get(), GL_LINK_STATUS, &linked);
   if (linked == GL_FALSE) {
-    return fail("the graphics driver refused to link a shader: " + log_of(program.get(), true),
+    return fail(ErrorCode::not_supported, "the graphics driver does not link a shader: " + log_of(program.get(), true),
                 std::string(*(fragment.end() - 1)), "update the graphics driver");
   }
   return Program(std::move(program));

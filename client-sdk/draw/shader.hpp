@@ -20,7 +20,7 @@ namespace mechane::draw {
 
 class Program {
  public:
-  /// Each stage is a list of files, put one behind the other after "#version 330 core". Errors: the driver's own words.
+  /// Each stage is a list of files, concatenated after "#version 330 core". Errors: with the driver's message.
   [[nodiscard]] static Expected<Program> link(std::initializer_list<std::string_view> vertex,
                                               std::initializer_list<std::string_view> fragment);
 

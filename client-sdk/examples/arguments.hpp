@@ -1,4 +1,4 @@
-// What the examples take on the command line: --kiosk NAME --seconds N --domain N.
+// The examples' command line: --kiosk NAME --seconds N --domain N.
 #pragma once
 
 #include <cstdio>
@@ -14,7 +14,7 @@ struct Arguments {
   double seconds = 5;
 };
 
-/// Prints what they are and ends the program where they are not understood.
+/// Reads the arguments; on a wrong one, prints the usage and ends the program.
 inline Arguments read_arguments(int argc, char** argv, const char* program, client::Role role) {
   Arguments arguments;
   arguments.config.program = program;

@@ -1,4 +1,5 @@
-// Moves a one-point hand to the first movable body and 3 mm further, and prints the force that it feels. Exit status 0 when forces came.
+// Moves a one-point hand to the first movable body and 3 mm further, and prints the force that it feels. Exit status 0
+// when forces were received.
 #include <algorithm>
 #include <cstdio>
 

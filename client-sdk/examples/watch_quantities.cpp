@@ -1,4 +1,4 @@
-// Prints the quantities of a kiosk's world, four times a second. Exit status 0 when at least one frame came.
+// Prints the quantities of a kiosk's world, four times a second. Exit status 0 when at least one frame was received.
 #include <cstdio>
 #include <thread>
 

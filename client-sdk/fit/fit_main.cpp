@@ -36,49 +36,53 @@ void add_options(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1e-6, 1e6))
       ->capture_default_str();
   app.add_option("--node", a.options.node, "only what is under this node of the file");
-  auto* from_nodes =
-      app.add_flag("--part-from-nodes", a.from_nodes,
-                   "each node named part_... is a part, or each node with a mesh; without: so where there are "
-                   "several, and a single mesh is cut into parts");
+  auto* from_nodes = app.add_flag("--part-from-nodes", a.from_nodes,
+                                  "each node named part_... is a part, or else each node with a mesh; without any of "
+                                  "these three options: the same if "
+                                  "there are several nodes, while a single mesh is cut into parts");
   auto* cut_all = app.add_flag("--cut", a.cut_all,
-                               "every mesh is cut into parts close to convex, or held by one map where that is smaller")
+                               "every mesh is cut into nearly convex parts, or gets a single map where that is smaller")
                       ->excludes(from_nodes);
-  app.add_flag("--whole", a.options.whole, "all meshes together are one part")->excludes(from_nodes)->excludes(cut_all);
+  app.add_flag("--whole", a.options.whole, "all meshes together form one part")
+      ->excludes(from_nodes)
+      ->excludes(cut_all);
   app.add_option("--concavity", config.max_concavity, "how hollow a part may be, as a share of its mesh's diagonal")
       ->check(CLI::Range(0.001, 1.0))
       ->capture_default_str();
-  app.add_option("--max-parts", config.max_pieces, "parts that a mesh is cut into at most")
+  app.add_option("--max-parts", config.max_pieces, "the most parts into which a mesh is cut")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--error", config.max_error_m, "metres that a part's map may be wrong by, at 99 of 100 places")
+  app.add_option("--error", config.max_error_m, "largest error of a part's map at 99 of 100 places, in metres")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
-  app.add_option("--error-share", config.max_error_share, "the same as a share of the diagonal; the lesser holds")
+  app.add_option("--error-share", config.max_error_share,
+                 "the same as a share of the diagonal; the smaller of both counts")
       ->check(CLI::Range(1e-6, 0.1))
       ->capture_default_str();
   app.add_option("--resolution", config.map_resolution,
-                 "texels along an edge of a part's radial map; 0: the smallest map that is exact enough")
+                 "texels along an edge of a part's radial map; 0: the smallest map that is accurate enough")
       ->check(CLI::IsMember({0, 8, 12, 16, 24, 32, 48, 64}))
       ->capture_default_str();
   app.add_option("--spacing", config.sample_spacing_m, "metres between the samples that touch other bodies")
       ->check(CLI::Range(1e-4, 1.0))
       ->capture_default_str();
   app.add_option("--max-samples", config.max_samples_per_part,
-                 "samples of a piece at most; a larger one gets a wider spacing")
+                 "the most samples of a part; a larger part gets a wider spacing")
       ->check(CLI::Range(16, 1'000'000))
       ->capture_default_str();
   app.add_option("--seam-gap", config.seam_gap_m, "metres; gaps between parts up to this width are closed")
       ->check(CLI::Range(0.0, 0.1))
       ->capture_default_str();
   app.add_option("--seed", config.seed, "same mesh, settings and seed: same object, to the bit")->capture_default_str();
-  app.add_option("--report", a.report, "a page with pictures beside the object, or none")
+  app.add_option("--report", a.report, "write a page with pictures beside the object, or none")
       ->check(CLI::IsMember({"html", "none"}))
       ->capture_default_str();
-  app.add_flag("--json", a.options.json, "also the figures for programs, in MESH.json");
-  app.add_flag("--strict", a.strict, "exit with 3 where a part misses the error asked for; it is written all the same");
+  app.add_flag("--json", a.options.json, "also write the figures for programs, to MESH.json");
+  app.add_flag("--strict", a.strict, "exit with status 3 if a part exceeds the allowed error; it is written anyway");
 }
 
-/// Two meshes of one name and one folder would overwrite each other's results.
+/// The mesh whose results would be overwritten, if another mesh has the same name and output folder; else `mesh`
+/// itself.
 std::string twin_of(const std::string& mesh, const fit::FitOptions& options, std::map<fs::path, std::string>& taken) {
   std::error_code code;
   const fs::path file = fs::absolute(fit::part_file_of(mesh, options), code).lexically_normal();
@@ -101,8 +105,8 @@ int run(const Arguments& a) {
   bool all_exact = true;
   for (const std::string& mesh : a.meshes) {
     const std::string twin = twin_of(mesh, a.options, taken);
-    Expected<fit::FitResult> result =
-        fail("its results would overwrite those of " + twin, mesh, "give one of them another name");
+    Expected<fit::FitResult> result = fail(ErrorCode::conflict, "its results would overwrite those of " + twin, mesh,
+                                           "give one of them another name");
     if (twin == mesh) result = fit::fit_mesh(mesh, a.options, progress, interruption);
     progress.end();
     if (result) {
@@ -130,7 +134,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
   }
   a.options.folder = a.folder;
   a.options.report = a.report == "html";

@@ -5,6 +5,7 @@
 #include "client-sdk/fit/output_file.hpp"
 #include "client-sdk/fit/report_html.hpp"
 #include "client-sdk/fit/summary_json.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/collision/object_io.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
@@ -15,12 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-tl::unexpected<Error> in_file(const fs::path& file, Error error) {
-  error.where = error.where.empty() ? file.string() : file.string() + ", " + error.where;
-  return tl::unexpected<Error>(std::move(error));
-}
-
-/// All meshes as one, its corners welded where parts met.
+/// All meshes as one.
 std::vector<geometry::NamedMesh> one_piece(const std::vector<geometry::NamedMesh>& parts, const std::string& name) {
   geometry::NamedMesh whole{name, {}};
   for (const geometry::NamedMesh& part : parts)
@@ -35,12 +31,12 @@ Expected<void> import_parts(const FitOptions& options, FittedObject& fitted) {
   const auto scene = content::import_mesh(fitted.mesh_file);
   if (!scene) return tl::unexpected(scene.error());
   auto parts = content::collision_parts(*scene, options.node);
-  if (!parts) return in_file(fitted.mesh_file, parts.error());
+  if (!parts) return tl::unexpected(parts.error().in(fitted.mesh_file.string()));
   fitted.meshes = options.whole ? one_piece(*parts, fitted.mesh_file.stem().string()) : std::move(*parts);
   for (geometry::NamedMesh& part : fitted.meshes) {
     for (Vec3& vertex : part.mesh.vertices)
       vertex *= options.scale;
-    if (part.name.empty()) part.name = fitted.mesh_file.stem().string();  // STL and PLY know no names
+    if (part.name.empty()) part.name = fitted.mesh_file.stem().string();  // STL and PLY have no names
     if (geometry::turn_outwards(part.mesh) > 0) fitted.turned.push_back(part.name);
   }
   return {};
@@ -50,28 +46,29 @@ Expected<void> build(FittedObject& fitted, Progress& progress) {
   auto object =
       collision_build::build_object(fitted.meshes, fitted.config, &fitted.report,
                                     [&](std::size_t done, std::size_t parts) { progress.advance(done, parts); });
-  if (!object) return in_file(fitted.mesh_file, object.error());
+  if (!object) return tl::unexpected(object.error().in(fitted.mesh_file.string()));
   fitted.object = std::move(*object);
   return {};
 }
 
-/// Success is claimed for what a server will read, not for what was in memory.
+/// The object is read back, so that all reports are about what a server will read, not about what was in memory.
 Expected<void> write_and_read_back(FittedObject& fitted, Interruption& interruption) {
   const std::vector<std::byte> bytes = collision::write_object(fitted.object);
   if (auto written = write_whole(fitted.part_file, bytes, interruption); !written) return written;
-  const auto back = read_whole(fitted.part_file);
+  const auto back = read_whole(fitted.part_file, bytes.size());
   if (!back) return tl::unexpected(back.error());
   auto object = collision::read_object(*back);
-  if (!object) return in_file(fitted.part_file, object.error());
+  if (!object) return tl::unexpected(object.error().in(fitted.part_file.string()));
   if (*back != bytes) {
-    return fail("the file does not hold what was written", fitted.part_file.string(), "check the disk, then run again");
+    return fail(ErrorCode::damaged, "the file does not contain what was written", fitted.part_file.string(),
+                "check the disk, then run again");
   }
   fitted.part_file_bytes = bytes.size();
   fitted.object = std::move(*object);
   return {};
 }
 
-/// Writes a text beside the part file, under the same name with another ending.
+/// Writes a text beside the part file, with the same name and another extension.
 Expected<fs::path> write_beside(const fs::path& part_file, const char* ending, const std::string& text,
                                 Interruption& interruption) {
   fs::path file = part_file;
@@ -85,7 +82,7 @@ Expected<fs::path> write_beside(const fs::path& part_file, const char* ending, c
 fs::path part_file_of(const fs::path& mesh_file, const FitOptions& options) {
   std::string name = mesh_file.stem().string();
   if (!options.node.empty()) name += "-" + options.node;
-  std::replace(name.begin(), name.end(), '/', '_');  // a node may be called anything
+  std::replace(name.begin(), name.end(), '/', '_');  // a node's name may contain anything
   return (options.folder.empty() ? mesh_file.parent_path() : options.folder) / (name + ".part");
 }
 

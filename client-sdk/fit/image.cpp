@@ -5,7 +5,7 @@
 
 #include "server/base/assert.hpp"
 
-// The library's own code does not meet our warnings.
+// The library's code would raise our compiler warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
 #pragma GCC diagnostic ignored "-Wextra"

@@ -16,7 +16,7 @@ struct Image {
   std::vector<std::uint8_t> rgba;  ///< 4 width height
 };
 
-/// Empty when there is no memory for it.
+/// Empty if there is not enough memory.
 [[nodiscard]] std::vector<std::byte> encode_png(const Image& image);
 
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);

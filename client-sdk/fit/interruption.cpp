@@ -10,7 +10,7 @@
 namespace mechane::fit {
 namespace {
 
-constexpr int kDone = SIGUSR1;  // sent to the thread itself, when the program ends by itself
+constexpr int kDone = SIGUSR1;  // sent to the waiting thread when the program ends normally
 
 sigset_t awaited_signals() {
   sigset_t set;
@@ -49,7 +49,7 @@ void Interruption::wait() {
   while (sigwait(&set, &signal) != 0) {
   }
   if (signal == kDone) return;
-  const std::lock_guard lock(mutex_);  // kept to the end: no new draft appears behind our back
+  const std::lock_guard lock(mutex_);  // kept to the end, so that no new draft appears
   std::error_code ignored;
   for (const std::filesystem::path& draft : drafts_)
     std::filesystem::remove(draft, ignored);
@@ -57,7 +57,7 @@ void Interruption::wait() {
     constexpr std::string_view kLine = "\r\033[K\033[?25hinterrupted\n";
     [[maybe_unused]] const auto written = write(STDERR_FILENO, kLine.data(), kLine.size());
   }
-  // Other threads go on computing: no destructors, no flushing of their streams.
+  // Other threads are still computing, so no destructors are run and no streams are flushed.
   std::_Exit(128 + signal);
 }
 

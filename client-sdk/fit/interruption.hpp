@@ -1,4 +1,4 @@
-// Ctrl-C: the program ends at once, whatever it is computing, and leaves no half-written file.
+// On Ctrl-C, the program ends at once, whatever it is computing, and leaves no incomplete file.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace mechane::fit {
 
-/// Owns a thread that waits for SIGINT, SIGTERM and SIGHUP; on one it removes the drafts, writes a newline to a terminal's stderr and
-/// ends the process with status 128 + signal (130 for Ctrl-C). Construct it in main before any other thread, which then inherits
-/// the blocked signals. A file and its folder are whole before and after: see OutputFile.
+/// Owns a thread that waits for SIGINT, SIGTERM and SIGHUP. On one of these it removes the drafts, writes a newline to
+/// stderr if that is a terminal, and ends the process with status 128 + signal (130 for Ctrl-C). Construct it in main
+/// before any other thread, so that all threads inherit the blocked signals. See output_file.hpp.
 class Interruption {
  public:
   Interruption();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCastSteps = 64;
 constexpr int kCastHalvings = 8;
-constexpr double kCoveredShare = 0.01;  // of the diagonal: deeper at the very start is not rounding
+constexpr double kCoveredShare = 0.01;  // of the diagonal: a greater depth at the start is not a rounding error
 constexpr std::uint32_t kCovered = 0xB4B0A8;
 constexpr std::uint32_t kNoHit = 0xE4E1DA;
 constexpr std::uint32_t kNoHitDot = 0xA19C92;
@@ -24,7 +24,7 @@ struct Cast {
   double depth_m = 0;
 };
 
-/// The direction of the net's cell (column, row), each four and three faces wide; zero outside the net.
+/// The direction of the net's cell (column, row); the net is four faces wide and three high. Zero outside the net.
 Vec3 net_direction(int x, int y, int texels) {
   const int column = x / texels;
   const int row = y / texels;

@@ -9,12 +9,12 @@ namespace mechane::fit {
 namespace {
 
 constexpr int kShellCells = 20;  // along an edge of the cube
-constexpr int kFewCells = 10;    // of many parts, each small
+constexpr int kFewCells = 10;    // for many small parts
 constexpr std::size_t kManyParts = 60;
 constexpr int kLinesPerFace = 4;  // of the cube, each way
 constexpr int kPointsPerLine = 48;
 constexpr double kLineRadius = 1.3;  // pixels of the buffer
-constexpr double kLift = 2.5;        // pixels towards the viewer, so that a line wins against its own surface
+constexpr double kLift = 2.5;        // pixels towards the viewer, so that a line is not hidden by its own surface
 
 class Pen {
  public:

@@ -16,11 +16,12 @@ struct Shells {
 
 [[nodiscard]] Shells make_shells(const collision::Object& object);
 
-/// For each pixel the part whose line is seen there, or DepthBuffer::kNothing: neither the glass nor the object stands before it.
+/// For each pixel, the part whose line is visible there (not hidden by glass or object), or DepthBuffer::kNothing.
 [[nodiscard]] std::vector<std::uint32_t> draw_net(const collision::Object& object, const View& view,
                                                   const DepthBuffer& glass, const DepthBuffer& solid);
 
-/// The point of the superquadric's surface in the direction `d` of a cube [-1, 1]^3 that its semi-axes stretch, in Q.
+/// The point of the superquadric's surface, in Q, in the direction `d` of a cube [-1, 1]^3 that is scaled by the
+/// semi-axes.
 [[nodiscard]] Vec3 surface_at(const geometry::Superquadric& shape, const Vec3& d);
 
 }  // namespace mechane::fit

@@ -2,23 +2,24 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "server/base/whole_file.hpp"
+
 namespace mechane::fit {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that is removed unless it is kept, also when the program is interrupted.
+/// A file that is removed unless it is kept; also when the program is interrupted.
 class Draft {
  public:
   Draft(fs::path path, Interruption& interruption) : path_(std::move(path)), interruption_(interruption) {
-    interruption_.add_draft(path_);  // before it exists: there is no moment at which it would stay behind
+    interruption_.add_draft(path_);  // before it exists, so that it can never be left behind
     fd_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   }
   Draft(const Draft&) = delete;
@@ -33,13 +34,8 @@ class Draft {
 
   /// False with errno set.
   [[nodiscard]] bool write(std::span<const std::byte> bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
-    return fsync(fd_) == 0;
+    errno = write_all(fd_, bytes);
+    return errno == 0 && fsync(fd_) == 0;
   }
 
   [[nodiscard]] bool keep_as(const fs::path& file) {
@@ -59,10 +55,10 @@ fs::path folder_of(const fs::path& file) {
 }
 
 tl::unexpected<Error> write_failure(int code, const fs::path& file) {
-  const char* remedy = "check the folder and the file's rights, or name another folder with -o";
+  const char* remedy = "check the permissions of folder and file, or name another folder with -o";
   if (code == ENOSPC || code == EDQUOT || code == EFBIG)
     remedy = "make room on the disk, or name another folder with -o";
-  return fail(fmt::format("cannot be written: {}", std::strerror(code)), file.string(), remedy);
+  return fail(ErrorCode::io_failure, fmt::format("cannot be written: {}", std::strerror(code)), file.string(), remedy);
 }
 
 }  // namespace
@@ -71,32 +67,22 @@ Expected<void> prepare_folder(const fs::path& folder) {
   std::error_code code;
   fs::create_directories(folder, code);
   if (code)
-    return fail(fmt::format("the folder cannot be made: {}", code.message()), folder.string(), "name another with -o");
-  if (!fs::is_directory(folder, code)) return fail("not a folder", folder.string(), "name a folder with -o");
+    return fail(ErrorCode::io_failure, fmt::format("the folder cannot be made: {}", code.message()), folder.string(),
+                "name another with -o");
+  if (!fs::is_directory(folder, code))
+    return fail(ErrorCode::invalid_value, "this is not a folder", folder.string(), "name a folder with -o");
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    return fail(fmt::format("the folder cannot be written: {}", std::strerror(errno)), folder.string(),
-                "change its rights, or name another with -o");
+    return fail(ErrorCode::io_failure, fmt::format("the folder cannot be written: {}", std::strerror(errno)),
+                folder.string(), "change its permissions, or name another with -o");
   }
   return {};
 }
 
 Expected<void> write_whole(const fs::path& file, std::span<const std::byte> bytes, Interruption& interruption) {
-  // Two runs may write the same file: each has its own draft, and the later rename wins.
+  // Two runs may write the same file: each has its own draft, and the later rename decides.
   Draft draft(folder_of(file) / fmt::format(".{}.{}.draft", file.filename().string(), getpid()), interruption);
   if (!draft.is_open() || !draft.write(bytes) || !draft.keep_as(file)) return write_failure(errno, file);
   return {};
-}
-
-Expected<std::vector<std::byte>> read_whole(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  std::vector<std::byte> bytes;
-  if (in) {
-    bytes.resize(static_cast<std::size_t>(std::max<std::streamoff>(in.tellg(), 0)));
-    in.seekg(0);
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  }
-  if (!in) return fail("cannot be read back", file.string(), "check the disk, then run again");
-  return bytes;
 }
 
 }  // namespace mechane::fit

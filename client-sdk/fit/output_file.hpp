@@ -1,4 +1,4 @@
-// Writing a file so that it is there whole, or not at all.
+// Writes a file completely, or not at all.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,12 @@
 
 namespace mechane::fit {
 
-/// Makes the folder when it is missing, and checks that a file can be made in it: before the long work, not after it.
+/// Creates the folder if it is missing, and checks that it can be written: before the long work, not after it.
 [[nodiscard]] Expected<void> prepare_folder(const std::filesystem::path& folder);
 
-/// Writes a draft beside `file`, forces it to the disk and renames it. The draft is gone whatever happens; an older `file` stays until
-/// the rename. Errors: a full disk, a folder that cannot be written.
+/// Writes a draft beside `file`, syncs it to the disk and renames it. On failure the draft is removed; an older `file`
+/// stays until the rename. Errors: a full disk, a folder that cannot be written.
 [[nodiscard]] Expected<void> write_whole(const std::filesystem::path& file, std::span<const std::byte> bytes,
                                          Interruption& interruption);
-
-/// The bytes of a file that was written a moment ago.
-[[nodiscard]] Expected<std::vector<std::byte>> read_whole(const std::filesystem::path& file);
 
 }  // namespace mechane::fit

@@ -10,7 +10,8 @@
 namespace mechane::fit {
 namespace {
 
-// Paul Tol's 'muted' scheme (SRON/EPS/TN/09-002), safe for all common kinds of colour vision, its darkest last, the indigo lightened.
+// Paul Tol's 'muted' scheme (SRON/EPS/TN/09-002), safe for all common kinds of colour vision, its darkest last, the
+// indigo lightened.
 constexpr std::array<std::uint32_t, 9> kPartColours{0xCC6677, 0x88CCEE, 0xDDCC77, 0x44AA99, 0xAA4499,
                                                     0x999933, 0x117733, 0x882255, 0x4B5AA5};
 constexpr std::array<std::uint32_t, 6> kErrorScale{0xF4EFDC, 0xF3CF7E, 0xEB9A4A, 0xCB5B45, 0x8A2C55, 0x3B1441};
@@ -71,7 +72,7 @@ Colour colour_at(Scale scale, double share) {
   const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
   const auto lower = std::min(static_cast<std::size_t>(at), stops.size() - 2);
   const auto blend = static_cast<float>(at - static_cast<double>(lower));
-  // Between the stops as a browser's gradient does it, in sRGB, so that bar and picture agree.
+  // Interpolated in sRGB like a browser's gradient, so that bar and picture agree.
   Colour mixed;
   for (int i = 0; i < 3; ++i) {
     const int shift = 16 - 8 * i;

@@ -1,4 +1,4 @@
-// Colours that people with any kind of colour vision tell apart.
+// Colours that people with any kind of colour vision can distinguish.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ using Colour = Eigen::Array3f;
 /// A colour for each part, so that parts that touch get different ones as long as there are enough.
 [[nodiscard]] std::vector<Colour> part_colours(const collision::Object& object);
 
-/// A scale from pale to dark: lightness falls all the way, so that it also reads in grey.
+/// A scale from pale to dark, with steadily decreasing lightness, so that it can also be read in grey.
 enum class Scale : std::uint8_t {
   error,  ///< pale straw, orange, dark plum
   depth,  ///< pale sand, green, dark blue
@@ -31,7 +31,7 @@ enum class Scale : std::uint8_t {
 /// "linear-gradient(...)" of the scale from left to right.
 [[nodiscard]] std::string css_gradient(Scale scale);
 
-[[nodiscard]] Colour not_felt_colour();  ///< on no scale: where a map feels nothing
-[[nodiscard]] Colour plain_colour();     ///< the object without any meaning
+[[nodiscard]] Colour not_felt_colour();  ///< outside the scales: where a map feels nothing
+[[nodiscard]] Colour plain_colour();     ///< the object, without a meaning
 
 }  // namespace mechane::fit

@@ -6,6 +6,7 @@
 
 #include "client-sdk/fit/net.hpp"
 #include "client-sdk/fit/shading.hpp"
+#include "server/base/math.hpp"
 #include "server/base/parallel.hpp"
 
 namespace mechane::fit {
@@ -17,27 +18,18 @@ constexpr int kLeastSide = 24;
 constexpr double kSides_rad[kSides][2] = {{-0.6, 0.38}, {2.54, 0.38}, {-0.25, 1.2}};  // azimuth, elevation
 constexpr float kGlass = 0.30F;
 constexpr float kNetLine = 0.85F;
-constexpr float kErrorLight = 0.45F;  // colours that mean a number keep more of themselves
+constexpr float kErrorLight = 0.45F;  // less shading for colours that stand for a number
 constexpr double kScaleQuantile = 0.995;
 constexpr double kLeastScale_mm = 0.01;
 constexpr float kPlain = std::numeric_limits<float>::quiet_NaN();  // no error: a seam
 constexpr float kNotFelt = std::numeric_limits<float>::infinity();
-
-/// 1, 2 or 5 times a power of ten, at least `value`.
-double round_up(double value) {
-  const double decade = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * decade >= value * (1 - 1e-9)) return step * decade;
-  }
-  return 10 * decade;
-}
 
 Colour error_colour(float error_mm, double scale_mm) {
   if (std::isnan(error_mm)) return plain_colour();
   return std::isinf(error_mm) ? not_felt_colour() : colour_at(Scale::error, error_mm / scale_mm);
 }
 
-/// The pixel of the buffer that stands for a pixel of the picture: its middle, or else the first that is covered.
+/// The buffer's pixel that represents a pixel of the picture: the middle one, or else the first covered one.
 std::size_t witness_of(const DepthBuffer& buffer, int x, int y) {
   const auto at = [&](int dx, int dy) {
     return static_cast<std::size_t>(y * kFine + dy) * buffer.width + static_cast<std::size_t>(x * kFine + dx);
@@ -57,7 +49,7 @@ std::array<View, kSides> views_of(const geometry::Mesh& mesh, int row_width, int
   double height_m = 0;
   for (std::size_t i = 0; i < kSides; ++i) {
     views[i] = view_from(mesh, kSides_rad[i][0], kSides_rad[i][1], size_m[i]);
-    // From above, a long object lies across the picture, whichever way it lies in the model.
+    // From above, a long object is shown lying across the picture, however it lies in the model.
     Vec3 turned_m;
     const View turned = view_from(mesh, kSides_rad[i][0] + kPi / 2, kSides_rad[i][1], turned_m);
     if (i == kSides - 1 && turned_m.y() < size_m[i].y()) {
@@ -166,7 +158,7 @@ ErrorRow Pictures::errors() const {
   const auto quantile = [&](double share) {
     return felt.empty() ? 0.0 : felt[static_cast<std::size_t>(share * static_cast<double>(felt.size() - 1))];
   };
-  row.scale_mm = round_up(std::max(quantile(kScaleQuantile), kLeastScale_mm));
+  row.scale_mm = round_up_to_scale(std::max(quantile(kScaleQuantile), kLeastScale_mm));
   for (std::size_t i = 0; i < kSides; ++i) {
     const Side& side = sides_[i];
     const std::size_t fine_width = side.buffer.width;

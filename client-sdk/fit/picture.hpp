@@ -1,4 +1,5 @@
-// The pictures of a report: the object from three sides in the colours of its parts, of its error, and under its superquadrics.
+// The pictures of a report: the object from three sides in the colours of its parts, of its error, and under its
+// superquadrics.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ struct ErrorRow {
   double scale_mm = 0;  ///< the error at the dark end of the scale
 };
 
-/// Transparent around the object, so that a page may be light or dark. All sides are at one scale. The surface and the object must outlive it.
+/// Pictures are transparent around the object, for light and dark pages. All sides have the same scale. The surface and
+/// the object must outlive this.
 class Pictures {
  public:
   /// Three pictures side by side fill `row_width` pixels, unless they would be higher than `max_height`.
@@ -30,15 +32,15 @@ class Pictures {
 
   [[nodiscard]] Row parts() const;
 
-  /// Each pixel's place of the surface is asked (see Surface::error_at). The scale ends at the error that 99.5 % of the places keep
-  /// within, rounded up, and at 0.01 mm at least. What is not felt has a colour of its own; surface between parts is plain.
+  /// Evaluates Surface::error_at for each pixel. The scale ends at the rounded-up error of 99.5 % of the places, and at
+  /// 0.01 mm at least. Places that are not felt have a colour of their own; surface between parts is plain.
   [[nodiscard]] ErrorRow errors() const;
 
-  /// The superquadrics as glass, with a net of lines where nothing stands before them.
+  /// The superquadrics as glass, with a net of lines where nothing is in front of them.
   [[nodiscard]] Row superquadrics() const;
 
  private:
-  /// Drawn with more pixels than the picture has; they are averaged at the end.
+  /// Drawn with more pixels than the picture has, and averaged at the end.
   struct Side {
     View view;
     DepthBuffer buffer;

@@ -1,4 +1,4 @@
-// What a finger's point feels of an object: the question that the server asks a thousand times a second, asked for one point.
+// What a fingertip's point feels of an object: the server's contact query, for one point.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 namespace mechane::fit {
 
 struct Felt {
-  bool hit = false;  ///< without it the other fields mean nothing
+  bool hit = false;  ///< if false, the other fields mean nothing
   double depth_m = 0;
   std::size_t part = 0;
 };
 
-/// Asks find_contacts, whatever representation a part has. Copies the maps of the object; any thread may ask.
+/// Calls find_contacts, for any representation of a part. Copies the maps of the object; any thread.
 class Probe {
  public:
   explicit Probe(const collision::Object& object);
 
-  /// One part alone, as if the others were not there. The answers call it part 0.
+  /// One part alone, without the others. In the answers it is part 0.
   Probe(const collision::Object& object, std::size_t part);
 
   [[nodiscard]] Felt at(const Vec3& p_OP) const;

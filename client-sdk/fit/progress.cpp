@@ -66,7 +66,7 @@ void Progress::begin(Stage stage) {
   if (!active_ || stage.mesh != stage_.mesh) began_s_ = now_s();
   stage_ = std::move(stage);
   active_ = true;
-  if (terminal_ || stage_.total > 0) draw();  // a log has the long stage from its start
+  if (terminal_ || stage_.total > 0) draw();  // in a log, the long stage is shown from its start
 }
 
 void Progress::advance(std::size_t done, std::size_t total) {

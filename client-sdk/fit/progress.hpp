@@ -1,4 +1,4 @@
-// What a person sees while parts are built: a bar on a terminal, a plain line now and then elsewhere.
+// Shows the progress of building parts: a bar on a terminal, otherwise a plain line from time to time.
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +14,7 @@ struct Stage {
   std::string mesh;  ///< "screw.glb"
   std::string what;  ///< "building parts"
   std::size_t done = 0;
-  std::size_t total = 0;  ///< 0: nobody knows
+  std::size_t total = 0;  ///< 0: unknown
 };
 
 /// "screw.glb  [######......] 12/57 building parts, 8 s", at most `columns` wide.
@@ -26,16 +26,16 @@ struct Stage {
 /// Owns a thread that draws. All functions may be called from any thread.
 class Progress {
  public:
-  /// A bar when `out` is a terminal, redrawn ten times a second; else a line every five seconds.
+  /// A bar if `out` is a terminal, redrawn ten times a second; otherwise a line every five seconds.
   explicit Progress(std::FILE* out);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
   void begin(Stage stage);
-  void advance(std::size_t done,
-               std::size_t total);  ///< a count that goes back, as threads may report in another order, is not shown
-  void end();                       ///< takes the bar away: the line is free for other text
+  /// Ignores a smaller count: threads may report out of order.
+  void advance(std::size_t done, std::size_t total);
+  void end();  ///< removes the bar, so that other text can be written
 
  private:
   void run();

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/geometry/area_normal.hpp"
+
 namespace mechane::fit {
 namespace {
 
-constexpr std::size_t kMostNeighbours = 64;  // around the tip of a fan: its faces are shaded flat
+constexpr std::size_t kMostNeighbours = 64;  // with more, at the tip of a fan, faces are shaded flat
 
 /// Twice the signed area of (a, b, p) on the screen.
 double edge(const Vec3& a, const Vec3& b, double x, double y) {
@@ -37,12 +39,6 @@ void draw_triangle(const std::array<Vec3, 3>& p, std::uint32_t index, DepthBuffe
       buffer.triangle[at] = index;
     }
   }
-}
-
-Vec3 area_normal(const geometry::Mesh& mesh, std::size_t triangle) {
-  const auto& v = mesh.triangles[triangle];
-  const Vec3& a = mesh.vertices[v[0]];
-  return (mesh.vertices[v[1]] - a).cross(mesh.vertices[v[2]] - a);
 }
 
 }  // namespace
@@ -101,7 +97,7 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const geometry::Mesh& mesh, dou
   std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
   std::vector<Vec3> face(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    face[t] = area_normal(mesh, t);
+    face[t] = geometry::area_normal(mesh, t);
     for (const std::uint32_t v : mesh.triangles[t])
       around[v].push_back(t);
   }

@@ -1,4 +1,4 @@
-// A small software rasteriser: triangles into a depth buffer, seen along parallel rays.
+// A small software rasteriser with orthographic projection: triangles into a depth buffer.
 #pragma once
 
 #include <array>
@@ -21,15 +21,15 @@ struct View {
   [[nodiscard]] Vec3 to_screen(const Vec3& p_O) const;
   [[nodiscard]] Vec3 to_object(const Vec3& p_screen) const;
 
-  /// The same picture with `factor` times as many pixels each way.
+  /// The same picture with `factor` times as many pixels along each side.
   [[nodiscard]] View finer(int factor) const;
 };
 
-/// A view from `azimuth` about the y axis (0: the viewer stands on +z) and `elevation` above the horizon, radians, at one pixel a
-/// metre: all that it needs is a scale. `size_m` gets what the mesh takes of the screen.
+/// A view from `azimuth` about the y axis (0: the viewer is on +z) and `elevation` above the horizon, radians, at one
+/// pixel per metre; the caller scales it. `size_m` returns the mesh's size on the screen.
 [[nodiscard]] View view_from(const geometry::Mesh& mesh, double azimuth, double elevation, Vec3& size_m);
 
-/// What is nearest at each pixel.
+/// The nearest triangle at each pixel.
 struct DepthBuffer {
   static constexpr std::uint32_t kNothing = 0xFFFFFFFF;
   static constexpr float kFar = -1e30F;
@@ -42,11 +42,11 @@ struct DepthBuffer {
   [[nodiscard]] bool covered(std::size_t pixel) const { return triangle[pixel] != kNothing; }
 };
 
-/// Both sides of triangles are drawn: an open or inverted mesh is seen as well.
+/// Draws both sides of triangles, so that open and inverted meshes are visible as well.
 [[nodiscard]] DepthBuffer rasterise(const geometry::Mesh& mesh, const View& view);
 
-/// Unit normals of a mesh for shading, one a triangle's corner: the mean over the neighbours around that corner, unless a crease
-/// sharper than `crease_rad` parts them.
+/// Unit normals of a mesh for shading, one a triangle's corner: the mean over the neighbours around that corner, unless
+/// a crease sharper than `crease_rad` parts them.
 [[nodiscard]] std::vector<std::array<Vec3f, 3>> corner_normals(const geometry::Mesh& mesh, double crease_rad);
 
 }  // namespace mechane::fit

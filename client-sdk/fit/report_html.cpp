@@ -72,9 +72,10 @@ std::string key_figures(const Summary& s) {
 
 std::string parts_section(const Report& report) {
   std::string out =
-      "<h2>Its parts</h2>\n<p class=\"lead\">A collision part has one superquadric and one map: a piece close to "
-      "convex, or a whole mesh "
-      "where one map holds it. Parts that touch have different colours, the same on the whole page.</p>\n";
+      "<h2>Its parts</h2>\n<p class=\"lead\">A collision part has one superquadric and one map: a nearly convex piece, "
+      "or a "
+      "whole mesh if one map can represent it. Neighbouring parts have different colours, the same on the whole "
+      "page.</p>\n";
   out += row_of(report.parts, "the object in the colours of its parts") + "<ul class=\"legend\">";
   if (report.summary.parts.size() > kLegendParts) {
     return out + fmt::format("<li>{} parts: the table below has their names and colours</li></ul>\n",
@@ -100,7 +101,7 @@ std::string error_section(const Report& report) {
                            100 * report.summary.not_felt_share);
 }
 
-/// The command's flags stand as code, which does not break at their hyphens.
+/// Writes the command's flags as code, so that lines do not break at their hyphens.
 std::string with_flags(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -241,7 +242,7 @@ Report make_report(const FittedObject& fitted, const Surface& surface, const Sum
   report.summary = summary;
   report.reach_mm = 1000 * surface.reach_m();
   report.part_colours = part_colours(fitted.object);
-  // A picture with much detail is large: then it gets fewer pixels.
+  // A picture with much detail is a large file, so it gets fewer pixels.
   for (const double scale : {1.0, 0.75, 0.5625, 0.42}) {
     const Pictures pictures(surface, fitted.object, static_cast<int>(scale * kRowWidth),
                             static_cast<int>(scale * kRowHeight));

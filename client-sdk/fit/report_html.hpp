@@ -12,7 +12,7 @@
 
 namespace mechane::fit {
 
-/// All that the page shows; it says nothing that is not here.
+/// All that the page shows.
 struct Report {
   std::string title;
   std::string mesh_hash;
@@ -28,13 +28,13 @@ struct Report {
   std::vector<MapPicture> maps;     ///< theirs
 };
 
-/// Draws and probes: seconds. Uses all cores.
+/// Draws and probes; takes seconds. Uses all cores.
 [[nodiscard]] Report make_report(const FittedObject& fitted, const Surface& surface, const Summary& summary);
 
-/// The page, self-contained: some 3 MB at most for up to a hundred parts.
+/// The self-contained page: about 3 MB at most, for up to a hundred parts.
 [[nodiscard]] std::string html_page(const Report& report);
 
-/// Text of a file as text of a page: no markup, no control characters.
+/// A file's text for use in a page: escapes markup, replaces control characters.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 }  // namespace mechane::fit

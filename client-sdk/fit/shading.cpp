@@ -16,7 +16,7 @@ constexpr float kHollow = 0.45F;        // how dark the deepest hollow gets
 constexpr double kHollowShare = 0.035;  // its width, of the picture's larger side
 constexpr float kOutline = 0.42F;
 constexpr int kLinePixels = 2;
-constexpr double kStepShare = 0.02;  // a step in depth that counts as standing before something
+constexpr double kStepShare = 0.02;  // a step in depth that counts as an outline
 
 Vec3f lamp_direction_V() {
   return Vec3f(-0.45F, 0.65F, 0.62F).normalized();
@@ -39,7 +39,7 @@ Vec3 weights_of(const geometry::Mesh& mesh, std::uint32_t triangle, const Vec3& 
   return {1 - w1 - w2, w1, w2};
 }
 
-/// Sums over rectangles in constant time (Crow 1984), of what lies nearer and of how many pixels are covered.
+/// Sums over rectangles in constant time (Crow 1984), of depths and of covered pixels.
 class AreaSums {
  public:
   explicit AreaSums(const DepthBuffer& buffer) : width_(buffer.width + 1), height_(buffer.height + 1) {
@@ -55,7 +55,7 @@ class AreaSums {
     }
   }
 
-  /// Mean depth of the covered pixels within `radius` of (x, y), which must be covered itself.
+  /// Mean depth of the covered pixels within `radius` of (x, y), which itself must be covered.
   [[nodiscard]] double mean(int x, int y, int radius) const {
     const int left = std::max(x - radius, 0);
     const int top = std::max(y - radius, 0);
@@ -76,7 +76,7 @@ class AreaSums {
   std::vector<double> count_;
 };
 
-/// Whether something ends here: beside this pixel lies nothing, or something well behind it.
+/// Whether this pixel is on an outline: next to it is nothing, or something far behind it.
 bool on_outline(const DepthBuffer& buffer, int x, int y) {
   const float z = buffer.z[static_cast<std::size_t>(y) * buffer.width + x];
   const auto step = static_cast<float>(kStepShare * larger_side(buffer));

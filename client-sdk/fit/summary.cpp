@@ -12,10 +12,10 @@
 namespace mechane::fit {
 namespace {
 
-// A fingertip tells steps of about a millimetre apart on a shape that it holds; on the parts of a machine that is the target.
+// A fingertip can feel steps of about a millimetre on a held shape; this is the target for the parts of a machine.
 constexpr double kFeltAsRight_mm = 1.0;
 constexpr std::size_t kPlaces = 6000;
-constexpr double kMissedShare = 0.002;  // of the surface: more of it gone, and a finger finds the hole
+constexpr double kMissedShare = 0.002;  // of the surface: if more is missing, a finger will find the hole
 constexpr double kLargeObject_mm = 20'000;
 constexpr double kSmallObject_mm = 10;
 
@@ -74,7 +74,7 @@ void note_size(Summary& summary) {
   }
 }
 
-/// A budget that was missed is no secret: what was asked for is not what one gets.
+/// Reports parts that exceed the requested error.
 void note_budget(const FittedObject& fitted, Summary& summary) {
   std::vector<std::string> inexact;
   for (const collision_build::PartReport& part : fitted.report.parts) {
@@ -82,9 +82,9 @@ void note_budget(const FittedObject& fitted, Summary& summary) {
   }
   summary.misses_budget = !inexact.empty();
   if (inexact.empty()) return;
-  summary.notes.push_back(
-      fmt::format("{} of {} parts miss the error asked for, {} mm: {}; each has the least error found", inexact.size(),
-                  fitted.report.parts.size(), mm_text(1000 * fitted.report.budget.depth_p99_m), listed(inexact)));
+  summary.notes.push_back(fmt::format(
+      "{} of {} parts exceed the allowed error of {} mm: {}; each has the least error found", inexact.size(),
+      fitted.report.parts.size(), mm_text(1000 * fitted.report.budget.depth_p99_m), listed(inexact)));
 }
 
 void note_parts(const FittedObject& fitted, Summary& summary) {
@@ -101,7 +101,8 @@ void note_parts(const FittedObject& fitted, Summary& summary) {
   }
   if (!hidden.empty()) {
     summary.notes.push_back(
-        listed(hidden) + ": wholly inside others, so nothing of it is felt; where it is a node of yours, leave it out");
+        listed(hidden) +
+        ": entirely inside other parts, so it cannot be felt; if it is a node of the model, leave it out");
   }
   if (!sparse.empty()) {
     summary.widest_gap_mm = widest_mm;
@@ -112,7 +113,7 @@ void note_parts(const FittedObject& fitted, Summary& summary) {
   }
 }
 
-/// The surface as a whole, in places spread evenly over it.
+/// Measures the whole surface, at evenly spread places.
 void measure_surface(const Surface& surface, std::uint64_t seed, Summary& summary) {
   const auto places = geometry::sample_by_area(surface.mesh(), kPlaces, seed + 3);
   std::vector<std::optional<SurfaceError>> asked(places.size());
@@ -178,7 +179,7 @@ std::string verdict(const Summary& summary) {
 std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject& fitted) {
   const collision_build::BuildConfig& config = fitted.config;
   const std::string resolution =
-      config.map_resolution == 0 ? "the smallest that does" : fmt::format("{} texels an edge", config.map_resolution);
+      config.map_resolution == 0 ? "the smallest sufficient" : fmt::format("{} texels per edge", config.map_resolution);
   return {{"metres of a unit (--scale)", fmt::format("{:g}", fitted.scale)},
           {"error allowed (--error)", fmt::format("{} mm", mm_text(1000 * config.max_error_m))},
           {"error allowed (--error-share)", fmt::format("{:g} % of the diagonal", 100 * config.max_error_share)},

@@ -1,4 +1,4 @@
-// The numbers of a fitted object, as the table and the report show them. summary.cpp alone reads the builder's fields.
+// The numbers of a fitted object, as the table and the report show them. Only summary.cpp reads the builder's fields.
 #pragma once
 
 #include <cstddef>
@@ -40,17 +40,17 @@ struct Summary {
   double build_s = 0;
   double diagonal_mm = 0;
   std::size_t worst_part = 0;  ///< into parts: the greatest depth_error_p99_mm
-  double felt_p50_mm = 0;  ///< of the whole surface, spread by area: how far from it a finger meets it (SurfaceError)
-  double felt_p99_mm = 0;  ///< places that are not felt count with the whole reach
+  double felt_p50_mm = 0;  ///< distance from the surface at which a finger meets it (SurfaceError), over the whole area
+  double felt_p99_mm = 0;  ///< places that are not felt count with the full reach
   double not_felt_share = 0;       ///< of those places
   double widest_gap_mm = 0;        ///< between samples of a part that has too few of them; 0: no part has too few
-  bool misses_budget = false;      ///< some part could not be made as exact as asked for
-  std::vector<std::string> notes;  ///< what an author should know: what, where, remedy
+  bool misses_budget = false;      ///< some part exceeds the allowed error
+  std::vector<std::string> notes;  ///< notes for the author: what, where, remedy
 };
 
 [[nodiscard]] Summary summarise(const FittedObject& fitted, const Surface& surface);
 
-/// What the numbers mean for an author: one sentence, then another with what to do when the worst part is felt to be off.
+/// What the numbers mean for an author: one sentence, and a second with a remedy if the worst part will feel wrong.
 [[nodiscard]] std::string verdict(const Summary& summary);
 
 /// The settings of the build as (what, value with unit).
@@ -59,7 +59,7 @@ struct Summary {
 /// "512 B", "12.1 KB", "3.4 MB": thousands, as disks count.
 [[nodiscard]] std::string bytes_text(std::size_t bytes);
 
-/// Millimetres with two digits that mean something: "0.034", "1.2", "120".
+/// Millimetres with two significant digits: "0.034", "1.2", "120".
 [[nodiscard]] std::string mm_text(double mm);
 
 }  // namespace mechane::fit

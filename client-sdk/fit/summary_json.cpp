@@ -47,7 +47,7 @@ std::string summary_json(const FittedObject& fitted, const Summary& summary) {
                      {"notes", summary.notes},
                      {"settings", settings},
                      {"parts", parts}};
-  // Notes hold names of the file's, which may be anything but UTF-8.
+  // Notes contain names from the file, which need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

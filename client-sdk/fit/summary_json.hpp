@@ -1,4 +1,4 @@
-// The summary for programs: what the table and the page tell people.
+// The summary for programs, with the same content as the table and the page.
 #pragma once
 
 #include <string>

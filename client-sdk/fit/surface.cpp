@@ -5,31 +5,26 @@
 
 #include "server/base/parallel.hpp"
 #include "server/collision_build/solid.hpp"
+#include "server/geometry/area_normal.hpp"
 
 namespace mechane::fit {
 namespace {
 
 constexpr double kReachShare = 0.02;   // of the diagonal
-constexpr double kUnderShare = 0.005;  // how deep under a triangle its part is asked for
-constexpr double kStartShare = 1e-6;   // a ray that starts on a face must not meet it
+constexpr double kUnderShare = 0.005;  // how deep below a triangle its part is looked up
+constexpr double kStartShare = 1e-6;   // so that a ray that starts on a face does not meet it
 constexpr int kSteps = 6;
 constexpr int kHalvings = 6;
-constexpr double kCornerShare = 0.8;  // a triangle is asked at its middle, and this far out to its corners
+constexpr double kCornerShare = 0.8;  // a triangle is probed at its middle, and this far towards its corners
 
 Vec3 middle_of(const geometry::Mesh& mesh, std::uint32_t triangle) {
   const auto& v = mesh.triangles[triangle];
   return (mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]]) / 3;
 }
 
-Vec3 normal_of(const geometry::Mesh& mesh, std::uint32_t triangle) {
-  const auto& v = mesh.triangles[triangle];
-  const Vec3& a = mesh.vertices[v[0]];
-  return (mesh.vertices[v[1]] - a).cross(mesh.vertices[v[2]] - a).normalized();
-}
-
 bool borders_on_air(const geometry::Mesh& mesh, std::uint32_t triangle, const collision_build::Solid& solid,
                     std::uint32_t owner) {
-  const Vec3 n = normal_of(mesh, triangle);
+  const Vec3 n = geometry::area_normal(mesh, triangle).normalized();
   const Vec3 middle = middle_of(mesh, triangle);
   if (solid.is_exposed(owner, middle, n)) return true;
   const auto& corners = mesh.triangles[triangle];
@@ -38,7 +33,7 @@ bool borders_on_air(const geometry::Mesh& mesh, std::uint32_t triangle, const co
   });
 }
 
-/// The part whose superquadric's middle lies nearest, in units of its size: for triangles where nothing is felt.
+/// The part whose superquadric's centre is nearest, in units of its size; for triangles where nothing is felt.
 std::uint32_t nearest_part(const collision::Object& object, const Vec3& p_O) {
   std::uint32_t best = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -78,7 +73,7 @@ Surface::Surface(const FittedObject& fitted)
 }
 
 void Surface::find_skin() {
-  // Bytes, as threads may not share the words of a vector<bool>.
+  // Bytes, because threads must not share the words of a vector<bool>.
   std::vector<std::uint8_t> exposed(mesh_.triangles.size());
   for_each_index(mesh_.triangles.size(), [&](std::size_t t) {
     exposed[t] = borders_on_air(mesh_, static_cast<std::uint32_t>(t), solid_, mesh_of_triangle_[t]) ? 1 : 0;
@@ -92,7 +87,8 @@ void Surface::find_skin() {
   skin_ = geometry::MeshQuery(skin);
 }
 
-/// Parts that the author gave are the meshes; where the builder cut, a triangle belongs to the part that is felt under it.
+/// If the author defined the parts, they are the meshes; if the builder cut, a triangle belongs to the part that is
+/// felt below it.
 void Surface::assign_parts(const FittedObject& fitted) {
   if (parts_ == fitted.meshes.size()) {
     part_of_triangle_ = mesh_of_triangle_;
@@ -102,7 +98,7 @@ void Surface::assign_parts(const FittedObject& fitted) {
   for_each_index(mesh_.triangles.size(), [&](std::size_t i) {
     const auto t = static_cast<std::uint32_t>(i);
     const Vec3 p = middle_of(mesh_, t);
-    const Felt felt = probe_.at(p - kUnderShare * diagonal_m_ * normal_of(mesh_, t));
+    const Felt felt = probe_.at(p - kUnderShare * diagonal_m_ * geometry::area_normal(mesh_, t).normalized());
     part_of_triangle_[i] = felt.hit ? static_cast<std::uint32_t>(felt.part) : nearest_part(fitted.object, p);
   });
 }
@@ -118,8 +114,8 @@ double Surface::reach_m() const {
   return kReachShare * diagonal_m_;
 }
 
-/// Half the way to the next face, at most the reach.
-double Surface::free_way_m(const Vec3& p_O, const Vec3& direction) const {
+/// Half the distance to the next face, at most the reach.
+double Surface::clearance_m(const Vec3& p_O, const Vec3& direction) const {
   std::vector<geometry::RayHit> hits;
   const double start_m = kStartShare * diagonal_m_;
   skin_.cast(p_O + start_m * direction, direction, hits);
@@ -128,26 +124,27 @@ double Surface::free_way_m(const Vec3& p_O, const Vec3& direction) const {
 
 std::optional<SurfaceError> Surface::error_at(const Vec3& p_O, std::uint32_t triangle) const {
   if (!exposed_[triangle]) return std::nullopt;
-  const Vec3 n = normal_of(mesh_, triangle);
+  const Vec3 n = geometry::area_normal(mesh_, triangle).normalized();
   if (!solid_.is_exposed(mesh_of_triangle_[triangle], p_O, n)) return std::nullopt;
-  // Felt at the very surface: it is met before, so the way leads out to where it ends. Else in, to where it begins.
+  // If the surface itself is already felt, search outwards for the place where the feeling ends; else inwards for its
+  // start.
   const bool met_before = probe_.at(p_O - kStartShare * diagonal_m_ * n).hit;
-  const Vec3 way = met_before ? n : Vec3(-n);
-  const double reach = free_way_m(p_O, way);
+  const Vec3 direction = met_before ? n : Vec3(-n);
+  const double reach = clearance_m(p_O, direction);
   double near = 0;
   double far = 0;
   bool turned = false;
   for (int i = 1; i <= kSteps && !turned; ++i) {
     near = far;
-    far = reach * i * i / (kSteps * kSteps);  // small errors are the common ones
-    turned = probe_.at(p_O + far * way).hit != met_before;
+    far = reach * i * i / (kSteps * kSteps);  // finer steps near 0, as most errors are small
+    turned = probe_.at(p_O + far * direction).hit != met_before;
   }
-  // Near a corner the way may run along a neighbouring face: what counts is how far the place is from any of the surface.
-  const auto from_surface = [&](double t) { return skin_.closest(p_O + t * way, 2 * reach_m()).distance_m; };
+  // Near a corner the search may run along a neighbouring face, so the distance from the whole surface counts.
+  const auto from_surface = [&](double t) { return skin_.closest(p_O + t * direction, 2 * reach_m()).distance_m; };
   if (!turned) return SurfaceError{met_before, from_surface(reach)};
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (near + far);
-    (probe_.at(p_O + middle * way).hit == met_before ? near : far) = middle;
+    (probe_.at(p_O + middle * direction).hit == met_before ? near : far) = middle;
   }
   return SurfaceError{true, from_surface(0.5 * (near + far))};
 }

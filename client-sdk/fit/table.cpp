@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kNameColumns = 14;
 
-/// Splits into characters, each a string of its own; what is not printable UTF-8 is a '?'.
+/// Splits a text into characters, each a string of its own; '?' replaces what is not printable UTF-8.
 std::vector<std::string> characters(std::string_view text) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < text.size();) {
@@ -54,7 +54,7 @@ std::string kilobytes(std::size_t bytes) {
   return bytes < 100'000 ? fmt::format("{:.1f}", static_cast<double>(bytes) / 1000) : fmt::format("{}", bytes / 1000);
 }
 
-/// The columns after the name, each set to the right; the widths hold the gaps and add up to kTableColumns.
+/// The columns after the name, right-aligned; the widths include the gaps and add up to kTableColumns.
 using Cells = std::array<std::string, 10>;
 constexpr std::array<std::size_t, 10> kWidths{6, 15, 8, 11, 13, 10, 5, 6, 6, 6};
 

@@ -1,4 +1,4 @@
-// A haptic device as the loop sees it: where the hand is, and what force it shall feel.
+// A haptic device as the loop sees it: gives the hand's position, takes the force to render.
 #pragma once
 
 #include "server/base/clock.hpp"
@@ -7,16 +7,16 @@
 
 namespace mechane::haptic {
 
-/// One device. open() and close() on the main thread; read() and write() on the loop's thread, once a tick in that order: they must
-/// not block longer than the device's own transfer takes, and must not throw.
+/// One device. open() and close() are called on the main thread; read() and write() on the loop's thread, once a tick
+/// and in this order. They must not block longer than the device's own transfer takes, and must not throw.
 class Device {
  public:
   virtual ~Device() = default;
-  /// Errors: not plugged in, no rights, another program has it.
+  /// Errors: not connected, no permission, in use by another program.
   [[nodiscard]] virtual Expected<void> open() = 0;
   /// The hand now. `dt` is the time since the last call.
   [[nodiscard]] virtual client::HandSample read(Duration dt) noexcept = 0;
-  /// The force to render until the next call. All zero on the way out.
+  /// The force to render until the next call. Zero at shutdown.
   virtual void write(const hand::HandForce& force) noexcept = 0;
   /// What the device can bear; the loop's governor is made from it.
   [[nodiscard]] virtual hand::GovernorConfig limits() const = 0;

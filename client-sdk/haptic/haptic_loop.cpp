@@ -30,8 +30,8 @@ void HapticLoop::set_local_contacts() noexcept {
 
 void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept {
   const Duration age = age_.age(now);
-  // A force that comes back begins as a visit does, from zero and ramped: after a silence, and after this loop itself stood still,
-  // when an answer from before may still be in its socket and look new.
+  // A force that returns is ramped up from zero, as at the start of a visit: after a silence of the server, and after
+  // this loop itself stood still, when an old answer may still be in its socket and look new.
   const Duration too_long = governor_.config().zero_by;
   if (age >= too_long || dt >= too_long) governor_.reset(governed_);
   hand::GovernorInput wanted;

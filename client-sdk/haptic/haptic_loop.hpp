@@ -16,31 +16,35 @@ namespace mechane::haptic {
 
 /// Which force the device renders.
 enum class RenderMode {
-  server,  ///< the server's force: on a LAN, where an answer is a millisecond old
-  local,  ///< from the server's contacts, at the device's own rate: under delay. A held object still pulls by the server's force.
+  /// The server's force; for a LAN, where an answer is a millisecond old.
+  server,
+  /// Computed from the server's contacts at the device's own rate, for slower networks; the pull of a held object is
+  /// still the server's force.
+  local,
 };
 
 struct LoopStats {
   std::uint64_t ticks = 0;
   std::uint64_t sent = 0;
   std::uint64_t answers = 0;       ///< forces received
-  std::uint64_t silent_ticks = 0;  ///< since the first force: those whose newest force was too old to be rendered
+  std::uint64_t silent_ticks = 0;  ///< ticks since the first force whose newest force was too old to be rendered
   double force_max_n = 0;
   double force_sum_n = 0;  ///< over ticks with force
   std::uint64_t ticks_with_force = 0;
   std::uint64_t holding_ticks = 0;
 };
 
-/// One tick of a haptic client. tick() is called by one thread at the device's rate (a PeriodicThread, or a device's own callback);
-/// after close-down call release() until it returns true: the force then is exactly zero.
+/// The haptic client's loop. One thread calls tick() at the device's rate (a PeriodicThread, or a device's own
+/// callback). To stop, call release() until it returns true: the force is then exactly zero.
 class HapticLoop {
  public:
-  /// Errors: limits of the device that make no governor.
+  /// Errors: the device's limits are not valid for a governor.
   [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device,
                                                                     RenderMode mode);
 
-  /// Reads the device, sends the hand, takes the newest force, governs it, writes it. The governor judges the age of the last answer
-  /// by `now`: whatever fails, 50 ms after the last new answer the device renders nothing, and what comes then is ramped up.
+  /// Reads the device, sends the hand, takes the newest force, limits it, writes it. The governor computes the age of
+  /// the last answer from `now`: whatever fails, the device renders nothing later than 50 ms after the last new answer,
+  /// and the next force is ramped up.
   void tick(TimePoint now, Duration dt) noexcept;
   /// Ramps the force down and out. True when the device renders exactly zero.
   [[nodiscard]] bool release(TimePoint now, Duration dt) noexcept;
@@ -66,7 +70,7 @@ class HapticLoop {
   hand::LocalContactModel local_;
   hand::SampleAge age_;
   client::ForceSample answer_;
-  std::array<Vec3, 256> sent_p_WH_{};  // by sequence number: where the hand was in the sample that an answer echoes
+  std::array<Vec3, 256> sent_p_WH_{};  // where the hand was in each sample, by sequence number
   hand::HandForce rendered_;
   LoopStats stats_;
   realtime::LatencyHistogram round_trip_;

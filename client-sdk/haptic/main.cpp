@@ -1,23 +1,25 @@
-// mechane-haptic: runs a haptic device at a kiosk. `--device virtual` is a simulated hand that strokes a place of the world.
+// mechane-haptic: runs a haptic device at a kiosk. `--device virtual` is a simulated hand that strokes a place of the
+// world.
 #include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/virtual_device.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/log/log.hpp"
 #include "server/realtime/periodic_thread.hpp"
+#include "server/realtime/quantiles_json.hpp"
 
 namespace {
 
 using namespace mechane;
 
-volatile std::sig_atomic_t g_stop = 0;  // the one thing that a signal handler may write
+volatile std::sig_atomic_t g_stop = 0;  // set by the signal handler
 
 struct Arguments {
   client::ClientConfig client;
@@ -36,11 +38,12 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--user", a.client.user, "which hand of the kiosk, 0..3");
   app.add_option("--join", a.client.join_kiosk, "share the world of this kiosk");
   app.add_option("--domain", a.client.domain, "DDS domain");
-  app.add_option("--center", a.center, "middle of the virtual hand's circle in the world, metres: x y z")->expected(3);
+  app.add_option("--center", a.center, "centre of the virtual hand's circle in the world, metres: x y z")->expected(3);
   app.add_option("--radius", a.radius_m, "radius of the circle, metres");
-  app.add_option("--seconds", a.seconds, "stop after so long; 0: until told to stop");
+  app.add_option("--seconds", a.seconds, "stop after this time; 0: run until stopped");
   a.client.fifo_priority = 70;
-  app.add_option("--fifo-priority", a.client.fifo_priority, "of the loop and of what it hears; 0: ordinary threads");
+  app.add_option("--fifo-priority", a.client.fifo_priority,
+                 "SCHED_FIFO priority of the loop and of the thread that receives forces; 0: ordinary threads");
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_flag("--local", a.local, "render forces from the local contact model");
 }
@@ -54,25 +57,22 @@ haptic::HandIntent stroke(const Vec3& center, double radius_m, double t_s) {
 }
 
 nlohmann::json to_json(const haptic::HapticLoop& loop, const realtime::PeriodicThread& thread) {
-  const auto us = [](Duration d) { return std::chrono::duration<double, std::micro>(d).count(); };
   const haptic::LoopStats& s = loop.stats();
   const realtime::PeriodicReport r = thread.report();
-  return {{"ticks", s.ticks},
-          {"sent", s.sent},
-          {"answers", s.answers},
-          {"silent_ticks", s.silent_ticks},
-          {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}},
-          {"overruns", r.overruns},
-          {"late_wakeups", r.late_wakeups},
-          {"skipped", r.skipped},
-          {"rtt_us",
-           {{"median", us(loop.round_trip().quantile(0.5))},
-            {"p99", us(loop.round_trip().quantile(0.99))},
-            {"p999", us(loop.round_trip().quantile(0.999))},
-            {"max", us(loop.round_trip().max())}}}};
+  nlohmann::json json = {{"ticks", s.ticks},
+                         {"sent", s.sent},
+                         {"answers", s.answers},
+                         {"silent_ticks", s.silent_ticks},
+                         {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}},
+                         {"overruns", r.overruns},
+                         {"late_wakeups", r.late_wakeups},
+                         {"skipped", r.skipped}};
+  // Without an answer no round trip was measured.
+  if (s.answers > 0) json["rtt_us"] = realtime::quantiles_json(loop.round_trip());
+  return json;
 }
 
-/// The loop runs on its own thread; this one waits for the end.
+/// Runs the loop on a thread of its own, and waits for the end.
 int run(const Arguments& a, client::Client& client) {
   haptic::VirtualDevice device;
   auto loop =
@@ -111,7 +111,7 @@ int run(const Arguments& a, client::Client& client) {
     told = std::move(refusal);
     waiting.sleep_until(waiting.now() + std::chrono::milliseconds(200));
   }
-  // The force ramps down before the loop ends, so that nobody's hand feels the program stop.
+  // The force is ramped down before the loop ends, so that the hand does not feel the program stop.
   leave = true;
   for (int i = 0; i < 100 && !released; ++i)
     waiting.sleep_until(waiting.now() + std::chrono::milliseconds(10));
@@ -121,11 +121,9 @@ int run(const Arguments& a, client::Client& client) {
     std::fputs(json.c_str(), stdout);
     return 0;
   }
-  std::ofstream out(a.report_file);
-  out << json;
-  out.flush();
-  if (out) return 0;
-  log::error(Error{"the report could not be written", a.report_file, "check the folder and the free space"});
+  const auto written = write_whole(a.report_file, std::as_bytes(std::span(json)), WholeFile::document);
+  if (written) return 0;
+  log::error(written.error());
   return 1;
 }
 
@@ -138,7 +136,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
   }
   log::start("haptic", log::Level::info);
   a.client.role = client::Role::hand;

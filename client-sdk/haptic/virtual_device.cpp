@@ -16,7 +16,7 @@ client::HandSample VirtualDevice::read(Duration dt) noexcept {
   if (dt_s > 0) {
     const double k = arm_.stiffness_n_per_m;
     const double b = 2 * arm_.damping_ratio * std::sqrt(k * arm_.mass_kg);
-    // Implicit in the arm's own spring and damper: steady at any rate of the loop, also after a stall.
+    // Implicit in the arm's spring and damper, and so stable at any rate of the loop, also after a stall.
     const Vec3 pull = k * (intent_.X_WH.p - X_WH_.p - dt_s * V_WH_.v) - b * V_WH_.v + force_.force_W.f;
     V_WH_.v += dt_s * pull / (arm_.mass_kg + dt_s * b + dt_s * dt_s * k);
     X_WH_.p += dt_s * V_WH_.v;

@@ -1,14 +1,15 @@
-// A device without hardware: a simulated hand, so that a visit can be played, tested and measured with forces that really act.
+// A device without hardware: a simulated hand on which the forces act, so that visits can be played, tested and
+// measured.
 #pragma once
 
 #include "client-sdk/haptic/device.hpp"
 
 namespace mechane::haptic {
 
-/// What the person wants to do with the hand at this moment.
+/// The pose that the simulated person intends for the hand at this moment.
 struct HandIntent {
   client::HandKind kind = client::HandKind::one_point;
-  Pose X_WH;                                         ///< where the hand is meant to be
+  Pose X_WH;                                         ///< the intended pose of the hand
   std::array<double, client::kHandJoints> joints{};  ///< finger angles, rad
   double grasp_intent = 0;
 };
@@ -20,8 +21,8 @@ struct ArmConfig {
   double damping_ratio = 1;  ///< of critical
 };
 
-/// A hand on a spring: pulled towards the intended pose, pushed by the rendered force. It turns as intended, without lag.
-/// intend() and the device's functions are called by one thread, the loop's.
+/// A hand on a spring: pulled towards the intended position, pushed by the rendered force. Its rotation follows the
+/// intention without lag. intend() and the device's functions are called on the loop's thread.
 class VirtualDevice final : public Device {
  public:
   explicit VirtualDevice(const ArmConfig& arm = {}) : arm_(arm) {}
@@ -29,7 +30,7 @@ class VirtualDevice final : public Device {
   [[nodiscard]] Expected<void> open() override { return {}; }
   [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
   void write(const hand::HandForce& force) noexcept override { force_ = force; }
-  /// Those of a desktop stylus device of the Phantom class.
+  /// Like a desktop stylus device of the Phantom class.
   [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
 
   void intend(const HandIntent& intent) noexcept;

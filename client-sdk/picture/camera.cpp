@@ -24,7 +24,7 @@ Eigen::Matrix4d frustum(double left, double right, double bottom, double top, do
 Mat3 axes_of(const Camera& camera) {
   const Vec3 back = (camera.p_WC - camera.p_WT).normalized();
   Vec3 right = camera.up_W.cross(back);
-  // Straight up or down: any horizontal axis serves.
+  // Straight up or down: any horizontal axis will do.
   if (right.norm() < 1e-9) right = Vec3::UnitX();
   right.normalize();
   Mat3 R_CW;
@@ -34,10 +34,10 @@ Mat3 axes_of(const Camera& camera) {
   return R_CW;
 }
 
-/// Nobody works nearer to the eyes, whatever a box says.
+/// Nobody works nearer to the eyes than this, whatever a box says.
 constexpr double kArm_m = 0.3;
 
-/// Half the picture's height at one metre, and how far off the plane lies that has no parallax.
+/// Half the picture's height at one metre, and the distance of the plane without parallax.
 struct Window {
   double half_tan = 0;
   double distance_m = 0;
@@ -49,12 +49,12 @@ Window window_of(const Camera& camera, double aspect) {
           camera.screen_distance_m > 0 ? camera.screen_distance_m : (camera.p_WT - camera.p_WC).norm()};
 }
 
-/// The eyes no farther apart than the depth budget allows: for what is infinitely far, and for what is nearest.
+/// Limits the eyes' distance to what the depth budget allows, for infinitely far things and for the nearest.
 double comfortable_eyes_m(const Camera& camera, double wanted_m, double aspect) {
   const auto [half_tan, distance_m] = window_of(camera, aspect);
   const double width_m = 2 * half_tan * distance_m * aspect;
   double most_m = kMostParallaxBehind * width_m;
-  // A thing nearer by n than the screen at d has d / n - 1 times the eyes' distance of parallax.
+  // With the screen at distance d, a thing at distance n has a parallax of d / n - 1 times the eyes' distance.
   if (camera.nearest_m > 0 && camera.nearest_m < distance_m)
     most_m = std::min(most_m, kMostParallaxBefore * width_m * camera.nearest_m / (distance_m - camera.nearest_m));
   return std::min(wanted_m, most_m);
@@ -69,9 +69,10 @@ EyeView eye_view(const Camera& camera, Eye eye, double aspect) {
   const Vec3 p_WE = camera.p_WC + R_CW.transpose() * p_CE;
 
   const auto [half_tan, distance] = window_of(camera, aspect);
-  // All frusta meet in the same rectangle, at the screen's distance from where the camera is without a head.
+  // All frusta meet in the same rectangle, at the screen's distance from the camera's place without a head.
   const double half_height = camera.room_below * half_tan * distance;
-  const double middle_y = half_tan * distance - half_height;  // the upper edge stays where it is without room below
+  const double middle_y =
+      half_tan * distance - half_height;  // the upper edge stays where it would be without room_below
   const double half_width = half_height * aspect;
   const double nearer = camera.near_m / std::max(distance + p_CE.z(), camera.near_m);
 
@@ -100,7 +101,7 @@ Camera for_screen(const Camera& camera, const ScreenSetup& screen, const HeadPla
   out.field_of_view_rad = 2 * std::atan(half_tan * distance_m / out.screen_distance_m);
   out.least_horizontal_rad = 0;
   out.eye_distance_m = scale * eyes_m;
-  if (head != nullptr) {  // S and C have the same axes
+  if (head != nullptr) {  // S and C have parallel axes
     out.head_C = scale * (head->p_SV - Vec3(0, 0, screen.viewer_distance_m));
     out.eyes_C = head->eyes_S;
   }
@@ -134,7 +135,7 @@ Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double fi
   constexpr double kMostAcross = 1.45;
   const double t = std::tan(field_of_view_rad / 2);
   const double tan_across = kMostAcross * t;
-  // The least distance at which every corner is inside.
+  // The least distance at which every corner is in the picture.
   double distance = 0.3;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);

@@ -1,4 +1,4 @@
-// What a pointer or a hand is on, and what visitors call it.
+// The thing under a pointer or hand, and its name for visitors.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace mechane::picture {
 
-/// What a pointer or a finger is on.
+/// What a pointer or finger touches.
 struct Touched {
   std::uint32_t object = 0;  ///< of the manifest
-  Vec3 p_WT = Vec3::Zero();  ///< there
+  Vec3 p_WT = Vec3::Zero();  ///< the touched point
 };
 
-/// A thing that visitors have a name for, and where it is.
+/// A thing with a name for visitors.
 struct NamedThing {
   std::uint32_t object = 0;  ///< of the manifest
   std::string name;          ///< in the visitor's language

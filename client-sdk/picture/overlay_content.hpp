@@ -1,4 +1,4 @@
-// Everything that is written over the picture, as plain content. Where it lies is the layout's.
+// Everything that is written over the picture, as plain content. The layout places it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Readout {
   std::string value;             ///< "12,4"
   std::string unit;              ///< "l"
   double fraction = 0;           ///< of the gauge's end, 0..1
-  std::string end;               ///< what the gauge's end stands for: "20"
+  std::string end;               ///< the value at the gauge's end: "20"
   std::optional<double> goal{};  ///< where on the gauge the step's goal is, 0..1
 };
 
@@ -30,11 +30,11 @@ struct OverlayDot {
   Eigen::Vector4f colour = Eigen::Vector4f::Ones();
 };
 
-/// What a thing is called, above it where there is room. The thing's place is in pixels of one eye's picture.
+/// A thing's name, written above it where there is room. Places are in pixels of one eye's picture.
 struct OverlayLabel {
   std::string text;
   float left = 0, top = 0, right = 0, bottom = 0;
-  bool framed = false;  ///< its corners are marked: all of it is there
+  bool framed = false;  ///< marks its corners: the whole thing is in the picture
 };
 
 /// Everything that is written over the picture, in one language, UTF-8.
@@ -42,17 +42,17 @@ struct OverlayContent {
   std::string title;
   std::string caption;
   std::string hint;
-  std::string note;  ///< calm word about the link: "The connection was lost. Waiting ..."
+  std::string note;  ///< a calm note about the link, such as "The exhibit is getting ready …"
   std::uint32_t steps_done = 0;
   std::uint32_t steps_total = 0;
   std::vector<Readout> readouts;
   std::string goal;                   ///< of the activity, at its beginning
-  std::vector<OverlayButton> corner;  ///< low on the right
-  std::optional<OverlayPanel> panel;  ///< it stands before captions and readouts, which are not shown then
+  std::vector<OverlayButton> corner;  ///< at the lower right
+  std::optional<OverlayPanel> panel;  ///< shown instead of captions and readouts
   OverlayStyle style;
   std::vector<OverlayDot> dots{};        ///< of the display's own hand
-  std::optional<OverlayLabel> label{};   ///< of what is pointed at
-  std::optional<OverlayAction> meant{};  ///< of the button under the mouse: it is lit
+  std::optional<OverlayLabel> label{};   ///< of the thing under the pointer
+  std::optional<OverlayAction> meant{};  ///< action of the button under the mouse, which is highlighted
 };
 
 }  // namespace mechane::picture

@@ -1,4 +1,5 @@
-// What a visitor can press in the overlay, as plain content: buttons in the corner, a panel of questions. Where they lie is the layout's.
+// What a visitor can press in the overlay, as plain content: buttons in the corner, a panel of questions. The layout
+// places them.
 #pragma once
 
 #include <cstdint>
@@ -38,14 +39,14 @@ struct OverlayPanel {
   std::string low;
   std::string high;
   std::optional<OverlayButton> leave;
-  std::uint32_t asked = 0;  ///< questions behind this one
+  std::uint32_t asked = 0;  ///< questions before this one
   std::uint32_t questions = 0;
 };
 
-/// For visitors who see little.
+/// For visitors with impaired sight.
 struct OverlayStyle {
   float text_scale = 1;        ///< 1.35: large text
-  bool high_contrast = false;  ///< black panels of full opacity, white and yellow words, no thin lines
+  bool high_contrast = false;  ///< opaque black panels, white and yellow words, no thin lines
 };
 
 inline constexpr float kLargeText = 1.35F;

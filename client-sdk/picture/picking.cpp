@@ -11,7 +11,7 @@ struct Ray {
   Vec3f d = Vec3f::UnitZ();
 };
 
-/// How far along the ray the triangle is, either side of it (Moller and Trumbore 1997); infinite: it is missed.
+/// How far along the ray it meets the triangle, from either side (Moller and Trumbore 1997); infinite: not at all.
 float distance_to(const Ray& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   constexpr float kMissed = std::numeric_limits<float>::infinity();
   const Vec3f u = b - a;
@@ -27,7 +27,7 @@ float distance_to(const Ray& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c
   return s >= 0 && t >= 0 && s + t <= 1 && distance > 0 ? distance : kMissed;
 }
 
-/// X_WM is rigid and may scale: distances are of the ray in W, whose direction is not made unit again in M.
+/// X_WM may scale: the ray's direction is not normalised in M, so distances are those in W.
 float distance_to(const Ray& ray_W, const Instance& instance, const MeshData& mesh) {
   const Eigen::Affine3f X_MW = instance.X_WM.inverse();
   const Ray ray{X_MW * ray_W.p, X_MW.linear() * ray_W.d};

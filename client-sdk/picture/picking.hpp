@@ -1,4 +1,4 @@
-// What a person clicks on: the object under a pixel. Nothing here knows OpenGL: rays meet the triangles that are drawn.
+// Finds the object under a pixel, for clicks. Without OpenGL: rays are intersected with the triangles that are drawn.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ struct Picked {
   Vec3 p_WT = Vec3::Zero();             ///< of its surface
 };
 
-/// Through a pixel of one eye's picture; none: sky or ground. As slow as object_at().
+/// What lies under a pixel of one eye's picture; none: sky or ground. As slow as object_at().
 [[nodiscard]] std::optional<Picked> picked_at(const RenderScene& scene, const SceneAssets& assets, const Sight& sight,
                                               PixelPlace place);
 
-/// The index of the object (Instance::object) that is seen there: the nearest of all, of scenery too. None: scenery, sky or ground.
-/// `pictured` is the whole picture's size. Takes as long as all triangles take once; for clicks, not for frames.
+/// The index (Instance::object) of the object at a pixel. None where scenery, sky or ground is seen there. `pictured`
+/// is the whole picture's size. Tests every triangle once: for clicks, not for each frame.
 [[nodiscard]] std::optional<std::uint32_t> object_at(const RenderScene& scene, const SceneAssets& assets,
                                                      PixelPlace place, Stereo stereo, PixelSize pictured);
 

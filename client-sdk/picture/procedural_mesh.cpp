@@ -8,10 +8,6 @@ namespace {
 
 constexpr float kGravity = 9.81F;
 
-double signed_power(double base, double exponent) {
-  return std::copysign(std::pow(std::abs(base), exponent), base);
-}
-
 /// Triangles of a grid of (rows + 1) x (columns + 1) vertices.
 void add_grid(MeshData& mesh, int rows, int columns) {
   const auto at = [columns](int row, int column) { return static_cast<std::uint32_t>(row * (columns + 1) + column); };
@@ -40,7 +36,7 @@ MeshData superquadric_mesh(const Vec3& a_m, double e1, double e2, int rings, int
       const double so = std::sin(omega);
       const Vec3 p(a_m.x() * signed_power(ce, e1) * signed_power(co, e2),
                    a_m.y() * signed_power(ce, e1) * signed_power(so, e2), a_m.z() * signed_power(se, e1));
-      // Equation 16 of the method: the normal's own superquadric.
+      // Equation 16 of the method: the normals lie on a superquadric of their own.
       Vec3 n(signed_power(ce, 2 - e1) * signed_power(co, 2 - e2) / a_m.x(),
              signed_power(ce, 2 - e1) * signed_power(so, 2 - e2) / a_m.y(), signed_power(se, 2 - e1) / a_m.z());
       n.normalize();
@@ -139,7 +135,7 @@ MeshData stream_mesh(const WaterStream& stream) {
     const Vec3f p = stream.p_WS + stream.v_W * t - Vec3f(0, 0.5F * kGravity * t * t, 0);
     const Vec3f along = v.norm() > 1e-5F ? Vec3f(v.normalized()) : Vec3f(-Vec3f::UnitY());
     const Vec3f up = across.cross(along);
-    // The same water passes every ring: the section shrinks as the speed grows.
+    // The same amount of water passes each ring, so the section shrinks as the speed grows.
     const float shrink = std::sqrt(start_speed / std::max(v.norm(), start_speed));
     const float half_width = 0.5F * stream.width_m * shrink;
     const float half_depth = (stream.jet ? 1.0F : 0.45F) * half_width;

@@ -17,18 +17,18 @@ namespace mechane::picture {
 /// A box about the origin, with flat faces.
 [[nodiscard]] MeshData box_mesh(const Vec3& half_m);
 
-/// The plain box that stands for a mesh which is not there.
+/// The plain box that is shown in place of a missing mesh.
 inline constexpr float kPlaceholderHalf_m = 0.12F;
 [[nodiscard]] MeshData placeholder_mesh();
 
-/// A level disc about the origin that looks up.
+/// A level disc about the origin that faces up.
 [[nodiscard]] MeshData disc_mesh(double radius_m, int sectors);
 
-/// From where it leaves to where it lands.
+/// How long the water falls, from the spout to where it lands.
 [[nodiscard]] float flight_time_s(const WaterStream& stream);
 
-/// After how long a jet's core is gone: 8.51 d We^0.31 / v (Sallam, Dai & Faeth 2002, turbulent jets in still air), We with water's
-/// density and surface tension.
+/// After which time a jet's core has broken up: 8.51 d We^0.31 / v (Sallam, Dai & Faeth 2002, turbulent jets in still
+/// air), with We for water's density and surface tension.
 [[nodiscard]] float jet_breakup_s(const WaterStream& stream);
 
 /// A tube along the parabola of the falling water, in W. uv: share of the way about the tube, seconds since the spout.

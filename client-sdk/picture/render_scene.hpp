@@ -1,5 +1,5 @@
-// What the renderer draws, as plain data, made anew for each frame: nothing here knows DDS, files or OpenGL. W is the world (y up, metres).
-// Colours are linear unless said.
+// What the renderer draws, as plain data, made for each frame, without DDS, files or OpenGL. W is the world (y up,
+// metres). Colours are linear unless stated otherwise.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Sun {
       Vec3f(4.6F, 3.85F, 2.8F);  ///< on a surface that faces the sun; the sky's own radiance is about 0.5
 };
 
-/// A sphere that darkens what is near it: contact shading of the hand.
+/// A sphere that darkens nearby surfaces: contact shading of the hand.
 struct Occluder {
   Vec3f p_WO = Vec3f::Zero();
   float radius_m = 0;
@@ -46,16 +46,16 @@ struct RenderScene {
   std::vector<ParticleEffect> effects;
   Vec3f wind_W = Vec3f(0.32F, 0, 0.10F);  ///< m/s; smoke drifts with it
   std::vector<Occluder> occluders;        ///< the first kMaxOccluders count
-  Eigen::AlignedBox3f shadow_box_W;       ///< what throws shadows
-  Eigen::AlignedBox3f focus_box_W;        ///< where they are to be sharpest; empty: everywhere alike
+  Eigen::AlignedBox3f shadow_box_W;       ///< contains all that casts shadows
+  Eigen::AlignedBox3f focus_box_W;        ///< where shadows are sharpest; empty: everywhere equally sharp
   Camera camera;
   Sun sun;
-  bool sky = true;                             ///< false: black, no light but the sun's
+  bool sky = true;                             ///< false: a black sky, and only the sun's light
   std::optional<float> ground_height_m;        ///< an endless plain of dry earth at this height
-  std::optional<std::uint32_t> land_material;  ///< whose images give the plain its grain; none: it has none
-  double time_s = 0;  ///< of the world, for ripples: the frame's tick, never the client's clock
+  std::optional<std::uint32_t> land_material;  ///< its images give the plain its texture; none: a plain without texture
+  double time_s = 0;  ///< the world's time, for ripples: from the frame's tick, never the client's clock
   std::vector<NamedThing> named;
-  std::optional<Touched> near_hand;  ///< what a free hand is about to touch, of those that are named
+  std::optional<Touched> near_hand;  ///< the named thing that a free hand is about to touch
   OverlayContent overlay;
   std::optional<Inset> inset;
 };

@@ -1,4 +1,5 @@
-// Meshes, materials and images that scenes are drawn with. `SceneAssets` only ever grows. M is a mesh's own frame; colours are linear unless said.
+// Meshes, materials and images that scenes are drawn with. `SceneAssets` only ever grows. M is a mesh's own frame;
+// colours are linear unless stated otherwise.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ struct MeshData {
   std::vector<Eigen::Vector4f> tangents;  ///< xyz along +u; w is the sign of the bitangent
   std::vector<Eigen::Vector2f> uv;        ///< (0, 0) is the image's upper left corner
   std::vector<std::uint32_t> indices;     ///< three a triangle, counter-clockwise seen from outside
-  std::string name{};                     ///< for a person: "machine.glb#WHEEL"; empty: the display's own
+  std::string name{};                     ///< for messages: "machine.glb#WHEEL"; empty: made by the display itself
 };
 
 /// Eight bits a channel, upper row first.
@@ -28,7 +29,7 @@ struct ImageData {
   std::uint32_t height = 0;
   std::vector<std::uint8_t> rgba;
   bool srgb = true;    ///< colour; false: numbers such as normals
-  std::string name{};  ///< for a person: "machine.glb, texture oak"; empty: the display's own
+  std::string name{};  ///< for messages: "machine.glb, texture oak"; empty: made by the display itself
 };
 
 /// Metallic-roughness, as glTF has it. Textures index SceneAssets::images.
@@ -38,10 +39,11 @@ struct MaterialData {
   float metallic = 0;
   float roughness = 0.8F;
   float occlusion_strength = 1;  ///< how much of its occlusion image counts, 0..1
-  float alpha_cutoff = 0;        ///< over 0: fragments with less opacity are left out
-  bool clear = false;            ///< seen through by base_colour's opacity, drawn last and sorted; throws no shadow
+  float alpha_cutoff = 0;        ///< above 0: fragments with less opacity are not drawn
+  bool clear = false;            ///< transparent by base_colour's opacity, drawn last and sorted; casts no shadow
   bool double_sided = false;
-  bool land = false;  ///< earth: looks like the plain around, whatever its own colours; its images give the grain
+  bool land =
+      false;  ///< earth: looks like the surrounding plain, whatever its own colours; its images give the texture
   std::optional<std::uint32_t> base_colour_image;
   std::optional<std::uint32_t> normal_image;
   std::optional<std::uint32_t> metallic_roughness_image;

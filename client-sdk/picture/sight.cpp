@@ -7,7 +7,7 @@ namespace mechane::picture {
 
 std::optional<SeenPlace> seen_place(const Camera& camera, Stereo stereo, PixelSize picture, PixelPlace place) {
   const PixelSize eye = seen_size(stereo, picture);
-  // Pixels of no screen: what comes of them in float is not a number any more.
+  // Pixels so far from any screen would overflow in float.
   constexpr double kAbsurd = 1e6;
   if (eye.width < 2 || eye.height < 2 || !(std::abs(place.x) < kAbsurd) || !(std::abs(place.y) < kAbsurd)) return {};
   const EyePlace seen = eye_at(stereo, picture, place);
@@ -38,7 +38,7 @@ double depth_of(const Sight& sight, const Vec3& p_WQ) {
 Vec3 point_at(const Sight& sight, PixelPlace place, double depth_m) {
   const SightRay ray = ray_through(sight, place);
   const Vec3 ahead_W = -sight.view.V_CW.block<1, 3>(2, 0).cast<double>().transpose().normalized();
-  // Frusta are open by less than half a turn: a ray through a pixel of the picture always goes ahead.
+  // A frustum opens by less than half a turn, so a ray through a pixel of the picture always goes forward.
   return ray.p_W + ray.d_W * (depth_m / std::max(ray.d_W.dot(ahead_W), 1e-3));
 }
 

@@ -1,4 +1,4 @@
-// From a pixel into the world and back, through one eye: what a pointer sees.
+// From a pixel into the world and back, through one eye.
 #pragma once
 
 #include <optional>
@@ -31,9 +31,9 @@ struct SeenPlace {
 
 /// `place` must be finite.
 [[nodiscard]] SightRay ray_through(const Sight& sight, PixelPlace place);
-/// None for what is not before the eye.
+/// None for points behind the eye.
 [[nodiscard]] std::optional<PixelPlace> pixel_of(const Sight& sight, const Vec3& p_WQ);
-/// How far off along the direction of view, metres; below 0: behind the eye.
+/// Distance along the direction of view, metres; below 0: behind the eye.
 [[nodiscard]] double depth_of(const Sight& sight, const Vec3& p_WQ);
 /// The point of a pixel's ray at this depth.
 [[nodiscard]] Vec3 point_at(const Sight& sight, PixelPlace place, double depth_m);

@@ -14,18 +14,18 @@ namespace mechane::picture {
 
 enum class Stereo : std::uint8_t {
   mono,
-  side_by_side,  ///< left eye in the left half; each half has the proportions of its own pixels: two screens beside each other
+  side_by_side,           ///< left eye in the left half, for two screens beside each other; pixels are square
   top_bottom,             ///< left eye in the upper half, likewise
   side_by_side_squeezed,  ///< each half is squeezed to half its width: a 3D television stretches it over its whole screen
   top_bottom_squeezed,    ///< each half is squeezed to half its height, likewise
   anaglyph,               ///< for red-cyan glasses, the left eye behind red
-  row_interleaved,        ///< rows take turns; which eye has the uppermost is a setting of the renderer's
+  row_interleaved,        ///< rows alternate; a setting of the renderer says which eye has the uppermost row
   quad_buffer,            ///< two full pictures, for a window whose driver shows both
-  left_eye,               ///< one eye's full picture: for one of two projectors
+  left_eye,               ///< one eye's full picture, for one of two projectors
   right_eye,
 };
 
-/// As on the command line: "sbs", "top-bottom" ...
+/// The name on the command line: "sbs", "top-bottom" ...
 [[nodiscard]] std::string_view stereo_name(Stereo stereo);
 /// All of them with their names, in the order above.
 [[nodiscard]] const std::vector<std::pair<std::string_view, Stereo>>& stereo_names();
@@ -35,7 +35,8 @@ enum class Stereo : std::uint8_t {
 
 /// Pixels of one eye's picture within a picture of this size.
 [[nodiscard]] PixelSize eye_size(Stereo stereo, PixelSize picture);
-/// The same as the eye sees it on its screen, which stretches what was squeezed: what is laid out in these pixels has its proportions there.
+/// The same size as the eye sees it, on a screen that stretches squeezed pictures again. A layout in these pixels has
+/// the right proportions on the screen.
 [[nodiscard]] PixelSize seen_size(Stereo stereo, PixelSize picture);
 
 /// Width over height.
@@ -45,8 +46,8 @@ enum class Stereo : std::uint8_t {
 [[nodiscard]] bool is_side_by_side(Stereo stereo);
 [[nodiscard]] bool is_top_bottom(Stereo stereo);
 
-/// A place of the picture as an eye sees it. Where both eyes share the pixels, the middle eye stands for both: what lies in the screen is
-/// met exactly, other things within half their parallax.
+/// A place in the picture as an eye sees it. Where both eyes share the pixels, an eye in the middle stands for both:
+/// exact for things in the plane of the screen, for others within half their parallax.
 struct EyePlace {
   Eye eye = Eye::middle;
   double x = 0;       ///< -1 left .. 1 right

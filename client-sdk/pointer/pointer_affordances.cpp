@@ -7,7 +7,7 @@ namespace {
 
 using client::Affordance;
 
-// A joint that is on holds its sides closer than this; frames come as float, and lag a little.
+// An enabled joint holds its sides closer than this, even with poses in float that lag a little.
 constexpr double kTogether_m = 0.02;
 constexpr double kAlike = 0.99;  // cosine
 
@@ -33,6 +33,21 @@ void add_goal(const Affordance& affordance, const Pose& X_WA, const Pose& X_WB, 
 }
 
 }  // namespace
+
+const client::SceneObject* object_of(std::span<const client::SceneObject> objects, std::uint32_t object) {
+  const auto known = std::ranges::find(objects, object, &client::SceneObject::index);
+  return known == objects.end() ? nullptr : &*known;
+}
+
+std::optional<Pose> pose_in(const client::Frame* frame, std::span<const client::SceneObject> objects,
+                            std::uint32_t object) {
+  if (frame != nullptr) {
+    const auto body = std::ranges::find(frame->bodies, object, &client::BodyPose::object);
+    if (body != frame->bodies.end()) return body->X_WB;
+  }
+  const client::SceneObject* known = object_of(objects, object);
+  return known == nullptr ? std::nullopt : std::optional(known->X_WB);
+}
 
 Leeway leeway_of(std::span<const Affordance> affordances, std::span<const std::string> enabled, std::uint32_t object,
                  const PoseOf& pose_of) {

@@ -1,4 +1,4 @@
-// Which way a touched thing can go, from what the server says of the world: for a pointer, that has two dimensions of three.
+// How a touched thing can move, from the server's affordances: for a pointer, which has two of the three dimensions.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,32 @@ struct AffordanceLine {
   Vec3 a_W = Vec3::UnitZ();
 };
 
-/// Where a body may be meant to go.
+/// A place where a body may be put.
 struct AffordanceGoal {
   Pose X_WB;
-  bool turns_too = false;  ///< false: the place alone matters
+  bool turns_too = false;  ///< false: only the position matters
 };
 
-/// What one object can do at this moment. Neither axle nor track: it goes wherever it is carried.
+/// How one object can move at this moment. Without axle and track, it can be carried anywhere.
 struct Leeway {
-  bool taken = false;  ///< hands may take it
+  bool taken = false;  ///< hands can take it
   std::optional<AffordanceLine> axle;
   std::optional<AffordanceLine> track;
   std::vector<AffordanceGoal> goals;
 };
 
-/// The pose of an object of the manifest; none: there is no such object.
+/// Gives the pose of an object of the manifest; none: there is no such object.
 using PoseOf = std::function<std::optional<Pose>(std::uint32_t object)>;
 
-/// `affordances` as in the presentation, `enabled` the agents of the present step. A joint counts while its two sides are together. A world
-/// that tells of no affordances at all lets everything be taken.
+/// The object with this number in the manifest; null if the manifest does not have it.
+[[nodiscard]] const client::SceneObject* object_of(std::span<const client::SceneObject> objects, std::uint32_t object);
+
+/// Where an object is: as the frame says, or as it was laid out. `frame` is null until the first one has come.
+[[nodiscard]] std::optional<Pose> pose_in(const client::Frame* frame, std::span<const client::SceneObject> objects,
+                                          std::uint32_t object);
+
+/// `affordances` is from the presentation, `enabled` has the enabled agents of the present step. A joint counts while
+/// its two sides are together. In a world without any affordances, everything can be taken.
 [[nodiscard]] Leeway leeway_of(std::span<const client::Affordance> affordances, std::span<const std::string> enabled,
                                std::uint32_t object, const PoseOf& pose_of);
 

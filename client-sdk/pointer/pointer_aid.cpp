@@ -10,7 +10,7 @@ const Eigen::Vector4f kGold(0.98F, 0.80F, 0.36F, 0.95F);
 const Eigen::Vector4f kWater(0.55F, 0.86F, 0.96F, 0.90F);
 const Eigen::Vector4f kShade(0.05F, 0.06F, 0.08F, 0.45F);
 
-/// Dots of one size; each with a shade around it, so that it is seen on stone and on sky.
+/// Dots of one size, each with a dark rim, so that they are visible on stone and on sky.
 class DotPen {
  public:
   DotPen(picture::OverlayContent& content, const picture::Sight& sight)
@@ -38,14 +38,14 @@ class DotPen {
       dot({from.x + s * (to.x - from.x), from.y + s * (to.y - from.y)}, 1.6F, colour);
     }
   }
-  /// As the hand goes round it, in the world.
+  /// Points along the hand's circle, in the world.
   void circle(const AffordanceLine& axle, const Vec3& p_WH, double radius_m) {
     const Vec3 arm = p_WH - axle.p_W;
     const Vec3 across = arm - arm.dot(axle.a_W) * axle.a_W;
     if (across.norm() < 1e-6) return;
     const Vec3 x_W = radius_m * across.normalized();
     const Vec3 y_W = axle.a_W.cross(x_W);
-    // As far apart in the picture as there is room.
+    // Spaced by the room that the picture has.
     std::optional<picture::PixelPlace> last;
     for (int k = 0; k < 360; ++k) {
       const double angle = 2 * kPi * k / 360;

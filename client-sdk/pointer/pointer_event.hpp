@@ -1,4 +1,4 @@
-// What people do with a mouse, fingers on glass or keys, as a window tells it.
+// A window's events from a mouse, fingers on glass or keys.
 #pragma once
 
 #include <cstddef>
@@ -22,28 +22,28 @@ enum class PointerKey : std::uint8_t {
 };
 constexpr std::size_t kPointerKeys = 11;
 
-/// A finger from its press to its release; no two touches have the same.
+/// Identifies a finger from its press to its release; each touch has a new number.
 using FingerId = std::int64_t;
 /// The mouse, which is always there.
 constexpr FingerId kMouse = 0;
 
-/// One event, in the order in which things happened.
+/// One event; events come in the order in which they happened.
 struct PointerEvent {
   enum class Kind : std::uint8_t {
     press,    ///< the left button, or a finger
     release,  ///< of it
     move,
-    turn_press,    ///< the right button: the mouse's way turns what is held
+    turn_press,    ///< the right button: the mouse's motion turns the held thing
     turn_release,  ///< of it
-    wheel,         ///< amount: notches, away from the person above 0
+    wheel,         ///< amount: notches; above 0: away from the person
     turn_wheel,    ///< the wheel with Shift held
     left,          ///< the mouse left the window
-    gone,          ///< all fingers and buttons: the window hears no more of them
+    gone,          ///< all fingers and buttons are released: the window receives no more of their events
     key_down,
     key_up,
   };
   Kind kind = Kind::move;
-  double x = 0;  ///< of buttons, fingers and motions: pixels of the picture, (0, 0) the upper left corner
+  double x = 0;  ///< for buttons, fingers and motions: pixels of the picture, (0, 0) is the upper left corner
   double y = 0;
   double amount = 0;
   PointerKey key = PointerKey::take;

@@ -1,5 +1,6 @@
-// The display's hand between two threads: the display says what was done with the pointer and sees where the hand is; the hand's thread moves
-// it 500 times a second. Neither ever waits for the other: what was done goes through a ring, the hand comes back through a mailbox.
+// Connects the display's thread, which has the pointer's events and shows the hand, with the hand's thread, which moves
+// it 500 times a second. Neither ever waits for the other: events go through a ring, the hand comes back through a
+// mailbox.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,12 @@
 
 namespace mechane::pointer {
 
-/// How the hand stands with the server.
+/// The state of the hand's link to the server.
 enum class PointerLinkState : std::uint8_t {
-  none,     ///< nobody touched for a while: no session
+  none,     ///< nobody has touched for a while: no session
   waiting,  ///< for the server
   joined,
-  refused,  ///< every hand of the kiosk has an owner
+  refused,  ///< all hands of the kiosk are in use
 };
 
 /// One call of PointerHand.
@@ -37,22 +38,22 @@ class PointerExchange {
   PointerExchange(const PointerExchange&) = delete;
   PointerExchange& operator=(const PointerExchange&) = delete;
 
-  // The display's thread.
+  // For the display's thread.
 
   void act(const PointerAct& act);
-  /// As it is once all acts are done: those that the hand's thread has not taken yet are done here, on a copy of its hand.
+  /// The hand after all acts: those that the hand's thread has not taken yet are applied here to a copy.
   [[nodiscard]] PointerView view();
   [[nodiscard]] PointerLinkState state();
 
-  // The hand's thread.
+  // For the hand's thread.
 
-  /// Does what the display asked for since the last call.
+  /// Applies the display's acts since the last call.
   void take_acts();
-  /// That thread's own; publish() shows it to the display.
+  /// The hand of this thread; publish() shows it to the display.
   [[nodiscard]] PointerHand& hand() { return hand_; }
   [[nodiscard]] bool resting() const { return hand_.view().phase == PointerView::Phase::resting; }
   void publish(PointerLinkState state);
-  /// Sleeps until something was done, or wake() was called, or `timeout` has passed.
+  /// Sleeps until there is an act, wake() is called, or `timeout` has passed.
   void wait(Duration timeout) { (void)wakeup_.wait(timeout); }
 
   /// Any thread.
@@ -62,7 +63,7 @@ class PointerExchange {
   struct Shown {
     PointerHand hand;
     PointerLinkState state = PointerLinkState::none;
-    std::uint64_t taken = 0;  ///< acts that it contains
+    std::uint64_t taken = 0;  ///< number of acts that it includes
   };
   void send();
   const Shown& newest();
@@ -70,12 +71,12 @@ class PointerExchange {
   realtime::Ring<PointerAct> acts_{256};
   realtime::Mailbox<Shown> shown_;
   realtime::Wakeup wakeup_;
-  // The display's.
-  std::deque<PointerAct> not_taken_;  ///< as far as newest() tells
-  std::uint64_t acted_ = 0;           ///< how many acts there were
-  std::uint64_t sent_ = 0;            ///< of them, into the ring: a full one takes the rest later
-  Shown before_;                      ///< what newest() is before anything was published
-  // The hand's thread's.
+  // Used by the display's thread only.
+  std::deque<PointerAct> not_taken_;  ///< acts that newest() does not include yet
+  std::uint64_t acted_ = 0;           ///< number of acts
+  std::uint64_t sent_ = 0;            ///< number of acts sent into the ring; when it is full, the rest follows later
+  Shown before_;                      ///< the value of newest() before anything was published
+  // Used by the hand's thread only.
   PointerHand hand_;
   std::uint64_t taken_ = 0;
 };

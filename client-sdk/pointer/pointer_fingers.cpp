@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/base/math.hpp"
+
 namespace mechane::pointer {
 namespace {
 
 constexpr double kGoneAfter_s = 30;
-// Fingers this near to each other, in shares of the picture's height, tell neither an angle nor a distance.
+// Fingers nearer to each other than this share of the picture's height give no reliable angle or distance.
 constexpr double kLeastApart = 0.04;
-// The mouse's way across as much as the picture's height, with the right button held.
+// How far a thing turns when the mouse moves by the picture's height with the right button held.
 constexpr double kMouseTurn_rad = kPi;
 constexpr double kFarthest_px = 1e6;
 
@@ -46,7 +48,7 @@ std::vector<HandRequest> PointerFingers::press(const PointerEvent& event, const 
   if (!is_place(event)) return {};
   const picture::PixelPlace at{event.x, event.y};
   std::vector<HandRequest> requests;
-  // It was never lifted, or its hand has nothing to do any more.
+  // A finger that was never lifted, or whose hand has nothing more to do.
   if (second_ && second_->id == event.finger) second_.reset();
   if (first_ && first_->id == event.finger) requests = lift(event.finger);
   if (first_ && !hand.busy) first_ = second_ = std::nullopt;
@@ -60,7 +62,7 @@ std::vector<HandRequest> PointerFingers::press(const PointerEvent& event, const 
   return requests;
 }
 
-/// The finger that stays goes on from where the hand is.
+/// The remaining finger continues from where the hand is.
 std::vector<HandRequest> PointerFingers::lift(FingerId id) {
   if (second_ && second_->id == id) {
     second_.reset();
@@ -89,8 +91,8 @@ std::vector<HandRequest> PointerFingers::move(const PointerEvent& event, const H
   return {go_by(to.x - from.x, to.y - from.y)};
 }
 
-/// The hand goes with the middle of the two. What is carried keeps to the fingers: it turns as they turn, and looks as much larger as they are
-/// farther apart.
+/// The hand follows the point in the middle of the two fingers. The carried thing turns as they turn, and comes nearer
+/// by as much as they move apart.
 std::vector<HandRequest> PointerFingers::move_pair(Finger& moved, picture::PixelPlace to, const HandState& hand) {
   const picture::PixelPlace from = moved.at;
   const double x0 = second_->at.x - first_->at.x, y0 = second_->at.y - first_->at.y;

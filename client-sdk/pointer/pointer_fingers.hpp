@@ -1,5 +1,6 @@
-// Which fingers are down, and what they mean together: the first takes and carries; a second turns what is carried, and brings it nearer or
-// takes it away. The mouse is a finger whose right button turns. Pure: no window, no network, no clock of its own.
+// Which fingers are down, and what they mean together: the first takes and carries; a second turns the carried thing,
+// and brings it nearer or farther. The mouse is a finger whose right button turns. Pure: no window, no network, no
+// clock of its own.
 #pragma once
 
 #include <optional>
@@ -10,30 +11,30 @@
 
 namespace mechane::pointer {
 
-/// What the hand shall do next.
+/// What the hand should do next.
 struct HandRequest {
   enum class Kind : std::uint8_t { take, move, twist, deepen, release };
   Kind kind = Kind::move;
   picture::PixelPlace place{};  ///< take, move: pixels of the whole picture
-  double amount =
-      0;  ///< twist: radians, as the hands of a clock go above 0; deepen: as a distance grows, above 0 shares (1.1 is log(1.1))
+  /// twist: radians, positive clockwise; deepen: logarithm of the distance's growth (log(1.1): a tenth farther).
+  double amount = 0;
 };
 
-/// How the hand is, as far as fingers must know.
+/// The state of the hand, as far as it matters for fingers.
 struct HandState {
   bool busy = false;     ///< it reaches or holds
-  bool carries = false;  ///< what it holds goes anywhere, not round an axle nor along a track
+  bool carries = false;  ///< the held thing moves freely, not around an axle or along a track
   picture::PixelSize picture;
 };
 
-/// Between what fingers say and what the hand is told nothing jumps: a finger moves the hand by as much as it moves itself.
+/// Makes the hand's motions free of jumps: a finger moves the hand by as much as it moves itself.
 class PointerFingers {
  public:
-  /// What an event of fingers or buttons means; other events mean nothing here.
+  /// What an event of fingers or buttons means; other events are ignored.
   [[nodiscard]] std::vector<HandRequest> take(const PointerEvent& event, const HandState& hand);
-  /// Where a finger tried to take something, there was nothing: until it is lifted it means nothing.
+  /// A finger tried to take something where there was nothing: it is ignored until it is lifted.
   void missed() { first_.reset(); }
-  /// A finger that says nothing for half a minute has gone without a word. The mouse may rest as long as it likes.
+  /// A finger without events for half a minute was lifted unnoticed. The mouse may rest for any time.
   [[nodiscard]] std::vector<HandRequest> pass(double dt_s);
   [[nodiscard]] bool any() const { return first_.has_value(); }
 
@@ -50,7 +51,7 @@ class PointerFingers {
   HandRequest go_by(double dx, double dy);
 
   std::optional<Finger> first_, second_;
-  picture::PixelPlace hand_;  // where the hand is asked to be
+  picture::PixelPlace hand_;  // where the hand should be
   bool turning_ = false;      // the right button is held
 };
 

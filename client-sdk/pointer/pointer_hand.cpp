@@ -7,46 +7,50 @@
 namespace mechane::pointer {
 namespace {
 
-// A hand comes from here, before the surface.
+// A hand approaches from this far in front of the surface,
 constexpr double kBefore_m = 0.06;
-// And goes so far in: the tip of a one-point hand is a ball of 8 mm, which shall touch with some of it.
+// and goes in this far: the tip of a one-point hand is a ball of 8 mm, part of which should touch.
 constexpr double kInto_m = 0.003;
 constexpr double kReachSpeed_m_per_s = 0.5;
-// What hangs loose swings away from a hand that comes faster before the hand has closed.
+// A hanging thing swings away from a faster hand before the hand has closed.
 constexpr double kTouchSpeed_m_per_s = 0.06;
 constexpr double kSlowing_per_s = 6;
 constexpr double kTravelSpeed_m_per_s = 2.0;
 constexpr double kDragSpeed_m_per_s = 1.2;
 constexpr double kTurnSpeed_rad_per_s = 1.5;
-constexpr double kTwistSpeed_rad_per_s = 3;  // where fingers say how
+constexpr double kTwistSpeed_rad_per_s = 3;  // where fingers turn it
 constexpr double kClosesAt_m = 0.02;
-// How far the hand may be ahead of what it holds: a grip is lost at 8 cm, and a pointer feels no force that would tell.
+// How far the hand may be ahead of what it holds: a grip is lost at 8 cm, and a visitor with a pointer feels no warning
+// force.
 constexpr double kLeash_m = 0.045;
-// What rests so long within so little, so far from under the pointer, is kept by something.
+// A thing that moves less than kRests_m in kRests_s, while it is at least kKept_m from under the pointer, is blocked.
 constexpr double kRests_s = 0.3, kRests_m = 0.01, kKept_m = 0.03;
-// It is drawn towards the viewer, pressed a little to where it shall go; when it has gone there, it is past.
+// A blocked thing is pulled towards the viewer and pressed a little towards its goal; after kPast_m that way it has
+// passed.
 constexpr double kDrawn_m = 0.035, kPressed_m = 0.008, kPast_m = 0.03, kMostDrawn_m = 0.8;
-// A body that turns in the grip: the server lets it lag so far, and no farther.
+// For a body that turns in the grip: the server lets it lag behind the hand by at most this angle.
 constexpr double kGripLag_rad = 0.6;
 constexpr double kGripFelt_s = 1.0;
-// Less is how it happens to lie.
+// A smaller tilt does not count as knocked over.
 constexpr double kAskew_rad = 0.2;
 constexpr double kLongestAdvance_s = 0.02;
-// What a snap, a step or a stone's weight took out of the hand is gone.
+// How long the hand waits before it treats a lost thing as lost: to a snap, a step, or its own weight.
 constexpr double kNoticesLoss_s = 0.25;
-// An open hand counts as open after some 20 ms.
+// The server treats a hand as open after about 20 ms.
 constexpr double kOpens_s = 0.1;
 constexpr double kHome_m = 0.08;
 constexpr int kFetches = 5;
 constexpr double kLeaves_s = 0.25;
 constexpr double kNearestCarried_m = 0.2;
-// Around a goal, in shares of the picture's height: within the first the depth is the goal's own, beyond the second the hand's.
+// Distances from a goal, in shares of the picture's height: within the first the thing has the goal's depth, beyond the
+// second the hand's.
 constexpr double kDepthInner = 0.06, kDepthOuter = 0.30;
-// Likewise for the pixel itself: a finger is broad.
+// The same for the place in the picture, because a finger is broad.
 constexpr double kPlaceInner = 0.02, kPlaceOuter = 0.08;
-// A circle seen from its edge is a line, round which nobody can drag: it is taken for an ellipse of this shape at least.
+// A circle seen from its edge is a line, around which nobody can drag: it is treated as an ellipse with at least this
+// ratio.
 constexpr double kLeastRound = 0.4;
-// So near to the middle of the circle, in shares of its radius, an angle means nothing.
+// Nearer to the circle's middle than this share of its radius, angles are not reliable.
 constexpr double kDeadMiddle = 0.2;
 constexpr double kMostAhead_rad = 2 * kPi;
 
@@ -153,12 +157,12 @@ std::optional<client::HandSample> PointerHand::advance(double dt_s, const Pointe
   return input;
 }
 
-/// To what was pressed on, wherever it has gone meanwhile.
+/// Reaches for the pressed point of the thing, which may have moved since.
 void PointerHand::reach(double dt_s, const PointerSenses& senses) {
   if (!p_BT_) p_BT_ = senses.X_WB.inverse() * touched_.p_WT;
   const Vec3 p_WT = senses.X_WB * *p_BT_;
   turn_towards(Quat::Identity(), kTurnSpeed_rad_per_s, dt_s);
-  // Not before it has come to the place before the surface: from elsewhere it would meet things on its way.
+  // First to the place in front of the surface: a direct path from elsewhere could hit other things.
   const Vec3 before_W = p_WT - kBefore_m * away_W_;
   const double ahead = (p_WT - X_WH_.p).dot(away_W_);
   const bool beside = (X_WH_.p - p_WT + ahead * away_W_).norm() > kClosesAt_m;
@@ -195,7 +199,8 @@ void PointerHand::grip(const PointerSenses& senses) {
   }
 }
 
-/// Which pixels are which angles: the circle's picture is nearly an ellipse, and its inverse takes pixels to the circle.
+/// Finds the map from pixels to angles: the circle appears nearly as an ellipse, whose inverse takes pixels to the
+/// circle.
 void PointerHand::begin_turn(const AffordanceLine& axle) {
   const Vec3 arm = X_WH_.p - axle.p_W;
   const Vec3 middle_W = axle.p_W + arm.dot(axle.a_W) * axle.a_W;
@@ -208,7 +213,7 @@ void PointerHand::begin_turn(const AffordanceLine& axle) {
   seen << one->x - middle->x, other->x - middle->x, one->y - middle->y, other->y - middle->y;
   const Eigen::JacobiSVD<Eigen::Matrix2d> svd(seen, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector2d half_axes = svd.singularValues();
-  if (half_axes.x() < 2) return;  // pixels: too small to go round
+  if (half_axes.x() < 2) return;  // pixels: too small to drag around
   half_axes.y() = std::max(half_axes.y(), kLeastRound * half_axes.x());
   circle_ = svd.matrixV() * half_axes.cwiseInverse().asDiagonal() * svd.matrixU().transpose();
   drag_ = Drag::turn;
@@ -243,18 +248,18 @@ void PointerHand::hold(double dt_s, const PointerSenses& senses) {
   turn_towards(R_WH_wanted_, twisted_ ? kTwistSpeed_rad_per_s : kTurnSpeed_rad_per_s, dt_s);
 }
 
-/// What is knocked turns in the grip: the hand learns how it holds it now.
+/// A knocked thing turns in the grip: updates the rotation in which the hand holds it.
 void PointerHand::feel_grip(const PointerSenses& senses, double dt_s) {
   const Vec3 lag = rotation_vector(X_WH_.R * X_BH_.R.conjugate() * senses.X_WB.R.conjugate());
   knocked_ = knocked_ || lag.norm() > kGripLag_rad;
-  if (!knocked_) return;  // what only swings is left to the grip: a hand that follows makes it swing more
+  if (!knocked_) return;  // the grip alone damps a swinging thing; a hand that follows would make it swing more
   const double kept = std::min(1.0, kGripLag_rad / std::max(lag.norm(), 1e-9)) * std::exp(-dt_s / kGripFelt_s);
   const Quat left = quat_from_rotation_vector(kept * lag);
   X_BH_.R = (senses.X_WB.R.conjugate() * left.conjugate() * X_WH_.R).normalized();
 }
 
-/// The picture lacks a dimension: a thing that is dragged against another's flank would stay there. A person who sees that draws it out
-/// and passes before it, and so does the hand.
+/// The picture lacks a dimension: a thing that is dragged against another's side would get stuck there. A person would
+/// pull it towards them and pass in front of the obstacle, and so does the hand.
 Vec3 PointerHand::past_obstacle(const Vec3& goal_W, const Vec3& held_W, double dt_s) {
   const Vec3 away_W = (held_W - sight_.view.p_WE.cast<double>()).normalized();
   const Vec3 lag_W = goal_W - held_W;
@@ -280,7 +285,7 @@ Vec3 PointerHand::past_obstacle(const Vec3& goal_W, const Vec3& held_W, double d
   return o.passing ? Vec3(held_W + kPressed_m * o.aside_W - kDrawn_m * away_W) : goal_W;
 }
 
-/// What has come to its place is meant to stay there. What slipped away is fetched again: the finger is still down.
+/// A thing that has reached its place is released. One that slipped away is fetched again, as the finger is still down.
 void PointerHand::lose(const PointerSenses& senses) {
   const bool home = std::ranges::any_of(senses.leeway.goals, [&](const AffordanceGoal& goal) {
     return goal.turns_too && (goal.X_WB.p - senses.X_WB.p).norm() < kHome_m;
@@ -293,10 +298,10 @@ void PointerHand::lose(const PointerSenses& senses) {
   grasp_ = 0;
 }
 
-/// In the plane that faces the viewer; near to where it belongs, to there.
+/// Where the hand carries the thing: in the plane that faces the viewer; near one of its goals, towards that goal.
 Vec3 PointerHand::carried_to(const PointerSenses& senses) {
   p_WG_goal_.reset();
-  // As it was laid out, or else gripped, and turned since.
+  // The rotation at rest, or else at the grip, and the visitor's turns since.
   const Quat R_WH_rest = knocked_ && senses.R_WB_rest ? *senses.R_WB_rest * X_BH_.R : R_WH_gripped_;
   R_WH_wanted_ = turned_W_ * R_WH_rest;
   const AffordanceGoal* meant = nullptr;
@@ -312,7 +317,7 @@ Vec3 PointerHand::carried_to(const PointerSenses& senses) {
     meant = &goal;
   }
   if (!p_WG_goal_) return picture::point_at(sight_, pointer_, depth_m_);
-  // A thing that is still elsewhere has its own depth: on its way there, things may stand.
+  // The thing takes the goal's depth only when it is near itself: before, other things may stand in between.
   const auto held = picture::pixel_of(sight_, senses.X_WB * X_BH_.p);
   const auto place = picture::pixel_of(sight_, *p_WG_goal_);
   const double apart =
@@ -324,8 +329,8 @@ Vec3 PointerHand::carried_to(const PointerSenses& senses) {
   return dragged_W + nearness(nearest, kPlaceInner, kPlaceOuter) * (*p_WG_goal_ - dragged_W);
 }
 
-/// The point of the track that is nearest to the pointer's ray; of a track that leads straight away from the eye, as far as the pointer goes
-/// up.
+/// The point of the track that is nearest to the pointer's ray. If the track leads straight away from the eye, dragging
+/// up moves along it.
 Vec3 PointerHand::slid_to() const {
   const picture::SightRay ray = picture::ray_through(sight_, pointer_);
   const double cosine = line_.a_W.dot(ray.d_W);
@@ -345,7 +350,7 @@ Vec3 PointerHand::slid_to() const {
   return line_.p_W + (along_m - slid_from_m_) * line_.a_W;
 }
 
-/// On its circle, as fast as a hand goes, and no farther ahead than the grip bears.
+/// Moves along the circle, at most at a hand's speed and no farther ahead of the thing than the grip allows.
 Vec3 PointerHand::turned_to(const Vec3& held_W, double dt_s) {
   const double radius_m = from_W_.norm();
   const double step = kDragSpeed_m_per_s / radius_m * dt_s;
@@ -356,7 +361,7 @@ Vec3 PointerHand::turned_to(const Vec3& held_W, double dt_s) {
   return line_.p_W + Eigen::AngleAxisd(angle_rad_, line_.a_W) * from_W_;
 }
 
-/// Open, then back towards the viewer.
+/// Opens the hand, then moves it back towards the viewer.
 void PointerHand::leave(double dt_s) {
   if (phase_s_ > kOpens_s) X_WH_.p -= kReachSpeed_m_per_s * dt_s * away_W_;
   if (phase_s_ > kLeaves_s) phase_ = Phase::resting;
@@ -364,15 +369,15 @@ void PointerHand::leave(double dt_s) {
 
 void PointerHand::go_towards(const Vec3& goal_W, double speed_m_per_s, double dt_s) {
   if (!goal_W.allFinite()) return;
-  const Vec3 way = goal_W - X_WH_.p;
+  const Vec3 offset = goal_W - X_WH_.p;
   const double step_m = speed_m_per_s * dt_s;
-  X_WH_.p += way.norm() > step_m ? Vec3(way.normalized() * step_m) : way;
+  X_WH_.p += offset.norm() > step_m ? Vec3(offset.normalized() * step_m) : offset;
 }
 
 void PointerHand::turn_towards(const Quat& goal_R_WH, double speed_rad_per_s, double dt_s) {
-  const Vec3 way = rotation_vector(goal_R_WH * X_WH_.R.conjugate());
-  const double share = std::min(1.0, speed_rad_per_s * dt_s / std::max(way.norm(), 1e-9));
-  X_WH_.R = (quat_from_rotation_vector(share * way) * X_WH_.R).normalized();
+  const Vec3 turn = rotation_vector(goal_R_WH * X_WH_.R.conjugate());
+  const double share = std::min(1.0, speed_rad_per_s * dt_s / std::max(turn.norm(), 1e-9));
+  X_WH_.R = (quat_from_rotation_vector(share * turn) * X_WH_.R).normalized();
 }
 
 PointerView PointerHand::view() const {

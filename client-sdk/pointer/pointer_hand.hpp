@@ -1,5 +1,6 @@
-// What a pointer (a mouse, a finger on glass, keys) makes of a hand: pixels in, a one-point hand out. A press on a thing lets the hand go
-// there and close; dragging takes it along; lifting the finger opens it. Pure: no network, no window, no clock of its own.
+// Moves a one-point hand by a pointer (a mouse, a finger on glass, keys). A press on a thing makes the hand go there
+// and close; dragging carries the thing along; lifting the finger opens the hand. Pure: no network, no window, no clock
+// of its own.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +13,27 @@
 
 namespace mechane::pointer {
 
-/// What the hand can see and feel of the touched object.
+/// What the hand knows of the touched object.
 struct PointerSenses {
   Pose X_WB;  ///< the touched object's
   Leeway leeway;
-  bool holding = false;             ///< the server says so
-  std::optional<Quat> R_WB_rest{};  ///< as the exhibit laid it out; a wrist brings what was knocked back to this
+  bool holding = false;  ///< the hand holds it, according to the server
+  std::optional<Quat>
+      R_WB_rest{};  ///< its rotation in the exhibit's initial layout; a knocked thing is turned back to this
 };
 
 /// For the picture.
 struct PointerView {
   enum class Phase : std::uint8_t { resting, reaching, holding, leaving };
-  /// How dragging moves what is held.
+  /// How dragging moves the held thing.
   enum class Drag : std::uint8_t { carry, turn, slide };
   Phase phase = Phase::resting;
   Drag drag = Drag::carry;
   std::uint32_t object = 0;
   Vec3 p_WH = Vec3::Zero();
   picture::PixelPlace pointer;  ///< in the eye's picture
-  std::optional<Vec3> p_WG{};   ///< carry: where the hand would be, were the thing at the nearest of its goals
-  AffordanceLine axle;          ///< turn: through the middle of the hand's circle
+  std::optional<Vec3> p_WG{};   ///< carry: the hand's position with the thing at its nearest goal
+  AffordanceLine axle;          ///< turn: the axis through the middle of the hand's circle
   double radius_m = 0;          ///< turn: of the hand's circle
 };
 
@@ -41,16 +43,17 @@ class PointerHand {
   using Phase = PointerView::Phase;
   using Drag = PointerView::Drag;
 
-  /// Begins to reach. What was held before is let go.
+  /// Begins to reach. A thing that is still held is released.
   void press(const picture::Sight& sight, picture::PixelPlace place, const picture::Touched& touched);
   void move(picture::PixelPlace place);
-  /// Takes what is carried away from the viewer: its distance grows by a factor of exp(amount); below 0: nearer.
+  /// Moves the carried thing away from the viewer: its distance grows by a factor of exp(amount); below 0: nearer.
   void deepen(double amount);
-  /// Turns what is held about its axle, or what is carried about the line of sight; positive as the viewer sees the hands of a clock go.
+  /// Turns the held thing about its axle, or a carried thing about the line of sight; positive is clockwise for the
+  /// viewer.
   void turn(double angle_rad);
   void release();
 
-  /// Goes on by dt_s; returns the hand to send, none while nobody touches. `senses` is of view().object.
+  /// Advances by dt_s; returns the hand to send, none while nobody touches. `senses` is of view().object.
   [[nodiscard]] std::optional<client::HandSample> advance(double dt_s, const PointerSenses& senses);
 
   [[nodiscard]] PointerView view() const;
@@ -81,37 +84,37 @@ class PointerHand {
   Pose X_WH_;
   double grasp_ = 0;
   double phase_s_ = 0;          // since the phase began
-  int fetched_ = 0;             // in this touch: how often it went back for what it lost
-  double empty_s_ = 0;          // holding: since the hand last held something
+  int fetched_ = 0;             // how often the hand went back for a lost thing in this touch
+  double empty_s_ = 0;          // holding: time since the hand last held something
   Vec3 away_W_ = Vec3::Zero();  // unit, along the pressed pixel's ray
-  std::optional<Vec3> p_BT_;    // what was pressed on, in the object's frame
-  Pose X_BH_;                   // of the hand in what it holds, as it was gripped
-  double depth_m_ = 0;          // carry: of the plane that the pointer drags in
+  std::optional<Vec3> p_BT_;    // the pressed point, in the object's frame
+  Pose X_BH_;                   // of the hand in the held thing, at the grip
+  double depth_m_ = 0;          // carry: depth of the plane in which the pointer drags
   double gripped_depth_m_ = 0;
   std::optional<Vec3> p_WG_goal_;
   Quat R_WH_wanted_ = Quat::Identity();  // carry
   Quat R_WH_gripped_ = Quat::Identity();
-  Quat turned_W_ = Quat::Identity();  // carry: by the visitor, since it was gripped
-  bool twisted_ = false;              // carry: the visitor has
-  bool knocked_ = false;              // carry: it lies otherwise than it was laid out, or has turned in the grip
-  /// Carry: what keeps the thing from going on is passed on the viewer's side.
+  Quat turned_W_ = Quat::Identity();  // carry: the visitor's rotation since the grip
+  bool twisted_ = false;              // carry: the visitor has turned it
+  bool knocked_ = false;              // carry: it was tilted from its initial layout, or has turned in the grip
+  /// Carry: passes an obstacle on the viewer's side.
   struct Obstacle {
-    Vec3 rests_W = Vec3::Zero();  // where the thing has been
-    double rests_s = 0;           // for so long
+    Vec3 rests_W = Vec3::Zero();  // where the thing has been resting
+    double rests_s = 0;           // and for how long
     bool passing = false;
     bool stays = false;  // it cannot be passed
     Vec3 from_W = Vec3::Zero(), aside_W = Vec3::Zero();
   };
   Obstacle obstacle_;
-  AffordanceLine line_;         // axle or track; its point is where the hand began, or the middle of its circle
-  double slid_from_m_ = 0;      // slide: of the pointer along the track when the hand gripped
-  Vec3 from_W_ = Vec3::Zero();  // turn: from the axle to the hand when it gripped
-  double angle_rad_ = 0;        // turn: of the hand since then
-  double wanted_rad_ = 0;       // turn: of the pointer since then
-  double seen_rad_ = 0;         // turn: where the pointer stood last
-  Eigen::Matrix2d circle_ =
-      Eigen::Matrix2d::Identity();  // turn: from the picture to the circle, flattened circles made rounder
-  picture::PixelPlace middle_;      // turn: of the circle, in the picture
+  AffordanceLine line_;         // axle or track; its point is the hand's start, or the middle of the hand's circle
+  double slid_from_m_ = 0;      // slide: the pointer's place along the track at the grip
+  Vec3 from_W_ = Vec3::Zero();  // turn: from the axle to the hand at the grip
+  double angle_rad_ = 0;        // turn: the hand's angle since then
+  double wanted_rad_ = 0;       // turn: the pointer's angle since then
+  double seen_rad_ = 0;         // turn: the pointer's last angle in the picture
+  // turn: from the picture to the circle, with flat ellipses made rounder
+  Eigen::Matrix2d circle_ = Eigen::Matrix2d::Identity();
+  picture::PixelPlace middle_;  // turn: the circle's middle in the picture
 };
 
 }  // namespace mechane::pointer

@@ -9,12 +9,12 @@
 namespace mechane::pointer {
 namespace {
 
-// Rays meet all triangles; a pointer that only hovers is worth some of them.
+// How often the thing under a hovering pointer is looked for: a ray is tested against all triangles.
 constexpr Duration kLookUnderHover = std::chrono::milliseconds(100);
-constexpr double kFocusSpeed = 0.3;         // of the picture's height, a second
+constexpr double kFocusSpeed = 0.3;         // shares of the picture's height per second
 constexpr double kKeyTurn_rad_per_s = 2.1;  // 20 turns a minute
 constexpr double kKeyTwist_rad_per_s = 1.2;
-constexpr double kNotch = 0.03;              // of the wheel: so much farther or nearer
+constexpr double kNotch = 0.03;              // share of the distance per notch of the wheel
 constexpr double kNotchTurn_rad = kPi / 18;  // with Shift
 constexpr double kKeyNotches_per_s = 8;
 constexpr double kLongestPicture_s = 0.25;
@@ -37,7 +37,7 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
       if (event.finger == kMouse) {
         hover_ = picture::PixelPlace{event.x, event.y};
         hover_moved_ = true;
-        if (!by_keys_) {  // who moves the mouse has left the keys
+        if (!by_keys_) {  // moving the mouse ends the use of keys
           focus_.reset();
           means_ = PointerMeans::mouse;
         }
@@ -75,7 +75,7 @@ void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& s
   using Phase = PointerView::Phase;
   if (event.kind == PointerEvent::Kind::press) {
     means_ = event.finger == kMouse ? PointerMeans::mouse : PointerMeans::fingers;
-    if (event.finger != kMouse) {  // a finger hovers nowhere
+    if (event.finger != kMouse) {  // fingers do not hover
       hover_.reset();
       under_hover_ = {};
     }
@@ -119,7 +119,7 @@ bool PointerInput::press(const PointerScene& scene, picture::PixelPlace whole) {
 }
 
 void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
-  if (key == PointerKey::turn_left || key == PointerKey::turn_right) return;  // what any hand holds
+  if (key == PointerKey::turn_left || key == PointerKey::turn_right) return;  // these turn anything that is held
   means_ = PointerMeans::keys;
   if (key == PointerKey::next || key == PointerKey::previous)
     return focus_next(scene, key == PointerKey::next ? 1 : -1);

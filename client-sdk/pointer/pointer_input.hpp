@@ -1,5 +1,6 @@
-// From a window's events to the display's own hand, and what a person sees of it: a ring on what can be taken, the way that it goes, a word
-// on how. A mouse, one finger, or keys: Tab goes to what can be taken, Space takes it and lets it go, arrows move it.
+// From a window's events to the display's own hand, and its hints in the picture: a ring on a thing that can be taken,
+// dots along its path, a few words. Input is a mouse, fingers, or keys: Tab goes to the next thing that can be taken,
+// Space takes and releases it, arrows move it.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@
 
 namespace mechane::pointer {
 
-/// What lies under the pointer. Borrowed for the call.
+/// The scene in which the pointer acts. Borrowed for the call.
 struct PointerScene {
   const picture::RenderScene& scene;
   const picture::SceneAssets& assets;
@@ -30,11 +31,11 @@ struct PointerScene {
 
   [[nodiscard]] std::optional<Pose> pose_of(std::uint32_t object) const;
   [[nodiscard]] Leeway leeway(std::uint32_t object) const;
-  /// Hands may take it now, as far as a client knows.
+  /// Whether hands can take it now, as far as a client knows.
   [[nodiscard]] bool takeable(std::uint32_t object) const;
 };
 
-/// What a pixel is of, and what a finger on it means to take: what is seen there, or else within a fingertip's breadth.
+/// What a pixel shows, and what a finger on it takes: the thing at the pixel, or else one within a fingertip's breadth.
 struct UnderFinger {
   std::optional<picture::Touched> seen{};  ///< none: scenery, sky or ground
   std::optional<picture::Touched> takeable{};
@@ -42,7 +43,7 @@ struct UnderFinger {
 [[nodiscard]] UnderFinger under_finger(const PointerScene& scene, const picture::Sight& sight,
                                        picture::PixelPlace place);
 
-/// One for each thing that can be taken and is seen: a pixel to take it by, from left to right. Slow; for a key.
+/// For each visible thing that can be taken, a pixel to take it by; from left to right. Slow; for key presses.
 [[nodiscard]] std::vector<picture::PixelPlace> places_to_take(const PointerScene& scene, const picture::Sight& sight);
 
 /// On the display's thread.
@@ -50,28 +51,28 @@ class PointerInput {
  public:
   PointerInput(const std::string& kiosk, std::uint32_t domain)
       : PointerInput(std::make_unique<PointerLink>(kiosk, domain)) {}
-  /// Moves another hand than a kiosk's; a test its own.
+  /// Moves a hand of the caller's, for tests.
   explicit PointerInput(std::unique_ptr<PointerTouch> hand) : link_(std::move(hand)) {}
 
   /// `covered`: a button or a panel lies there.
   void take(const PointerEvent& event, const PointerScene& scene, bool covered);
-  /// Once a picture: goes on with keys that are held, and looks what lies under a pointer that moved.
+  /// Call it once a picture: applies keys that are held, and finds what lies under a pointer that moved.
   void update(const PointerScene& scene, TimePoint now);
-  /// Nothing is held, pressed, or to be looked for: this picture needs no update().
+  /// Whether this picture needs no update(): nothing is held or pressed, and the pointer has not moved.
   [[nodiscard]] bool rests(TimePoint now);
-  /// The hand is nowhere: it reaches for nothing and holds nothing.
+  /// Whether the hand is at rest: it neither reaches for nor holds anything.
   [[nodiscard]] bool is_away() const { return link_->view().phase == PointerView::Phase::resting; }
-  /// The object that the pointer would take, or else is on; none while it takes one.
+  /// The object that the pointer would take, or else is on; none while one is taken.
   [[nodiscard]] std::optional<picture::Touched> pointed_at() const;
-  /// Where a mouse rests that holds nothing, in pixels of the whole picture.
+  /// Where a mouse that holds nothing is, in pixels of the whole picture.
   [[nodiscard]] std::optional<picture::PixelPlace> hovers_at() const {
     return is_away() && !focus_ ? hover_ : std::nullopt;
   }
-  /// Another world is shown: what the keys pointed at is gone.
+  /// Another world is shown: forgets what the keys pointed at.
   void forget_world();
-  /// Adds what helps to find the way.
+  /// Adds the hints to the overlay.
   void write(picture::OverlayContent& content, const PointerScene& scene, const std::string& language) const;
-  /// Somebody moved the hand since the last call.
+  /// Whether somebody moved the hand since the last call.
   [[nodiscard]] bool take_stirred() { return std::exchange(stirred_, false); }
 
  private:
@@ -91,8 +92,8 @@ class PointerInput {
   TimePoint looked_;
   TimePoint updated_;
   std::array<bool, kPointerKeys> held_{};     ///< by PointerKey
-  std::optional<picture::PixelPlace> focus_;  ///< of the keys, whole picture
-  bool by_keys_ = false;                      ///< what is held is held by keys
+  std::optional<picture::PixelPlace> focus_;  ///< where the keys point, in the whole picture
+  bool by_keys_ = false;                      ///< the held thing was taken with keys
   PointerMeans means_ = PointerMeans::mouse;  ///< what was used last
   bool stirred_ = false;
 };

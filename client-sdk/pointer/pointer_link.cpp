@@ -6,6 +6,7 @@
 
 #include <pthread.h>
 
+#include "server/base/thread_setup.hpp"
 #include "server/log/log.hpp"
 #include "server/realtime/priority.hpp"
 
@@ -14,16 +15,17 @@ namespace {
 
 using client::LinkState;
 
-// A sample older than 10 ms is stale to the server, and a thread of no priority wakes late.
+// The server rejects samples older than 10 ms, and a thread without priority may wake late.
 constexpr Duration kSendEvery = std::chrono::milliseconds(2);
-constexpr int kFifoPriority = 60;  // under the devices' loops
+constexpr int kFifoPriority = 60;  // lower than the devices' loops
 constexpr int kLookEvery = 4;      // sends; frames come at 60 Hz
 constexpr int kStatusEvery = 25;
 constexpr Duration kStays = std::chrono::seconds(30);
 constexpr std::array<std::uint32_t, 3> kUsers{3, 2, 1};
 
-/// While it lives, drawing on the processor makes this thread no later: a hand that is silent for 50 ms lets go. A refusal does no harm.
-/// Threads that the network's library starts before or after stay ordinary.
+/// Raises this thread's priority while it exists, so that drawing on the processor does not delay it: a hand that is
+/// silent for 50 ms lets go. Without permission nothing changes. Threads that the network library starts before or
+/// after stay ordinary.
 class Hurry {
  public:
   Hurry() { (void)realtime::take_fifo(kFifoPriority); }
@@ -46,23 +48,13 @@ struct PointerLink::Sensed {
   std::uint64_t looks = 0;
   bool holding = false;
 
-  [[nodiscard]] std::optional<Pose> pose_of(std::uint32_t object) const {
-    const auto body = std::ranges::find(frame.bodies, object, &client::BodyPose::object);
-    if (body != frame.bodies.end()) return body->X_WB;
-    const auto known = std::ranges::find(objects, object, &client::SceneObject::index);
-    return known == objects.end() ? std::nullopt : std::optional(known->X_WB);
-  }
   [[nodiscard]] std::optional<PointerSenses> of(std::uint32_t object) const {
-    const std::optional<Pose> X_WB = pose_of(object);
+    const auto pose = [this](std::uint32_t other) { return pose_in(&frame, objects, other); };
+    const std::optional<Pose> X_WB = pose(object);
     if (!X_WB || !presentation) return {};
-    return PointerSenses{
-        *X_WB,
-        leeway_of(presentation->affordances, enabled, object, [this](std::uint32_t other) { return pose_of(other); }),
-        holding, laid_out(object)};
-  }
-  [[nodiscard]] std::optional<Quat> laid_out(std::uint32_t object) const {
-    const auto known = std::ranges::find(objects, object, &client::SceneObject::index);
-    return known == objects.end() ? std::nullopt : std::optional(known->X_WB.R);
+    const client::SceneObject* known = object_of(objects, object);
+    return PointerSenses{*X_WB, leeway_of(presentation->affordances, enabled, object, pose), holding,
+                         known == nullptr ? std::nullopt : std::optional(known->X_WB.R)};
   }
 };
 
@@ -115,7 +107,7 @@ bool PointerLink::wait_for_touch(Duration longest) {
 }
 
 void PointerLink::run() {
-  pthread_setname_np(pthread_self(), "pointer-hand");
+  set_up_thread("pointer-hand");
   while (!stop_) {
     if (!wait_for_touch(kStays)) continue;
     show(PointerLinkState::waiting);
@@ -125,7 +117,7 @@ void PointerLink::run() {
   }
 }
 
-/// The last hand that nobody owns.
+/// The last hand without an owner.
 std::unique_ptr<client::Client> PointerLink::open() {
   for (const std::uint32_t user : kUsers) {
     client::ClientConfig config;
@@ -180,19 +172,19 @@ void PointerLink::serve(client::Client& client) {
     if (stop_) return;
     const bool joined = client.state() == LinkState::joined;
     state_ = joined ? PointerLinkState::joined : PointerLinkState::waiting;
-    // A hand that holds nothing yet may wait for the server; else the server has let go of everything.
+    // A hand that holds nothing yet can wait for the server; otherwise the server has released everything.
     if (!joined && hand.view().phase != PointerView::Phase::reaching) hand = PointerHand();
     if (client.state() == LinkState::refused) return;
     if (exchange_.resting()) {
       if (!wait_for_touch(kStays)) return;
       last = touched = clock.now();
-      sensed.looks = 0;  // what was seen before is old
+      sensed.looks = 0;  // earlier frames are out of date
       continue;
     }
     touched = now;
     const auto senses = sensed.of(hand.view().object);
     std::optional<client::HandSample> input;
-    // A hand that nobody hears does not move on.
+    // The hand does not move while the server does not receive it.
     if (senses && joined) input = hand.advance(to_seconds(now - last), *senses);
     last = now;
     show(state_);

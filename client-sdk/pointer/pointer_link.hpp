@@ -1,5 +1,5 @@
-// The hand that a display sends while somebody touches its picture: a session of its own at the kiosk, on a thread of its own, so that a slow
-// picture does not make a slow hand.
+// The hand that a display sends while somebody touches its picture: a session of its own at the kiosk, on a thread of
+// its own, so that slow drawing does not slow down the hand.
 #pragma once
 
 #include <atomic>
@@ -26,9 +26,10 @@ class PointerTouch {
   [[nodiscard]] virtual PointerLinkState state() = 0;
 };
 
-/// The session opens with the first press and ends when nobody has touched for half a minute, so that a picture that is only looked at
-/// takes no hand of the world. It takes the kiosk's last free hand: devices count from the first. Between touches nothing is sent.
-/// The functions are one thread's, the display's; none of them waits for the network or for the hand's thread.
+/// The session opens with the first press and ends half a minute after the last touch, so that a display that is only
+/// watched occupies no hand of the world. It takes the kiosk's last free hand; devices take the first ones. Between
+/// touches nothing is sent. All functions are called on the display's thread; none waits for the network or for the
+/// hand's thread.
 class PointerLink final : public PointerTouch {
  public:
   PointerLink(std::string kiosk, std::uint32_t domain);
@@ -48,11 +49,11 @@ class PointerLink final : public PointerTouch {
  private:
   struct Sensed;
   void run();
-  /// One touch after another, until nobody has touched for long.
+  /// Serves one touch after another, until nobody has touched for long.
   void serve(client::Client& client);
   void look(client::Client& client, Sensed& sensed) const;
   [[nodiscard]] std::unique_ptr<client::Client> open();
-  /// False: nobody touched, or the link ends.
+  /// False: nobody touched, or the link is ending.
   [[nodiscard]] bool wait_for_touch(Duration longest);
   void show(PointerLinkState state);
 
@@ -60,8 +61,8 @@ class PointerLink final : public PointerTouch {
   const std::uint32_t domain_;
   PointerExchange exchange_;
   std::atomic<bool> stop_{false};
-  PointerLinkState state_ = PointerLinkState::none;  ///< the hand's thread's
-  std::thread thread_;                               ///< last
+  PointerLinkState state_ = PointerLinkState::none;  ///< used by the hand's thread only
+  std::thread thread_;                               ///< declared last
 };
 
 }  // namespace mechane::pointer

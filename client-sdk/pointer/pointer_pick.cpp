@@ -1,4 +1,4 @@
-// What a finger means: broad, and better aimed at what can be taken than at what lies beside it.
+// What a finger points at. A finger is broad, so things that can be taken are preferred to those beside them.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,7 +8,7 @@
 namespace mechane::pointer {
 namespace {
 
-// In shares of the picture's height: 7 mm on a screen 30 cm high.
+// Shares of the picture's height: 7 mm on a screen 30 cm high.
 constexpr std::array<double, 4> kFingertip{0.006, 0.012, 0.018, 0.024};
 constexpr int kRound = 12;
 constexpr std::size_t kTries = 28;
@@ -65,7 +65,7 @@ std::vector<Vec3> places_of(const PointerScene& scene, std::uint32_t object) {
   return out;
 }
 
-/// A crank by its far end, another thing by its middle.
+/// A crank is taken by its far end, another thing by its middle.
 std::optional<picture::PixelPlace> place_to_take(const PointerScene& scene, const picture::Sight& sight,
                                                  std::uint32_t object) {
   const Leeway leeway = scene.leeway(object);
@@ -91,12 +91,7 @@ std::optional<picture::PixelPlace> place_to_take(const PointerScene& scene, cons
 }  // namespace
 
 std::optional<Pose> PointerScene::pose_of(std::uint32_t object) const {
-  if (frame != nullptr) {
-    const auto body = std::ranges::find(frame->bodies, object, &client::BodyPose::object);
-    if (body != frame->bodies.end()) return body->X_WB;
-  }
-  const auto known = std::ranges::find(objects, object, &client::SceneObject::index);
-  return known == objects.end() ? std::nullopt : std::optional(known->X_WB);
+  return pose_in(frame, objects, object);
 }
 
 Leeway PointerScene::leeway(std::uint32_t object) const {
@@ -106,8 +101,8 @@ Leeway PointerScene::leeway(std::uint32_t object) const {
 }
 
 bool PointerScene::takeable(std::uint32_t object) const {
-  const auto known = std::ranges::find(objects, object, &client::SceneObject::index);
-  return known != objects.end() && known->movable && leeway(object).taken;
+  const client::SceneObject* known = object_of(objects, object);
+  return known != nullptr && known->movable && leeway(object).taken;
 }
 
 UnderFinger under_finger(const PointerScene& scene, const picture::Sight& sight, picture::PixelPlace place) {

@@ -7,13 +7,13 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include "client-sdk/recording/recording_codec.hpp"
 #include "server/base/byte_order.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/base/worker.hpp"
 #include "server/log/log.hpp"
 
@@ -24,7 +24,8 @@ constexpr char kMagic[8] = {'M', 'E', 'C', 'H', 'S', 'E', 'E', 'N'};
 constexpr std::size_t kPreamble = sizeof kMagic + 4;
 constexpr std::size_t kRecordHead = 1 + 4 + 8;
 constexpr std::uint64_t kMaxMicroseconds = std::uint64_t{30} * 24 * 3600 * 1'000'000;
-/// Ticks and times of receipt may part so far before a new anchor is taken: the world was begun anew, or stood still.
+/// When ticks and times of receipt differ by more than this, a new anchor is taken: the world was restarted or stood
+/// still.
 constexpr Duration kParting = std::chrono::milliseconds(250);
 
 std::vector<std::byte> checked_part(RecordKind kind, std::span<const std::byte> payload) {
@@ -66,11 +67,11 @@ class FrameRecorder::Disk {
  public:
   Disk(std::filesystem::path path, std::ofstream file) : path_(std::move(path)), file_(std::move(file)) {}
 
-  /// Queues bytes. False: the file takes no more, and the log says why.
+  /// Queues bytes. False: nothing more is written, and the log says why.
   [[nodiscard]] bool write(std::vector<std::byte> bytes) {
     if (failed_) return false;
     if (waiting_.fetch_add(bytes.size()) > kMostWaitingBytes) {
-      tell("ends here: the disk is too slow for it");
+      tell("ends here: the disk is too slow");
       return false;
     }
     worker_.give([this, bytes = std::move(bytes)] { write_now(bytes); });
@@ -81,18 +82,18 @@ class FrameRecorder::Disk {
   }
 
  private:
-  /// To the disk as it comes: whoever kills a display still has the recording.
+  /// Flushed at once, so that the recording survives when the display is killed.
   void write_now(const std::vector<std::byte>& bytes) {
     waiting_ -= bytes.size();
     if (failed_) return;
     file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     file_.flush();
     failed_ = !file_;
-    if (failed_) tell("ends here, it cannot be written: " + std::generic_category().message(errno));
+    if (failed_) tell("ends here: the file cannot be written: " + std::generic_category().message(errno));
   }
 
   std::filesystem::path path_;
-  std::ofstream file_;  // the worker's alone
+  std::ofstream file_;  // used by the worker only
   std::atomic<std::uint64_t> waiting_{0};
   std::atomic<bool> failed_{false};
   Worker worker_{"recording"};  // last: its jobs use what is above
@@ -101,8 +102,8 @@ class FrameRecorder::Disk {
 Expected<FrameRecorder> FrameRecorder::create(const std::filesystem::path& path, const RecorderSettings& settings) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   if (!file) {
-    return fail("the recording cannot be written: " + std::generic_category().message(errno), path.string(),
-                "choose another file with --record");
+    return fail(ErrorCode::io_failure, "the recording cannot be written: " + std::generic_category().message(errno),
+                path.string(), "choose another file with --record");
   }
   return FrameRecorder(std::make_unique<Disk>(path, std::move(file)), settings);
 }
@@ -123,7 +124,7 @@ void FrameRecorder::hear(TimePoint now, const client::WorldStatus& status,
                          const std::vector<client::SceneObject>& manifest, const client::Frame* newest) {
   if (!goes_on_) return;
   if (status_.empty() || status.world != world_) begin_world(status.world);
-  // Not later than the frame that comes with it: times never fall, and it is frames that are seen to be late.
+  // Not later than the frame that comes with it: times never fall, and a late frame would be visible.
   const Duration at = newest != nullptr ? std::min(time_of(*newest), time_of(now)) : time_of(now);
   if (std::vector<std::byte> bytes = encode(status); bytes != status_) {
     add(RecordKind::status, at, bytes);
@@ -189,7 +190,7 @@ void FrameRecorder::write() {
   goes_on_ = disk_->write(std::move(bytes));
   if (!goes_on_ || written_ < settings_.limit_bytes) return;
   write_end();
-  disk_->tell("is as large as it may be and ends here");
+  disk_->tell("ends here: it has reached the size limit (--record-mib)");
 }
 
 void FrameRecorder::write_end() {
@@ -199,17 +200,12 @@ void FrameRecorder::write_end() {
 }
 
 Expected<FrameRecording> FrameRecording::open_file(const std::filesystem::path& path) {
-  const std::string where = path.string();
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return fail("the recording cannot be read: " + error.message(), where, "write one with --record");
-  if (size > kMaxRecordingBytes)
-    return fail("the recording is larger than a gigabyte", where, "record less at a time: --record-mib");
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<char> text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) return fail("the recording cannot be read", where, "check the rights of the file");
-  const auto bytes = std::as_bytes(std::span(text));
-  return open_bytes({bytes.begin(), bytes.end()}, where);
+  Expected<std::vector<std::byte>> bytes = read_whole(path, kMaxRecordingBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto recording = open_bytes(std::move(*bytes), path.string());
+  if (recording && recording->cut_off())
+    log::warning("the recording " + path.string() + " is incomplete; the part that it has is shown");
+  return recording;
 }
 
 Expected<FrameRecording> FrameRecording::open_bytes(std::vector<std::byte> bytes, const std::string& name) {
@@ -222,12 +218,14 @@ Expected<FrameRecording> FrameRecording::open_bytes(std::vector<std::byte> bytes
 Expected<void> FrameRecording::read(const std::string& name) {
   const std::span<const std::byte> all(bytes_);
   if (all.size() < kPreamble || std::memcmp(all.data(), kMagic, sizeof kMagic) != 0)
-    return fail("is not a recording of frames", name, "give a file that 'mechane display --record' wrote");
+    return fail(ErrorCode::damaged, "this is not a recording of frames", name,
+                "give a file that 'mechane display --record' wrote");
   if (const auto version = ByteSource(all.subspan(sizeof kMagic)).get<std::uint32_t>();
       version == 0 || version > kRecordingVersion) {
-    return fail(
-        fmt::format("is a recording of version {}, and this program reads up to {}", version, kRecordingVersion), name,
-        "use the release that wrote it, or record anew");
+    return fail(ErrorCode::wrong_version,
+                fmt::format("this recording has version {}, and this program reads versions up to {}", version,
+                            kRecordingVersion),
+                name, "use the release that wrote it, or record again");
   }
   std::size_t at = kPreamble;
   for (std::uint64_t number = 0; at < all.size() && cut_off_; ++number) {
@@ -235,21 +233,24 @@ Expected<void> FrameRecording::read(const std::string& name) {
     const auto kind = static_cast<RecordKind>(head.get<std::uint8_t>());
     const auto length = head.get<std::uint32_t>();
     const auto checksum = head.get<std::uint64_t>();
-    if (!head.ok() || length > head.remaining()) break;  // cut off in its midst
+    if (!head.ok() || length > head.remaining()) break;  // the file ends within this record
     const auto payload = all.subspan(at + kRecordHead, length);
     if (checksum_of(checked_part(kind, payload), number) != checksum || !take(kind, payload)) {
-      return fail(fmt::format("the recording is damaged at byte {}", at), name, "record anew, or copy the file again");
+      return fail(ErrorCode::damaged, fmt::format("the recording is damaged at byte {}", at), name,
+                  "copy the file again, or record again");
     }
     at += kRecordHead + length;
   }
   if (!cut_off_ && at != all.size())
-    return fail(fmt::format("the recording goes on behind its end, at byte {}", at), name, "copy the file again");
+    return fail(ErrorCode::damaged, fmt::format("the file has more bytes after the recording's end, from byte {}", at),
+                name, "copy the file again");
   if (std::ranges::find(records_, RecordKind::frame, &Record::kind) == records_.end())
-    return fail("nothing was recorded that could be drawn", name, "record while the display shows a world");
+    return fail(ErrorCode::missing, "the recording has no picture to show", name,
+                "record while the display shows a world");
   return {};
 }
 
-/// Decodes it once, so that nobody who plays it can fail.
+/// Decodes the record once, so that playing it cannot fail later.
 bool FrameRecording::take(RecordKind kind, std::span<const std::byte> payload) {
   ByteSource head(payload);
   const std::uint64_t microseconds = head.get_varint();
@@ -279,12 +280,12 @@ bool FrameRecording::take(RecordKind kind, std::span<const std::byte> payload) {
     default:
       return false;
   }
-  if (records_.empty() && kind != RecordKind::status) return false;  // of which world?
+  if (records_.empty() && kind != RecordKind::status) return false;  // no status has named the world yet
   records_.push_back(record);
   return true;
 }
 
-/// Of the first world; an empty step is all of it.
+/// When the step takes place in the first world; an empty step: the whole world.
 std::optional<FrameRecording::Span> FrameRecording::time_of(const std::string& step) const {
   std::optional<Span> out;
   std::string world;
@@ -304,7 +305,7 @@ std::optional<FrameRecording::Span> FrameRecording::time_of(const std::string& s
 }
 
 Expected<Duration> FrameRecording::moment(const std::string& text) const {
-  const char* const remedy = "write seconds, as 12.5, or a step and a share of it, as turn@0.4";
+  const char* const remedy = "write seconds, as in 12.5, or a step and a share of it, as in turn@0.4";
   const auto number = [](const std::string& digits) -> std::optional<double> {
     double value = 0;
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -313,14 +314,15 @@ Expected<Duration> FrameRecording::moment(const std::string& text) const {
   };
   if (const auto seconds = number(text)) {
     if (*seconds > to_seconds(duration_))
-      return fail(fmt::format("the recording is only {:.1f} s long", to_seconds(duration_)), text, remedy);
+      return fail(ErrorCode::invalid_value, fmt::format("the recording is only {:.1f} s long", to_seconds(duration_)),
+                  text, remedy);
     return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*seconds));
   }
   const auto at = text.find('@');
   const std::optional<double> share = at == std::string::npos ? 0.0 : number(text.substr(at + 1));
-  if (!share || *share > 1) return fail("is not a moment of a recording", text, remedy);
+  if (!share || *share > 1) return fail(ErrorCode::invalid_value, "this is not a moment of a recording", text, remedy);
   const std::optional<Span> span = time_of(text.substr(0, at));
-  if (!span) return fail("the recording has no such step", text, remedy);
+  if (!span) return fail(ErrorCode::unknown_name, "the recording has no such step", text, remedy);
   return span->from + std::chrono::duration_cast<Duration>((span->to - span->from) * *share);
 }
 

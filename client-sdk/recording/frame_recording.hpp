@@ -1,14 +1,15 @@
-// Recordings of what a display hears of its worlds, so that a visit can be drawn again without a server: for films, for tests, for a kiosk
-// that waits for its next visitor. Not a journal: a journal runs a visit again, a recording only shows it.
+// Recordings of what a display receives of its worlds, so that a visit can be shown again without a server: for films,
+// for tests, for a kiosk that waits for its next visitor. Unlike a journal, which runs a visit again, a recording only
+// shows it.
 //
 // A file is the magic "MECHSEEN" and a version (u32), then records to the end. A record is
 //
 //     kind u8 | length u32 | checksum u64 | payload of `length` bytes
 //
-// with the checksum XXH3-64 of kind, length and payload, seeded with the record's number in the file. Numbers are little-endian. Every
-// payload begins with the time since the recording began (LEB128, microseconds), which never falls; what follows is recording_codec's.
-//
-//     status        what else was known is forgotten when it is of another world than the one before
+// with the checksum XXH3-64 of kind, length and payload, seeded with the record's number in the file. Numbers are
+// little-endian. Every payload begins with the time since the recording began (LEB128, microseconds), which never
+// decreases; recording_codec.hpp defines the rest.
+//     status        of another world than before: all that was known so far is forgotten
 //     presentation  of the world of the last status
 //     manifest      all its objects
 //     frame         of that world, once its manifest is known
@@ -31,19 +32,19 @@
 
 namespace mechane::recording {
 
-/// What is written; 1, without titles of objects, and 2, without goals, are read too.
+/// The version that is written. Versions 1 (without titles of objects) and 2 (without goals) can be read too.
 inline constexpr std::uint32_t kRecordingVersion = 3;
 inline constexpr std::uint64_t kMaxRecordingBytes = std::uint64_t{1} << 30U;
 
 enum class RecordKind : std::uint8_t { status = 1, presentation, manifest, frame, event, end };
 
-/// A recording in the making, as bytes: no file, no clock. Times that fall are taken as the last one.
+/// Makes a recording as bytes, without a file or a clock. A time before the last one is replaced by the last one.
 class RecordingWriter {
  public:
   RecordingWriter();
 
   void add(RecordKind kind, Duration time, std::span<const std::byte> payload);
-  /// What was added since the last call, in the order of the file.
+  /// The bytes that were added since the last call.
   [[nodiscard]] std::vector<std::byte> take_bytes() { return std::exchange(bytes_, {}); }
 
  private:
@@ -57,22 +58,24 @@ struct RecorderSettings {
   std::uint64_t limit_bytes = std::uint64_t{256} << 20U;
 };
 
-/// Writes a recording while a display runs. Called on the display's thread, which never waits for the disk: a thread of the recorder's own
-/// writes. A full disk, a disk that is too slow, or the limit of its size ends the recording with a line in the log and nothing else. The file
-/// is whole once the recorder is destroyed; before, all but its last moment is on the disk.
+/// Writes a recording while a display runs. Called on the display's thread, which never waits for the disk: the
+/// recorder has a thread of its own for that. A full or slow disk, or the size limit, ends the recording with a line in
+/// the log; the display is not affected. The file is complete once the recorder is destroyed; before, all but the last
+/// moment is on the disk.
 class FrameRecorder {
  public:
-  /// So much may wait for the disk, which is a minute of most worlds.
+  /// How much may wait for the disk: a minute of most worlds.
   static constexpr std::uint64_t kMostWaitingBytes = std::uint64_t{16} << 20U;
 
-  /// Takes the place of a file of that name. Errors: it cannot be written.
+  /// Overwrites a file of that name. Errors: it cannot be written.
   [[nodiscard]] static Expected<FrameRecorder> create(const std::filesystem::path& path,
                                                       const RecorderSettings& settings);
   FrameRecorder(FrameRecorder&&) noexcept;
   FrameRecorder& operator=(FrameRecorder&&) = delete;
   ~FrameRecorder();
 
-  /// Once a picture, or oftener: writes what is new in it. `presentation` and `newest` may be null: not known yet.
+  /// Writes what is new since the last call. Call it once a picture, or more often. `presentation` and `newest` are
+  /// null while they are not known.
   void hear(TimePoint now, const client::WorldStatus& status, const client::WorldPresentation* presentation,
             const std::vector<client::SceneObject>& manifest, const client::Frame* newest);
   void hear(TimePoint now, std::span<const client::WorldEvent> events);
@@ -97,14 +100,14 @@ class FrameRecorder {
   std::optional<TimePoint> began_;
   std::uint64_t written_ = 0;
   std::uint64_t frames_ = 0;
-  // Of the world at hand.
+  // Of the present world.
   std::string world_;
   std::vector<std::byte> status_;  ///< as it was written last
   bool presented_ = false;
   std::size_t objects_ = 0;
-  std::uint64_t sequence_ = 0;  ///< of the last frame that was looked at
-  Duration due_{0};             ///< the next frame
-  /// A frame's time follows from its tick, not from the moment at which a busy machine let it come.
+  std::uint64_t sequence_ = 0;  ///< of the last frame that was seen
+  Duration due_{0};             ///< when the next frame is recorded
+  /// A frame's time follows from its tick, not from the moment at which a busy machine received it.
   struct Anchor {
     std::uint64_t tick = 0;
     Duration time{0};
@@ -112,30 +115,32 @@ class FrameRecorder {
   std::optional<Anchor> anchor_;
 };
 
-/// A recording, read and checked whole: what it gives can be drawn. Immutable.
+/// A recording that was read and checked completely: all its content can be drawn. Immutable.
 class FrameRecording {
  public:
   struct Record {
     RecordKind kind = RecordKind::end;
     Duration time{0};
-    std::span<const std::byte> content;  ///< recording_codec's; of this recording
+    std::span<const std::byte> content;  ///< encoded by recording_codec; points into this recording
   };
 
-  /// Errors: no such file, not a recording, another version, damaged (with the place), too large, nothing in it that could be drawn.
+  /// Errors: no such file, not a recording, another version, damaged (with the place), too large, nothing in it that
+  /// could be drawn. Warns of one that was cut off.
   [[nodiscard]] static Expected<FrameRecording> open_file(const std::filesystem::path& path);
-  /// The same from memory. `name` is what errors call it.
+  /// The same from memory. `name` names it in errors.
   [[nodiscard]] static Expected<FrameRecording> open_bytes(std::vector<std::byte> bytes, const std::string& name);
   FrameRecording(FrameRecording&&) noexcept = default;
   FrameRecording& operator=(FrameRecording&&) noexcept = default;
 
-  /// In the order of time.
+  /// In chronological order.
   [[nodiscard]] std::span<const Record> records() const { return records_; }
   /// From the first record to the last frame.
   [[nodiscard]] Duration duration() const { return duration_; }
-  /// A moment that a person names: "12.5" is seconds from the beginning; "turn@0.4" that share, 0 to 1, of the first time that the step takes,
-  /// "turn" where it begins; "@0.4" a share of all that is of the first world. Errors: it has no such step, or is not so long.
+  /// A moment in a person's words. "12.5": seconds from the beginning; "turn": where that step first begins;
+  /// "turn@0.4": a share (0 to 1) of that step; "@0.4": a share of the first world. Errors: no such step, or the
+  /// recording is shorter.
   [[nodiscard]] Expected<Duration> moment(const std::string& text) const;
-  /// The end is missing; all before it is good.
+  /// The end is missing; all before it is intact.
   [[nodiscard]] bool cut_off() const { return cut_off_; }
 
  private:

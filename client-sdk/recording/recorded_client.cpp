@@ -9,7 +9,7 @@
 namespace mechane::recording {
 namespace {
 
-/// Between frames further apart nothing is known of the way from one to the other: the first stays until the next.
+/// Frames farther apart than this are not interpolated: the first stays until the next.
 constexpr Duration kGap = std::chrono::seconds(1);
 
 }  // namespace
@@ -41,7 +41,7 @@ void RecordedClient::advance(TimePoint now) {
   const std::span<const FrameRecording::Record> records = recording_.records();
   while (next_ < records.size() && records[next_].time <= at_)
     take(records[next_++]);
-  // Where a recording begins, its first frame may be still to come: nobody waits for it before an empty picture.
+  // At the beginning, the first frame may still lie ahead: it is shown at once, so that nobody sees an empty picture.
   while (!frame_ && next_ < records.size())
     take(records[next_++]);
   over_ = at_ >= recording_.duration();
@@ -80,10 +80,10 @@ void RecordedClient::take(const FrameRecording::Record& record) {
     case RecordKind::end:
       break;
   }
-  MECHANE_ASSERT(whole);  // FrameRecording has tried
+  MECHANE_ASSERT(whole);  // FrameRecording has decoded it before
 }
 
-/// Of the same world as the last one.
+/// Whether this frame is of the same world as the last one.
 const FrameRecording::Record* RecordedClient::next_frame() const {
   for (const FrameRecording::Record& record : recording_.records().subspan(next_)) {
     if (record.time - frame_time_ > kGap) return nullptr;
@@ -116,7 +116,8 @@ bool RecordedClient::interpolated_frame(TimePoint at, Duration /*delay*/, client
   const double share = std::clamp(to_seconds(played - frame_time_) / to_seconds(after->time - frame_time_), 0.0, 1.0);
   client::Frame between;
   client::interpolate(*frame_, to, share, between);
-  // The world's time goes with the poses, or water and smoke would go by jerks in slow motion. What is seen at all is the last frame's.
+  // The world's time is interpolated too, or water and smoke would move in jerks in slow motion. Visibility is that of
+  // the last frame.
   if (to.tick > frame_->tick)
     between.tick = frame_->tick + static_cast<std::uint64_t>(share * static_cast<double>(to.tick - frame_->tick));
   between.visible = frame_->visible;

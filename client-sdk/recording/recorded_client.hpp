@@ -1,5 +1,5 @@
-// RecordedClient: a recording in a server's place. A display that has one for its client cannot tell the difference, but for hands: nobody's
-// commands go anywhere, and there are no forces.
+// RecordedClient: plays a recording as if it were a server. A display notices no difference, except that commands have
+// no effect and there are no forces.
 #pragma once
 
 #include <memory>
@@ -13,21 +13,22 @@
 namespace mechane::recording {
 
 struct PlaySettings {
-  double speed = 1;    ///< over 0; against the recording's own
-  Duration from{0};    ///< of the recording: where it begins
-  bool again = false;  ///< begins anew when it is over
+  double speed = 1;    ///< above 0; 1: as recorded
+  Duration from{0};    ///< where in the recording to begin
+  bool again = false;  ///< start again at the end
 };
 
-/// One thread. What is known changes in advance() alone, so that all that a picture shows is of one moment.
+/// One thread. Only advance() changes what is known, so that all of a picture is of the same moment.
 class RecordedClient final : public client::Client {
  public:
   RecordedClient(FrameRecording recording, const PlaySettings& settings);
 
-  /// To what was known at `now`, on the display's clock; the first call begins the recording. Back in time is the beginning.
+  /// Advances to `now` on the display's clock; the first call begins the recording. A time before the last one starts
+  /// it again.
   void advance(TimePoint now);
-  /// The next advance() begins anew.
+  /// The next advance() starts again.
   void rewind() { began_.reset(); }
-  /// All has been shown. Never with PlaySettings::again.
+  /// Whether all has been shown. Never with PlaySettings::again.
   [[nodiscard]] bool over() const { return over_; }
 
   [[nodiscard]] client::LinkState state() const override { return client::LinkState::joined; }
@@ -39,7 +40,7 @@ class RecordedClient final : public client::Client {
   [[nodiscard]] std::optional<client::ForceSample> newest_force() noexcept override { return {}; }
   [[nodiscard]] std::optional<client::ForceSample> wait_force(Duration timeout) override;
   [[nodiscard]] bool newest_frame(client::Frame& out) override;
-  /// `delay` is of no use here: the frame after is known.
+  /// Ignores `delay`: the next frame is already known.
   [[nodiscard]] bool interpolated_frame(TimePoint at, Duration delay, client::Frame& out) override;
   [[nodiscard]] std::vector<client::SceneObject> objects() const override { return manifest_; }
   [[nodiscard]] std::optional<client::WorldStatus> world_status() const override { return status_; }
@@ -63,7 +64,7 @@ class RecordedClient final : public client::Client {
   PlaySettings settings_;
   std::optional<TimePoint> began_;
   Duration at_{0};        ///< of the recording
-  std::size_t next_ = 0;  ///< record that is not known yet
+  std::size_t next_ = 0;  ///< the next record to be read
   bool over_ = false;
   std::optional<client::WorldStatus> status_;
   std::shared_ptr<const client::WorldPresentation> presentation_;

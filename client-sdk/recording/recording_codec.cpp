@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "server/base/byte_order.hpp"
+#include "server/base/utf8.hpp"
 
 namespace mechane::recording {
 namespace {
 
-constexpr double kLargest = 1e9;  ///< of any length, force or factor: beyond it float32 has nothing to say
+constexpr double kLargest = 1e9;  ///< of any length, force or factor; beyond it float32 is too coarse
 
-/// Writes a value's fields. It and FieldReader are given the same list of them, so that they cannot differ.
+/// Writes a value's fields. FieldWriter and FieldReader use the same list of fields, so that they cannot differ.
 class FieldWriter {
  public:
   explicit FieldWriter(std::vector<std::byte>& out) : sink_(out) {}
@@ -61,10 +62,7 @@ class FieldReader {
 
   void text(std::string& out) {
     out = in_.get_string();
-    must(std::ranges::none_of(out, [](char c) {
-      const auto code = static_cast<unsigned char>(c);
-      return (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f;
-    }));
+    must(std::ranges::none_of(out, is_control_in_lines));
   }
   void flag(bool& out) {
     const auto value = in_.get<std::uint8_t>();
@@ -84,7 +82,7 @@ class FieldReader {
   }
   void real(double& out) {
     out = std::bit_cast<float>(in_.get<std::uint32_t>());
-    must(std::abs(out) < kLargest);  // no NaN either
+    must(std::abs(out) < kLargest);  // excludes NaN too
   }
   void vector(Vec3& out) {
     for (double& number : out)
@@ -100,7 +98,7 @@ class FieldReader {
   template <class List, class One>
   void each(List& list, One&& one) {
     std::uint64_t left = in_.get_varint();
-    must(left <= in_.remaining());  // each takes a byte at least
+    must(left <= in_.remaining());  // each element takes at least one byte
     list.clear();
     for (; left > 0 && in_.ok(); --left)
       one(list.emplace_back());
@@ -129,7 +127,8 @@ class FieldReader {
   ByteSource in_;
 };
 
-/// The fields of each thing, once for both directions: `Status` is WorldStatus when read, const WorldStatus when written, and so on.
+/// The fields of each thing, once for both directions: `Status` is WorldStatus when read, const WorldStatus when
+/// written, and so on.
 template <class Fields, class Status>
 void status_fields(Fields& f, Status& s) {
   for (auto* text : {&s.world, &s.scenario, &s.scenario_hash, &s.scenario_folder, &s.activity, &s.step, &s.detail})
@@ -148,7 +147,7 @@ void status_fields(Fields& f, Status& s) {
     f.texts(*texts);
 }
 
-/// Beside the quantities: recordings of former versions end before.
+/// The goals of the quantities. Recordings of older versions end before them.
 template <class Fields, class Status>
 void goal_fields(Fields& f, Status& s) {
   for (auto& quantity : s.quantities) {

@@ -1,5 +1,5 @@
-// What a display hears, as bytes and back: the payloads of a recording. Rotations, lengths and forces keep the wire's precision (float32),
-// quantities all of theirs.
+// The payloads of a recording: what a display receives, as bytes and back. Rotations, lengths and forces keep the
+// wire's precision (float32), quantities their full precision.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,9 @@ namespace mechane::recording {
 [[nodiscard]] std::vector<std::byte> encode(const client::Frame& frame);
 [[nodiscard]] std::vector<std::byte> encode(const client::WorldEvent& event);
 
-/// These return false, with `out` in no particular state, where the bytes are no such thing as a whole: cut short or too long, a number that
-/// is not finite, a rotation that is not a unit quaternion, a control character in a text. What they take is fit to
-/// be drawn, as what client::parse() takes
-/// is. A frame's time of receipt is the caller's.
+/// These return false, with `out` in an unspecified state, where the bytes are not valid: cut short or too long, a
+/// number that is not finite, a rotation that is not a unit quaternion, a control character in a text. What they accept
+/// can be drawn without further checks, as with client::parse(). The caller sets a frame's time of receipt.
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, client::WorldStatus& out);
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, client::WorldPresentation& out);
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, std::vector<client::SceneObject>& out);

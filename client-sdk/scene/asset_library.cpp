@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kWaterPrefix = "WATER_";
 
-/// Adds the mesh to `into`, moved by X_BM.
+/// Appends the mesh to `into`, transformed by X_BM.
 void merge(picture::MeshData& into, const content::ImportedMesh& mesh, const Eigen::Affine3d& X_BM) {
   const auto first = static_cast<std::uint32_t>(into.positions.size());
   const Eigen::Affine3f X = X_BM.cast<float>();
@@ -23,7 +23,7 @@ void merge(picture::MeshData& into, const content::ImportedMesh& mesh, const Eig
     into.positions.push_back(X * p);
   for (const Vec3f& n : mesh.normals)
     into.normals.push_back((normal * n).normalized());
-  // Normals that the file lacks are made from the triangles afterwards; zero marks them.
+  // A zero normal marks those that the file lacks: they are computed from the triangles afterwards.
   into.normals.resize(into.positions.size(), Vec3f::Zero());
   for (const Eigen::Vector4f& t : mesh.tangents) {
     const Vec3f moved = (linear * t.head<3>()).normalized();
@@ -62,7 +62,7 @@ bool is_water(const content::ImportedScene& scene, std::uint32_t node) {
   return false;
 }
 
-/// Of a file's node, or of the whole file.
+/// The name of a file's node, or of the whole file.
 std::string model_name(const std::string& uri, const std::string& node) {
   return node.empty() ? uri : uri + "#" + node;
 }
@@ -129,7 +129,7 @@ AssetLibrary::File& AssetLibrary::load(const std::string& uri) {
   return files_.emplace(uri, std::move(file)).first->second;
 }
 
-/// Returns the first one's number.
+/// Returns the index of the first one.
 std::uint32_t AssetLibrary::add_materials(std::vector<picture::MaterialData> materials,
                                           std::vector<picture::ImageData> images) {
   const auto first_material = static_cast<std::uint32_t>(assets_.materials.size());
@@ -153,10 +153,10 @@ ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node)
   std::optional<std::uint32_t> top;
   if (!node.empty()) {
     top = content::find_node(scene, node);
-    if (!top) return placeholder(uri + "#" + node, "the file has no node of that name");
+    if (!top) return placeholder(uri + "#" + node, "the file has no node of this name");
   }
   const std::string name = model_name(uri, node);
-  // What moves together and looks alike is one draw call.
+  // Meshes that move together and have the same material become one draw call.
   std::map<std::pair<bool, std::uint32_t>, picture::MeshData> merged;
   for (std::uint32_t n = 0; n < scene.nodes.size(); ++n) {
     if (scene.nodes[n].meshes.empty() || (top && !content::is_under(scene, n, *top))) continue;

@@ -1,5 +1,5 @@
-// The pictures of a scenario's objects: loads each mesh file once, merges what moves together, and keeps a placeholder for what is
-// missing. Called from the display's thread only.
+// The models of a scenario's objects: loads each mesh file once, merges meshes that move together, and provides
+// placeholders for missing files. Called from the display's thread only.
 #pragma once
 
 #include <functional>
@@ -20,45 +20,46 @@ namespace mechane::scene {
 struct ModelPart {
   std::uint32_t mesh = 0;
   std::uint32_t material = 0;
-  bool water = false;  ///< a node named WATER_...: drawn by the water pass, `material` means nothing
+  bool water = false;  ///< a node named WATER_...: drawn by the water pass, without `material`
 };
 
-/// What an object looks like. B is its own frame.
+/// An object's model. B is the object's own frame.
 struct ObjectModel {
   std::vector<ModelPart> parts;
   Eigen::AlignedBox3f box_B;
-  bool missing = false;  ///< a placeholder stands for it
+  bool missing = false;  ///< this is a placeholder
 };
 
 class AssetLibrary {
  public:
-  /// Gives a mesh file, named relative to the scenario's folder.
+  /// Loads a mesh file by its name relative to the scenario's folder.
   using FileSource = std::function<Expected<PreparedFile>(const std::string& uri)>;
   explicit AssetLibrary(FileSource source);
   /// The same, prepared here.
   using Loader = std::function<Expected<content::ImportedScene>(const std::string& uri)>;
   explicit AssetLibrary(Loader loader);
 
-  /// The model of a node of a file (empty: the whole file), loaded on first use. What cannot be loaded is logged once and is a box.
+  /// The model of a node of a file (empty: the whole file), loaded on first use. A failure is logged once, and gives a
+  /// box.
   const ObjectModel& model(const std::string& uri, const std::string& node);
-  /// Reads a file again that was missing, and makes the models that it was missing for, in their old place: references stay. True where
-  /// there were any.
+  /// Reads a file that was missing again, and replaces the placeholders of its models; references to them stay valid.
+  /// True where there were any.
   bool load_again(const std::string& uri);
   /// The file itself, or null when it is missing.
   [[nodiscard]] const content::ImportedScene* file(const std::string& uri);
-  /// Adds a mesh, image or material of our own.
+  /// Adds a mesh, image or material that the display has made itself.
   std::uint32_t add_mesh(picture::MeshData mesh);
   std::uint32_t add_image(picture::ImageData image);
   std::uint32_t add_material(const picture::MaterialData& material);
 
   [[nodiscard]] const picture::SceneAssets& assets() const { return assets_; }
-  /// How much there is: another number, and there is something to upload.
+  /// The amount of content: when it changes, there is something to upload.
   [[nodiscard]] std::size_t size() const {
     return assets_.meshes.size() + assets_.materials.size() + assets_.images.size();
   }
   /// "uri" or "uri#node", in order of name.
   [[nodiscard]] const std::set<std::string>& missing() const { return missing_; }
-  /// What the graphics card did not take is missing, too: GpuAssets::refused().
+  /// Counts meshes and images that did not fit on the graphics card (GpuAssets::refused()) as missing too.
   void add_missing(const std::set<std::string>& names) { missing_.insert(names.begin(), names.end()); }
 
  private:

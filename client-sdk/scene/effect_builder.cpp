@@ -6,18 +6,19 @@
 namespace mechane::scene {
 namespace {
 
-constexpr double kLeastWidth_m = 0.004;  // under a drop's width nothing is seen
+constexpr double kLeastWidth_m = 0.004;  // thinner than a drop, nothing is visible
 constexpr double kMostWidth_m = 0.25;
 constexpr double kFastestJet_m_per_s = 15;
 constexpr double kFastestRiver_m_per_s = 5;
 
-/// m^3/s of a unit of flow; 1 for other units.
+/// Factor from a unit of flow to m^3/s; 1 for other units.
 double flow_scale(const std::string& unit) {
   if (unit == "l/s" || unit == "kg/s") return 1e-3;
   return unit == "l/min" ? 1e-3 / 60 : 1;
 }
 
-/// Water out of a lip (a stream: its width follows from the flow) or under pressure out of a bore (a jet: its speed does).
+/// Water from a lip (a stream, whose width depends on the flow) or under pressure from a bore (a jet, whose speed
+/// does).
 std::optional<picture::WaterStream> water_of(const client::Effect& effect, double flow_m3_per_s, const Pose& X_WB,
                                              float landing_height_m) {
   picture::WaterStream stream;

@@ -8,7 +8,7 @@
 namespace mechane::scene {
 namespace {
 
-constexpr double kHead = 0.030;     // of the distance, as the radii below
+constexpr double kHead = 0.030;     // share of the distance, like the radii below
 constexpr double kAside_m = 0.045;  // more than a hand is thick
 constexpr int kAround = 20;
 

@@ -1,4 +1,4 @@
-// The force that a hand feels, as an arrow before it: for who teaches, or tunes a device. Off unless it is asked for.
+// The force on a hand as an arrow, for teaching or for tuning a device. Off by default.
 #pragma once
 
 #include "client-sdk/picture/render_scene.hpp"
@@ -9,13 +9,15 @@ namespace mechane::scene {
 
 class ForceArrow {
  public:
-  static constexpr double kLeast_n = 0.1;  ///< less is not shown
-  /// A force has no size of its own in the world: its arrow grows with the distance from which it is seen, and is as large in the picture.
-  static constexpr double kLengthPerNewton = 0.03;  ///< of that distance
+  static constexpr double kLeast_n = 0.1;  ///< smaller forces are not shown
+  /// The arrow's length per newton, as a share of the viewing distance, so that it has the same size in the picture
+  /// from any distance.
+  static constexpr double kLengthPerNewton = 0.03;
   static constexpr double kLongest = 0.25;
 
   explicit ForceArrow(AssetLibrary& library);
-  /// From beside the fingertip (a glove: the palm), where the hand does not hide it from the camera, along the force on the hand.
+  /// Draws it along the force, starting beside the fingertip (of a glove: the palm), where the hand does not hide it
+  /// from the camera.
   void draw(const client::HandPose& hand, const picture::Camera& camera, picture::RenderScene& out) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace mechane::scene {
 namespace {
 
-/// How a one-point hand lies before the visitor, in the camera's frame: from below on the right, forwards and inwards.
+/// The pose of a one-point hand in the camera's frame: it comes from the lower right and points forwards and inwards.
 const Vec3 kReach_C = Vec3(-0.62, 0.42, -0.66).normalized();
 const Vec3 kBack_C = Vec3(0.40, 0.85, 0.32);
 
@@ -24,7 +24,8 @@ struct SleeveRing {
   double x, half_y, half_z;
 };
 
-// Linen about the wrist, in the palm's frame: a wide tube with a hem, closed, and its way on up the arm that is not there, where it fades.
+// Linen around the wrist, in the palm's frame: a wide closed tube with a hem, and its continuation up the arm, where it
+// fades.
 constexpr double kWrist = -hand::kPalmHalfLength_m;
 constexpr std::array<SleeveRing, 7> kSleeve{{{kWrist - 0.034, 0.0235, 0.0295},
                                              {kWrist - 0.030, 0.0285, 0.0350},
@@ -72,12 +73,13 @@ picture::MeshData sleeve_mesh(std::span<const SleeveRing> rings) {
   return mesh;
 }
 
-/// White, and less and less of it.
+/// White with decreasing opacity.
 picture::ImageData fading_image() {
   constexpr std::uint32_t kRows = 64;
   picture::ImageData image{1, kRows, {}, true};
   for (std::uint32_t row = 0; row < kRows; ++row) {
-    // The last rows are empty, the first full: an image goes round from its end to its beginning.
+    // The first rows are opaque and the last ones empty, because the texture wraps around from its end to its
+    // beginning.
     const double gone = std::clamp((row - 2.0) / (kRows - 8.0), 0.0, 1.0);
     const double left = 1 - gone * gone * (3 - 2 * gone);
     image.rgba.insert(image.rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(std::lround(255 * left))});
@@ -85,11 +87,11 @@ picture::ImageData fading_image() {
   return image;
 }
 
-/// Of the same cloth.
+/// The fading part is of the same cloth.
 picture::MaterialData fading(picture::MaterialData cloth, std::uint32_t image) {
   cloth.base_colour_image = image;
   cloth.clear = true;
-  cloth.double_sided = false;  // nobody looks into it
+  cloth.double_sided = false;  // its inside is never visible
   cloth.alpha_cutoff = 0.01F;
   return cloth;
 }

@@ -1,5 +1,6 @@
-// How a visitor's hand looks: one smooth skin in a linen sleeve. A glove's hand is where the server has its segments. A one-point device has
-// only a tip: there a hand is drawn that points at it with its index, or holds it between thumb and index while the device holds something.
+// Draws a visitor's hand: one smooth skin in a linen sleeve. A glove's hand is drawn where the server has its segments.
+// A one-point device has only a tip: the drawn hand points there with its index finger or, while the device holds
+// something, holds it between thumb and index finger.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ namespace mechane::scene {
 class HandModel {
  public:
   explicit HandModel(AssetLibrary& library);
-  /// Adds skin, sleeve and occluders of one hand. `camera`: a one-point hand comes from where the visitor stands.
+  /// Adds skin, sleeve and occluders of one hand. `camera` gives the direction from which a one-point hand comes.
   void draw(const client::HandPose& hand, const picture::Camera& camera, picture::RenderScene& out) const;
 
  private:
@@ -29,10 +30,11 @@ class HandModel {
   Sleeve fading_sleeve_;
 };
 
-/// The hand's scale against the middle-sized one, from the poses of palm and index finger.
+/// The hand's size relative to the medium hand, from the poses of palm and index finger.
 [[nodiscard]] double hand_scale(const client::HandPose& hand);
 
-/// The segments of a one-point device's hand, in W: its index ends at `p_WT`, or index and thumb meet there.
+/// The segments of a one-point device's hand, in W: the index finger ends at `p_WT`, or index finger and thumb meet
+/// there.
 [[nodiscard]] SegmentPoses hand_at_tip(const Vec3& p_WT, bool holding, const picture::Camera& camera);
 
 }  // namespace mechane::scene

@@ -1,5 +1,6 @@
-// A middle-sized right hand, as the server touches with: where its segments are for given joint angles. Frames as in
-// server/hand/hand_skeleton.hpp. Segment 0 is the palm, then three a finger, from the thumb on, from the palm outwards.
+// A right hand of medium size, as the server uses for contacts: where its segments are for given joint angles. Frames
+// as in server/hand/hand_skeleton.hpp. Segment 0 is the palm; then three per finger, from the thumb on, from the palm
+// outwards.
 #pragma once
 
 #include <array>
@@ -23,12 +24,12 @@ using SegmentPoses = std::array<Pose, client::kHandSegments>;
 /// Poses of the segments in H.
 [[nodiscard]] SegmentPoses place_hand(const HandBend& bend);
 
-/// The middle of a finger's round end, in the frame that the poses are in.
+/// The centre of a finger's round end, in the frame of the poses.
 [[nodiscard]] Vec3 finger_tip(const SegmentPoses& X_S, std::size_t finger);
 
-/// A hand that shows at something with its index, the other fingers folded.
+/// A hand that points with its index finger, the other fingers folded.
 [[nodiscard]] HandBend pointing_hand();
-/// A hand that holds something between thumb and index.
+/// A hand that holds something between thumb and index finger.
 [[nodiscard]] HandBend pinching_hand();
 
 }  // namespace mechane::scene

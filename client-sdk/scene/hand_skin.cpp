@@ -11,13 +11,13 @@ namespace {
 constexpr float kSkinCell_m = 0.0028F;
 constexpr double kRestDegree = kPi / 180;
 
-/// Inigo Quilez' smooth minimum: within k of each other two shapes flow together.
+/// Inigo Quilez' smooth minimum: two shapes within k of each other blend.
 float smooth_min(float a, float b, float k) {
   const float h = std::max(k - std::abs(a - b), 0.0F) / k;
   return std::min(a, b) - h * h * k * 0.25F;
 }
 
-/// Distance to the line from a to b, and where along it the nearest point is, 0..1.
+/// Distance to the line from a to b, and the nearest point's place along it, 0..1.
 std::pair<float, float> from_line(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
   const Vec3f ab = b - a;
   const float t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0F, 1.0F);
@@ -31,7 +31,7 @@ float from_ellipsoid(const Vec3f& p, const Vec3f& middle, const Vec3f& half) {
   return k1 > 1e-6F ? k0 * (k0 - 1) / k1 : -half.minCoeff();
 }
 
-/// A bone at rest: from joint to joint, the flesh about its ends.
+/// A bone at rest: from joint to joint, with the radius of the flesh at its ends.
 struct Bone {
   Vec3f a, b;
   float radius_a, radius_b;
@@ -47,7 +47,7 @@ class RestingHand {
       for (std::size_t k = 0; k < 3; ++k) {
         const Pose& X = X_HS[hand::first_segment(f) + k];
         const double half = 0.5 * size.length_m[k];
-        // The last one ends in a ball that reaches as far as the server's finger does.
+        // The last one ends in a ball that reaches as far as the server's finger.
         const double end = k == 2 ? half - 0.55 * size.radius_m[k] : half;
         const double next = k == 2 ? 0.88 * size.radius_m[k] : size.radius_m[k + 1];
         bones_[3 * f + k] = {(X * Vec3(-half, 0, 0)).cast<float>(), (X * Vec3(end, 0, 0)).cast<float>(),
@@ -71,7 +71,7 @@ class RestingHand {
   /// Palm, ball of the thumb, heel, wrist and the beginning of the arm.
   [[nodiscard]] static float palm(const Vec3f& p) {
     float d = 1;
-    // Bones of the middle hand, one towards each finger.
+    // The metacarpal bones, one towards each finger.
     for (std::size_t f = 1; f < client::kFingers; ++f) {
       const Vec3f to = finger_sizes()[f].p_HF.cast<float>();
       const Vec3f from(0.008F, 0.001F, 0.45F * to.z());
@@ -80,7 +80,7 @@ class RestingHand {
     }
     d = smooth_min(d, from_ellipsoid(p, Vec3f(0.040F, -0.009F, -0.024F), Vec3f(0.036F, 0.013F, 0.017F)), 0.014F);
     d = smooth_min(d, from_ellipsoid(p, Vec3f(0.038F, -0.008F, 0.022F), Vec3f(0.036F, 0.012F, 0.014F)), 0.014F);
-    // Wider than thick: distances measured in a space that is pressed flat.
+    // Wider than thick: the distance is measured in a flattened space.
     const Vec3f arm = p.cwiseProduct(Vec3f(1, 1.35F, 1));
     const auto [away, t] = from_line(arm, Vec3f(-0.085F, 0, 0), Vec3f(0.012F, 0, 0));
     return smooth_min(d, (away - (0.0300F - 0.0040F * t)) * 0.85F, 0.022F);
@@ -89,7 +89,7 @@ class RestingHand {
   [[nodiscard]] float distance(const Vec3f& p) const {
     const float middle = palm(p);
     float d = middle;
-    // Each flows into the palm, none into its neighbour.
+    // Each finger blends into the palm, but not into its neighbour.
     for (std::size_t f = 0; f < client::kFingers; ++f)
       d = std::min(d, smooth_min(middle, finger(p, f), f == 0 ? 0.020F : 0.010F));
     return d;
@@ -124,7 +124,7 @@ HandSkin::HandSkin() {
     for (std::size_t f = 0; f < client::kFingers; ++f) {
       if (hand.finger(p, f) < hand.finger(p, of)) of = f;
     }
-    // The nearer a bone, the more it takes along: within a finger's breadth of a joint two share the skin.
+    // Nearer bones have more weight; within a finger's breadth of a joint two bones share the skin.
     std::vector<std::pair<float, std::size_t>> pulls;
     const auto pull = [&](float away_m, std::size_t segment) {
       pulls.emplace_back(std::pow(std::max(away_m, 1e-4F), -6.0F), segment);

@@ -1,4 +1,5 @@
-// The skin of a hand: one smooth closed surface over palm and fingers, made once from rounded shapes, that follows the segments' poses.
+// The skin of a hand: one smooth closed surface over palm and fingers, made once from rounded shapes. It follows the
+// segments' poses.
 #pragma once
 
 #include <array>
@@ -12,20 +13,20 @@ namespace mechane::scene {
 
 class HandSkin {
  public:
-  /// Some 0.1 s.
+  /// Takes about 0.1 s.
   HandSkin();
-  /// One for all hands: made at the first use, and never changed.
+  /// Shared by all hands; made at the first use.
   [[nodiscard]] static const HandSkin& shared();
 
-  /// The skin for these poses, `scale` times the middle-sized hand, in the frame that the poses are in.
+  /// The skin for these poses, `scale` times the medium hand, in the frame of the poses.
   [[nodiscard]] picture::MeshData follow(const SegmentPoses& X_WS, double scale) const;
 
-  /// At rest: flat, the fingers a little apart, in H.
+  /// The skin at rest, in H: flat, the fingers a little apart.
   [[nodiscard]] const picture::MeshData& rest() const { return rest_; }
   [[nodiscard]] static SegmentPoses rest_poses();
 
  private:
-  static constexpr std::size_t kBones = 3;  ///< that a vertex follows, at most
+  static constexpr std::size_t kBones = 3;  ///< that a vertex follows at most
   struct Hold {
     std::array<std::uint8_t, kBones> segment{};
     std::array<float, kBones> weight{};  ///< sum 1

@@ -9,16 +9,16 @@
 namespace mechane::scene {
 namespace {
 
-constexpr float kBrushland_m = 40;  ///< beyond the clearing, as the next
+constexpr float kBrushland_m = 40;  ///< from the clearing's edge, like the next
 constexpr float kTreeline_m = 190;  ///< farther away, haze hides everything
 constexpr int kBrush = 70;
 constexpr int kTrees = 140;
 constexpr int kCypresses = 9;
-/// Leaves a tree where one stands before it, and how far away that many are too many.
+/// Leaves of a tree near the viewer, and the distance up to which it has so many.
 constexpr float kLeaves = 420;
 constexpr float kNear_m = 30;
 constexpr float kBank_m = 2.5F;
-/// Over the plain: modelled ground lies a little higher than it.
+/// Height above the plain, because modelled ground lies a little higher.
 constexpr float kShadeHeight_m = 0.09F;
 
 constexpr float kGoldenShare = 0.61803399F;
@@ -30,7 +30,7 @@ Vec3f direction(ShortRandom& random) {
   return {r * std::cos(a), y, r * std::sin(a)};
 }
 
-/// Groves are thick here and thin there.
+/// Density of the groves at a place.
 float thickness(const LandscapePlan& plan, const Vec3f& p_W) {
   const Vec3f q = p_W - plan.middle_W;
   const auto phase = static_cast<float>(plan.seed % 628) / 100;
@@ -38,7 +38,7 @@ float thickness(const LandscapePlan& plan, const Vec3f& p_W) {
                           0.6F * std::sin(0.041F * (q.x() - q.z()) + phase));
 }
 
-/// All that grows of one material.
+/// All plant triangles of one material.
 class Growth {
  public:
   void quad(const std::array<Vec3f, 4>& p_W, const Vec3f& n_W) {
@@ -49,7 +49,7 @@ class Growth {
       mesh_.normals.push_back(n_W);
       mesh_.uv.emplace_back(kCorners[k][0], kCorners[k][1]);
     }
-    // Front faces look along the normal: behind, it is turned about.
+    // The front faces along the normal; the shader reverses the normal behind.
     const bool along = (p_W[1] - p_W[0]).cross(p_W[2] - p_W[0]).dot(n_W) > 0;
     const std::uint32_t b = along ? 1 : 3;
     const std::uint32_t d = along ? 3 : 1;
@@ -108,7 +108,8 @@ void add_crown(const Crown& crown, Growth& pale, Growth& dark, ShortRandom& rand
   }
 }
 
-/// How coarse a plant may be: 1 near, twice at twice the distance, until a leaf is a tuft.
+/// How coarse a plant may be: 1 near the viewer, 2 at twice the distance, and so on up to 6, where a leaf stands for a
+/// tuft.
 float coarseness(const LandscapePlan& plan, const Plant& plant) {
   return std::clamp((plant.p_W - plan.middle_W).norm() / kNear_m, 1.0F, 6.0F);
 }
@@ -137,7 +138,7 @@ void add_cypress(const Plant& plant, float coarse, Grown& out) {
   ShortRandom random(plant.seed);
   const float h = plant.height_m;
   out.bark.limb(plant.p_W - Vec3f(0, 0.2F, 0), plant.p_W + Vec3f(0, 0.2F * h, 0), 0.022F * h, 0.018F * h);
-  // Within, it is too dense to be looked through.
+  // An opaque core, because a cypress is too dense to be looked through.
   out.cypress.limb(plant.p_W + Vec3f(0, 0.12F * h, 0), plant.p_W + Vec3f(0, 0.45F * h, 0), 0.045F * h, 0.080F * h);
   out.cypress.limb(plant.p_W + Vec3f(0, 0.45F * h, 0), plant.p_W + Vec3f(0, 0.88F * h, 0), 0.080F * h, 0.012F * h);
   const int sprays = static_cast<int>(300 / coarse);
@@ -166,12 +167,12 @@ void add_brush(const Plant& plant, float coarse, Grown& out) {
   }
 }
 
-/// The shadow of its crown on the ground, softly: too far away for a shadow map.
+/// The soft shadow of a plant's crown on the ground; it is too far away for a shadow map.
 void add_shade(const Plant& plant, const Vec3f& to_sun_W, Growth& shade) {
   const bool cypress = plant.kind == Plant::Kind::cypress;
   const float h = plant.height_m;
   const float wide = cypress ? 0.12F * h : plant.kind == Plant::Kind::brush ? 1.5F * h : 0.52F * h;
-  const float tall = cypress ? 0.95F * h : wide;  // of the crown, half
+  const float tall = cypress ? 0.95F * h : wide;
   const float middle = cypress ? 0.5F * h : plant.kind == Plant::Kind::brush ? 0.4F * h : 0.62F * h;
   const Vec3f level(to_sun_W.x(), 0, to_sun_W.z());
   const float slope = level.norm() / std::max(to_sun_W.y(), 0.2F);
@@ -183,7 +184,7 @@ void add_shade(const Plant& plant, const Vec3f& to_sun_W, Growth& shade) {
   shade.quad({p_W - a - b, p_W + a - b, p_W + a + b, p_W - a + b}, Vec3f::UnitY());
 }
 
-/// Dark amid, nothing at its rim.
+/// Dark in the middle, transparent at the rim.
 picture::ImageData shade_image() {
   constexpr std::uint32_t kSide = 64;
   picture::ImageData image{kSide, kSide, {}, true};
@@ -221,7 +222,7 @@ float distance_to_segment_m(const Eigen::Vector2f& p, const Eigen::Vector2f& a, 
   return (p - a - t * ab).norm();
 }
 
-/// In water, or on its bank, seen from above.
+/// Whether a place is in water or on its bank, seen from above.
 bool is_wet(const LandscapePlan& plan, const Vec3f& p_W) {
   const auto above = [](const Vec3f& p) { return Eigen::Vector2f(p.x(), p.z()); };
   const Eigen::Vector2f p = above(p_W);
@@ -242,9 +243,9 @@ void scatter(const LandscapePlan& plan, Plant::Kind kind, int count, float reach
   ShortRandom random(plan.seed, 1 + static_cast<std::uint32_t>(kind));
   const float turn = random.between(0, 1);
   for (int tries = 0, made = 0; made < count && tries < 20 * count; ++tries) {
-    // More of them near, where each is seen alone.
+    // Denser near the clearing, where single plants are visible.
     const float away = plan.clearing_m + reach_m * std::pow(random.between(0, 1), 1.35F);
-    // Spread evenly all round, whichever of them are left out.
+    // Evenly spread in all directions, whichever of them are left out.
     const float a =
         kTwoPiF * std::fmod(kGoldenShare * static_cast<float>(tries) + turn + random.between(0, 0.02F), 1.0F);
     Plant plant{kind, plan.middle_W + away * Vec3f(std::cos(a), 0, std::sin(a)), 1,

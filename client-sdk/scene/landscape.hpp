@@ -1,5 +1,6 @@
-// The landscape around an exhibit that brings none of its own: olives in loose groves, some cypresses, brush. It gives the eye
-// something between the machine and the hills, in stereo most of all. Scenery: nobody touches it, and it throws no shadows but its own.
+// The landscape around an exhibit without one of its own: olives in loose groves, some cypresses, brush. It fills the
+// distance between the machine and the hills, especially in stereo. It cannot be touched, and casts only its own simple
+// shadows.
 #pragma once
 
 #include <array>
@@ -19,28 +20,28 @@ struct Plant {
   std::uint32_t seed = 0;  ///< of its shape
 };
 
-/// Where things may grow.
+/// Where plants may grow.
 struct LandscapePlan {
-  Vec3f middle_W = Vec3f::Zero();  ///< on the ground, amid scenery and viewpoint
-  float clearing_m = 0;            ///< about the middle, nothing grows: there people stand, stones fly
+  Vec3f middle_W = Vec3f::Zero();  ///< on the ground, in the middle of scenery and viewpoint
+  float clearing_m = 0;            ///< radius without plants, where people stand and stones fly
   Vec3f to_sun_W = Vec3f::UnitY();
-  std::uint32_t seed = 0;                        ///< another number, other trees
+  std::uint32_t seed = 0;                        ///< another seed gives other trees
   std::vector<std::array<Vec3f, 3>> waters_W{};  ///< triangles: nothing grows in them, nor on their banks
 };
 
-/// Adds the triangles of a water's mesh, of some hundreds: each place is held against each.
+/// Adds the triangles of a water's mesh; at most some hundreds, because each plant is tested against all.
 void add_water(const picture::MeshData& mesh_M, const Eigen::Affine3f& X_WM, LandscapePlan& plan);
 
-/// The same plan has the same plants, the nearest not always first.
+/// The plants of a plan: always the same, in no particular order.
 [[nodiscard]] std::vector<Plant> plants_of(const LandscapePlan& plan);
 
-/// Meshes of plants, one a material, in W.
+/// Meshes of plants, one per material, in W.
 struct PlantMeshes {
   picture::MeshData bark, pale, dark, cypress;
   picture::MeshData shade;  ///< on the ground
 };
 
-/// The farther a plant is from the middle, the fewer and larger are its leaves. Slow; any thread.
+/// Plants farther from the middle have fewer and larger leaves. Slow; any thread.
 [[nodiscard]] PlantMeshes grow(const LandscapePlan& plan, const std::vector<Plant>& plants);
 
 /// Adds the meshes to the library, each with its material.

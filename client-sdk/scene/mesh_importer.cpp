@@ -17,7 +17,8 @@ MeshImporter::~MeshImporter() {
 
 MeshImporter::Import MeshImporter::import(assets::MeshFiles& files, const std::string& uri, const std::string& hash,
                                           const std::stop_token& stop) {
-  if (stop.stop_requested()) return {fail("the import was stopped", uri), {}};
+  if (stop.stop_requested())
+    return {fail(ErrorCode::cancelled, "the import was stopped", uri, "open the exhibit again"), {}};
   files.expect(uri, hash);
   const auto path = files.find(uri);
   if (!path) return {tl::unexpected(path.error()), files.differing()};

@@ -1,5 +1,5 @@
-// Brings the mesh files of a world: finds them, reads them in a child process, decodes their images. With a worker that happens beside the
-// drawing.
+// Imports the mesh files of a world: finds them, reads them in a child process, decodes their images; with a worker, in
+// the background.
 #pragma once
 
 #include <future>
@@ -16,25 +16,27 @@
 
 namespace mechane::scene {
 
-/// One world's. On the display's thread. Jobs own what they read with, and their results come by value: nothing is shared that changes.
+/// The importer of one world. On the display's thread. Jobs own what they need, and return results by value: no mutable
+/// state is shared.
 class MeshImporter {
  public:
-  /// `worker` may be null: then take() imports. It outlives this, and the catalogue of `files`, if there is one, outlives the worker.
+  /// `worker` may be null: then take() imports. It must outlive this, and the catalogue of `files`, if any, must
+  /// outlive the worker.
   MeshImporter(assets::MeshFiles files, Worker* worker);
   MeshImporter(const MeshImporter&) = delete;
   MeshImporter& operator=(const MeshImporter&) = delete;
-  /// Stops imports that are under way, and waits for none.
+  /// Stops imports that are under way, without waiting for them.
   ~MeshImporter();
 
-  /// Begins to import a file, once. `hash`: what the manifest says of its content; empty: nothing.
+  /// Begins to import a file, once. `hash` is that of the manifest; empty: none.
   void want(const std::string& uri, const std::string& hash);
-  /// Begins to import a wanted file again, which was missing before.
+  /// Begins to import a wanted file again that was missing before.
   void want_again(const std::string& uri);
-  /// Imports are under way, and take() may not be called.
+  /// Whether imports are under way; then take() must not be called.
   [[nodiscard]] bool busy() const;
-  /// A wanted file as it was imported last; it is given away. Errors: MeshFiles's, the import's.
+  /// Gives away the last import of a wanted file. Errors: those of MeshFiles and of the import.
   [[nodiscard]] Expected<PreparedFile> take(const std::string& uri);
-  /// Files whose content here is not the server's, of those that were taken.
+  /// The taken files whose content here differs from the server's.
   [[nodiscard]] const std::set<std::string>& differing() const { return differing_; }
 
  private:
@@ -44,13 +46,13 @@ class MeshImporter {
   };
   struct Wanted {
     std::string hash;
-    std::future<Import> coming;  ///< without a worker, and once it was taken: not valid
+    std::future<Import> coming;  ///< not valid without a worker, and after it was taken
   };
   void begin(const std::string& uri, Wanted& wanted);
   [[nodiscard]] static Import import(assets::MeshFiles& files, const std::string& uri, const std::string& hash,
                                      const std::stop_token& stop);
 
-  std::shared_ptr<assets::MeshFiles> files_;  ///< where there is a worker, its alone
+  std::shared_ptr<assets::MeshFiles> files_;  ///< with a worker, used by the worker only
   Worker* worker_;
   std::stop_source stop_;
   std::map<std::string, Wanted> wanted_;

@@ -11,7 +11,7 @@
 namespace mechane::scene {
 namespace {
 
-/// A material of this name is the land around: see MaterialData::land.
+/// A material with this name is land: see MaterialData::land.
 constexpr std::string_view kLandMaterial = "earth";
 
 std::optional<picture::ImageData> decode(const content::ImportedTexture& texture, bool srgb, const std::string& where) {
@@ -42,7 +42,7 @@ bool is_clear(const picture::ImageData& image) {
 
 PreparedFile prepare(content::ImportedScene scene, const std::string& uri) {
   PreparedFile out;
-  // One image may serve as colour in one material and as numbers in another: each use is its own.
+  // One image may be used as colour in one material and as numbers in another, so each use gets its own copy.
   std::map<std::pair<std::uint32_t, bool>, std::optional<std::uint32_t>> images;
   const auto image = [&](std::optional<std::uint32_t> texture, bool srgb) -> std::optional<std::uint32_t> {
     if (!texture || *texture >= scene.textures.size()) return {};
@@ -73,7 +73,8 @@ PreparedFile prepare(content::ImportedScene scene, const std::string& uri) {
     to.emissive_image = image(from.emissive_texture, true);
     to.occlusion_image = image(from.occlusion_texture, false);
     to.occlusion_strength = from.occlusion_strength;
-    // Many tools write BLEND for what nobody can see through; sorting it would cost time, and its shadow.
+    // Many tools write BLEND for opaque materials; treating those as transparent would cost sorting time and their
+    // shadows.
     const bool clear_image = to.base_colour_image && is_clear(out.images[*to.base_colour_image]);
     to.clear = from.alpha_mode == content::AlphaMode::blend && (from.base_colour.w() < 1 || clear_image);
   }

@@ -11,11 +11,12 @@ namespace mechane::scene {
 
 struct PreparedFile {
   content::ImportedScene scene;                  ///< without its textures
-  std::vector<picture::MaterialData> materials;  ///< the scene's; their image numbers are places in `images`
+  std::vector<picture::MaterialData> materials;  ///< of the scene; their image numbers index `images`
   std::vector<picture::ImageData> images;
 };
 
-/// Slow; any thread. `uri` names the file in messages. An image that cannot be decoded is logged, and its materials go without it.
+/// Slow; any thread. `uri` names the file in messages. An image that cannot be decoded is logged and left out of its
+/// materials.
 [[nodiscard]] PreparedFile prepare(content::ImportedScene scene, const std::string& uri);
 
 }  // namespace mechane::scene

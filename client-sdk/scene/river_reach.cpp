@@ -7,14 +7,14 @@
 namespace mechane::scene {
 namespace {
 
-constexpr float kReach_m = 240;  // there haze has taken it
+constexpr float kReach_m = 240;  // beyond it, haze hides everything
 constexpr int kRows = 64;
-/// What was modelled is wider than its banks let see.
+/// The modelled water is wider than what is visible between its banks.
 constexpr float kSeenShare = 0.86F;
 constexpr float kBend_m = 7;
 constexpr float kBendLength_m = 27;
 
-/// How far to the side the river has gone after so many metres: straight on at first.
+/// The river's sideways offset after this distance; it is straight at first.
 float bend_m(float along_m) {
   const float begun = std::min(along_m / (2 * kBendLength_m), 1.0F);
   return kBend_m * begun * begun *
@@ -23,9 +23,9 @@ float bend_m(float along_m) {
 
 }  // namespace
 
-RiverReach river_reach(const picture::MeshData& water_M, const Eigen::Affine3f& X_WM, const Vec3f& way_W) {
+RiverReach river_reach(const picture::MeshData& water_M, const Eigen::Affine3f& X_WM, const Vec3f& direction_W) {
   RiverReach out;
-  const Vec3f along_W = Vec3f(way_W.x(), 0, way_W.z()).normalized();
+  const Vec3f along_W = Vec3f(direction_W.x(), 0, direction_W.z()).normalized();
   const Vec3f across_W = along_W.cross(Vec3f::UnitY());
   float first = std::numeric_limits<float>::max();
   float last = -first;
@@ -34,7 +34,7 @@ RiverReach river_reach(const picture::MeshData& water_M, const Eigen::Affine3f& 
     first = std::min(first, s);
     last = std::max(last, s);
   }
-  // The border: where the mesh ends, whatever slant its rows have.
+  // The border where the mesh ends, however slanted its rows are.
   const float within = std::max(0.04F * (last - first), 1e-3F);
   Eigen::AlignedBox3f border;  // along, height, across
   for (const Vec3f& p_M : water_M.positions) {

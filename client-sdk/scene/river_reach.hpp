@@ -1,4 +1,4 @@
-// A river beyond the piece of it that was modelled: on over the plain, in bends, until haze has it.
+// The continuation of a river beyond its modelled piece: over the plain, in bends, until haze hides it.
 #pragma once
 
 #include "client-sdk/picture/scene_parts.hpp"
@@ -6,11 +6,12 @@
 namespace mechane::scene {
 
 struct RiverReach {
-  picture::MeshData mesh_W;  ///< uv: share of the way across, metres from where it begins
-  float width_m = 0;         ///< where it begins
+  picture::MeshData mesh_W;  ///< uv: share of its width, metres from its beginning
+  float width_m = 0;         ///< at its beginning
 };
 
-/// From the border of a water's mesh that lies farthest along `way_W`. Nothing where the mesh has no width there.
-[[nodiscard]] RiverReach river_reach(const picture::MeshData& water_M, const Eigen::Affine3f& X_WM, const Vec3f& way_W);
+/// Begins at the border of a water's mesh that lies farthest in `direction_W`. Empty if the mesh has no width there.
+[[nodiscard]] RiverReach river_reach(const picture::MeshData& water_M, const Eigen::Affine3f& X_WM,
+                                     const Vec3f& direction_W);
 
 }  // namespace mechane::scene

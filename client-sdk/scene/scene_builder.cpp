@@ -12,25 +12,25 @@
 namespace mechane::scene {
 namespace {
 
-/// Under so little water one sees the floor.
+/// Shallower water is not drawn: the floor shows.
 constexpr double kLeastLevel_m = 0.002;
-/// Scenery larger than this is a landscape of its own around what is to be touched, not just the stand of a machine.
+/// Scenery larger than this is a landscape of its own, not just the stand of a machine.
 constexpr float kLandscape_m = 40;
-/// How far about what is touched things throw shadows: farther off, haze and distance take them.
+/// How far around the touchable things shadows are cast; farther away, haze and distance hide them.
 constexpr float kShadowReach_m = 70;
-/// About all scenery, and from the middle: nothing grows where people stand and stones fly.
+/// The clearing's margin around the scenery, and its least radius: nothing grows where people stand and stones fly.
 constexpr float kClearing_m = 13;
 constexpr float kLeastClearing_m = 20;
-/// Farther off, nobody sees a tree.
+/// In a larger clearing, trees would be too far away to be seen.
 constexpr float kMostClearing_m = 120;
-/// What is touched has the sharpest shadows, as far as it is no larger than this.
+/// The touchable things have the sharpest shadows, within this distance of their middle.
 constexpr float kSharpReach_m = 2.5F;
-/// What is farther away than any place is large came loose from its world, or was never in it: it is not drawn, and its numbers go into
-/// no box.
+/// A thing farther away than any place is large has left its world, or was never in it: it is not drawn and does not
+/// count in any box.
 constexpr double kStray_m = 10'000;
 
 bool is_stray(const Vec3& p_W) {
-  return !(p_W.array().abs() <= kStray_m).all();  // what is not a number is one, too
+  return !(p_W.array().abs() <= kStray_m).all();  // true for NaN, too
 }
 
 bool is_stray(const client::HandPose& hand) {
@@ -52,7 +52,7 @@ picture::WaterInstance river_water(const Vec3f& flow_W) {
   return water;
 }
 
-/// The box, in W, around a box in B.
+/// The bounding box in W of a box in B.
 Eigen::AlignedBox3f moved(const Eigen::AlignedBox3f& box_B, const Pose& X_WB) {
   Eigen::AlignedBox3f box_W;
   if (box_B.isEmpty()) return box_W;
@@ -71,7 +71,7 @@ bool has_earth(const ObjectModel& model, const picture::SceneAssets& assets) {
   return std::ranges::any_of(model.parts, [&](const ModelPart& part) { return is_earth(part, assets); });
 }
 
-/// Stands before what is to be touched, at a grown person's height, and sees the land beyond over it.
+/// A camera in front of the touchable things, at an adult's height, that sees the land beyond them.
 picture::Camera look_over(const Eigen::AlignedBox3d& interest_W) {
   picture::Camera camera;
   camera.p_WC = Vec3(interest_W.center().x(), 1.6, interest_W.max().z() + 1.2);
@@ -82,7 +82,7 @@ picture::Camera look_over(const Eigen::AlignedBox3d& interest_W) {
   return camera;
 }
 
-/// As the scenario has it. What lies in the screen of a stereo picture is the middle of what can be touched.
+/// A camera at the scenario's view. The middle of the touchable things lies in the plane of a stereo screen.
 picture::Camera camera_at(const client::View& view, const Eigen::AlignedBox3d& interest_W) {
   picture::Camera camera;
   camera.p_WC = view.X_WV.p;
@@ -96,7 +96,7 @@ picture::Camera camera_at(const client::View& view, const Eigen::AlignedBox3d& i
   return camera;
 }
 
-/// What the view shows stays in sight above the caption: it sees as much more, all of it below.
+/// Widens the view downwards by the caption's height, so that all it showed is visible above the caption.
 picture::Camera above_caption(picture::Camera camera) {
   constexpr double kCaption = 0.12;  // of the picture's height
   const double half = std::tan(camera.field_of_view_rad / 2);
@@ -169,7 +169,7 @@ void SceneBuilder::set_presentation(std::shared_ptr<const client::WorldPresentat
   let_grow();
 }
 
-/// Rivers go on beyond what was modelled of them, both ways, over the plain.
+/// Continues rivers beyond their modelled pieces, in both directions over the plain.
 void SceneBuilder::let_flow() {
   for (Placed& placed : scenery_) {
     placed.flow_W =
@@ -177,9 +177,9 @@ void SceneBuilder::let_flow() {
     if (placed.flow_W.isZero() || !placed.reaches.empty() || is_stray(placed.object.X_WB.p)) continue;
     for (const ModelPart& part : placed.model->parts) {
       if (!part.water) continue;
-      for (const float way : {-1.0F, 1.0F}) {
+      for (const float sign : {-1.0F, 1.0F}) {
         RiverReach reach =
-            river_reach(library_.assets().meshes[part.mesh], affine(placed.object.X_WB), way * placed.flow_W);
+            river_reach(library_.assets().meshes[part.mesh], affine(placed.object.X_WB), sign * placed.flow_W);
         if (reach.mesh_W.indices.empty()) continue;
         picture::WaterInstance& water = placed.reaches.emplace_back(river_water(placed.flow_W));
         water.width_m = reach.width_m;
@@ -193,7 +193,8 @@ bool SceneBuilder::brings_landscape() const {
   return !box_W_.isEmpty() && box_W_.sizes().maxCoeff() >= kLandscape_m;
 }
 
-/// Trees about scenery that stands on earth: by scenery and the viewpoint alone, since bodies come one by one, and fly about.
+/// Grows trees around scenery that stands on earth. They depend on scenery and viewpoint only, since bodies arrive one
+/// by one and move.
 void SceneBuilder::let_grow() {
   if (presentation_ == nullptr || !ground_height_m_) return;
   Eigen::AlignedBox3f scenery_W;
@@ -208,7 +209,7 @@ void SceneBuilder::let_grow() {
   }
   if (!earth) return;
   if (!presentation_->views.empty()) scenery_W.extend(Vec3f(camera_.p_WC.cast<float>()));
-  if (grown_about_W_.isApprox(scenery_W)) return;  // what the library has been given stays in it
+  if (grown_about_W_.isApprox(scenery_W)) return;  // meshes in the library are never removed, so do not add them twice
   grown_about_W_ = scenery_W;
   const Vec3f sizes = scenery_W.sizes();
   plan.middle_W = scenery_W.center();
@@ -251,7 +252,7 @@ void SceneBuilder::find_place() {
     }
   }
   if (interest_W_.isEmpty()) interest_W_ = box_W_.cast<double>();
-  // A hand's breadth of air around what moves.
+  // Some air above and in front of what moves.
   if (!interest_W_.isEmpty()) interest_W_.extend(interest_W_.max() + Vec3(0, 0.10, 0.15));
   shadow_box_W_ = box_W_;
   const Vec3f touched = interest_W_.isEmpty() ? Vec3f(Vec3f::Zero()) : Vec3f(interest_W_.center().cast<float>());
@@ -261,7 +262,7 @@ void SceneBuilder::find_place() {
   if (!box_W_.isEmpty()) ground_height_m_ = scenery_.empty() ? std::min(box_W_.min().y(), 0.0F) : -0.06F;
   camera_ = standpoint();
   if (!brings_landscape()) return;
-  ground_height_m_ = box_W_.min().y();  // under its rivers too
+  ground_height_m_ = box_W_.min().y();  // below its rivers, too
   const Vec3f reach = Vec3f::Constant(kShadowReach_m);
   shadow_box_W_ = box_W_.intersection({touched - reach, touched + reach});
 }
@@ -275,7 +276,7 @@ picture::Camera SceneBuilder::standpoint() const {
 
 Pose SceneBuilder::pose_of(const Placed& placed, const client::Frame* frame) const {
   if (frame == nullptr) return placed.object.X_WB;
-  // A frame's bodies are in the order of their numbers.
+  // A frame's bodies are sorted by object.
   const auto body = std::ranges::lower_bound(frame->bodies, placed.index.value_or(0), {}, &client::BodyPose::object);
   const bool moves = placed.index && body != frame->bodies.end() && body->object == *placed.index;
   return moves ? body->X_WB : placed.object.X_WB;
@@ -339,7 +340,7 @@ void SceneBuilder::add_what_moves(const client::Frame& frame, const client::Worl
     if (std::ranges::any_of(rope.points_W, [](const Vec3& p_W) { return is_stray(p_W); })) continue;
     picture::RenderRope& drawn = out.ropes.emplace_back();
     drawn.radius_m = static_cast<float>(rope.diameter_m / 2);
-    // From the end that is tied: the lay is counted from there, and stays where it is while a drum takes up the other end.
+    // From the tied end: the twist of the strands starts there, and does not move while a drum winds up the other end.
     for (auto p_W = rope.points_W.rbegin(); p_W != rope.points_W.rend(); ++p_W)
       drawn.points_W.push_back(p_W->cast<float>());
   }
@@ -382,7 +383,7 @@ void SceneBuilder::add_object(const Placed& placed, const Pose& X_WB, const clie
       water.X_WM = X;
       out.waters.push_back(water);
     } else {
-      // Land lies in the light; its rim would throw a shadow on itself, and the plain goes on where it ends.
+      // Land casts no shadow: its rim would shade the land itself, although the plain continues there.
       const bool land = library_.assets().materials[part.material].land;
       out.instances.push_back({part.mesh, part.material, X, !land, placed.index});
     }

@@ -1,5 +1,5 @@
-// From what the client library receives to what the renderer draws. Nothing moves here by itself: poses, levels, flow and time come
-// from the frame.
+// From what the client library receives to what the renderer draws. Poses, levels, flow and time all come from the
+// frame.
 #pragma once
 
 #include <future>
@@ -22,28 +22,28 @@ namespace mechane::scene {
 
 class SceneBuilder {
  public:
-  /// With a worker, which outlives this, trees grow on it.
+  /// Trees are made on the worker, which must outlive this; without one, on the calling thread.
   SceneBuilder(AssetLibrary& library, const std::string& language, Worker* worker = nullptr);
 
-  /// Takes the manifest, and what is new in it from the library.
+  /// Takes the manifest, and its models from the library.
   void set_manifest(const std::vector<client::SceneObject>& objects);
-  /// Takes what never changes of the world: from where one looks, what is seen beside the bodies. Null: nothing is known of it.
+  /// Takes the presentation: views and effects. Null: not known.
   void set_presentation(std::shared_ptr<const client::WorldPresentation> presentation);
-  /// Trees grow on the worker.
+  /// Whether trees are being made on the worker.
   [[nodiscard]] bool growing() const { return coming_.valid(); }
-  /// Gives the library the trees that have grown meanwhile.
+  /// Adds finished trees to the library.
   void take_grown();
-  /// Of all words, from the next scene on.
+  /// Language of all words, from the next scene on.
   void set_language(const std::string& language);
-  /// Whether hands have an arrow of the force that they feel, from the next scene on.
+  /// Whether hands have an arrow of their force, from the next scene on.
   void show_forces(bool shown) { forces_shown_ = shown; }
-  /// The scene of a frame. `frame` may be null (nothing has come yet): then objects stand where the manifest has them.
+  /// The scene of a frame. `frame` is null before the first one: then objects stand where the manifest has them.
   [[nodiscard]] picture::RenderScene build(const client::Frame* frame, const client::WorldStatus* status,
                                            client::LinkState link);
-  /// Name of an object that the last scene left out because it lies kilometres away; empty: there was none.
+  /// Name of an object that the last scene left out because it is kilometres away; empty: none.
   [[nodiscard]] const std::string& stray() const { return stray_; }
-  /// A body of the last scene's frame that the manifest does not name: it is not drawn. While a manifest comes, or a world begins anew in
-  /// mid-frame, there may be some for a moment.
+  /// A body of the last scene's frame that the manifest does not contain: it is not drawn. This is normal for a moment,
+  /// while a manifest arrives or a world restarts.
   [[nodiscard]] std::optional<std::uint32_t> unknown() const { return unknown_; }
 
  private:
@@ -52,14 +52,14 @@ class SceneBuilder {
     const ObjectModel* model = nullptr;
     std::optional<std::uint32_t> index{};           ///< of the manifest; scenery has none
     Vec3f flow_W = Vec3f::Zero();                   ///< of its water, m/s
-    std::vector<picture::WaterInstance> reaches{};  ///< of a river, beyond what was modelled
+    std::vector<picture::WaterInstance> reaches{};  ///< a river's continuations beyond its modelled piece
   };
   void add_scenery(const std::vector<client::SceneObject>& objects);
   void find_place();
   void let_flow();
   void let_grow();
   [[nodiscard]] bool brings_landscape() const;
-  /// Where a display stands: as the scenario says, or before what can be touched.
+  /// The usual camera: the scenario's first view, or one in front of the touchable things.
   [[nodiscard]] picture::Camera standpoint() const;
   [[nodiscard]] std::optional<picture::Inset> detail(const client::WorldStatus& status) const;
   [[nodiscard]] std::optional<std::uint32_t> first_unknown(const client::Frame& frame) const;
@@ -74,15 +74,15 @@ class SceneBuilder {
   bool forces_shown_ = false;
   visit::OverlayWriter writer_;
   std::string language_;
-  std::set<std::uint32_t> named_;  ///< by the manifest
+  std::set<std::uint32_t> named_;  ///< objects of the manifest
   std::string stray_;
   std::optional<std::uint32_t> unknown_;
   std::vector<Placed> objects_;  ///< of the manifest
-  std::vector<Placed> scenery_;  ///< parts of the same files that no object names: SCENE, WATER_...
+  std::vector<Placed> scenery_;  ///< nodes of the same files that belong to no object: SCENE, WATER_...
   Worker* worker_;
   std::vector<picture::Instance> landscape_;
-  std::future<PlantMeshes> coming_;    ///< of the next landscape; not valid: there is none
-  Eigen::AlignedBox3f grown_about_W_;  ///< empty: not yet
+  std::future<PlantMeshes> coming_;    ///< of the next landscape; not valid: none
+  Eigen::AlignedBox3f grown_about_W_;  ///< the scenery around which trees grow; empty: no trees yet
   picture::Camera camera_;
   Eigen::AlignedBox3f box_W_;
   Eigen::AlignedBox3f shadow_box_W_;
@@ -90,8 +90,8 @@ class SceneBuilder {
   std::optional<float> ground_height_m_;
   std::optional<std::uint32_t> land_material_;
   std::shared_ptr<const client::WorldPresentation> presentation_;
-  Eigen::AlignedBox3d interest_W_;       ///< what moves or fills, and a hand's breadth of air
-  std::optional<float> water_height_m_;  ///< y in W where the risen surface was modelled
+  Eigen::AlignedBox3d interest_W_;       ///< contains what moves or fills, and some air
+  std::optional<float> water_height_m_;  ///< y in W at which the rising water surface was modelled
 };
 
 }  // namespace mechane::scene

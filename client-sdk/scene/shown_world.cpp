@@ -11,7 +11,7 @@ std::string key_of(const client::WorldStatus& status) {
   return status.world + " " + status.scenario + " " + status.scenario_hash;
 }
 
-/// So long a model from a server is waited for: from a server that does not answer, the first picture only waits.
+/// How long to wait for models from a web server before the scene counts as complete without them.
 constexpr std::chrono::seconds kAssetPatience{15};
 
 }  // namespace
@@ -43,10 +43,10 @@ ShownWorld::News ShownWorld::hear(const client::Client& client) {
   const std::size_t before = news.another_world ? 0 : library_->size();
   if (auto presentation = client.presentation(); presentation != presentation_) {
     presentation_ = std::move(presentation);
-    builder_->set_presentation(presentation_);  // it may let rivers go on, and trees grow
+    builder_->set_presentation(presentation_);  // may add rivers and trees
   }
   take_manifest(client.objects());
-  // Asked before what came is taken, lest something comes in between.
+  // Checked before arrived files are taken, as more may arrive in between.
   const bool here = !source_.store || (!objects_.empty() && !source_.store->is_awaited(kAssetPatience));
   take_arrived();
   place();
@@ -56,7 +56,7 @@ ShownWorld::News ShownWorld::hear(const client::Client& client) {
   return news;
 }
 
-/// It only grows, object by object as they arrive.
+/// The manifest only grows, object by object as they arrive.
 void ShownWorld::take_manifest(std::vector<client::SceneObject> objects) {
   if (objects.size() == objects_.size()) return;
   objects_ = std::move(objects);
@@ -65,7 +65,7 @@ void ShownWorld::take_manifest(std::vector<client::SceneObject> objects) {
   unplaced_ = true;
 }
 
-/// Files that came from the server of assets.
+/// Imports the files that have arrived from the web server.
 void ShownWorld::take_arrived() {
   if (!source_.store || objects_.empty()) return;
   for (const std::string& uri : source_.store->take_arrived()) {
@@ -74,7 +74,7 @@ void ShownWorld::take_arrived() {
   }
 }
 
-/// Objects come into the scene once no file is being read, and files that came from the server of assets take their placeholders' place.
+/// Once no file is being read, adds objects to the scene and replaces placeholders by files that have arrived.
 void ShownWorld::place() {
   if (importer_->busy()) return;
   bool any = std::exchange(unplaced_, false);

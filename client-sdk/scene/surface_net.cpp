@@ -38,7 +38,7 @@ DistanceGrid sampled(const std::function<float(const Vec3f&)>& distance, const E
   return grid;
 }
 
-/// Middle of where the surface crosses the cell's edges; none where it does not.
+/// Mean of the points where the surface crosses the cell's edges; none if it does not.
 std::optional<Vec3f> crossing(const DistanceGrid& grid, const Cell& c) {
   Vec3f sum = Vec3f::Zero();
   int crossings = 0;
@@ -71,7 +71,7 @@ Vec3f gradient(const std::function<float(const Vec3f&)>& distance, const Vec3f& 
   return g.norm() > 0 ? Vec3f(g.normalized()) : Vec3f(Vec3f::UnitY());
 }
 
-/// A quad about each edge of the grid that the surface crosses, between the four cells that share it.
+/// Adds a quad for each grid edge that the surface crosses, between the four cells around it.
 void add_quads(const DistanceGrid& grid, const std::vector<std::uint32_t>& vertex_of, picture::MeshData& mesh) {
   const std::array<std::size_t, 3> step{1, grid.count[0], grid.count[0] * grid.count[1]};
   for (std::size_t z = 1; z + 1 < grid.count[2]; ++z) {

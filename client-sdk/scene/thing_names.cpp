@@ -8,9 +8,9 @@
 namespace mechane::scene {
 namespace {
 
-/// From a finger's end to a thing's box. A visitor reads the name on the way there.
+/// Distance from a fingertip to a thing's box at which the name appears, so that it is read before the touch.
 constexpr float kHandsBreadth_m = 0.10F;
-/// So far from where one points, in shares of the picture's height, a name is still read with it.
+/// Distance at which a name still belongs visibly to the pointed place, as a share of the picture's height.
 constexpr float kReadTogether = 0.14F;
 
 Vec3 index_tip(const client::HandPose& hand) {
@@ -22,12 +22,12 @@ Vec3 index_tip(const client::HandPose& hand) {
 std::optional<picture::Touched> named_near(std::span<const picture::NamedThing> things,
                                            std::span<const client::HandPose> hands) {
   std::optional<picture::Touched> nearest;
-  // How far, and how large: of things in each other the inner one is meant.
+  // By distance, then by size: of nested things the inner one is meant.
   std::pair<float, float> least{kHandsBreadth_m, 0};
   for (const client::HandPose& hand : hands) {
     if (hand.stale || hand.holding) continue;
     const Vec3f p_WT = index_tip(hand).cast<float>();
-    if (!p_WT.allFinite()) continue;  // to Eigen it is in every box
+    if (!p_WT.allFinite()) continue;  // Eigen would find NaN in every box
     for (const picture::NamedThing& thing : things) {
       const std::pair here{thing.box_B.exteriorDistance(Vec3f(thing.X_WB.inverse() * p_WT)), thing.box_B.volume()};
       if (!(here < least)) continue;

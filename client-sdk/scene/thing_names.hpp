@@ -1,4 +1,4 @@
-// What things are called, for who points at them. Pure.
+// The names of things that visitors point at. Pure.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace mechane::scene {
 
-/// What a fingertip is about to touch: the nearest of all things within a hand's breadth. A hand that holds something, or whose device is
-/// silent, asks for no name.
+/// What a fingertip is about to touch: the nearest thing within a hand's breadth. None for a hand that holds something
+/// or whose device is silent.
 [[nodiscard]] std::optional<picture::Touched> named_near(std::span<const picture::NamedThing> things,
                                                          std::span<const client::HandPose> hands);
 
-/// The name of what is meant, where it is seen; of a large thing, about the place that is pointed at. None where it has no name, or what is
-/// meant is not before the eye.
+/// The name of the touched thing and its place in the picture; for a large thing, near the touched point. None if it
+/// has no name or is behind the eye.
 [[nodiscard]] std::optional<picture::OverlayLabel> label_of(std::span<const picture::NamedThing> things,
                                                             const picture::Touched& meant, const picture::Sight& sight);
 

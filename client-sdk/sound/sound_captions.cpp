@@ -5,9 +5,9 @@
 namespace mechane::sound {
 namespace {
 
-constexpr double kWorthAWord = 0.25;  ///< of the full gain; what a hand takes and lets go of is under it
+constexpr double kWorthAWord = 0.25;  ///< least gain; the sounds of taking and releasing things stay below it
 constexpr Duration kShown = std::chrono::seconds(3);
-/// A crank that is let go of and taken again has not begun anew.
+/// A pause shorter than this is not a new beginning: a crank may be released and taken again.
 constexpr Duration kForgotten = std::chrono::seconds(20);
 
 struct Words {

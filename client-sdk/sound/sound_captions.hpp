@@ -1,4 +1,5 @@
-// What sounds, in writing, for who does not hear it: "[wood creaking]", for some seconds from when it begins.
+// Written captions for sounds, for visitors who do not hear them: "[wood creaking]", for some seconds from its
+// beginning.
 #pragma once
 
 #include <array>
@@ -13,9 +14,9 @@ namespace mechane::sound {
 
 class SoundCaptions {
  public:
-  /// Once a picture: what sounds in it.
+  /// Takes the sounds of a picture; call it once a picture.
   void hear(std::span<const SoundSource> sources, TimePoint now);
-  /// The sounds that began of late; empty: none. English where the language is unknown.
+  /// The captions of sounds that began recently; empty: none. English where the language is unknown.
   [[nodiscard]] std::string at(TimePoint now, const std::string& language) const;
 
  private:

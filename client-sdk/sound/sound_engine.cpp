@@ -23,7 +23,7 @@ constexpr std::size_t kVoices = 24;
 constexpr double kGlide_s = 0.08;  ///< a gain's time constant
 constexpr double kDuck_s = 0.15;
 constexpr float kSilent = 1e-3F;
-constexpr float kFarthest_m = 40;  ///< from there on nothing grows quieter
+constexpr float kFarthest_m = 40;  ///< beyond it, sounds do not become quieter
 constexpr double kVoiceGain = 0.9;
 
 struct DeviceClose {
@@ -55,8 +55,8 @@ struct Voice {
   std::string id;  ///< empty: free
   bool looped = false;
   double gain = 0;    ///< as heard
-  double target = 0;  ///< where it goes
-  double heard = 0;   ///< at the listener, of the last scene that had it
+  double target = 0;  ///< the gain that it moves towards
+  double heard = 0;   ///< its loudness at the listener, in the last scene that had it
 };
 
 void release(Voice& voice) {
@@ -73,7 +73,7 @@ double near_of(const SoundSource& source) {
   return std::clamp(source.near_m, 0.1, double{kFarthest_m});
 }
 
-/// As OpenAL's inverse distance, clamped, will have it.
+/// The same formula as OpenAL's AL_INVERSE_DISTANCE_CLAMPED.
 double heard(const SoundSource& source, const Vec3& p_W) {
   const double distance = std::clamp((source.p_W - p_W).norm(), near_of(source), double{kFarthest_m});
   return source.gain * near_of(source) / distance;
@@ -91,10 +91,10 @@ struct SoundEngine::Impl {
   std::unique_ptr<ALCcontext, ContextClose> context;
   std::array<ALuint, kSoundKinds.size()> clips{};
   std::array<Voice, kVoices> voices;
-  std::set<std::string> begun;  ///< ids of one-shots that the last scene had: each begins once
+  std::set<std::string> begun;  ///< ids of the last scene's one-shot sounds: each begins once
   ALuint speech = 0;            ///< source
   ALuint speech_buffer = 0;
-  std::string narration;  ///< id of the last scene's; it may have ended
+  std::string narration;  ///< id of the last scene's narration; it may have ended
   double duck = 1;
   std::set<std::string> bad_files;
 
@@ -112,14 +112,15 @@ struct SoundEngine::Impl {
 };
 
 Expected<void> SoundEngine::Impl::open_device() {
-  const char* remedy = "plug in a loudspeaker and look at the system's sound settings; captions are shown all the same";
+  const char* remedy =
+      "connect a loudspeaker and check the system's sound settings; captions are shown without sound too";
   if (output == SoundOutput::samples) {
     device.reset(alcLoopbackOpenDeviceSOFT(nullptr));
   } else {
     quieten_alsa();
     device.reset(alcOpenDevice(nullptr));
   }
-  if (!device) return fail("there is no device for sound", "sound", remedy);
+  if (!device) return fail(ErrorCode::not_found, "there is no sound device", "sound", remedy);
   std::vector<ALCint> requests{ALC_FREQUENCY, kSoundRate_hz};
   // Many sounds at once must not clip.
   requests.insert(requests.end(), {ALC_OUTPUT_LIMITER_SOFT, ALC_TRUE});
@@ -130,13 +131,13 @@ Expected<void> SoundEngine::Impl::open_device() {
   requests.push_back(0);
   context.reset(alcCreateContext(device.get(), requests.data()));
   if (!context || alcSetThreadContext(context.get()) == ALC_FALSE)
-    return fail("the device for sound refuses", "sound", remedy);
+    return fail(ErrorCode::io_failure, "the sound device cannot be used", "sound", remedy);
   return {};
 }
 
 void SoundEngine::Impl::make_voices() {
   alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
-  alDopplerFactor(0);  // gains and pitches come from the scene alone
+  alDopplerFactor(0);  // the scene alone sets gains and pitches
   for (const SoundKind kind : kSoundKinds)
     clips[static_cast<std::size_t>(kind)] = make_clip_buffer(synthesise(kind));
   for (Voice& voice : voices) {
@@ -184,7 +185,7 @@ void SoundEngine::Impl::begin_speech(const std::string& file) {
 }
 
 void SoundEngine::Impl::set_narration(const std::optional<Narration>& wanted) {
-  // One whose file is not here yet may come later under the same id.
+  // A narration whose file is not here yet may arrive later under the same id.
   const bool ready = wanted && !wanted->file.empty();
   const std::string id = ready ? wanted->id : std::string();
   if (id == narration) return;
@@ -198,7 +199,7 @@ Voice* SoundEngine::Impl::voice_of(const std::string& id) {
   return at == voices.end() ? nullptr : &*at;
 }
 
-/// A free one, or else that which is least heard, where the new one is louder.
+/// A free voice, or else the quietest one if the new sound is louder.
 Voice* SoundEngine::Impl::take_voice(double heard_gain) {
   const auto quietest =
       std::ranges::min_element(voices, {}, [](const Voice& voice) { return voice.id.empty() ? -1.0 : voice.heard; });
@@ -210,7 +211,7 @@ Voice* SoundEngine::Impl::take_voice(double heard_gain) {
 void SoundEngine::Impl::begin(Voice& voice, const SoundSource& source) {
   voice.id = source.id;
   voice.looped = source.looped;
-  // What plays once is at its level from its first sample.
+  // A one-shot sound has its full level from the first sample.
   voice.gain = source.looped ? 0 : source.gain;
   alSourcei(voice.source, AL_BUFFER, static_cast<ALint>(clips[static_cast<std::size_t>(source.kind)]));
   alSourcei(voice.source, AL_LOOPING, source.looped ? AL_TRUE : AL_FALSE);
@@ -285,7 +286,8 @@ Expected<std::unique_ptr<SoundEngine>> SoundEngine::open(SoundOutput output) {
   if (auto ok = impl->open_device(); !ok) return tl::unexpected(ok.error());
   impl->make_voices();
   if (alGetError() != AL_NO_ERROR)
-    return fail("the device for sound has no room for our sounds", "sound", "end other programs that sound");
+    return fail(ErrorCode::busy, "the sound device has no room for this program's sounds", "sound",
+                "close other programs that play sound");
   return std::unique_ptr<SoundEngine>(new SoundEngine(std::move(impl)));
 }
 

@@ -1,4 +1,5 @@
-// Plays a SoundScene with OpenAL Soft: one device, a fixed set of voices. On one thread; sound_player.hpp has the thread.
+// Plays a SoundScene with OpenAL Soft: one device, a fixed set of voices. On one thread; sound_player.hpp has the
+// thread.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@
 namespace mechane::sound {
 
 enum class SoundOutput : std::uint8_t {
-  device,   ///< the system's, or what OpenAL Soft's own settings say
+  device,   ///< the system's default, or the one in OpenAL Soft's own settings
   samples,  ///< none: render() gives stereo samples, for tests and recordings
 };
 
@@ -23,33 +24,34 @@ struct SoundLevels {
   bool muted = false;
 };
 
-/// While a voice speaks, everything else is that much quieter: 9 dB.
+/// Everything else is quieter by this factor (9 dB) while a voice speaks.
 inline constexpr double kDuckedGain = 0.355;
 
 /// Made, used and destroyed on one thread.
 class SoundEngine {
  public:
-  /// Opens the output and makes the sounds; may block for seconds where a sound server does not answer. Errors: no device.
+  /// Opens the output and creates the sounds; may block for seconds if a sound server does not answer. Errors: no
+  /// device.
   [[nodiscard]] static Expected<std::unique_ptr<SoundEngine>> open(SoundOutput output);
   ~SoundEngine();
   SoundEngine(const SoundEngine&) = delete;
   SoundEngine& operator=(const SoundEngine&) = delete;
 
-  /// Brings what is heard to the scene, `step_s` after the last call: gains move within a tenth of a second, what is gone fades away.
-  /// Of more sources than there are voices the loudest sound. A new narration is read from disk here; one that cannot be read is logged
-  /// once and stays silent.
+  /// Plays the scene, `step_s` after the last call: gains change within a tenth of a second, and missing sources fade
+  /// out. If there are more sources than voices, the loudest are heard. A new narration is read from disk here; one
+  /// that cannot be read is logged once and stays silent.
   void apply(const SoundScene& scene, const SoundLevels& levels, double step_s);
 
-  /// The device was unplugged or its server ended: nothing is heard any more.
+  /// Whether the device was unplugged or its server ended, so that nothing is heard any more.
   [[nodiscard]] bool lost() const;
   [[nodiscard]] std::string device() const;
-  /// Sources that are heard; without the narration.
+  /// The number of sources that are heard, without the narration.
   [[nodiscard]] std::size_t voices_playing() const;
-  /// The narration that is speaking; empty: none.
+  /// The id of the narration that is speaking; empty: none.
   [[nodiscard]] std::string speaking() const;
   [[nodiscard]] const std::set<std::string>& bad_files() const;
 
-  /// The next samples, left and right by turns, within -1 .. 1. SoundOutput::samples only.
+  /// The next samples, left and right alternating, within -1 .. 1. SoundOutput::samples only.
   [[nodiscard]] std::vector<float> render(std::size_t frames);
 
  private:

@@ -1,4 +1,4 @@
-// Reading a sound file that nobody vouches for.
+// Reads a sound file, which is not trusted.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct SoundRecording {
   int rate_hz = 44'100;
 };
 
-/// Reads .wav, .ogg, .flac and what else libsndfile knows, whole. Blocks on the disk. Errors: no such file, no sound, more than two
-/// channels, longer than ten minutes.
+/// Reads a whole file: .wav, .ogg, .flac and all other formats of libsndfile. Blocks on the disk. Errors: no such file,
+/// not a sound, more than two channels, longer than ten minutes.
 [[nodiscard]] Expected<SoundRecording> read_sound(const std::string& file);
 
 }  // namespace mechane::sound

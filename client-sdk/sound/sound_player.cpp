@@ -9,7 +9,7 @@
 namespace mechane::sound {
 namespace {
 
-/// Gains move while no new scene comes, and a lost device is noticed.
+/// How often gains are updated and the device is checked while no new scene arrives.
 constexpr std::chrono::milliseconds kSoundStep{50};
 
 }  // namespace
@@ -22,7 +22,7 @@ SoundPlayer::~SoundPlayer() = default;
 void SoundPlayer::play(SoundScene scene) {
   const std::lock_guard lock(mutex_);
   if (wanted_) {
-    // A knock of a scene that was never taken is heard with the next one.
+    // A one-shot sound of a scene that was never played is added to the next scene.
     const auto kept = [](const SoundSource& source) { return !source.looped; };
     std::ranges::copy_if(wanted_->sources, std::back_inserter(scene.sources), kept);
   }
@@ -65,7 +65,7 @@ void SoundPlayer::tend_device(Clock::time_point now) {
   if (engine_ != nullptr && engine_->lost()) {
     engine_.reset();
     pause_ = options_.first_retry;
-    tell({"the device for sound was lost", "sound", "plug it in again; it is looked for"}, now);
+    tell({ErrorCode::not_found, "the sound device was lost", "sound", "connect it again: it is found by itself"}, now);
   }
   if (engine_ != nullptr || now < next_try_) return;
   auto opened = SoundEngine::open(SoundOutput::device);
@@ -101,7 +101,7 @@ void SoundPlayer::play_newest(Clock::time_point now, Clock::duration step) {
   SoundLevels levels;
   {
     const std::lock_guard lock(mutex_);
-    // A narration that began goes on to its end; effects are of the moment.
+    // A narration that has begun is played to its end; effects belong to the moment.
     if (wanted_) playing_ = *std::exchange(wanted_, std::nullopt);
     if (now - wanted_at_ > options_.forget) playing_.sources.clear();
     levels = levels_;

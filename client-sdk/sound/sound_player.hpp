@@ -1,4 +1,5 @@
-// Sound beside the drawing: a thread of its own opens the device, reads files and plays what the display says once a frame.
+// Plays sound on a thread of its own, which opens the device, reads files and plays the scene that the display sets
+// once a frame.
 #pragma once
 
 #include <chrono>
@@ -16,25 +17,25 @@ namespace mechane::sound {
 
 struct SoundPlayerOptions {
   SoundLevels levels;
-  std::chrono::milliseconds first_retry{
-      5'000};  ///< of a device that is not there or was lost; each waits twice as long
+  /// For a missing or lost device; each pause is twice as long as the one before.
+  std::chrono::milliseconds first_retry{5'000};
   std::chrono::milliseconds longest_retry{600'000};
-  std::chrono::milliseconds forget{
-      2'000};  ///< no new scene for so long: the effects fade, for the display stands still
+  /// After this time without a new scene the effects fade out: the display has stopped.
+  std::chrono::milliseconds forget{2'000};
 };
 
-/// For a status that others see.
+/// For the display's status.
 struct SoundState {
   bool sounding = false;  ///< a device is open
   std::string device;
-  std::string problem;              ///< why not; empty while it sounds, or before it was tried
-  std::set<std::string> bad_files;  ///< narrations that could not be read
+  std::string problem;              ///< why nothing is heard; empty while it is, or before the first try
+  std::set<std::string> bad_files;  ///< narration files that could not be read
   std::size_t voices = 0;
   std::string speaking;  ///< id of the narration that is heard
 };
 
-/// Owns a thread. Where there is no device, a lost one or a bad file, it goes on without, says so once in the log, and tries again. The
-/// functions may be called from any thread, and wait for nothing but a short lock.
+/// Owns a thread. Without a device, after losing it, or with a bad file, it continues without sound, logs this once,
+/// and tries again. The functions may be called from any thread, and wait only for a short lock.
 class SoundPlayer {
  public:
   explicit SoundPlayer(SoundPlayerOptions options);
@@ -42,7 +43,7 @@ class SoundPlayer {
   SoundPlayer(const SoundPlayer&) = delete;
   SoundPlayer& operator=(const SoundPlayer&) = delete;
 
-  /// What is heard from now on; once a frame.
+  /// Sets what is heard from now on; call it once a frame.
   void play(SoundScene scene);
   void set_levels(const SoundLevels& levels);
   [[nodiscard]] SoundLevels levels() const;
@@ -56,7 +57,7 @@ class SoundPlayer {
   void play_newest(Clock::time_point now, Clock::duration step);
 
   SoundPlayerOptions options_;
-  std::unique_ptr<SoundEngine> engine_;  ///< the thread's alone, as the next four
+  std::unique_ptr<SoundEngine> engine_;  ///< this and the next four are used by the thread only
   std::chrono::milliseconds pause_{0};
   Clock::time_point next_try_;
   std::string told_;

@@ -13,9 +13,9 @@ using client::Frame;
 using client::SceneObject;
 using client::WorldEvent;
 
-constexpr double kLeastGain = 0.01;  ///< under it nothing is heard
+constexpr double kLeastGain = 0.01;  ///< quieter sounds are left out
 constexpr double kNearest_m = 1.5;
-/// Between frames further apart than this nothing is said of speeds: the display was held up.
+/// No speeds are computed from frames farther apart than this: the display was held up.
 constexpr double kLongestStep_s = 0.5;
 
 /// How an effect sounds, and how its pitch follows its amount.
@@ -34,7 +34,7 @@ constexpr std::array<EffectSound, 7> kEffectSounds{{
     {"sound.ratchet", SoundKind::ratchet, 0.5, 2.0},
 }};
 
-/// What an event sounds like, wherever no effect says more.
+/// The sound of an event, unless an effect specifies it.
 struct EventSound {
   std::string_view kind;
   SoundKind sound;
@@ -64,7 +64,7 @@ Pose pose_of(const SceneObject& object, const Frame& frame) {
   return body != frame.bodies.end() ? body->X_WB : object.X_WB;
 }
 
-/// Where an effect is; none for that of an object that is not there or not shown.
+/// Where an effect is; none if its object does not exist or is not shown.
 std::optional<Vec3> place_of(const SoundEffect& effect, const SoundInput& in, const Frame& frame) {
   if (effect.object < 0) return effect.p_B;
   const auto index = static_cast<std::uint32_t>(effect.object);
@@ -74,7 +74,7 @@ std::optional<Vec3> place_of(const SoundEffect& effect, const SoundInput& in, co
   return pose_of(*object, frame) * effect.p_B;
 }
 
-/// How fast the effect's point moves, or the rim of what sounds turns, m/s.
+/// The speed of the effect's point, or of the rim of a turning thing, m/s.
 double speed_of(const SoundEffect& effect, const SoundInput& in) {
   if (in.before == nullptr || effect.object < 0 || in.now->tick <= in.before->tick) return 0;
   const double step_s = static_cast<double>(in.now->tick - in.before->tick) * kTickSeconds;
@@ -88,7 +88,7 @@ double speed_of(const SoundEffect& effect, const SoundInput& in) {
   return std::max(moved_m, turned_rad * effect.size_m) / step_s;
 }
 
-/// 0..1 of the effect's full amount.
+/// The effect's amount as a share (0..1) of its full amount.
 double share_of(const SoundEffect& effect, const SoundInput& in) {
   const bool named = effect.quantity >= 0;
   const auto index = static_cast<std::size_t>(effect.quantity);
@@ -111,7 +111,8 @@ void add_effects(const SoundInput& in, std::vector<SoundSource>& out) {
   }
 }
 
-/// An event's object; where it names none that is in the picture, where water sounds (of a spill), or what moves.
+/// The place of an event: its object, or, if that is not in the picture, where water sounds (for a spill) or something
+/// moves.
 std::optional<Vec3> place_of(const WorldEvent& event, const SoundInput& in) {
   if (const SceneObject* object = object_named(in, event.object)) return pose_of(*object, *in.now).p;
   for (const SoundEffect& effect : in.effects) {
@@ -122,7 +123,7 @@ std::optional<Vec3> place_of(const WorldEvent& event, const SoundInput& in) {
   return pose_of(*moving, *in.now).p;
 }
 
-/// An effect sound.bow says where the string is; without one, the shot is heard where its object is.
+/// The place of a bowstring is that of the effect sound.bow; without one, that of the shot's object.
 std::optional<Vec3> bow_place(const WorldEvent& event, const SoundInput& in) {
   for (const SoundEffect& effect : in.effects) {
     if (effect.kind != "sound.bow") continue;

@@ -11,7 +11,7 @@
 namespace mechane::sound {
 namespace {
 
-/// Noise between two frequencies, that flutters. With a decay it is a burst.
+/// Fluttering noise between two frequencies. With a decay it is a burst.
 struct NoiseLayer {
   float level = 0;
   float low_hz = 0, high_hz = 0;
@@ -19,8 +19,9 @@ struct NoiseLayer {
   float decay_s = 0;                  ///< 0: steady
 };
 
-/// Many small ringing drops: a bubble's tone rises as it nears the surface (van den Doel 2005, Physically based models for liquid
-/// sounds, eq. 8: f(t) = f0 (1 + xi d t); here `rise` is xi d over one decay). Without a rise, they crackle.
+/// Many small ringing drops. A bubble's tone rises as it nears the surface (van den Doel 2005, Physically based models
+/// for liquid sounds, eq. 8: f(t) = f0 (1 + xi d t); here `rise` is xi d over one decay). Without a rise, it is a
+/// crackle.
 struct DropLayer {
   float level = 0;
   float per_s = 0;
@@ -30,7 +31,7 @@ struct DropLayer {
   float fade_s = 0;  ///< of the layer; 0: steady
 };
 
-/// A body that is struck: its modes, each with a decay. Struck again and again it creaks or ticks.
+/// A struck body: its modes, each with a decay. With many strikes it creaks or ticks.
 struct BodyLayer {
   float level = 0;
   float strikes_per_s = 0;  ///< 0: once, at the beginning
@@ -129,11 +130,11 @@ constexpr std::array<SoundRecipe, kSoundKinds.size()> kRecipes{{
      {1.0F, 8, 0.06F, {520, 1240, 2300, 3700}, {0.014F, 0.009F, 0.006F, 0.004F}}},
 }};
 
-constexpr float kSeam_s = 0.12F;      ///< a loop's end and beginning overlap so long
+constexpr float kSeam_s = 0.12F;      ///< overlap of a loop's end and beginning
 constexpr float kLoopLevel = 0.11F;   ///< root mean square
 constexpr float kLoudest = 0.75F;     ///< of any sample
-constexpr float kAttack_s = 0.0006F;  ///< of a strike, lest it click
-constexpr float kLowest_hz = 35;      ///< what no loudspeaker of a museum plays, and any offset
+constexpr float kAttack_s = 0.0006F;  ///< of a strike, to avoid a click
+constexpr float kLowest_hz = 35;      ///< a high-pass removes what no loudspeaker of a museum plays, and any offset
 constexpr float kTailShare = 0.15F;   ///< of a sound that plays once: it fades to nothing
 
 /// Second order, Butterworth: Bristow-Johnson's cookbook, Q = 1/sqrt 2.
@@ -188,7 +189,7 @@ void add_noise(const NoiseLayer& layer, ShortRandom& random, std::vector<float>&
     float level = layer.level * (1 - layer.flutter * smooth);
     if (layer.decay_s > 0)
       level *= std::exp(-static_cast<float>(i) / (layer.decay_s * static_cast<float>(kSoundRate_hz)));
-    // Three times: a narrow band of white noise is that much quieter than a ringing body.
+    // Times three: a narrow band of white noise is quieter than a ringing body by about this factor.
     out[i] += 3 * level * high(low(random.between(-1, 1)));
   }
 }
@@ -211,7 +212,7 @@ void add_drops(const DropLayer& layer, ShortRandom& random, std::vector<float>& 
   if (layer.level <= 0) return;
   float t = 0;
   while (samples_in(t) < out.size()) {
-    // Small ones are many and high; the square keeps the loud ones rare.
+    // Small drops are many and high; the square makes loud ones rare.
     const float size = random.unit();
     const float hz = layer.high_hz * std::pow(layer.low_hz / layer.high_hz, size);
     const float decay_s = layer.short_s + (layer.long_s - layer.short_s) * size;
@@ -239,7 +240,8 @@ void add_body(const BodyLayer& layer, ShortRandom& random, std::vector<float>& o
   }
 }
 
-/// `extra` samples beyond the loop are laid over its beginning, at equal power: there the sound goes on where its end left it.
+/// Cross-fades the `extra` samples beyond the loop into its beginning, at equal power, so that the end continues
+/// seamlessly.
 void close_loop(std::vector<float>& samples, std::size_t extra) {
   const std::size_t length = samples.size() - extra;
   for (std::size_t i = 0; i < extra; ++i) {

@@ -1,4 +1,4 @@
-// The sounds of the exhibits, made from noise and resonances by a table of numbers: no recordings, the same bits at each start.
+// The exhibits' sounds, synthesised from noise and resonances by a table of numbers, with the same bits at each start.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ inline constexpr std::array kSoundKinds{SoundKind::water, SoundKind::splash, Sou
 /// One channel at kSoundRate_hz, within -1 .. 1.
 struct SoundClip {
   std::vector<float> samples;
-  bool loops = false;  ///< its end goes over into its beginning
+  bool loops = false;  ///< its end continues seamlessly at its beginning
 };
 
 /// Takes some milliseconds. Any thread; the same samples each time.

@@ -9,10 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "server/base/math.hpp"
+
 namespace mechane::visit {
 namespace {
 
-/// A unit that visitors read: how it is called, what it measures, where its gauge first ends.
+/// A unit that is shown to visitors: its name, what it measures, the first end of its gauge.
 struct ReadableUnit {
   std::string_view unit;
   std::string_view label_en, label_el;
@@ -35,18 +37,9 @@ std::optional<ReadableUnit> readable(const std::string& unit) {
   return found == kUnits.end() ? std::nullopt : std::optional(*found);
 }
 
-/// The next of 1, 2, 5, 10, 20 ... that is not below `value`.
-double round_up(double value) {
-  const double decade = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-6))));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (value <= step * decade * (1 + 1e-9)) return step * decade;
-  }
-  return 10 * decade;
-}
-
 std::string number(double value, int decimals, bool greek) {
-  if (std::abs(value) >= 100) decimals = 0;  // nobody reads tenths there, and they do not fit into the gauge
-  // No minus before a zero that is only a rounding.
+  if (std::abs(value) >= 100) decimals = 0;  // tenths do not matter there, and do not fit into the gauge
+  // No minus before a rounded zero.
   if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0;
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (greek) std::ranges::replace(text, '.', ',');
@@ -90,14 +83,14 @@ picture::OverlayContent OverlayWriter::write(const client::WorldStatus& status, 
   std::set<std::string> shown;
   for (std::size_t i = 0; i < std::min(status.quantities.size(), frame->quantities.size()); ++i) {
     const client::QuantityInfo& info = status.quantities[i];
-    // Which way a crank turns is seen; a minus before a speed only puzzles.
+    // Visitors see which way a crank turns; a minus before its speed would only confuse.
     const double value = info.unit == "rpm" ? std::abs(frame->quantities[i]) : frame->quantities[i];
     const std::optional<ReadableUnit> unit = readable(info.unit);
-    // One readout a unit, the first of its kind: three numbers are a panel, six are an instrument.
+    // At most one readout per unit, so that the panel stays simple.
     if (!unit || !std::isfinite(value) || !shown.insert(info.unit).second) continue;
     double& end = gauge_end_.try_emplace(info.name, unit->first_end).first->second;
     const double goal = info.goal ? std::abs(info.goal->value) : 0;
-    if (const double most = std::max(std::abs(value), goal); most > end) end = round_up(most);
+    if (const double most = std::max(std::abs(value), goal); most > end) end = round_up_to_scale(std::max(most, 1e-6));
     content.readouts.push_back(
         {std::string(greek ? unit->label_el : unit->label_en), number(value, unit->decimals, greek),
          std::string(greek ? unit->unit_el : unit->unit_en), std::abs(value) / end, number(end, end < 1 ? 1 : 0, greek),

@@ -1,4 +1,4 @@
-// What a visitor reads, in the visitor's language, from the world's status.
+// The texts that a visitor reads, in the visitor's language, from the world's status.
 #pragma once
 
 #include <map>
@@ -9,14 +9,14 @@
 
 namespace mechane::visit {
 
-/// The text in `language`; else English, else any; empty when there is none.
+/// The text in `language`, else in English, else in any language; empty when there is none.
 [[nodiscard]] std::string text_in(const std::map<std::string, std::string>& texts, const std::string& language);
 
-/// A calm word when there is no link or no hand; empty when all is well.
+/// A calm note while there is no link or no hand; empty when all is well.
 [[nodiscard]] std::string link_note(client::LinkState state, bool had_world, const std::string& language);
 
-/// Caption, steps and readouts. A quantity is shown when its unit is one that visitors read (l, rpm, N, degC, km/h ...). Gauges grow, so that
-/// what is shown and what the step waits for are on them: their end is kept by name from call to call.
+/// Caption, steps and readouts. A quantity is shown when its unit is one for visitors (l, rpm, N, degC, km/h ...).
+/// Gauges grow to include the value and the step's goal; their ends are kept by name between calls.
 class OverlayWriter {
  public:
   explicit OverlayWriter(std::string language) : language_(std::move(language)) {}

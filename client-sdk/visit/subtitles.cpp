@@ -2,7 +2,10 @@
 
 #include <cctype>
 
+#include <fmt/format.h>
+
 #include "client-sdk/visit/overlay_text.hpp"
+#include "server/base/utf8.hpp"
 
 namespace mechane::visit {
 namespace {
@@ -10,14 +13,6 @@ namespace {
 constexpr std::size_t kFewWords = 25;  ///< bytes
 constexpr double kLettersPerSecond = 14;
 constexpr double kBreath_s = 1;
-
-/// Letters, whatever bytes they take.
-std::size_t letters_in(std::string_view text) {
-  std::size_t count = 0;
-  for (const char c : text)
-    count += (static_cast<unsigned char>(c) & 0xc0U) == 0x80U ? 0 : 1;
-  return count;
-}
 
 /// A capital, Latin or Greek (U+0386 to U+03AB).
 bool begins_sentence(std::string_view text) {
@@ -29,13 +24,14 @@ bool begins_sentence(std::string_view text) {
   return second >= 0x86 && second <= 0xab;
 }
 
-/// The text ends with a mark that ends a sentence. A word of one letter or two before a full stop is an abbreviation's: "c.", "B.C.", "αι.".
+/// Whether the text ends with the end of a sentence. A full stop after a word of one or two letters is an
+/// abbreviation's: "c.", "B.C.", "αι.".
 bool ends_sentence(std::string_view text) {
   const char mark = text.back();
-  if (mark == '!' || mark == '?' || mark == ';') return true;  // the last asks, in Greek
+  if (mark == '!' || mark == '?' || mark == ';') return true;  // ';' is the Greek question mark
   if (mark != '.') return false;
   text.remove_suffix(1);
-  return letters_in(text.substr(text.find_last_of(" .") + 1)) > 2;
+  return utf8_letters(text.substr(text.find_last_of(" .") + 1)) > 2;
 }
 
 }  // namespace
@@ -60,7 +56,7 @@ std::vector<std::string> sentences_of(std::string_view text) {
 }
 
 Duration time_to_say(std::string_view sentence) {
-  const double seconds = kBreath_s + static_cast<double>(letters_in(sentence)) / kLettersPerSecond;
+  const double seconds = kBreath_s + static_cast<double>(utf8_letters(sentence)) / kLettersPerSecond;
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
 }
 

@@ -1,4 +1,4 @@
-// What is read aloud, in writing, for who does not hear it: sentence by sentence, each for as long as it takes to say.
+// Subtitles of the narration: sentence by sentence, each for as long as it takes to say.
 #pragma once
 
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace mechane::visit {
 
-/// The id of the step that a visit is at; empty before it has one. A new id: its narration begins.
+/// The id of a visit's present step; empty before it has one. With a new id its narration begins.
 [[nodiscard]] std::string narration_id(const client::WorldStatus& status);
 
-/// UTF-8. One of few words stays with the next; abbreviations end none.
+/// Splits UTF-8 text into sentences. A short one stays with the next; an abbreviation does not end a sentence.
 [[nodiscard]] std::vector<std::string> sentences_of(std::string_view text);
 
-/// Calm and clear: 14 letters a second, and a breath.
+/// How long a sentence is shown, at a calm pace: 14 letters a second, and a pause.
 [[nodiscard]] Duration time_to_say(std::string_view sentence);
 
 class Subtitles {
  public:
-  /// Once a picture. Null: nobody speaks. Another step, or another language, begins anew.
+  /// Call it once a picture. Null: nobody speaks. Another step or language starts again.
   void hear(const client::WorldStatus* status, const std::string& language, TimePoint now);
-  /// What is being said; empty: nothing.
+  /// The sentence that is being spoken; empty: none.
   [[nodiscard]] std::string at(TimePoint now) const;
 
  private:

@@ -14,7 +14,7 @@ struct PanelWords {
   std::string_view village, home, skip, close, thanks, farewell, going_home;
 };
 
-/// The display's own words are in two languages; a world may have more.
+/// The display's own texts, in two languages; a world may have more.
 const PanelWords& words_in(const std::string& language) {
   static const PanelWords kEnglish{"Village",
                                    "Home",
@@ -33,7 +33,7 @@ const PanelWords& words_in(const std::string& language) {
   return language == "el" ? kGreek : kEnglish;
 }
 
-/// As its readers call it, short.
+/// The language's own name, short.
 std::string language_label(const std::string& code) {
   if (code == "el") return "ΕΛ";
   std::string label = code;
@@ -84,7 +84,7 @@ const client::Activity* VisitorPanel::activity() const {
   return found == presentation_->activities.end() ? nullptr : &*found;
 }
 
-/// In the world's order, from the present one on.
+/// The next language, in the world's order.
 std::vector<std::string> VisitorPanel::other_languages() const {
   if (!presentation_) return {};
   std::vector<std::string> others = presentation_->languages;
@@ -97,7 +97,7 @@ std::vector<std::string> VisitorPanel::other_languages() const {
 }
 
 void VisitorPanel::notice_visitor(TimePoint now) {
-  // Who comes late to a beginning reads what the first one read.
+  // A visitor who arrives later at the beginning reads the same as the first one.
   if (!last_sign_ && at_beginning()) goal_from_ = now;
   last_sign_ = stirred_ = now;
 }
@@ -109,7 +109,7 @@ void VisitorPanel::notice_hands(const client::Frame* frame, TimePoint now) {
     const KnownHand here{hand.X_WS.front().p, hand.force_W, hand.holding};
     const auto [at, fresh] = hands_.try_emplace({hand.kiosk, hand.user}, here);
     KnownHand& known = at->second;
-    // A device that lies in its rest may touch something for ever: only what changes is somebody's doing.
+    // A device in its holder may touch something all the time: only changes show that somebody is there.
     const bool moved = (here.p_W - known.p_W).norm() >= kHandMoved_m;
     const bool felt = (here.f_W - known.f_W).norm() >= kContact_n || here.holding != known.holding;
     if (fresh || !(moved || felt)) continue;
@@ -136,7 +136,7 @@ void VisitorPanel::follow_run(const client::WorldStatus& status, TimePoint now) 
   if (!at_beginning() && asking_ && asking_->when == client::AnswerTime::before) asking_.reset();
 }
 
-/// After an activity once it has been looked at; before it as soon as somebody is there.
+/// Asks questions after an activity, when its result has been looked at; before it, as soon as somebody is there.
 void VisitorPanel::ask_or_end(TimePoint now) {
   const client::Activity* what = activity();
   if (asking_) {
@@ -170,7 +170,7 @@ void VisitorPanel::update(const VisitorNews& news, TimePoint now) {
   leave_alone(now);
 }
 
-/// Nobody is there: the next visitor shall choose an exhibit, and not find the last one's. Requested once a world.
+/// Goes home when nobody is there, so that the next visitor can choose an exhibit. Requested once per world.
 void VisitorPanel::leave_alone(TimePoint now) {
   if (settings_.home_after <= Duration{0} || home_.empty() || home_requested_ || !run_) return;
   if (now - stirred_ < settings_.home_after) return;
@@ -202,7 +202,7 @@ void VisitorPanel::press(const picture::OverlayAction& action, TimePoint now) {
       if (settled) asking_.reset();
       return;
     case picture::OverlayAction::Kind::activity:
-      return;  // the display's, which can begin one
+      return;  // handled by the display, which can begin an activity
   }
 }
 
@@ -217,7 +217,7 @@ void VisitorPanel::answer(const std::string& value, TimePoint now) {
   go_on(now);
 }
 
-/// A farewell belongs to the end; before an activity the exhibit itself goes on.
+/// The farewell is shown at the end only; before an activity the exhibit simply continues.
 void VisitorPanel::go_on(TimePoint now) {
   const client::Activity* what = activity();
   ++asking_->next;

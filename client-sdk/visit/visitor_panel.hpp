@@ -1,5 +1,6 @@
-// What a visitor is offered over the picture, and what follows from pressing it: the way home, another language, questions about an
-// activity, how large and how plain the words are. No clock, no window, no network of its own: all that is timed takes the display's steady clock as an argument.
+// The buttons and panels over the picture, and what follows from pressing them: going home, another language, questions
+// about an activity, text size and contrast. Without a clock, a window or a network of its own: the display passes the
+// time of its steady clock.
 #pragma once
 
 #include <map>
@@ -17,25 +18,25 @@ namespace mechane::visit {
 /// When an activity's questions are asked.
 enum class AskWhen : std::uint8_t { none, after, both };
 [[nodiscard]] std::string ask_name(AskWhen when);
-/// What no name is means `after`.
+/// An unknown name means `after`.
 [[nodiscard]] AskWhen ask_when(const std::string& name);
 
 struct VisitorPanelSettings {
-  std::string language = "el";  ///< what the display comes back to
+  std::string language = "el";  ///< the display returns to it when a visitor has gone
   AskWhen ask = AskWhen::after;
   picture::OverlayStyle style;
-  Duration home_after{0};  ///< without a hand's motion or a click: back to where exhibits are chosen; 0: never
+  Duration home_after{0};  ///< goes home after this time without a hand's motion or a click; 0: never
 };
 
-/// What is known now. Null: nothing is.
+/// What is known now. Null: not known yet.
 struct VisitorNews {
   const client::WorldStatus* status = nullptr;
   std::shared_ptr<const client::WorldPresentation> presentation{};
   const client::Frame* frame = nullptr;
-  std::string home{};  ///< id of the scenario that Home leads to; empty: not known
+  std::string home{};  ///< id of the home scenario; empty: not known
 };
 
-/// What the display has to do for the visitor.
+/// What the display must do for the visitor.
 struct VisitorRequests {
   bool home = false;
   std::vector<client::VisitAnswer> answers;  ///< oldest first
@@ -43,46 +44,47 @@ struct VisitorRequests {
 
 class VisitorPanel {
  public:
-  static constexpr Duration kQuestionsWait =
-      std::chrono::seconds(45);  ///< without a click: then nobody is there who answers
+  /// After this time without a click, nobody is answering.
+  static constexpr Duration kQuestionsWait = std::chrono::seconds(45);
   static constexpr Duration kFarewell = std::chrono::seconds(6);
-  static constexpr Duration kAdmires =
-      std::chrono::seconds(4);  ///< what was done is looked at before anything is asked about it
-  static constexpr Duration kSettles =
-      std::chrono::milliseconds(400);  ///< the second tap of a double one answers nothing
+  /// Time to look at the result before questions about it.
+  static constexpr Duration kAdmires = std::chrono::seconds(4);
+  /// The second tap of a double tap does not count as an answer.
+  static constexpr Duration kSettles = std::chrono::milliseconds(400);
   static constexpr Duration kGoal = std::chrono::seconds(8);
-  static constexpr Duration kAlone =
-      std::chrono::seconds(90);  ///< without a hand's motion or a click: the visitor has gone
-  static constexpr Duration kWarning = std::chrono::seconds(10);  ///< before it goes home by itself
-  static constexpr double kHandMoved_m = 0.005;                   ///< less is a device that trembles
-  static constexpr double kContact_n = 0.5;                       ///< less of a change is a hand that lies still
+  /// After this time without a hand's motion or a click, the visitor has gone.
+  static constexpr Duration kAlone = std::chrono::seconds(90);
+  static constexpr Duration kWarning = std::chrono::seconds(10);  ///< shown before it goes home by itself
+  static constexpr double kHandMoved_m = 0.005;                   ///< smaller motions are a device's trembling
+  static constexpr double kContact_n = 0.5;                       ///< smaller changes of force are a resting hand's
 
   explicit VisitorPanel(VisitorPanelSettings settings);
 
-  /// Once a picture.
+  /// Call it once a picture.
   void update(const VisitorNews& news, TimePoint now);
   /// A button was pressed. One that is no longer offered does nothing.
   void press(const picture::OverlayAction& action, TimePoint now);
-  /// A click beside all buttons: somebody is there.
+  /// A click outside all buttons shows that somebody is there.
   void touch(TimePoint now);
-  /// To the world's next language.
+  /// Changes to the world's next language.
   void next_language(TimePoint now);
   void toggle_large_text();
   void toggle_high_contrast();
-  /// From afar: by who looks after the kiosk. The language at once where nobody is there, else when the visitor has gone.
+  /// Settings from a technician at another machine. The language changes at once if nobody is there, else when the
+  /// visitor has gone.
   void change(const VisitorPanelSettings& settings);
   [[nodiscard]] const VisitorPanelSettings& settings() const { return settings_; }
-  /// How long nobody has done anything: moved a hand, touched a thing, clicked.
+  /// How long nobody has moved a hand, touched a thing or clicked.
   [[nodiscard]] Duration alone_for(TimePoint now) const { return began_ ? now - stirred_ : Duration{0}; }
 
-  /// Code of the language that all words are in now.
+  /// Code of the present language of all texts.
   [[nodiscard]] const std::string& language() const { return language_; }
   /// Adds what is offered now.
   void write(picture::OverlayContent& content, TimePoint now) const;
   [[nodiscard]] VisitorRequests take_requests() { return std::exchange(requests_, {}); }
 
  private:
-  /// One going-through of an activity.
+  /// One run of an activity.
   struct Run {
     std::string world;
     std::string activity;
@@ -92,12 +94,12 @@ class VisitorPanel {
   };
   struct Asking {
     client::AnswerTime when = client::AnswerTime::after;
-    std::size_t next = 0;  ///< index of the question; all behind: the farewell
+    std::size_t next = 0;  ///< index of the question; after the last one comes the farewell
     bool answered = false;
-    TimePoint shown;  ///< this question
+    TimePoint shown;  ///< when this question was first shown
     TimePoint touched;
   };
-  /// What a hand did last that was somebody's doing.
+  /// The last state of a hand that showed somebody's presence.
   struct KnownHand {
     Vec3 p_W;
     Vec3 f_W;
@@ -119,14 +121,14 @@ class VisitorPanel {
   std::string language_;
   std::shared_ptr<const client::WorldPresentation> presentation_;
   client::Texts exhibit_;  ///< its title
-  std::string home_;       ///< empty: the visitor is there, or it is not known
+  std::string home_;       ///< empty: the visitor is at home, or it is not known
   std::optional<Run> run_;
   TimePoint goal_from_;
   std::optional<Asking> asking_;
   bool asked_before_ = false;  ///< in this run
   bool asked_after_ = false;
-  std::optional<TimePoint> last_sign_;  ///< of a visitor; none: there is nobody
-  TimePoint stirred_;                   ///< somebody did something last, or this world began
+  std::optional<TimePoint> last_sign_;  ///< last sign of a visitor; none: nobody is there
+  TimePoint stirred_;                   ///< when somebody last did something, or this world began
   bool home_requested_ = false;         ///< in this world
   std::map<std::pair<std::string, std::uint32_t>, KnownHand> hands_;  ///< by kiosk and user
   bool began_ = false;

@@ -1,4 +1,4 @@
-// Why a hand that closed on a body does not hold it, as far as one can tell who sees the exhibit and has its description.
+// Why a hand that closed on a body does not hold it, as far as the scenario and the world's status show.
 #pragma once
 
 #include <span>
@@ -8,14 +8,15 @@
 
 namespace mechane::visitor {
 
-/// A hand that closed, and held nothing at the end.
+/// An attempt to grasp that ended with an empty hand.
 struct FailedGrasp {
-  BodyId body;           ///< that it was to hold
-  double nearest_m = 0;  ///< from its middle to the grip, at the best moment
-  bool touched = false;  ///< it felt something while it was closed
+  BodyId body;           ///< the body to grasp
+  double nearest_m = 0;  ///< least distance from the hand's middle to the grip
+  bool touched = false;  ///< the hand felt something while it was closed
 };
 
-/// What is wrong, and what to do: "SHAFT may not be grasped in step 'turn'; ...". `enabled_agents` are those of the world's status.
+/// What is wrong, and what to do: "SHAFT is not graspable in step 'turn'; ...". `enabled_agents` is from the world's
+/// status.
 [[nodiscard]] std::string why_not_grasped(const FailedGrasp& grasp, const state::WorldDescription& world, StepId step,
                                           std::span<const std::string> enabled_agents);
 

@@ -2,19 +2,19 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "client-sdk/visitor/visit_tour.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/log/log.hpp"
 
 namespace {
 
 using namespace mechane;
 
-volatile std::sig_atomic_t g_stop = 0;  // the one thing that a signal handler may write
+volatile std::sig_atomic_t g_stop = 0;  // set by the signal handler
 
 struct Arguments {
   visitor::VisitOptions options;
@@ -39,45 +39,42 @@ void add_options(CLI::App& app, Arguments& a) {
   auto* visit =
       app.add_option("--visit", a.options.visits, "play these visits, by their names in the scenario, in this order")
           ->excludes(activity);
-  auto* all = app.add_flag("--all", a.all,
-                           "all visits of all scenarios at once, each scenario at a kiosk of its own, "
-                           "named as its file; without --scenario, of the folder scenarios");
+  auto* all = app.add_flag(
+      "--all", a.all,
+      "play all visits of all scenarios at once, each scenario at a kiosk that is named after its file; without "
+      "--scenario, those of the folder 'scenarios'");
   all->excludes(activity)->excludes(visit);
   app.add_option("--at-once", a.at_once,
-                 "with --all: kiosks at a time; each wants a share of a processor here and at the server")
+                 "with --all: how many kiosks at a time; each needs part of a processor here and at the server")
       ->needs(all)
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_option("--domain", a.options.client.domain, "DDS domain");
   app.add_option("--offset", a.offset, "metres by which the hand misses: x y z")->expected(3);
-  app.add_option("--patience", a.patience_s, "seconds that an activity may take after the last move");
+  app.add_option("--patience", a.patience_s, "seconds to wait after the last move until the activity is done");
   app.add_option("--linger", a.linger_s, "seconds to stay at an exhibit that a sign opened")
       ->check(CLI::Range(0.0, 600.0));
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_flag("--glove", a.glove, "a whole hand instead of one point");
   app.add_flag("--local", a.local, "render forces from the local contact model");
-  app.add_flag("--endless", a.options.endless, "begin again when through");
+  app.add_flag("--endless", a.options.endless, "start again after the last visit");
 }
 
 int report(const std::string& json, bool complete, const std::string& file) {
-  if (!file.empty()) {
-    std::ofstream out(file);
-    out << json;
-    out.flush();
-    if (!out) {
-      log::error(Error{"the report could not be written", file, "check the folder and the free space"});
-      return 1;
-    }
-  } else {
+  if (file.empty()) {
     std::fputs(json.c_str(), stdout);
+  } else if (auto ok = write_whole(file, std::as_bytes(std::span(json)), WholeFile::document); !ok) {
+    log::error(ok.error());
+    return 1;
   }
   return complete ? 0 : 1;
 }
 
 int play_one(Arguments& a) {
   if (a.scenarios.size() != 1) {
-    log::error(Error{fmt::format("{} scenarios were named", a.scenarios.size()), "--scenario",
-                     "name one, or say --all to play several at once"});
+    log::error(Error{a.scenarios.empty() ? ErrorCode::missing : ErrorCode::conflict,
+                     fmt::format("{} scenarios were named", a.scenarios.size()), "--scenario",
+                     "name one, or give --all to play several at once"});
     return 2;
   }
   a.options.scenario = a.scenarios.front();
@@ -99,7 +96,7 @@ int play_all(Arguments& a) {
   const std::vector<visitor::TourStop> stops = visitor::run_tour(a.options, *found, a.at_once, g_stop);
   std::fputs(visitor::tour_table(stops).c_str(), stdout);
   const bool complete = std::ranges::all_of(stops, &visitor::TourStop::complete);
-  // The table says it to a person; the JSON is for who asks.
+  // People read the table; the JSON is written on request only.
   return a.report_file.empty() ? (complete ? 0 : 1) : report(visitor::to_json(stops), complete, a.report_file);
 }
 
@@ -112,7 +109,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
+    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
   }
   log::start("visitor", log::Level::info);
   a.options.client.role = client::Role::hand;

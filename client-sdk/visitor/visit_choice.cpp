@@ -25,12 +25,15 @@ std::string listed(const WorldDescription& world) {
 Expected<std::vector<const VisitDescription*>> choose_visits(const VisitOptions& options,
                                                              const WorldDescription& world) {
   const std::string file = options.scenario.string();
-  if (world.visits.empty()) return fail("the scenario has no visit to play", file, "write one (see its reference)");
+  if (world.visits.empty())
+    return fail(ErrorCode::missing, "the scenario has no visit to play", file,
+                "write one (see scenarios/REFERENCE.md)");
   std::vector<const VisitDescription*> chosen;
   const auto choose = [&](const std::string& what, const std::string& name, auto&& is_it) -> Expected<void> {
     const auto visit = std::ranges::find_if(world.visits, is_it);
     if (visit == world.visits.end())
-      return fail(fmt::format("no {} '{}'", what, name), file, "its visits are: " + listed(world));
+      return fail(ErrorCode::unknown_name, fmt::format("the scenario has no {} '{}'", what, name), file,
+                  "choose one of its visits: " + listed(world));
     chosen.push_back(&*visit);
     return {};
   };

@@ -9,17 +9,17 @@ namespace {
 
 using state::VisitMove;
 
-// How fast a hand speeds up on a crank, turns a second squared.
+// A hand's acceleration on a crank, turns per second squared.
 constexpr double kTurnRampRadPerS2 = 6.0;
-// A fingertip feels less than this; it is over the noise of a resting hand.
+// A fingertip feels less than this force, and the noise of a resting hand stays below it.
 constexpr double kTouchN = 0.1;
 constexpr double kFollowMPerS = 0.15;
-// How long it takes a person to see that the hand is empty.
+// How long a person needs to notice that the hand is empty.
 constexpr double kNoticesLossS = 0.3;
-// Farther than this from where it was carried, a thing has been left behind.
+// A thing that is farther than this from where it should have been carried was lost on the way.
 constexpr double kSlippedM = 0.1;
 
-// In a whole hand: where it has a handle, under the roots of the fingers; and the tip of a stretched index finger.
+// Places in a whole hand: where a handle lies, under the roots of the fingers; the tip of a stretched index finger.
 const Vec3 kGrip_H(0.095, -0.030, 0);
 const Vec3 kIndexTip_H(0.1965, 0, -0.031);
 
@@ -38,11 +38,12 @@ const HandJoints kOpen = bent(0.1, 0.15, 0.15);
 const HandJoints kClosed = bent(0.5, 0.9, 0.9);
 const HandJoints kPointing = bent(0.6, 0, 1.3);
 constexpr double kClosesInS = 0.3;
-// A whole hand comes from above on what it is to carry, lest its fingers, which are long, push it away or catch it by its side.
+// A whole hand approaches from above what it will carry: otherwise its long fingers push the thing away or catch its
+// side.
 constexpr double kOverM = 0.12;
-constexpr double kUpAfter = 0.5, kOverAfter = 0.75, kDownFrom = 0.65;  // shares of the reach's time
+constexpr double kUpAfter = 0.5, kOverAfter = 0.75, kDownFrom = 0.65;  // shares of the reach's duration
 
-/// The palm down, the fingers across the axis: away from the visitor, who looks along -z, or to his right.
+/// Palm down, fingers across the axis: away from the visitor, who looks along -z, or to the visitor's right.
 Quat across(const Vec3& axis_W) {
   Vec3 x = Vec3::UnitY().cross(axis_W);
   if (x.norm() < 0.1) x = -Vec3::UnitZ();
@@ -73,7 +74,7 @@ std::string name_of(const state::WorldDescription& description, const VisitMove&
   return "wait";
 }
 
-/// Of a hinge within half a turn, from where its bodies are seen.
+/// A hinge's angle within half a turn, from the poses of its bodies.
 double joint_angle(const state::JointDescription& joint, std::span<const Pose> X_WB) {
   const Pose X_J1J2 = (X_WB[joint.body1.index()] * joint.X_B1J).inverse() * (X_WB[joint.body2.index()] * joint.X_B2J);
   return rotation_vector(X_J1J2.R).z();
@@ -128,7 +129,7 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
     p_BG_ = move.p_BG;
     X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W - X_WH_goal_.R * p_HG_;
   } else if (move.kind == VisitMove::Kind::move_to) {
-    // The hand goes with the body as it holds it now.
+    // From here on, the hand keeps the pose that it now has relative to the body.
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
     X_WH_goal_ = move.X_WB * X_BH;
   } else if (move.kind == VisitMove::Kind::swing) {
@@ -141,8 +142,9 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   }
 }
 
-/// For what comes after this reach: a handle that is to be worked lies across the palm, a sign is touched with the index finger. What is
-/// to be carried is taken as the hand is, at the wrist, where its weight turns it least.
+/// The hand's pose depends on the move after this reach: a handle to be worked lies across the palm, a sign is touched
+/// with the index finger. What will be carried is taken at the wrist, without turning the hand: there its weight turns
+/// it least.
 void VisitPlayer::shape_hand() {
   const auto move_at = [&](std::size_t i) { return i < visit_.moves.size() ? &visit_.moves[i] : nullptr; };
   const VisitMove* next = move_at(index_ + 1);
@@ -165,7 +167,7 @@ void VisitPlayer::shape_hand() {
   }
 }
 
-/// Round what it holds; nothing that it holds is pushed by a finger.
+/// Fingers close around a held thing without pushing it.
 void VisitPlayer::bend_fingers(bool holding) {
   if (config_.kind != client::HandKind::glove || !config_.shapes_hand) return;
   const HandJoints& goal = intent_.grasp_intent > 0 && holding ? kClosed
@@ -181,12 +183,12 @@ bool VisitPlayer::touched_what_it_reaches_for(double felt_n) const {
   return grasps_next && felt_n > kTouchN;
 }
 
-/// An unheld thing gives way when it is touched: the hand goes after its grip, slowly.
+/// A loose thing moves when it is touched: the hand follows its grip slowly.
 void VisitPlayer::follow_grip(std::span<const Pose> X_WB) {
   const Vec3 p_WG = X_WB[visit_.moves[index_].body.index()] * p_BG_ + config_.offset_W;
-  const Vec3 way = p_WG - intent_.X_WH * p_HG_;
+  const Vec3 to_grip = p_WG - intent_.X_WH * p_HG_;
   const double step_m = kFollowMPerS * last_dt_s_;
-  intent_.X_WH.p += way.norm() > step_m ? Vec3(way.normalized() * step_m) : way;
+  intent_.X_WH.p += to_grip.norm() > step_m ? Vec3(to_grip.normalized() * step_m) : to_grip;
 }
 
 bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double felt_n) {
@@ -197,7 +199,7 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double
       return time_s_ >= move.duration_s || touched_what_it_reaches_for(felt_n);
     case VisitMove::Kind::move_to:
       move_hand_towards_goal(move.duration_s);
-      ok_ = ok_ && (holding || time_s_ > 0.8 * move.duration_s);  // placed early: let go by the snap, not by the hand
+      ok_ = ok_ && (holding || time_s_ > 0.8 * move.duration_s);  // placed early: the snap released it, not the hand
       return time_s_ >= move.duration_s;
     case VisitMove::Kind::grasp:
       ok_ = holding;
@@ -223,7 +225,7 @@ void VisitPlayer::move_hand_towards_goal(double duration_s) {
   intent_.X_WH.p = X_WH_start_.p + s * (X_WH_goal_.p - X_WH_start_.p);
   intent_.X_WH.R = X_WH_start_.R.slerp(s, X_WH_goal_.R);
   if (over_m_ <= 0) return;
-  // Up first, then over it, then down.
+  // Up first, then over the thing, then down.
   const double rises_m = X_WH_goal_.p.y() + over_m_ - X_WH_start_.p.y();
   intent_.X_WH.p.y() = X_WH_start_.p.y() + minimum_jerk(share / kUpAfter) * rises_m -
                        minimum_jerk((share - kDownFrom) / (1 - kDownFrom)) * over_m_;
@@ -235,7 +237,7 @@ bool VisitPlayer::turn(const VisitMove& move) {
   return turned_rad_ >= whole_rad;
 }
 
-/// To and fro as a sine of a phase that runs through all cycles, from where the lever stands on its way.
+/// Back and forth as a sine; its phase starts where the lever stands and runs through all cycles.
 bool VisitPlayer::swing(const VisitMove& move) {
   const double whole_rad = std::max(2 * kPi * move.cycles - done_rad_[index_], 0.0);
   const double phase = std::asin(std::clamp(swing_from_rad_ / move.amplitude_rad, -1.0, 1.0));
@@ -252,7 +254,7 @@ double VisitPlayer::go_through(double whole_rad, double rate_rad_per_s) {
   return std::min(turned_rad_, whole_rad);
 }
 
-/// The hand goes round the joint's axis; the wrist keeps its direction, the handle turns in the hand.
+/// The hand goes around the joint's axis; the wrist keeps its direction, and the handle turns in the hand.
 void VisitPlayer::go_round(JointId id, double angle_rad) {
   const state::JointDescription& joint = description_.joints[id.index()];
   const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
@@ -261,8 +263,8 @@ void VisitPlayer::go_round(JointId id, double angle_rad) {
 }
 
 void VisitPlayer::note_grasp(std::span<const Pose> X_WB, double felt_n) {
-  const Vec3 way = X_WB[grasp_.body.index()] * p_BG_ - intent_.X_WH * p_HG_;
-  grasp_.nearest_m = std::min(grasp_.nearest_m, way.norm());
+  const Vec3 to_grip = X_WB[grasp_.body.index()] * p_BG_ - intent_.X_WH * p_HG_;
+  grasp_.nearest_m = std::min(grasp_.nearest_m, to_grip.norm());
   grasp_.touched = grasp_.touched || felt_n > kTouchN;
 }
 
@@ -272,14 +274,14 @@ void VisitPlayer::note_grip(bool holding) {
   empty_s_ = holding ? 0 : empty_s_ + last_dt_s_;
 }
 
-/// A handle that the hand had when this turn or swing began, or caught in it, and has no more.
+/// Whether the hand has lost the handle that it had at the start of this turn or swing, or caught during it.
 bool VisitPlayer::lost_its_handle() const {
   const VisitMove::Kind kind = visit_.moves[index_].kind;
   const bool works = kind == VisitMove::Kind::turn || kind == VisitMove::Kind::swing;
   return works && held_ && empty_s_ > kNoticesLossS && visit_.moves[last_reach_].kind == VisitMove::Kind::reach;
 }
 
-/// Not what a snap took out of the hand: that is where it was to go.
+/// Whether the carried thing was lost. One that a snap took out of the hand was not: it is where it should be.
 bool VisitPlayer::slipped(std::span<const Pose> X_WB, bool holding) const {
   const VisitMove& move = visit_.moves[index_];
   if (move.kind != VisitMove::Kind::move_to || holding) return false;

@@ -1,4 +1,4 @@
-// Plays a scenario's scripted visit: what a person's hand would mean to do, moment by moment.
+// Plays a scenario's scripted visit: computes what a person's hand would intend at each moment.
 #pragma once
 
 #include <array>
@@ -15,35 +15,35 @@ namespace mechane::visitor {
 
 using HandJoints = std::array<double, client::kHandJoints>;
 
-/// What came of one move.
+/// The result of one move.
 struct MoveResult {
   std::string name;  ///< "reach INNER"
   double seconds = 0;
-  bool ok = true;  ///< a grasp that caught nothing, a carry with an empty hand: false
+  bool ok = true;  ///< false: a grasp that caught nothing, a carry with an empty hand
   std::optional<FailedGrasp> failed_grasp{};
-  std::string reason{};  ///< why the grasp failed; the player leaves it to who sees the world's status
+  std::string reason{};  ///< why a grasp failed; filled in by code that knows the world's status
 };
 
 struct PlayerConfig {
   Pose X_WH_rest{Vec3(0, 1.2, 1.5), Quat::Identity()};  ///< where the hand waits
-  Vec3 offset_W = Vec3::Zero();  ///< added to every place that the hand reaches for: a visitor who misses
+  Vec3 offset_W = Vec3::Zero();  ///< added to each goal of the hand, to imitate a visitor who misses
   client::HandKind kind = client::HandKind::one_point;
-  bool shapes_hand =
-      true;  ///< a whole hand turns to what it reaches for, and bends its fingers; else the wrist goes there as it is
-  double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit goes on without it
-  int fetch_again = 2;  ///< how often the hand goes back for what it lost: on its way, or a handle that it worked
+  /// A whole hand turns towards its goal and bends its fingers; false: the wrist keeps its rotation.
+  bool shapes_hand = true;
+  double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit continues without it
+  int fetch_again = 2;          ///< how often the hand goes back for a thing that it lost while carrying or working it
 };
 
-/// One visit, from rest to rest. Deterministic in what it is told. One thread; advance() allocates only when a move ends.
+/// One visit, from rest to rest. Deterministic for given inputs. One thread; advance() allocates only when a move ends.
 class VisitPlayer {
  public:
-  /// Both outlive the player.
+  /// Both must outlive the player.
   VisitPlayer(const state::WorldDescription& description, const state::VisitDescription& visit,
               const PlayerConfig& config);
 
-  /// Goes on by dt_s. `X_WB` are the bodies' poses in the order of the description, as last seen; `holding` is the server's word;
-  /// `felt_n` the force on the hand. As a person would, the hand closes as soon as it feels what it reaches for, and follows it with
-  /// the eyes while it has not caught it.
+  /// Advances by dt_s. `X_WB`: the bodies' poses as last seen, in the order of the description; `holding`: whether the
+  /// hand holds something, according to the server; `felt_n`: the force on the hand. Like a person's, the hand closes
+  /// as soon as it feels its goal, and follows the goal by sight until it has caught it.
   void advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n);
 
   [[nodiscard]] const haptic::HandIntent& intent() const { return intent_; }
@@ -61,7 +61,8 @@ class VisitPlayer {
   void move_hand_towards_goal(double duration_s);
   bool turn(const state::VisitMove& move);
   bool swing(const state::VisitMove& move);
-  /// Goes on by a tick of a motion of `whole` radians at up to `rate`, speeding up and slowing down; returns how far it is.
+  /// Advances a motion of `whole` radians at up to `rate` by one tick, with acceleration and deceleration; returns its
+  /// angle.
   double go_through(double whole_rad, double rate_rad_per_s);
   void go_round(JointId joint, double angle_rad);
   void end_move(bool ok);
@@ -76,26 +77,26 @@ class VisitPlayer {
   PlayerConfig config_;
   haptic::HandIntent intent_;
   std::vector<MoveResult> results_;
-  std::vector<double>
-      done_rad_;  // of each turn and swing, with the handle in the hand, over all tries: what is left is done when the handle is caught again
+  // Angle of each turn and swing so far, over all tries; the rest is done when the handle is caught again.
+  std::vector<double> done_rad_;
   std::size_t index_ = 0;
-  std::size_t last_reach_ = 0;  // the move that the hand went for what it carries
-  int fetched_again_ = 0;       // since the visit first came to that reach
+  std::size_t last_reach_ = 0;  // the move in which the hand reached for what it carries
+  int fetched_again_ = 0;       // since the visit first made that reach
   bool begun_ = false;
   bool ok_ = true;
   double time_s_ = 0;  // in this move
   double last_dt_s_ = 0;
-  bool held_ = false;    // at some moment of this move
-  double held_rad_ = 0;  // turned when the hand last held something in this move
-  FailedGrasp grasp_;    // this move, while it is one that catches nothing
-  double empty_s_ = 0;   // since the hand last held something in this move
+  bool held_ = false;    // the hand held something at some moment of this move
+  double held_rad_ = 0;  // the angle at which the hand last held something in this move
+  FailedGrasp grasp_;    // this move, as long as it has caught nothing
+  double empty_s_ = 0;   // time since the hand last held something in this move
   Pose X_WH_start_;
   Pose X_WH_goal_;
-  double turned_rad_ = 0;      // of a turn, or of a swing's phase
-  double swing_from_rad_ = 0;  // where the joint stood when the swing began
-  Vec3 p_BG_ = Vec3::Zero();   // the grip that the last reach was for
-  Vec3 p_HG_ = Vec3::Zero();   // where the hand has it
-  double over_m_ = 0;          // how far over its goal the hand comes before it goes down on it
+  double turned_rad_ = 0;      // angle of a turn, or phase of a swing
+  double swing_from_rad_ = 0;  // the joint's angle at the start of the swing
+  Vec3 p_BG_ = Vec3::Zero();   // the grip of the last reach, in the body
+  Vec3 p_HG_ = Vec3::Zero();   // the same in the hand
+  double over_m_ = 0;          // how far above its goal the hand is before it goes down
   HandJoints joints_goal_{};
 };
 

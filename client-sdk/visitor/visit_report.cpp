@@ -2,13 +2,10 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/visitor/visit_session.hpp"
+#include "server/realtime/quantiles_json.hpp"
 
 namespace mechane::visitor {
 namespace {
-
-double us(Duration d) {
-  return std::chrono::duration<double, std::micro>(d).count();
-}
 
 nlohmann::json activity_json(const ActivityReport& activity, const std::string& kiosk) {
   nlohmann::json steps = nlohmann::json::array();
@@ -38,22 +35,19 @@ std::string to_json(const VisitReport& report) {
   for (const auto& [name, value] : report.quantities)
     quantities[name] = value;
   const haptic::LoopStats& loop = report.loop;
-  const double mean_n = loop.ticks_with_force > 0 ? loop.force_sum_n / static_cast<double>(loop.ticks_with_force) : 0;
-  const nlohmann::json json = {
-      {"kiosk", report.kiosk},
-      {"world", report.world},
-      {"complete", report.complete()},
-      {"activities", std::move(activities)},
-      {"quantities", std::move(quantities)},
-      {"water_l", report.water_l},
-      {"force_n", {{"max", loop.force_max_n}, {"mean", mean_n}, {"ticks", loop.ticks_with_force}}},
-      {"holding_ticks", loop.holding_ticks},
-      {"samples", {{"sent", loop.sent}, {"answers", loop.answers}, {"ticks", loop.ticks}}},
-      {"rtt_us",
-       {{"median", us(report.round_trip.quantile(0.5))},
-        {"p99", us(report.round_trip.quantile(0.99))},
-        {"p999", us(report.round_trip.quantile(0.999))},
-        {"max", us(report.round_trip.max())}}}};
+  nlohmann::json force_n = {{"ticks", loop.ticks_with_force}};
+  if (loop.ticks > 0) force_n["max"] = loop.force_max_n;
+  if (loop.ticks_with_force > 0) force_n["mean"] = loop.force_sum_n / static_cast<double>(loop.ticks_with_force);
+  nlohmann::json json = {{"kiosk", report.kiosk},
+                         {"world", report.world},
+                         {"complete", report.complete()},
+                         {"activities", std::move(activities)},
+                         {"quantities", std::move(quantities)},
+                         {"force_n", std::move(force_n)},
+                         {"holding_ticks", loop.holding_ticks},
+                         {"samples", {{"sent", loop.sent}, {"answers", loop.answers}, {"ticks", loop.ticks}}},
+                         {"rtt_us", realtime::quantiles_json(report.round_trip)}};
+  if (report.water_l) json["water_l"] = *report.water_l;
   return json.dump(2) + "\n";
 }
 

@@ -19,7 +19,7 @@ using state::WorldDescription;
 constexpr Duration kTick = std::chrono::milliseconds(1);
 constexpr Duration kLookAgain = std::chrono::milliseconds(100);
 
-/// Plays activities one after another over one client and one device.
+/// Plays visits one after another with one client and one device.
 class Session {
  public:
   Session(const VisitOptions& options, const WorldDescription& world, client::Client& client,
@@ -49,7 +49,7 @@ class Session {
  private:
   void wait_for_tick() {
     next_ += kTick;
-    // After a stall the grid moves on: a hand does not make up for lost time in a burst.
+    // After a stall, missed ticks are skipped: a hand does not make up for lost time in a burst.
     next_ = std::max(next_, clock_.now() - kTick);
     clock_.sleep_until(next_);
   }
@@ -64,7 +64,7 @@ class Session {
   /// Whether a step's sign has sent the kiosk on to another scenario.
   [[nodiscard]] bool gone_on() const { return status_ && status_->scenario != world_.id; }
   void note_going_on(ActivityReport& report);
-  /// A step whose sign leads nowhere on this server: there is nothing to wait for.
+  /// Whether the step's sign opens a scenario that this server does not have: then there is nothing to wait for.
   void note_dead_end(ActivityReport& report) const;
   /// "visit pointing, step choose".
   [[nodiscard]] std::string place(const ActivityReport& report) const;
@@ -91,7 +91,7 @@ class Session {
   std::uint64_t ticks_ = 0;
 };
 
-/// Poses and progress as a visitor sees them: by looking at the scene, at some 120 Hz.
+/// Takes poses and progress from the scene about 120 times a second, as a visitor's eyes would.
 void Session::look() {
   if (client_.newest_frame(frame_) && !gone_on()) {
     for (const client::BodyPose& body : frame_.bodies) {
@@ -121,7 +121,7 @@ void Session::note_step(ActivityReport& report) {
   note_dead_end(report);
 }
 
-/// A failed grasp is told at once: what follows it mostly fails too.
+/// A failed grasp is reported at once, because the following moves usually fail too.
 void Session::note_moves(const VisitPlayer& player, ActivityReport& report) const {
   for (const MoveResult& result : player.results().subspan(report.moves.size())) {
     MoveResult& move = report.moves.emplace_back(result);
@@ -139,7 +139,7 @@ void Session::note_dead_end(ActivityReport& report) const {
   const std::string& opens = world_.steps[step.index()].opens;
   const auto server = client_.server_status();
   if (!server || std::ranges::find(server->scenarios, opens) != server->scenarios.end()) return;
-  report.reason = fmt::format("{}: it opens '{}', which the server was not started with", place(report), opens);
+  report.reason = fmt::format("{}: it opens '{}', which this server does not have", place(report), opens);
   say(report.name, report.reason);
 }
 
@@ -151,12 +151,12 @@ void Session::say_what_it_waits_for(const ActivityReport& report) const {
   const StepId step = world_.find_step(step_);
   const bool opens = step && !world_.steps[step.index()].opens.empty();
   const std::string what =
-      opens ? fmt::format("the server to open '{}'", world_.steps[step.index()].opens) : "the step to be over";
-  say(report.name, fmt::format("{}: its moves are over; it waits up to {:.0f} s for {}", place(report),
+      opens ? fmt::format("the server to open '{}'", world_.steps[step.index()].opens) : "the step to be done";
+  say(report.name, fmt::format("{}: all moves made; waiting up to {:.0f} s for {}", place(report),
                                std::chrono::duration<double>(options_.done_within).count(), what));
 }
 
-/// The step that sends on is over as it begins: its world may be gone before anybody has seen it.
+/// The step that opens another scenario may end, with its world, before its beginning was seen.
 void Session::note_going_on(ActivityReport& report) {
   const auto sends = std::find_if(world_.steps.begin(), world_.steps.end(),
                                   [&](const auto& step) { return step.opens == status_->scenario; });
@@ -165,7 +165,7 @@ void Session::note_going_on(ActivityReport& report) {
     report.steps.back().done = true;
   }
   report.gone_on_to = status_->scenario;
-  report.done = sends != world_.steps.end();  // else somebody else opened another exhibit
+  report.done = sends != world_.steps.end();  // otherwise somebody else opened another exhibit
   if (report.done && (report.steps.empty() || report.steps.back().name != sends->name))
     report.steps.push_back({sends->name, 0, true});
   say(report.name, "gone on to " + status_->scenario);
@@ -174,8 +174,8 @@ void Session::note_going_on(ActivityReport& report) {
     tick();
 }
 
-/// To the visit's own scenario, where the kiosk is at another: a sign of the visit before led there, or a display asked for none and
-/// was first. The way that `mechane open` goes.
+/// Opens the visit's own scenario, as `mechane open` does, where the kiosk is at another: a sign of the previous visit
+/// led there, or a display joined first and asked for no scenario.
 void Session::come_back() {
   const auto wait_while = [&](auto&& condition) {
     const TimePoint began = clock_.now();
@@ -203,10 +203,10 @@ ActivityReport Session::play(const VisitDescription& visit) {
   step_began_ = began;
   VisitPlayer player(world_, visit, options_.player);
   device_.intend(player.intent());
-  // The hand waits until the world is at the activity's beginning, as a person would look before reaching out.
+  // The hand waits until the world shows the activity's beginning, as a person would.
   while (stop_ == 0 && seconds_since(began) < 5 && !(status_ && status_->activity == report.name && !status_->done))
     tick();
-  // A person's reaction time; frames of the new beginning arrive meanwhile.
+  // A person's reaction time; meanwhile frames of the new beginning arrive.
   for (int i = 0; i < 200 && stop_ == 0; ++i)
     tick();
   TimePoint finished{};
@@ -228,9 +228,9 @@ ActivityReport Session::play(const VisitDescription& visit) {
   if (!report.done && report.reason.empty()) {
     report.reason = place(report) + (gone_on()    ? ": somebody else opened " + status_->scenario
                                      : stop_ != 0 ? ": stopped"
-                                                  : ": nothing more came of it after its last move");
+                                                  : ": it was not done in time after its last move");
   }
-  // The script goes on to its end, so that the hand lets go and comes to rest.
+  // The script is played to its end, so that the hand lets go and comes to rest.
   while (stop_ == 0 && report.done && !gone_on() && !player.finished()) {
     player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
     device_.intend(player.intent());
@@ -255,7 +255,7 @@ void Session::fill(VisitReport& report) const {
   }
 }
 
-/// Waits for a world, and says at once what it waits for.
+/// Waits for a world, and logs at once what it is waiting for.
 Expected<void> join(client::Client& client, const VisitOptions& options, const volatile std::sig_atomic_t& stop) {
   SystemClock clock;
   const TimePoint until = clock.now() + options.join_within;
@@ -267,9 +267,12 @@ Expected<void> join(client::Client& client, const VisitOptions& options, const v
     log::info(said == LinkState::refused ? client.refusal()
                                          : fmt::format("{}: looking for a server", options.client.kiosk));
   }
-  if (stop != 0) return fail("stopped before it was in a world", options.client.kiosk);
-  if (const std::string why = client.refusal(); !why.empty()) return fail(why, options.client.kiosk);
-  return fail("no server answered", options.client.kiosk,
+  if (stop != 0)
+    return fail(ErrorCode::cancelled, "the visitor was stopped before it had joined a world", options.client.kiosk,
+                "start it again");
+  if (const std::string why = client.refusal(); !why.empty())
+    return fail(ErrorCode::busy, why, options.client.kiosk, "then start the visitor again");
+  return fail(ErrorCode::not_found, "no server answered", options.client.kiosk,
               "start one with 'mechane server', in the same DDS domain and network");
 }
 

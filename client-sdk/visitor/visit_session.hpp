@@ -4,6 +4,7 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,16 +17,16 @@ namespace mechane::visitor {
 
 struct VisitOptions {
   client::ClientConfig client;
-  std::filesystem::path scenario;       ///< the file that the visit is read from
-  std::vector<std::string> visits;      ///< by name, in this order; empty: those of `activities`
-  std::vector<std::string> activities;  ///< one visit of each, in this order; empty, and no visits: all visits
+  std::filesystem::path scenario;       ///< the file with the visits
+  std::vector<std::string> visits;      ///< names, in order; empty: those of `activities`
+  std::vector<std::string> activities;  ///< one visit of each, in order; all visits where this and `visits` are empty
   PlayerConfig player;
   haptic::RenderMode render = haptic::RenderMode::server;
   Duration join_within = std::chrono::seconds(20);
-  Duration done_within = std::chrono::seconds(60);  ///< how long after its last move an activity may take to be done
-  Duration linger = std::chrono::seconds(1);  ///< how long a visitor stays where a sign sent it, before it goes home
-  bool names_kiosk = false;                   ///< on stdout, where several play at once
-  bool endless = false;                       ///< begins again when it is through: load and attract mode
+  Duration done_within = std::chrono::seconds(60);  ///< how long to wait after an activity's last move until it is done
+  Duration linger = std::chrono::seconds(1);  ///< how long to stay at an exhibit that a sign opened, before going home
+  bool names_kiosk = false;                   ///< lines on stdout begin with the kiosk, for several at once
+  bool endless = false;                       ///< starts again after the last visit: for load tests and demonstrations
 };
 
 struct StepTime {
@@ -39,7 +40,7 @@ struct ActivityReport {
   std::string visit;  ///< which of its visits
   bool done = false;
   double seconds = 0;
-  std::string reason;      ///< why it is not done, with visit and step; empty where it is
+  std::string reason;      ///< why it is not done, with visit and step; empty where it is done
   std::string gone_on_to;  ///< the scenario that a sign of the visit opened; empty: none
   std::vector<StepTime> steps;
   std::vector<MoveResult> moves;
@@ -50,21 +51,23 @@ struct VisitReport {
   std::string world;
   std::vector<ActivityReport> activities;
   std::vector<std::pair<std::string, double>> quantities;  ///< at the end, by name
-  double water_l = 0;  ///< what pumps lifted, the quantity `lifted`, where the world has one
+  std::optional<double> water_l;  ///< what pumps lifted, the quantity `lifted`, where the world has one
   haptic::LoopStats loop;
   realtime::LatencyHistogram round_trip;
   [[nodiscard]] bool complete() const;
 };
 
-/// The report as JSON; the names in it are stable.
+/// The report as JSON; the names in it are stable. What was not measured is left out.
 [[nodiscard]] std::string to_json(const VisitReport& report);
 
-/// Which visits of the scenario are played. Errors: a name that it does not have, with those that it has; it has none.
+/// Which visits of the scenario are played. Errors: an unknown name (the remedy lists the known ones), no visits at
+/// all.
 [[nodiscard]] Expected<std::vector<const state::VisitDescription*>> choose_visits(const VisitOptions& options,
                                                                                   const state::WorldDescription& world);
 
-/// Plays the visit with a virtual device at 1 kHz, on the calling thread, and tells on stdout where it is. `stop` is looked at in each
-/// tick. Errors: the scenario cannot be read, it has no visit for an activity, the kiosk could not be joined or was refused.
+/// Plays the visits with a virtual device at 1 kHz, on the calling thread, and reports its progress on stdout. `stop`
+/// is checked in each tick. Errors: the scenario cannot be read, it has no visit for an activity, the kiosk could not
+/// be joined or was refused.
 [[nodiscard]] Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std::sig_atomic_t& stop);
 
 }  // namespace mechane::visitor

@@ -19,7 +19,9 @@ Expected<void> add_folder(const fs::path& folder, std::vector<fs::path>& found) 
   for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     if (it->path().extension() == ".x3d") found.push_back(it->path());
   }
-  if (error) return fail("the folder cannot be read: " + error.message(), folder.string(), "check its rights");
+  if (error)
+    return fail(ErrorCode::io_failure, "the folder cannot be read: " + error.message(), folder.string(),
+                "check its permissions");
   std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
   return {};
 }
@@ -55,17 +57,19 @@ Expected<std::vector<fs::path>> find_scenarios(std::span<const fs::path> places)
     } else if (fs::exists(place, error)) {
       found.push_back(place);
     } else {
-      return fail("there is no such file or folder", place.string(), "name X3D files, or folders that hold them");
+      return fail(ErrorCode::not_found, "the file or folder does not exist", place.string(),
+                  "name X3D files, or folders that contain them");
     }
   }
   if (found.empty()) {
-    return fail("there is no scenario", places.empty() ? "" : places.front().string(),
-                "name X3D files, or folders that hold them");
+    return fail(ErrorCode::not_found, "there is no scenario here", places.empty() ? "" : places.front().string(),
+                "name X3D files, or folders that contain them");
   }
   std::vector<std::string> names;
   for (const fs::path& file : found) {
     if (std::ranges::find(names, file.stem().string()) != names.end())
-      return fail("two scenarios have this file's name", file.string(), "rename one: its kiosk is named after it");
+      return fail(ErrorCode::duplicate, "another scenario has the same file name", file.string(),
+                  "rename one of them: each kiosk is named after its scenario's file");
     names.push_back(file.stem().string());
   }
   return found;

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from peers import Measured, Missing, own
 from plots import bars, heat_map, lines, number
+from text import grid
 
 PROGRAM_LIMIT_S = 1200  # before the program counts as hung; it takes some minutes
 OURS = "sqmap"
@@ -62,16 +63,6 @@ def _add_memory(result: Measured) -> None:
         result.notes.append("bytes.distance_field: the brick's grid with a 32-bit float at each node")
 
 
-def _row(cells: list[str], widths: list[int]) -> str:
-    return "  " + "  ".join(cell.ljust(width) if index == 0 else cell.rjust(width)
-                            for index, (cell, width) in enumerate(zip(cells, widths))).rstrip()
-
-
-def _grid(rows: list[list[str]]) -> list[str]:
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return [_row(row, widths) for row in rows]
-
-
 def _shown(metrics: dict[str, float], metric: str, scale: float = 1) -> str:
     return number(metrics[metric] * scale) if metric in metrics else "-"
 
@@ -107,7 +98,7 @@ def table(name: str, metrics: dict[str, float]) -> str:
                          show(f"cold_step_us.{method}.median"), show(f"ratio.{method}"),
                          show(f"bytes.{method}", 1e-3), show(f"depth_error_pct.{method}.p99"),
                          show(f"missed.{method}"), show(f"false.{method}"), show("build_s" if method == OURS else f"build_s.{method}")])
-        lines_out += _grid(rows)
+        lines_out += grid(rows)
     if objects:
         rows = [["", "step us", "p99", "brick us", "FCL us", "error p99 %", "error max %", "normal p99 deg", "missed", "false",
                  "parts", "KB", "radial KB", "brick KB", "peer KB"]]
@@ -118,9 +109,10 @@ def table(name: str, metrics: dict[str, float]) -> str:
                          show(f"normal_error_deg.{OURS}.{thing}.p99"), show(f"missed.{OURS}.{thing}"), show(f"false.{OURS}.{thing}"), show(f"parts.{thing}"),
                          show(f"bytes.{OURS}.{thing}", 1e-3), show(f"map_bytes.{thing}.radial", 1e-3), show(f"map_bytes.{thing}.brick", 1e-3),
                          show(f"bytes.brick.{thing}", 1e-3)])
-        lines_out += ["", *_grid(rows), "  KB: our maps and what a part takes besides; radial, brick: the maps of either kind; peer: the int16 brick"]
+        lines_out += ["", *grid(rows),
+                      "  KB: our maps and what a part takes besides; radial, brick: the maps of either kind; peer: the int16 brick"]
     if models := _models(metrics):
-        lines_out += ["", *_grid(models)]
+        lines_out += ["", *grid(models)]
     rest = {metric: value for metric, value in metrics.items() if metric.split(".")[0] in ("scene", "fit", "share", "ratio_avx2", "hulls") and not metric.startswith("scene.first_step")}
     if rest:
         width = max(len(metric) for metric in rest)

@@ -1,55 +1,39 @@
 """The motion-to-force path: what a tick costs, how long a movement takes to become a force, how late the loop wakes; each against
 its peer in the same run, in rounds, so that a slow minute of the machine falls on both."""
 
+import contextlib
 import os
 import shutil
-import signal
-import subprocess
 import time
 from pathlib import Path
 
-from peers import Measured, Missing, cyclictest, ddsperf, over_rounds, own
+from peers import LOOP_PRIORITY, Measured, Missing, cyclictest, ddsperf, over_rounds, own
 from plots import bars, tails
+from running import Programs, network
 
 ROUNDS = 3
-LOOP_PRIORITY = 80  # the server's loops and bench_wake's; cyclictest gets the same
 WIRE_PRIORITY = 50  # who asks and who answers in a round trip
 SCENARIO = "scenarios/archimedes-screw/archimedes-screw.x3d"
 PHASES = ["take_inputs", "move_hands", "find_contacts", "run_agents", "render_forces", "run_machines", "step_dynamics", "publish"]
 
 
-def _network(root: Path) -> dict[str, str]:
-    return {"CYCLONEDDS_URI": f"file://{root}/deploy/cyclonedds/test.xml", "CYCLONEDDS_TEST_TAG": f"bench-{os.getpid()}"}
-
-
-class Server:
+@contextlib.contextmanager
+def _server(context):
     """mechane-server with the screw's scenario, for as long as a round trip is measured."""
-
-    def __init__(self, context):
-        self.context = context
-        self.log = context.out / "path-server.log"
-
-    def __enter__(self):
-        program = self.context.bin / "mechane-server"
-        if not program.exists():
-            raise Missing(f"mechane-server missing in {self.context.bin}: it was not built")
-        records = self.context.out / "path-records"
-        shutil.rmtree(records, ignore_errors=True)
-        command = [str(program), "--scenario", SCENARIO, "--worlds", "1", "--records", str(records), "--fifo-priority", str(LOOP_PRIORITY)]
-        self.process = subprocess.Popen(command, stdout=self.log.open("w"), stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                        cwd=self.context.root, env={**os.environ, **_network(self.context.root)})
+    if not (context.bin / "mechane").exists():
+        raise Missing(f"mechane missing in {context.bin}: it was not built")
+    records = context.out / "path-records"
+    shutil.rmtree(records, ignore_errors=True)
+    programs = Programs("bench", context.bin, context.out)
+    server = programs.start("path-server", "server", "--scenario", SCENARIO, "--worlds", 1, "--records", records,
+                            "--fifo-priority", LOOP_PRIORITY)
+    try:
         time.sleep(0.2)  # long enough to see one that ends at once; a client waits for the server by itself
-        if self.process.poll() is not None:
-            raise Missing(f"mechane-server ended with {self.process.returncode}: {self.log.read_text()[-400:]}")
-        return self
-
-    def __exit__(self, *_):
-        self.process.send_signal(signal.SIGTERM)
-        try:
-            self.process.wait(10)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+        if server.poll() is not None:
+            raise Missing(f"mechane-server ended with {server.returncode}: {(context.out / 'path-server.log').read_text()[-400:]}")
+        yield
+    finally:
+        programs.stop_all()
 
 
 def measure_tick(context) -> Measured:
@@ -70,13 +54,12 @@ def measure_round_trip(context) -> Measured:
     each = context.seconds / ROUNDS
     ours, udp, perf = [], [], []
     for _ in range(ROUNDS):
-        with Server(context):
-            ours.append(own(context.bin, "bench_rtt", ["--priority", str(WIRE_PRIORITY), "--seconds", str(each)], each,
-                            _network(context.root)))
+        with _server(context):
+            ours.append(own(context.bin, "bench_rtt", ["--priority", str(WIRE_PRIORITY), "--seconds", str(each)], each, network("bench")))
         sizes = ours[-1].metrics
         udp.append(own(context.bin, "udp_pingpong", ["--priority", str(WIRE_PRIORITY), "--seconds", str(each), "--out",
                                                      str(int(sizes["bytes.input"])), "--back", str(int(sizes["bytes.output"]))], each))
-        perf.append(ddsperf(each, WIRE_PRIORITY, int(sizes["bytes.input"]), 77, _network(context.root)))
+        perf.append(ddsperf(each, WIRE_PRIORITY, int(sizes["bytes.input"]), 77, network("bench")))
     result = _join(_join(over_rounds(ours), over_rounds(udp)), over_rounds(perf))
     numbers = result.metrics
     numbers["ratio.rtt_udp.median"] = numbers["rtt_us.median"] / numbers["udp_us.median"]

@@ -3,11 +3,17 @@
 import json
 import os
 import re
-import signal
 import subprocess
+import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common_lib"))  # for all modules of this folder: each imports this one first
+from running import stop  # noqa: E402
+
+LOOP_PRIORITY = 80  # of the server's loops and of what measures beside them
 
 
 class Missing(Exception):
@@ -91,23 +97,12 @@ def ddsperf(seconds: float, priority: int, size: int, domain: int, env: dict[str
         # The first second holds the discovery of the two processes.
         said = _run([*with_priority, *common, "-D", str(int(seconds) + 1), "ping", "1kHz", "size", str(size)], seconds + 60, env)
     finally:
-        pong.send_signal(signal.SIGTERM)
-        try:
-            pong.wait(10)
-        except subprocess.TimeoutExpired:
-            pong.kill()
-            pong.wait()
+        stop(pong)
     seconds_of = [[float(value) for value in match.groups()] for match in _PING.finditer(said)][1:]
     if not seconds_of:
         raise Missing(f"ddsperf ping had no answer: {said.strip()[-300:]}")
     return Measured({"ddsperf_us.median": median([s[0] for s in seconds_of]), "ddsperf_us.p99": median([s[1] for s in seconds_of]),
                      "ddsperf_us.max": max(s[2] for s in seconds_of), "ddsperf_us.count": sum(s[3] for s in seconds_of)})
-
-
-def median(values: list[float]) -> float:
-    ordered = sorted(values)
-    middle = len(ordered) // 2
-    return ordered[middle] if len(ordered) % 2 else (ordered[middle - 1] + ordered[middle]) / 2
 
 
 def over_rounds(rounds: list[Measured]) -> Measured:

@@ -4,11 +4,11 @@ core holds."""
 import re
 from pathlib import Path
 
-from peers import Measured, Missing, own
+from peers import LOOP_PRIORITY, Measured, Missing, own
 from plots import lines, number, ranges
+from text import grid
 
 PROGRAM_LIMIT_S = 1500  # before the program counts as hung; the first time, parts are fitted for minutes
-LOOP_PRIORITY = 80  # the server's loops' own
 COUNTS = 3  # of worlds that are tried in the time given for a part: a third of it each
 AIM_MEDIAN_US, AIM_P999_US, AIM_LOAD_S, AIM_MODEL_MB, AIM_MODELS_MB, AIM_WORLDS = 150, 500, 1, 8, 60, 6
 TICK_US = 1000
@@ -67,12 +67,6 @@ def add_models(result: Measured, scenarios: list[Path]) -> None:
     result.metrics |= {f"model_mb.{name}": _megabytes(files) for name, files in meshes.items()}
 
 
-def _grid(rows: list[list[str]]) -> list[str]:
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return ["  " + "  ".join(cell.ljust(width) if index == 0 else cell.rjust(width)
-                             for index, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in rows]
-
-
 def _counts(metrics: dict[str, float]) -> list[int]:
     return sorted(int(name.split(".")[1]) for name in metrics if name.startswith("worlds_over_pct."))
 
@@ -85,12 +79,14 @@ def table(name: str, metrics: dict[str, float]) -> str:
                  f"budget_pct.{exhibit}.median", *(f"phase_us.{exhibit}.{phase}" for phase in PHASES), f"load_s.{exhibit}", f"model_mb.{exhibit}"]
         rows.append([exhibit, *(number(metrics[metric]) if metric in metrics else "-" for metric in shown)])
     rows.append(["aim: under", str(AIM_MEDIAN_US), "", str(AIM_P999_US), "", "", "", *("" for _ in PHASES), str(AIM_LOAD_S), str(AIM_MODEL_MB)])
-    text = [f"\n{name}", *_grid(rows), "  floor: of each tick the faster of two replays, so what the work takes; phases: means; CPU time, but loading by the wall clock"]
+    text = [f"\n{name}", *grid(rows),
+            "  floor: of each tick the faster of two replays, so what the work takes; phases: means; CPU time, "
+            "but loading by the wall clock"]
     counts = _counts(metrics)
     if counts:
-        text += ["", *_grid([["worlds stepped in each millisecond", *map(str, counts)],
-                             ["median, us", *(number(metrics[f"worlds_tick_us.{count}.median"]) for count in counts)],
-                             ["ticks over 1 ms, %", *(number(metrics[f"worlds_over_pct.{count}"]) for count in counts)]])]
+        text += ["", *grid([["worlds stepped in each millisecond", *map(str, counts)],
+                            ["median, us", *(number(metrics[f"worlds_tick_us.{count}.median"]) for count in counts)],
+                            ["ticks over 1 ms, %", *(number(metrics[f"worlds_over_pct.{count}"]) for count in counts)]])]
         text.append(f"  one core holds {metrics['worlds_per_core']:.0f} worlds with under 0.1 % of ticks over 1 ms (aim: {AIM_WORLDS}); computed from the mean "
                     f"tick: {metrics['worlds_per_core.computed']:.1f}\n  the dearest exhibits first, each in another part of its visit; a wake-up's cold caches count here, "
                     "and not above")

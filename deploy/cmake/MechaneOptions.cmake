@@ -13,10 +13,14 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1 -DNDEBUG" CACHE STRING "" FORCE)
 find_program(CCACHE ccache)
 if(CCACHE)
   # Paths are hashed relative to the checkout, so that another clone on the same machine finds what this one compiled.
-  set(launcher "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${CCACHE}")
+  set(launcher "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+      CCACHE_PCH_EXTSUM=1 CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE}")
   set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
   set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
 endif()
+
+# __FILE__ begins at the root of the repository: messages name no folder of a machine, and ccache finds what another clone compiled.
+add_compile_options("-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=")
 
 # Same inputs, same bits: no contraction into fused multiply-adds but where a kernel asks for one by name.
 add_compile_options(-ffp-contract=off)
@@ -38,6 +42,11 @@ endif()
 if(CMAKE_UNITY_BUILD)
   # Several sources in one: a class in a .cpp file looks as if a header had it.
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage> -Wno-unknown-warning-option)
+endif()
+
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Dev")
+  # GCC 12 at -O1 suspects the standard library's own strings and optionals.
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds>)
 endif()
 
 set(MECHANE_WARNINGS

@@ -7,62 +7,24 @@ import os
 import pathlib
 import re
 import shutil
-import signal
-import subprocess
 import sys
 import time
 import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "deploy/bench_lib"))
+sys.path.insert(0, str(ROOT / "deploy/common_lib"))
 import machine  # noqa: E402
 import recording  # noqa: E402
+from running import Programs  # noqa: E402
 
 VILLAGE, SCREW, ODOMETER = (f"scenarios/{name}/{name}.x3d" for name in ("village", "archimedes-screw", "odometer"))
 # Two visitors work the screw; a third goes through the village, whose two visits touch the screw's sign and the odometer's.
 KIOSKS = {"kiosk-1": SCREW, "kiosk-2": SCREW, "village": VILLAGE}
 LINGER_S = 8  # at the exhibit that a sign opened: a display that draws on the processor needs some seconds to load it
 VISIT_LIMIT_S = 240
-START_LIMIT_S = 1200
 TOUR_LIMIT_S = 1200
 DRAW_LIMIT_S = 900
 TOUR_TOLD_EACH_S = 15  # where there is no terminal
-
-
-class Programs:
-    """The running programs; all are stopped at the end, whatever happens."""
-
-    def __init__(self, bin_dir, out, environment):
-        self.bin_dir, self.out, self.environment = bin_dir, out, environment
-        self.running = {}
-
-    def start(self, name, *arguments):
-        log = open(self.out / f"{name}.log", "w")
-        command = [str(self.bin_dir / "mechane"), *arguments]
-        self.running[name] = subprocess.Popen(
-            command, env=self.environment, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
-        return self.running[name]
-
-    def wait(self, name, limit_s):
-        """The exit status, or None when the program was still running at the limit."""
-        try:
-            return self.running[name].wait(timeout=limit_s)
-        except subprocess.TimeoutExpired:
-            return None
-
-    def stop(self, name, limit_s=10):
-        process = self.running[name]
-        if process.poll() is None:
-            process.send_signal(signal.SIGTERM)
-            if self.wait(name, limit_s) is None:
-                process.kill()
-                process.wait()
-                return None
-        return process.returncode
-
-    def stop_all(self):
-        for name in list(self.running):
-            self.stop(name)
 
 
 def read_json(path):
@@ -78,13 +40,6 @@ def has_screen():
 
 def makes_pictures(options):
     return options.headless or not has_screen()
-
-
-def environment_of(root):
-    env = dict(os.environ)
-    env["CYCLONEDDS_URI"] = "file://" + str(root / "deploy/cyclonedds/test.xml")
-    env["CYCLONEDDS_TEST_TAG"] = f"demo-{os.getpid()}"
-    return env
 
 
 def watch_visitors(programs, names):
@@ -128,15 +83,14 @@ def scenarios_of(options):
 
 def start_server(programs, options, scenarios, out):
     """Starts the server and waits until it is ready: the first time it builds the collision parts, which takes minutes."""
-    server = programs.start("server", "server", "--scenario", *scenarios, "--worlds", "8", "--records", str(out / "records"),
-                            "--report", str(out / "server.json"), "--domain", str(options.domain))
-    started = time.monotonic()
-    while " ready: " not in (out / "server.log").read_text(errors="replace"):
-        if server.poll() is not None or time.monotonic() - started > START_LIMIT_S:
-            sys.exit(f"demo: the server did not start: see {out / 'server.log'}\n" + (out / "server.log").read_text()[-2000:])
+    programs.start("server", "server", "--scenario", *scenarios, "--worlds", "8", "--records", out / "records",
+                   "--report", out / "server.json", "--domain", options.domain)
+
+    def tell(seconds):
         if sys.stdout.isatty():
-            print(f"\r  {time.monotonic() - started:5.1f} s  the server reads the exhibits (the first time it fits their parts)", end="")
-        time.sleep(0.2)
+            print(f"\r  {seconds:5.1f} s  the server reads the exhibits (the first time it fits their parts)", end="")
+
+    programs.wait_ready(tell)
     if sys.stdout.isatty():
         print()
 
@@ -240,14 +194,16 @@ def gather(out, visitors, replays):
         "steps.done": sum(len([s for s in a.get("steps", []) if s.get("done")]) for a in activities),
         "kiosks": len(visitors),
         **{count: server[count] for count in ("overruns", "late_wakeups", "preemptions") if count in server},
-        "water_l": round(sum(r.get("water_l", 0) for r in reports), 2),
         "pictures": len(pictures),
         "pictures.wanted": len(wanted),
         "pictures.missed": len(missed),
         "replays.same_hash": replays[0],
         "replays.asked": replays[1],
-        "force_n.max": max([r.get("force_n", {}).get("max", 0) for r in reports], default=0),
     }
+    if water_l := [r["water_l"] for r in reports if "water_l" in r]:
+        metrics["water_l"] = round(sum(water_l), 2)
+    if force_n := [r["force_n"]["max"] for r in reports if "max" in r.get("force_n", {})]:
+        metrics["force_n.max"] = max(force_n)
     for key, value in server.get("tick_us", {}).items():
         metrics[f"tick_us.{key}"] = value
     for key in ("median", "p99", "p999", "max"):
@@ -308,7 +264,7 @@ def main():
     parser.add_argument("--all", action="store_true", help="afterwards every visit of every exhibit")
     parser.add_argument("--domain", type=int, default=42)
     options = parser.parse_args()
-    root, out = pathlib.Path.cwd(), options.out.resolve()
+    out = options.out.resolve()
     for stale in ("pictures", "records"):
         shutil.rmtree(out / stale, ignore_errors=True)
     for stale in (*out.glob("*.json"), *out.glob("*.log"), *out.glob("*.frames")):
@@ -316,7 +272,7 @@ def main():
             stale.unlink()
     out.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
-    programs = Programs(options.bin.resolve(), out, environment_of(root))
+    programs = Programs("demo", options.bin.resolve(), out)
     problems = []
     try:
         print("demo: a server, three kiosks with a visitor and a display each, a second hand at the first kiosk")
@@ -348,7 +304,7 @@ def main():
     for asset in missing_assets(out):
         problems.append(f"a display showed a plain box instead of {asset}")
     metrics["failed"] = len(problems)
-    report = {"name": "demo", "commit": machine.commit(root), "cpu": machine.cpu(), "cores": machine.cores(), "simd": simd,
+    report = {"name": "demo", "commit": machine.commit(ROOT), "cpu": machine.cpu(), "cores": machine.cores(), "simd": simd,
               "seconds": round(time.monotonic() - started, 1), "metrics": metrics, "activities": activities,
               "notes": problems}
     (out / "report.json").write_text(json.dumps(report, indent=2) + "\n")

@@ -2,19 +2,18 @@
 
 import argparse
 import dataclasses
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "demo_lib"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1] / folder) for folder in ("common_lib", "demo_lib")]
 import recording  # noqa: E402
-from demo import Programs  # noqa: E402
+from running import Programs  # noqa: E402
 
 DISSOLVE_S = 0.4
-START_LIMIT_S, VISIT_LIMIT_S, DRAW_LIMIT_S = 1200, 300, 3600
+VISIT_LIMIT_S, DRAW_LIMIT_S = 300, 3600
 SMALL = "640x360"
 SHEET_PICTURE = "640x360"
 
@@ -49,10 +48,6 @@ def fail(text: str) -> None:
     sys.exit(f"film: {text}")
 
 
-def environment_of(root: pathlib.Path) -> dict[str, str]:
-    return {**os.environ, "CYCLONEDDS_URI": "file://" + str(root / "deploy/cyclonedds/test.xml"), "CYCLONEDDS_TEST_TAG": f"film-{os.getpid()}"}
-
-
 def wait_for(condition, limit_s: float, what: str) -> None:
     end = time.monotonic() + limit_s
     while not condition():
@@ -68,9 +63,8 @@ def record(programs: Programs, place: Place, out: pathlib.Path) -> None:
         scenarios += sorted(str(file) for file in pathlib.Path("scenarios").glob("*/*.x3d") if file.stem != place.name)
     file = out / f"{place.name}.frames"
     file.unlink(missing_ok=True)
-    server = programs.start("server", "server", "--scenario", *scenarios, "--records", "")
-    log = out / "server.log"
-    wait_for(lambda: " ready: " in log.read_text(errors="replace") or server.poll() is not None, START_LIMIT_S, "the server is ready")
+    programs.start("server", "server", "--scenario", *scenarios, "--records", "")
+    programs.wait_ready()
     programs.start("display", *recording.record("film", file))
     wait_for(lambda: file.exists() and file.stat().st_size > 20_000, 300, f"the display has a world: see {out / 'display.log'}")
     hand = ["--glove"] if place.whole_hand else []
@@ -166,7 +160,7 @@ def main() -> int:
     places = [place for place in PLACES if not options.only or place.name in options.only]
     if not options.scenes and shutil.which("ffmpeg") is None:
         fail("ffmpeg is not there: deploy/install-deps --film installs it")
-    programs = Programs(options.bin.resolve(), out, environment_of(pathlib.Path.cwd()))
+    programs = Programs("film", options.bin.resolve(), out)
     try:
         for place in places:
             if not options.again:

@@ -8,8 +8,10 @@ import sys
 from dataclasses import astuple, dataclass, field
 from pathlib import Path
 
-import sound
-from scenario_texts import Line, Scenario, Trouble, read_scenario
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common_lib"))
+import sound  # noqa: E402
+from scenario_texts import Line, Scenario, Trouble, read_scenario  # noqa: E402
+from text import clock, grid  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 LIST = "narration.json"
@@ -101,16 +103,6 @@ def make_scenario(scenario: Scenario, out: Path, speaker: Speaker) -> Tally:
     return tally
 
 
-def _clock(seconds: float) -> str:
-    return f"{int(seconds) // 60}:{int(seconds) % 60:02}"
-
-
-def _table(rows: list[list[str]]) -> str:
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return "\n".join("  ".join(cell.ljust(width) if index == 0 else cell.rjust(width)
-                               for index, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in rows)
-
-
 def _decibels(value: float | None) -> str:
     return "-" if value is None else f"{value:.1f}"
 
@@ -120,13 +112,13 @@ def _summary(tallies: dict[str, Tally]) -> str:
     for name, tally in tallies.items():
         longest = max((entry["seconds"] for entry in tally.entries), default=0)
         peaks = [entry["peak_dbfs"] for entry in tally.entries if entry["peak_dbfs"] is not None]
-        rows.append([name, str(tally.drafts), str(tally.recordings), str(tally.made), _clock(sum(entry["seconds"] for entry in tally.entries)),
-                     f"{longest:.1f}", _decibels(max(peaks, default=None))])
+        rows.append([name, str(tally.drafts), str(tally.recordings), str(tally.made),
+                     clock(sum(entry["seconds"] for entry in tally.entries)), f"{longest:.1f}", _decibels(max(peaks, default=None))])
     every = [entry for tally in tallies.values() for entry in tally.entries]
     if len(tallies) > 1:
         rows.append(["all", *(str(sum(getattr(tally, name) for tally in tallies.values())) for name in ("drafts", "recordings", "made")),
-                     _clock(sum(entry["seconds"] for entry in every)), f"{max((entry['seconds'] for entry in every), default=0):.1f}", ""])
-    return _table(rows)
+                     clock(sum(entry["seconds"] for entry in every)), f"{max((entry['seconds'] for entry in every), default=0):.1f}", ""])
+    return "\n".join(grid(rows, indent=""))
 
 
 def _listing(tallies: dict[str, Tally]) -> str:
@@ -134,7 +126,7 @@ def _listing(tallies: dict[str, Tally]) -> str:
     for name, tally in tallies.items():
         rows += [[f"{name}/{entry['file']}", entry["kind"], f"{entry['seconds']:.1f}", f"{entry['characters'] / entry['seconds']:.1f}",
                   _decibels(entry["level_dbfs"]), _decibels(entry["peak_dbfs"])] for entry in tally.entries]
-    return _table(rows)
+    return "\n".join(grid(rows, indent=""))
 
 
 def _voice(text: str) -> tuple[str, str]:

@@ -1,6 +1,7 @@
 """Whether memory grows: a line that single peaks do not bend, through what came after the beginning."""
 
 from dataclasses import dataclass
+from statistics import median
 
 JUDGED_SHARE = 2 / 3  # what is loaded once is loaded in the first third
 LIMIT_MIB_PER_H = 12.0  # a week of it is 2 GiB: a kiosk is started anew before
@@ -26,12 +27,6 @@ class Growth:
     @property
     def good(self) -> bool:
         return self.grown_mib <= self.allowed_mib
-
-
-def median(values: list[float]) -> float:
-    ordered = sorted(values)
-    middle = len(ordered) // 2
-    return ordered[middle] if len(ordered) % 2 else (ordered[middle - 1] + ordered[middle]) / 2
 
 
 def thinned(samples: list[tuple[float, float]], most: int) -> list[tuple[float, float]]:

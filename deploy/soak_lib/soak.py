@@ -4,19 +4,18 @@ import argparse
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
-from growth import LEAST_GROWTH_MIB, LIMIT_MIB_PER_H, growth_of
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common_lib"))
+from growth import LEAST_GROWTH_MIB, LIMIT_MIB_PER_H, growth_of  # noqa: E402
+from running import ROOT, Programs  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[2]
 SCREW, ODOMETER, VILLAGE = (ROOT / f"scenarios/{name}/{name}.x3d" for name in ("archimedes-screw", "odometer", "village"))
 EXHIBITS = (SCREW, ODOMETER)
 SAMPLE_EVERY_S = 2
-START_LIMIT_S = 1200
 VISIT_LIMIT_S = 300
 STOP_LIMIT_S = 30
 
@@ -30,11 +29,10 @@ def memory_mib(pid: int) -> float | None:
     return int(found.group(1)) / 1024 if found else None
 
 
-class Soak:
+class Soak(Programs):
     def __init__(self, out: Path, seconds: float):
-        self.out, self.end, self.began = out, time.monotonic() + seconds, time.monotonic()
-        self.environment = {**os.environ, "CYCLONEDDS_URI": f"file://{ROOT}/deploy/cyclonedds/test.xml", "CYCLONEDDS_TEST_TAG": f"soak-{os.getpid()}"}
-        self.running: dict[str, subprocess.Popen] = {}
+        super().__init__("soak", ROOT / "build/release/bin", out, cwd=out)
+        self.end, self.began = time.monotonic() + seconds, time.monotonic()
         self.samples: dict[str, list[tuple[float, float]]] = {}
         self.visits = {"done": 0, "failed": 0}
         self.faults: list[str] = []
@@ -43,22 +41,15 @@ class Soak:
 
     def start(self, name: str, *words) -> subprocess.Popen:
         self.started += 1
-        with open(self.out / f"{name}.log", "w") as log:
-            self.running[name] = subprocess.Popen([str(ROOT / "build/release/bin/mechane"), *map(str, words)], env=self.environment, stdout=log,
-                                                  stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, cwd=self.out)
-        return self.running[name]
+        return super().start(name, *words)
 
     def stop(self, name: str) -> None:
-        process = self.running.pop(name)
-        if process.poll() is not None:
-            return self.fault(f"{name} ended by itself with status {process.returncode}")
-        process.send_signal(signal.SIGTERM)
-        try:
-            process.wait(STOP_LIMIT_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+        ended = self.running[name].poll()
+        if ended is not None:
+            self.fault(f"{name} ended by itself with status {ended}")
+        elif super().stop(name, STOP_LIMIT_S) is None:
             self.fault(f"{name} did not stop within {STOP_LIMIT_S} s")
+        del self.running[name]
 
     def fault(self, text: str) -> None:
         self.faults.append(f"{time.monotonic() - self.began:.0f} s: {text}")
@@ -75,14 +66,6 @@ class Soak:
             if held is not None:
                 self.samples.setdefault(name, []).append((now - self.began, held))
 
-    def wait_ready(self) -> None:
-        log = self.out / "server.log"
-        limit = time.monotonic() + START_LIMIT_S
-        while " ready: " not in log.read_text(errors="replace"):
-            if self.running["server"].poll() is not None or time.monotonic() > limit:
-                sys.exit("soak: the server did not start:\n" + log.read_text()[-2000:])
-            time.sleep(0.2)
-
     def display(self, name: str, kiosk: str) -> None:
         self.start(name, "display", "--offscreen", "--kiosk", kiosk, "--name", name, "--size", "320x180", "--fps", "5")
 
@@ -95,7 +78,7 @@ class Soak:
                 self.display(display, kiosk)
             scenario = EXHIBITS[count % len(EXHIBITS)]
             if not guest:  # the display that stays goes through all exhibits
-                subprocess.run([str(ROOT / "build/release/bin/mechane"), "open", scenario.stem, "--kiosk", kiosk], env=self.environment,
+                subprocess.run([str(self.bin_dir / "mechane"), "open", scenario.stem, "--kiosk", kiosk], env=self.environment,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60)
             count += 1
             process = self.start(visitor, "visitor", "--kiosk", kiosk, "--scenario", scenario)

@@ -8,6 +8,9 @@ import sys
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common_lib"))
+from text import clock  # noqa: E402
+
 _PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -70,7 +73,7 @@ def _last_line(log: Path) -> str:
 def _show_progress(log: Path, started: float, shown: float) -> float:
     """On a terminal the newest line of the log, in place; in a file a line a minute."""
     now = time.monotonic()
-    elapsed = f"{int(now - started) // 60}:{int(now - started) % 60:02}"
+    elapsed = clock(now - started)
     if sys.stdout.isatty():
         print(f"\r\033[K      {elapsed}  {_last_line(log)}", end="", flush=True)
         return now
@@ -108,13 +111,17 @@ class Beside:
                                              start_new_session=True, preexec_fn=_leave_time_to_others)
 
     def end(self) -> None:
-        """As an interrupt by hand: a build ends its compilers and removes what they had half written."""
-        if self._process.poll() is None:
-            os.killpg(self._process.pid, signal.SIGTERM)
+        """As an interrupt by hand: a build ends its compilers and removes what they had half written. When idle, it takes its time."""
+        deadline = time.monotonic() + 60
         try:
-            self._process.wait(timeout=60)
-        except subprocess.TimeoutExpired:
-            _end_group(self._process)
+            os.killpg(self._process.pid, signal.SIGTERM)
+            while time.monotonic() < deadline:
+                _reap()
+                os.killpg(self._process.pid, 0)
+                time.sleep(0.05)
+        except ProcessLookupError:
+            pass  # all of it has ended
+        _end_group(self._process)
 
 
 def run(command: list[str], log: Path, limit_s: float, env: dict[str, str] | None = None) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 from programs import Program, run_program
 from results import Case, Tally
 
-RARE = 20  # what takes long, draws, or shares the network runs once for so many rounds of the others
+RARE = 20  # tests that are slow, draw or share the network run once in this many rounds of the others
 
 
 def rounds_of(labels: frozenset[str], rounds: int) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from results import Tally
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench_lib"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common_lib"))
 import machine  # noqa: E402
 
 LONGEST = 20
@@ -18,6 +18,7 @@ class Ran:
     """A phase that is over."""
     tally: Tally
     seconds: float
+    cpu_s: float = 0  # of all its processes, and of what ran beside it
 
 
 def whole(phases: dict[str, Ran]) -> Tally:
@@ -38,6 +39,7 @@ def write_report(path: Path, root: Path, phases: dict[str, Ran]) -> None:
     metrics |= {outcome: total.count(outcome) for outcome in ("passed", "failed", "skipped")}
     metrics["left_out"] = total.count("left out")
     metrics |= {f"phase_s.{name}": round(phase.seconds, 1) for name, phase in phases.items()}
+    metrics |= {f"cpu_s.{name}": round(phase.cpu_s, 1) for name, phase in phases.items()}
     path.write_text(json.dumps({
         "name": "test", "commit": machine.commit(root), "cpu": machine.cpu(), "cores": machine.cores(), "simd": machine.simd(),
         "seconds": seconds, "metrics": metrics, "notes": long_cases(phases)}, indent=1, ensure_ascii=False) + "\n")

@@ -3,6 +3,7 @@
 import argparse
 import os
 import random
+import resource
 import shlex
 import shutil
 import signal
@@ -18,6 +19,7 @@ from programs import Program, chosen, known_to_ctest, run_program
 from repeat import RARE, named, run_rounds
 from report import Ran, long_cases, whole, write_report
 from results import Case, Tally, read_junit, tail, write_junit
+from text import clock
 
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out/test"
@@ -42,7 +44,7 @@ class Phase:
     title: str  # what stands before a comma names it in logs and in the report
     run: Callable[[Path], Tally]  # gets its log, returns its cases
     preset: str  # the build that it makes or needs
-    beside: Callable[[], processes.Beside] | None = None  # what is begun with it, and ended with it
+    ahead: str = ""  # for a shell: does its work, as far as it comes, beside the tests before it; `run` takes up the rest
 
     @property
     def name(self) -> str:
@@ -62,13 +64,14 @@ def build(preset: str, *targets: str) -> Phase:
             return Tally([Case(name, "failed", tail(log))])
         return Tally([Case(name, "passed")])
 
-    return Phase(f"build {preset}", run, preset)
+    configure, make = map(shlex.join, _build_commands(preset, targets))
+    return Phase(f"build {preset}", run, preset, f"{{ test -f build/{preset}/build.ninja || {configure}; }} && {make}")
 
 
-def begin(*commands: list[str]) -> Callable[[], processes.Beside]:
-    """Commands for the time that a phase leaves to others, one after another, as far as they come. The phases whose work it is find done
-    what was done, and take up the rest."""
-    return lambda: processes.Beside(["sh", "-c", " && ".join(map(shlex.join, commands))], OUT / "beside.log")
+def begin_ahead(phases: list[Phase]) -> processes.Beside | None:
+    """What can be done ahead of these phases, one after another, on the processor time that tests leave."""
+    commands = [phase.ahead for phase in phases if phase.ahead]
+    return processes.Beside(["sh", "-c", " && ".join(commands)], OUT / "beside.log") if commands else None
 
 
 def _run_ctest(preset: str, log: Path, jobs: int, only: str = "", leave_out: str = "", named: str = "", times: int = 1) -> Tally:
@@ -90,12 +93,12 @@ def environment_of(preset: str) -> dict[str, str]:
     return SANITIZER_ENV if preset in ("asan-ubsan", "tsan") else {}
 
 
-def end_to_end(preset: str, at_once: int, leave_out: str = "", beside: Callable[[], processes.Beside] | None = None) -> Phase:
+def end_to_end(preset: str, at_once: int, leave_out: str = "") -> Phase:
     """Tests of the programs. Those that draw count twice, some run alone: see tests/integration/CMakeLists.txt."""
     def run(log: Path) -> Tally:
         return _run_ctest(preset, log, at_once, only="integration", leave_out=leave_out)
 
-    return Phase(f"test {preset} end-to-end", run, preset, beside)
+    return Phase(f"test {preset} end-to-end", run, preset)
 
 
 def programs(preset: str, only: str = "", leave_out: str = "none", others: bool = False) -> Phase:
@@ -194,51 +197,52 @@ def tidy() -> Phase:
         processes.run([*TIDY, "--junit", str(junit)], log, limit_s=3600)
         return read_junit(junit)
 
-    return Phase("clang-tidy", run, "asan-ubsan")
+    return Phase("clang-tidy", run, "asan-ubsan", shlex.join(TIDY))
 
 
 def phases(quick: bool) -> list[Phase]:
     if quick:
         return [build("quick", "in_process_tests"), programs("quick", only="in-process", leave_out="slow", others=True)]
-    sanitizers_build = begin(*_build_commands("asan-ubsan", ()), TIDY)
     return [
         build("release"), programs("release", others=True),
-        end_to_end("release", at_once=2 * JOBS, beside=sanitizers_build),  # most of the time these tests wait
+        end_to_end("release", at_once=2 * JOBS),  # most of the time these tests wait
         build("asan-ubsan"), programs("asan-ubsan", leave_out="not-address"), end_to_end("asan-ubsan", at_once=JOBS, leave_out="not-address"), fuzz(),
         build("tsan", "threaded_tests"), programs("tsan", only="threads"),
         tidy(),
     ]
 
 
-def clock(seconds: float) -> str:
-    return f"{int(seconds) // 60}:{int(seconds) % 60:02}"
-
-
-def run_phase(phase: Phase, log: Path) -> Tally:
+def run_phase(phase: Phase, log: Path, later: list[Phase]) -> Tally:
     log.unlink(missing_ok=True)
     log.touch()
-    beside = phase.beside() if phase.beside else None
+    beside = begin_ahead(later) if phase.title.startswith("test") else None
     try:
         tally = phase.run(log)
     finally:
         if beside:
             beside.end()
-    # What ran beside at idle priority takes its time to end where the machine is busy.
-    left = processes.end_leftovers(grace_s=30 if beside else 3)
+    left = processes.end_leftovers()
     if left:
         tally.cases.append(Case(f"{phase.title} ends its processes", "failed", "left running: " + ", ".join(sorted(set(left)))))
     return tally
 
 
-def report(tally: Tally, log: Path, seconds: float) -> None:
+def report(ran: Ran, log: Path) -> None:
+    tally = ran.tally
     others = "".join(f", {tally.count(outcome)} {outcome}" for outcome in ("skipped", "left out") if tally.count(outcome))
-    print(f"      {tally.count('passed')} passed, {len(tally.failed)} failed{others}, in {clock(seconds)}", flush=True)
+    print(f"      {tally.count('passed')} passed, {len(tally.failed)} failed{others}, in {clock(ran.seconds)}, "
+          f"{clock(ran.cpu_s)} of processor time", flush=True)
     for case in tally.failed:
         print(f"\n  FAILED  {case.name}   (whole log: {log.relative_to(ROOT)})")
         for line in case.detail.splitlines()[-25:]:
             print(f"    {line}")
     if tally.failed:
         print()
+
+
+def _cpu_s() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
@@ -250,13 +254,13 @@ def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
         if phase.preset in broken:
             print("      not run: its build failed", flush=True)
             continue
-        begun = time.monotonic()
+        begun, cpu_s = time.monotonic(), _cpu_s()
         log = OUT / f"{number}-{phase.name}.log"
-        tally = run_phase(phase, log)
-        done[phase.name] = Ran(tally, time.monotonic() - begun)
+        tally = run_phase(phase, log, planned[number:])
+        done[phase.name] = Ran(tally, time.monotonic() - begun, _cpu_s() - cpu_s)
         if phase.title.startswith("build") and tally.failed:
             broken.add(phase.preset)
-        report(tally, log, done[phase.name].seconds)
+        report(done[phase.name], log)
 
 
 def main() -> int:

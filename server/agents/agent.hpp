@@ -5,7 +5,7 @@
 #include <span>
 
 #include "server/base/error.hpp"
-#include "server/state/component_type.hpp"
+#include "server/state/component_build.hpp"
 #include "server/state/world_state.hpp"
 
 namespace mechane::agents {
@@ -18,46 +18,31 @@ class Agent {
   /// Called once, when every agent and machine has its slots: for those that read another's value.
   [[nodiscard]] virtual Expected<void> link(const state::MemoryLayout& layout);
 
-  /// Somebody clicked on a body, before this tick's run(). True when the agent took it. Allocates nothing.
+  /// Somebody clicked on a body, before this tick's run(). True when the agent used the click. Allocates nothing.
   virtual bool click(state::WorldState& state, BodyId body) const noexcept;
 
   /// One tick, whether the agent is switched on or off. Allocates nothing.
   virtual void run(state::WorldState& state, bool enabled, double dt_s) const noexcept = 0;
 
-  /// Whether it switches other agents: such run first in a tick, so that what they say holds in it.
+  /// Whether it switches other agents. Such agents run first in a tick, so that their switches hold within it.
   [[nodiscard]] virtual bool switches_others() const noexcept { return false; }
 };
 
-/// What a maker gets. Parameters are checked against the type already; the references live until the set is made, the description
-/// as long as the set.
-struct Build {
-  const state::WorldDescription& description;
-  const state::ComponentDescription& component;
-  const state::Parameters& parameters;
+/// What a maker gets.
+struct Build : state::ComponentBuild {
   AgentId id;
-  state::MemoryLayout& layout;
 
-  /// A slot for a value that quantities may read, or that only the agent reads.
-  [[nodiscard]] std::size_t slot(const std::string& value, double initial = 0) const {
-    return layout.add(component.name, value, initial);
-  }
-  /// A coupling of the component's: its index into WorldState::couplings.
+  /// A new coupling: its index into WorldState::couplings.
   [[nodiscard]] std::size_t coupling(const state::Coupling& coupling) const {
     return layout.add_coupling(component.name, coupling);
   }
-  /// A real force for one that is felt: couplings bear felt forces, scenarios speak of real ones.
+  /// Real over felt force: couplings bear felt forces, scenarios speak of real ones.
   [[nodiscard]] double real_per_felt() const { return description.effort_scale > 0 ? 1 / description.effort_scale : 1; }
-  [[nodiscard]] const state::ComponentDescription& agent(AgentId other) const {
-    return description.agents[other.index()];
-  }
 };
 
-struct AgentKind {
-  state::ComponentType type;
-  Expected<std::unique_ptr<Agent>> (*make)(const Build& build);
-};
+using AgentKind = state::ComponentKind<Agent, Build>;
 
-/// One file each.
+/// One file each; what is nearly alike shares one.
 [[nodiscard]] const AgentKind& hinge_kind();
 [[nodiscard]] const AgentKind& snap_kind();
 [[nodiscard]] const AgentKind& grasp_kind();
@@ -82,10 +67,10 @@ struct AgentKind {
 [[nodiscard]] const AgentKind& point_kind();
 [[nodiscard]] const AgentKind& idle_kind();
 
-/// Null where no type has this name.
-[[nodiscard]] const AgentKind* find_kind(std::string_view type);
+/// All of them.
+[[nodiscard]] std::span<const AgentKind* const> kinds();
 
-/// Ends a user's grasp, if there is one, and says so with an event.
+/// Ends a user's grasp, if there is one, and emits `released`.
 void let_go(state::WorldState& state, std::size_t user) noexcept;
 
 }  // namespace mechane::agents

@@ -1,24 +1,21 @@
 #include "server/agents/agent_set.hpp"
 
-#include <fmt/format.h>
-
 #include "server/agents/agent.hpp"
 #include "server/agents/progress.hpp"
 #include "server/agents/quantities.hpp"
-#include "server/agents/registry.hpp"
 #include "server/agents/touches.hpp"
 
 namespace mechane::agents {
 
 struct AgentSet::Impl {
   std::vector<std::unique_ptr<Agent>> agents;
-  std::vector<std::size_t> order;  // those that switch others first, then as described
+  std::vector<std::size_t> order;  // those that switch others first, then as in the description
   std::vector<state::Coupling> couplings;
   Touches touches;
   ProgressRules progress;
   Quantities quantities;
 
-  /// True when an agent that is on took it.
+  /// True when an agent that is on used the click.
   [[nodiscard]] bool click(state::WorldState& state, std::size_t body) const noexcept {
     if (body >= state.bodies.size()) return false;
     for (std::size_t i = 0; i < agents.size(); ++i) {
@@ -28,29 +25,6 @@ struct AgentSet::Impl {
   }
 };
 
-namespace {
-
-std::string known_types() {
-  std::string list;
-  for (const state::ComponentType& type : registry())
-    list += (list.empty() ? "" : ", ") + std::string(type.name);
-  return list;
-}
-
-Expected<std::unique_ptr<Agent>> make_agent(const state::WorldDescription& description, AgentId id,
-                                            state::MemoryLayout& layout) {
-  const state::ComponentDescription& component = description.agents[id.index()];
-  const AgentKind* kind = find_kind(component.type);
-  if (kind == nullptr)
-    return fail(fmt::format("there is no agent of type '{}'", component.type), state::component_place(component),
-                "use one of: " + known_types());
-  const auto parameters = state::Parameters::check(kind->type, component, description);
-  if (!parameters) return tl::unexpected(parameters.error());
-  return kind->make({description, component, *parameters, id, layout});
-}
-
-}  // namespace
-
 AgentSet::AgentSet(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 AgentSet::~AgentSet() = default;
 
@@ -58,7 +32,7 @@ Expected<std::unique_ptr<AgentSet>> AgentSet::create(const state::WorldDescripti
                                                      state::MemoryLayout& layout) {
   auto impl = std::make_unique<Impl>();
   for (std::size_t i = 0; i < description.agents.size(); ++i) {
-    auto agent = make_agent(description, AgentId(i), layout);
+    auto agent = state::make_component(kinds(), "agent", description, description.agents, AgentId(i), layout);
     if (!agent) return tl::unexpected(agent.error());
     impl->agents.push_back(std::move(*agent));
   }
@@ -95,7 +69,7 @@ void AgentSet::run(state::WorldState& state, std::span<const state::Command> com
     state.emit(done ? state::EventKind::command_done : state::EventKind::command_refused, 0xffffffffu, 0xffffffffu,
                static_cast<double>(command.id));
   }
-  // An activity that has just begun knows nothing of what the couplings bore before it.
+  // Loads from before the activity began do not count.
   if (!commands.empty() && state.progress.activity_tick == state.tick) {
     for (state::Coupling& coupling : state.couplings)
       coupling.forget_forces();

@@ -16,8 +16,10 @@ namespace mechane::agents {
 /// Activities. Starting one (a command, or start()) puts bodies, joints and memory back to where the description has them, lets go
 /// of every grasp, sets the agents' switches and runs the activity's first step. An agent that some step enables is off until a
 /// step does; all others are on. Steps add up: each changes only what it names.
-/// Commands are answered in the same tick by an event, command_done or command_refused; a click goes to the agents of its body. `next_step` takes the way of the step's
-/// first trigger; without triggers it ends the activity.
+///
+/// Commands are answered in the same tick by an event, command_done or command_refused. A click goes to the agents of its body.
+/// `next_step` goes where the step's first trigger leads; without triggers, where its time-out leads; without either it ends the
+/// activity.
 ///
 /// Quantities are read at the end of run(), so a machine's values are those of the tick before. Sources: "<AGENT or
 /// MACHINE>.<value>" as their types offer them; "<JOINT>.position" (rad or m), ".angle" (rad), ".rate" (rad/s or m/s), ".turns";
@@ -25,9 +27,9 @@ namespace mechane::agents {
 class AgentSet {
  public:
   /// Takes memory slots. Make the machines first: quantities may read what they offer, and restarting an activity resets every
-  /// slot given out so far. `description` must outlive the set. Errors name the component or the rule, its line, what is wrong and
-  /// what to write: unknown type, bad parameters, an unknown source of a quantity (with the list of those that exist), a step or an
-  /// activity that points nowhere.
+  /// slot given out so far. `description` must outlive the set. Errors name the component (with its line) or the step, what is wrong and
+  /// what to write: an unknown type, bad parameters, an unknown source of a quantity (with the list of those that exist), a step or an
+  /// activity that leads to a step that does not exist.
   [[nodiscard]] static Expected<std::unique_ptr<AgentSet>> create(const state::WorldDescription& description,
                                                                   state::MemoryLayout& layout);
   ~AgentSet();
@@ -38,8 +40,9 @@ class AgentSet {
   /// Not in the tick; before DynamicsWorld::create.
   void start(state::WorldState& state) const noexcept;
 
-  /// One tick: commands, agents that switch others (breakable, assembled, fired), the other agents in the order of the description, `touched` events, quantities, triggers. Reads contacts, samples and
-  /// poses; writes grasps, joints, body flags, progress, quantities, events. Allocates nothing. Any thread, one at a time a state.
+  /// One tick: commands, agents that switch others (breakable, assembled, fired), the other agents in the order of the description,
+  /// `touched` events, quantities, triggers. Reads contacts, samples and poses; writes grasps, joints, body flags, progress,
+  /// quantities, events. Allocates nothing. Any thread, but one at a time for a state.
   void run(state::WorldState& state, std::span<const state::Command> commands, double dt_s) const noexcept;
 
  private:

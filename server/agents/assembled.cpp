@@ -1,4 +1,4 @@
-// simulation.assembled: which part goes when. A part that comes to its place before its turn is not taken.
+// simulation.assembled: the order in which parts go to their places. A part that comes to its place before its turn is not taken.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ class Assembled final : public Agent {
   }
 
  private:
-  /// Says once that a part came too early; again when it has been away.
+  /// Emits one event when a part comes too early, and another only after the part has been away.
   void refuse(state::WorldState& state, const Part& part, bool early) const noexcept {
     const auto within = [&](double share) {
       return state.memory[part.distance] <= share * part.reach_m && state.memory[part.angle] <= share * part.reach_rad;
@@ -95,7 +95,7 @@ class Assembled final : public Agent {
   std::size_t next_;
 };
 
-/// The snap's object and tolerance. Its own parameters are checked when it is made; what is wrong there is said there.
+/// The snap's object and tolerance. Faults in them are reported when the snap itself is made.
 void read_snap(const state::WorldDescription& world, const state::ComponentDescription& snap, Part& part) {
   if (const std::string* object = snap.written_text("object")) part.object = world.find_body(*object);
   const auto* numbers = snap.written<std::vector<double>>("tolerance");
@@ -105,25 +105,27 @@ void read_snap(const state::WorldDescription& world, const state::ComponentDescr
 }
 
 Expected<void> read_order(const Build& build, std::vector<Part>& parts) {
-  const std::string where = state::component_place(build.component);
+  constexpr const char* kRemedy = "write \"ONE before OTHER\", both named in 'parts'";
   const auto find = [&](std::string_view name) {
     return static_cast<std::size_t>(
         std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; }) - parts.begin());
   };
   for (const std::string& line : build.parameters.texts("order")) {
     const std::size_t at = line.find(kBefore);
-    const std::size_t first = at == std::string::npos ? parts.size() : find(std::string_view(line).substr(0, at));
-    const std::size_t then =
-        at == std::string::npos ? parts.size() : find(std::string_view(line).substr(at + kBefore.size()));
+    if (at == std::string::npos)
+      return fail(ErrorCode::invalid_value, fmt::format("the line '{}' of 'order' does not say 'before'", line),
+                  build.place("order"), kRemedy);
+    const std::size_t first = find(std::string_view(line).substr(0, at));
+    const std::size_t then = find(std::string_view(line).substr(at + kBefore.size()));
     if (first >= parts.size() || then >= parts.size())
-      return fail(fmt::format("'{}' is not an order of two of the parts", line), where,
-                  "write \"ONE before OTHER\", both named in 'parts'");
+      return fail(ErrorCode::unknown_name, fmt::format("the line '{}' of 'order' names a part not in 'parts'", line),
+                  build.place("order"), kRemedy);
     parts[then].after.push_back(first);
   }
   return {};
 }
 
-/// Whether some order of the parts fulfils every line.
+/// Whether the parts can be placed in an order that keeps every line of 'order'.
 bool can_be_built(const std::vector<Part>& parts) {
   std::vector<bool> placed(parts.size(), false);
   for (std::size_t round = 0; round < parts.size(); ++round) {
@@ -135,20 +137,23 @@ bool can_be_built(const std::vector<Part>& parts) {
 }
 
 Expected<std::unique_ptr<Agent>> make_assembled(const Build& build) {
-  const std::string where = state::component_place(build.component);
   std::vector<Part> parts;
   for (const std::string& name : build.parameters.texts("parts")) {
     Part part;
     part.snap = build.description.find_agent(name);
     part.name = name;
     const state::ComponentDescription& snap = build.agent(part.snap);
-    if (snap.type != "geometry.snap") return fail("'" + name + "' is a " + snap.type, where, "name a geometry.snap");
+    if (snap.type != "geometry.snap")
+      return fail(ErrorCode::invalid_value, fmt::format("the agent '{}' in 'parts' is a {}", name, snap.type),
+                  build.place("parts"), "name geometry.snap agents in 'parts'");
     if (std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; }))
-      return fail("'" + name + "' is named twice", where, "name each part once");
+      return fail(ErrorCode::duplicate, fmt::format("'parts' names '{}' twice", name), build.place("parts"),
+                  "name each part once");
     read_snap(build.description, snap, part);
     parts.push_back(std::move(part));
   }
-  if (parts.empty()) return fail("there are no parts", where, "name the snaps that take them");
+  if (parts.empty())
+    return fail(ErrorCode::missing, "'parts' is empty", build.place("parts"), "name the geometry.snap of each part");
   if (build.parameters.given("order")) {
     if (auto good = read_order(build, parts); !good) return tl::unexpected(good.error());
   } else {
@@ -156,7 +161,8 @@ Expected<std::unique_ptr<Agent>> make_assembled(const Build& build) {
       parts[i].after = {i - 1};
   }
   if (!can_be_built(parts))
-    return fail("some parts wait for each other in a circle", where, "remove one line of 'order' from the circle");
+    return fail(ErrorCode::conflict, "'order' goes in a circle: some parts each need the other placed first",
+                build.place("order"), "remove one line of the circle from 'order'");
   return std::make_unique<Assembled>(build, std::move(parts));
 }
 

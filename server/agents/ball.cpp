@@ -38,14 +38,11 @@ class Ball final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_ball(const Build& build) {
-  auto joint = JointSwitch::create(build, state::JointKind::ball, "BallJoint", {});
+  auto joint = JointSwitch::create(build, state::JointKind::ball, {});
   if (!joint) return tl::unexpected(joint.error());
-  const std::vector<double> axis = build.parameters.numbers("axis");
-  const bool given = build.parameters.given("axis");
-  const Vec3 axis_J = given ? Vec3(axis[0], axis[1], axis[2]) : Vec3(Vec3::UnitY());
-  if (axis_J.norm() < 1e-9)
-    return fail("the axis has no direction", state::component_place(build.component), "write a vector, like 0 1 0");
-  return std::make_unique<Ball>(build, *joint, axis_J.normalized());
+  const auto axis_J = build.direction("axis", Vec3::UnitY());
+  if (!axis_J) return tl::unexpected(axis_J.error());
+  return std::make_unique<Ball>(build, *joint, *axis_J);
 }
 
 constexpr state::ParameterType kBallParameters[] = {
@@ -59,12 +56,7 @@ constexpr state::ParameterType kBallParameters[] = {
      .summary = "how far the axis may tilt; none: any way",
      .min = 0.01,
      .max = 3.1},
-    {.name = "axis",
-     .kind = ParameterKind::numbers,
-     .summary = "the cone's axis as the bodies stand at the start; none: 0 1 0",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::direction("axis", "the cone's axis as the bodies stand at the start; none: 0 1 0"),
 };
 constexpr state::ValueType kBallValues[] = {
     state::amount("tilt", "rad", "how far the axis is from where it was at the start")};

@@ -75,16 +75,18 @@ bool is_tied_snap(const state::ComponentDescription& agent) {
 }
 
 Expected<std::unique_ptr<Agent>> make_breakable(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::ComponentDescription& target = build.agent(build.parameters.agent("agent"));
   bool bears = static_cast<bool>(switched_joint(build.description, target)) || is_tied_snap(target);
   for (const char* type : {"geometry.fixed", "geometry.gear", "geometry.worm", "geometry.ratchet", "geometry.rope"})
     bears = bears || target.type == type;
   if (!bears)
-    return fail("'" + target.name + "' is a " + target.type + ", which has no force or torque that could break it",
-                where, "name a hinge, slider, ball, screw, fixed, gear, worm, ratchet, rope, or a snap with tied true");
+    return fail(ErrorCode::invalid_value,
+                "'" + target.name + "' is a " + target.type + ", which bears no force or torque that could break it",
+                build.place("agent"),
+                "name a hinge, slider, ball, screw, fixed, gear, worm, ratchet, rope, or a snap with tied true");
   if (!build.parameters.given("force") && !build.parameters.given("torque"))
-    return fail("no limit is given at which it breaks", where, "give force, torque or both");
+    return fail(ErrorCode::missing, "neither 'force' nor 'torque' is given: it would never break", build.place(),
+                "give force, torque or both");
   return std::make_unique<Breakable>(build, target.name);
 }
 

@@ -14,14 +14,12 @@ class Dwell final : public Agent {
       : id_(build.id),
         body_(build.parameters.body("body")),
         at_(build.parameters.body("at")),
+        p_AQ_(build.vector("position")),
         radius_m_(build.parameters.number("radius")),
         time_s_(build.parameters.number("time")),
         dwelt_(build.slot("dwelt")),
         inside_(build.slot("inside")),
-        time_(build.slot("time")) {
-    const std::vector<double> p = build.parameters.numbers("position");
-    p_AQ_ = Vec3(p[0], p[1], p[2]);
-  }
+        time_(build.slot("time")) {}
 
   void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
     const Vec3 p_WQ = at_ ? state[at_].X_WB * p_AQ_ : p_AQ_;
@@ -45,7 +43,7 @@ class Dwell final : public Agent {
   AgentId id_;
   BodyId body_;
   BodyId at_;
-  Vec3 p_AQ_ = Vec3::Zero();
+  Vec3 p_AQ_;
   double radius_m_;
   double time_s_;
   std::size_t dwelt_;
@@ -55,7 +53,7 @@ class Dwell final : public Agent {
 
 Expected<std::unique_ptr<Agent>> make_dwell(const Build& build) {
   if (build.parameters.given("body") && build.parameters.body("body") == build.parameters.body("at"))
-    return fail("'body' and 'at' are the same body", state::component_place(build.component),
+    return fail(ErrorCode::conflict, "'body' and 'at' name the same body", build.place("at"),
                 "name another body in 'at', or none for the world");
   return std::make_unique<Dwell>(build);
 }
@@ -65,13 +63,7 @@ constexpr state::ParameterType kDwellParameters[] = {
      .kind = ParameterKind::text,
      .summary = "the body in whose frame the place is; none: the world",
      .reference = state::Reference::body},
-    {.name = "position",
-     .kind = ParameterKind::numbers,
-     .unit = "m",
-     .summary = "the place's middle",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::point("position", "the place's middle"),
     {.name = "radius", .unit = "m", .summary = "how close counts", .required = true, .min = 0.001, .max = 100},
     {.name = "time", .unit = "s", .summary = "how long it must stay", .default_value = 1, .min = 0, .max = 3600},
     {.name = "body",

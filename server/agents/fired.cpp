@@ -1,4 +1,4 @@
-// simulation.fired: a trigger that a hand pulls lets go of what it held, once.
+// simulation.fired: a trigger that, when a hand pulls it, lets go of what it held, once.
 #include "server/agents/hand_effort.hpp"
 
 namespace mechane::agents {
@@ -13,7 +13,7 @@ class Fired final : public Agent {
 
   [[nodiscard]] bool switches_others() const noexcept override { return true; }
 
-  /// Fires once; cocked again where it is switched off and on, or the activity begins anew.
+  /// Fires once. It is cocked again when it is switched off and on, or when the activity begins anew.
   void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
     const bool now = effort_.run(state, enabled, dt_s);
     if (!enabled) state.memory[fired_] = 0;
@@ -39,7 +39,7 @@ Expected<std::unique_ptr<Agent>> make_fired(const Build& build) {
   for (const std::string& name : build.parameters.texts("releases")) {
     releases.push_back(build.description.find_agent(name));
     if (releases.back() == build.id)
-      return fail("the agent switches itself off", state::component_place(build.component),
+      return fail(ErrorCode::conflict, "'releases' names the agent itself", build.place("releases"),
                   "name the agent that holds the load: a geometry.fixed or a geometry.rope");
   }
   return std::make_unique<Fired>(build, *effort, std::move(releases));

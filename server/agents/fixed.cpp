@@ -51,11 +51,13 @@ class Fixed final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_fixed(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const BodyId body = build.parameters.body("body"), to = build.parameters.body("to");
-  if (body == to) return fail("the body is tied to itself", where, "name two bodies");
+  if (body == to)
+    return fail(ErrorCode::conflict, "'body' and 'to' name the same body", build.place("to"),
+                "name another body in 'to', or none for the world");
   if (build.description.bodies[body.index()].fixed)
-    return fail("the body '" + build.parameters.text("body") + "' is fixed already", where, "name one that can move");
+    return fail(ErrorCode::conflict, "the body '" + build.parameters.text("body") + "' is fixed already",
+                build.place("body"), "name a body that can move in 'body'");
   return std::make_unique<Fixed>(build);
 }
 

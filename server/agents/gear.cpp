@@ -1,10 +1,10 @@
 // geometry.gear and geometry.worm: two joints that go together by a ratio.
 //
-// A worm is a gear whose teeth rub so much that the wheel cannot drive: with the friction on the worm a share 1/efficiency - 1 of the
-// tooth force, efficiency below one half means that a driving wheel holds itself.
+// A worm is a gear whose teeth rub so much that its wheel cannot drive it. The friction on the worm is 1/efficiency - 1 of the tooth
+// force: with an efficiency below one half it is larger than the tooth force itself.
 #include <cmath>
 
-#include "server/agents/agent.hpp"
+#include "server/agents/joint_switch.hpp"
 
 namespace mechane::agents {
 namespace {
@@ -57,37 +57,39 @@ class Gear final : public Agent {
 };
 
 Expected<void> check_joints(const Build& build) {
-  const std::string where = state::component_place(build.component);
   for (const char* name : {"joint1", "joint2"}) {
-    if (build.description.joints[build.parameters.joint(name).index()].kind == JointKind::ball)
-      return fail(std::string(name) + " is a ball", where, "name a hinge or a slider");
+    if (auto joint = build.hinge_or_slider(name); !joint) return tl::unexpected(joint.error());
   }
-  if (build.parameters.joint("joint1") == build.parameters.joint("joint2"))
-    return fail("joint1 and joint2 are the same joint", where, "name two joints");
-  return {};
+  return check_two_joints(build);
 }
 
 /// From ratio, teeth or radius, of which exactly one is given.
 Expected<double> read_ratio(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  if (p.given("ratio") + p.given("teeth") + p.given("radius") != 1)
-    return fail("exactly one of ratio, teeth and radius must be given", where, "write one of them");
+  const int given = p.given("ratio") + p.given("teeth") + p.given("radius");
+  if (given == 0)
+    return fail(ErrorCode::missing, "none of ratio, teeth and radius is given", build.place(), "write one of them");
+  if (given > 1)
+    return fail(ErrorCode::conflict, "more than one of ratio, teeth and radius is given",
+                build.place(p.given("radius") ? "radius" : "teeth"), "keep one of them");
   const auto hinge = [&](const char* joint) {
     return build.description.joints[p.joint(joint).index()].kind == JointKind::hinge;
   };
   if (p.given("ratio")) {
-    if (p.number("ratio") == 0) return fail("the ratio is 0", where, "write how far joint2 goes for 1 of joint1");
+    if (p.number("ratio") == 0)
+      return fail(ErrorCode::invalid_value, "the ratio is 0", build.place("ratio"),
+                  "write how far joint2 goes for 1 of joint1");
     return p.number("ratio");
   }
   if (p.given("teeth")) {
     if (!hinge("joint1") || !hinge("joint2"))
-      return fail("teeth are given, but one of the joints is not a hinge", where, "give ratio or radius for a slider");
+      return fail(ErrorCode::conflict, "teeth are given, but one of the joints is not a hinge", build.place("teeth"),
+                  "give ratio or radius for a slider");
     return (p.boolean("inside") ? 1 : -1) * p.numbers("teeth")[0] / p.numbers("teeth")[1];
   }
   if (!hinge("joint1") || hinge("joint2"))
-    return fail("a radius is given, but the joints are not a hinge and a slider", where,
-                "name a hinge in joint1 and a slider in joint2");
+    return fail(ErrorCode::conflict, "a radius is given, but the joints are not a hinge and a slider",
+                build.place("radius"), "name a hinge in joint1 and a slider in joint2");
   return p.number("radius") * (p.boolean("reverse") ? -1 : 1);
 }
 
@@ -145,7 +147,7 @@ constexpr state::ParameterType kWormParameters[] = {
     {.name = "starts", .summary = "threads of the worm", .default_value = 1, .min = 1, .max = 100},
     {.name = "reverse", .kind = ParameterKind::boolean, .summary = "the wheel turns the other way"},
     {.name = "efficiency",
-     .summary = "work out of the wheel over work into the worm; below one half, for a worm holds itself",
+     .summary = "work out of the wheel over work into the worm; below one half, so that the wheel cannot turn the worm",
      .default_value = 0.4,
      .min = 0.01,
      .max = 0.49},

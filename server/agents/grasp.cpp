@@ -1,9 +1,9 @@
-// simulation.grasp: from contacts and intent to a hand that holds a body.
+// simulation.grasp: hands that touch a body and close on it hold it.
 //
-// A glove's hand closes on a body when the thumb and another finger touch it from opposite sides; a one-point device (and a glove
-// that reports it) by its grasp intent while it touches. Either must last for holdTime. A hand must have been open before: what was
-// taken out of it (by a snap, a step, a jump) it does not take again without opening. Several agents may name one body, each with its
-// own limits, switched by the steps: each ends only the grasps that it began.
+// A glove's hand closes on a body when the thumb and another finger touch it from opposite sides. A one-point device, or a glove that
+// reports a grasp intent, closes by its intent while it touches. Either must last for holdTime. A hand must have been open before: it
+// does not take again, without opening, what a snap, a step or a jump took out of it. Several agents may name one body, each with its
+// own limits, switched by the steps; each ends only the grasps that it began.
 #include <algorithm>
 #include <array>
 
@@ -102,7 +102,7 @@ class GraspAgent final : public Agent {
       } else if (state.memory[holds_[u]] != 0) {
         hold_on(state, u, enabled, dt_s);
       } else if (grasp.active) {
-        forget(state, u, false);  // another agent's: this one does not take it over from a hand that never opened
+        forget(state, u, false);  // another agent's grasp: this one does not take it over until the hand has opened
       } else {
         reach(state, u, enabled, dt_s);
       }
@@ -119,7 +119,7 @@ class GraspAgent final : public Agent {
     state.memory[open_s_[u]] = 0;
   }
 
-  /// A hand that holds: keeps on, or lets go.
+  /// A hand that holds a body keeps it, or lets go.
   void hold_on(state::WorldState& state, std::size_t u, bool enabled, double dt_s) const noexcept {
     const state::UserState& user = state.users[u];
     const state::BodyState& body = state[user.grasp.body];
@@ -136,7 +136,7 @@ class GraspAgent final : public Agent {
     forget(state, u, opened || gone);  // a hand whose samples stopped may take hold again when they come back
   }
 
-  /// An empty hand: takes hold, or not yet.
+  /// An empty hand takes hold, or not yet.
   void reach(state::WorldState& state, std::size_t u, bool enabled, double dt_s) const noexcept {
     const state::UserState& user = state.users[u];
     BodyId touched;
@@ -191,7 +191,7 @@ Expected<std::unique_ptr<Agent>> make_grasp(const Build& build) {
   }
   std::erase_if(bodies, [&](BodyId body) { return build.description.bodies[body.index()].fixed; });
   if (bodies.empty())
-    return fail("there is no body that could be grasped", state::component_place(build.component),
+    return fail(ErrorCode::conflict, "every body that may be grasped is fixed", build.place("bodies"),
                 "name bodies that are not fixed in 'bodies'");
   return std::make_unique<GraspAgent>(build, std::move(bodies));
 }

@@ -23,23 +23,21 @@ void write_vector(state::WorldState& state, const std::array<std::size_t, 3>& sl
 }  // namespace
 
 Expected<HandEffort> HandEffort::create(const Build& build, Effort effort) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (!p.given("force") && !p.given("travel"))
-    return fail("neither force nor travel is given", where, "write force, travel or both");
+    return fail(ErrorCode::missing, "neither force nor travel is given", build.place(), "write force, travel or both");
   HandEffort out;
   out.effort_ = effort;
   out.body_ = p.body("body");
-  out.joint_ = p.joint("joint");
-  if (out.joint_ && build.description.joints[out.joint_.index()].kind == state::JointKind::ball)
-    return fail("the joint is a BallJoint, and travel needs a hinge or a slider", where,
-                "name a hinge or a slider, or none");
+  if (p.given("joint")) {
+    const auto joint = build.hinge_or_slider("joint");
+    if (!joint) return tl::unexpected(joint.error());
+    out.joint_ = *joint;
+  }
+  const auto axis_B = build.direction("axis", Vec3::Zero());
+  if (!axis_B) return tl::unexpected(axis_B.error());
   out.has_axis_ = p.given("axis");
-  const std::vector<double> axis = p.numbers("axis");
-  out.axis_B_ = Vec3(axis[0], axis[1], axis[2]);
-  if (out.has_axis_ && out.axis_B_.norm() < 1e-9)
-    return fail("the axis has no direction", where, "write a vector, or leave it out");
-  if (out.has_axis_) out.axis_B_.normalize();
+  out.axis_B_ = *axis_B;
   out.sign_ = p.boolean("reverse") ? -1 : 1;
   out.asks_force_ = p.given("force");
   out.asks_travel_ = p.given("travel");
@@ -57,7 +55,7 @@ Expected<HandEffort> HandEffort::create(const Build& build, Effort effort) {
   return out;
 }
 
-/// A held body pulls with what its grip bore in the last step; a touched one is pushed with what the device renders.
+/// The force on a held body is what its grip bore in the last step; on a touched one it is what the device renders.
 HandEffort::Now HandEffort::measure(const state::WorldState& state) const noexcept {
   Now now;
   Vec3 f_B_W = Vec3::Zero();

@@ -1,4 +1,4 @@
-// What a hand does to a body: how hard it pulls or pushes, and how far the body went with it. Inside this room only.
+// How hard a hand pulls or pushes a body, and how far the body goes with it. Inside this room only.
 #pragma once
 
 #include "server/agents/agent.hpp"
@@ -11,14 +11,15 @@ enum class Effort {
   push,  ///< it touches the body and does not hold it
 };
 
-/// Measures a body's hands. Force is that which the hand feels, along `axis` (in the body's frame; none: in any direction). Travel counts
-/// from where the body was when the hand came: along the axis, or the joint's if one is named; else in any direction.
+/// Measures what hands do to one body. The force is the one that the hand feels, along `axis` (in the body's frame; none: in any
+/// direction). Travel counts from where the body was when the hand came: along the joint if one is named, else along the axis, else in
+/// any direction.
 class HandEffort {
  public:
-  /// Errors: an axis without direction. The type must have kEffortParameters.
+  /// Errors: neither force nor travel, a ball joint, an axis of 0 0 0. The type must have the parameters kEffort... below.
   [[nodiscard]] static Expected<HandEffort> create(const Build& build, Effort effort);
 
-  /// One tick. Writes force and travel; returns whether they have been enough for the time that is asked for.
+  /// One tick. Writes force and travel; returns whether they have been enough for the required time.
   bool run(state::WorldState& state, bool enabled, double dt_s) const noexcept;
 
   [[nodiscard]] BodyId body() const noexcept { return body_; }
@@ -51,7 +52,7 @@ class HandEffort {
   std::array<std::size_t, 3> way_{};    // the axis then, in W
 };
 
-/// One or the other must be given: checked by create().
+// Of force and travel at least one must be given: create() checks it.
 inline constexpr state::ParameterType kEffortBody{.name = "body",
                                                   .kind = state::ParameterKind::text,
                                                   .summary = "the body that a hand moves",
@@ -65,11 +66,8 @@ inline constexpr state::ParameterType kEffortTravel{
     .summary = "enough from this way on; with force: one of them is enough",
     .min = 0,
     .max = 1e4};
-inline constexpr state::ParameterType kEffortAxis{
-    .name = "axis",
-    .kind = state::ParameterKind::numbers,
-    .summary = "the direction that counts, in the body's frame; none: any",
-    .count = 3};
+inline constexpr state::ParameterType kEffortAxis =
+    state::direction("axis", "the direction that counts, in the body's frame; none: any");
 inline constexpr state::ParameterType kEffortJoint{.name = "joint",
                                                    .kind = state::ParameterKind::text,
                                                    .summary = "the joint whose way is the travel; none: the body's own",

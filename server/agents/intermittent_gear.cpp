@@ -1,7 +1,7 @@
 // geometry.intermittent_gear: a drum with one tooth moves a wheel by one of its teeth a turn (Vitruvius X.9, the odometer).
 #include <cmath>
 
-#include "server/agents/agent.hpp"
+#include "server/agents/joint_switch.hpp"
 
 namespace mechane::agents {
 namespace {
@@ -54,13 +54,10 @@ class IntermittentGear final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_intermittent_gear(const Build& build) {
-  const std::string where = state::component_place(build.component);
   for (const char* name : {"joint1", "joint2"}) {
-    if (build.description.joints[build.parameters.joint(name).index()].kind != state::JointKind::hinge)
-      return fail(std::string(name) + " is not a hinge", where, "name a SingleAxisHingeJoint");
+    if (auto joint = build.joint(name, state::JointKind::hinge); !joint) return tl::unexpected(joint.error());
   }
-  if (build.parameters.joint("joint1") == build.parameters.joint("joint2"))
-    return fail("joint1 and joint2 are the same joint", where, "name two joints");
+  if (auto good = check_two_joints(build); !good) return tl::unexpected(good.error());
   return std::make_unique<IntermittentGear>(build);
 }
 

@@ -21,12 +21,12 @@ JointId switched_joint(const state::WorldDescription& description, const state::
 
 namespace {
 
-/// Error: another agent switches the joint of this one.
+/// conflict: another agent switches the same joint.
 Expected<void> check_only_switch(const Build& build) {
   const JointId joint = build.parameters.joint("joint");
   for (const state::ComponentDescription& other : build.description.agents) {
     if (&other != &build.component && switched_joint(build.description, other) == joint)
-      return fail("the agent " + other.name + " switches the same joint", state::component_place(build.component),
+      return fail(ErrorCode::conflict, "the agent '" + other.name + "' switches the same joint", build.place("joint"),
                   "keep one agent for each joint");
   }
   return {};
@@ -34,28 +34,32 @@ Expected<void> check_only_switch(const Build& build) {
 
 }  // namespace
 
-Expected<JointSwitch> JointSwitch::create(const Build& build, state::JointKind kind, std::string_view node,
-                                          const JointSwitchNames& names) {
-  const std::string where = state::component_place(build.component);
+Expected<void> check_two_joints(const Build& build) {
+  if (build.parameters.joint("joint1") != build.parameters.joint("joint2")) return {};
+  return fail(ErrorCode::conflict, "joint1 and joint2 are the same joint", build.place("joint2"), "name two joints");
+}
+
+Expected<JointSwitch> JointSwitch::create(const Build& build, state::JointKind kind, const JointSwitchNames& names) {
   const state::Parameters& p = build.parameters;
+  const auto joint = build.joint("joint", kind);
+  if (!joint) return tl::unexpected(joint.error());
   JointSwitch out;
-  out.joint_ = p.joint("joint");
-  if (build.description.joints[out.joint_.index()].kind != kind)
-    return fail(fmt::format("the joint '{}' is not of the kind that this agent needs", p.text("joint")), where,
-                fmt::format("name a {}", node));
+  out.joint_ = *joint;
   if (auto only = check_only_switch(build); !only) return tl::unexpected(only.error());
   if (!names.friction.empty()) out.friction_ = p.number(names.friction) * build.description.effort_scale;
   if (!names.viscous.empty()) out.viscous_ = p.number(names.viscous) * build.description.effort_scale;
   if (names.least.empty()) return out;
   if (p.given(names.least) != p.given(names.most))
     return fail(
-        fmt::format("only one of {} and {} is given", names.least, names.most), where,
+        ErrorCode::missing, fmt::format("only one of {} and {} is given", names.least, names.most),
+        build.place(p.given(names.least) ? names.least : names.most),
         kind == state::JointKind::hinge ? "give both, or none for a hinge that turns on and on" : "give both, or none");
   out.limited_ = p.given(names.least);
   out.min_ = p.number(names.least);
   out.max_ = p.number(names.most);
   if (out.limited_ && out.min_ > out.max_)
-    return fail(fmt::format("{} is above {}", names.least, names.most), where, "swap them");
+    return fail(ErrorCode::conflict, fmt::format("{} is above {}", names.least, names.most), build.place(names.least),
+                "swap them");
   return out;
 }
 

@@ -1,4 +1,5 @@
-// What agents that switch a joint share: its friction, its drag, its stops. Inside this room only.
+// What agents of joints share: a joint's switch, its friction, its drag, its stops. Outside this room, the scenario's
+// compiler asks which joint an agent switches.
 #pragma once
 
 #include <string_view>
@@ -19,8 +20,7 @@ struct JointSwitchNames {
 class JointSwitch {
  public:
   /// Errors: the joint is not of that kind, one stop without the other, swapped stops, another agent that switches the same joint.
-  /// `node` is what X3D calls the kind.
-  [[nodiscard]] static Expected<JointSwitch> create(const Build& build, state::JointKind kind, std::string_view node,
+  [[nodiscard]] static Expected<JointSwitch> create(const Build& build, state::JointKind kind,
                                                     const JointSwitchNames& names);
 
   /// Switches the joint; returns it.
@@ -38,5 +38,8 @@ class JointSwitch {
 /// The joint that an agent switches on and off; none for agents that do not.
 [[nodiscard]] JointId switched_joint(const state::WorldDescription& description,
                                      const state::ComponentDescription& agent);
+
+/// conflict: the parameters joint1 and joint2 name the same joint.
+[[nodiscard]] Expected<void> check_two_joints(const Build& build);
 
 }  // namespace mechane::agents

@@ -1,5 +1,5 @@
-// simulation.lit: a flame that is near for a while sets something on fire. A fire behind a door lives on the air that comes in by it:
-// with the door shut none can be lit, and one that burns goes out after a while.
+// simulation.lit: a flame that is near for a while sets something on fire. A fire behind a door needs the air that the open door lets
+// in: with the door shut it cannot be lit, and goes out after a while if it burns.
 #include "server/agents/agent.hpp"
 
 namespace mechane::agents {
@@ -7,19 +7,14 @@ namespace {
 
 using state::ParameterKind;
 
-Vec3 point_of(const Build& build, const char* name) {
-  const std::vector<double> numbers = build.parameters.numbers(name);
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
 class Lit final : public Agent {
  public:
   explicit Lit(const Build& build)
       : id_(build.id),
         body_(build.parameters.body("body")),
         flame_(build.parameters.body("flame")),
-        p_BQ_(point_of(build, "at")),
-        p_FQ_(point_of(build, "flamePoint")),
+        p_BQ_(build.vector("at")),
+        p_FQ_(build.vector("flamePoint")),
         distance_m_(build.parameters.number("distance")),
         time_s_(build.parameters.number("time")),
         burn_s_(build.parameters.number("burnTime")),
@@ -84,20 +79,23 @@ class Lit final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_lit(const Build& build) {
-  const std::string where = state::component_place(build.component);
-  if (build.parameters.body("body") == build.parameters.body("flame"))
-    return fail("the body and its flame are the same body", where, "name another body in 'flame'");
-  if (build.parameters.given("needs")) {
-    const state::ComponentDescription& other = build.agent(build.parameters.agent("needs"));
+  const state::Parameters& p = build.parameters;
+  if (p.body("body") == p.body("flame"))
+    return fail(ErrorCode::conflict, "'body' and 'flame' name the same body", build.place("flame"),
+                "name another body in 'flame'");
+  if (p.given("needs")) {
+    const state::ComponentDescription& other = build.agent(p.agent("needs"));
     if (other.type != "simulation.lit" || &other == &build.component)
-      return fail("'" + other.name + "' is not another simulation.lit, so it cannot say whether a flame burns", where,
-                  "name another simulation.lit");
+      return fail(ErrorCode::invalid_value, "'" + other.name + "' in 'needs' is not another simulation.lit",
+                  build.place("needs"), "name another simulation.lit in 'needs'");
   }
-  const bool door = build.parameters.given("door");
-  if (!door && (build.parameters.given("shutAt") || build.parameters.given("smotherTime")))
-    return fail("shutAt or smotherTime is given, but no door", where, "name a joint in 'door'");
-  if (door && !build.parameters.given("shutAt"))
-    return fail("a door is given, but not where it is shut", where, "write the joint's position when shut in 'shutAt'");
+  const bool door = p.given("door");
+  if (!door && (p.given("shutAt") || p.given("smotherTime")))
+    return fail(ErrorCode::missing, "shutAt or smotherTime is given, but no door",
+                build.place(p.given("shutAt") ? "shutAt" : "smotherTime"), "name a joint in 'door'");
+  if (door && !p.given("shutAt"))
+    return fail(ErrorCode::missing, "a door is given, but not where it is shut", build.place("door"),
+                "write the joint's position when shut in 'shutAt'");
   return std::make_unique<Lit>(build);
 }
 
@@ -112,20 +110,8 @@ constexpr state::ParameterType kLitParameters[] = {
      .summary = "what brings the fire: a body that is hidden brings none",
      .required = true,
      .reference = state::Reference::body},
-    {.name = "at",
-     .kind = ParameterKind::numbers,
-     .unit = "m",
-     .summary = "where it catches fire, in its frame",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
-    {.name = "flamePoint",
-     .kind = ParameterKind::numbers,
-     .unit = "m",
-     .summary = "where the flame is, in its body's frame",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::point("at", "where it catches fire, in its frame"),
+    state::point("flamePoint", "where the flame is, in its body's frame"),
     {.name = "distance",
      .unit = "m",
      .summary = "how close they must be",
@@ -146,11 +132,7 @@ constexpr state::ParameterType kLitParameters[] = {
      .kind = ParameterKind::text,
      .summary = "the hinge or slider of a door that lets air to the fire; none: it always has air",
      .reference = state::Reference::joint},
-    {.name = "shutAt",
-     .unit = "m or rad",
-     .summary = "with door: from this position of the joint on no air comes in",
-     .min = -10000,
-     .max = 10000},
+    state::joint_position("shutAt", "m or rad", "with door: from this position of the joint on no air comes in"),
     {.name = "smotherTime",
      .unit = "s",
      .summary = "with door: how long a fire burns without air",

@@ -1,4 +1,4 @@
-// simulation.placed: says when a snap has its object.
+// simulation.placed: tells when a snap has its object.
 #include "server/agents/agent.hpp"
 
 namespace mechane::agents {
@@ -32,11 +32,11 @@ class Placed final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_placed(const Build& build) {
-  const state::ComponentDescription& snap = build.description.agents[build.parameters.agent("snap").index()];
+  const state::ComponentDescription& snap = build.agent(build.parameters.agent("snap"));
   if (snap.type != "geometry.snap")
-    return fail("'" + snap.name + "' is a " + snap.type, state::component_place(build.component),
-                "name a geometry.snap");
-  // The snap's own parameters are checked when it is made; here its object only names the event's body.
+    return fail(ErrorCode::invalid_value, "the agent '" + snap.name + "' in 'snap' is a " + snap.type,
+                build.place("snap"), "name a geometry.snap in 'snap'");
+  // Faults in the snap's own parameters are reported when the snap is made; here its object only names the event's body.
   const std::string* object = snap.written_text("object");
   return std::make_unique<Placed>(build, snap.name,
                                   object != nullptr ? build.description.find_body(*object) : BodyId::none());

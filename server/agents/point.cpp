@@ -11,14 +11,14 @@ using hand::HandKind;
 using state::ParameterKind;
 
 constexpr std::size_t kIndexTip = 6;  // segment of the index finger's last phalanx; x along it, origin in its middle
-constexpr double kHalfTip_m = 0.5 * 0.020 + 0.0075;  // from there to the skin, of a hand of scale 1
+constexpr double kHalfTip_m = 0.5 * 0.020 + 0.0075;  // from that origin to the fingertip's skin, for a hand of scale 1
 
 struct Finger {
   Vec3 p_W;
   Vec3 direction_W;
 };
 
-/// A device of one point points away from who holds it: along -z, as a view does.
+/// A one-point device points away from the person who holds it: along -z, as a view does.
 Finger finger_of(const state::UserState& user) {
   if (user.sample.kind == HandKind::one_point) return {user.X_WH.p, user.X_WH.rotate(-Vec3::UnitZ())};
   const Pose& X_WS = user.X_WS[kIndexTip];
@@ -30,6 +30,7 @@ class Point final : public Agent {
   explicit Point(const Build& build)
       : id_(build.id),
         body_(build.parameters.body("body")),
+        p_BQ_(build.vector("position")),
         distance_m_(build.parameters.given("distance") || !build.parameters.given("cone")
                         ? build.parameters.number("distance")
                         : 0),
@@ -40,10 +41,7 @@ class Point final : public Agent {
         distance_(build.slot("distance")),
         angle_(build.slot("angle")),
         time_(build.slot("time")),
-        clicked_(build.slot("clicked")) {
-    const std::vector<double> p = build.parameters.numbers("position");
-    p_BQ_ = Vec3(p[0], p[1], p[2]);
-  }
+        clicked_(build.slot("clicked")) {}
 
   bool click(state::WorldState& state, BodyId body) const noexcept override {
     if (body != body_ || !state[body_].visible) return false;
@@ -82,13 +80,13 @@ class Point final : public Agent {
   }
 
  private:
-  static constexpr double kFar = 1e6;  // m: no hand is there
-  static constexpr double kClickLasts_s =
-      1.0;  // a mouse says no more than one click: it stands for a finger that stays
+  static constexpr double kFar = 1e6;  // m: without any hand
+  // A click is one message: it stands for a finger that stays this long.
+  static constexpr double kClickLasts_s = 1.0;
 
   AgentId id_;
   BodyId body_;
-  Vec3 p_BQ_ = Vec3::Zero();
+  Vec3 p_BQ_;
   double distance_m_;
   double cone_rad_;
   double reach_m_;
@@ -110,14 +108,9 @@ constexpr state::ParameterType kPointParameters[] = {
      .summary = "the sign; a hidden one is not pointed at",
      .required = true,
      .reference = state::Reference::body},
-    {.name = "position",
-     .kind = ParameterKind::numbers,
-     .unit = "m",
-     .summary = "the point meant, in its frame; behind a board's face, so that the fingertip is near it only where it "
-                "touches the board",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::point("position",
+                 "the point meant, in its frame; behind a board's face, so that the fingertip is near it only where it "
+                 "touches the board"),
     {.name = "distance",
      .unit = "m",
      .summary = "the fingertip is at the sign within this of the point. Where a cone is given and this is not, only "

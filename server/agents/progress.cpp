@@ -22,29 +22,35 @@ Expected<void> check_step(const state::WorldDescription& world, const state::Ste
   for (const auto* list : {&step.enable, &step.disable}) {
     for (const AgentId agent : *list) {
       if (!in_table(agent, world.agents.size()))
-        return fail("it switches an agent that is not there", where, "name an agent");
+        return fail(ErrorCode::unknown_name, "it switches an agent that does not exist", where, "name an agent");
     }
   }
   for (const state::BodyOverride& change : step.bodies) {
     if (!in_table(change.body, world.bodies.size()))
-      return fail("it changes a body that is not there", where, "name a body");
+      return fail(ErrorCode::unknown_name, "it changes a body that does not exist", where, "name a body");
   }
   for (const state::TriggerDescription& trigger : step.triggers) {
     if (!in_table(trigger.quantity, world.quantities.size()))
-      return fail("a trigger tests a quantity that is not there", where, "name a quantity");
+      return fail(ErrorCode::unknown_name, "a trigger tests a quantity that does not exist", where, "name a quantity");
     if (trigger.next && !in_table(trigger.next, world.steps.size()))
-      return fail("a trigger leads to a step that is not there", where, "name a step, or 'end'");
+      return fail(ErrorCode::unknown_name, "a trigger leads to a step that does not exist", where,
+                  "name a step, or 'end'");
     if (!std::isfinite(trigger.value) || !(trigger.hold_s >= 0))
-      return fail("a trigger's value or hold time is not a number", where, "write a number; the time is 0 s or more");
+      return fail(ErrorCode::invalid_value, "a trigger's value is not a number, or its hold time is negative", where,
+                  "write a number for the value, and 0 s or more for the time");
     for (const state::RuleDescription& rule : trigger.more) {
       if (!in_table(rule.quantity, world.quantities.size()))
-        return fail("a trigger tests a quantity that is not there", where, "name a quantity");
-      if (!std::isfinite(rule.value)) return fail("a rule's value is not a number", where, "write a number");
+        return fail(ErrorCode::unknown_name, "a trigger tests a quantity that does not exist", where,
+                    "name a quantity");
+      if (!std::isfinite(rule.value))
+        return fail(ErrorCode::invalid_value, "a rule's value is not a number", where, "write a number");
     }
   }
-  if (!(step.timeout_s >= 0)) return fail("the time-out is negative or not a number", where, "write 0 s or more");
+  if (!(step.timeout_s >= 0))
+    return fail(ErrorCode::invalid_value, "its time-out is negative or not a number", where, "write 0 s or more");
   if (step.timeout_next && !in_table(step.timeout_next, world.steps.size()))
-    return fail("its time-out leads to a step that is not there", where, "name a step, or 'end'");
+    return fail(ErrorCode::unknown_name, "its time-out leads to a step that does not exist", where,
+                "name a step, or 'end'");
   return {};
 }
 
@@ -85,7 +91,8 @@ std::uint32_t subject(Id<Tag> id) {
 Expected<ProgressRules> ProgressRules::create(const state::WorldDescription& description, state::MemoryLayout& layout) {
   for (const state::ActivityDescription& activity : description.activities) {
     if (!in_table(activity.first, description.steps.size()))
-      return fail("it has no first step", "activity " + activity.name, "name a step as its first");
+      return fail(ErrorCode::missing, "it has no first step", "activity " + activity.name,
+                  "name the step that it begins with");
   }
   ProgressRules out;
   out.description_ = &description;
@@ -196,10 +203,10 @@ void ProgressRules::run_triggers(state::WorldState& state, double dt_s) const no
     double& held_s = state.memory[first_hold_[at.step.index()] + i];
     const bool now = holds(trigger, state.quantities);
     held_s = now ? held_s + dt_s : 0;
-    // Half a tick of slack: the sum of ticks must not miss its time by rounding.
+    // Half a tick of slack, so that rounding in the sum of ticks does not make it a tick late.
     if (now && held_s + 0.5 * dt_s >= trigger.hold_s) return leave_step(state, trigger.next);
   }
-  // What a visitor did comes first: a goal that is reached in the last tick counts.
+  // Triggers come before the time-out: a goal that is reached in the last tick counts.
   if (step.timeout_s > 0 && seconds_since(state, at.step_tick) + 0.5 * dt_s >= step.timeout_s)
     leave_step(state, step.timeout_next);
 }

@@ -13,16 +13,17 @@ namespace mechane::agents {
 /// memory.
 class ProgressRules {
  public:
-  /// Takes a slot a trigger. Errors: an id of a step, activity or trigger that is not in its table. The description must outlive this.
+  /// Takes one slot for each trigger. Errors: an id that is not in its table, a number that is not finite or negative. The description
+  /// must outlive this.
   [[nodiscard]] static Expected<ProgressRules> create(const state::WorldDescription& description,
                                                       state::MemoryLayout& layout);
-  /// To be called once every slot has been given out: what restarting puts back.
+  /// Keeps the slots' initial values, which a restart puts back. Call it when every slot has been given out.
   void remember_start(const state::MemoryLayout& layout) { memory_ = layout.initial(); }
 
   void start(state::WorldState& state) const noexcept;
   /// False when it cannot be done now, or is not about activities and steps.
   [[nodiscard]] bool run_command(state::WorldState& state, const state::Command& command) const noexcept;
-  /// Tests the step's triggers on the quantities; the first that has held long enough fires. Leaves the step when its time is out.
+  /// Tests the step's triggers on the quantities; the first that has held long enough fires. Leaves the step when its time is up.
   /// Notes when it is time for a hint.
   void run_triggers(state::WorldState& state, double dt_s) const noexcept;
 

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 
+#include "server/state/component_type.hpp"
+
 namespace mechane::agents {
 namespace {
 
-constexpr std::size_t kMostNames = 60;  // of an error's list
+constexpr std::size_t kMostNames = 60;  // in an error's list
 
 std::string known_sources(const state::WorldDescription& description, const state::MemoryLayout& layout) {
   std::vector<std::string> names;
   for (const auto& slot : layout.slots()) {
-    // What components keep to themselves has a second dot: "GRASP.user0.open_s".
+    // The names of slots that a component keeps to itself have a second dot: "GRASP.user0.open_s".
     if (std::count(slot.name.begin(), slot.name.end(), '.') == 1) names.push_back(slot.name);
   }
   for (const auto& joint : description.joints)
@@ -45,7 +47,8 @@ Expected<Quantities::Source> Quantities::resolve(const state::WorldDescription& 
     if (value == "speed") return Source{From::body_speed, body.index(), 0, 1};
   }
   const std::string known = known_sources(description, layout);
-  return fail("the source '" + quantity.source + "' does not exist", "quantity " + quantity.name,
+  return fail(ErrorCode::unknown_name, "the source '" + quantity.source + "' does not exist",
+              "quantity " + quantity.name,
               known.empty() ? "add an agent, a machine, a joint or a body first" : "use one of: " + known);
 }
 

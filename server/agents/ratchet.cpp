@@ -1,4 +1,4 @@
-// geometry.ratchet: a joint goes one way and is held from going back by the last tooth that it passed.
+// geometry.ratchet: a joint goes one way; the last tooth that it passed keeps it from going back.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 using state::JointKind;
 using state::ParameterKind;
 
-constexpr double kReached = 1e-6;  // of a tooth: what rounding may lack
+constexpr double kReached = 1e-6;  // of a tooth: so close counts as passed, because of rounding
 
 class Ratchet final : public Agent {
  public:
@@ -66,16 +66,22 @@ class Ratchet final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_ratchet(const Build& build) {
-  const std::string where = state::component_place(build.component);
+  constexpr const char* kTeethOrPitch = "give teeth for a hinge, pitch for a slider";
   const state::Parameters& p = build.parameters;
-  const JointKind kind = build.description.joints[p.joint("joint").index()].kind;
-  if (kind == JointKind::ball) return fail("a BallJoint cannot have a ratchet", where, "name a hinge or a slider");
-  if (p.given("teeth") == p.given("pitch"))
-    return fail("exactly one of teeth and pitch must be given", where, "give teeth for a hinge, pitch for a slider");
-  if (p.given("teeth") != (kind == JointKind::hinge))
-    return fail("teeth are for a hinge, pitch is for a slider", where, "give teeth for a hinge, pitch for a slider");
-  if (p.given("pawl") && p.joint("pawl") == p.joint("joint"))
-    return fail("the pawl's joint and the ratchet's joint are the same", where, "name the pawl's own joint, or none");
+  const auto joint = build.hinge_or_slider("joint");
+  if (!joint) return tl::unexpected(joint.error());
+  if (!p.given("teeth") && !p.given("pitch"))
+    return fail(ErrorCode::missing, "neither teeth nor pitch is given", build.place(), kTeethOrPitch);
+  if (p.given("teeth") && p.given("pitch"))
+    return fail(ErrorCode::conflict, "both teeth and pitch are given", build.place("pitch"), kTeethOrPitch);
+  const bool hinge = build.description.joints[joint->index()].kind == JointKind::hinge;
+  if (p.given("teeth") != hinge)
+    return fail(ErrorCode::conflict,
+                hinge ? "pitch is given, but the joint is a hinge" : "teeth are given, but the joint is a slider",
+                build.place(hinge ? "pitch" : "teeth"), kTeethOrPitch);
+  if (p.given("pawl") && p.joint("pawl") == *joint)
+    return fail(ErrorCode::conflict, "'pawl' and 'joint' name the same joint", build.place("pawl"),
+                "name the pawl's own joint, or none");
   return std::make_unique<Ratchet>(build, p.given("teeth") ? 2 * kPi / p.number("teeth") : p.number("pitch"));
 }
 

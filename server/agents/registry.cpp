@@ -1,30 +1,22 @@
 #include "server/agents/registry.hpp"
 
-#include <array>
-
 #include "server/agents/agent.hpp"
 
 namespace mechane::agents {
-namespace {
 
-std::array<const AgentKind*, 23> kinds() {
-  return {&hinge_kind(),   &slider_kind(), &ball_kind(),   &fixed_kind(),
-          &screw_kind(),   &gear_kind(),   &worm_kind(),   &intermittent_gear_kind(),
-          &ratchet_kind(), &rope_kind(),   &snap_kind(),   &breakable_kind(),
-          &grasp_kind(),   &placed_kind(), &turned_kind(), &pulled_kind(),
-          &pushed_kind(),  &fired_kind(),  &lit_kind(),    &assembled_kind(),
-          &dwell_kind(),   &point_kind(),  &idle_kind()};
+std::span<const AgentKind* const> kinds() {
+  static const AgentKind* const kKinds[] = {&hinge_kind(),   &slider_kind(), &ball_kind(),   &fixed_kind(),
+                                            &screw_kind(),   &gear_kind(),   &worm_kind(),   &intermittent_gear_kind(),
+                                            &ratchet_kind(), &rope_kind(),   &snap_kind(),   &breakable_kind(),
+                                            &grasp_kind(),   &placed_kind(), &turned_kind(), &pulled_kind(),
+                                            &pushed_kind(),  &fired_kind(),  &lit_kind(),    &assembled_kind(),
+                                            &dwell_kind(),   &point_kind(),  &idle_kind()};
+  return kKinds;
 }
-
-}  // namespace
 
 std::span<const state::ComponentType> registry() {
   static const std::vector<state::ComponentType> kTypes = state::types_of(kinds());
   return kTypes;
-}
-
-const AgentKind* find_kind(std::string_view type) {
-  return state::find_kind_in(kinds(), type);
 }
 
 }  // namespace mechane::agents

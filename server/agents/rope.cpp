@@ -43,12 +43,12 @@ class Rope final : public Agent {
   std::size_t slack_;
 };
 
-/// A list with one number, or three, for each node; or nothing.
+/// invalid_value: a list is given that has not `each` numbers for each of the `nodes`.
 Expected<void> check_count(const Build& build, const char* name, std::size_t each, std::size_t nodes) {
   const std::size_t count = build.parameters.numbers(name).size();
   if (!build.parameters.given(name) || count == each * nodes) return {};
-  return fail(fmt::format("{} has {} numbers for {} bodies", name, count, nodes),
-              state::component_place(build.component), fmt::format("write {} for each of 'bodies'", each));
+  return fail(ErrorCode::invalid_value, fmt::format("{} has {} numbers for {} bodies", name, count, nodes),
+              build.place(name), fmt::format("write {} for each of 'bodies'", each));
 }
 
 Vec3 vector_at(const std::vector<double>& numbers, std::size_t i) {
@@ -56,26 +56,26 @@ Vec3 vector_at(const std::vector<double>& numbers, std::size_t i) {
 }
 
 Expected<void> read_drum(const Build& build, Coupling& rope) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  const state::JointDescription& joint = build.description.joints[p.joint("drum").index()];
-  if (joint.kind != state::JointKind::hinge)
-    return fail("the drum '" + p.text("drum") + "' does not turn", where, "name a SingleAxisHingeJoint");
-  if (!p.given("drumRadius")) return fail("the drum has no radius", where, "give drumRadius, in m");
+  const auto drum = build.joint("drum", state::JointKind::hinge);
+  if (!drum) return tl::unexpected(drum.error());
+  if (!p.given("drumRadius"))
+    return fail(ErrorCode::missing, "a drum is given, but not its radius", build.place("drum"),
+                "give drumRadius, in m");
+  const state::JointDescription& joint = build.description.joints[drum->index()];
   rope.drum = true;
-  rope.joint1 = p.joint("drum");
+  rope.joint1 = *drum;
   rope.body1 = joint.body1;
   state::RopeNode& node = rope.nodes[rope.node_count++];
   node.body = joint.body2;
   node.p_BC = joint.X_B2J.p;
   node.axis_B = joint.X_B2J.rotate(Vec3::UnitZ());
   node.radius_m = p.number("drumRadius");
-  node.sense = p.boolean("drumReverse") ? 1 : -1;  // the rope's way is off the drum
+  node.sense = p.boolean("drumReverse") ? 1 : -1;  // the rope runs off the drum; winding goes against its way
   return {};
 }
 
 Expected<Coupling> read_rope(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   const std::vector<std::string> bodies = p.texts("bodies");
   Coupling rope;
@@ -85,11 +85,12 @@ Expected<Coupling> read_rope(const Build& build) {
   }
   const std::size_t most = rope.nodes.size() - rope.node_count, least = 2 - rope.node_count;
   if (bodies.size() < least || bodies.size() > most)
-    return fail(fmt::format("the rope has {} bodies", bodies.size()), where,
+    return fail(ErrorCode::invalid_value, fmt::format("the rope has {} bodies", bodies.size()), build.place("bodies"),
                 fmt::format("name {} to {}: where it ends and what it runs over", least, most));
   if (p.numbers("points").size() != 3 * bodies.size())
-    return fail(fmt::format("points has {} numbers for {} bodies", p.numbers("points").size(), bodies.size()), where,
-                "write x y z for each of 'bodies', in the body's frame");
+    return fail(ErrorCode::invalid_value,
+                fmt::format("points has {} numbers for {} bodies", p.numbers("points").size(), bodies.size()),
+                build.place("points"), "write x y z for each of 'bodies', in the body's frame");
   for (const auto& [name, each] :
        {std::pair{"radii", 1}, std::pair{"senses", 1}, std::pair{"efficiencies", 1}, std::pair{"axes", 3}}) {
     if (auto good = check_count(build, name, static_cast<std::size_t>(each), bodies.size()); !good)
@@ -109,13 +110,14 @@ Expected<Coupling> read_rope(const Build& build) {
     if (!p.given("axes")) continue;
     node.axis_B = vector_at(p.numbers("axes"), i);
     if (node.axis_B.norm() < 1e-9)
-      return fail(fmt::format("axis {} has no direction", i + 1), where, "write a vector, like 0 0 1");
+      return fail(ErrorCode::invalid_value, fmt::format("axis {} in 'axes' is 0 0 0, which has no direction", i + 1),
+                  build.place("axes"), "write a vector, like 0 0 1");
     node.axis_B.normalize();
   }
   return rope;
 }
 
-/// The way at the start; tells a drum where the rope leaves it there.
+/// The length of the rope's way at the start. Notes where it leaves the drum then.
 double measure_at_start(const state::WorldDescription& world, Coupling& rope) {
   std::array<Pose, state::kMaxRopeNodes> X_WN;
   for (std::size_t i = 0; i < rope.node_count; ++i) {
@@ -148,8 +150,8 @@ constexpr state::ParameterType kRopeParameters[] = {
      .unit = "m",
      .summary = "x y z of each in its body's frame: an end, or a sheave's centre",
      .required = true,
-     .min = -1e4,
-     .max = 1e4},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "radii",
      .kind = ParameterKind::numbers,
      .unit = "m",
@@ -159,8 +161,8 @@ constexpr state::ParameterType kRopeParameters[] = {
     {.name = "axes",
      .kind = ParameterKind::numbers,
      .summary = "x y z of each sheave's axis in its body's frame; none: 0 0 1",
-     .min = -1e4,
-     .max = 1e4},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "senses",
      .kind = ParameterKind::numbers,
      .summary = "which way round each: 1 right-handed about its axis from first to last, -1 left-handed",
@@ -186,7 +188,7 @@ constexpr state::ParameterType kRopeParameters[] = {
      .unit = "m",
      .summary = "unstretched, off the drum, at the start; none: as long as its way then",
      .min = 0.001,
-     .max = 1e4},
+     .max = state::kFarthest_m},
     {.name = "diameter", .unit = "m", .summary = "as it is drawn", .default_value = 0.02, .min = 1e-3, .max = 0.5},
     {.name = "drum",
      .kind = ParameterKind::text,

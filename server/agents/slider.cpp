@@ -24,8 +24,8 @@ class Slider final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_slider(const Build& build) {
-  auto joint = JointSwitch::create(build, state::JointKind::slider, "SliderJoint",
-                                   {"friction", "viscous", "minPosition", "maxPosition"});
+  auto joint =
+      JointSwitch::create(build, state::JointKind::slider, {"friction", "viscous", "minPosition", "maxPosition"});
   if (!joint) return tl::unexpected(joint.error());
   return std::make_unique<Slider>(build, *joint);
 }
@@ -46,12 +46,8 @@ constexpr state::ParameterType kSliderParameters[] = {
      .summary = "drag that grows with the speed; felt times the world's effort_scale",
      .min = 0,
      .max = 1e7},
-    {.name = "minPosition",
-     .unit = "m",
-     .summary = "lower stop; with maxPosition. Neither: the joint's own",
-     .min = -1e4,
-     .max = 1e4},
-    {.name = "maxPosition", .unit = "m", .summary = "upper stop; with minPosition", .min = -1e4, .max = 1e4},
+    state::joint_position("minPosition", "m", "lower stop; with maxPosition. Neither: the joint's own"),
+    state::joint_position("maxPosition", "m", "upper stop; with minPosition"),
 };
 constexpr state::ValueType kSliderValues[] = {
     {"position", "m", "of body2 against body1, along the axis; 0 at the start"},

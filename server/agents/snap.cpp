@@ -119,23 +119,23 @@ class Snap final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_snap(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (build.description.bodies[p.body("object").index()].fixed)
-    return fail("the object '" + p.text("object") + "' is fixed", where,
+    return fail(ErrorCode::conflict, "the object '" + p.text("object") + "' is fixed", build.place("object"),
                 "name a body that can be carried to its place");
   if (p.given("into") && p.body("into") == p.body("object"))
-    return fail("'object' and 'into' are the same body", where, "name another body in 'into', or none for the world");
-  const std::vector<double> at = p.numbers("position"), turn = p.numbers("rotation"), axis = p.numbers("axis");
+    return fail(ErrorCode::conflict, "'object' and 'into' name the same body", build.place("into"),
+                "name another body in 'into', or none for the world");
+  const std::vector<double> turn = p.numbers("rotation");
   const Vec3 about(turn[0], turn[1], turn[2]);
   if (about.norm() < 1e-9 && turn[3] != 0)
-    return fail("the rotation has no axis", where, "write axis and angle: x y z radians");
-  const Pose X_IT{Vec3(at[0], at[1], at[2]),
+    return fail(ErrorCode::invalid_value, "the rotation has an angle, but its axis is 0 0 0", build.place("rotation"),
+                "write axis and angle: x y z radians");
+  const Pose X_IT{build.vector("position"),
                   about.norm() < 1e-9 ? Quat::Identity() : Quat(Eigen::AngleAxisd(turn[3], about.normalized()))};
-  const Vec3 axis_B(axis[0], axis[1], axis[2]);
-  if (p.given("axis") && axis_B.norm() < 1e-9)
-    return fail("the axis has no direction", where, "write a vector, or leave it out");
-  return std::make_unique<Snap>(build, X_IT, p.given("axis") ? Vec3(axis_B.normalized()) : Vec3(Vec3::Zero()));
+  const auto axis_B = build.direction("axis", Vec3::Zero());
+  if (!axis_B) return tl::unexpected(axis_B.error());
+  return std::make_unique<Snap>(build, X_IT, *axis_B);
 }
 
 constexpr state::ParameterType kSnapParameters[] = {
@@ -148,19 +148,13 @@ constexpr state::ParameterType kSnapParameters[] = {
      .kind = ParameterKind::text,
      .summary = "the body in whose frame the place is; none: the world",
      .reference = state::Reference::body},
-    {.name = "position",
-     .kind = ParameterKind::numbers,
-     .unit = "m",
-     .summary = "where the object's frame goes",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::point("position", "where the object's frame goes"),
     {.name = "rotation",
      .kind = ParameterKind::numbers,
      .unit = "rad",
      .summary = "how it stands there: axis x y z, angle",
-     .min = -1e4,
-     .max = 1e4,
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m,
      .count = 4},
     {.name = "tolerance",
      .kind = ParameterKind::numbers,
@@ -170,12 +164,7 @@ constexpr state::ParameterType kSnapParameters[] = {
      .min = 0,
      .max = 100,
      .count = 2},
-    {.name = "axis",
-     .kind = ParameterKind::numbers,
-     .summary = "insertion axis in the object's frame: any rotation about it is right",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::direction("axis", "insertion axis in the object's frame: any rotation about it is right"),
     {.name = "duration",
      .unit = "s",
      .summary = "how long the last way takes",

@@ -5,7 +5,7 @@
 namespace mechane::agents {
 namespace {
 
-constexpr double kApart_s = 0.25;  // a tremble on the surface is one touch
+constexpr double kApart_s = 0.25;  // contacts closer in time than this are one touch: a finger trembles on the surface
 
 }  // namespace
 

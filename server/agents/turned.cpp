@@ -45,9 +45,7 @@ class Turned final : public Agent {
 };
 
 Expected<std::unique_ptr<Agent>> make_turned(const Build& build) {
-  if (build.description.joints[build.parameters.joint("joint").index()].kind != state::JointKind::hinge)
-    return fail("the joint '" + build.parameters.text("joint") + "' does not turn",
-                state::component_place(build.component), "name a SingleAxisHingeJoint");
+  if (auto joint = build.joint("joint", state::JointKind::hinge); !joint) return tl::unexpected(joint.error());
   return std::make_unique<Turned>(build);
 }
 
@@ -58,7 +56,7 @@ constexpr state::ParameterType kTurnedParameters[] = {
      .required = true,
      .reference = state::Reference::joint},
     {.name = "perTurns",
-     .summary = "an event after so many turns, either way",
+     .summary = "an event each time that it has turned this far, either way",
      .default_value = 1,
      .min = 0.01,
      .max = 1e6},

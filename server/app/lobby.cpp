@@ -34,12 +34,13 @@ std::string who(const Session& session) {
 }  // namespace
 
 Lobby::Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
-             record::Recorder* recorder, visits::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops)
+             record::Recorder* recorder, visits::VisitWriter* visit_writer,
+             std::vector<std::unique_ptr<WorldLoop>>& loops)
     : settings_(settings),
       scenarios_(scenarios),
       transport_(transport),
       recorder_(recorder),
-      sheets_(sheets),
+      visit_writer_(visit_writer),
       loops_(loops) {
   if (recorder_ == nullptr) return;
   for (const auto& path : record::find_snapshots(settings.records)) {
@@ -50,7 +51,7 @@ Lobby::Lobby(const Settings& settings, const ScenarioStore& scenarios, transport
       log::warning(file.error().to_string());
     }
   }
-  // A new world must not write over the snapshot of a kiosk that has not come back yet.
+  // A new world must not overwrite the snapshot of a kiosk that has not come back yet.
   for (const auto& file : from_before_) {
     std::uint32_t number = 0;
     if (std::sscanf(file.info.world_id.c_str(), "world-%u", &number) == 1)
@@ -102,7 +103,7 @@ Lobby::Entry* Lobby::world_of(const std::string& kiosk) {
 }
 
 void Lobby::kiosk_appeared(const Session& session) {
-  if (Entry* entry = world_of(session.kiosk)) return enter(session.kiosk, *entry);  // it was away for a moment only
+  if (Entry* entry = world_of(session.kiosk)) return enter(session.kiosk, *entry);  // it was only away for a moment
   waiting_.push_back({session, {}});
   serve_waiting();
 }
@@ -130,13 +131,13 @@ std::string Lobby::why_to_wait(const Waiting& waiting) {
   if (!shared.empty()) {
     return world_of(shared) != nullptr
                ? std::string()
-               : fmt::format("waiting for kiosk {}, whose world it is to share: start it", shared);
+               : fmt::format("waiting for kiosk {}, to share its world: start that kiosk", shared);
   }
   if (worlds_.size() < settings_.worlds) return {};
   return fmt::format(
-      "waiting: all {} worlds of this server are in use. It gets one when its turn comes; start the server with more "
-      "--worlds to "
-      "have more at once",
+      "waiting: all {} worlds of this server are in use. The kiosk gets one as soon as one is free; to run more worlds "
+      "at "
+      "once, start the server with a larger --worlds",
       settings_.worlds);
 }
 
@@ -159,7 +160,7 @@ void Lobby::give_world(const Session& session) {
 void Lobby::enter(const std::string& kiosk, Entry& entry) {
   entry.idle_since.reset();
   transport_.assign_kiosk(kiosk, *entry.running.port);
-  // Hands that were granted while the kiosk waited.
+  // Hands that were granted while the kiosk was waiting.
   for (const Session& session : transport_.sessions().sessions()) {
     const Session* owner = transport_.sessions().owner(kiosk, session.user);
     if (session.kiosk == kiosk && owner != nullptr && owner->id == session.id) bind_hand(session, entry);
@@ -169,13 +170,13 @@ void Lobby::enter(const std::string& kiosk, Entry& entry) {
 Expected<Lobby::Entry*> Lobby::open_for(const Session& session) {
   auto description = session.scenario.empty() ? scenarios_.first() : scenarios_.find(session.scenario);
   if (description == nullptr && session.was_there) {
-    log::warning(fmt::format("{} was in '{}', which this server was not started with; it begins at '{}'", session.kiosk,
+    log::warning(fmt::format("{} was in '{}', which this server does not have; it begins in '{}'", session.kiosk,
                              session.scenario, scenarios_.first()->id));
     description = scenarios_.first();
   }
   if (description == nullptr) {
-    return fail(fmt::format("this server has no scenario '{}'", session.scenario), session.kiosk,
-                "start the server with its file, or ask for another");
+    return fail(ErrorCode::unknown_name, fmt::format("this server has no scenario '{}'", session.scenario),
+                session.kiosk, "start the server with its file, or ask for another scenario");
   }
   return open({session.kiosk}, std::move(description));
 }
@@ -201,7 +202,8 @@ Expected<Lobby::Entry*> Lobby::open(std::vector<std::string> kiosks,
   entry->loop = least->get();
   if (!entry->loop->add(entry->running)) {
     transport_.close_world(**port);
-    return fail("the loop takes no more worlds", entry->name, "start the server with more --loop-threads");
+    return fail(ErrorCode::busy, "the loop has no room for another world", entry->name,
+                "start the server with more --loop-threads");
   }
   ++next_number_;
   Entry* result = entry.get();
@@ -228,8 +230,9 @@ std::shared_ptr<const state::WorldDescription> Lobby::next_of(Entry& entry) cons
     const state::StepDescription& step = entry.description->steps[id.index()];
     next = scenarios_.find(step.opens);
     if (next == nullptr) {
-      log::warning(fmt::format("{}: step {} opens '{}', which this server was not started with; the visitors stay",
-                               entry.description->id, step.name, step.opens));
+      log::warning(
+          fmt::format("{}: step {} opens '{}', which this server does not have; the visitors stay where they are",
+                      entry.description->id, step.name, step.opens));
     }
   }
   if (const auto request = entry.running.port->take_request()) next = scenarios_.all()[*request];
@@ -255,7 +258,7 @@ Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDesc
   return {};
 }
 
-/// Where the kiosk was before a restart, or the scenario's beginning.
+/// A world that continues where the kiosk was before a restart, or else the scenario's beginning.
 Expected<std::unique_ptr<world::World>> Lobby::make_world(Entry& entry, record::JournalHeader& header) {
   const std::string& kiosk = entry.kiosks.front();
   if (const record::SnapshotFile* snapshot = snapshot_of(kiosk, *entry.description)) {
@@ -310,8 +313,8 @@ void Lobby::start_records(Entry& entry, record::JournalHeader header) {
 }
 
 void Lobby::start_visits(Entry& entry, bool resumed) {
-  if (sheets_ == nullptr) return;
-  entry.visits = std::make_unique<WorldVisits>(*sheets_, entry.description, entry.kiosks.front(),
+  if (visit_writer_ == nullptr) return;
+  entry.visits = std::make_unique<WorldVisits>(*visit_writer_, entry.description, entry.kiosks.front(),
                                                entry.running.world->state, resumed);
   entry.running.visits = &entry.visits->feed();
 }
@@ -337,7 +340,7 @@ void Lobby::bind_hand(const Session& session, Entry& entry) {
   if (port.slot_of(session.id) < hand::kMaxUsers) return;
   const std::size_t slot = port.free_slot();
   if (slot >= hand::kMaxUsers || !port.bind_user(slot, session.kiosk, session.user, session.id)) {
-    log::warning(fmt::format("{}: no place for this hand in world {}, which has {} at most", who(session), entry.name,
+    log::warning(fmt::format("{}: world {} has no room for this hand: {} hands are its limit", who(session), entry.name,
                              hand::kMaxUsers));
     return;
   }
@@ -355,7 +358,7 @@ void Lobby::kiosk_left(const std::string& kiosk, TimePoint now) {
   std::erase_if(waiting_, [&](const Waiting& waiting) { return waiting.session.kiosk == kiosk; });
   Entry* entry = world_of(kiosk);
   if (entry == nullptr) return;
-  // A kiosk that shares a world goes; the one whose world it is may come back to it.
+  // Where kiosks share the world, this one just leaves it. The last one may come back to it for a while.
   if (entry->kiosks.size() > 1) {
     std::erase(entry->kiosks, kiosk);
     return;
@@ -387,7 +390,7 @@ void Lobby::close_all() {
 void Lobby::wait_until_left(Entry& entry) {
   entry.running.leave.store(true, std::memory_order_release);
   SystemClock clock;
-  // The loop gives the world back at the end of its next tick. A loop that has stopped never will, and uses it no more.
+  // The loop gives the world back at the end of its next tick. A loop that has stopped does not use it any more.
   while (!entry.running.left.load(std::memory_order_acquire) && entry.loop->thread().report().running) {
     clock.sleep_until(clock.now() + kTickPeriod);
   }
@@ -402,7 +405,7 @@ void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot, const 
   }
   const state::WorldState& state = entry.running.world->state;
   if (entry.running.recorder) {
-    // The last state, not that of a second ago.
+    // The state of now: the last snapshot is up to a second old.
     if (snapshot == record::WorldRecorder::Snapshot::keep) entry.running.keep_snapshot();
     entry.running.recorder->close(state::state_hash(state), snapshot);
   }

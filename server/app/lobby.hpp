@@ -1,6 +1,6 @@
-// Who gets which world: the main thread's policy. A kiosk that appears gets its world, or waits for one; one that asks to join another's
-// shares it; a world without clients is closed after a while; a visitor who touches a sign goes on to another scenario; after a restart a
-// kiosk is put back where it was.
+// Decides which kiosk gets which world. A kiosk that appears gets a world, or waits until one is free; it can ask to share the world of
+// another kiosk. A world without clients is closed after a while. A visitor who touches a sign goes on to another scenario. After a restart
+// of the server, a kiosk continues where it was.
 #pragma once
 
 #include <map>
@@ -22,19 +22,19 @@ namespace mechane::app {
 /// Main thread only.
 class Lobby {
  public:
-  /// All arguments outlive the lobby. `recorder` and `sheets` may be null: nothing is kept.
+  /// All arguments outlive the lobby. `recorder` and `visit_writer` may be null: then nothing is recorded.
   Lobby(const Settings& settings, const ScenarioStore& scenarios, transport::ServerTransport& transport,
-        record::Recorder* recorder, visits::VisitSheets* sheets, std::vector<std::unique_ptr<WorldLoop>>& loops);
+        record::Recorder* recorder, visits::VisitWriter* visit_writer, std::vector<std::unique_ptr<WorldLoop>>& loops);
   ~Lobby();
 
   void take(const transport::News& news, TimePoint now);
-  /// Lets kiosks go on to another scenario: where a step says so, or somebody asks for it. After the news of a poll.
+  /// Lets kiosks go on to another scenario, where a step says so or a client asks for it. Call it after the news of a poll.
   void follow_signs();
-  /// Visitors' answers go to the sheets of their visits. Without sheets they are taken, and not kept.
+  /// Puts visitors' answers into the records of their visits. Where visits are not recorded, the answers are dropped.
   void take_answers();
-  /// Closes what has been idle long enough, takes apart what its loop has given back.
+  /// Closes worlds that have been idle long enough, and gives worlds to kiosks that wait.
   void tidy(TimePoint now);
-  /// Takes all worlds off their loops and closes their journals. Snapshots stay, for a restart.
+  /// Takes all worlds from their loops and closes their journals. Snapshots stay for a restart.
   void close_all();
 
   [[nodiscard]] std::size_t worlds() const { return worlds_.size(); }
@@ -45,22 +45,22 @@ class Lobby {
     std::string name;
     std::shared_ptr<const state::WorldDescription> description;
     RunningWorld running;
-    std::unique_ptr<WorldVisits> visits;  ///< null: no sheets are kept
+    std::unique_ptr<WorldVisits> visits;  ///< null: visits are not recorded
     WorldLoop* loop = nullptr;
     std::vector<std::string> kiosks;
     std::optional<TimePoint> idle_since;
   };
 
-  /// A kiosk without a world: while all are in use, or the kiosk whose world it is to share has none.
+  /// A kiosk that waits for a world: all are in use, or the kiosk whose world it shares has none yet.
   struct Waiting {
     transport::Session session;
-    std::string told;  ///< why it waits, as it was told last
+    std::string told;  ///< why it waits, as it was last told
   };
 
   void kiosk_appeared(const transport::Session& session);
-  /// Worlds for those whose waiting is over, first come first; the others are told why they wait.
+  /// Gives worlds to waiting kiosks, in the order in which they came. The others are told why they have to wait.
   void serve_waiting();
-  /// Empty: it need not wait.
+  /// Empty where it need not wait any more.
   [[nodiscard]] std::string why_to_wait(const Waiting& waiting);
   void give_world(const transport::Session& session);
   void enter(const std::string& kiosk, Entry& entry);
@@ -70,18 +70,19 @@ class Lobby {
   void bind_hand(const transport::Session& session, Entry& entry);
   [[nodiscard]] Entry* world_of(const std::string& kiosk);
   [[nodiscard]] Expected<Entry*> open_for(const transport::Session& session);
-  /// Where an entry's visitors are to go now; null: nowhere.
+  /// The scenario that an entry's visitors go on to now; null: none.
   [[nodiscard]] std::shared_ptr<const state::WorldDescription> next_of(Entry& entry) const;
-  /// A new world for the entry's kiosks and hands; then the entry is closed. Errors: as open().
+  /// Moves the entry's kiosks and hands to a new world, and closes the entry. Errors: as open().
   [[nodiscard]] Expected<void> go_on(Entry& entry, std::shared_ptr<const state::WorldDescription> description);
-  /// Makes a world and hands it to a loop.
+  /// Makes a world and gives it to a loop.
   [[nodiscard]] Expected<Entry*> open(std::vector<std::string> kiosks,
                                       std::shared_ptr<const state::WorldDescription> description);
   [[nodiscard]] Expected<std::unique_ptr<world::World>> make_world(Entry& entry, record::JournalHeader& header);
-  /// The newest snapshot that the kiosk can be put back to; null: none.
+  /// The newest snapshot that the kiosk can continue from; null: none.
   [[nodiscard]] const record::SnapshotFile* snapshot_of(const std::string& kiosk,
                                                         const state::WorldDescription& description) const;
-  /// Forgets the kiosk's snapshots from before. Their files, which stay until the new world's own snapshot is on the disk.
+  /// Takes the kiosk's snapshots of the former server from the list. Returns their files, which stay until the new world's own snapshot is
+  /// on the disk.
   [[nodiscard]] std::vector<std::filesystem::path> take_snapshots_of(const std::string& kiosk);
   void start_records(Entry& entry, record::JournalHeader header);
   void start_visits(Entry& entry, bool resumed);
@@ -93,11 +94,11 @@ class Lobby {
   const ScenarioStore& scenarios_;
   transport::ServerTransport& transport_;
   record::Recorder* recorder_;
-  visits::VisitSheets* sheets_;
+  visits::VisitWriter* visit_writer_;
   std::vector<std::unique_ptr<WorldLoop>>& loops_;
   std::map<std::string, std::unique_ptr<Entry>> worlds_;
   std::vector<Waiting> waiting_;                   // in the order in which they came
-  std::vector<record::SnapshotFile> from_before_;  // of the run before this one
+  std::vector<record::SnapshotFile> from_before_;  // of the former server
   std::uint32_t next_number_ = 1;
 };
 

@@ -57,13 +57,13 @@ std::string describe_event(const state::WorldDescription& world, const state::Ev
     case EventKind::assembled:
       return fmt::format("{}: assembled", name_in(world.agents, event.subject));
     case EventKind::part_refused:
-      return fmt::format("{}: it is not yet the turn of {}", name_in(world.agents, event.subject), body);
+      return fmt::format("{}: {} came before its turn", name_in(world.agents, event.subject), body);
     case EventKind::dwelt:
       return fmt::format("{}: stayed for {:.1f} s", name_in(world.agents, event.subject), event.value);
     case EventKind::pointed:
       return fmt::format("{}: user {:.0f} points at {}", name_in(world.agents, event.subject), event.value, body);
     case EventKind::idled:
-      return fmt::format("{}: nothing for {:.0f} s", name_in(world.agents, event.subject), event.value);
+      return fmt::format("{}: nothing happened for {:.0f} s", name_in(world.agents, event.subject), event.value);
     case EventKind::broke:
       return fmt::format("{}: broke at {:.1f}", name_in(world.agents, event.subject), event.value);
     case EventKind::none:

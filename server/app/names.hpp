@@ -1,4 +1,4 @@
-// Events and ids in words, for logs and terminals.
+// Events in words, for logs and terminals.
 #pragma once
 
 #include <string>

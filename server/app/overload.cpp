@@ -53,8 +53,9 @@ OverloadWatch::Cause OverloadWatch::judge(const LoadCounts& counts) {
   }
   if (gaps > kToleratedGaps) {
     words_ = fmt::format(
-        "samples of hands come late: in the last {} s there were {} pauses of more than 10 ms, the longest {} ms, and "
-        "forces fade meanwhile. Check the load of the kiosks' machines, and the network",
+        "samples of hands come late: in the last {} s there were {} pauses of more than 10 ms, the longest {} ms; "
+        "forces "
+        "fade during them. Check the load of the kiosks' machines, and the network",
         seconds, gaps, std::chrono::duration_cast<std::chrono::milliseconds>(longest_gap_).count());
     return Cause::inputs;
   }

@@ -1,4 +1,4 @@
-// OverloadWatch: does this machine do what is asked of it? Judged from what is counted anyway, outside the loops.
+// OverloadWatch: finds out whether this machine is fast enough, from counters and outside the loops.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,28 @@
 
 namespace mechane::app {
 
-/// Counts since the start; `longest_gap` since the last look.
+/// Counts since the start. `longest_gap`: since the last look.
 struct LoadCounts {
   std::uint64_t ticks = 0;
-  std::uint64_t overruns = 0;    ///< ticks that needed over 1 ms of a processor themselves
-  std::uint64_t held_up = 0;     ///< ticks left out, or interrupted for so long that they took over 1 ms
-  std::uint64_t input_gaps = 0;  ///< times that a hand which was sending paused for 10 to 100 ms
+  std::uint64_t overruns = 0;    ///< ticks that needed more than 1 ms of processor time
+  std::uint64_t held_up = 0;     ///< ticks that were left out, or interrupted for so long that they took more than 1 ms
+  std::uint64_t input_gaps = 0;  ///< how often a hand that was sending paused for 10 to 100 ms
   Duration longest_gap{0};
 };
 
-/// One thread, which is not a loop's.
+/// For one thread, not a loop's.
 class OverloadWatch {
  public:
   static constexpr Duration kWindow = std::chrono::seconds(10);
-  /// Share of the window's ticks: a visitor feels more than these. A machine that keeps up has a few in an hour.
+  /// Share of the window's ticks: when more are late, visitors feel it. A machine that is fast enough has a few in an hour.
   static constexpr double kTolerated = 0.001;
   static constexpr std::uint64_t kToleratedGaps = 20;
 
-  /// Call it several times in a window; when the window is over, it is judged. True when words() is to be logged: when the cause has
-  /// changed, and once a minute while it lasts.
+  /// Call it several times in a window; each window is judged at its end. True when words() should be logged: when the cause has changed,
+  /// and once a minute while it lasts.
   bool look(const LoadCounts& counts, TimePoint now);
 
-  /// What was too much in the last window, and what to do; empty: nothing.
+  /// What the machine was too slow for in the last window, and what to do; empty: nothing.
   [[nodiscard]] const std::string& words() const { return words_; }
   /// The longest pause of a hand in the last window.
   [[nodiscard]] Duration longest_gap() const { return longest_gap_; }

@@ -14,8 +14,9 @@ Expected<std::unique_ptr<world::World>> world_of(const record::JournalHeader& he
                                                  const std::shared_ptr<const state::WorldDescription>& description,
                                                  const world::WorldConfig& config) {
   if (header.scenario_hash != description->content_hash) {
-    return fail(fmt::format("the journal is of scenario {} in the form {}, this one is {}", header.scenario_id,
-                            header.scenario_hash, description->content_hash),
+    return fail(ErrorCode::conflict,
+                fmt::format("the journal was recorded with another form of scenario {} (hash {}; this one has {})",
+                            header.scenario_id, header.scenario_hash, description->content_hash),
                 header.world_id, "replay it with the scenario and settings of the day it was recorded");
   }
   if (header.snapshot.empty()) return world::World::create(description, config);

@@ -1,4 +1,4 @@
-// Runs a journal again and holds the result against the state hashes that the live world wrote into it.
+// Runs a journal again and compares the result with the state hashes that the live world wrote into it.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct ReplayResult {
   }
 };
 
-/// Errors: the journal is of another form of the scenario (the hashes name both), or its snapshot cannot be read.
+/// Errors: conflict (the journal was recorded with another form of the scenario), or the snapshot in it cannot be read.
 [[nodiscard]] Expected<ReplayResult> replay(record::JournalReader& journal,
                                             const std::shared_ptr<const state::WorldDescription>& description,
                                             const world::WorldConfig& config, const ReplayOptions& options);

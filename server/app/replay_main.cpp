@@ -1,4 +1,4 @@
-// mechane-replay: runs a journal again, as fast as it can or in real time, and tells whether it ends as the live world did.
+// mechane-replay: runs a journal again, as fast as possible or in real time, and says whether it ends as the live world did.
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
@@ -49,8 +49,9 @@ int run(const Arguments& a) {
   }
   const auto description = store->find(journal->header().scenario_id);
   if (description == nullptr) {
-    log::error(Error{fmt::format("the journal is of scenario '{}'", journal->header().scenario_id), a.journal.string(),
-                     "name its X3D file with --scenario"});
+    log::error(Error{ErrorCode::conflict,
+                     fmt::format("the journal was recorded with scenario '{}'", journal->header().scenario_id),
+                     a.journal.string(), "name the X3D file of that scenario with --scenario"});
     return 2;
   }
   const auto result = app::replay(*journal, description, store->world_config(), a.options);

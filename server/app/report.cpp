@@ -1,34 +1,39 @@
 #include "server/app/report.hpp"
 
-#include <fstream>
+#include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "server/app/version.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/collision/kernels.hpp"
+#include "server/realtime/quantiles_json.hpp"
 
 namespace mechane::app {
 namespace {
 
-double us(Duration d) {
-  return std::chrono::duration<double, std::micro>(d).count();
+/// `of` each loop, together.
+template <class Of>
+realtime::LatencyHistogram merged(const std::vector<std::unique_ptr<WorldLoop>>& loops, const Of& of) {
+  realtime::LatencyHistogram all;
+  for (const auto& loop : loops)
+    all.merge(of(*loop));
+  return all;
 }
 
-nlohmann::json quantiles(const realtime::LatencyHistogram& h) {
-  return {{"median", us(h.quantile(0.5))},
-          {"p99", us(h.quantile(0.99))},
-          {"p999", us(h.quantile(0.999))},
-          {"max", us(h.max())}};
+const realtime::LatencyHistogram& busy_of(const WorldLoop& loop) {
+  return loop.busy_time();
+}
+const realtime::LatencyHistogram& wake_of(const WorldLoop& loop) {
+  return loop.thread().wake_latency();
 }
 
 }  // namespace
 
-LoopSummary summarise(const std::vector<std::unique_ptr<WorldLoop>>& loops) {
-  LoopSummary out;
+transport::LoopFigures summarise(const std::vector<std::unique_ptr<WorldLoop>>& loops) {
+  transport::LoopFigures out;
   out.realtime = !loops.empty();
-  realtime::LatencyHistogram tick;
-  realtime::LatencyHistogram wake;
   for (const auto& loop : loops) {
     const realtime::PeriodicReport report = loop->thread().report();
     out.ticks += report.ticks;
@@ -37,50 +42,40 @@ LoopSummary summarise(const std::vector<std::unique_ptr<WorldLoop>>& loops) {
     out.preemptions += report.preemptions;
     out.skipped += report.skipped;
     out.realtime = out.realtime && report.fifo_granted;
-    tick.merge(loop->busy_time());
-    wake.merge(loop->thread().wake_latency());
   }
-  out.tick_us_median = us(tick.quantile(0.5));
-  out.tick_us_p99 = us(tick.quantile(0.99));
-  out.tick_us_p999 = us(tick.quantile(0.999));
-  out.tick_us_max = us(tick.max());
-  out.wake_us_median = us(wake.quantile(0.5));
-  out.wake_us_p99 = us(wake.quantile(0.99));
-  out.wake_us_p999 = us(wake.quantile(0.999));
-  out.wake_us_max = us(wake.max());
+  const realtime::LatencyHistogram tick = merged(loops, busy_of);
+  const realtime::LatencyHistogram wake = merged(loops, wake_of);
+  out.tick_us_median = to_us(tick.quantile(0.5));
+  out.tick_us_p99 = to_us(tick.quantile(0.99));
+  out.tick_us_p999 = to_us(tick.quantile(0.999));
+  out.tick_us_max = to_us(tick.max());
+  out.wake_us_p99 = to_us(wake.quantile(0.99));
+  out.wake_us_max = to_us(wake.max());
   return out;
 }
 
 Expected<void> write_report(const std::filesystem::path& file, const std::vector<std::unique_ptr<WorldLoop>>& loops,
                             const realtime::LatencyHistogram& write_time) {
-  const LoopSummary s = summarise(loops);
+  const transport::LoopFigures s = summarise(loops);
   nlohmann::json phases = nlohmann::json::object();
   for (std::size_t p = 0; p < world::kPhases; ++p) {
-    realtime::LatencyHistogram merged;
-    for (const auto& loop : loops)
-      merged.merge(loop->phases()[p]);
-    phases[std::string(world::kPhaseNames[p])] = quantiles(merged);
+    phases[std::string(world::kPhaseNames[p])] =
+        realtime::quantiles_json(merged(loops, [p](const WorldLoop& loop) { return loop.phases()[p]; }));
   }
-  const nlohmann::json json = {
-      {"version", kVersion},
-      {"simd", collision::best_kernels().name},
-      {"ticks", s.ticks},
-      {"overruns", s.overruns},
-      {"late_wakeups", s.late_wakeups},
-      {"preemptions", s.preemptions},
-      {"skipped", s.skipped},
-      {"realtime", s.realtime},
-      {"tick_us",
-       {{"median", s.tick_us_median}, {"p99", s.tick_us_p99}, {"p999", s.tick_us_p999}, {"max", s.tick_us_max}}},
-      {"wake_us",
-       {{"median", s.wake_us_median}, {"p99", s.wake_us_p99}, {"p999", s.wake_us_p999}, {"max", s.wake_us_max}}},
-      {"phase_us", std::move(phases)},
-      {"dds_write_us", quantiles(write_time)}};
-  std::ofstream out(file);
-  out << json.dump(2) << "\n";
-  out.flush();
-  if (!out) return fail("the report could not be written", file.string(), "check the folder and the free space");
-  return {};
+  const nlohmann::json json = {{"version", kVersion},
+                               {"simd", collision::best_kernels().name},
+                               {"ticks", s.ticks},
+                               {"overruns", s.overruns},
+                               {"late_wakeups", s.late_wakeups},
+                               {"preemptions", s.preemptions},
+                               {"skipped", s.skipped},
+                               {"realtime", s.realtime},
+                               {"tick_us", realtime::quantiles_json(merged(loops, busy_of))},
+                               {"wake_us", realtime::quantiles_json(merged(loops, wake_of))},
+                               {"phase_us", std::move(phases)},
+                               {"dds_write_us", realtime::quantiles_json(write_time)}};
+  const std::string text = json.dump(2) + "\n";
+  return write_whole(file, std::as_bytes(std::span(text)), WholeFile::document);
 }
 
 }  // namespace mechane::app

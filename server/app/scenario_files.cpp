@@ -30,22 +30,24 @@ Expected<fs::path> file_of(const fs::path& name, const std::vector<CatalogueEntr
   }
   if (paths.size() == 1) return catalogue.folder() / paths.front();
   if (paths.size() > 1) {
-    return fail(fmt::format("the catalogue has {} scenarios of the id '{}'", paths.size(), name.string()),
-                catalogue.file().string(), fmt::format("name the file: one of {}", fmt::join(paths, ", ")));
+    return fail(ErrorCode::duplicate,
+                fmt::format("the catalogue has {} scenarios with the id '{}'", paths.size(), name.string()),
+                catalogue.file().string(), fmt::format("name one of their files: {}", fmt::join(paths, ", ")));
   }
-  return fail(fmt::format("'{}' is not a file, and no scenario of the catalogue", name.string()),
+  return fail(ErrorCode::unknown_name,
+              fmt::format("'{}' is neither a file nor a scenario in the catalogue", name.string()),
               catalogue.file().string(), fmt::format("name one of: {}", fmt::join(ids, ", ")));
 }
 
-/// One line a file that is not what the catalogue says.
+/// Logs a line where the file is not what the catalogue says.
 void warn_if_changed(const CatalogueEntry& entry, const content::Catalogue& catalogue) {
   const fs::path file = catalogue.folder() / entry.path;
   const auto hash = content::content_hash(file);
   if (!hash) {
     log::warning(hash.error().to_string());
   } else if (*hash != entry.hash) {
-    log::warning(fmt::format("{}: its content is not what the catalogue says; {} says more", file.string(),
-                             content::content_command(catalogue.file(), "verify")));
+    log::warning(fmt::format("{}: the file has changed since it was added to the catalogue; {} shows how",
+                             file.string(), content::content_command(catalogue.file(), "verify")));
   }
 }
 
@@ -66,7 +68,7 @@ Expected<std::vector<fs::path>> find_scenarios(std::span<const fs::path> names, 
     const auto path = content::path_inside(catalogue->folder(), file);
     const auto entry = std::ranges::find(*entries, path.value_or(""), &CatalogueEntry::path);
     if (entry == entries->end()) {
-      log::warning(fmt::format("{}: the catalogue does not know this file; {}", file.string(),
+      log::warning(fmt::format("{}: the file is not in the catalogue; add it with: {}", file.string(),
                                content::content_command(catalogue->file(), "add", file.string())));
     } else {
       used.push_back(*entry);

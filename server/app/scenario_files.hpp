@@ -1,4 +1,4 @@
-// From what a server was told to the files it reads: ids are found in the content catalogue, and files are held against it.
+// Finds the scenario files that a server reads: looks up ids in the content catalogue, and compares files with it.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,9 @@
 
 namespace mechane::app {
 
-/// The scenario file of each name: a path stays as it is, an id that is not a path is looked up. With a catalogue,
-/// what a scenario or a file
-/// that it needs differs in is said in the log, and no error: the museum opens, and somebody looks. Reads those files whole. Errors: the
-/// catalogue cannot be read; an id that it does not have.
+/// The scenario file of each name: a path stays as it is, an id that is not a path is looked up in the catalogue. A scenario, or a file
+/// that it needs, which is not as the catalogue says is logged and no error: the museum can open. Reads those files whole. Errors:
+/// unknown_name and duplicate (an id), and those of a catalogue that cannot be read.
 [[nodiscard]] Expected<std::vector<std::filesystem::path>> find_scenarios(std::span<const std::filesystem::path> names,
                                                                           const std::filesystem::path& catalogue);
 

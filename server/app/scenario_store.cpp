@@ -13,7 +13,7 @@
 namespace mechane::app {
 namespace {
 
-/// The scenario's door to the content: builds a body's collision object, or takes it from the cache.
+/// Gives the scenario's compiler its collision objects: built, or from the cache.
 class StoreLoader final : public scenario::ObjectLoader {
  public:
   explicit StoreLoader(content::ObjectStore& store) : store_(store) {}
@@ -29,7 +29,7 @@ class StoreLoader final : public scenario::ObjectLoader {
   content::ObjectStore& store_;
 };
 
-/// A scale that is not 1 makes another world: its journals must not be replayed against the unscaled one.
+/// A scale other than 1 makes another world, with another hash: its journals cannot be replayed with the unscaled one.
 void scale_touch(state::WorldDescription& description, double scale) {
   if (scale == 1) return;
   for (state::BodyDescription& body : description.bodies) {
@@ -64,8 +64,8 @@ Expected<ScenarioStore> ScenarioStore::load(const Settings& settings) {
     auto description = load_one(file, loader, settings.stiffness_scale);
     if (!description) return tl::unexpected(description.error());
     if (result.find((*description)->id) != nullptr) {
-      return fail(fmt::format("two scenarios have the id '{}'", (*description)->id), file.string(),
-                  "give one of them another id");
+      return fail(ErrorCode::duplicate, fmt::format("two scenarios have the id '{}'", (*description)->id),
+                  file.string(), "give one of them another id");
     }
     result.scenarios_.push_back(std::move(*description));
   }

@@ -16,13 +16,14 @@ namespace mechane::app {
 /// Immutable after load(). Any thread.
 class ScenarioStore {
  public:
-  /// Reads every scenario of the settings, builds or fetches its collision parts, and makes the hand. Takes seconds the first time;
-  /// says in the log what it does. Errors: the first problem of a scenario, with file and line; two scenarios of one id.
+  /// Reads every scenario of the settings, builds its collision parts or takes them from the cache, and makes the hand. May take minutes
+  /// the first time; logs what it does. Errors: the first problem of a scenario, with file and line; duplicate (two scenarios with one
+  /// id).
   [[nodiscard]] static Expected<ScenarioStore> load(const Settings& settings);
 
-  /// Null when there is none of this id.
+  /// Null when no scenario has this id.
   [[nodiscard]] std::shared_ptr<const state::WorldDescription> find(const std::string& id) const;
-  /// What a kiosk gets that asks for none: the first that was given.
+  /// The first that was given: for kiosks that ask for no other.
   [[nodiscard]] std::shared_ptr<const state::WorldDescription> first() const { return scenarios_.front(); }
   /// In the order given; at least one.
   [[nodiscard]] const std::vector<std::shared_ptr<const state::WorldDescription>>& all() const { return scenarios_; }

@@ -15,12 +15,12 @@
 #include "server/log/log.hpp"
 #include "server/record/recorder.hpp"
 #include "server/transport/server_transport.hpp"
-#include "server/visits/visit_sheets.hpp"
+#include "server/visits/visit_writer.hpp"
 
 namespace mechane::app {
 namespace {
 
-// The main thread looks at the kiosks so often; a visitor never notices, and the loops do not wait for it.
+// How often the main thread looks at the kiosks: often enough that visitors do not notice. The loops do not wait for it.
 constexpr int kLookEveryMs = 20;
 constexpr int kLooksPerStatus = 5;     // ten a second
 constexpr int kLooksPerWatchdog = 25;  // twice a second
@@ -31,7 +31,7 @@ LoopConfig loop_config(const Settings& settings, std::size_t index) {
   config.thread.fifo_priority = settings.fifo_priority;
   config.thread.lock_memory = settings.fifo_priority > 0;
   if (settings.first_cpu) config.thread.cpu = *settings.first_cpu + static_cast<int>(index);
-  config.max_worlds = settings.worlds + 1;  // one more while a kiosk goes on from one to the next
+  config.max_worlds = settings.worlds + 1;  // one more, for when a kiosk goes on to another world
   return config;
 }
 
@@ -42,7 +42,7 @@ transport::TransportConfig transport_config(const Settings& settings, const Scen
   for (const auto& scenario : scenarios.all())
     config.scenarios.push_back(scenario->id);
   config.domain = settings.domain;
-  // Above the loop: a force that is ready goes out before the next tick is made.
+  // Above the loop's priority: a force that is ready is sent before the next tick begins.
   config.fifo_priority = settings.fifo_priority > 0 ? settings.fifo_priority + 1 : 0;
   return config;
 }
@@ -62,13 +62,13 @@ class Server::Impl {
   void say_ready();
   void look(TimePoint now);
   void say_status();
-  void watch_load(const LoopSummary& summary);
+  void watch_load(const transport::LoopFigures& loops);
 
   Settings settings_;
   SystemClock main_clock_;
   std::optional<ScenarioStore> scenarios_;
   std::unique_ptr<record::Recorder> recorder_;
-  std::unique_ptr<visits::VisitSheets> sheets_;
+  std::unique_ptr<visits::VisitWriter> visit_writer_;
   std::unique_ptr<transport::ServerTransport> transport_;
   std::vector<std::unique_ptr<SystemClock>> clocks_;
   std::vector<std::unique_ptr<WorldLoop>> loops_;
@@ -79,7 +79,7 @@ class Server::Impl {
 Expected<void> Server::Impl::start() {
   log::info(fmt::format("mechane server {}; settings:\n{}", kVersion, to_string(settings_)));
   auto scenarios = [this] {
-    const StopAtOnce while_building;  // parts may take a minute, and nothing is served yet
+    const StopAtOnce while_building;  // building parts may take minutes, and no kiosk is connected yet
     return ScenarioStore::load(settings_);
   }();
   if (!scenarios) return tl::unexpected(scenarios.error());
@@ -95,9 +95,10 @@ Expected<void> Server::Impl::start() {
   }
   if (settings_.fifo_priority > 0 && !loops_.front()->thread().report().fifo_granted) {
     log::warning(
-        "SCHED_FIFO was refused: the loop runs as an ordinary thread and will be late under load; see mechane doctor");
+        "SCHED_FIFO was refused: the loop runs as an ordinary thread and will be late under load; see 'mechane "
+        "doctor'");
   }
-  lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), sheets_.get(), loops_);
+  lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), visit_writer_.get(), loops_);
   return {};
 }
 
@@ -111,13 +112,13 @@ Expected<void> Server::Impl::start_records() {
     recorder_ = std::move(*recorder);
   }
   if (const std::filesystem::path file = settings_.visits_file(); !file.empty()) {
-    visits::VisitSheetsConfig config;
+    visits::VisitWriterConfig config;
     config.file = file;
     config.keep_days = settings_.visits_keep_days;
     config.max_bytes = settings_.visits_limit_mb * 1'000'000;
-    auto sheets = visits::VisitSheets::create(config);
-    if (!sheets) return tl::unexpected(sheets.error());
-    sheets_ = std::move(*sheets);
+    auto writer = visits::VisitWriter::create(config);
+    if (!writer) return tl::unexpected(writer.error());
+    visit_writer_ = std::move(*writer);
   }
   return {};
 }
@@ -148,7 +149,7 @@ int Server::Impl::run(StopSignals& signals) {
   return 1;
 }
 
-/// Each loop has made a tick: one that is started may yet wait for a processor, and would leave its kiosks without forces.
+/// Whether each loop has run a tick: one that was started may still wait for a processor, and its kiosks would be without forces.
 bool Server::Impl::loops_run() const {
   return std::all_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop->thread().report().ticks > 0; });
 }
@@ -171,35 +172,24 @@ void Server::Impl::say_status() {
   status.worlds = static_cast<std::uint32_t>(lobby_->worlds());
   status.worlds_limit = settings_.worlds;
   status.users = lobby_->users();
-  const LoopSummary summary = summarise(loops_);
-  status.ticks = summary.ticks;
-  status.overruns = summary.overruns;
-  status.late_wakeups = summary.late_wakeups;
-  status.preemptions = summary.preemptions;
-  status.tick_us_median = summary.tick_us_median;
-  status.tick_us_p99 = summary.tick_us_p99;
-  status.tick_us_p999 = summary.tick_us_p999;
-  status.tick_us_max = summary.tick_us_max;
-  status.wake_us_p99 = summary.wake_us_p99;
-  status.wake_us_max = summary.wake_us_max;
-  status.realtime = summary.realtime;
-  status.records_ok =
-      (recorder_ == nullptr || recorder_->status().records_ok) && (sheets_ == nullptr || sheets_->status().ok);
-  watch_load(summary);
+  status.loops = summarise(loops_);
+  status.records_ok = (recorder_ == nullptr || recorder_->status().records_ok) &&
+                      (visit_writer_ == nullptr || visit_writer_->status().ok);
+  watch_load(status.loops);
   status.input_gap_ms = to_seconds(overload_.longest_gap()) * 1e3;
   status.overload = overload_.words();
   transport_->publish_server_status(status);
 }
 
-void Server::Impl::watch_load(const LoopSummary& summary) {
+void Server::Impl::watch_load(const transport::LoopFigures& loops) {
   LoadCounts counts;
-  counts.ticks = summary.ticks;
-  counts.overruns = summary.overruns;
-  counts.held_up = summary.skipped + summary.preemptions;
+  counts.ticks = loops.ticks;
+  counts.overruns = loops.overruns;
+  counts.held_up = loops.skipped + loops.preemptions;
   counts.input_gaps = transport_->input_gaps();
   counts.longest_gap = transport_->take_longest_input_gap();
   if (lobby_->worlds() == 0) {
-    overload_ = OverloadWatch();  // nobody is there to feel it
+    overload_ = OverloadWatch();  // there is no kiosk that could feel it
   } else if (overload_.look(counts, main_clock_.now())) {
     overload_.words().empty() ? log::info("the overload is over") : log::warning(overload_.words());
   }

@@ -1,4 +1,4 @@
-// The server: transport, records, loops and lobby, put together and run.
+// The server: puts transport, records, loops and lobby together and runs them.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace mechane::app {
 /// Everything of one server process. Main thread only.
 class Server {
  public:
-  /// Reads the scenarios, builds what is missing, opens the network, starts the loops. Errors: the first thing that cannot be.
+  /// Reads the scenarios, builds missing collision parts, opens the network and starts the loops. Errors: the first one of these steps.
   [[nodiscard]] static Expected<std::unique_ptr<Server>> start(const Settings& settings);
   ~Server();
   Server(const Server&) = delete;

@@ -7,11 +7,12 @@
 #include <toml++/toml.h>
 
 #include "server/app/version.hpp"
+#include <mechane/proto/names.hpp>
 
 namespace mechane::app {
 namespace {
 
-/// Every key that a file may hold, by table. A key that is not here is an error: a misspelt limit must not be ignored.
+/// Reads the settings of a file. An unknown key is an error: a misspelt limit must not be ignored.
 class TomlReader {
  public:
   explicit TomlReader(std::string file) : file_(std::move(file)) {}
@@ -21,7 +22,11 @@ class TomlReader {
     try {
       table = toml::parse_file(file_);
     } catch (const toml::parse_error& e) {
-      return fail(std::string(e.description()), fmt::format("{}:{}", file_, e.source().begin.line), "correct the line");
+      // Where the file cannot be opened, there is no line.
+      const auto line = static_cast<int>(e.source().begin.line);
+      return line == 0
+                 ? fail(ErrorCode::not_found, std::string(e.description()), file_, "check the file's path and rights")
+                 : fail(ErrorCode::damaged, std::string(e.description()), at(line), "correct the line");
     }
     root_ = &table;
     take("name", settings.name);
@@ -58,11 +63,17 @@ class TomlReader {
     if (!node) return;
     if (const auto value = node.value<T>()) {
       out = *value;
-    } else if (error_.empty()) {
-      error_ = fmt::format("'{}' is of the wrong kind", key);
-      line_ = node.node()->source().begin.line;
+    } else {
+      note_fault(fmt::format("'{}' has a value of the wrong type", key), *node.node());
     }
   }
+  /// The first fault counts.
+  void note_fault(std::string what, const toml::node& node) {
+    if (!fault_.empty()) return;
+    fault_ = std::move(what);
+    fault_line_ = static_cast<int>(node.source().begin.line);
+  }
+  [[nodiscard]] Place at(int line) const { return {fmt::format("{}:{}", file_, line), line}; }
   void take_path(const std::string& key, std::filesystem::path& out) {
     std::string text = out.string();
     take(key, text);
@@ -84,10 +95,12 @@ class TomlReader {
   void take_mode(Settings& settings) {
     std::string mode = settings.force.mode == haptics::ForceMode::paper ? "paper" : "continuous";
     take("force.mode", mode);
-    if (mode != "paper" && mode != "continuous" && error_.empty()) error_ = "force.mode is 'continuous' or 'paper'";
+    if (mode != "paper" && mode != "continuous")
+      note_fault(fmt::format("force.mode is '{}'; it must be 'continuous' or 'paper'", mode),
+                 *root_->at_path("force.mode").node());
     settings.force.mode = mode == "paper" ? haptics::ForceMode::paper : haptics::ForceMode::continuous;
   }
-  /// One factor for the whole hand, and the palm's own sizes: what a technician calibrates.
+  /// What a technician calibrates: sizes of the palm and the finger tips, and two factors for each finger.
   void take_hand(haptics::HandSize& hand) {
     take("hand.palm_half_length_m", hand.palm_half_m.x());
     take("hand.palm_half_thickness_m", hand.palm_half_m.y());
@@ -106,15 +119,15 @@ class TomlReader {
     }
   }
   Expected<void> finish(const toml::table& table, const std::string& prefix) {
-    if (!error_.empty())
-      return fail(error_, fmt::format("{}:{}", file_, line_), "see server/app/README.md, 'Settings'");
+    if (!fault_.empty())
+      return fail(ErrorCode::invalid_value, fault_, at(fault_line_), "see server/app/README.md, 'Settings'");
     for (const auto& [key, node] : table) {
       const std::string name = prefix + std::string(key.str());
       if (const auto* inner = node.as_table()) {
         if (auto ok = finish(*inner, name + "."); !ok) return ok;
       } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-        return fail(fmt::format("unknown setting '{}'", name), fmt::format("{}:{}", file_, node.source().begin.line),
-                    "remove it or correct its name");
+        return fail(ErrorCode::unknown_name, fmt::format("unknown setting '{}'", name),
+                    at(static_cast<int>(node.source().begin.line)), "remove it or correct its name");
       }
     }
     return {};
@@ -123,14 +136,15 @@ class TomlReader {
   std::string file_;
   const toml::table* root_ = nullptr;
   std::vector<std::string> known_;
-  std::string error_;
-  std::uint32_t line_ = 0;
+  std::string fault_;
+  int fault_line_ = 0;
 };
 
 Expected<void> validate(const Settings& s) {
   const auto range = [](const char* name, double value, double low, double high) -> Expected<void> {
     if (value >= low && value <= high) return {};
-    return fail(fmt::format("{} is {}", name, value), "settings", fmt::format("give a value from {} to {}", low, high));
+    return fail(ErrorCode::invalid_value, fmt::format("{} is {}", name, value), "settings",
+                fmt::format("give a value from {} to {}", low, high));
   };
   for (auto& checked :
        {range("worlds", s.worlds, 1, 64), range("loop_threads", s.loop_threads, 1, 32),
@@ -141,14 +155,20 @@ Expected<void> validate(const Settings& s) {
         range("force.stiffness_scale", s.stiffness_scale, 0, 10)}) {
     if (!checked) return checked;
   }
-  if (auto governor = hand::ForceGovernor::make(s.force.governor); !governor)
-    return fail(governor.error().what, "settings, [force]", governor.error().remedy);
+  if (auto governor = hand::ForceGovernor::make(s.force.governor); !governor) {
+    Error error = governor.error();
+    error.where = "settings, [force]";
+    return tl::unexpected(std::move(error));
+  }
   if (s.scenarios.empty()) {
-    return fail("no scenario is given", "settings",
+    return fail(ErrorCode::missing, "no scenario is given", "settings",
                 "name at least one: --scenario scenarios/archimedes-screw/archimedes-screw.x3d");
   }
-  if (s.name.empty() || s.name.size() > 31)
-    return fail("the server's name must have 1 to 31 characters", "settings", "--name server-1");
+  if (s.name.empty() || s.name.size() >= proto::kNameSize) {
+    return fail(ErrorCode::invalid_value,
+                fmt::format("the server's name must have 1 to {} characters", proto::kNameSize - 1), "settings",
+                "give it a name such as --name server-1");
+  }
   return {};
 }
 
@@ -163,31 +183,36 @@ Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::o
   app.add_option("--settings", file, "TOML file; flags win over it");
   app.add_option(
       "--scenario", scenarios,
-      "X3D file of an exhibit, or its id in the catalogue; may be given several times, the first is the default");
+      "X3D file of an exhibit, or its id in the catalogue; may be given several times; kiosks begin in the first");
   app.add_option("--catalogue", s.catalogue,
-                 "catalogue (mechane content) that files are held against, and ids are found in");
+                 "catalogue (mechane content) in which ids are looked up, and with which files are compared");
   app.add_option("--name", s.name, "name on the wire and in logs");
   app.add_option("--worlds", s.worlds, "how many worlds may run at once");
   app.add_option("--loop-threads", s.loop_threads, "threads that the worlds are spread over");
   app.add_option("--domain", s.domain, "DDS domain");
-  app.add_option("--records", s.records, "folder of journals and snapshots; '' keeps none");
-  app.add_option("--records-limit-mb", s.records_limit_mb, "the oldest journals go when there are more");
-  app.add_option(
-      "--visits", s.visits,
-      "file of visitors' sheets (mechane visits); a bare name lies in the folder of records; 'none' keeps none");
-  app.add_option("--visits-keep-days", s.visits_keep_days, "older sheets are deleted; 0: never for their age");
-  app.add_option("--visits-limit-mb", s.visits_limit_mb, "the oldest sheets go when the file is larger");
+  app.add_option("--records", s.records, "folder of journals and snapshots; '': nothing is recorded");
+  app.add_option("--records-limit-mb", s.records_limit_mb,
+                 "the oldest journals are deleted when all together are larger");
+  app.add_option("--visits", s.visits,
+                 "file of the records of visits (mechane visits); a name without folder lies in the folder of records; "
+                 "'none': visits "
+                 "are not recorded");
+  app.add_option("--visits-keep-days", s.visits_keep_days, "older visits are deleted; 0: age does not count");
+  app.add_option("--visits-limit-mb", s.visits_limit_mb, "the oldest visits are deleted when the file is larger");
   app.add_option("--cache", s.cache, "folder of built collision parts");
-  app.add_option("--fifo-priority", s.fifo_priority, "of the loop; 0: an ordinary thread");
-  app.add_option("--first-cpu", cpu, "pin loop thread i to processor first + i");
+  app.add_option("--fifo-priority", s.fifo_priority, "SCHED_FIFO priority of the loop threads; 0: ordinary threads");
+  app.add_option("--first-cpu", cpu, "pin loop thread i to processor FIRST_CPU + i");
   app.add_option("--world-idle", s.world_idle_s, "seconds after which a world without clients is closed");
   app.add_option("--resume-within", s.resume_within_s,
-                 "seconds for which a restarted server puts a kiosk back at its step");
-  app.add_option("--run-for", s.run_for_s, "stop after so many seconds; 0: run until told to stop");
+                 "how many seconds after a stop a restarted server continues a kiosk at its step");
+  app.add_option("--run-for", s.run_for_s, "stop after this many seconds; 0: run until told to stop");
   app.add_option("--report", s.report, "write counters and tick times to this JSON file at the stop");
-  app.add_option("--max-force", s.force.governor.max_force_n, "newtons that the server asks of a device at most");
-  app.add_option("--stiffness-scale", s.stiffness_scale, "factor on every stiffness; 0 turns touch off");
-  app.add_flag("--paper-force", paper, "average force over the whole hand, as published, for comparison");
+  app.add_option("--max-force", s.force.governor.max_force_n,
+                 "largest force that the server sends to a device, in newtons");
+  app.add_option("--stiffness-scale", s.stiffness_scale,
+                 "factor on the stiffness of all that is touched; 0 turns touch off");
+  app.add_flag("--paper-force", paper,
+               "average the force over the whole hand, as the published system did, for comparison");
   app.add_flag("--verbose", s.verbose, "log details");
   try {
     app.parse(argc, argv);
@@ -195,7 +220,7 @@ Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::o
     help = app.count("--version") > 0 ? app.version() + "\n" : app.help();
     return {};
   } catch (const CLI::ParseError& e) {
-    return fail(e.what(), "command line", "see mechane server --help");
+    return fail(ErrorCode::invalid_value, e.what(), "command line", "see mechane server --help");
   }
   if (!scenarios.empty()) s.scenarios = scenarios;
   if (cpu >= 0) s.first_cpu = cpu;

@@ -1,12 +1,12 @@
-// SIGINT and SIGTERM as something to poll, and the word to systemd.
+// SIGINT and SIGTERM as something to wait for, and notifications to systemd.
 #pragma once
 
 #include <atomic>
 
 namespace mechane::app {
 
-/// While it lives, SIGINT and SIGTERM ask for a stop instead of ending the process. One at a time, made on the main thread before
-/// other threads start, so that they inherit the blocked signals and only a signal descriptor sees them.
+/// While it lives, SIGINT and SIGTERM end wait() instead of the process. There may be one at a time, made on the main thread before other
+/// threads start, so that all threads block the signals and only a signal descriptor receives them.
 class StopSignals {
  public:
   StopSignals();
@@ -22,8 +22,8 @@ class StopSignals {
   bool stopping_ = false;
 };
 
-/// While it lives, SIGINT and SIGTERM end the process at once again: for slow work that may be thrown away. Main thread; threads that
-/// start meanwhile must end before it does.
+/// While it lives, SIGINT and SIGTERM end the process at once again, for slow work that may be interrupted. Main thread only; threads that
+/// start meanwhile must end before it.
 class StopAtOnce {
  public:
   StopAtOnce();
@@ -32,7 +32,7 @@ class StopAtOnce {
   StopAtOnce& operator=(const StopAtOnce&) = delete;
 };
 
-/// Tells systemd, where it listens (NOTIFY_SOCKET); otherwise does nothing. `state` is e.g. "READY=1".
+/// Notifies systemd where that has started the server (NOTIFY_SOCKET), else does nothing. `state`: "READY=1", for example.
 void notify_systemd(const char* state);
 
 }  // namespace mechane::app

@@ -8,7 +8,7 @@
 namespace mechane::app {
 namespace {
 
-constexpr std::uint64_t kSnapshotInterval = 1000;  // ticks: what a killed server loses of a visit at most
+constexpr std::uint64_t kSnapshotInterval = 1000;  // ticks: a killed server loses no more of a visit
 
 /// Sends a tick's result to the network and to the journal.
 class TickOutput final : public world::Publisher {

@@ -4,14 +4,14 @@
 
 namespace mechane::app {
 
-WorldVisits::WorldVisits(visits::VisitSheets& sheets, const std::shared_ptr<const state::WorldDescription>& description,
+WorldVisits::WorldVisits(visits::VisitWriter& writer, const std::shared_ptr<const state::WorldDescription>& description,
                          const std::string& kiosk, const state::WorldState& state, bool resumed)
-    : sheets_(sheets),
+    : writer_(writer),
       observer_(description, kiosk, state.progress, state.tick,
-                resumed ? sheets.take_unfinished(kiosk, description->content_hash) : std::nullopt) {}
+                resumed ? writer.take_unfinished(kiosk, description->content_hash) : std::nullopt) {}
 
 void WorldVisits::look() {
-  const std::uint64_t tick = feed_.tick();  // before the notes: those of this tick are in the queue
+  const std::uint64_t tick = feed_.tick();  // read before the notes, so that all notes of this tick are in the queue
   const std::uint32_t lost = feed_.lost();
   visits::VisitNote note;
   while (feed_.take(note))
@@ -34,8 +34,8 @@ void WorldVisits::close(visits::VisitEnding why, const std::string& went_on_to) 
 }
 
 void WorldVisits::hand_over() {
-  for (visits::VisitSheet& sheet : observer_.take_changed())
-    sheets_.put(std::move(sheet));
+  for (visits::VisitRecord& record : observer_.take_changed())
+    writer_.put(std::move(record));
 }
 
 }  // namespace mechane::app

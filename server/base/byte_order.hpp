@@ -19,14 +19,14 @@ namespace mechane {
 class VectorSink {
  public:
   explicit VectorSink(std::vector<std::byte>& out) : out_(out) {}
-  /// Not inlined: g++ 12 would warn of a copy past the end that there is not.
+  /// Not inlined: else g++ 12 warns, wrongly, of a copy past the end.
   [[gnu::noinline]] void append(const std::byte* data, std::size_t size) { out_.insert(out_.end(), data, data + size); }
 
  private:
   std::vector<std::byte>& out_;
 };
 
-/// Fills a span of enough room; more is a bug of ours.
+/// Fills a span. The caller makes it large enough; writing past its end is our own bug.
 class SpanSink {
  public:
   explicit SpanSink(std::span<std::byte> out) : out_(out) {}
@@ -79,8 +79,8 @@ void put_string(Sink& sink, std::string_view text) {
   put_bytes(sink, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-/// Reads what the functions above wrote. After a read past the end, or a number that cannot be, ok() is false and stays so, and
-/// all further reads give zeros.
+/// Reads what the functions above wrote. After a read past the end, or a malformed number, ok() stays false and all further reads
+/// give zeros.
 class ByteSource {
  public:
   explicit ByteSource(std::span<const std::byte> in) : in_(in) {}

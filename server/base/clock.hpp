@@ -20,7 +20,7 @@ class Clock {
   [[nodiscard]] virtual TimePoint now() noexcept = 0;
   /// Returns at `wake` or later.
   virtual void sleep_until(TimePoint wake) noexcept = 0;
-  /// CPU time that the calling thread has used; tells an overrun of ours from a machine that stalled us.
+  /// CPU time that the calling thread has used: shows whether an overrun is our own work or a stall of the machine.
   [[nodiscard]] virtual Duration thread_cpu_time() noexcept = 0;
 };
 
@@ -36,7 +36,11 @@ class SystemClock final : public Clock {
   return std::chrono::duration<double>(d).count();
 }
 
-/// The date, in ns since 1970: for names and records, never for a difference.
+[[nodiscard]] inline double to_us(Duration d) {
+  return std::chrono::duration<double, std::micro>(d).count();
+}
+
+/// The date, in ns since 1970: for names and records, not for measuring how long something took.
 [[nodiscard]] inline std::uint64_t wall_now_ns() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());

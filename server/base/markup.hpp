@@ -1,4 +1,4 @@
-// Words of a person or a file, inside a page or a drawing that we write.
+// Texts of a person or a file, inside a page, a drawing or an address that we write.
 #pragma once
 
 #include <string>
@@ -6,8 +6,12 @@
 
 namespace mechane {
 
-/// Text as HTML and SVG show it letter by letter, between tags and within quotes of either kind: what would be markup is escaped. What XML may
-/// not hold at all (control characters, broken UTF-8) is the caller's to take out. Any thread.
+/// Escapes a text so that HTML and SVG show it letter by letter, between tags and within quotes of either kind. The caller removes what
+/// XML may not hold at all (control characters, broken UTF-8). Any thread.
 [[nodiscard]] std::string escape_markup(std::string_view text);
+
+/// Escapes a text so that it is a part of a URI: %XX for all bytes but letters, digits, "-._~" (RFC 3986, 2.3) and
+/// those of `kept`. Any thread.
+[[nodiscard]] std::string escape_percent(std::string_view text, std::string_view kept = "");
 
 }  // namespace mechane

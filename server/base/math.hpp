@@ -2,6 +2,7 @@
 // p_WQ the position of point Q in W, f_B_W the force on B expressed in W. SI units.
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include <Eigen/Dense>
@@ -16,6 +17,20 @@ using Quat = Eigen::Quaterniond;
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr float kPiF = std::numbers::pi_v<float>;
 inline constexpr float kTwoPiF = 2 * kPiF;
+
+/// sgn(base) |base|^exponent: what papers on superquadrics write as base^exponent.
+[[nodiscard]] inline double signed_power(double base, double exponent) {
+  return std::copysign(std::pow(std::abs(base), exponent), base);
+}
+
+/// The least of 1, 2, 5, 10, 20 ... (and of .5, .2, .1 ...) that is not below `value`, which must be above 0. For the ends of scales.
+[[nodiscard]] inline double round_up_to_scale(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (value <= step * decade * (1 + 1e-9)) return step * decade;
+  }
+  return 10 * decade;
+}
 
 /// A rigid transform X_AB: rotates by R_AB, then shifts by p_AB. `R` must be of unit length.
 struct Pose {

@@ -9,8 +9,8 @@
 
 namespace mechane {
 
-/// Calls body(0) to body(count - 1), each once and in no order, from as many threads as the machine has, and waits for all. The
-/// pieces must not touch each other's results; what each computes must not depend on the order. The body must not throw.
+/// Calls body(0) to body(count - 1), each once and in any order, from as many threads as the machine has, and waits for all. The
+/// pieces must not touch each other's results nor depend on the order. The body must not throw.
 template <class Body>
 void for_each_index(std::size_t count, const Body& body) {
   std::atomic<std::size_t> next{0};

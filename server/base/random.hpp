@@ -1,4 +1,4 @@
-// Two small random generators whose numbers are the same with every library and compiler; those of the standard's distributions are not.
+// Two small random generators that give the same numbers with every library and compiler, unlike the standard's distributions.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ class Random {
   std::uint64_t state_;
 };
 
-/// 32-bit PCG with its RXS-M-XS output (O'Neill 2014): a short sequence for each thing that up to three numbers name, such as a particle and
-/// its life; for what is drawn or heard. Accepted pictures depend on its bits, so SplitMix64 cannot replace it.
+/// 32-bit PCG with its RXS-M-XS output (O'Neill 2014): a short sequence for each combination of up to three numbers, such as a particle and
+/// its life; for drawing and sound. Accepted pictures depend on its bits, so SplitMix64 cannot replace it.
 class ShortRandom {
  public:
   explicit ShortRandom(std::uint32_t first, std::uint32_t second = 0, std::uint32_t third = 0)

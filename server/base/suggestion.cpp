@@ -8,7 +8,7 @@
 namespace mechane {
 namespace {
 
-// Names longer than this are not compared: the cost grows with the product of the lengths, and a file may hold many.
+// Longer names are not compared: the cost grows with the product of the lengths, and a file may hold many names.
 constexpr std::size_t kLongestName = 64;
 constexpr std::size_t kMostCompared = 1000;
 
@@ -43,7 +43,7 @@ std::string nearest(const std::string& name, std::span<const std::string> candid
   std::size_t best_edits = std::max<std::size_t>(1, (name.size() + 1) / 3) + 1;
   for (const std::string& candidate : candidates.first(std::min(candidates.size(), kMostCompared))) {
     if (candidate.empty() || candidate.size() > kLongestName) continue;
-    // A name that was cut short is near, however much is missing.
+    // An abbreviated name counts as near, however much of it is missing.
     const bool begins = name.size() >= 3 && candidate.starts_with(name);
     const std::size_t distance = begins ? 1 : edits(name, candidate);
     if (distance < best_edits) {
@@ -59,7 +59,7 @@ std::string suggest(const std::string& name, std::span<const std::string> candid
   if (candidates.empty()) return if_none;
   const std::string near = nearest(name, candidates);
   if (!near.empty()) return "did you mean '" + near + "'?";
-  std::string list = "there is: ";
+  std::string list = "use one of: ";
   for (std::size_t i = 0; i < std::min(candidates.size(), kMostShown); ++i)
     list += (i == 0 ? "" : ", ") + candidates[i];
   return list + (candidates.size() > kMostShown ? ", ..." : "");

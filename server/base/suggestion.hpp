@@ -1,4 +1,4 @@
-// "Did you mean ...?": the name that a person likely meant by one that is not known.
+// "Did you mean ...?": the known name that is closest to an unknown one.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@ namespace mechane {
 /// The candidate nearest to `name` by edits, ignoring case; empty where none is near (more than a third of the letters differ).
 [[nodiscard]] std::string nearest(const std::string& name, std::span<const std::string> candidates);
 
-/// "did you mean X?" for a near candidate; else the list of them; else `if_none`.
+/// "did you mean X?" for a near candidate; else "use one of: X, Y, Z"; `if_none` where there are no candidates.
 [[nodiscard]] std::string suggest(const std::string& name, std::span<const std::string> candidates,
                                   const std::string& if_none);
 

@@ -1,5 +1,6 @@
 #include "server/base/utf8.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace mechane {
@@ -26,10 +27,28 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
+std::size_t utf8_letters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, begins_letter));
+}
+
+std::string_view utf8_beginning(std::string_view text, std::size_t bytes) {
+  if (bytes >= text.size()) return text;
+  while (bytes > 0 && !begins_letter(text[bytes]))
+    --bytes;
+  return text.substr(0, bytes);
+}
+
 bool is_control(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(character[i]); };
   if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
   return character.size() == 2 && byte(0) == 0xC2 && byte(1) < 0xA0;
+}
+
+std::string without_controls(std::string_view text) {
+  std::string out(text);
+  std::ranges::replace_if(
+      out, [](char c) { return is_control(c); }, '?');
+  return out;
 }
 
 std::optional<std::size_t> first_bad_utf8(std::string_view text) {
@@ -39,6 +58,12 @@ std::optional<std::size_t> first_bad_utf8(std::string_view text) {
     i += length;
   }
   return std::nullopt;
+}
+
+std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
 }
 
 }  // namespace mechane

@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include <pthread.h>
+#include "server/base/thread_setup.hpp"
 
 namespace mechane {
 
 Worker::Worker(const char* name)
-    : thread_([this, shown = std::string(name).substr(0, 15)] {
-        pthread_setname_np(pthread_self(), shown.c_str());
+    : thread_([this, shown = std::string(name)] {
+        set_up_thread(shown);
         run();
       }) {}
 

@@ -1,4 +1,4 @@
-// One thread that does the jobs it is given, in order: for work that a thread which must not wait hands over (files, imports).
+// One thread that does its jobs in order: takes slow work (files, imports) off threads that must not block.
 #pragma once
 
 #include <chrono>
@@ -27,7 +27,7 @@ class Worker {
 
   /// Any thread: queues a job, which must not throw, and returns at once.
   void give(std::function<void()> job);
-  /// The same for a job with a result, which comes with the future. Whoever drops the future does not wait.
+  /// The same for a job with a result, which comes with the future. Dropping the future does not wait for the job.
   template <class Job>
   [[nodiscard]] auto ask(Job job) -> std::future<std::invoke_result_t<Job&>> {
     const auto task = std::make_shared<std::packaged_task<std::invoke_result_t<Job&>()>>(std::move(job));
@@ -35,7 +35,7 @@ class Worker {
     give([task] { (*task)(); });
     return result;
   }
-  /// Any thread but the worker's own: waits until at most `jobs` are left, the one that runs included.
+  /// Any thread but the worker's own: waits until at most `jobs` are left, including the running one.
   void wait_until_left(std::size_t jobs);
 
  private:
@@ -43,12 +43,12 @@ class Worker {
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
-  std::deque<std::function<void()>> jobs_;  // the first one runs
+  std::deque<std::function<void()>> jobs_;  // the first one is running
   bool stop_ = false;
   std::thread thread_;  // last
 };
 
-/// The result has come and get() does not wait.
+/// Whether the result is there, so that get() does not block.
 template <class Result>
 [[nodiscard]] bool is_ready(const std::future<Result>& result) {
   return result.valid() && result.wait_for(std::chrono::seconds(0)) == std::future_status::ready;

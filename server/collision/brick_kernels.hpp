@@ -36,14 +36,14 @@ struct BrickKernels : KernelMath<Lanes> {
     F d00, d10, d01, d11;  // their slopes
     F base;                // of all values
   };
-  /// Where a point's cell stands, and its values' bytes.
+  /// Where a point's cell is stored, and the bytes of its values.
   struct Place {
     F fx, fy, fz;  // in the cell
     F base;
     I entry, at, cells, layer_step;
     I sheets;
   };
-  /// Of a point in blocks. What lies outside the box gets the cell next to it. Indices are exact in floats: below 2^24.
+  /// The cell of a point, in blocks. A point outside the box gets the cell next to it. Indices are exact in floats: below 2^24.
   [[gnu::always_inline]] static Place place_of(const BrickView& map, const Point& u) {
     const auto floor_below = [](F t, F most) { return to_float(to_int(lesser(greater(t, all(0)), most))); };
     const auto block_at = [&](F t, int count) { return floor_below(t, all(static_cast<float>(count - 1))); };
@@ -74,7 +74,7 @@ struct BrickKernels : KernelMath<Lanes> {
     place.base = to_float((entry >> 25) << 5);
     return place;
   }
-  // A cell fills 13 registers: not worth a call.
+  // A cell fills 13 registers, too many to pass in a call.
   [[gnu::always_inline]] static Cell first_cell(const BrickView& map, const Place& place) {
     Cell c;
     c.fx = place.fx;
@@ -88,7 +88,7 @@ struct BrickKernels : KernelMath<Lanes> {
     }
     return c;
   }
-  /// Of a block with sheets, the cell of the one that holds at the point; see DistanceBrick.
+  /// For a block with sheets: the cell of the sheet that decides at the point; see DistanceBrick.
   [[gnu::always_inline]] static Cell cell_of(const BrickView& map, const Point& u) {
     const Place place = place_of(map, u);
     Cell c = first_cell(map, place);
@@ -191,7 +191,7 @@ struct BrickKernels : KernelMath<Lanes> {
       const Point way{u.x - inner.x, u.y - inner.y, u.z - inner.z};
       const I at_box = dot(way, way) <= radius * radius;
       if (Lanes::mask_of(at_box) == 0) continue;
-      // Seen from the box's nearest point, everything in the box lies ahead or to the side.
+      // Seen from the point of the box that is nearest, everything in the box lies ahead or to the side.
       const F ahead = greater(distance_at(map, inner) - map.slack_m, all(0)) * map.inverse_block;
       near |= Lanes::mask_of(at_box & (dot(way, way) + ahead * ahead <= radius * radius)) << at;
     }
@@ -207,7 +207,7 @@ struct BrickKernels : KernelMath<Lanes> {
       const auto within = [](F t, int blocks) { return (t >= 0.0F) & (t <= static_cast<float>(blocks)); };
       const I in_box = within(u.x, map.blocks[0]) & within(u.y, map.blocks[1]) & within(u.z, map.blocks[2]);
       store_points(p, out.p_Q, at);
-      store(all(0), out.m, at);  // exact wherever it reaches: it goes before every radial map
+      store(all(0), out.m, at);  // exact wherever it reaches, so it is preferred to every radial map
       if (Lanes::mask_of(in_box) == 0) continue;
       inside |= Lanes::mask_of(in_box & (distance_at(map, u) < 0.0F)) << at;
     }
@@ -226,7 +226,7 @@ struct BrickKernels : KernelMath<Lanes> {
       const F ey1 = c.x11 - c.x01;
       const Point gradient{ex0 + (ex1 - ex0) * c.fz, ey0 + (ey1 - ey0) * c.fz, y1 - y0};
       const F square = dot(gradient, gradient);
-      const I sound = square > 0.0F;  // on a medial axis the way out is anywhere: along z then
+      const I sound = square > 0.0F;  // on a medial axis every direction leads out: take z
       const F inverse = 1.0F / Lanes::root(select(sound, square, all(1)));
       store_points({select(sound, gradient.x * inverse, all(0)), select(sound, gradient.y * inverse, all(0)),
                     select(sound, gradient.z * inverse, all(1))},

@@ -14,8 +14,7 @@
 
 namespace mechane::collision {
 
-// Parts that are tested together. More than these are taken in batches, and a point that lies in parts of two batches then counts
-// twice.
+// So many parts are tested together. More parts are taken in batches; a point that lies in parts of two batches then counts twice.
 inline constexpr std::size_t kPartBatch = 64;
 
 /// A point inside the target.
@@ -38,7 +37,7 @@ class ClusterQuery {
       waiting_[c].count = 0;
   }
 
-  /// `near`: the parts to be asked, a bit each. Clusters first_cluster and on, with their spheres.
+  /// `near`: the parts to ask, a bit each. The clusters begin at first_cluster, with their spheres.
   void test_group(const SpheresView& spheres, std::size_t count, std::uint32_t first_cluster,
                   std::uint64_t near) noexcept {
     std::array<std::uint64_t, kLanes> near_of{};
@@ -56,14 +55,14 @@ class ClusterQuery {
     }
   }
 
-  /// What still waits for others to fill a vector.
+  /// Tests the points that are left over, which do not fill a vector.
   void finish() noexcept {
     for (std::size_t c = 0; c < parts_.size(); ++c)
       settle(c);
   }
 
  private:
-  /// Points inside a part whose depth is not asked yet: 16 at a time are no dearer than one.
+  /// Points inside a part whose depth is not asked yet: asking 16 at a time takes no longer than asking one.
   struct Waiting {
     PointBlock p_Q;
     std::array<std::uint32_t, kLanes> cluster;
@@ -128,7 +127,7 @@ class ClusterQuery {
     Waiting& waiting = waiting_[c];
     const std::size_t count = waiting.count;
     if (count == 0) return;
-    for (std::size_t lane = count; lane < kLanes; ++lane) {  // what a vector takes along must be a number
+    for (std::size_t lane = count; lane < kLanes; ++lane) {  // the unused lanes must be numbers
       waiting.p_Q.x[lane] = waiting.p_Q.x[0];
       waiting.p_Q.y[lane] = waiting.p_Q.y[0];
       waiting.p_Q.z[lane] = waiting.p_Q.z[0];
@@ -155,7 +154,7 @@ class ClusterQuery {
                       depth.depth_m[at]});
   }
 
-  /// The most central part knows no surface there: the point lies deep in the solid of several. Rare; one point at a time.
+  /// For a point where the most central part knows no surface, deep in the solid of several parts. Rare, so one point at a time.
   void ask_others(std::size_t asked, std::uint32_t cluster, std::uint32_t lane, std::uint64_t near) noexcept {
     const PointsView points = points_.points(cluster);
     std::size_t best = asked;
@@ -181,7 +180,7 @@ class ClusterQuery {
   std::span<const PlacedPart> parts_;
   const Kernels& kernels_;
   Sink sink_;
-  // By part. Only what the tests above have written is read.
+  // By part. Only lanes that the tests above have written are read.
   std::array<LaneMask, kPartBatch> inside_of_;
   std::array<InsideBlock, kPartBatch> inside_;
   std::array<Waiting, kPartBatch> waiting_;

@@ -11,13 +11,14 @@
 namespace mechane::collision {
 namespace {
 
-// A kernel reads four values where it wants two.
+// Room at the end: a kernel reads four values where it needs two.
 constexpr std::size_t kPadding = 3;
 constexpr int kLargest = 127;
-// Distances differ by a block's diagonal at most from corner to corner, so from its base by half of it and what the base is rounded by.
+// Distances differ by at most a block's diagonal from corner to corner; so from the block's base by half of that, and by the base's
+// rounding.
 constexpr int kHalfBase = DistanceBrick::kBaseSteps / 2;
 constexpr float kStepsOfHalfDiagonal = kLargest - kHalfBase;
-// What lies between the nodes at which the slack is measured.
+// For places between the nodes at which the slack is measured.
 constexpr float kBetweenNodes = 1.25F;
 
 // An entry: level, place of the first value, how sheets meet, base.
@@ -54,7 +55,7 @@ class SharedNodes {
     Node block{};
   };
 
-  /// Of the blocks that meet in the node, one of the lowest level: it knows no more than its own nodes, so the others follow it.
+  /// One of the lowest level among the blocks that meet in the node: it has the fewest nodes, so the others follow it.
   [[nodiscard]] Lowest lowest_around(const Node& node) const {
     Node from{};
     Node to{};
@@ -231,7 +232,7 @@ float DistanceBrick::distance_m(const Vec3f& p_QP) const {
   return told(index_of(grid_.blocks, block), p_B);
 }
 
-/// What a block tells of a place, 0 to 1 along each of its edges.
+/// The distance that a block gives at a place, 0 to 1 along each of its edges.
 float DistanceBrick::told(std::size_t block, const Vec3f& p_B) const {
   const Entry entry = Entry::unpacked(index_[block]);
   const int cells = entry.cells();
@@ -261,8 +262,8 @@ float DistanceBrick::told(std::size_t block, const Vec3f& p_B) const {
   return either(one, rest, entry.outer_convex);
 }
 
-/// For culling: a point that is told inside lies no farther outside than the one, a centre that is told outside lies no nearer than what
-/// it is told less the other; and true distances change by no more than the way.
+/// For culling. A point that the map puts inside lies at most `made_up` outside. A centre that the map puts outside is at least the map's
+/// distance less `too_far` away from the surface. And true distances change by no more than the way between two places.
 float DistanceBrick::measured_slack(const NodeDistance& distance) const {
   float made_up = 0;
   float too_far = 0;

@@ -20,8 +20,8 @@ namespace mechane::collision {
 /// Signed distances (negative inside) to the whole object's surface in the part's frame Q, trilinear between nodes, 8 bits a node. The
 /// box is divided into blocks. A block has 1, 2 or 4 cells along its edge (its level: 0, 1 or 2) and keeps its nodes together: a
 /// two-level form of adaptively sampled distance fields (Frisken et al. 2000), in which blocks of different levels agree on their
-/// common face, to half a step. Or it has one cell and two or three sheets, of which the largest holds or the least: an edge or a corner
-/// between smooth faces stays sharp, at a fraction of what fine cells would take.
+/// common face, to half a step. Or it has one cell and two or three sheets, of which the largest or the least distance counts. So an edge
+/// or a corner between smooth faces stays sharp, with a fraction of the bytes of fine cells.
 class DistanceBrick {
  public:
   static constexpr int kMaxBlocks = 64;                ///< along an edge
@@ -62,8 +62,8 @@ class DistanceBrick {
   static constexpr std::size_t kAlign = 4;
 
   /// `index` holds a packed entry for each block, x fastest; `values` each block's nodes, x fastest: distance = (unit() value +
-  /// kBaseSteps base) step_m. `slack_m`: outside the surface it is more by no more than
-  /// this than the true distance. Asserts on sizes and signs: use is_valid first.
+  /// kBaseSteps base) step_m. `slack_m`: outside the surface it exceeds the true
+  /// distance by at most this. Asserts on sizes and signs: use is_valid first.
   DistanceBrick(const Grid& grid, float step_m, float slack_m, std::vector<std::uint32_t> index,
                 std::span<const std::int8_t> values);
 
@@ -78,7 +78,7 @@ class DistanceBrick {
   using BlockSheets = std::map<std::size_t, Sheets>;
 
   /// Quantises. `levels` holds one for each block, x fastest, kSheets for those in `sheets`; `distance` is asked at each other block's
-  /// own nodes, some more than once, and for the slack at all nodes: there it may be infinite, which means unknown.
+  /// own nodes, some more than once; and at all nodes for the slack, where infinite means unknown.
   [[nodiscard]] static DistanceBrick from_distances(const Grid& grid, std::span<const std::uint8_t> levels,
                                                     const NodeDistance& distance, const BlockSheets& sheets = {});
 
@@ -89,7 +89,7 @@ class DistanceBrick {
   /// 16 points at a time.
   [[nodiscard]] MapHit evaluate(const Vec3f& p_QP) const noexcept;
 
-  /// The interpolated distance at a place, negative inside; of a place outside the grid: at the place of the grid that is next to it.
+  /// The interpolated distance at a place, negative inside; for a place outside the grid, that of the nearest place of the grid.
   [[nodiscard]] float distance_m(const Vec3f& p_QP) const;
 
   /// A place of the finest lattice, in cells from the lowest corner, within the grid.

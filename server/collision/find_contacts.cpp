@@ -48,7 +48,7 @@ class Direction {
     }
   }
 
-  // What ClusterQuery asks of its points.
+  // The interface that ClusterQuery needs.
   [[nodiscard]] PointsView points(std::uint32_t cluster) const noexcept {
     return source_.clusters[cluster].samples_O.view();
   }
@@ -110,7 +110,7 @@ class Direction {
 
 void ContactBuffer::add(const PointContact& contact) noexcept {
   if (storage_.empty()) return;
-  // A heap with the shallowest on top, once it is full: the one to beat.
+  // Once the buffer is full it is a heap with the shallowest on top: a new contact must be deeper than that one.
   const auto deeper = [](const PointContact& l, const PointContact& r) { return l.depth_m > r.depth_m; };
   if (count_ < storage_.size()) {
     storage_[count_++] = contact;

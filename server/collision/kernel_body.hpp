@@ -1,6 +1,6 @@
-// The kernels' one source, for lanes of any width: compiled once for each instruction set by kernels_*.cpp, which bring what
-// C++ cannot say in vectors, or not so well (see PortableLanes). Includes nothing that is compiled elsewhere too: an inline function
-// with this file's instructions must not be what a machine without them runs.
+// The kernels' one source, for lanes of any width. Compiled once for each instruction set by kernels_*.cpp, which add what portable C++
+// cannot express well in vectors (see PortableLanes). It includes nothing that is compiled elsewhere too: otherwise the linker could
+// choose an inline function with this file's instructions for the whole program, and a machine without them would crash.
 #pragma once
 
 #include "server/collision/brick_kernels.hpp"

@@ -1,10 +1,10 @@
-// Vectors of floats for the kernels, and what both kinds of map do with them. Compiled once for each instruction set, like everything
+// Vectors of floats for the kernels, and the functions that both kinds of map use. Compiled once for each instruction set, like everything
 // that includes it: see kernel_body.hpp.
 #pragma once
 
 #include "server/collision/kernels.hpp"
 
-// Vectors wider than the instruction set's are passed in some way of the compiler's own, and only within this file.
+// g++ warns that it passes vectors wider than the instruction set's in a way of its own; they are passed within this file only.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace mechane::collision {

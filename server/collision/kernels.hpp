@@ -16,7 +16,7 @@ using LaneMask = std::uint32_t;
 
 // None of these has a default: a query holds 64 of them on its stack, and clearing them would cost more than the query.
 
-/// 16 points that somebody else keeps, metres; what their frame is the owner says.
+/// 16 points in storage of the caller's, metres; the caller defines their frame.
 struct PointsView {
   const float* x;
   const float* y;
@@ -28,7 +28,7 @@ struct alignas(64) PointBlock {
   [[nodiscard]] PointsView view() const noexcept { return {x.data(), y.data(), z.data()}; }
 };
 
-/// 16 spheres; lanes that are not used may hold anything that can be read.
+/// 16 spheres; unused lanes may hold any value, but must be readable.
 struct SpheresView {
   const float* x;
   const float* y;
@@ -64,7 +64,7 @@ struct RadialView {
 /// What a kernel reads of a DistanceBrick.
 struct BrickView {
   const std::uint32_t* index;  ///< DistanceBrick::Entry of each block
-  const std::int8_t* values;   ///< and three bytes that nobody looks at
+  const std::int8_t* values;   ///< followed by three bytes that are not used
   std::array<int, 3> blocks;
   std::array<float, 3> origin;
   float inverse_block;
@@ -108,10 +108,10 @@ struct Kernels {
 /// Whether this machine can run them.
 [[nodiscard]] bool is_supported(InstructionSet set) noexcept;
 
-/// Of a set that is supported (our bug otherwise).
+/// The table of a set that is supported (our bug otherwise).
 [[nodiscard]] const Kernels& kernels_of(InstructionSet set) noexcept;
 
-/// The widest that this machine supports. MECHANE_KERNELS=portable|avx2|avx512 in the environment asks for another one.
+/// The widest set that this machine supports. MECHANE_KERNELS=portable|avx2|avx512 in the environment asks for another one.
 [[nodiscard]] InstructionSet best_set() noexcept;
 
 [[nodiscard]] const Kernels& best_kernels() noexcept;

@@ -10,7 +10,7 @@ namespace mechane::collision {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 namespace {
 
-// The masked forms, with every lane wanted: g++ 12 takes the others' header for a use of something uninitialised.
+// The masked forms, with every lane set: for the others, g++ 12 warns of an uninitialised value in its own header.
 struct Avx512Lanes : PortableLanes<16> {
   static constexpr __mmask16 kEvery = 0xffff;
 

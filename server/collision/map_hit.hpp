@@ -1,4 +1,4 @@
-// What a part's map says of a point.
+// The answer of a part's map about a point.
 #pragma once
 
 #include "server/base/math.hpp"

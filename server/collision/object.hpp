@@ -16,7 +16,8 @@
 
 namespace mechane::collision {
 
-// Eigen aligns by the instruction set that it is compiled for; all who share an Object must agree. mechane::collision's target says so.
+// Eigen's alignment depends on the instruction set that it is compiled for, and must be the same in all code that shares an Object.
+// mechane::collision's target sets it.
 static_assert(alignof(Quat) == 16, "define EIGEN_MAX_ALIGN_BYTES=16, as the library was built");
 
 inline constexpr std::size_t kMaxParts = 1024;  ///< of one object
@@ -69,8 +70,8 @@ struct PointContact {
   std::uint16_t part_b = 0;
 };
 
-/// A fixed buffer of contacts that keeps the deepest when it is full. The storage is the caller's. The deepest lie close together:
-/// who wants the whole patch gives room for it (a fingertip on a face: some 100; a hand around a handle: some 1000).
+/// A fixed buffer of contacts that keeps the deepest when it is full. The storage is the caller's. The deepest lie close together: for
+/// the whole patch give it enough room (a fingertip on a face: some 100; a hand around a handle: some 1000).
 class ContactBuffer {
  public:
   explicit ContactBuffer(std::span<PointContact> storage) : storage_(storage) {}
@@ -85,7 +86,7 @@ class ContactBuffer {
 
 /// All overlaps of A and B: A's samples in B's parts and B's samples in A's parts, after culling by spheres (objects, parts,
 /// clusters). Both directions report the same way: the point on B's surface, the normal from B into A. Allocates nothing, throws
-/// nothing; cost grows with what the spheres let through. Any thread.
+/// nothing; the cost grows with the number of points that the spheres do not exclude. Any thread.
 void find_contacts(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, ContactBuffer& out) noexcept;
 
 }  // namespace mechane::collision

@@ -4,13 +4,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <type_traits>
 
-#define XXH_INLINE_ALL  // no library to link for those who use this one
+#define XXH_INLINE_ALL  // so that users of this library need not link xxhash
 #include <xxhash.h>
 
+#include "server/base/whole_file.hpp"
 #include "server/collision/samples.hpp"
 
 namespace mechane::collision {
@@ -23,7 +23,7 @@ constexpr std::size_t kChecksumBytes = 8;
 constexpr std::size_t kMaxFileBytes = 512U << 20;
 constexpr std::uint32_t kMaxNameBytes = 1024;
 constexpr double kMaxLength_m = 10'000;
-// How a part's map begins.
+// The first byte of a part's map: its kind.
 constexpr std::uint8_t kNothing = 0;
 constexpr std::uint8_t kRadial = 1;
 constexpr std::uint8_t kBrick = 2;
@@ -113,7 +113,7 @@ class Reader {
     require(count <= (bytes_.size() - at_) / least_bytes);
     return ok_ ? count : 0;
   }
-  /// `count` values, if there are as many; nothing otherwise.
+  /// `count` values; an empty list if there are fewer.
   template <class T>
   std::vector<T> get_all(std::size_t count) {
     require(count <= (bytes_.size() - at_) / sizeof(T));
@@ -283,22 +283,26 @@ void reseal(std::span<std::byte> bytes) {
 
 Expected<Object> read_object(std::span<const std::byte> bytes) {
   const char* where = "part file";
-  const char* remedy = "make it again from its mesh: mechane fit, or build_object; the server's cache does so itself";
+  const char* remedy =
+      "make it again from its mesh with 'mechane fit' or build_object; the server's cache makes its own again by "
+      "itself";
   if (bytes.size() < kMagic.size() + 4 + kChecksumBytes || bytes.size() > kMaxFileBytes ||
       std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
-    return fail("this is not a part file", where, remedy);
+    return fail(ErrorCode::damaged, "this is not a part file", where, remedy);
   }
   std::uint32_t version = 0;
   std::memcpy(&version, bytes.data() + kMagic.size(), sizeof version);
   if (version != kPartFileVersion) {
-    return fail("the part file has version " + std::to_string(version) + ", this program reads version " +
+    return fail(ErrorCode::wrong_version,
+                "the part file has version " + std::to_string(version) + ", but this program reads version " +
                     std::to_string(kPartFileVersion),
                 where, remedy);
   }
   const auto body = bytes.first(bytes.size() - kChecksumBytes);
   std::uint64_t stored = 0;
   std::memcpy(&stored, bytes.data() + body.size(), sizeof stored);
-  if (stored != checksum(body)) return fail("the part file is damaged: its checksum does not match", where, remedy);
+  if (stored != checksum(body))
+    return fail(ErrorCode::damaged, "the part file is damaged: its checksum does not match", where, remedy);
 
   Reader r(body.subspan(kMagic.size() + sizeof version));
   Object object;
@@ -307,20 +311,15 @@ Expected<Object> read_object(std::span<const std::byte> bytes) {
   for (std::uint32_t i = 0; i < parts && r.ok(); ++i)
     object.parts.push_back(get_part(r));
   if (r.ok()) get_clusters(r, object);
-  if (!r.ok() || !r.at_end()) return fail("the part file holds values that cannot be", where, remedy);
+  if (!r.ok() || !r.at_end()) return fail(ErrorCode::damaged, "the part file holds impossible values", where, remedy);
   close_clusters(object);
   return object;
 }
 
 Expected<Object> load_object(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
-  if (size < 0) return fail("the part file cannot be read", file.string(), "check its name and rights");
-  std::vector<std::byte> bytes(std::min(static_cast<std::size_t>(size), kMaxFileBytes + 1));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) return fail("the part file cannot be read whole", file.string(), "check the disk");
-  Expected<Object> object = read_object(bytes);
+  const Expected<std::vector<std::byte>> bytes = read_whole(file, kMaxFileBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  Expected<Object> object = read_object(*bytes);
   if (!object) object.error().where = file.string();
   return object;
 }

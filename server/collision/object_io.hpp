@@ -17,11 +17,11 @@ inline constexpr std::uint32_t kPartFileVersion = 3;
 
 [[nodiscard]] std::vector<std::byte> write_object(const Object& object);
 
-/// Reads what write_object wrote. Any other bytes are an Error: wrong magic or version, a checksum that does not match, counts or
-/// values out of their ranges. Never trusts a count beyond the bytes that are there.
+/// Reads what write_object wrote. Any other bytes are an Error: wrong_version; or damaged (another kind of file, a checksum that does
+/// not match, counts or values out of range). Never trusts a count beyond the bytes that are there.
 [[nodiscard]] Expected<Object> read_object(std::span<const std::byte> bytes);
 
-/// read_object of a whole file, with the file's name in the Error. Reads no more than a part file may have.
+/// read_object of a whole file, with the file's name in the Error: also those of read_whole. Reads no more than a part file may have.
 [[nodiscard]] Expected<Object> load_object(const std::filesystem::path& file);
 
 /// Writes the checksum that belongs to the rest of the bytes into their end: for tests and fuzzers that damage a file on purpose and

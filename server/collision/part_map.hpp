@@ -14,7 +14,7 @@ namespace mechane::collision {
 class PartMap {
  public:
   PartMap() = default;
-  // Not explicit: a part's map is one of these, there is nothing to convert.
+  // Not explicit: a part's map is one of these.
   PartMap(RadialMap map) : map_(std::move(map)) {}      // NOLINT(google-explicit-constructor)
   PartMap(DistanceBrick map) : map_(std::move(map)) {}  // NOLINT(google-explicit-constructor)
 
@@ -25,7 +25,7 @@ class PartMap {
 
   /// One point; see RadialMap::evaluate.
   [[nodiscard]] MapHit evaluate(const Vec3f& p_QP) const noexcept;
-  /// What it covers, in Q. Of an empty map: nothing, at the origin.
+  /// The box that it covers, in Q; of an empty map, an empty one at the origin.
   [[nodiscard]] BoxView box() const noexcept;
   /// "radial 32", "brick 12x9x30", "none".
   [[nodiscard]] std::string name() const;

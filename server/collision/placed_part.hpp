@@ -1,4 +1,4 @@
-// A part as a query sees it: its map, and the way from the points' frame to the part's own.
+// A part, ready for a query: its map, and the transform from the points' frame to the part's own.
 #pragma once
 
 #include <cstdint>

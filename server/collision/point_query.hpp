@@ -1,4 +1,4 @@
-// Points in, depths and normals out: the query under find_contacts, for those who want no more.
+// Points in, depths and normals out: the query below find_contacts, which can also be used alone.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ class PlacedObject {
  public:
   PlacedObject(const Object& object, const Pose& X_SO);
 
-  /// Adds what lies inside to `out`, up to its room. Allocates nothing. Any thread.
+  /// Adds the points that lie inside to `out`, while it has room. Allocates nothing. Any thread.
   void query(const PointSet& points, PointHits& out, const Kernels& kernels = best_kernels()) const noexcept;
 
  private:

@@ -94,7 +94,7 @@ struct RadialKernels : KernelMath<Lanes> {
             select(is_x, x.z, select(is_y, x.x, x.y))};
   }
 
-  /// g at the scaled point x. The gradient costs little more, and what does not use it does not pay for it.
+  /// g at the scaled point x. The gradient costs little more, and nothing where it is not used.
   static Local local(const RadialView& map, const Point& x) {
     const Face f = face_of(x);
     const F m = magnitude(f.a);
@@ -157,9 +157,10 @@ struct RadialKernels : KernelMath<Lanes> {
   }
 
   /// The nearest of seven tangent planes that is really there: where x's own ray and where the six ways along the axes meet the surface.
-  /// On a concave surface a plane reaches beyond what it touches, so each guess is looked at where it lands. What lands near the
-  /// surface gives way to the surface's own plane there, which is one Newton step, and is the answer. What lands in the solid under a
-  /// like surface gives way to that one's plane, which is tried in its turn; any other is dropped, and the next nearest is tried.
+  /// On a concave surface a plane reaches beyond the surface that it touches, so the place where each guess lands is tested. A guess that
+  /// lands near the surface is replaced by the surface's own plane there, which is one Newton step, and is the answer. One that lands in
+  /// the solid under a similar surface is replaced by that surface's plane, which is tried next. Any other is dropped, and the next
+  /// nearest is tried.
   static Plane nearest_surface(const RadialView& map, const Point& x, const Local& here) {
     Plane guesses[8] = {tangent_plane(map, x, x, here.g, here.gradient),
                         plane_along<0, 1>(map, x),

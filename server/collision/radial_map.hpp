@@ -42,9 +42,9 @@ class RadialMap {
 
   /// Depth, normal and surface point; no hit outside the box m <= 1 and outside the surface. Any thread.
   ///
-  /// Whether p is inside, its own ray from the centre says. That ray is not a guide to the depth: in a plank it leads most points to the
-  /// far end. So four tangent planes are asked, where p's own ray and where three lines along the axes meet the surface; the nearest
-  /// counts, and one Newton step on the map improves it. Exact for boxes; still no search. Not for the loop, which asks 16 points
+  /// The ray from the centre through p tells whether p is inside. It does not tell the depth: in a plank it leads most points to the far
+  /// end. So seven tangent planes are tried, where p's own ray and the six ways along the axes meet the surface; the nearest counts, and
+  /// one Newton step on the map improves it. Exact for boxes; still no search. Not for the loop, which asks 16 points
   /// at a time.
   [[nodiscard]] MapHit evaluate(const Vec3f& p_QP) const noexcept;
 

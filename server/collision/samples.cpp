@@ -21,7 +21,7 @@ void sort_into_runs(std::span<Vec3> points) {
   box.sizes().maxCoeff(&axis);
   const std::size_t runs = (points.size() + kLanes - 1) / kLanes;
   const std::size_t half = runs / 2 * kLanes;
-  // A total order, so that equal coordinates cannot leave the result to the library.
+  // A total order, so that the result does not depend on the library where coordinates are equal.
   const auto less = [axis](const Vec3& l, const Vec3& r) {
     if (l[axis] != r[axis]) return l[axis] < r[axis];
     return std::lexicographical_compare(l.begin(), l.end(), r.begin(), r.end());
@@ -94,7 +94,7 @@ geometry::Sphere bounding_sphere(std::span<const Vec3> points) {
   }
   for (const Vec3& x : points)
     sphere.radius = std::max(sphere.radius, (x - sphere.center).norm());
-  sphere.radius *= 1 + 1e-6;  // for what the sums above round
+  sphere.radius *= 1 + 1e-6;  // for the rounding above
   return sphere;
 }
 

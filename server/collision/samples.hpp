@@ -9,13 +9,13 @@
 
 namespace mechane::collision {
 
-/// A sphere around all points, close to the smallest (Ritter 1990, then grown over what rounding left out). Radius 0 for no points.
+/// A sphere around all points, close to the smallest (Ritter 1990, then enlarged by the rounding errors). Radius 0 for no points.
 [[nodiscard]] geometry::Sphere bounding_sphere(std::span<const Vec3> points);
 
 /// Appends the samples of one part, in clusters. The parts come in order.
 void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points_O);
 
-/// After the last sample, and after a change of any: the groups, and the object's own sphere.
+/// Makes the groups, and the object's own sphere. To be called after the last sample, and after a change of any.
 void close_clusters(Object& object);
 
 /// How many surface samples the object has.

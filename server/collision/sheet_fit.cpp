@@ -12,15 +12,15 @@ namespace {
 constexpr std::size_t kMostFaces = 3;
 constexpr int kFitRounds = 6;
 constexpr std::ptrdiff_t kLeastSamples = 2;  // of a sheet
-constexpr double kSlope = 0.3;               // what a slope has to say beside a distance
-// How much a sheet's twists cost: where it has no samples it then goes on straight.
+constexpr double kSlope = 0.3;               // the weight of a slope beside a distance
+// How much a sheet's twists cost. With it, a sheet goes on straight where it has no samples.
 constexpr double kTwist = 1e-3;
 constexpr double kRidge = 1e-9;
-constexpr double kSameFace = 0.97;  // cosine: faces that are less apart are one
+constexpr double kSameFace = 0.97;  // cosine: faces closer than this in direction count as one
 
 using Weights = Eigen::Matrix<double, 8, 1>;
 
-/// How much each corner has to say at a place.
+/// The weight of each corner at a place.
 Weights corner_weights(const Vec3& p_B) {
   Weights w;
   for (int corner = 0; corner < 8; ++corner) {
@@ -119,7 +119,7 @@ std::vector<const SheetSample*> unlike_faces(std::span<const SheetSample> sample
   return found;
 }
 
-/// Which of the faces each sample's nearest is the most like. -1: it lies on the edge between some.
+/// For each sample, the face that its nearest face is most like. -1: it lies on an edge between faces.
 std::vector<int> split_by_normals(std::span<const SheetSample> samples, std::span<const SheetSample* const> faces) {
   std::vector<int> sheet_of;
   for (const SheetSample& s : samples) {
@@ -138,7 +138,7 @@ bool have_enough(const std::vector<int>& sheet_of, int sheets) {
   return true;
 }
 
-/// The sheet that holds at a place, and what it tells.
+/// The sheet that decides at a place, and its distance.
 struct Told {
   int sheet = 0;
   double distance_m = 0;

@@ -1,4 +1,5 @@
-// Where smooth faces meet in an edge or a corner, the distance to each is smooth; that to all of them is the largest, or the least.
+// Where smooth faces meet in an edge or a corner, the distance to each is smooth; the distance to all is the largest or the least of
+// these.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ struct SheetSample {
   Vec3 n_B = Vec3::Zero();  ///< unit, of the nearest face
   bool on_face = true;      ///< the nearest point lies in the face, and not on its edge
   double tolerance_m = 0;   ///< by how much the depth may err there; infinite where no finger gets
-  double excess_m = 0;      ///< outside: how much farther it may be told to be, which culling has to make up for
+  double excess_m = 0;      ///< outside: by how much the distance may be too large, which culling has to allow for
 };
 
 /// Distances to two or three faces, each trilinear over the block, by their values at its corners: x fastest. Together they are
@@ -28,12 +29,12 @@ struct Sheets {
   bool inner_convex = true;  ///< i does
 };
 
-/// The distance that the sheets tell.
+/// The distance that the sheets give.
 [[nodiscard]] double distance_of(const Sheets& sheets, const Vec3& p_B);
 
-/// Fits sheets by turns: samples go to the sheet that tells their distance, sheets follow their samples (as for max-affine functions,
-/// Magnani and Boyd 2009). Where there is one face alone, both are the same. Nothing where
-/// no sheets tell each depth well enough.
+/// Fits sheets in turns: samples go to the sheet that gives their distance best, then sheets are fitted to their samples (as for
+/// max-affine functions, Magnani and Boyd 2009). Where there is only one face, the sheets are the same. Empty if no sheets give each
+/// depth well enough.
 [[nodiscard]] std::optional<Sheets> fit_sheets(std::span<const SheetSample> samples, double block_m);
 
 }  // namespace mechane::collision

@@ -38,7 +38,7 @@ Vec3 half_extents(const geometry::Mesh& mesh) {
 }
 
 RadialMap map_of(const geometry::Superquadric& shape, const Vec3& half) {
-  // A hair wider, so that points on the very surface are inside the box and not lost to rounding.
+  // Slightly wider, so that rounding does not put points of the surface outside the box.
   const Vec3f half_Q = (1.0001 * half).cast<float>();
   std::vector<float> sigma;
   sigma.reserve(std::size_t{6} * kResolution * kResolution);

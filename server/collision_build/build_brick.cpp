@@ -16,19 +16,19 @@ namespace {
 
 constexpr int kFinest = collision::DistanceBrick::kFinest;
 constexpr float kNotAsked = std::numeric_limits<float>::infinity();
-// Cosine between a face and the way to its nearest point, where that is not on its edge.
+// Cosine between a face's normal and the way to its nearest point: above this, the point is not on the face's edge.
 constexpr double kOnFace = 0.9999;
 constexpr double kSameSide = 1.0001;  // of the way between two nodes
-// Of a block's edge, how far below what a finger reaches a sheet is still told by its samples.
+// Of a block's edge: sheets get samples down to this far below the depth that a finger reaches.
 constexpr double kBelow = 0.1;
-// Of a block's edge: how much farther away than it is the surface may be told to be. Culling has to make up for it.
+// Of a block's edge: by how much a distance outside may be too large. Culling has to allow for it.
 constexpr double kExcess = 0.1;
 constexpr int kMendings = 4;        // rounds, at most
 constexpr double kHopeless = 0.01;  // of the witnesses
-// The box is wider than what it holds by this share on the whole: the surface is nowhere at its very edge.
+// The box is wider than its contents by this share in all, so that no surface lies on its very edge.
 constexpr double kRoom = 1.002;
 
-/// Signed distances at the nodes of the finest lattice, of those that somebody asked for, and the faces that lie nearest.
+/// Signed distances at those nodes of the finest lattice that were asked for, and the faces that lie nearest.
 class LatticeDistances {
  public:
   LatticeDistances(const Solid& solid, const geometry::MeshQuery& skin, const Pose& X_OQ,
@@ -45,7 +45,7 @@ class LatticeDistances {
     wanted_.assign(count, 0);
   }
 
-  /// What lies nearest to a node.
+  /// The nearest place of the surface to a node.
   struct Nearest {
     std::uint32_t triangle = 0;
     bool on_face = false;  // and not on its edge
@@ -55,7 +55,7 @@ class LatticeDistances {
   [[nodiscard]] float at(const collision::Node& node) const { return distance_m_[index(node)]; }
   [[nodiscard]] const Nearest& nearest(const collision::Node& node) const { return nearest_[index(node)]; }
 
-  /// Measures what is wanted and not known yet.
+  /// Measures the nodes that are wanted and not known yet.
   void measure() {
     std::vector<std::size_t> fresh;
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
@@ -112,7 +112,7 @@ class LatticeDistances {
       side_[i] = votes > 0 ? Side::inside : Side::outside;
   }
 
-  /// To the group, those neighbours without a side that are on the same as node `here`.
+  /// Adds those neighbours of node `here` to the group that have no side yet and are on the same side.
   void add_neighbours(std::size_t here, std::vector<std::size_t>& group) {
     const collision::Node node = node_of(here);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -140,7 +140,7 @@ class LatticeDistances {
   std::vector<std::uint8_t> wanted_;
 };
 
-/// The distance at `node` as a block whose nodes lie `stride` apart would have it.
+/// The distance at `node` that a block whose nodes lie `stride` apart would give.
 double interpolated(const LatticeDistances& distances, const collision::Node& block, int stride,
                     const collision::Node& node) {
   return collision::interpolate(block, stride, node, [&](const collision::Node& n) { return distances.at(n); });
@@ -152,7 +152,7 @@ double tolerance_m(double truth_m, const BrickNeeds& needs) {
   return std::max(needs.tolerance_m, -needs.share * truth_m);
 }
 
-/// Whether a block whose nodes lie `stride` apart tells the depth at those of the finest lattice well enough.
+/// Whether a block whose nodes lie `stride` apart gives the depth well enough at the nodes of the finest lattice.
 bool is_fine_enough(const LatticeDistances& distances, const collision::Node& block, int stride, double block_m,
                     const BrickNeeds& needs) {
   bool good = true;
@@ -178,7 +178,7 @@ std::vector<Block> list_blocks(const collision::Node& blocks) {
   return list;
 }
 
-/// Opens the blocks in which a finger could feel something, and those that would tell too much of the air; and measures them.
+/// Opens the blocks in which a finger could feel something, and those whose distances in air would be too large; and measures them.
 void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double block_m, const BrickNeeds& needs) {
   constexpr int kHalf = kFinest / 2;
   const auto center = [](const Block& block) {
@@ -201,7 +201,7 @@ void open_blocks(std::vector<Block>& blocks, LatticeDistances& distances, double
   distances.measure();
 }
 
-/// Closes the open blocks for which their level is enough, and gives the others the next.
+/// Closes the open blocks whose level is fine enough, and gives the others the next level.
 void try_level(std::vector<Block>& blocks, const LatticeDistances& distances, double block_m, const BrickNeeds& needs,
                int level) {
   for (Block& block : blocks) {
@@ -211,7 +211,7 @@ void try_level(std::vector<Block>& blocks, const LatticeDistances& distances, do
   }
 }
 
-/// Sheets in place of finer cells, where they serve.
+/// Puts sheets in place of finer cells, where they are exact enough.
 class SheetMaker {
  public:
   SheetMaker(const LatticeDistances& distances, const geometry::MeshQuery& skin, const Pose& X_OQ, double block_m,
@@ -273,7 +273,7 @@ std::size_t bytes_of(std::span<const std::uint8_t> levels, const collision::Dist
   return bytes;
 }
 
-/// A brick in the making, and what it was made from.
+/// A brick that is being made, and its sources.
 class BrickMaker {
  public:
   BrickMaker(const collision::DistanceBrick::Grid& grid, const std::vector<Block>& blocks,
@@ -283,7 +283,7 @@ class BrickMaker {
       levels_.push_back(static_cast<std::uint8_t>(block.level));
   }
 
-  /// Nothing when it would be too large.
+  /// Empty if it would be too large.
   [[nodiscard]] std::optional<collision::DistanceBrick> make() const {
     const std::size_t bytes = bytes_of(levels_, sheets_);
     if (bytes > collision::DistanceBrick::kMaxValues || bytes + sizeof(std::uint32_t) * levels_.size() > at_most_)
@@ -297,8 +297,8 @@ class BrickMaker {
         sheets_);
   }
 
-  /// The block that answers a witness wrongly becomes as fine as can be; where it is, the corners of the cell give way, by as little as
-  /// will do. False when every witness is answered rightly, or too many are not.
+  /// A block that answers a witness wrongly gets the finest level. If it has that already, the corners of the cell are shifted, as little
+  /// as possible. False when every witness is answered rightly, or too many are not.
   [[nodiscard]] bool mend(const collision::DistanceBrick& brick, const Pose& X_OQ, double stray_m,
                           std::span<const Probe> witnesses) {
     std::vector<Fault> faults;
@@ -335,7 +335,7 @@ class BrickMaker {
     return collision::index_of(grid_.blocks, {cell[0] / kFinest, cell[1] / kFinest, cell[2] / kFinest});
   }
 
-  /// False when it is already.
+  /// False when it has the finest level already.
   bool make_finest(std::size_t block) {
     constexpr std::uint8_t kHighest = collision::DistanceBrick::kLevels - 1;
     if (levels_[block] == kHighest) return false;
@@ -345,7 +345,7 @@ class BrickMaker {
     return true;
   }
 
-  /// Of several witnesses in a cell the one that asks the most.
+  /// Of several witnesses in a cell, the one that needs the largest shift.
   static void give_way(const collision::Node& cell, float by_m, std::map<collision::Node, float>& shifts_m) {
     for (int corner = 0; corner < 8; ++corner) {
       float& shift_m = shifts_m[{cell[0] + corner % 2, cell[1] + corner / 2 % 2, cell[2] + corner / 4}];
@@ -359,7 +359,7 @@ class BrickMaker {
   LatticeDistances& distances_;
   std::size_t at_most_;
   std::vector<std::uint8_t> levels_;
-  std::map<collision::Node, float> shifts_m_;  // of nodes that gave way
+  std::map<collision::Node, float> shifts_m_;  // of nodes that were shifted
 };
 
 }  // namespace
@@ -382,7 +382,7 @@ std::optional<collision::DistanceBrick> build_brick(const Solid& solid, const ge
                                                     const Pose& X_OQ, const collision::DistanceBrick::Grid& grid,
                                                     const BrickNeeds& needs, std::span<const Probe> witnesses,
                                                     std::size_t at_most) {
-  // All blocks coarse is the least that it can take: no need to measure what would be too large all the same.
+  // With all blocks coarse it is smallest. If even that is too large, it need not be measured.
   const std::size_t least = sizeof(std::uint32_t) + collision::DistanceBrick::Entry{}.count();
   if (least * grid.block_count() > at_most) return std::nullopt;
   const auto block_m = static_cast<double>(grid.block_m);

@@ -13,7 +13,7 @@
 namespace mechane::collision_build {
 
 struct BrickNeeds {
-  double probe_depth_m = 0;  ///< how deep under the surface the depth must be good
+  double probe_depth_m = 0;  ///< down to this far under the surface the depth must be exact
   double tolerance_m = 0;    ///< a block stays coarse while no depth that is tried in it errs by more
   double share = 0;          ///< or by more than this share of itself
   double stray_m = 0;        ///< a witness deeper than this must be inside, one this far outside must not

@@ -9,7 +9,7 @@
 namespace mechane::collision_build {
 namespace {
 
-constexpr double kMaxRho = 16;        // beyond it the surface is as good as nowhere
+constexpr double kMaxRho = 16;        // beyond this there is practically no surface
 constexpr double kMinRho = 1.0 / 16;  // 'no hit'
 constexpr std::size_t kCenters = 64;
 constexpr std::size_t kWitnesses = 160;
@@ -18,7 +18,7 @@ constexpr double kClearanceWeight =
 constexpr double kOwnCenterBonus = 0.05;
 constexpr double kPieceMargin = 1.03;
 
-/// About `count` of them, evenly.
+/// About `count` of the places, evenly chosen.
 std::vector<SurfacePlace> some_of(std::span<const SurfacePlace> all, std::size_t count) {
   std::vector<SurfacePlace> chosen;
   const std::size_t step = std::max<std::size_t>(1, all.size() / count);
@@ -27,7 +27,7 @@ std::vector<SurfacePlace> some_of(std::span<const SurfacePlace> all, std::size_t
   return chosen;
 }
 
-/// The share of the witnesses that the centre sees through the solid alone.
+/// The share of the witnesses that are seen from the centre through the solid alone.
 double seen_share(const Solid& solid, std::size_t node, const Vec3& center, std::span<const SurfacePlace> all) {
   std::size_t seen = 0;
   for (const SurfacePlace& w : all) {
@@ -83,10 +83,10 @@ MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const Surf
   frame.X_OQ = X_OQ;
   const Pose X_QO = X_OQ.inverse();
   frame.center_Q = X_QO * choose_center(solid, node, places, cell, X_OQ.p);
-  // The cube spans what the part does in the superquadric's frame, and no more: the solid beyond is other parts' to answer for.
+  // The cube spans the part in the superquadric's frame, and no more: other parts answer for the solid beyond.
   for (const Vec3& p_O : bound_points_O)
     frame.half_Q = frame.half_Q.cwiseMax((X_QO * p_O - frame.center_Q).cwiseAbs());
-  // Half a crack more on each side, so that parts beside a crack meet in it; and pieces are known by samples, which miss their corners.
+  // Half a crack more on each side, so that parts beside a crack meet in it. A little more for pieces: their samples miss their corners.
   const double wider = cell.empty() ? 1.0001 : kPieceMargin;
   frame.half_Q = (wider * frame.half_Q.array() + 0.5 * solid.seam_gap_m() + 1e-6).matrix();
   return frame;

@@ -24,18 +24,17 @@ struct SurfacePlace {
   Vec3 n_O = Vec3::Zero();
 };
 
-/// Chooses the centre: the superquadric's own where that serves, else the place in the solid from which most of the part's exposed
+/// Chooses the centre: the superquadric's own where that is good enough, else the place in the solid from which most of the part's exposed
 /// surface is seen through the solid (a stave's superquadric has its centre near the hollow). `node` is the solid's part; `places`, `cell`
 /// (none for the whole node) and `bound_points_O` are of its piece.
 [[nodiscard]] MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
                                     std::span<const geometry::HalfSpace> cell, std::span<const Vec3> bound_points_O,
                                     const Pose& X_OQ);
 
-/// Casts the map. Which surface a ray belongs to: the first one that leads from the centre out into air. A ray that comes from
-/// outside, as in the paper, would take whatever it meets first, so that the far wall or another part within the bound filled the air
-/// before this part. The paper's two special values become: 'no hit' (the centre itself is in air this way) a surface close to the
-/// centre, sigma 16; 'covered' (the bound lies in a neighbour's solid) the neighbour's surface, where the ray leaves it, so that seams
-/// make no walls.
+/// Casts the map. A ray goes out from the centre and takes the first surface that leads into air. A ray from outside, as in the paper,
+/// would take the first thing that it meets: the far wall, or another part within the bound, would then fill the air in front of this
+/// part. The paper's two special values become: 'no hit' (the centre itself is in air this way) a surface close to the centre, sigma
+/// 16; 'covered' (the bound lies in a neighbour's solid) the neighbour's surface where the ray leaves it, so that seams make no walls.
 [[nodiscard]] collision::RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame,
                                             int resolution);
 

@@ -12,21 +12,21 @@
 namespace mechane::collision_build {
 namespace {
 
-// Blocks of a brick along its longest edge.
+// How many blocks a brick may have along its longest edge.
 constexpr std::array<int, 11> kBrickBlocks = {2, 3, 4, 6, 8, 11, 16, 22, 32, 45, 64};
-// Of the lesser bound: what a block's level may cost, so that what is asked between its nodes stays within the budget too.
+// Of the lesser bound: the error that a block's level may have at its nodes, so that places between them stay within the budget too.
 constexpr double kBlockTolerance = 0.5;
-// Of a depth: by how much it may err deep down, as long as the budget allows. In a concave corner sheets tell less than there is.
+// Of a depth: by how much it may err deep down, as long as the budget allows. In a concave corner sheets give too small a depth.
 constexpr double kDepthShare = 0.2;
-// More missed points than this mean that no centre sees the part whole: a finer radial map would not either.
+// If a larger share is missed, no centre sees the whole part, and a finer radial map would not help.
 constexpr double kBlindShare = 0.02;
 constexpr double kStrayShare = 0.005;
-// Of a probe's depth, to find the inside of a thin wall: 4 mm become 0.06 mm.
+// How many depths are tried to find the inside of a thin wall, each half of the one before: from 4 mm down to 0.06 mm.
 constexpr int kHalvings = 7;
-// Of a brick, where even the finest cannot meet the budget: then exactness is worth this much and no more.
+// The most bytes of a brick where even the finest cannot meet the budget.
 constexpr std::size_t kMostWithoutHope = 524'288;
 
-/// What the last map of one kind showed, to spare the making of those that cannot do.
+/// The results of the last map of one kind, to avoid making maps that cannot be good enough.
 struct Trend {
   int fineness = 0;
   MapError error;
@@ -62,7 +62,7 @@ class Trials {
       const std::size_t bytes = static_cast<std::size_t>(6 * n * n) * sizeof(std::uint16_t);
       if (allowed_.only_resolution != 0 && allowed_.only_resolution != n) continue;
       if (bytes <= allowed_.more_than || bytes > allowed_.at_most) continue;
-      // Where no radial map can do, a brick will; or else the finest is the best there is.
+      // If no radial map can be good enough, a brick will be; without bricks the finest radial map is the best there is.
       const bool hopeless = trend.rules_out(collision::RadialMap::kResolutions.back(), budget_);
       if (trend.rules_out(n, budget_) && (!hopeless || may_try_bricks())) continue;
       if (trend.fineness >= 16 && trend.is_blind()) return;
@@ -71,7 +71,7 @@ class Trials {
     }
   }
 
-  /// Those that are smaller than what was found before.
+  /// Tries bricks that are smaller than the best map so far.
   void try_bricks() {
     Trend trend;
     const BrickNeeds needs{budget_.probe_depth_m, kBlockTolerance * std::min(budget_.depth_p99_m, budget_.missed_m),

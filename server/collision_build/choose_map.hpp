@@ -23,7 +23,7 @@ struct ErrorBudget {
   double probe_depth_m = 0;  ///< how deep points are asked
 };
 
-/// What a map's answers are worth, over points just under the surface and just above it. Infinite where there was no point to ask.
+/// How exact a map's answers are, over points just under the surface and just above it. Infinite if there was no point to ask.
 struct MapError {
   double p50_m = 0;
   double p99_m = std::numeric_limits<double>::infinity();
@@ -31,7 +31,7 @@ struct MapError {
   std::size_t probes = 0;
   std::size_t missed = 0;  ///< points deeper than missed_m that the map calls outside
   std::size_t wrong = 0;   ///< points further outside than missed_m that it calls inside
-  /// Where no map meets the budget: the lesser is the better. A point in fifty that is missed is as bad as twice the error.
+  /// For choosing where no map meets the budget: the lesser is the better. Missing one point in fifty is as bad as twice the error.
   [[nodiscard]] double badness_m() const {
     return p99_m * (1 + 50 * static_cast<double>(missed + wrong) / static_cast<double>(probes + 1));
   }
@@ -47,7 +47,7 @@ struct MapCandidates {
   int only_resolution = 0;           ///< of a radial map; 0: any
   std::size_t more_than = 0;         ///< bytes: only larger maps
   std::size_t at_most = 128U << 10;  ///< bytes
-  std::span<const Probe> must = {};  ///< points of which not one may be missed or wrong, besides the budget
+  std::span<const Probe> must = {};  ///< points none of which may be missed or wrong, besides the budget
 };
 
 struct MapChoice {
@@ -57,7 +57,7 @@ struct MapChoice {
 };
 
 /// Points up to `budget.probe_depth_m` under and above the places of a node, with their exact depths; less deep where the solid is thin.
-/// Places beside which it is not what their normal says (seams) are left out. An open mesh has no inside: there the nearest triangle
+/// Places whose normal does not lead from solid into air (seams) are left out. An open mesh has no inside: there the nearest triangle
 /// tells the side.
 [[nodiscard]] std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
                                              std::span<const SurfacePlace> places, const ErrorBudget& budget,

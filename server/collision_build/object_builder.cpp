@@ -23,7 +23,6 @@
 namespace mechane::collision_build {
 namespace {
 
-constexpr double kWeld = 1e-6;               // of the part's diagonal
 constexpr std::size_t kProbesPerPart = 600;  // for the choice of its map
 constexpr std::size_t kReportProbes = 400;   // per part, for the object's error
 constexpr int kRefinements = 4;              // rounds, at most
@@ -31,58 +30,67 @@ constexpr std::size_t kWitnessesPerPart = 12'000;
 constexpr std::size_t kMostWitnesses = 120'000;
 constexpr double kWitnessDepth = 2.5;     // times what must not be missed
 constexpr std::size_t kChunk = 1000;      // witnesses
-constexpr double kMostGrowth = 2.5;       // of a map's bytes in one round: a thin layer under a crest is not worth more
-constexpr std::size_t kWorthOfWhole = 2;  // a brick may take as many times the bytes of the parts that it replaces
-constexpr std::size_t kMostPartsOfWhole = 48;   // of more, 64 blocks along the longest edge are too coarse a grid
+constexpr double kMostGrowth = 2.5;       // of a map's bytes in one round, for the sake of a thin layer under a crest
+constexpr std::size_t kWorthOfWhole = 2;  // a brick may take this many times the bytes of the parts that it replaces
+constexpr std::size_t kMostPartsOfWhole = 48;   // for more parts, 64 blocks along the longest edge are too coarse
 constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
-constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is one of a 99th percentile
+constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is for the 99th percentile
 
 std::string where_of(const std::string& part) {
   return "part '" + part + "'";
 }
 
+/// The same Error, at a part.
+tl::unexpected<Error> at_part(Error error, const std::string& part) {
+  error.where = where_of(part);
+  return tl::unexpected(std::move(error));
+}
+
+tl::unexpected<Error> wrong_setting(std::string what, std::string remedy) {
+  return fail(ErrorCode::invalid_value, std::move(what), "build settings", std::move(remedy));
+}
+
 Expected<void> check_budget(const BuildConfig& config) {
-  const char* where = "build settings";
   if (!(config.max_error_share > 0 && config.max_error_share <= 0.1) || !(config.max_error_m > 0)) {
-    return fail("the error budget is outside 0 to 0.1 of the diagonal, or not over 0 m", where,
-                "use max_error_share 0.003 and max_error_m 0.001");
+    return wrong_setting("max_error_share is outside 0 to 0.1, or max_error_m is not above 0",
+                         "use max_error_share 0.003 and max_error_m 0.001");
   }
   if (!(config.miss_share > 0 && config.miss_share <= 0.1)) {
-    return fail("miss_share is outside 0 to 0.1 of the diagonal", where, "use 0.002");
+    return wrong_setting("miss_share is outside 0 to 0.1", "use 0.002");
   }
   if (!(config.probe_depth_m >= 1e-5 && config.probe_depth_m <= 10)) {
-    return fail("probe_depth_m is outside 0.00001 to 10 m", where, "use 0.004, which is how far a finger sinks in");
+    return wrong_setting("probe_depth_m is outside 0.00001 to 10 m", "use 0.004, which is how far a finger sinks in");
   }
   if (!config.radial_maps && !config.bricks) {
-    return fail("neither radial maps nor bricks are allowed", where, "allow one of them");
+    return fail(ErrorCode::conflict, "neither radial maps nor bricks are allowed", "build settings",
+                "allow at least one of them");
   }
   return {};
 }
 
 Expected<void> check_config(const BuildConfig& config) {
-  const char* where = "build settings";
   const auto& known = collision::RadialMap::kResolutions;
   if (config.map_resolution != 0 && std::find(known.begin(), known.end(), config.map_resolution) == known.end()) {
-    return fail("map_resolution is " + std::to_string(config.map_resolution), where,
-                "use 8, 12, 16, 24, 32, 48 or 64, or 0 for the smallest that is exact enough");
+    return wrong_setting("map_resolution is " + std::to_string(config.map_resolution),
+                         "use 8, 12, 16, 24, 32, 48 or 64, or 0 for the smallest that is exact enough");
   }
   if (!(config.sample_spacing_m >= 1e-4 && config.sample_spacing_m <= 1)) {
-    return fail("sample_spacing_m is outside 0.0001 to 1 m", where, "use 0.005 for things that a hand touches");
+    return wrong_setting("sample_spacing_m is outside 0.0001 to 1 m", "use 0.005 for things that a hand touches");
   }
   if (config.max_samples_per_part < collision::kLanes || config.max_samples_per_part > 1'000'000) {
-    return fail("max_samples_per_part is outside 16 to 1000000", where, "use 4096");
+    return wrong_setting("max_samples_per_part is outside 16 to 1000000", "use 4096");
   }
   if (!(config.seam_gap_m >= 0 && config.seam_gap_m <= 0.1)) {
-    return fail("seam_gap_m is outside 0 to 0.1 m", where, "use 0.001");
+    return wrong_setting("seam_gap_m is outside 0 to 0.1 m", "use 0.001");
   }
   return check_budget(config);
 }
 
 Expected<void> check_count(std::size_t parts) {
-  if (parts == 0) return fail("there are no parts", "object", "name at least one mesh as a part");
+  if (parts == 0) return fail(ErrorCode::missing, "there are no parts", "object", "name at least one mesh as a part");
   if (parts > collision::kMaxParts) {
-    return fail(std::to_string(parts) + " parts, more than " + std::to_string(collision::kMaxParts), "object",
-                "use fewer, larger parts");
+    return fail(ErrorCode::too_large, "there are " + std::to_string(parts) + " parts", "object",
+                "use fewer, larger parts: at most " + std::to_string(collision::kMaxParts));
   }
   return {};
 }
@@ -92,9 +100,10 @@ Expected<std::vector<geometry::Mesh>> weld_nodes(std::span<const geometry::Named
   std::vector<geometry::Mesh> welded;
   for (const geometry::NamedMesh& node : nodes) {
     if (auto ok = geometry::check_mesh(node.mesh, where_of(node.name)); !ok) return tl::unexpected(ok.error());
-    welded.push_back(geometry::weld(node.mesh, kWeld * node.mesh.bounds().diagonal().norm()));
+    welded.push_back(geometry::weld(node.mesh));
     if (welded.back().triangles.empty()) {
-      return fail("all triangles are without area", where_of(node.name), "export the model with its faces");
+      return fail(ErrorCode::invalid_value, "no triangle of the mesh has an area", where_of(node.name),
+                  "export the model with its faces");
     }
     static_cast<void>(geometry::turn_outwards(welded.back()));
   }
@@ -139,7 +148,7 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!input.solid.is_closed(i)) continue;  // no inside, no pieces
       auto cut = geometry::decompose(input.nodes[i], config);
-      if (!cut) return fail(cut.error().what, where_of(nodes[i].name), cut.error().remedy);
+      if (!cut) return at_part(cut.error(), nodes[i].name);
       cuts[i] = std::move(*cut);
     }
   }
@@ -154,7 +163,7 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
   return sources;
 }
 
-/// Round the mesh where all of it is the part, else round the part's points.
+/// Around the mesh if the part is all of it, else around the part's points.
 Expected<geometry::FitResult> fit_bound(const PartSource& source, const geometry::Mesh* mesh, const BuildInput& input) {
   if (input.config.bounds == Bounds::boxes) {
     std::vector<Vec3> surface_points_O;
@@ -170,11 +179,11 @@ Expected<geometry::FitResult> fit_bound(const PartSource& source, const geometry
 
 Expected<geometry::FitResult> fit_source(const PartSource& source, const BuildInput& input) {
   auto fit = fit_bound(source, source.is_whole_node() ? &input.nodes[source.node] : nullptr, input);
-  if (!fit) return fail(fit.error().what, where_of(source.name), fit.error().remedy);
+  if (!fit) return at_part(fit.error(), source.name);
   return fit;
 }
 
-/// A part, and what a finer map of it would be made from.
+/// A part, with what is needed to make a finer map of it.
 struct BuiltPart {
   collision::Part part;
   MapFrame frame;
@@ -186,7 +195,7 @@ MapChoice map_for(const BuiltPart& built, std::size_t node, const BuildInput& in
   const BuildConfig& config = input.config;
   MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
   candidates.must = must;
-  // What errs too much may grow as it needs to; what only misses a thin layer may not.
+  // A map that is not exact enough may grow as far as it must; one that only misses a thin layer may not.
   if (more_than > 0 && !may_grow)
     candidates.at_most =
         std::max(kAlwaysGranted, static_cast<std::size_t>(kMostGrowth * static_cast<double>(more_than)));
@@ -225,7 +234,7 @@ Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input,
   return built;
 }
 
-/// What find_contacts would say of a point: the hit in which it lies most centrally; and whose it is.
+/// What find_contacts would find for a point: the hit of the part in which it lies most centrally, and that part.
 struct Answer {
   collision::MapHit hit;
   std::size_t part = 0;
@@ -241,7 +250,7 @@ Answer ask(std::span<const collision::Part> parts, const Vec3& p_O) {
   return best;
 }
 
-/// The part that should have answered for a point that none did: the one whose map's box holds it the most centrally.
+/// The part that should have answered for a point that no part found: the one whose map's box holds it the most centrally.
 std::size_t owner(std::span<const collision::Part> parts, const Vec3& p_O) {
   std::size_t best = 0;
   float least = std::numeric_limits<float>::infinity();
@@ -260,7 +269,7 @@ std::size_t owner(std::span<const collision::Part> parts, const Vec3& p_O) {
   return best;
 }
 
-/// What the parts did not answer well when all were asked together.
+/// The faults of a part when all parts are asked together.
 struct Faults {
   std::size_t inexact = 0;    // of the part's own probes
   bool made_up = false;       // one of them is a contact with air
@@ -331,7 +340,7 @@ void refine(std::vector<collision::Part>& parts, std::span<const BuiltPart> buil
     std::vector<bool> may_grow(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       must[i].insert(must[i].end(), faults[i].missed.begin(), faults[i].missed.end());
-      // What a finer map leaves inexact stays so.
+      // Only the first round is for inexact maps: one that is still inexact after it stays so.
       const bool inexact = faults[i].made_up || static_cast<double>(faults[i].inexact) >
                                                     kFaultShare * static_cast<double>(built[i].probes.size());
       may_grow[i] = round == 0 && inexact && !reports[i].met;
@@ -354,7 +363,7 @@ void refine(std::vector<collision::Part>& parts, std::span<const BuiltPart> buil
   }
 }
 
-/// What a query has in its hands for a part.
+/// A part as a query uses it.
 std::size_t bytes_of(const collision::Part& part) {
   return part.map.bytes() + sizeof(collision::Part) + sizeof(collision::PlacedPart);
 }
@@ -395,7 +404,7 @@ std::optional<collision::Part> make_whole(const PartSource& whole, std::span<con
   std::vector<Probe> probes;
   for (const BuiltPart& one : built)
     probes.insert(probes.end(), one.probes.begin(), one.probes.end());
-  std::vector<Probe> must(witnesses.begin(), witnesses.end());  // no neighbour helps out
+  std::vector<Probe> must(witnesses.begin(), witnesses.end());  // a single part has no neighbours that help out
   must.insert(must.end(), probes.begin(), probes.end());
   MapCandidates candidates;
   candidates.radial = false;
@@ -420,7 +429,7 @@ std::optional<collision::Part> make_whole(const PartSource& whole, std::span<con
   return part;
 }
 
-/// Parts that the author named stay what they are.
+/// Parts that the author named are not united.
 bool may_be_whole(const BuildConfig& config, const Solid& solid, std::size_t nodes, std::size_t parts) {
   if (!config.bricks || !wants_pieces(config, nodes) || parts < 2 || parts > kMostPartsOfWhole) return false;
   for (std::size_t i = 0; i < nodes; ++i) {

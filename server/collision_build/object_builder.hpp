@@ -16,15 +16,15 @@
 
 namespace mechane::collision_build {
 
-/// Where an object's parts come from. Where a mesh is cut into pieces, one brick of the whole takes their place if it is exact and small
-/// enough; what an author gave as parts stays parts.
+/// Where an object's parts come from. If a mesh is cut into pieces, one brick of the whole may replace them when it is exact and small
+/// enough; parts that an author gave are kept.
 enum class Parts {
   automatic,   ///< several meshes: each is a part; a single one is decomposed
   as_given,    ///< each mesh is a part
   decomposed,  ///< each mesh is cut into pieces close to convex
 };
 
-/// What gives a part its frame and its bound: the superquadric that is fitted to it, or, to measure what that is worth, its tight box.
+/// What gives a part its frame and its bound: the superquadric that is fitted to it; or, for comparison, its tight box.
 enum class Bounds { superquadrics, boxes };
 
 struct BuildConfig {
@@ -47,7 +47,7 @@ struct BuildConfig {
   std::uint64_t seed = 1;                   ///< same meshes, config and seed: same object, to the bit
 };
 
-/// What became of one part.
+/// The result for one part.
 struct PartReport {
   std::string name;
   geometry::FitReport fit;
@@ -69,12 +69,12 @@ struct BuildReport {
   double seconds = 0;
 };
 
-/// Hears how many parts of how many are ready, from the threads that build; calls may overlap.
+/// Is told how many parts of how many are ready, by the threads that build; calls may overlap.
 using PartDone = std::function<void(std::size_t done, std::size_t parts)>;
 
 /// Decomposes, fits, maps and samples meshes in the object's frame O. A part gets the smallest map that meets the error budget, and the
-/// report says where none does. Parts that touch or overlap make one solid: seams are neither mapped nor sampled. Errors name the part: no triangles, NaN, flat, too many parts or triangles.
-/// `report` may be null. Uses all cores.
+/// report says where none does. Parts that touch or overlap make one solid: seams are neither mapped nor sampled. Errors name the part:
+/// no triangles, NaN, flat, too many parts or triangles. `report` may be null. Uses all cores.
 [[nodiscard]] Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> parts,
                                                        const BuildConfig& config, BuildReport* report = nullptr,
                                                        const PartDone& on_part = {});

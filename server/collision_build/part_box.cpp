@@ -62,7 +62,7 @@ Box turned_tight(const Mat3& start, std::span<const Vec3> points) {
   return best;
 }
 
-/// From a point of Q, its origin in the box's middle, to the box's surface.
+/// The distance from a point in Q, whose origin is the box's middle, to the box's surface.
 double distance_to_box(const Vec3& p, const Vec3& half) {
   const Vec3 beyond = p.cwiseAbs() - half;
   return beyond.maxCoeff() <= 0 ? -beyond.maxCoeff() : beyond.cwiseMax(0).norm();
@@ -117,7 +117,8 @@ Expected<geometry::FitResult> fit_box(std::span<const Vec3> bound_points_O, std:
   const double diagonal_m = (own.high - own.low).norm();
   const Vec3 half = 0.5 * (best.high - best.low);
   if (!(half.minCoeff() > 0.5 * kLeastEdge * diagonal_m)) {
-    return fail("its points lie on a plane or a line", "box of a part", "give it some thickness, or leave it out");
+    return fail(ErrorCode::invalid_value, "its points lie on a plane or a line", "box of a part",
+                "give it some thickness, or leave it out");
   }
   geometry::FitResult result;
   result.X_OQ = {best.R_OQ * (0.5 * (best.low + best.high)), Quat(best.R_OQ)};

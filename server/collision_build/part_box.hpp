@@ -1,4 +1,4 @@
-// The tight box of a part, which can stand where its superquadric stands: as the frame of its map, and as its bound.
+// The tight box of a part, which can take the place of its superquadric: as the frame of its map, and as its bound.
 #pragma once
 
 #include <span>

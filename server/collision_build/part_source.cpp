@@ -46,7 +46,7 @@ std::vector<Vec3> exposed_samples(const geometry::Mesh& mesh, std::size_t node, 
   return points;
 }
 
-/// The piece whose half-spaces hold the point, or are the least broken by it: a sample on a cut belongs to one of them.
+/// The piece whose half-spaces hold the point, or that it is the least outside of: so a sample on a cut belongs to one piece.
 std::size_t piece_of(const geometry::Decomposition& cut, const Vec3& p) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();

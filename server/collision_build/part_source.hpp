@@ -23,7 +23,7 @@ struct PartSource {
   std::vector<Vec3> samples_O;            ///< for contacts
   double spacing_m = 0;                   ///< of the samples
 
-  /// Else a piece, which its bound points describe.
+  /// If false, it is a piece, which its bound points describe.
   [[nodiscard]] bool is_whole_node() const { return cell.empty(); }
 };
 

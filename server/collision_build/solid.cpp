@@ -15,8 +15,8 @@ geometry::Mesh merge_closed(std::span<const geometry::Mesh> parts) {
   return whole;
 }
 
-/// A ray through the very middle of a symmetric part runs along the edges of its triangles and counts them twice: a millionth aside
-/// it meets faces.
+/// A ray through the exact middle of a symmetric part runs along edges of its triangles and counts them twice. Moved aside by a
+/// millionth it meets faces.
 Vec3 aside(const Vec3& direction) {
   return direction + 1e-7 * direction.norm() * Vec3(0.371, -0.713, 0.594);
 }
@@ -64,7 +64,8 @@ double Solid::walk(std::size_t part, const Vec3& origin, const Vec3& direction, 
   return last_exit == nullptr ? 0 : std::min(last_exit->t, limit);
 }
 
-/// A ray may cross a crack at a slant, so its way through the air says little: the crack's width is that way seen along the faces' normals.
+/// A ray may cross a crack at a slant, so its way through the air is longer than the crack is wide: the width is measured along the faces'
+/// normals.
 bool Solid::is_crack(const geometry::RayHit& exit, const geometry::RayHit& entry, const Vec3& direction) const {
   const Vec3 way = (entry.t - exit.t) * direction;
   if (way.norm() < 1e-9) return true;  // faces in contact

@@ -10,7 +10,7 @@
 namespace mechane::collision_build {
 namespace {
 
-constexpr int kIterations = 12;  // of conjugate gradients: far more change nothing in 16 bits of a texel
+constexpr int kIterations = 12;  // of conjugate gradients: more would change nothing in the 16 bits of a texel
 
 /// Bilinear interpolation from N x N texels to n x n rays, and its transpose.
 class Spread {

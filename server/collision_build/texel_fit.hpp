@@ -1,4 +1,4 @@
-// Texels that serve the whole of their cells, not only the rays through their own centres.
+// Texels that are fitted to the whole of their cells, not only to the rays through their own centres.
 #pragma once
 
 #include <span>

@@ -6,22 +6,20 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
-#include <sqlite3.h>
 
+#include "server/base/utf8.hpp"
 #include "server/content/content_command.hpp"
+#include "server/database/sqlite_file.hpp"
 
 namespace mechane::content {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kApplicationId = 0x4d454348;  // "MECH", as PRAGMA application_id: `file` and sqlite3 show it
-constexpr int kSchemaVersion = 1;
-constexpr int kBusyTimeout_ms = 5000;
 constexpr std::size_t kFewestHashDigits = 6;
 
-/// What has several values an entry, each in a table of its own, is written and read by these.
-constexpr std::array<const char*, 6> kTables{
+/// What an entry has several of (titles, languages, tags, references, wordings) has a table of its own.
+constexpr std::array<const char*, 7> kCatalogueTables{
     "CREATE TABLE entry (id INTEGER PRIMARY KEY, path TEXT NOT NULL UNIQUE, kind TEXT NOT NULL, name TEXT NOT NULL, "
     "hash TEXT NOT NULL, bytes INTEGER NOT NULL, licence TEXT NOT NULL, source TEXT NOT NULL, author TEXT NOT NULL, "
     "version TEXT NOT NULL) STRICT",
@@ -35,43 +33,23 @@ constexpr std::array<const char*, 6> kTables{
     "PRIMARY KEY (entry, value)) STRICT, WITHOUT ROWID",
     "CREATE TABLE wording (entry INTEGER NOT NULL REFERENCES entry ON DELETE CASCADE, words TEXT NOT NULL, "
     "language TEXT NOT NULL, PRIMARY KEY (entry, words, language)) STRICT, WITHOUT ROWID",
+    "CREATE INDEX entry_hash ON entry (hash)",
 };
-constexpr const char* kHashIndex = "CREATE INDEX entry_hash ON entry (hash)";
+constexpr database::Schema kCatalogueSchema{.application_id = 0x4d454348,  // "MECH"
+                                            .version = 1,
+                                            .statements = kCatalogueTables};
 
-/// SQLite's reason in a person's words.
-Error explain(const SQLite::Exception& e, const fs::path& file, const std::string& doing) {
-  const std::string where = file.string();
-  const std::string anew =
-      fmt::format("{}; what --licence, --author and the like said has to be said again", remake_command(file));
-  switch (e.getErrorCode()) {
-    case SQLITE_NOTADB:
-      return {"this is not a catalogue, or its beginning is damaged: SQLite does not know the file", where,
-              "name another file with --catalogue; or, where it was a catalogue: " + anew};
-    case SQLITE_CORRUPT:
-      return {fmt::format("the catalogue is damaged ({})", e.what()), where, anew};
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-    case SQLITE_AUTH:
-      return {fmt::format("{}: the catalogue, or its folder, may not be written", doing), where, "check its rights"};
-    case SQLITE_CANTOPEN:
-      return {fmt::format("{}: the file cannot be opened", doing), where,
-              "check that its folder is there, and their rights"};
-    case SQLITE_FULL:
-      return {fmt::format("{}: the disk is full", doing), where, "make room; the catalogue is as it was"};
-    case SQLITE_IOERR:
-      return {fmt::format("{}: the disk failed ({})", doing, sqlite3_errstr(e.getExtendedErrorCode())), where,
-              "check the disk and its space; the catalogue is as it was"};
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      return {fmt::format("{}: another program is writing it", doing), where, "try again when that is done"};
-    default:
-      return {fmt::format("{}: {}", doing, e.what()), where, anew};
-  }
+database::FileWords words_for(const fs::path& file) {
+  return {.name = "the catalogue",
+          .not_of_this_kind = "this is not a catalogue",
+          .name_another = "name another file with --catalogue",
+          .begin_anew = fmt::format("{}; then repeat what was once said with --licence, --author and the like",
+                                    remake_command(file)),
+          .after_a_failure = "the catalogue is as it was"};
 }
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+tl::unexpected<Error> explain(const SQLite::Exception& e, const fs::path& file, const std::string& doing) {
+  return tl::unexpected(database::explain(e, file, doing, words_for(file)));
 }
 
 struct KindWords {
@@ -120,7 +98,7 @@ std::optional<ContentKind> kind_of_word(std::string_view word) {
 }
 
 std::optional<ContentKind> kind_of_file(const fs::path& file) {
-  const std::string ending = lower(file.extension().string());
+  const std::string ending = lower_case(file.extension().string());
   if (ending.empty()) return {};
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
     if (kKinds[i].endings.find(" " + ending + " ") != std::string_view::npos) return static_cast<ContentKind>(i);
@@ -143,62 +121,29 @@ bool is_inside(std::string_view text) {
 Expected<std::string> path_inside(const fs::path& folder, const fs::path& path) {
   std::error_code code;
   const fs::path from = fs::weakly_canonical(folder, code);
-  if (code) return fail(code.message(), folder.string(), "check the folder");
+  if (code) return fail(ErrorCode::io_failure, code.message(), folder.string(), "check the folder");
   // The name itself may be a link; the folder that it stands in may not lead elsewhere.
   const fs::path whole = fs::absolute(path, code).lexically_normal();
   const fs::path parent = fs::weakly_canonical(whole.parent_path(), code);
-  if (code) return fail(code.message(), path.string(), "check the path");
+  if (code) return fail(ErrorCode::io_failure, code.message(), path.string(), "check the path");
   std::string inside = (parent / whole.filename()).lexically_relative(from).generic_string();
   if (!is_inside(inside)) {
-    return fail("the file is not in the catalogue's folder", path.string(),
-                fmt::format("move it into {}, or give a catalogue beside it with --catalogue", from.string()));
+    return fail(ErrorCode::conflict, "the file is not in the catalogue's folder", path.string(),
+                fmt::format("move it into {}, or name a catalogue beside it with --catalogue", from.string()));
   }
   return inside;
 }
 
-/// The database. SQLite's exceptions end in the functions of Catalogue.
+/// The database. The functions of Catalogue catch SQLite's exceptions.
 struct Catalogue::Connection {
   explicit Connection(const fs::path& file, Access access)
       : db(file.string(),
            access == Access::write ? SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE : SQLite::OPEN_READONLY,
-           kBusyTimeout_ms) {
-    // The file may come from anywhere: nothing in its schema is run, and a page that lies about its cells is seen.
-    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
-    sqlite3_db_config(db.getHandle(), SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
-    db.exec("PRAGMA foreign_keys = ON; PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
+           database::kBusyTimeout_ms) {
+    database::distrust(db);
   }
 
-  [[nodiscard]] int pragma(const char* name) const { return db.execAndGet(fmt::format("PRAGMA {}", name)).getInt(); }
-
-  /// In one transaction, so that of two programs that make the same file one finds it made.
-  void make_schema() {
-    SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
-    if (pragma("user_version") != 0 || has_tables()) return;
-    for (const char* table : kTables)
-      db.exec(table);
-    db.exec(kHashIndex);
-    db.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kSchemaVersion));
-    transaction.commit();
-  }
-
-  [[nodiscard]] bool has_tables() const { return db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() != 0; }
-
-  /// Tables that are word for word ours: what else a file may declare is never met.
-  [[nodiscard]] bool has_our_tables() const {
-    std::vector<std::string> wanted(kTables.begin(), kTables.end());
-    wanted.emplace_back(kHashIndex);
-    std::vector<std::string> found;
-    SQLite::Statement rows(db, "SELECT coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite_autoindex_%'");
-    while (rows.executeStep() && found.size() <= wanted.size())
-      found.push_back(rows.getColumn(0).getString());
-    std::ranges::sort(wanted);
-    std::ranges::sort(found);
-    return wanted == found;
-  }
-
-  /// To be called in a transaction: all tables must be of one moment.
+  /// Call it in a transaction, so that all tables are of the same moment.
   [[nodiscard]] std::vector<CatalogueEntry> read_now() const;
   void write(const CatalogueEntry& entry);
   void write_values(std::int64_t id, const char* table, const std::vector<std::string>& values);
@@ -268,7 +213,7 @@ std::vector<CatalogueEntry> Catalogue::Connection::read_now() const {
     const std::int64_t bytes = rows.getColumn(5).getInt64();
     // A path that leaves the folder would lead an export, or a display, to other files of the machine.
     if (!kind || !is_inside(entry.path) || !is_hash(entry.hash) || bytes < 0)
-      throw SQLite::Exception("not a valid entry: " + entry.path, SQLITE_CORRUPT);
+      database::throw_damaged("not a valid entry: " + entry.path);
     entry.kind = *kind;
     entry.bytes = static_cast<std::uint64_t>(bytes);
     entry.credits = {rows.getColumn(6).getString(), rows.getColumn(7).getString(), rows.getColumn(8).getString(),
@@ -314,35 +259,25 @@ Expected<Catalogue> Catalogue::open(const fs::path& file, Access access) {
   std::error_code code;
   const bool there = fs::exists(file, code);
   if (!there && access == Access::read) {
-    return fail("there is no catalogue", file.string(),
+    return fail(ErrorCode::not_found, "there is no catalogue", file.string(),
                 fmt::format("make it: {}; or name another with --catalogue", content_command(file, "add", "FOLDER")));
   }
   if (there && access == Access::read && fs::is_regular_file(file, code) && fs::file_size(file, code) == 0) {
-    return fail("the file is empty: no catalogue has been made in it yet", file.string(),
+    return fail(ErrorCode::not_found, "the file is empty: no catalogue has been made in it yet", file.string(),
                 content_command(file, "add", "FOLDER"));
   }
-  if (there && !fs::is_regular_file(file, code))
-    return fail("this is not a catalogue but a folder or a device", file.string(), "name a file with --catalogue");
+  if (there && !fs::is_regular_file(file, code)) {
+    return fail(ErrorCode::invalid_value, "this is not a catalogue but a folder or a device", file.string(),
+                "name a file with --catalogue");
+  }
   try {
     auto connection = std::make_unique<Connection>(file, access);
-    if (access == Access::write) connection->make_schema();
-    const int version = connection->pragma("user_version");
-    if (connection->pragma("application_id") != kApplicationId) {
-      return fail("this is a database of another program, and no catalogue", file.string(),
-                  "name another file with --catalogue");
-    }
-    if (version > kSchemaVersion) {
-      return fail(fmt::format("a newer Mechane has made this catalogue (format {}; this one reads {})", version,
-                              kSchemaVersion),
-                  file.string(), "update Mechane on this machine");
-    }
-    if (version != kSchemaVersion || !connection->has_our_tables())
-      throw SQLite::Exception("its tables are not a catalogue's", SQLITE_CORRUPT);
-    const std::string check = connection->db.execAndGet("PRAGMA quick_check(1)").getString();
-    if (check != "ok") throw SQLite::Exception(check, SQLITE_CORRUPT);
+    if (access == Access::write) database::make_tables(connection->db, kCatalogueSchema);
+    if (auto ours = database::check(connection->db, file, kCatalogueSchema, words_for(file)); !ours)
+      return tl::unexpected(ours.error());
     return Catalogue(file, std::move(connection));
   } catch (const SQLite::Exception& e) {
-    return tl::unexpected(explain(e, file, "opening it"));
+    return explain(e, file, "opening it");
   }
 }
 
@@ -356,7 +291,8 @@ Expected<Catalogue::Changes> Catalogue::put(std::span<const CatalogueEntry> entr
     for (const CatalogueEntry& given : entries) {
       const CatalogueEntry entry = in_order(given);
       if (!is_inside(entry.path) || !is_hash(entry.hash))
-        return fail("this cannot be an entry", entry.path, "name a file inside the catalogue's folder");
+        return fail(ErrorCode::invalid_value, "this cannot be an entry", entry.path,
+                    "name a file inside the catalogue's folder");
       const auto old = known.find(entry.path);
       if (old != known.end() && old->second == entry) {
         ++changes.same;
@@ -370,7 +306,7 @@ Expected<Catalogue::Changes> Catalogue::put(std::span<const CatalogueEntry> entr
     transaction.commit();
     return changes;
   } catch (const SQLite::Exception& e) {
-    return tl::unexpected(explain(e, file_, "writing it"));
+    return explain(e, file_, "writing it");
   }
 }
 
@@ -387,16 +323,16 @@ Expected<std::size_t> Catalogue::remove(std::span<const std::string> paths) {
     transaction.commit();
     return removed;
   } catch (const SQLite::Exception& e) {
-    return tl::unexpected(explain(e, file_, "writing it"));
+    return explain(e, file_, "writing it");
   }
 }
 
 Expected<std::vector<CatalogueEntry>> Catalogue::entries() const {
   try {
-    SQLite::Transaction transaction(connection_->db);  // all tables as of one moment
+    SQLite::Transaction transaction(connection_->db);  // all tables of the same moment
     return connection_->read_now();
   } catch (const SQLite::Exception& e) {
-    return tl::unexpected(explain(e, file_, "reading it"));
+    return explain(e, file_, "reading it");
   }
 }
 
@@ -411,7 +347,7 @@ Expected<std::vector<fs::path>> Catalogue::files_of(const std::string& hash) con
     }
     return files;
   } catch (const SQLite::Exception& e) {
-    return tl::unexpected(explain(e, file_, "reading it"));
+    return explain(e, file_, "reading it");
   }
 }
 
@@ -422,7 +358,7 @@ std::vector<CatalogueEntry> find_entries(std::span<const CatalogueEntry> entries
   };
   take([&](const CatalogueEntry& e) { return e.path == word; });
   take([&](const CatalogueEntry& e) { return e.name == word; });
-  const std::string digits = lower(std::string(word));
+  const std::string digits = lower_case(std::string(word));
   if (digits.size() >= kFewestHashDigits) take([&](const CatalogueEntry& e) { return e.hash.starts_with(digits); });
   return found;
 }

@@ -22,10 +22,10 @@ inline constexpr std::size_t kContentKinds = 6;
 /// "scenario", "model", ...
 [[nodiscard]] std::string_view word_of(ContentKind kind);
 [[nodiscard]] std::optional<ContentKind> kind_of_word(std::string_view word);
-/// By the ending of a file's name; none for what is not content by itself.
+/// By the ending of a file's name; nothing for a file that is not content by itself.
 [[nodiscard]] std::optional<ContentKind> kind_of_file(const std::filesystem::path& file);
 
-/// What is known of a file, and not from its bytes. Empty: unknown.
+/// What is known about a file but is not in its bytes. Empty: unknown.
 struct Credits {
   std::string licence;
   std::string source;
@@ -42,7 +42,7 @@ struct CatalogueEntry {
   std::uint64_t bytes = 0;
   Credits credits;
   std::map<std::string, std::string> titles;  ///< by language
-  std::vector<std::string> languages;         ///< sorted; empty: it has no words, or nobody said
+  std::vector<std::string> languages;         ///< sorted; empty: it has no words, or their language is unknown
   std::vector<std::string> tags;              ///< sorted
   std::vector<std::string> refers_to;         ///< sorted paths, from the catalogue's folder; not all need be entries
   /// Words that a scenario says, and the languages in which it says them: "step turn, caption" -> el, en.
@@ -50,13 +50,13 @@ struct CatalogueEntry {
   bool operator==(const CatalogueEntry&) const = default;
 };
 
-/// What the paths in a catalogue, there or not, are relative to: the folder that it is in, absolute.
+/// The folder that a catalogue is in, absolute: its paths are relative to it. The catalogue need not exist.
 [[nodiscard]] std::filesystem::path folder_of_catalogue(const std::filesystem::path& file);
 
-/// Whether a path can be an entry's: relative, without "." and "..", so that it stays in the catalogue's folder.
+/// Whether a path can be that of an entry: relative and without "." and "..", so that it stays in the catalogue's folder.
 [[nodiscard]] bool is_inside(std::string_view path);
 
-/// What of `path`, an existing file or not, is left from the catalogue's folder. Errors: it lies elsewhere.
+/// `path` relative to the catalogue's folder; the file need not exist. Errors: conflict (it lies elsewhere), io_failure.
 [[nodiscard]] Expected<std::string> path_inside(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 /// One open catalogue. Not thread-safe, and never for a loop thread: it reads the disk. Several programs may have the same file open; a
@@ -65,8 +65,8 @@ class Catalogue {
  public:
   enum class Access : std::uint8_t { read, write };
 
-  /// With Access::write the file is made where there is none (its folder must be there). Errors: no such file, no catalogue, one of a
-  /// newer Mechane, a damaged one, no right to read or write.
+  /// With Access::write, a file that does not exist is made; its folder must exist. Errors: not_found; invalid_value (not a file, or
+  /// another program's database); wrong_version (a newer Mechane's); damaged; io_failure.
   [[nodiscard]] static Expected<Catalogue> open(const std::filesystem::path& file, Access access);
   Catalogue(Catalogue&&) noexcept;
   Catalogue& operator=(Catalogue&&) noexcept;
@@ -74,22 +74,23 @@ class Catalogue {
 
   struct Changes {
     std::vector<std::string> added;    ///< paths, in the order given
-    std::vector<std::string> changed;  ///< the file has other bytes than its entry said
-    std::vector<std::string> retold;   ///< the file is as it was, and something else is known of it
+    std::vector<std::string> changed;  ///< the file's bytes have changed since its entry was written
+    std::vector<std::string> retold;   ///< the file is as it was, but something else that is known about it has changed
     std::size_t same = 0;
   };
-  /// Writes all of them, or on an error none. An entry replaces the one of its path. What is equal is not written at all.
+  /// Writes all entries, or on an error none. An entry replaces the one with its path; one that is already there as it is, is not
+  /// written again.
   [[nodiscard]] Expected<Changes> put(std::span<const CatalogueEntry> entries);
-  /// Forgets entries (files are left alone): all of them, or on an error none. Returns how many there were.
+  /// Deletes the entries with these paths, or on an error none of them; files stay. Returns how many there were.
   [[nodiscard]] Expected<std::size_t> remove(std::span<const std::string> paths);
 
-  /// All, by path. Errors: damaged.
+  /// All entries, sorted by path. Errors: damaged.
   [[nodiscard]] Expected<std::vector<CatalogueEntry>> entries() const;
-  /// The files whose content has this hash, as absolute paths. Whether their bytes still do is the caller's to see.
+  /// The files whose content had this hash when they were added, as absolute paths. They may have changed since.
   [[nodiscard]] Expected<std::vector<std::filesystem::path>> files_of(const std::string& hash) const;
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  /// What the paths of entries are relative to: absolute.
+  /// Absolute; the paths of entries are relative to it.
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
@@ -100,7 +101,8 @@ class Catalogue {
   std::unique_ptr<Connection> connection_;
 };
 
-/// The entries that a person means: by path, by name, or by a hash or its first six digits and more. Several files may share a name.
+/// The entries that a person means by `word`: those with this path, else with this name, else whose hash begins with it (six digits or
+/// more). Several files may share a name.
 [[nodiscard]] std::vector<CatalogueEntry> find_entries(std::span<const CatalogueEntry> entries, std::string_view word);
 
 }  // namespace mechane::content

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 using Fault = CatalogueFault;
 
 constexpr std::size_t kMostFiles = 100'000;
-constexpr std::size_t kShownDigits = 8;
 
 /// Finds the faults of one catalogue.
 class CatalogueCheck {
@@ -64,17 +63,17 @@ class CatalogueCheck {
       add(Fault::Kind::gone, entry.path, "the file cannot be read: " + hash.error().what, hash.error().remedy);
     } else if (*hash != entry.hash) {
       add(Fault::Kind::changed, entry.path,
-          fmt::format("its content is another: {} instead of {}", hash->substr(0, kShownDigits),
-                      entry.hash.substr(0, kShownDigits)),
-          "restore the file, or where the change was meant: " + command("add", entry.path));
+          fmt::format("its content has changed since it was added: hash {} instead of {}", short_hash(*hash),
+                      short_hash(entry.hash)),
+          "restore the file, or if the change was meant: " + command("add", entry.path));
     }
   }
 
   void check_id(const CatalogueEntry& scenario) {
     for (const CatalogueEntry& other : entries_) {
       if (other.kind != ContentKind::scenario || other.name != scenario.name || other.path >= scenario.path) continue;
-      add(Fault::Kind::twice, scenario.path, fmt::format("its id '{}' is that of {} too", scenario.name, other.path),
-          "give it an id of its own, and add it again");
+      add(Fault::Kind::twice, scenario.path, fmt::format("{} has the same id '{}'", other.path, scenario.name),
+          "give one of the two another id, and add it again");
     }
   }
 
@@ -84,14 +83,14 @@ class CatalogueCheck {
       std::error_code code;
       const bool there = is_inside(path) && fs::exists(folder_ / path, code);
       add(Fault::Kind::missing, entry.path,
-          fmt::format("it needs {}, which {}", path, there ? "the catalogue does not know" : "is not there"),
+          fmt::format("it needs {}, which {}", path, there ? "is not in the catalogue" : "does not exist"),
           there ? command("add", path)
                 : fmt::format("make the file, or correct its name in {} and: {}", entry.path,
                               command("add", entry.path)));
     }
     if (entry.kind != ContentKind::scenario && !referred_.contains(entry.path)) {
       add(Fault::Kind::orphan, entry.path, "nothing refers to it",
-          "use it in a scenario and add that again, or take the file away and: " + command("remove", entry.path));
+          "use it in a scenario and add the scenario again, or remove the file and: " + command("remove", entry.path));
     }
   }
 
@@ -104,15 +103,15 @@ class CatalogueCheck {
       if (!lacking.empty()) {
         const std::size_t more = lacking.size() - 1;
         add(Fault::Kind::language, scenario.path,
-            fmt::format("in '{}' it lacks: {}{}", language, lacking.front(),
+            fmt::format("these words are missing in '{}': {}{}", language, lacking.front(),
                         more > 0 ? fmt::format(" and {} more", more) : ""),
-            command("show", scenario.path) + " lists them; write them, and add the scenario again");
+            command("show", scenario.path) + " lists them; write them and add the scenario again");
       }
     }
     check_pages(scenario);
   }
 
-  /// Pages may be in one language and not say which. Where they do say, all of the scenario's must be there.
+  /// Pages need not say their language. Where some do, there must be one for each language of the scenario.
   void check_pages(const CatalogueEntry& scenario) {
     std::set<std::string> pages;
     for (const std::string& path : scenario.refers_to) {
@@ -126,7 +125,7 @@ class CatalogueCheck {
       const std::string stem = fs::path(scenario.path).stem().string();
       add(Fault::Kind::language, scenario.path,
           fmt::format("its page is in {} only, not in '{}'", fmt::join(pages, ", "), language),
-          fmt::format("write {}.{}.md beside it, and add the scenario again", stem, language));
+          fmt::format("write {}.{}.md beside it and add the scenario again", stem, language));
     }
   }
 
@@ -136,13 +135,13 @@ class CatalogueCheck {
     for (const fs::path& file : *files) {
       const std::string path = file.lexically_relative(folder_).generic_string();
       if (!by_path_.contains(path))
-        add(Fault::Kind::unknown, path, "the catalogue does not know this file",
-            command("add", path) + ", or take the file away");
+        add(Fault::Kind::unknown, path, "the file is not in the catalogue",
+            command("add", path) + ", or remove the file");
     }
     return {};
   }
 
-  /// A remedy as it is typed.
+  /// A command for a remedy.
   [[nodiscard]] std::string command(std::string_view verb, const std::string& word) const {
     return content_command(file_, verb, word);
   }
@@ -185,8 +184,8 @@ Expected<std::vector<fs::path>> content_in(const fs::path& folder) {
   fs::recursive_directory_iterator at(fs::absolute(folder, code).lexically_normal(), code);
   for (const fs::recursive_directory_iterator end; !code && at != end; at.increment(code)) {
     if (++seen > kMostFiles)
-      return fail(fmt::format("the folder holds more than {} files", kMostFiles), folder.string(),
-                  "keep content, and its catalogue, in a folder of its own");
+      return fail(ErrorCode::too_large, fmt::format("the folder has more than {} files", kMostFiles), folder.string(),
+                  "keep content and its catalogue in a folder of their own");
     const bool hidden = at->path().filename().string().starts_with('.');
     if (hidden && at->is_directory(code)) at.disable_recursion_pending();
     if (hidden || at->is_symlink(code) || !at->is_regular_file(code)) continue;
@@ -194,7 +193,7 @@ Expected<std::vector<fs::path>> content_in(const fs::path& folder) {
     if (!kind || (*kind == ContentKind::text && !has_scenario_beside(at->path()))) continue;
     found.push_back(at->path());
   }
-  if (code) return fail(code.message(), folder.string(), "check the folder and its rights");
+  if (code) return fail(ErrorCode::io_failure, code.message(), folder.string(), "check the folder and its rights");
   std::ranges::sort(found);
   return found;
 }

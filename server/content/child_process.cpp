@@ -55,7 +55,7 @@ class SpawnPlan {
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setpgroup(&attributes, 0);
     int flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP;
-    // A caller of high priority must not hand it on; one that runs on idle time may not be allowed to give the child more.
+    // A high priority must not pass to the child. Idle priority does: the caller may not have the right to raise it.
     const int policy = sched_getscheduler(0);
     if (policy == SCHED_FIFO || policy == SCHED_RR) {
       const sched_param ordinary{};
@@ -118,7 +118,8 @@ Expected<ChildResult> run_child(const std::filesystem::path& program, const std:
   const Clock::time_point deadline = Clock::now() + wall_time;
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    return fail(fmt::format("no pipe: {}", std::strerror(errno)), program.string());
+    return fail(ErrorCode::failed_process, fmt::format("no pipe to it can be made: {}", std::strerror(errno)),
+                program.string(), "raise the limit of open files (ulimit -n)");
   const Descriptor ours(ends[0]);
   Descriptor theirs(ends[1]);
 
@@ -131,7 +132,8 @@ Expected<ChildResult> run_child(const std::filesystem::path& program, const std:
   pid_t child = -1;
   const SpawnPlan plan(theirs.get());
   if (const int e = posix_spawn(&child, name.c_str(), &plan.actions, &plan.attributes, argv.data(), environ); e != 0) {
-    return fail(fmt::format("cannot be started: {}", std::strerror(e)), name, "check the installation");
+    return fail(ErrorCode::failed_process, fmt::format("cannot be started: {}", std::strerror(e)), name,
+                "check the installation");
   }
   theirs.close();
 
@@ -140,7 +142,7 @@ Expected<ChildResult> run_child(const std::filesystem::path& program, const std:
     kill(child, SIGKILL);
   };
   ChildResult result;
-  // Gone before the child is waited for: until then its number is nobody else's.
+  // Removed before waitpid(): after that, another process may get the child's number, and would be killed.
   std::optional<std::stop_callback<decltype(kill_all)>> when_stopped(std::in_place, stop, kill_all);
   // The raw call: Debian 12's header declares its function without C linkage.
   const Descriptor handle(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));

@@ -1,4 +1,4 @@
-// Runs a helper program that is not trusted to end well, and collects what it writes.
+// Runs a helper program that may crash or hang, and collects what it writes.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,14 @@ namespace mechane::content {
 struct ChildResult {
   enum class End { exited, signalled, timed_out, too_long };
   End end = End::exited;
-  int code = 0;  ///< exit status or signal number; meaningless for the other two
+  int code = 0;  ///< exited: the status; signalled: the signal's number; else meaningless
   std::vector<std::byte> output;
 };
 
 /// Starts `program` in a process group of its own with standard input empty, standard output a pipe to us, standard error ours, no
 /// other descriptor, default signals and ordinary scheduling; reads until it ends. After `wall_time`, or more than `most_output`
-/// bytes, or when `stop` asks for it, the whole group is killed. Blocks; any thread. The Error is for a program that could not be started.
+/// bytes, or when `stop` asks for it, the whole group is killed. Blocks; any thread. Errors: failed_process, where the program could not
+/// be started.
 [[nodiscard]] Expected<ChildResult> run_child(const std::filesystem::path& program,
                                               const std::vector<std::string>& arguments,
                                               std::chrono::milliseconds wall_time, std::uint64_t most_output,

@@ -29,7 +29,6 @@ std::string content_command(const fs::path& catalogue, std::string_view verb, co
   std::string command = fmt::format("mechane content {}", verb);
   if (catalogue.lexically_normal() != kDefaultCatalogue) command += " --catalogue " + shell_word(catalogue.string());
   if (word.empty()) return command;
-  // FOLDER and the like stand for what the person knows.
   return command + " " + (word.starts_with('-') ? shell_word("./" + word) : shell_word(word));
 }
 

@@ -1,4 +1,4 @@
-// Remedies that can be pasted: `mechane content` as a person would type it.
+// Commands in remedies: `mechane content` as a person would type it, ready to be pasted into a shell.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,18 @@
 
 namespace mechane::content {
 
-/// Where the catalogue is without --catalogue, from the folder that one is in.
+/// The catalogue's path without --catalogue, relative to the current folder.
 inline constexpr const char* kDefaultCatalogue = "scenarios/catalogue.db";
 
-/// A word as a POSIX shell takes it: in quotes where it holds blanks or what a shell would read.
+/// A word as a POSIX shell takes it: in quotes where it has blanks or characters that mean something to a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
-/// "mechane content add models/a.glb", with --catalogue where `catalogue` is not the default one. `word`: a file, as it is; empty: none.
+/// "mechane content add models/a.glb", with --catalogue where `catalogue` is not the default one. `word`: an argument, which is quoted
+/// where need be; empty: none.
 [[nodiscard]] std::string content_command(const std::filesystem::path& catalogue, std::string_view verb,
                                           const std::string& word = {});
 
-/// How a catalogue that cannot be read is put aside and made anew from the files beside it.
+/// The commands that put a damaged catalogue aside and make a new one from the files beside it.
 [[nodiscard]] std::string remake_command(const std::filesystem::path& catalogue);
 
 }  // namespace mechane::content

@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::string_view kPartPrefix = "part_";
 
-/// Exporters write the same corner once for each normal, to the same digits: anything farther apart was meant to be.
+/// Exporters write a corner once for each normal, each time with the same digits. Corners farther apart than this are different ones.
 constexpr double kWeldTolerance_m = 1e-6;
 
-/// Adds the triangles, turned round where the pose mirrors them: outwards stays outwards.
+/// Adds the triangles. Where the pose mirrors them, their corners change order, so that they still face outwards.
 void append(const ImportedMesh& mesh, const Eigen::Affine3d& X_ON, geometry::Mesh& to) {
   const auto first = static_cast<std::uint32_t>(to.vertices.size());
   for (const Vec3f& p : mesh.positions)
@@ -82,9 +82,10 @@ Expected<std::vector<geometry::NamedMesh>> collision_parts(const ImportedScene& 
   std::optional<std::uint32_t> top;
   if (!node.empty()) {
     top = find_node(scene, node);
-    if (!top)
-      return fail("there is no node of that name", "node " + node,
-                  "name the object so in the model, or correct the name");
+    if (!top) {
+      return fail(ErrorCode::unknown_name, "the file has no node of this name", "node " + node,
+                  "give the object this name in the model, or correct the name");
+    }
   }
   std::vector<std::uint32_t> shown;
   bool named = false;
@@ -95,9 +96,11 @@ Expected<std::vector<geometry::NamedMesh>> collision_parts(const ImportedScene& 
   }
   if (named) std::erase_if(shown, [&](std::uint32_t i) { return !owner(scene, i, top); });
   if (const std::uint64_t triangles = placed_triangles(scene, shown); triangles > ImportLimits{}.triangles) {
-    return fail(fmt::format("{} triangles, counted wherever a mesh is placed, of which {} at most can be touched",
-                            triangles, ImportLimits{}.triangles),
-                node.empty() ? "" : "node " + node, "name what is to be touched part_..., or simplify the model");
+    return fail(ErrorCode::too_large,
+                fmt::format("{} triangles, counted wherever a mesh is placed; at most {} can be touched", triangles,
+                            ImportLimits{}.triangles),
+                node.empty() ? "" : "node " + node,
+                "give the objects that visitors touch names that begin with part_, or simplify the model");
   }
   std::map<std::uint32_t, geometry::Mesh> gathered;  // by node, in the file's order
   for (const std::uint32_t i : shown) {
@@ -112,8 +115,8 @@ Expected<std::vector<geometry::NamedMesh>> collision_parts(const ImportedScene& 
     if (!welded.empty()) parts.push_back({scene.nodes[part].name, std::move(welded)});
   }
   if (parts.empty()) {
-    return fail("nothing to touch: no mesh with a surface", node.empty() ? "" : "node " + node,
-                "give the node a mesh, or name its parts part_...");
+    return fail(ErrorCode::missing, "there is nothing to touch: no mesh has a surface",
+                node.empty() ? "" : "node " + node, "give the node a mesh, or its parts names that begin with part_");
   }
   return parts;
 }

@@ -7,10 +7,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <optional>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
+
+#include "server/base/utf8.hpp"
 
 namespace mechane::content {
 namespace {
@@ -18,14 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Far over what a mesh file may weigh where it is imported; more is not read.
+// The JSON of a real model is far smaller; what is beyond this is not read.
 constexpr std::uint32_t kMostJson_bytes = 64U << 20;
-
-std::string ending_of(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 /// "%20" is a blank, as in any URI.
 std::string without_percents(const std::string& uri) {
@@ -45,25 +40,18 @@ void add_path(const std::string& path, std::set<std::string>& found) {
   found.insert(path);
 }
 
-/// The text of a .gltf, or of a .glb's first chunk; `left` bytes are in the file.
-std::string json_text(std::ifstream& in, bool binary, std::uintmax_t left) {
-  auto bytes = static_cast<std::uint32_t>(std::min<std::uintmax_t>(left, kMostJson_bytes));
-  if (binary) {
-    std::array<char, 20> head{};  // "glTF", version, length; the chunk's length, "JSON"
-    if (!in.read(head.data(), head.size()) || std::memcmp(head.data(), "glTF", 4) != 0) return {};
-    std::uint32_t chunk = 0;
-    std::memcpy(&chunk, head.data() + 12, sizeof chunk);
-    bytes = std::min(bytes, chunk);
-  }
-  std::string text(bytes, '\0');
+/// The text of a .gltf, or of a .glb's first chunk. The file has `left` bytes.
+std::string json_text(std::ifstream& in, std::uintmax_t left) {
+  const std::uint32_t chunk = seek_glb_json(in).value_or(kMostJson_bytes);
+  std::string text(std::min<std::uintmax_t>({left, chunk, kMostJson_bytes}), '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
   return text;
 }
 
-std::set<std::string> files_of_gltf(std::ifstream& in, bool binary, std::uintmax_t bytes) {
+std::set<std::string> files_of_gltf(std::ifstream& in, std::uintmax_t bytes) {
   std::set<std::string> found;
-  const Json json = Json::parse(json_text(in, binary, bytes), nullptr, false);
+  const Json json = Json::parse(json_text(in, bytes), nullptr, false);
   if (!json.is_object()) return found;
   for (const char* list : {"buffers", "images"}) {
     const auto items = json.find(list);
@@ -77,7 +65,7 @@ std::set<std::string> files_of_gltf(std::ifstream& in, bool binary, std::uintmax
   return found;
 }
 
-/// A line's first word, and what is behind it without blanks around.
+/// A line's first word, and the rest without blanks around it.
 std::pair<std::string, std::string> split(const std::string& line) {
   const char* blanks = " \t\r";
   const std::size_t word = line.find_first_not_of(blanks);
@@ -88,7 +76,7 @@ std::pair<std::string, std::string> split(const std::string& line) {
   return {line.substr(word, end - word), line.substr(rest, line.find_last_not_of(blanks) - rest + 1)};
 }
 
-/// The file behind the options of "map_Kd -s 1 1 1 -clamp on oak.png".
+/// The file name after the options: "oak.png" of "-s 1 1 1 -clamp on oak.png".
 std::string without_options(std::string text) {
   while (text.starts_with('-')) {
     const auto [option, rest] = split(text);
@@ -141,21 +129,33 @@ std::set<std::string> files_of_obj(std::ifstream& in, const fs::path& folder) {
 
 }  // namespace
 
+std::optional<std::uint32_t> seek_glb_json(std::istream& file) {
+  std::array<char, 20> head{};  // "glTF", version, length; the chunk's length, "JSON"
+  if (file.read(head.data(), head.size()) && std::memcmp(head.data(), "glTF", 4) == 0) {
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, head.data() + 12, sizeof bytes);
+    return bytes;
+  }
+  file.clear();
+  file.seekg(0);
+  return std::nullopt;
+}
+
 bool is_piece_of_model(const fs::path& file) {
-  const std::string ending = ending_of(file);
+  const std::string ending = lower_case(file.extension().string());
   return ending == ".bin" || ending == ".mtl";
 }
 
 Expected<std::set<std::string>> files_of_model(const fs::path& model) {
-  const std::string ending = ending_of(model);
-  const bool gltf = ending == ".gltf", glb = ending == ".glb", obj = ending == ".obj";
-  if (!gltf && !glb && !obj) return std::set<std::string>{};
+  const std::string ending = lower_case(model.extension().string());
+  const bool obj = ending == ".obj";
+  if (!obj && ending != ".gltf" && ending != ".glb") return std::set<std::string>{};
   std::ifstream in(model, std::ios::binary);
-  if (!in) return fail("the model cannot be read", model.string(), "check its rights");
+  if (!in) return fail(ErrorCode::io_failure, "the model cannot be read", model.string(), "check its path and rights");
   std::error_code code;
   const std::uintmax_t bytes = fs::file_size(model, code);
-  if (code) return fail(code.message(), model.string(), "check the file");
-  return obj ? files_of_obj(in, model.parent_path()) : files_of_gltf(in, glb, bytes);
+  if (code) return fail(ErrorCode::io_failure, code.message(), model.string(), "check the file");
+  return obj ? files_of_obj(in, model.parent_path()) : files_of_gltf(in, bytes);
 }
 
 }  // namespace mechane::content

@@ -1,7 +1,10 @@
-// Which other files a model needs beside itself.
+// Which other files a model needs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <istream>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -12,9 +15,12 @@ namespace mechane::content {
 /// Whether this is a piece of a model, a .bin or .mtl: content only where a model refers to it.
 [[nodiscard]] bool is_piece_of_model(const std::filesystem::path& file);
 
-/// Paths from the model's folder, as the file writes them: buffers and images of a .gltf or .glb that are not in it, the .mtl files of an
-/// .obj, and the images of those. Formats that name no others have none. Whether the files are there is not asked, except for a .mtl,
-/// which is read. What is not a path in a folder (data:, http://, an absolute one) is left out. Errors: the model cannot be read.
+/// Paths relative to the model's folder, as the file writes them: buffers and images of a .gltf or .glb that lie outside it, the .mtl files
+/// of an .obj, and the images that those name. Models of other formats need no other files. The files need not exist; a .mtl that does is
+/// read. What is not a relative path (data:, http://, an absolute path) is left out. Errors: io_failure (the model cannot be read).
 [[nodiscard]] Expected<std::set<std::string>> files_of_model(const std::filesystem::path& model);
+
+/// Goes to the JSON of a .glb, and returns how long the file says that it is. Nothing for any other file, whose beginning it goes to.
+[[nodiscard]] std::optional<std::uint32_t> seek_glb_json(std::istream& file);
 
 }  // namespace mechane::content

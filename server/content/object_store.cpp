@@ -13,10 +13,10 @@
 #include <unistd.h>
 
 #include "server/base/byte_order.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/collision/object_io.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
-#include "server/content/whole_file.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::content {
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kSecondsBetweenLines = 5;
 
-/// What the file of the object is called: whatever can change the object is in the name.
+/// The name of the object's cache file: a hash of everything that can change the object.
 std::string cache_name(const std::string& geometry, const collision_build::BuildConfig& config) {
   const std::string key = fmt::format(
       "part file {} build {} geometry {} error {:a} {:a} miss {:a} probes {:a} parts {} {:a} {} {} "
@@ -39,7 +39,7 @@ std::string cache_name(const std::string& geometry, const collision_build::Build
   return content_hash(std::as_bytes(std::span(key))) + ".part";
 }
 
-/// All that the builder is given, and nothing of looks: names, corners and triangles of the parts.
+/// The hash of all that the builder uses: names, corners and triangles of the parts, and nothing of their looks.
 std::string geometry_hash(const std::vector<geometry::NamedMesh>& parts) {
   std::vector<std::byte> bytes;
   VectorSink sink(bytes);
@@ -59,7 +59,7 @@ std::string geometry_hash(const std::vector<geometry::NamedMesh>& parts) {
   return content_hash(bytes);
 }
 
-/// What a file says that holds a hash; nothing where there is none, or another thing.
+/// The hash in a file; nothing where the file is missing or contains something else.
 std::optional<std::string> read_hash(const fs::path& file) {
   std::ifstream in(file);
   std::string hash;
@@ -68,7 +68,7 @@ std::optional<std::string> read_hash(const fs::path& file) {
   return hash;
 }
 
-/// The object in a cache file; nothing when there is none or it is damaged.
+/// The object in a cache file; null where the file is missing or damaged.
 std::shared_ptr<const collision::Object> read_cached(const fs::path& file) {
   std::error_code code;
   if (!fs::exists(file, code)) return nullptr;
@@ -76,11 +76,6 @@ std::shared_ptr<const collision::Object> read_cached(const fs::path& file) {
   if (object) return std::make_shared<const collision::Object>(std::move(*object));
   log::warning(fmt::format("{}: {}; it is built again", file.string(), object.error().what));
   return nullptr;
-}
-
-tl::unexpected<Error> within(const fs::path& file, Error error) {
-  error.where = error.where.empty() ? file.string() : file.string() + ", " + error.where;
-  return tl::unexpected<Error>(std::move(error));
 }
 
 const char* setting(const char* name) {
@@ -110,8 +105,8 @@ Expected<std::string> ObjectStore::geometry_of(const fs::path& file, const std::
   const auto parts = parts_of(file, node);
   if (!parts) return tl::unexpected(parts.error());
   const std::string geometry = geometry_hash(*parts);
-  // Where it cannot be kept, the object cannot either, which load() tells.
-  (void)write_whole(note, std::as_bytes(std::span(geometry)));
+  // Where this fails, keeping the object fails too, which load() logs.
+  (void)write_whole(note, std::as_bytes(std::span(geometry)), WholeFile::shared);
   return geometry;
 }
 
@@ -134,7 +129,7 @@ Expected<std::shared_ptr<const collision::Object>> ObjectStore::load(const fs::p
   }
   Expected<collision::Object> built = build(file, node, config);
   if (!built) return tl::unexpected(built.error());
-  if (auto kept = write_whole(*cached, collision::write_object(*built)); !kept) {
+  if (auto kept = write_whole(*cached, collision::write_object(*built), WholeFile::shared); !kept) {
     log::warning(fmt::format("{}; the object is built again at each start", kept.error().to_string()));
   }
   auto object = std::make_shared<const collision::Object>(std::move(*built));
@@ -148,7 +143,8 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
   if (!parts) return tl::unexpected(parts.error());
   if (progress_) progress_(node, parts->size());
   const std::string name = node.empty() ? "(all)" : node;
-  log::info(fmt::format("{}, node {}: building it for touch; the next start finds it ready", file.string(), name));
+  log::info(
+      fmt::format("{}, node {}: building it for touch; the result is kept for the next start", file.string(), name));
   collision_build::BuildReport report;
   std::atomic<std::int64_t> next_line_s{kSecondsBetweenLines};
   const auto began = std::chrono::steady_clock::now();
@@ -159,14 +155,14 @@ Expected<collision::Object> ObjectStore::build(const fs::path& file, const std::
     log::info(fmt::format("{}, node {}: {} of {} parts built", file.string(), name, done, all));
   };
   Expected<collision::Object> object = collision_build::build_object(*parts, config, &report, say);
-  if (!object) return within(file, object.error());
+  if (!object) return tl::unexpected(object.error().in(file.string()));
   const auto over = std::count_if(report.parts.begin(), report.parts.end(), [](const auto& part) { return !part.met; });
-  log::info(fmt::format("{}, node {}: {} parts of {} KB in {:.1f} s; touch is true to {:.2f} mm at 99 % of the surface",
-                        file.string(), name, report.parts.size(), report.bytes / 1024, report.seconds,
-                        1000 * report.error.p99_m));
+  log::info(fmt::format(
+      "{}, node {}: {} parts of {} KB in {:.1f} s; what is felt is within {:.2f} mm of 99 % of the surface",
+      file.string(), name, report.parts.size(), report.bytes / 1024, report.seconds, 1000 * report.error.p99_m));
   if (over > 0) {
-    log::info(fmt::format("{}, node {}: {} parts are less exact than asked; 'mechane fit' shows where", file.string(),
-                          name, over));
+    log::info(fmt::format("{}, node {}: {} parts are less exact than required; 'mechane fit' shows where",
+                          file.string(), name, over));
   }
   return object;
 }
@@ -175,7 +171,7 @@ Expected<std::vector<geometry::NamedMesh>> ObjectStore::parts_of(const fs::path&
   const Expected<const ImportedScene*> scene = scene_of(file);
   if (!scene) return tl::unexpected(scene.error());
   auto parts = collision_parts(**scene, node);
-  if (!parts) return within(file, parts.error());
+  if (!parts) return tl::unexpected(parts.error().in(file.string()));
   return parts;
 }
 

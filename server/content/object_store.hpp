@@ -1,4 +1,5 @@
-// Collision objects by model file and node. Fitting takes seconds a part, so what was built once is kept, by its geometry, as a .part file.
+// Collision objects by model file and node. Fitting takes seconds for each part, so every object that was built is kept as a .part file,
+// named after its geometry.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +20,8 @@ namespace mechane::content {
 
 /// Raised when the builder makes other objects from the same meshes: the cache then builds them again.
 inline constexpr int kObjectBuildVersion = 5;
-/// Raised when the import makes other triangles of the same file. How these come here (kSceneCodecVersion) does not matter: a material's new
-/// field shall not cost a museum minutes.
+/// Raised when the import makes other triangles of the same file. This is not kSceneCodecVersion: a new field of materials must not make a
+/// museum wait for minutes.
 inline constexpr int kObjectImportVersion = 1;
 
 /// $XDG_CACHE_HOME/mechane, or ~/.cache/mechane, or a folder under the system's temporary one when there is no home.
@@ -29,23 +30,24 @@ inline constexpr int kObjectImportVersion = 1;
 /// Not thread-safe, and never for a loop thread: it reads, runs the import and builds. The objects it gives may go anywhere.
 class ObjectStore {
  public:
-  /// For a person who waits: `parts` parts of the node are about to be built. Not called for what the cache has.
+  /// Called when `parts` parts of the node are about to be built, which takes long. Not called for objects that the cache has.
   using Progress = std::function<void(const std::string& node, std::size_t parts)>;
 
-  /// An empty `cache_folder` means default_cache_folder(). The folder is made when the first object is kept.
+  /// An empty `cache_folder` means default_cache_folder(). The folder is made with the first object that is kept.
   explicit ObjectStore(std::filesystem::path cache_folder = {}, ImportLimits limits = {});
 
   void on_progress(Progress progress) { progress_ = std::move(progress); }
 
   /// The object of the parts under `node` (of the whole file when empty; see collision_parts), in the node's frame: from the cache,
-  /// or imported, built and kept. The cache's key is the geometry of the parts with their names, the config and the formats' versions: nothing
-  /// stale is ever found, and what has another colour only is not built again. A damaged cache file is built again, and a cache that cannot be written costs time only: both are logged.
+  /// or imported, built and kept. The cache's key is the geometry of the parts with their names, the config and the formats' versions, so
+  /// that an outdated object is never found, and a change of colours builds nothing again. The object of a damaged cache file is built
+  /// again; a cache that cannot be written only costs time. Both are logged.
   /// Errors: those of import_mesh, collision_parts and build_object.
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                         const std::string& node,
                                                                         const collision_build::BuildConfig& config);
 
-  /// Where `load` keeps this object. Imports the file where the cache does not know its geometry yet.
+  /// The file in which load() keeps this object. Imports the model where the cache does not have its geometry's hash yet.
   [[nodiscard]] Expected<std::filesystem::path> cache_file(const std::filesystem::path& file, const std::string& node,
                                                            const collision_build::BuildConfig& config);
 
@@ -56,7 +58,7 @@ class ObjectStore {
   };
   [[nodiscard]] Expected<collision::Object> build(const std::filesystem::path& file, const std::string& node,
                                                   const collision_build::BuildConfig& config);
-  /// The hash of the parts' geometry. It is kept by the file's content, so that a start without changes imports nothing.
+  /// The hash of the parts' geometry. It is kept in the cache by the model's content, so that a start without changes imports nothing.
   [[nodiscard]] Expected<std::string> geometry_of(const std::filesystem::path& file, const std::string& node);
   [[nodiscard]] Expected<std::vector<geometry::NamedMesh>> parts_of(const std::filesystem::path& file,
                                                                     const std::string& node);

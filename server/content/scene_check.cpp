@@ -9,7 +9,7 @@ namespace mechane::content {
 namespace {
 
 constexpr const char* kExportAgain =
-    "export the model again; if it stays, open it in a modelling program and repair it there";
+    "export the model again; if that does not help, open it in a modelling program and repair it there";
 
 template <class Vectors>
 bool all_finite(const Vectors& vectors) {
@@ -37,11 +37,11 @@ Expected<void> check_counts(const ImportedScene& scene, const ImportLimits& limi
                           {"bytes of textures", texels, limits.texture_bytes}};
   for (const Count& count : counts) {
     if (count.is > count.most) {
-      return fail(fmt::format("{} {}, of which {} at most are read", count.is, count.of, count.most), {},
+      return fail(ErrorCode::too_large, fmt::format("{} {}; the limit is {}", count.is, count.of, count.most), {},
                   "simplify the model");
     }
   }
-  if (triangles == 0) return fail("no triangles", {}, "export the model with its faces");
+  if (triangles == 0) return fail(ErrorCode::missing, "no triangles", {}, "export the model with its faces");
   return {};
 }
 
@@ -50,16 +50,19 @@ Expected<void> check_mesh(const ImportedMesh& mesh, std::size_t materials) {
   const auto fits = [count](const auto& attribute) { return attribute.empty() || attribute.size() == count; };
   const std::string where = "mesh " + mesh.name;
   if (!fits(mesh.normals) || !fits(mesh.tangents) || !fits(mesh.uv)) {
-    return fail("normals, tangents or uv do not match the vertices", where, kExportAgain);
+    return fail(ErrorCode::damaged, "there are more or fewer normals, tangents or uv than vertices", where,
+                kExportAgain);
   }
   if (!all_finite(mesh.positions) || !all_finite(mesh.normals) || !all_finite(mesh.tangents) || !all_finite(mesh.uv)) {
-    return fail("a vertex has a number that is not finite", where, kExportAgain);
+    return fail(ErrorCode::invalid_value, "a vertex has a number that is not finite", where, kExportAgain);
   }
-  if (mesh.indices.size() % 3 != 0) return fail("the last triangle is incomplete", where, kExportAgain);
+  if (mesh.indices.size() % 3 != 0)
+    return fail(ErrorCode::damaged, "the last triangle is incomplete", where, kExportAgain);
   if (std::any_of(mesh.indices.begin(), mesh.indices.end(), [count](std::uint32_t i) { return i >= count; })) {
-    return fail("a triangle names a vertex that does not exist", where, kExportAgain);
+    return fail(ErrorCode::damaged, "a triangle names a vertex that does not exist", where, kExportAgain);
   }
-  if (mesh.material >= materials) return fail("names a material that does not exist", where, kExportAgain);
+  if (mesh.material >= materials)
+    return fail(ErrorCode::damaged, "names a material that does not exist", where, kExportAgain);
   return {};
 }
 
@@ -67,11 +70,14 @@ Expected<void> check_nodes(const ImportedScene& scene) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const ImportedNode& node = scene.nodes[i];
     const std::string where = "node " + node.name;
-    if (node.parent && *node.parent >= i) return fail("comes before its parent", where, kExportAgain);
-    if (!node.X_PN.matrix().allFinite())
-      return fail("its transform has a number that is not finite", where, kExportAgain);
+    if (node.parent && *node.parent >= i)
+      return fail(ErrorCode::damaged, "comes before its parent", where, kExportAgain);
+    if (!node.X_PN.matrix().allFinite()) {
+      return fail(ErrorCode::invalid_value, "its transform has a number that is not finite", where, kExportAgain);
+    }
     for (const std::uint32_t mesh : node.meshes) {
-      if (mesh >= scene.meshes.size()) return fail("names a mesh that does not exist", where, kExportAgain);
+      if (mesh >= scene.meshes.size())
+        return fail(ErrorCode::damaged, "names a mesh that does not exist", where, kExportAgain);
     }
   }
   return {};
@@ -84,18 +90,19 @@ Expected<void> check_looks(const ImportedScene& scene) {
          {material.base_colour_texture, material.normal_texture, material.metallic_roughness_texture,
           material.emissive_texture, material.occlusion_texture}) {
       if (texture && *texture >= scene.textures.size())
-        return fail("names a texture that does not exist", where, kExportAgain);
+        return fail(ErrorCode::damaged, "names a texture that does not exist", where, kExportAgain);
     }
     const Eigen::Vector4f factors(material.metallic, material.roughness, material.alpha_cutoff,
                                   material.occlusion_strength);
     if (!material.base_colour.allFinite() || !material.emissive.allFinite() || !factors.allFinite()) {
-      return fail("has a number that is not finite", where, kExportAgain);
+      return fail(ErrorCode::invalid_value, "has a number that is not finite", where, kExportAgain);
     }
   }
   for (const ImportedTexture& texture : scene.textures) {
     const std::uint64_t expected = std::uint64_t{4} * texture.width * texture.height;
     if (texture.encoding == TextureEncoding::rgba8 && (expected == 0 || texture.bytes.size() != expected)) {
-      return fail("its pixels do not match its size", "texture " + texture.name, kExportAgain);
+      return fail(ErrorCode::damaged, "it has more or fewer pixels than its size says", "texture " + texture.name,
+                  kExportAgain);
     }
   }
   return {};
@@ -117,11 +124,14 @@ Expected<void> check_extent(const ImportedScene& scene, const ImportLimits& limi
       if (!boxes[mesh].isEmpty()) all.extend(boxes[mesh].transformed(X_FN[i]));
     }
   }
-  if (all.isEmpty())
-    return fail("no node shows a mesh", {}, "export the model with its objects, not the mesh data alone");
+  if (all.isEmpty()) {
+    return fail(ErrorCode::missing, "no node shows a mesh", {},
+                "export the model with its objects, not the mesh data alone");
+  }
   const double across = all.sizes().maxCoeff();
   if (!(across <= limits.largest_m) || !(across >= limits.smallest_m) || !(all.center().norm() <= limits.largest_m)) {
-    return fail(fmt::format("the model is {:.4g} m across, {:.4g} m from its origin", across, all.center().norm()), {},
+    return fail(ErrorCode::invalid_value,
+                fmt::format("the model is {:.4g} m across, {:.4g} m from its origin", across, all.center().norm()), {},
                 fmt::format("export it in metres, near its origin ({} m to {} m across are read)", limits.smallest_m,
                             limits.largest_m));
   }

@@ -7,8 +7,8 @@
 
 namespace mechane::content {
 
-/// Fails when an index is out of range, a number is not finite, a parent comes after its child, an attribute has the wrong length,
-/// there is no triangle, or a limit of size is passed. The error's `where` is the node, mesh or texture inside the file.
+/// Errors: damaged (an index out of range, a parent after its child, an attribute of the wrong length), invalid_value (a number that is not
+/// finite, a model of a wrong size), missing (no triangle), too_large. The error's `where` is the node, mesh or texture inside the file.
 [[nodiscard]] Expected<void> check_scene(const ImportedScene& scene, const ImportLimits& limits);
 
 }  // namespace mechane::content

@@ -17,7 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 4> kMagic{'M', 'S', 'C', 'N'};
-enum class Kind : std::uint32_t { scene = 0, failure = 1 };
+using Kind = SceneMessage;
 
 struct Header {
   std::array<char, 4> magic = kMagic;
@@ -67,7 +67,7 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads what Writer wrote. After the first shortage every value is zero or empty and `good()` is false: one check at the end of each
+/// Reads what Writer wrote. Once bytes are missing, every value is zero or empty and `good()` is false: one check at the end of each
 /// group is enough.
 class Reader {
  public:
@@ -86,7 +86,7 @@ class Reader {
     const auto plus_one = get<std::uint32_t>();
     return plus_one == 0 ? std::nullopt : std::optional(plus_one - 1);
   }
-  /// A count of items of which each takes at least `least` bytes: a count that cannot be true costs no memory.
+  /// A count of items that take at least `least` bytes each. A count that needs more bytes than are left is an error: it costs no memory.
   [[nodiscard]] std::size_t count(std::size_t least) {
     const auto n = get<std::uint64_t>();
     if (n > left_.size() / least) good_ = false;
@@ -218,7 +218,8 @@ void put_all(Writer& out, const std::vector<T>& items) {
     put(out, item);
 }
 
-/// Grows by what is really there: an item takes far more memory than its least form in the message, so no count is believed.
+/// Adds items one by one, as long as there are bytes: an item takes far more memory than its shortest form in the message, so that a count
+/// alone must not reserve any.
 template <class T>
 void get_all(Reader& in, std::vector<T>& items, std::size_t most) {
   const std::size_t count = in.count(sizeof(std::uint64_t));
@@ -226,8 +227,26 @@ void get_all(Reader& in, std::vector<T>& items, std::size_t most) {
     get(in, items.emplace_back());
 }
 
+constexpr const char* kTryAgain = "try again; if this happens again, reinstall Mechane";
+
 tl::unexpected<Error> damaged(const std::string& how) {
-  return fail("the result of the mesh import is damaged: " + how, {}, "try again; if it stays, install Mechane again");
+  return fail(ErrorCode::damaged, "the result of the mesh import is damaged: " + how, {}, kTryAgain);
+}
+
+/// The error of a failure message. A code or a line that encode_failure never writes is damage.
+tl::unexpected<Error> failure_in(Reader& in) {
+  const auto code = in.get<std::uint8_t>();
+  const auto line = in.get<std::int32_t>();
+  Error error;
+  error.what = in.text();
+  error.where = in.text();
+  error.remedy = in.text();
+  if (!in.at_end()) return damaged("its error is cut short");
+  if (code > static_cast<std::uint8_t>(kLastErrorCode)) return damaged(fmt::format("its error has the code {}", code));
+  if (line < 0) return damaged(fmt::format("its error is in line {}", line));
+  error.code = static_cast<ErrorCode>(code);
+  error.line = line;
+  return tl::unexpected<Error>(std::move(error));
 }
 
 }  // namespace
@@ -243,15 +262,17 @@ std::vector<std::byte> encode_scene(const ImportedScene& scene) {
 
 std::vector<std::byte> encode_failure(const Error& error) {
   Writer out;
+  out.put(error.code);
+  out.put(static_cast<std::int32_t>(error.line));
   out.put(error.what);
   out.put(error.where);
   out.put(error.remedy);
   return out.finish(Kind::failure);
 }
 
-void seal_scene(std::span<std::byte> message) {
+void seal_scene(std::span<std::byte> message, SceneMessage kind) {
   MECHANE_ASSERT(message.size() >= kSceneHeaderBytes);
-  seal(message, Kind::scene);
+  seal(message, kind);
 }
 
 std::uint64_t longest_message(const ImportLimits& limits) {
@@ -265,21 +286,21 @@ Expected<ImportedScene> decode_scene(std::span<const std::byte> message, const I
   Header header;
   if (message.size() < sizeof header) return damaged(fmt::format("{} bytes instead of a header", message.size()));
   std::memcpy(&header, message.data(), sizeof header);
-  if (header.magic != kMagic) return damaged("it does not begin as one");
-  if (header.zero != 0) return damaged("its header is not as it should be");
+  if (header.magic != kMagic) return damaged("it does not begin with MSCN");
+  if (header.zero != 0) return damaged("its header has a wrong field");
   if (header.version != kSceneCodecVersion) {
-    return damaged(fmt::format("version {} instead of {}", header.version, kSceneCodecVersion));
+    return fail(ErrorCode::wrong_version,
+                fmt::format("the program that imports meshes is of another version: its results have version {}, this "
+                            "program reads version {}",
+                            header.version, kSceneCodecVersion),
+                {}, "reinstall Mechane, so that all its programs are of one version");
   }
   const std::span<const std::byte> payload = message.subspan(sizeof header);
   if (payload.size() != header.length) return damaged(fmt::format("{} bytes of {}", payload.size(), header.length));
   if (XXH3_64bits(payload.data(), payload.size()) != header.checksum) return damaged("its checksum is wrong");
   Reader in(payload);
-  if (header.kind == Kind::failure) {
-    Error error{in.text(), in.text(), in.text()};
-    if (!in.at_end()) return damaged("its error is cut short");
-    return tl::unexpected<Error>(std::move(error));
-  }
-  if (header.kind != Kind::scene) return damaged("it is of an unknown kind");
+  if (header.kind == Kind::failure) return failure_in(in);
+  if (header.kind != Kind::scene) return damaged("it is neither a scene nor an error");
   ImportedScene scene;
   get_all(in, scene.nodes, limits.nodes);
   get_all(in, scene.meshes, limits.meshes);
@@ -288,7 +309,7 @@ Expected<ImportedScene> decode_scene(std::span<const std::byte> message, const I
   if (!in.good()) return damaged("it is cut short");
   // A list over its limit is cut after one item too many, which check_scene then reports.
   if (auto good = check_scene(scene, limits); !good) return tl::unexpected<Error>(good.error());
-  if (!in.at_end()) return damaged("its parts do not fill it");
+  if (!in.at_end()) return damaged("bytes follow its last part");
   return scene;
 }
 

@@ -24,22 +24,23 @@
 
 namespace mechane::content {
 
-inline constexpr std::uint32_t kSceneCodecVersion = 2;  // 2: occlusion images
+inline constexpr std::uint32_t kSceneCodecVersion = 3;  // 2: occlusion images; 3: an error's code and line
 inline constexpr std::size_t kSceneHeaderBytes = 32;
 
 /// A whole message, header included.
 [[nodiscard]] std::vector<std::byte> encode_scene(const ImportedScene& scene);
 [[nodiscard]] std::vector<std::byte> encode_failure(const Error& error);
 
-/// Sets the header of a scene message right for the payload that follows it: for tests and fuzzers that change payloads.
-/// `message` must hold at least kSceneHeaderBytes.
-void seal_scene(std::span<std::byte> message);
+/// Makes the header of a message that says `kind` fit the payload that follows it: for tests and fuzzers that change payloads. `message`
+/// must hold at least kSceneHeaderBytes.
+enum class SceneMessage : std::uint32_t { scene = 0, failure = 1 };
+void seal_scene(std::span<std::byte> message, SceneMessage kind = SceneMessage::scene);
 
-/// The longest message that a scene within the limits can make: what a reader need accept.
+/// The longest message that a scene within the limits can make: a reader may refuse longer ones.
 [[nodiscard]] std::uint64_t longest_message(const ImportLimits& limits);
 
-/// The scene of a message, checked in full (check_scene), or the error that it carries. Anything else is an Error too, and costs no
-/// more memory than the message itself.
+/// The scene of a message, checked in full (check_scene), or the error that the message carries, with its code and line. Errors of the
+/// message itself: damaged, wrong_version. They cost no more memory than the message.
 [[nodiscard]] Expected<ImportedScene> decode_scene(std::span<const std::byte> message, const ImportLimits& limits);
 
 }  // namespace mechane::content

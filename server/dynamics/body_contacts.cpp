@@ -24,13 +24,13 @@
 namespace mechane::dynamics {
 namespace {
 
-constexpr double kSlop_m = 1e-4;            // bodies at rest overlap by this much: far above what maps flicker
-constexpr double kContactErrorShare = 0.2;  // of what they overlap more, taken back in a step
+constexpr double kSlop_m = 1e-4;            // bodies at rest overlap by this much: far more than the maps' noise
+constexpr double kContactErrorShare = 0.2;  // of any further overlap, taken back in a step
 constexpr double kMaxContactCorrection_m_per_s = 1.0;  // as a joint's
-constexpr double kBounceFrom_m_per_s = 0.05;           // slower bodies do not bounce: a tick's gravity is 0.01
+constexpr double kBounceFrom_m_per_s = 0.05;           // slower bodies do not bounce: gravity adds 0.01 in a tick
 constexpr double kSlipsFrom_m_per_s = 1e-3;            // a faster contact has dynamic friction
-constexpr double kStill_m_per_s = 2e-3;          // at the outermost point; what the solver leaves is a tenth of it
-constexpr std::size_t kMaxTouchingPerBody = 12;  // in one step; what is over is left out, in the order of the pairs
+constexpr double kStill_m_per_s = 2e-3;          // at the outermost point; the solver's own error is a tenth of it
+constexpr std::size_t kMaxTouchingPerBody = 12;  // in one step; further ones are left out, in the order of the pairs
 constexpr int kShapeType = CUSTOM_CONCAVE_SHAPE_TYPE;
 
 btVector3 bullet_vector(const Vec3& v) {
@@ -42,7 +42,7 @@ Pose pose_of(const btTransform& X) {
   return {Vec3(p.x(), p.y(), p.z()), Quat(q.w(), q.x(), q.y(), q.z()).normalized()};
 }
 
-/// Our own kind of shape: a collision object. The object's frame is the body's.
+/// Our own kind of shape for Bullet: a collision object. The object's frame is the body's.
 class ObjectShape final : public btCollisionShape {
  public:
   ObjectShape(const state::BodyDescription& from, std::shared_ptr<const collision::Object> object_in,
@@ -81,7 +81,7 @@ const ObjectShape& shape_of(const btCollisionObjectWrapper& wrap) {
   return static_cast<const ObjectShape&>(*wrap.getCollisionShape());
 }
 
-/// What two surfaces make of each other: the geometric mean of what each has.
+/// A coefficient of a pair of surfaces: the geometric mean of theirs.
 double combined(double first, double second) {
   return std::sqrt(first * second);
 }
@@ -92,7 +92,8 @@ Vec3 velocity_at(const btCollisionObject* object, const Vec3& p_W) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// The algorithm of a pair of our shapes. Its manifold is made anew in each step: what a manifold would remember is in no snapshot.
+/// The algorithm of a pair of our shapes. Its manifold is made anew in each step, because a snapshot does not hold what it would
+/// remember.
 class ObjectAlgorithm final : public btCollisionAlgorithm {
  public:
   ObjectAlgorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
@@ -125,7 +126,7 @@ class ObjectAlgorithm final : public btCollisionAlgorithm {
     const ObjectShape& shape_a = shape_of(a);
     const ObjectShape& shape_b = shape_of(b);
     const double most_m = kSlop_m + kMaxContactCorrection_m_per_s * dt_s / kContactErrorShare;
-    // One point for both bodies, half way: impulses at two points would turn the pair.
+    // One point for both bodies, half way between the surfaces: impulses at two different points would turn the pair.
     const Vec3 p_W = contact.p_WC - 0.5 * contact.depth_m * contact.n_BA_W;
     const btVector3 p = bullet_vector(p_W);
     btManifoldPoint point(a.getWorldTransform().invXform(p), b.getWorldTransform().invXform(p),
@@ -196,12 +197,16 @@ std::vector<BodyPair> pairs_that_meet(const state::WorldDescription& description
 Expected<void> check_collider(const state::BodyDescription& body) {
   const std::string where = "body " + body.name;
   if (!body.object)
-    return fail("the body is to collide but has no collision object", where, "give it a shape that can be touched");
+    return fail(ErrorCode::conflict, "the body collides with others, but has no shape to touch", where,
+                "give it a shape that can be touched, or set collides to false");
   if (!(body.restitution >= 0 && body.restitution <= 1))
-    return fail("the restitution is not a share of speed", where, "give a number from 0 to 1");
+    return fail(ErrorCode::invalid_value, "the restitution is " + std::to_string(body.restitution), where,
+                "give a number from 0 to 1");
   const bool rubs = std::isfinite(body.haptic.static_friction) && body.haptic.static_friction >= 0 &&
                     std::isfinite(body.haptic.dynamic_friction) && body.haptic.dynamic_friction >= 0;
-  if (!rubs) return fail("a friction is not a coefficient", where, "give numbers from 0 up");
+  if (!rubs)
+    return fail(ErrorCode::invalid_value, "the static or dynamic friction is negative or not a number", where,
+                "give numbers of 0 or more");
   return {};
 }
 
@@ -244,7 +249,7 @@ struct BodyContacts::Impl {
   std::vector<Rest> rest;                            // likewise
   std::vector<Pair> pairs;
   std::size_t most_touching = 0;                // in one step
-  std::vector<btPersistentManifold*> touching;  // capacity for these
+  std::vector<btPersistentManifold*> touching;  // has the capacity for these
   std::vector<const Pair*> touching_pairs;      // theirs
 };
 
@@ -261,7 +266,7 @@ Expected<std::unique_ptr<BodyContacts>> BodyContacts::create(const state::WorldD
     ++colliders;
   }
   if (colliders > kMaxColliders)
-    return fail(std::to_string(colliders) + " bodies collide", "world " + description.id,
+    return fail(ErrorCode::too_large, std::to_string(colliders) + " bodies collide", "world " + description.id,
                 "let at most " + std::to_string(kMaxColliders) + " of them collide");
   const std::vector<BodyPair> pairs = pairs_that_meet(description);
   if (pairs.empty()) return std::unique_ptr<BodyContacts>();
@@ -385,7 +390,7 @@ std::span<btPersistentManifold*> BodyContacts::fill() {
 void set_contact_solver(btContactSolverInfo& info) {
   info.m_linearSlop = kSlop_m;
   info.m_erp2 = kContactErrorShare;
-  info.m_splitImpulse = 1;  // overlap is taken back by moving apart, not by speed that would stay
+  info.m_splitImpulse = 1;  // bodies that overlap are moved apart without gaining speed
   info.m_splitImpulsePenetrationThreshold = 0;
   info.m_restitutionVelocityThreshold = kBounceFrom_m_per_s;
   info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;

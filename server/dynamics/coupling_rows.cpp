@@ -63,8 +63,8 @@ Expected<CouplingRows> CouplingRows::create(const state::WorldState& state) {
   std::size_t rows = 0;
   for (std::size_t i = 0; i < state.couplings.size(); ++i) {
     if (!known(state.couplings[i], state))
-      return fail("it ties what is not there, or by impossible numbers", "coupling " + std::to_string(i),
-                  "name bodies and joints of this world, positive sizes");
+      return fail(ErrorCode::invalid_value, "it ties a body or joint that does not exist, or has a number out of range",
+                  "coupling " + std::to_string(i), "name bodies and joints of this world, and positive sizes");
     rows += most_rows(state.couplings[i]);
   }
   out.train.reserve(rows, state.bodies.size());
@@ -134,7 +134,7 @@ void CouplingRows::add_fixed(const Coupling& tie) noexcept {
   }
 }
 
-/// The loss is friction in the teeth, felt by joint1 and in proportion to what they bear.
+/// The loss is friction in the teeth: it acts on joint1, in proportion to the force on the teeth.
 void CouplingRows::add_gear(const Coupling& gear) noexcept {
   if (!axis_on(gear.joint1) || !axis_on(gear.joint2)) return;
   const std::size_t j1 = gear.joint1.index(), j2 = gear.joint2.index();
@@ -147,18 +147,18 @@ void CouplingRows::add_gear(const Coupling& gear) noexcept {
   add_axis(friction, j1, 1);
 }
 
-/// The ratio in this step is the stair's own rise over it, so that the corner of a window is met and not overrun.
+/// The ratio in this step is the mean slope of the stair over it, so that the joint stops at the corner of a window and not past it.
 void CouplingRows::add_intermittent(const Coupling& gear) noexcept {
   if (!axis_on(gear.joint1) || !axis_on(gear.joint2)) return;
   const std::size_t j1 = gear.joint1.index(), j2 = gear.joint2.index();
   const JointMeasure& driver = axes_[j1].now;
   const double way = driver.velocity * dt_s_;
   const double now = intermittent_position(gear, driver.position);
-  constexpr double kLeast = 1e-9;  // rad; less than this, and the slope where it stands is meant
+  constexpr double kLeast = 1e-9;  // rad; for a smaller way take the slope at this place
   const double over = std::abs(way) > kLeast ? way : kLeast;
   const double ratio = (intermittent_position(gear, driver.position + over) - now) / over;
   if (ratio == 0 && !gear.lock) return;
-  // A wheel that nothing holds may stand anywhere when the tooth comes: it is taken along from there.
+  // A wheel that is not locked may stand anywhere when the tooth comes, and is taken along from there.
   const double error = gear.lock ? now - axes_[j2].now.position - gear.offset : 0;
   const std::size_t row = train.add(-correction(error, dt_s_, kMaxAngularCorrection));
   if (ratio != 0) add_axis(row, j1, ratio);

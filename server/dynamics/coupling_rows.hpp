@@ -9,7 +9,7 @@
 
 namespace mechane::dynamics {
 
-/// A joint as couplings see it in one step: one way to go.
+/// A joint in one step, for the couplings: its one direction of motion.
 struct JointAxis {
   bool on = false;
   std::size_t body1 = kGround;
@@ -23,12 +23,11 @@ struct JointAxis {
 /// The couplings of one world. Joints that are off, and balls, couple nothing.
 class CouplingRows {
  public:
-  /// Errors: a coupling that names a body or joint that is not there, or a number that makes no sense, by index. Allocates for all
-  /// steps to come.
+  /// Errors name the coupling by index: a body or joint that does not exist, a number out of range. Allocates for all later steps.
   [[nodiscard]] static Expected<CouplingRows> create(const state::WorldState& state);
 
   /// Overwrites the train with what the couplings ask for in a step of dt_s. Position errors are taken back as joints do. A rope and
-  /// a stop let their ends come as far as they reach in this step, and no further. `frames` are the bodies at the start of the step.
+  /// a stop let their ends move in this step up to their limit, and no further. `frames` are the bodies at the start of the step.
   void gather(const state::WorldState& state, std::span<const Frame> frames, std::span<const JointAxis> axes,
               double dt_s) noexcept;
   /// Writes what the couplings bore, after the train was solved, and the impulse along each joint's axis.

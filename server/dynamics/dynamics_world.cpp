@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
@@ -68,8 +69,8 @@ class RowConstraint final : public btTypedConstraint {
   }
 };
 
-/// Bullet's solver, with a train of couplings swept after each of its own sweeps. The first of the bodies that it is given are those
-/// of the train, in their order.
+/// Bullet's solver, with a train of couplings swept after each of its own sweeps. The bodies that it is given begin with those of the
+/// train, in their order.
 class Solver final : public btSequentialImpulseConstraintSolver {
  public:
   Train* train = nullptr;  // null: none
@@ -110,7 +111,7 @@ class Solver final : public btSequentialImpulseConstraintSolver {
   std::vector<Twist> delta_;
 };
 
-/// A body of ours and Bullet's: same thing, other frame. C is the centre of mass with the principal axes.
+/// A body of ours and the same body in Bullet, which uses another frame. C is the centre of mass with the principal axes.
 struct Body {
   btRigidBody bullet;
   Pose X_BC;
@@ -150,14 +151,16 @@ Expected<std::unique_ptr<Body>> make_body(const state::BodyDescription& from) {
   if (from.fixed) return std::make_unique<Body>(from, 0.0, Vec3::Zero(), Pose{});
   const double mass = from.mass_kg * from.effort_scale;
   if (!std::isfinite(mass) || mass <= 0 || from.mass_kg <= 0)
-    return fail("the mass (times effort_scale) is not positive", place_of(from),
+    return fail(ErrorCode::invalid_value, "the mass (times effort_scale) is not positive", place_of(from),
                 "give a mass above 0 kg, or fixed='true'");
   if (!from.inertia_kg_m2.allFinite() || !from.p_BCm.allFinite())
-    return fail("the inertia or the centre of mass is not finite", place_of(from), "give finite numbers");
+    return fail(ErrorCode::invalid_value, "the inertia or the centre of mass is not finite", place_of(from),
+                "give finite numbers");
   const Mat3 symmetric = 0.5 * (from.inertia_kg_m2 + from.inertia_kg_m2.transpose());
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(symmetric * from.effort_scale);
   if (solver.eigenvalues().minCoeff() <= 0)
-    return fail("the inertia is not positive definite", place_of(from), "give the inertia of a solid body, in kg m^2");
+    return fail(ErrorCode::invalid_value, "the inertia is not that of a solid body (not positive definite)",
+                place_of(from), "give the inertia about the centre of mass, in kg m^2");
   Mat3 axes = solver.eigenvectors();
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   return std::make_unique<Body>(from, mass, solver.eigenvalues(), Pose{from.p_BCm, Quat(axes).normalized()});
@@ -168,13 +171,18 @@ Expected<void> check_joint(const state::WorldDescription& description, const sta
   const std::size_t bodies = description.bodies.size();
   const bool first_known = !joint.body1 || joint.body1.index() < bodies;
   if (!joint.body2 || joint.body2.index() >= bodies || !first_known)
-    return fail("the joint has no body that it moves", where,
+    return fail(joint.body2 ? ErrorCode::unknown_name : ErrorCode::missing, "the joint lacks a body", where,
                 "give body2 (and body1, or none for the world) by the bodies' names");
-  if (joint.body1 == joint.body2) return fail("the joint ties a body to itself", where, "give two bodies");
+  if (joint.body1 == joint.body2)
+    return fail(ErrorCode::conflict, "the joint ties a body to itself", where, "give two bodies");
   for (const Pose* X : {&joint.X_B1J, &joint.X_B2J}) {
-    const bool turns = std::abs(X->R.norm() - 1) < 1e-6;
-    if (!X->p.allFinite() || !turns)
-      return fail("a frame of the joint is not a pose", where, "check its anchor point and axis");
+    const double norm = X->R.norm();
+    if (!X->p.allFinite() || !(std::abs(norm - 1) < 1e-6))
+      return fail(
+          ErrorCode::invalid_value,
+          "a frame of the joint has a place that is not finite, or a rotation that is not a unit quaternion (norm " +
+              std::to_string(norm) + ")",
+          where, "check its anchor point and axis");
   }
   return {};
 }
@@ -187,7 +195,7 @@ struct DynamicsWorld::Impl {
     Body* body1;
     Body* body2;
     std::unique_ptr<RowConstraint> constraint;
-    std::unique_ptr<btJointFeedback> feedback;  // null: nobody asks what it bears
+    std::unique_ptr<btJointFeedback> feedback;  // null: nothing measures what it bears
   };
 
   Vec3 gravity_W;
@@ -392,7 +400,8 @@ void DynamicsWorld::Impl::apply_axis_force(const Joint& joint, const JointMeasur
   }
 }
 
-/// The coefficient that stops the joint in one step: more would turn it back. By the bodies' own mass or inertia, at most the joint's.
+/// The coefficient that stops the joint in one step; a larger one would reverse it. From the bodies' own mass or inertia, which is at
+/// most the joint's.
 double DynamicsWorld::Impl::most_viscous(const Joint& joint, const JointMeasure& now, double dt_s) {
   double inverse = 0;
   for (const Body* body : {joint.body1, joint.body2}) {

@@ -9,8 +9,8 @@
 namespace mechane::dynamics {
 
 /// The bodies, joints and grasps of one world. All state is in WorldState: a step reads poses, velocities and joint positions from
-/// there, solves, and writes them back; what other rooms change between two steps (a body put elsewhere, a joint switched, a body
-/// held still) needs no further call. So a world that is made anew from a snapshot goes on with the same bits.
+/// there, solves, and writes them back. When other rooms change something between two steps (a body put elsewhere, a joint switched, a
+/// body held still) no further call is needed. So a world that is made anew from a snapshot goes on with the same bits.
 ///
 /// Bodies move with mass and inertia times their `effort_scale`; gravity and their own damping act on them, as do
 /// BodyState::load_W (at the body's origin), JointState::load and JointState::resistance; all of them are cleared by the step.
@@ -29,9 +29,9 @@ namespace mechane::dynamics {
 /// Bodies collide where both opted in (BodyDescription::collides) and at least one can move, but for pairs that a joint ties (on or
 /// off), mates, and bodies that are both in hands; hidden ones touch nothing. Their objects' maps are asked for contacts at the start
 /// of each step, and the best four of a pair hold it apart: with the static friction of the bodies' haptic materials (the geometric
-/// mean) up to 1 mm/s, the dynamic above. Bodies at rest on each other overlap by 0.1 mm; what they overlap more is taken back at
-/// 1 m/s at most, without a kick. Only where they are at a step is looked at: a plate holds back what comes by less than half its
-/// thickness in a step.
+/// mean) up to 1 mm/s, the dynamic above. Bodies at rest on each other overlap by 0.1 mm; a larger overlap is taken back at 1 m/s at
+/// most, without a kick. Only the places at a step are tested, not the way between: a plate stops a body that moves less than half
+/// the plate's thickness in a step.
 ///
 /// One thread at a time. step() allocates nothing, locks nothing, throws nothing; same inputs give the same bits.
 class DynamicsWorld {

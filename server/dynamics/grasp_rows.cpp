@@ -6,8 +6,8 @@
 namespace mechane::dynamics {
 namespace {
 
-constexpr double kSlip_rad = 0.6;            // less, and the torque limit alone lets it lag: it comes back
-constexpr double kMaxDamping_ns_per_m = 60;  // a heavier damper is felt as a jolt when the grip begins
+constexpr double kSlip_rad = 0.6;            // up to this, only the torque limit lets it lag, and it comes back
+constexpr double kMaxDamping_ns_per_m = 60;  // a stronger damper is felt as a jolt when the grip begins
 constexpr double kAcrossShare = 0.25;        // of a limit, across the spring's direction
 
 struct SpringStep {

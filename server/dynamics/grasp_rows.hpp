@@ -14,7 +14,7 @@ struct GripSpring {
   double damping_nms_per_rad = 0;
 };
 
-/// What a body brings to every grip of it: simulated mass, haptic stiffness, how its mass is spread.
+/// What every grip of a body depends on: simulated mass, haptic stiffness, how its mass is spread.
 struct GripBody {
   double stiffness_n_per_m = 0;
   double mass_kg = 0;
@@ -40,9 +40,9 @@ struct GripStep {
   double inverse_inertia = 0;  ///< 1/(kg m^2)
 };
 
-/// Overwrites `rows` with the six rows of the grip of `user` on `body`. The impulse limits hold the force's and the torque's norm to their limits
-/// times the user's freshness, at most 6 % above where they act across the spring's own direction. Turns grasp.X_HB where the
-/// body lags more than 35 degrees behind the hand's rotation: it slips in the hand.
+/// Overwrites `rows` with the six rows of the grip of `user` on `body`. The impulse limits hold the force's and the torque's norm to
+/// their limits times the user's freshness, at most 6 % above where they act across the spring's own direction. Turns grasp.X_HB where
+/// the body lags more than 35 degrees behind the hand's rotation: it slips in the hand.
 [[nodiscard]] GripStep grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
                                   RowSet& rows) noexcept;
 

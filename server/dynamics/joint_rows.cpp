@@ -62,7 +62,7 @@ void add_limits(const Row& axis_row, const state::JointState& state, const Joint
   }
 }
 
-/// One row at the edge of a ball's cone. On the axis no direction leads out, and none is needed.
+/// One row at the edge of a ball's cone. On the cone's axis there is no direction outwards, and no row is needed.
 void add_cone(const state::JointState& state, const Pose& X_WJ1, const Pose& X_WJ2, double dt_s, RowSet& rows) {
   if (state.cone_axis_J.isZero()) return;
   const Vec3 at_W = X_WJ1.rotate(state.cone_axis_J), is_W = X_WJ2.rotate(state.cone_axis_J);

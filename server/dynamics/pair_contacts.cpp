@@ -9,14 +9,15 @@ using collision::Object;
 using collision::PointContact;
 
 constexpr std::size_t kMostFound = 4096;
-constexpr double kSameDepth_m = 1e-4;    // depths this close count as one: which is the deepest must not flicker
-constexpr double kSamePlace_m = 1e-4;    // points closer than this span nothing
-constexpr double kAgrees = 0.9;          // cosine: a normal this close to the mean of all needs no second look
+constexpr double kSameDepth_m =
+    1e-4;  // depths this close count as equal, so that the choice of the deepest does not flicker
+constexpr double kSamePlace_m = 1e-4;    // points closer than this span no area
+constexpr double kAgrees = 0.9;          // cosine: a normal this close to the mean of all is not checked again
 constexpr double kProbe_m = 2e-3;        // how far behind its surface a body is looked for, and
-constexpr double kLeastBehind_m = 6e-4;  // how deep it must be there: below, the step went along the surface
+constexpr double kLeastBehind_m = 6e-4;  // how deep it must be there; less means that the step went along the surface
 
-/// Whether there is solid a little behind the point of the surface that a part has at p_WS, against the direction `out_W`. The
-/// sample's own part is asked: its map knows the surface that the sample was taken from.
+/// Whether there is solid a little behind a part's surface point p_WS, against the direction `out_W`. The sample's own part is asked:
+/// its map holds the surface that the sample was taken from.
 bool is_solid_behind(const Object& object, const Pose& X_WO, std::uint16_t part, const Vec3& p_WS, const Vec3& out_W) {
   const collision::Part& of = object.parts[part];
   const Vec3 p_Q = (X_WO * of.X_OQ).inverse() * (p_WS - kProbe_m * out_W);
@@ -24,7 +25,7 @@ bool is_solid_behind(const Object& object, const Pose& X_WO, std::uint16_t part,
   return hit.hit && static_cast<double>(hit.depth_m) >= kLeastBehind_m;
 }
 
-/// The choice among the contacts of one pair. A contact that is found to be none gets depth 0.
+/// The choice among the contacts of one pair. A contact that turns out to be false gets depth 0.
 class Choice {
  public:
   Choice(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, std::span<PointContact> found)
@@ -33,7 +34,7 @@ class Choice {
       mean_n_W_ += c.n_BA_W;
       center_W_ += c.p_WC / static_cast<double>(found_.size());
     }
-    mean_n_W_.normalize();  // leaves a zero as it is: then every contact gets its second look
+    mean_n_W_.normalize();  // a zero stays zero: then every contact is checked again
   }
 
   std::size_t run(std::array<PointContact, kManifoldPoints>& best) {
@@ -67,7 +68,7 @@ class Choice {
     return most * most;
   }
 
-  /// Of the contacts that are about as deep as the deepest the outermost, which is the same in the next tick.
+  /// The outermost of the contacts that are about as deep as the deepest: it is the same one in the next tick.
   const PointContact* deepest() {
     while (true) {
       double depth_m = 0;
@@ -105,7 +106,7 @@ class Choice {
     }
   }
 
-  /// Both bodies must lie behind their surfaces as the normal says: B against it, A along it.
+  /// Both bodies must lie behind their surfaces: B against the normal, A along it.
   [[nodiscard]] bool holds(const PointContact& c) const {
     if (c.n_BA_W.dot(mean_n_W_) > kAgrees) return true;
     return is_solid_behind(b_, X_WB_, c.part_b, c.p_WC, c.n_BA_W) &&

@@ -18,9 +18,10 @@ class PairContacts {
  public:
   PairContacts();
 
-  /// The best contacts of A and B: one of the deepest, and those that span the largest area with it; fewer where fewer are needed. The order and
-  /// the choice follow from the arguments alone. A point of one body's face that comes in through a side of the other, closer to that side than
-  /// to the face that lies on it, is not a contact: it would catch what slides. Allocates nothing. The result is valid until the next call.
+  /// The best contacts of A and B: one of the deepest, and those that span the largest area with it; fewer where fewer are needed. The
+  /// order and the choice follow from the arguments alone. Where two faces lie on each other, a point of one that is closer to a side of
+  /// the other body than to its face is not a contact, because it would stop a body that slides. Allocates nothing. The result is valid
+  /// until the next call.
   std::span<const collision::PointContact> find(const collision::Object& a, const Pose& X_WA,
                                                 const collision::Object& b, const Pose& X_WB) noexcept;
 

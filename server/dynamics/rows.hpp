@@ -1,4 +1,4 @@
-// Constraint rows between two bodies, free of any engine: what joints and grasps ask for, and what the solver then fulfils.
+// Constraint rows between two bodies, independent of any engine: joints and grasps write them, and the solver fulfils them.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace mechane::dynamics {
 
-/// A body as the rows see it at the start of a step.
+/// A body at the start of a step, as rows need it.
 struct Frame {
   Pose X_WB;
   Vec3 p_WCm = Vec3::Zero();              ///< centre of mass
@@ -71,7 +71,7 @@ inline constexpr double kMaxAngularCorrection = 5.0;  ///< rad/s
   return std::clamp(kErrorShare * error / dt_s, -max_speed, max_speed);
 }
 
-/// Outside of a limit the error is taken back softly; inside, one may go as far as the limit.
+/// Outside a limit the error is taken back softly; inside, the joint may go as far as the limit.
 [[nodiscard]] inline double limit_speed(double error, double dt_s, double max_speed) noexcept {
   return error > 0 ? correction(error, dt_s, max_speed) : error / dt_s;
 }

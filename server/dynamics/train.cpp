@@ -8,7 +8,7 @@
 namespace mechane::dynamics {
 namespace {
 
-// Of a row's response: what is left of a row that says what others say already is rounding.
+// Of a row's response: a row with less left, once the others are taken off, repeats them; the rest is rounding.
 constexpr double kRepeated = 1e-9;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 

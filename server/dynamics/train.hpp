@@ -1,6 +1,6 @@
-// Constraint rows over any number of bodies: what couplings ask for, solved together with Bullet's rows.
+// Constraint rows over any number of bodies, for couplings; solved together with Bullet's rows.
 //
-// Bullet's constraints know two bodies. A gear between two joints moves up to four, a rope as many as it has sheaves; with two
+// Bullet's constraints act on two bodies. A gear between two joints moves up to four, a rope as many as it has sheaves; with two
 // (btGearConstraint) the bearing's reaction is lost, a gear on a turning frame has the wrong ratio, and errors of position stay.
 // So these rows are swept by our own code after each of Bullet's sweeps, over the same velocities.
 #pragma once
@@ -42,9 +42,9 @@ struct TrainRow {
   double low = 0;
   double high = 0;
   double impulse = 0;  ///< found by the solver
-  double wanted = 0;   ///< of the target, what the bodies do not do already
+  double wanted = 0;   ///< the part of the target that the bodies' velocities do not meet yet
   double response =
-      0;  ///< of the value to an impulse of 1; 0: nothing can move it, or others say the same; it is left out
+      0;  ///< of the value to an impulse of 1; 0: nothing can move it, or it repeats others; it is left out
 };
 
 /// Rows of one step. One thread; only reserve() allocates.
@@ -58,7 +58,7 @@ class Train {
   /// A new row without terms, and its index. reserve() must have left room.
   std::size_t add(double target, TrainLimit limit = TrainLimit::none, double low = 0, double high = 0,
                   std::size_t leader = 0) noexcept;
-  /// Adds to the last row's value n.v + a.w of a body; nothing for the ground and for what does not move.
+  /// Adds to the last row's value n.v + a.w of a body. Does nothing for the ground and for bodies that do not move.
   void add_term(std::size_t body, const Vec3& n_W, const Vec3& a_W, std::span<const Frame> frames) noexcept;
   /// Adds `factor` times another row, of body1 and body2, with its target.
   void add_row(const Row& row, std::size_t body1, std::size_t body2, double factor,

@@ -9,7 +9,7 @@ namespace mechane::geometry {
 namespace {
 
 constexpr float kLeastStep = 0.8F;     // cells
-constexpr std::size_t kRowBatch = 16;  // a thread is not worth a row
+constexpr std::size_t kRowBatch = 16;  // a single row is too little work for a thread
 
 }  // namespace
 
@@ -28,7 +28,7 @@ ChordDepth chord_depth(const DistanceGrid& grid, const Vec3& a, const Vec3& b) {
       deepest = d;
       at = t;
     }
-    // Distance grows by a cell each cell at most, and the end is on the surface again: what is left may not hold a deeper place.
+    // Distance changes by at most one cell per cell, and the end is on the surface again: the rest may be too short for a deeper place.
     if (0.5F * (d + length - t) < deepest) break;
     t += std::max(kLeastStep, deepest - d);
   }

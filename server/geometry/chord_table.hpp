@@ -21,7 +21,7 @@ struct ChordDepth {
 [[nodiscard]] ChordDepth chord_depth(const DistanceGrid& grid, const Vec3& a, const Vec3& b);
 
 /// The depth of the chord between each two of some points. A piece is the solid within a convex cell, so a chord between two of its
-/// points leaves the piece only where it leaves the solid, and a cut changes no chord: it only parts their ends.
+/// points leaves the piece only where it leaves the solid. A cut changes no chord; it only puts their ends into different pieces.
 class ChordTable {
  public:
   ChordTable() = default;

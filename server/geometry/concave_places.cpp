@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "server/geometry/area_normal.hpp"
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::geometry {
@@ -38,15 +39,10 @@ std::vector<MeshEdge> sorted_edges(const Mesh& mesh) {
   return edges;
 }
 
-Vec3 unit_normal(const Mesh& mesh, std::uint32_t triangle) {
-  const auto& t = mesh.triangles[triangle];
-  return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).normalized();
-}
-
 void add_crease(const Mesh& mesh, const MeshEdge& first, const MeshEdge& second, double diagonal,
                 std::vector<ConcavePlace>& places) {
-  const Vec3 n1 = unit_normal(mesh, first.triangle);
-  const Vec3 n2 = unit_normal(mesh, second.triangle);
+  const Vec3 n1 = area_normal(mesh, first.triangle).normalized();
+  const Vec3 n2 = area_normal(mesh, second.triangle).normalized();
   const double angle = std::atan2(n1.cross(n2).norm(), n1.dot(n2));
   if (angle < kLeastAngle_rad || angle > kPi - 1e-3) return;
   const auto low = static_cast<std::uint32_t>(first.key >> 32);
@@ -120,7 +116,7 @@ std::vector<ConcavePlace> find_concave_places(const Mesh& mesh, const DistanceGr
   }
   const double area = surface_area_m2(mesh) / static_cast<double>(kSmoothSamples);
   for (const SurfaceSample& sample : sample_by_area(mesh, kSmoothSamples, seed))
-    add_smooth(grid, sample, unit_normal(mesh, sample.triangle), diagonal, area, places);
+    add_smooth(grid, sample, area_normal(mesh, sample.triangle).normalized(), diagonal, area, places);
   std::stable_sort(places.begin(), places.end(),
                    [](const ConcavePlace& a, const ConcavePlace& b) { return a.weight > b.weight; });
   if (places.size() > kMostPlaces) places.resize(kMostPlaces);

@@ -71,7 +71,7 @@ std::vector<Vec3> lattice_on(const std::vector<Vec3>& polygon, const Vec3& n, do
   for (const Vec3& p : polygon)
     bounds.extend(Eigen::Vector2d(u.dot(p), v.dot(p)));
   const double height = n.dot(polygon.front());
-  // Which way the polygon runs about n.
+  // The direction in which the polygon runs about n.
   Vec3 turn = Vec3::Zero();
   for (std::size_t i = 2; i < polygon.size(); ++i)
     turn += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);

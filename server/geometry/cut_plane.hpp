@@ -1,4 +1,4 @@
-// Half-spaces, and the convex cells that they bound: what a piece of a decomposed solid is cut out with.
+// Half-spaces, and the convex cells that they bound: with these the pieces of a decomposed solid are cut out.
 #pragma once
 
 #include <span>
@@ -24,10 +24,10 @@ struct HalfSpace {
 /// Whether p lies in all half-spaces, or at most `slack_m` beyond some.
 [[nodiscard]] bool cell_contains(std::span<const HalfSpace> cell, const Vec3& p, double slack_m = 0);
 
-/// Leaves of a convex polygon what lies in the half-space. `scratch` saves allocations.
+/// Cuts off the part of a convex polygon outside the half-space. `scratch` saves allocations.
 void clip_polygon(std::vector<Vec3>& polygon, const HalfSpace& half_space, std::vector<Vec3>& scratch);
 
-/// Of a flat polygon, about its normal either way.
+/// The area of a flat polygon, whichever way it runs.
 [[nodiscard]] double polygon_area_m2(const std::vector<Vec3>& polygon);
 
 /// The polygon in which the plane of `plane` meets the box and the cell; `plane` itself may be one of the cell's. Empty where they

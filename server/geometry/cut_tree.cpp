@@ -12,8 +12,8 @@
 namespace mechane::geometry {
 namespace {
 
-/// Of the bound: a plan rests on the region's few points, and its pieces are measured with points of their own; one that then fails
-/// is tried again with less to spare.
+/// Shares of the bound: a plan rests on the region's few points, but its pieces are then measured with points of their own. A plan that
+/// fails then is made again for a smaller share.
 constexpr std::array<double, 3> kFanBounds = {1.0, 0.85, 0.7};
 constexpr std::size_t kMostFanPieces = 64;
 
@@ -111,7 +111,7 @@ void CutTree::replace_by_fans() {
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     if (!branches_[i].children.empty() && !branches_[i].fan.sought) seek_fan(i);
   }
-  // Plans promise a number of pieces; those that would be used must keep it, or the choice is made anew.
+  // A plan promises a number of pieces. If a plan that is chosen does not keep it, the choice is made anew.
   for (bool settled = false; !settled;) {
     settled = true;
     std::vector<std::size_t> used{0};

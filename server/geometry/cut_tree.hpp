@@ -18,21 +18,21 @@ class CutTree {
   /// `model` must outlive the tree.
   explicit CutTree(const DecomposeModel& model);
 
-  /// Cuts until every leaf is within the bound, or none can be cut further, or there are `most_leaves`, or many more than the pieces
-  /// of a plan for the whole. `heard` gets the share of leaves that are done.
+  /// Cuts until every leaf is within the bound, or no leaf can be cut further, or there are `most_leaves`, or many more than a plan for
+  /// the whole would need. `heard` gets the share of leaves that are done.
   void grow(std::span<const ConcavePlace> places, std::size_t most_leaves, const std::function<void(double)>& heard);
 
   /// Replaces branches by slices or sectors of their roots where that makes fewer pieces in all.
   void replace_by_fans();
 
-  /// Takes back cuts, those that did least first, until there are at most `most_leaves`.
+  /// Takes back cuts, those that gained least first, until there are at most `most_leaves`.
   void collapse(std::size_t most_leaves);
 
   /// The pieces, neighbours in the tree side by side.
   [[nodiscard]] std::vector<PieceRegion> leaves() const;
 
  private:
-  /// Slices or sectors of a branch: a plan, and its pieces once somebody wanted to know whether they are within the bound.
+  /// Slices or sectors of a branch: a plan, and its pieces once they have been checked against the bound.
   struct Fan {
     std::optional<FanPlan> plan;
     std::size_t bound = 0;  ///< which of the bounds it was made for

@@ -16,30 +16,27 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kWeld = 1e-6;         // of the diagonal
 constexpr double kLeastVolume = 1e-9;  // of the diagonal's cube
 constexpr std::size_t kPiecePoints = 1200;
 const char* const kWhere = "decomposition";
 
 Expected<void> check_config(const DecomposeConfig& config) {
-  if (!(config.max_concavity >= 0.001 && config.max_concavity <= 1)) {
-    return fail("max_concavity is outside 0.001 to 1", kWhere, "use 0.02, a fiftieth of the object's diagonal");
-  }
-  if (config.max_parts < 1 || config.max_parts > 1000) {
-    return fail("max_parts is outside 1 to 1000", kWhere, "use 48");
-  }
-  if (config.grid_cells < 8 || config.grid_cells > 256) {
-    return fail("grid_cells is outside 8 to 256", kWhere, "use 64");
-  }
+  const auto outside = [](const char* what, const char* remedy) {
+    return fail(ErrorCode::invalid_value, what, kWhere, remedy);
+  };
+  if (!(config.max_concavity >= 0.001 && config.max_concavity <= 1))
+    return outside("max_concavity is outside 0.001 to 1", "use 0.02, a fiftieth of the object's diagonal");
+  if (config.max_parts < 1 || config.max_parts > 1000) return outside("max_parts is outside 1 to 1000", "use 48");
+  if (config.grid_cells < 8 || config.grid_cells > 256) return outside("grid_cells is outside 8 to 256", "use 64");
   return {};
 }
 
-/// Welded; what it can be used for is asked later.
+/// The mesh welded, without stray vertices. Whether it is closed is checked later.
 Expected<Mesh> usable_mesh(const Mesh& mesh) {
   if (auto ok = check_mesh(mesh, kWhere); !ok) return tl::unexpected(ok.error());
   Mesh used;  // a stray vertex would widen the box
   {
-    Mesh welded = weld(mesh, kWeld * mesh.bounds().diagonal().norm());
+    Mesh welded = weld(mesh);
     std::vector<std::uint32_t> new_index(welded.vertices.size(), 0xFFFFFFFFU);
     for (auto t : welded.triangles) {
       for (std::uint32_t& v : t) {
@@ -53,7 +50,8 @@ Expected<Mesh> usable_mesh(const Mesh& mesh) {
     }
   }
   if (used.triangles.empty() || !(surface_area_m2(used) > 0)) {
-    return fail("all triangles are without area", kWhere, "export the model with its faces");
+    return fail(ErrorCode::invalid_value, "no triangle of the mesh has an area", kWhere,
+                "export the model with its faces");
   }
   return used;
 }
@@ -62,8 +60,10 @@ Expected<void> check_closed(const Mesh& mesh) {
   const double volume = enclosed_volume_m3(mesh);
   const double least = kLeastVolume * std::pow(mesh.bounds().diagonal().norm(), 3);
   if (volume < -least)
-    return fail("the mesh is inside out", kWhere, "turn its faces, so that their normals point outwards");
-  if (volume < least) return fail("the mesh encloses no volume", kWhere, "give the sheet a thickness");
+    return fail(ErrorCode::invalid_value, "the mesh is inside out", kWhere,
+                "turn its faces, so that their normals point outwards");
+  if (volume < least)
+    return fail(ErrorCode::invalid_value, "the mesh encloses no volume", kWhere, "give the sheet a thickness");
   return {};
 }
 
@@ -90,7 +90,7 @@ std::vector<PieceRegion> search(const DecomposeModel& model, const DecomposeConf
                                 const std::function<void(double)>& heard) {
   CutTree tree(model);
   heard(0.1);
-  // Joining may free half of the pieces again: a gear's hub comes out in wedges.
+  // Joining may save a third of the pieces again: a gear's hub is cut into wedges at first.
   const std::size_t most = config.max_parts == 1 ? 1 : config.max_parts + config.max_parts / 2;
   tree.grow(find_concave_places(model.mesh, model.grid, model.seed), most,
             [&](double done) { heard(0.1 + 0.6 * done); });
@@ -118,10 +118,11 @@ Expected<Decomposition> decompose(const Mesh& mesh, const DecomposeConfig& confi
   auto used = usable_mesh(mesh);
   if (!used) return tl::unexpected(used.error());
   double last = 0;
-  const auto heard = [&](double share) {  // a new leaf that is not done lowers the share: nobody wants to see that
-    last = std::max(last, share);
-    if (progress) progress(last);
-  };
+  const auto heard =
+      [&](double share) {  // a new leaf that is not done lowers the share; a progress bar must not go back
+        last = std::max(last, share);
+        if (progress) progress(last);
+      };
   if (open_edges(*used) > 0) {
     heard(1);
     return one_open_piece(*used, config);

@@ -42,7 +42,7 @@ struct Decomposition {
 /// `progress` hears a share from 0 to 1, on the calling thread, and may be empty.
 ///
 /// Closed pieces of mesh that overlap are one solid. Bodies that lie in one cell but do not touch (found by flooding the grid; gaps
-/// below two of its cells are not seen) are parted by further cuts, though their concavity be small. A mesh with open edges has no
+/// below two of its cells are not seen) are parted by further cuts, even where their concavity is small. A mesh with open edges has no
 /// inside: it comes back as one piece with met = false. Errors: what check_mesh refuses, a mesh without extent, one that is inside
 /// out or encloses no volume, settings out of range.
 [[nodiscard]] Expected<Decomposition> decompose(const Mesh& mesh, const DecomposeConfig& config,

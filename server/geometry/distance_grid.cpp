@@ -111,7 +111,7 @@ void DistanceGrid::spread(std::vector<Vec3f>& closest) {
 }
 
 void DistanceGrid::set_signs(const MeshQuery& query) {
-  // Votes: the lines along x, y and z through a node each say how many closed pieces it is in. Each axis has an array of its own.
+  // Votes: each of the lines along x, y and z through a node counts the closed pieces that it is in. Each axis has an array of its own.
   std::array<std::vector<std::int8_t>, 3> winding;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     winding[axis].resize(distance_m_.size());

@@ -1,4 +1,4 @@
-// Signed distance to a whole mesh on a regular grid: what the search for cuts asks instead of the mesh, millions of times.
+// Signed distance to a whole mesh on a regular grid: the search for cuts asks it millions of times, instead of the mesh.
 #pragma once
 
 #include <algorithm>

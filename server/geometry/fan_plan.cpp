@@ -77,7 +77,7 @@ struct Runs {
 std::optional<Runs> fewest_from(const RunDepths& depths, int start, std::uint16_t bound, std::size_t most) {
   Runs best{depths.runs(start, bound, most), bound};
   if (best.borders.size() < 3) return std::nullopt;
-  // As few, but as even as can be.
+  // With the same number, as even as possible.
   int low = 0;
   int high = bound;
   for (int i = 0; i < kHalvings; ++i) {

@@ -14,10 +14,10 @@ namespace mechane::geometry {
 using FanPlan = std::vector<std::vector<HalfSpace>>;
 
 /// The plan with the fewest pieces, at most `most`, such that no chord within one is deeper than `bound_m`, as far as the region's
-/// points show; of several with as few, the one of least depth. None where there is no such plan.
+/// points show; of several with the same number, the one of least depth. Empty if there is no such plan.
 [[nodiscard]] std::optional<FanPlan> find_fan(const PieceRegion& region, double bound_m, std::size_t most);
 
-/// Directions along which an object is likely to be built: the principal axes of the points, then x, y, z where they differ.
+/// Directions along which an object was probably built: the principal axes of the points, then x, y, z where they differ.
 [[nodiscard]] std::vector<Vec3> likely_axes(const std::vector<Vec3>& points);
 
 /// The mean of the points.

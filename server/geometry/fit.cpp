@@ -21,22 +21,24 @@ Expected<void> check_points(std::span<const Vec3> points) {
   const char* where = "points of the part";
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite() && points[i].cwiseAbs().maxCoeff() <= 1000) continue;
-    return fail("point " + std::to_string(i) + " is not a finite point within 1000 m", where,
+    return fail(ErrorCode::invalid_value, "point " + std::to_string(i) + " is not finite, or beyond 1000 m", where,
                 "check the model's units and modifiers, and export it again");
   }
   if (points.size() < 12) {
-    return fail("a superquadric has 11 parameters and there are only " + std::to_string(points.size()) + " points",
-                where, "give the whole surface of the part");
+    return fail(ErrorCode::missing,
+                "a superquadric needs 12 points at least, and there are only " + std::to_string(points.size()), where,
+                "give the whole surface of the part");
   }
   const Moments moments = moments_of(points, 0);
   if (!(moments.variance.x() > 1e-8 * moments.variance.z())) {
-    return fail("the points lie on a plane, a line or one spot", where, "give the part a thickness");
+    return fail(ErrorCode::invalid_value, "the points lie on a plane, on a line or in one spot", where,
+                "give the part a thickness");
   }
   return {};
 }
 
 /// Scales the semi-axes until F <= 1 at every point. Without deformation one step is exact; with it the taper and the bend see the
-/// longer axes, so it goes on until it holds. False when it does not settle.
+/// longer axes, so it is repeated until F <= 1. False when that does not settle.
 bool bound(FitResult& fit, std::span<const Vec3> points_O) {
   const Pose X_QO = fit.X_OQ.inverse();
   const Vec3 before = fit.shape.a;
@@ -55,8 +57,8 @@ bool bound(FitResult& fit, std::span<const Vec3> points_O) {
   return true;
 }
 
-/// What is fitted, moved and scaled: its middle in the origin, its diagonal 1. The solver's tolerances and the parameters are then of one
-/// size for a peg and for a crane.
+/// The points to fit, moved and scaled so that their middle is the origin and their diagonal 1. Then tolerances and parameters have the
+/// same size for a peg and for a crane.
 struct Task {
   std::vector<Vec3> points;
   Vec3 center;
@@ -92,7 +94,7 @@ FitResult make_result(const FoundFit& found, const Task& task, int iterations) {
   return result;
 }
 
-/// Fits `points`; bounds them and the mesh's vertices.
+/// Fits the points; the result bounds them and the mesh's vertices.
 Expected<FitResult> fit(std::span<const Vec3> points_O, const Mesh* mesh, const FitConfig& config) {
   if (auto ok = check_points(points_O); !ok) return tl::unexpected(ok.error());
   Eigen::AlignedBox3d box;
@@ -111,7 +113,8 @@ Expected<FitResult> fit(std::span<const Vec3> points_O, const Mesh* mesh, const 
     FitResult result = make_result(choice, task, found.iterations);
     if (!config.bound || bound(result, all)) return result;
   }
-  return fail("no superquadric of sensible size " + std::string(config.bound ? "bounds" : "fits") + " the part",
+  return fail(ErrorCode::not_supported,
+              "no superquadric of sensible size " + std::string(config.bound ? "bounds" : "fits") + " the part",
               "points of the part", "split the part where it is concave, or check it for stray vertices");
 }
 

@@ -1,4 +1,4 @@
-// Fits one superquadric to one part by Levenberg-Marquardt (paper, equation 3, with the square that its print lost).
+// Fits one superquadric to one part by Levenberg-Marquardt (paper, equation 3, with the square that is missing in print).
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ struct FitConfig {
   std::size_t samples = 400;      ///< surface samples that the fit sees
   bool deformations = true;       ///< try taper and bend where a mean error over 0.2 % is left
   double deformation_gain = 0.2;  ///< they stay only when they lower the mean error by this share
-  bool robust = false;  ///< points that lie far from what the others show get no say: for scans with noise and outliers
-  bool bound = true;    ///< let the axes grow or shrink until F <= 1 at every point; with outliers that means nothing
+  bool robust = false;  ///< points far from where the others lie do not count: for scans with noise and outliers
+  bool bound = true;    ///< let the axes grow or shrink until F <= 1 at every point; of no use with outliers
   std::uint64_t seed = 1;
 };
 

@@ -16,14 +16,14 @@ constexpr double kWithin = 0.7;       // of the points, at least, are not outlie
 constexpr double kGaussian = 0.9648;  // standard deviation over this quantile of the unsigned distances
 constexpr int kCells = 9;             // along an edge of the cube that carries the simulated points
 constexpr int kStrayCells = 6;
-constexpr double kFarOff = 10;          // of the diagonal: farther is not worse
-constexpr std::size_t kNeighbours = 7;  // how far the last of them is says how dense the points are
+constexpr double kFarOff = 10;          // of the diagonal: a greater distance counts the same
+constexpr std::size_t kNeighbours = 7;  // the distance of the last of them tells how dense the points are
 constexpr double kLonely = 1.8;         // times as far to that neighbour as for most
 constexpr int kRounds = 6;
 constexpr double kSettled = 4e-4;  // of the diagonal: how far the surface moves in the last round
 constexpr double kMostNoise = 0.1;
 
-/// Pairs of opposite Gaussian vectors: their mean is none, and only what is not linear in the noise is left.
+/// Pairs of opposite Gaussian vectors: their mean is 0, so that only effects that are not linear in the noise are left.
 std::vector<Vec3> opposite_noise(std::size_t count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3> noise(count);

@@ -11,7 +11,8 @@
 
 namespace mechane::geometry {
 
-/// The standard deviation of distances if most are Gaussian, from the quantile that outliers do not reach; not below what a loss can use as its scale.
+/// The standard deviation of distances if most are Gaussian, from a quantile that
+/// outliers do not reach. At least the smallest scale that a loss can use.
 [[nodiscard]] double spread_of(std::span<const double> distances);
 
 /// About `wanted` of the points, evenly chosen, without those that have far fewer neighbours than most.
@@ -32,8 +33,8 @@ struct Stray {
 };
 [[nodiscard]] Stray stray_of(const FitState& state, std::span<const Vec3> points, double reach);
 
-/// Moves a state that is the best fit to noisy points to the one whose own points, spread by area and made as noisy, would have this best
-/// fit. Returns the iterations.
+/// Noise makes the best fit to points too thick and too round. From such a fit, finds the state whose own points, spread by area and made
+/// as noisy, would have this best fit. Returns the iterations.
 int remove_noise_bias(FitState& state, std::span<const Vec3> points, const ImproveConfig& config, std::uint64_t seed);
 
 }  // namespace mechane::geometry

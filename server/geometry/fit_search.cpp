@@ -15,14 +15,15 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kTrimmed = 0.05;           // of the points, when robust, for the moments that give the starts
-constexpr double kFarthest = 0.1;           // of the diagonal: a point farther off says no more than that it is far
-constexpr double kGoodEnough = 0.002;       // of the diagonal: then taper and bend are not tried
-constexpr double kFound = 5e-4;             // of the diagonal: then no further start is tried
-constexpr double kNoisy = 0.003;            // of the diagonal: spread that makes a fit too thick and too round
-constexpr double kStrayReach = 0.06;        // of the diagonal: gaps between few points are that wide
-constexpr double kMostBoundedFold = 0.5;    // of the bend at which the section reaches its axis
-constexpr double kMostSpreadGrowth = 1.15;  // when it is set right: beyond that it went astray
+constexpr double kTrimmed = 0.05;         // of the points, when robust, for the moments that give the starts
+constexpr double kFarthest = 0.1;         // of the diagonal: a point farther off counts as no farther
+constexpr double kGoodEnough = 0.002;     // of the diagonal: then taper and bend are not tried
+constexpr double kFound = 5e-4;           // of the diagonal: then no further start is tried
+constexpr double kNoisy = 0.003;          // of the diagonal: spread that makes a fit too thick and too round
+constexpr double kStrayReach = 0.06;      // of the diagonal: gaps between few points are this wide
+constexpr double kMostBoundedFold = 0.5;  // of the bend at which the section reaches its axis
+constexpr double kMostSpreadGrowth =
+    1.15;  // when noise is corrected: a larger growth means that the correction went wrong
 
 /// Short runs from every start on few points, then longer ones of the best on more. A round takes the spread of the distances anew.
 constexpr std::size_t kFewPoints = 80;
@@ -31,7 +32,7 @@ constexpr std::size_t kManyPoints = 800;  // to choose the winner by
 constexpr int kFewIterations = 4;
 constexpr int kMiddleIterations = 6;
 constexpr int kFinalIterations = 12;
-constexpr int kNoisyIterations = 3;  // before the noise is seen to
+constexpr int kNoisyIterations = 3;  // before the correction for noise
 constexpr std::size_t kRunnersUp = 4;
 constexpr std::size_t kFinalists = 2;
 
@@ -59,7 +60,8 @@ class Search {
   }
 
   SearchResult run() {
-    // A clean part is often a plain box or cylinder: then that is all. Noise leaves no fit good enough, so it would be time lost.
+    // A clean part is often a plain box or cylinder: then the search ends here. With noise no fit is that good, and trying would only
+    // take time.
     std::vector<Attempt> finalists;
     if (!config_.robust || !config_.deformations) finalists = sift(false);
     if (config_.deformations && (finalists.empty() || finalists.front().spread > kGoodEnough)) {
@@ -76,7 +78,7 @@ class Search {
     Attempt best = finalists.front();
     bool gains = best.score < (1 - config_.deformation_gain) * rigid.score;
     SearchResult result;
-    // Where the deformed one cannot be bounded, the rigid one is asked for.
+    // If the deformed one cannot be bounded, the rigid one is used.
     if (!gains || config_.bound) finish(rigid);
     result.rigid = found(rigid);
     if (gains) finish(best);
@@ -87,7 +89,7 @@ class Search {
   }
 
  private:
-  /// A bend whose axis is near: growing axes and rays along the normals, which bounded parts need, go wrong there.
+  /// A bend whose axis is near: there growing the axes and casting rays along the normals, as bounded parts need it, goes wrong.
   static bool nearly_folds(const Attempt& attempt) {
     const FitState& s = attempt.start.state;
     const double widest = std::hypot(s.a.x() * (1 + std::abs(s.taper[0])), s.a.y() * (1 + std::abs(s.taper[1])));
@@ -112,8 +114,8 @@ class Search {
     attempt.spread = spread_of(attempt.off);
   }
 
-  /// Sorts by the mean distance, the best first. With outliers what most points say is what counts: a distance counts at most a few
-  /// times what the best attempt leaves.
+  /// Sorts by the mean distance, the best first. With outliers most of the points decide: each distance counts at most a few times the
+  /// best attempt's.
   void rank(std::vector<Attempt>& attempts) const {
     double least = kFarthest;
     for (const Attempt& attempt : attempts)
@@ -129,7 +131,7 @@ class Search {
                      [](const Attempt& l, const Attempt& r) { return l.score < r.score; });
   }
 
-  /// The best of each z axis, for the first runs are too short to tell, and then the best of the others.
+  /// The best of each z axis, because the first runs are too short to tell, and then the best of the others.
   void keep_runners_up(std::vector<Attempt>& attempts) const {
     rank(attempts);
     std::array<bool, 3> has{};

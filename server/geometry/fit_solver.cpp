@@ -45,7 +45,7 @@ LossValue loss_of(double d, const ImproveConfig& config) {
   return {square, 1};
 }
 
-/// Sums of row^T row, the lower half, four rows at a time: so the sums need not go to memory and back for each.
+/// Sums of row^T row, the lower half, four rows at a time, so that the sums do not go to memory and back for each row.
 class Sums {
  public:
   /// Where the next row's numbers go: the derivatives, then the distance.
@@ -123,7 +123,7 @@ LossModel loss_model(const FitState& state, std::span<const Vec3> points, const 
   const FitForm form(state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const FitForm::Value v = form.at(points[i]);
-    // Equation 3 is volume (f^2 - 1); its own axes are in the volume.
+    // Equation 3 is volume (f^2 - 1); the volume depends on the axes too.
     const double inverse = paper ? 2 * volume * v.f : 1 / std::max(kLeastSlope, v.slope_Q.norm());
     const double d = paper ? volume * (v.f * v.f - 1) : (v.f - 1) * inverse;
     const double by_volume = paper ? 0.5 * d : 0;
@@ -142,7 +142,7 @@ LossModel loss_model(const FitState& state, std::span<const Vec3> points, const 
   return model;
 }
 
-/// The damped step; parts that would leave their bounds stay on them, and the others are solved for again.
+/// The damped step. Parameters that would leave their bounds stay on them, and the step is solved again for the others.
 FitState::Step damped_step(const FitState& state, const LossModel& model, bool deformed, double damping) {
   const Bounds bounds = bounds_at(state, deformed);
   LossModel::Matrix H = model.H;

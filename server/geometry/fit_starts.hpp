@@ -26,7 +26,8 @@ struct Moments {
 [[nodiscard]] Moments moments_of(std::span<const Vec3> points, double trimmed);
 
 /// Starts for each axis as z and for several exponents, without taper and bend, or (`deformed`) with those that the moments show.
-/// `given`: along the axes of the points' frame too, for a modelled part often lies along them, and a cube's moments show none.
+/// `given`: along the axes of the points' frame too, because a modelled part often lies along them, and the moments of a cube show no
+/// axes.
 [[nodiscard]] std::vector<FitStart> fit_starts(std::span<const Vec3> points, bool deformed, double trimmed, bool given);
 
 }  // namespace mechane::geometry

@@ -6,7 +6,7 @@
 namespace mechane::geometry {
 namespace {
 
-constexpr double kLeastCoordinate = 1e-9;  // of an axis: below it a power's slope is taken as there
+constexpr double kLeastCoordinate = 1e-9;  // of an axis: a power's slope below it is taken as at this value
 constexpr double kLeastTaper = 0.05;       // a section never shrinks below this share
 constexpr double kLeastRoot = 1e-6;
 constexpr double kLeastForm = 1e-100;

@@ -1,4 +1,4 @@
-// What the fit moves: the 15 parameters of one superquadric, and how far a point lies from it, with derivatives by hand.
+// The state of a fit: the 15 parameters of one superquadric; and how far a point lies from it, with derivatives written by hand.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace mechane::geometry {
 
-/// One superquadric in some frame, for points whose diagonal is about 1. The bend is a vector (k cos alpha, k sin alpha), so that no
-/// bend is a state like any other; a step turns the pose by a rotation vector and shifts it, both in the superquadric's own frame.
+/// One superquadric in some frame, for points whose diagonal is about 1. The bend is a vector (k cos alpha, k sin alpha), so that
+/// a state without bend is like any other; a step turns the pose by a rotation vector and shifts it, both in the superquadric's own frame.
 struct FitState {
-  /// Where a step's parts stand: log of the axes (3), exponents (2), rotation (3), centre (3), taper (2), bend (2).
+  /// The order of a step's parts: log of the axes (3), exponents (2), rotation (3), centre (3), taper (2), bend (2).
   enum Parameter { kAxes = 0, kExponents = 3, kTurn = 5, kShift = 8, kTaper = 11, kBend = 13 };
   static constexpr int kRigid = 11;
   static constexpr int kAll = 15;
@@ -27,8 +27,8 @@ struct FitState {
   [[nodiscard]] FitState moved(const Step& step) const;
 };
 
-/// f = F^(e1/2), which grows in proportion to the distance from the centre, at points of one state. Beyond where taper and bend can be
-/// undone it goes on with bounded slopes.
+/// f = F^(e1/2), which grows in proportion to the distance from the centre, at points of one state. Where taper and bend cannot
+/// be undone it goes on with bounded slopes.
 class FitForm {
  public:
   struct Value {

@@ -12,35 +12,38 @@ namespace mechane::geometry {
 namespace {
 
 constexpr double kSmallest_m = 1e-6;
-constexpr double kLargest_m =
-    1000;  // a machine is a few metres large: a kilometre is a wrong unit, and squares of it still fit
+// A machine is a few metres large: over a kilometre the unit is wrong. Squares of it do not lose precision yet.
+constexpr double kLargest_m = 1000;
 
 }  // namespace
 
 Expected<void> check_mesh(const Mesh& mesh, const std::string& where) {
-  if (mesh.triangles.empty()) return fail("the mesh has no triangles", where, "export the model with its faces");
+  if (mesh.triangles.empty())
+    return fail(ErrorCode::missing, "the mesh has no triangles", where, "export the model with its faces");
   if (mesh.triangles.size() > kMaxTriangles || mesh.vertices.size() > 3 * kMaxTriangles) {
-    return fail("the mesh has " + std::to_string(mesh.triangles.size()) + " triangles, more than " +
-                    std::to_string(kMaxTriangles),
-                where, "simplify the collision shape");
+    return fail(ErrorCode::too_large,
+                "the mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                    std::to_string(mesh.vertices.size()) + " vertices",
+                where, "simplify the collision shape to at most " + std::to_string(kMaxTriangles) + " triangles");
   }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!mesh.vertices[i].allFinite() || mesh.vertices[i].cwiseAbs().maxCoeff() > kLargest_m) {
-      return fail("vertex " + std::to_string(i) + " is not a finite point within 1000 m", where,
+      return fail(ErrorCode::invalid_value, "vertex " + std::to_string(i) + " is not finite, or beyond 1000 m", where,
                   "check the model's units and modifiers, and export it again");
     }
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t v : mesh.triangles[i]) {
       if (v < mesh.vertices.size()) continue;
-      return fail("triangle " + std::to_string(i) + " refers to vertex " + std::to_string(v) + " of " +
+      return fail(ErrorCode::damaged,
+                  "triangle " + std::to_string(i) + " refers to vertex " + std::to_string(v) + " of " +
                       std::to_string(mesh.vertices.size()),
                   where, "the file is damaged: export it again");
     }
   }
-  // Squares and cubes of less than a micrometre drown in rounding.
+  // Squares and cubes of lengths below a micrometre are lost in rounding.
   if (!(mesh.bounds().diagonal().norm() >= kSmallest_m)) {
-    return fail("the mesh is smaller than a micrometre", where, "export the model in metres");
+    return fail(ErrorCode::invalid_value, "the mesh is smaller than a micrometre", where, "export the model in metres");
   }
   return {};
 }
@@ -77,6 +80,10 @@ Mesh weld(const Mesh& mesh, double tolerance_m) {
     if (known.insert(smallest_first).second) out.triangles.push_back(w);
   }
   return out;
+}
+
+Mesh weld(const Mesh& mesh) {
+  return weld(mesh, 1e-6 * mesh.bounds().diagonal().norm());
 }
 
 std::size_t open_edges(const Mesh& welded) {

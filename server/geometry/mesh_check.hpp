@@ -1,4 +1,4 @@
-// Whether a mesh can be worked with at all, and whether it closes a volume.
+// Whether a mesh can be used at all, and whether it closes a volume.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,15 @@ namespace mechane::geometry {
 
 inline constexpr std::size_t kMaxTriangles = 2'000'000;
 
-/// An Error that names `where` when the mesh has no triangles or too many, an index out of range, a number that is not finite or beyond
-/// a kilometre, or when it is smaller than a micrometre.
+/// Errors at `where`: missing (no triangles), too_large (too many), damaged (an index out of range), invalid_value (a number that is not
+/// finite or beyond a kilometre, a mesh smaller than a micrometre).
 [[nodiscard]] Expected<void> check_mesh(const Mesh& mesh, const std::string& where);
 
 /// The mesh with vertices at the same place (within `tolerance_m`) made one, triangles without area left out, and one left of triangles
 /// that have the same corners and look the same way. Exporters double vertices along creases and texture seams.
 [[nodiscard]] Mesh weld(const Mesh& mesh, double tolerance_m);
+/// The same within a millionth of its diagonal.
+[[nodiscard]] Mesh weld(const Mesh& mesh);
 
 /// How many directed edges have no partner that runs the other way: 0 means closed. The mesh must be welded.
 [[nodiscard]] std::size_t open_edges(const Mesh& welded);

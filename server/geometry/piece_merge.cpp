@@ -96,7 +96,7 @@ void merge_pieces(const DecomposeModel& model, std::vector<PieceRegion>& pieces)
   for (std::size_t i = 0; i < name.size(); ++i)
     name[i] = i;
   std::size_t next_name = pieces.size();
-  // What would hold a third piece may be free once that has been joined to another; then it is tried again.
+  // A union that now contains some of a third piece may be possible once that piece has been joined to another; so try again then.
   std::set<std::pair<std::size_t, std::size_t>> refused;
   for (std::size_t apart = 1; apart < pieces.size();) {
     bool found = false;

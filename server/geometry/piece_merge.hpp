@@ -1,4 +1,4 @@
-// Joins pieces that cuts parted in vain: the wedges of a hub, between cuts that freed its teeth.
+// Joins pieces that were cut apart needlessly: the wedges of a gear's hub, between cuts that separated its teeth.
 #pragma once
 
 #include <vector>

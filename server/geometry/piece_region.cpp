@@ -113,7 +113,7 @@ void part_lumps(const DecomposeModel& model, PieceRegion& region) {
       parted = true;
     }
   }
-  if (!parted) region.lumps = 1;  // no surface of its own: nothing that a cut could part
+  if (!parted) region.lumps = 1;  // no surface of its own, so a cut could part nothing
 }
 
 void measure_with(const DecomposeModel& model, PieceRegion& region, std::size_t count) {

@@ -39,11 +39,6 @@ Mat3 deformation_jacobian(const Superquadric& s, const Vec3& p) {
   return J;
 }
 
-/// sgn(c) |c|^e: what the paper writes as c^e.
-double signed_power(double c, double e) {
-  return std::copysign(std::pow(std::abs(c), e), c);
-}
-
 struct Trig {
   double ce, se, cw, sw;
   explicit Trig(SurfaceAngles t)

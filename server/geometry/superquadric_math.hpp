@@ -49,7 +49,7 @@ template <class T>
   return {p.x() / (s.taper_x * t + T(1)), p.y() / (s.taper_y * t + T(1)), p.z()};
 }
 
-/// Circular bend. With r = x cos(alpha) + y sin(alpha), which is method.md's cos(alpha - beta) sqrt(x^2 + y^2), and the differences
+/// Circular bend. With r = x cos(alpha) + y sin(alpha), which is the literature's cos(alpha - beta) sqrt(x^2 + y^2), and the differences
 /// written out so that k = 0 is the identity with the right derivatives, not a division by zero.
 template <class T>
 [[nodiscard]] Vec3T<T> bend(const BasicSuperquadric<T>& s, const Vec3T<T>& p) {

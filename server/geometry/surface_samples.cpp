@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "server/base/random.hpp"
+#include "server/geometry/area_normal.hpp"
 
 namespace mechane::geometry {
 namespace {
@@ -39,7 +40,7 @@ class ApartFilter {
   [[nodiscard]] Cell cell(const Vec3& p) const {
     return {std::llround(p.x() / least_), std::llround(p.y() / least_), std::llround(p.z() / least_)};
   }
-  // Two cells may share a key: then a few more points are compared, no more.
+  // Two cells may share a key. That only costs a few more comparisons.
   [[nodiscard]] static std::uint64_t key(const Cell& c) {
     return static_cast<std::uint64_t>(c[0]) * 73856093U ^ static_cast<std::uint64_t>(c[1]) * 19349663U ^
            static_cast<std::uint64_t>(c[2]) * 83492791U;
@@ -49,18 +50,12 @@ class ApartFilter {
   std::unordered_map<std::uint64_t, std::vector<Vec3>> cells_;
 };
 
-double triangle_area(const Mesh& mesh, std::size_t i) {
-  const auto& t = mesh.triangles[i];
-  const Vec3& a = mesh.vertices[t[0]];
-  return 0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm();
-}
-
 }  // namespace
 
 double surface_area_m2(const Mesh& mesh) {
   double area = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    area += triangle_area(mesh, i);
+    area += 0.5 * area_normal(mesh, i).norm();
   return area;
 }
 
@@ -69,7 +64,7 @@ std::vector<SurfaceSample> sample_by_area(const Mesh& mesh, std::size_t count, s
   std::vector<double> running(mesh.triangles.size());
   double area = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    running[i] = area += triangle_area(mesh, i);
+    running[i] = area += 0.5 * area_normal(mesh, i).norm();
   if (!(area > 0)) return samples;
   Random random(seed);
   samples.reserve(count);
@@ -99,7 +94,7 @@ std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m,
   const double wanted = kCandidatesPerCell * surface_area_m2(mesh) / (spacing_m * spacing_m);
   const auto count = static_cast<std::size_t>(std::min(std::ceil(wanted), static_cast<double>(kMaxCandidates)));
   std::vector<SurfaceSample> random = sample_by_area(mesh, count, seed);
-  // By area they come triangle after triangle; greedy choice wants them in no order (Fisher-Yates).
+  // Sampling by area gives them triangle after triangle; the greedy choice needs them in random order (Fisher-Yates).
   Random shuffle(seed + 1);
   for (std::size_t i = random.size(); i > 1; --i)
     std::swap(random[i - 1], random[shuffle.below(i)]);

@@ -1,4 +1,4 @@
-// How old is what we know, and how much does it still count? Judged from the receiver's own clock and the last new
+// How old the newest sample of a hand is, and how much it still counts. Judged from the receiver's own clock and the last new
 // sequence number, never from the sender's clock or from events of the transport.
 #pragma once
 
@@ -21,7 +21,7 @@ inline constexpr Duration kZeroBy = std::chrono::milliseconds(50);   ///< and no
   return s * s * (3.0 - 2.0 * s);
 }
 
-/// What a sample's sequence number says of it.
+/// How a sample's sequence number stands to those before it.
 enum class SampleOrder : std::uint8_t {
   newer,     ///< to be used
   older,     ///< repeated, overtaken on the way, or of the session before
@@ -30,9 +30,9 @@ enum class SampleOrder : std::uint8_t {
 
 /// Follows the samples of one sender: which is new, and how long ago the last new one came. One thread; no allocation.
 ///
-/// One wrong sequence number must not block the hand for good, wherever it comes from: a number that is too high is not taken. A session's
-/// first number has nothing to be held against; where it was wrong, and all that follows is refused for kPatience, samples that count
-/// upwards in step with each other are taken as the sender's (as RFC 3550, appendix A.1, does after two; we ask for more).
+/// One wrong sequence number must not block the hand for good. So a number that is too high is not taken. A session's first number cannot
+/// be compared with anything; if it was wrong, every later one is refused. After kPatience of that, refused samples that count upwards in
+/// step with each other are taken as the sender's (as RFC 3550, appendix A.1, does after two; we ask for more).
 class SampleAge {
  public:
   static constexpr std::uint64_t kMostPerMillisecond = 10;  ///< no device is faster
@@ -64,7 +64,7 @@ class SampleAge {
   [[nodiscard]] std::uint64_t session() const noexcept { return session_; }
   [[nodiscard]] std::uint64_t sequence() const noexcept { return last_.sequence; }
 
-  /// Forgets everything, the last session too: the next sample is new whatever it says.
+  /// Forgets everything, the last session too: the next sample is new whatever its number.
   void reset() noexcept { *this = SampleAge{}; }
 
  private:
@@ -86,7 +86,7 @@ class SampleAge {
     return SampleOrder::newer;
   }
 
-  /// Follows one line of refused samples; another one has its turn when that has ended.
+  /// Follows one series of refused samples; another one is followed when that has ended.
   bool counts_in_step(std::uint64_t sequence, TimePoint now) noexcept {
     const bool follows = in_step_ > 0 && sequence > refused_.sequence && refused_.may_precede(sequence, now);
     if (!follows && in_step_ > 0 && now - refused_.arrived < kPatience) return false;

@@ -47,7 +47,7 @@ bool in_range(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
 
-/// Nothing but numbers within the limits leaves here; the state is ready for the next call.
+/// Checks what goes out: only numbers within the limits leave here, and the state is ready for the next call.
 HandForce finish(GovernorState& state, HandForce out) noexcept {
   for (std::size_t i = 0; i < kReasonCount; ++i) {
     if ((out.reasons & (1u << i)) != 0) ++state.counts[i];
@@ -87,10 +87,11 @@ Expected<void> check(const GovernorConfig& c) {
     char what[64], remedy[64];
     std::snprintf(what, sizeof(what), "%s is %g", r.name, r.value);
     std::snprintf(remedy, sizeof(remedy), "give a value from %g to %g", r.low, r.high);
-    return fail(what, "force governor", remedy);
+    return fail(ErrorCode::invalid_value, what, "force governor", remedy);
   }
   if (c.hold < Duration{0} || c.zero_by <= c.hold) {
-    return fail("hold must come before zero_by, and be no less than 0", "force governor", "use 10 ms and 50 ms");
+    return fail(ErrorCode::conflict, "hold is negative, or zero_by is not above hold", "force governor",
+                "use 10 ms for hold and 50 ms for zero_by");
   }
   return {};
 }
@@ -127,7 +128,7 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
   bool clamped = clamp_norm(wanted.f, config_.max_force_n);
   clamped |= clamp_norm(wanted.t, config_.max_torque_nm);
 
-  // What is on the device falls with the gain at once; the slew limit holds for the way from there.
+  // The force on the device falls with the gain at once; the slew limit holds from there on.
   const double fall = state.gain < gain_before ? state.gain / gain_before : 1.0;
   HandForce out = state.last;
   out.force_W.f *= fall;
@@ -165,12 +166,12 @@ double ForceGovernor::next_gain(GovernorState& state, const GovernorInput& input
   return fresh * state.ramp;
 }
 
-// The force of the last call acted while the hand moved on to where it is now: its work comes off the credit (a hand that works
-// against the force pays in).
+// The force of the last call acted while the hand moved to where it is now: its work is taken from the credit (a hand that works
+// against the force adds to it).
 void ForceGovernor::settle_energy(GovernorState& state, const Twist& V_WH, double dt_s) const noexcept {
   const double given_out = (state.last.force_W.f.dot(V_WH.v) + state.last.force_W.t.dot(V_WH.w)) * dt_s;
   state.credit_j = std::min(state.credit_j - given_out, config_.energy_credit_j);
-  // A velocity that is finite but absurd (1e300 m/s) must not poison the account for ever.
+  // A velocity that is finite but absurd (1e300 m/s) must not spoil the account for good.
   state.credit_j = std::max(state.credit_j, -config_.energy_credit_j - config_.energy_margin_j);
 }
 

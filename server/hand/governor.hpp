@@ -1,4 +1,5 @@
-// ForceGovernor: the last word on every force that reaches a hand. The server runs one for its users, the client another one.
+// ForceGovernor: the limits on every force that reaches a hand. The server runs one for its users; the client runs another, which has
+// the last word.
 #pragma once
 
 #include <array>
@@ -26,11 +27,11 @@ struct GovernorConfig {
   double ramp_down_s = 0.1;          ///< at its end; 0 .. 10
   bool passivity = true;             ///< the energy observer
   double energy_margin_j = 0.002;    ///< what the hand may be given before it has put anything in
-  double energy_credit_j = 0.5;      ///< what it has put in is remembered up to this; over the margin
+  double energy_credit_j = 0.5;      ///< the energy that it has put in is remembered up to this; above the margin
   double max_damping_ns_per_m = 10;  ///< the most that the observer adds
 };
 
-/// What a force would like to be, and what is known of the hand. All in W, SI.
+/// The force that is wanted, and what is known of the hand. All in W, SI.
 struct GovernorInput {
   Wrench wanted_W;                                ///< force and torque on the visitor's hand
   std::array<double, kFingers> finger_force_n{};  ///< each >= 0
@@ -39,9 +40,8 @@ struct GovernorInput {
   bool engaged = true;                            ///< a visit is on; the governor ramps when this changes
 };
 
-/// What a governor remembers of one hand between two calls. Plain, so that it stands where its owner keeps all that
-/// changes: a world in its WorldState, a client beside its device. Made by ForceGovernor::start(); one that is
-/// default-made has no margin of energy.
+/// What a governor remembers of one hand between two calls. Plain data, so that its owner can keep it with its other state: a world in
+/// its WorldState, a client beside its device. ForceGovernor::start() makes one; a default-constructed one has no energy margin.
 struct GovernorState {
   HandForce last;   ///< what is on the device now
   double ramp = 0;  ///< 0 .. 1
@@ -81,7 +81,7 @@ class ForceGovernor {
   [[nodiscard]] GovernorState start() const noexcept;
   /// The force for the next `dt`; call at the device's rate. `dt` <= 0 allows no rise.
   [[nodiscard]] HandForce apply(GovernorState& state, const GovernorInput& input, Duration dt) const noexcept;
-  /// Back to the start; counts stay.
+  /// Back to the start; the counts stay.
   void reset(GovernorState& state) const noexcept;
 
   [[nodiscard]] const GovernorConfig& config() const noexcept { return config_; }

@@ -1,5 +1,5 @@
-// The force on a hand: what a governor gives out, what the wire carries, what a device renders. Declared here once; proto/hand.cpp holds the
-// numbers of the wire's contract against these.
+// The force on a hand: what a governor gives out, what the wire carries, what a device renders. Declared here once; proto/hand.cpp
+// compares the numbers of the wire's contract with these.
 #pragma once
 
 #include <array>

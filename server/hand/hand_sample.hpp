@@ -1,5 +1,5 @@
-// A hand as its device sees it: what a client sends, what the wire carries, what a world moves. Declared here once; proto/hand.cpp holds
-// the numbers of the wire's contract against these.
+// A hand as its device sees it: what a client sends, what the wire carries, what a world moves. Declared here once; proto/hand.cpp
+// compares the numbers of the wire's contract with these.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
 [[nodiscard]] constexpr std::size_t first_segment(std::size_t finger) noexcept {
   return 1 + kPhalanges * finger;
 }
-/// Whose phalanx a segment is; not of the palm, which is segment 0.
+/// The finger that a segment belongs to. Not for the palm, which is segment 0.
 [[nodiscard]] constexpr std::size_t finger_of(std::size_t segment) noexcept {
   return (segment - 1) / kPhalanges;
 }
@@ -49,7 +49,7 @@ struct HandSample {
 
 /// A sample with what its sender wrote on it.
 struct SentSample : HandSample {
-  std::uint64_t session = 0;   ///< who sends: a client's own random number, never 0
+  std::uint64_t session = 0;   ///< the sender: a client's own random number, never 0
   std::uint64_t sequence = 0;  ///< rises by one a sample within a session
   std::uint64_t sent_ns = 0;   ///< the sender's clock; echoed, never compared with ours
 };

@@ -72,7 +72,7 @@ Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age)
     const LocalContact& c = contacts_[i];
     const double share = share_left(age, c.validity);
     if (share <= 0) continue;
-    // The surface moves on while we believe the contact; afterwards it rests, and its speed fades with the contact.
+    // The surface moves on while the contact is valid; afterwards it rests, and its speed fades with the contact.
     const Vec3 p_WS = c.p_W + to_seconds(std::clamp(age, Duration{0}, std::max(c.validity, Duration{0}))) * c.v_W;
     const Overlap overlap = overlap_of(c, p_WS, p_WH);
     if (overlap.depth_m <= 0) continue;

@@ -7,7 +7,7 @@
 namespace mechane::haptics {
 
 /// Fills contacts of every present user from the bodies that have a collision object, deepest kept when there are too many. Contacts
-/// with a held body are among them: they tell whether the fingers still close on it; its force is the grasp spring's alone.
+/// with a held body are among them: they tell whether the fingers still close on it, though its force comes from the grasp spring alone.
 /// Allocates nothing.
 void find_contacts(const state::WorldDescription& description, const HandModel& hand,
                    state::WorldState& state) noexcept;

@@ -1,4 +1,4 @@
-// How heavy a body feels at a point: what bounds the stiffness and damping that an explicit contact force may have.
+// How heavy a body feels at a point. This bounds the stiffness and damping that an explicit contact force may have.
 #pragma once
 
 #include "server/state/world_state.hpp"

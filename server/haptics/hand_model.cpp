@@ -39,18 +39,20 @@ Expected<void> check(const HandSize& size) {
   const auto bad = [](double v) { return !std::isfinite(v) || v <= 0 || v > 1; };
   const char* remedy = "give sizes in metres, between 0 and 1";
   if (bad(size.palm_half_m.x()) || bad(size.palm_half_m.y()) || bad(size.palm_half_m.z())) {
-    return fail("the palm's half sizes are not positive lengths", "hand size", remedy);
+    return fail(ErrorCode::invalid_value, "the palm's half sizes are not positive lengths", "hand size", remedy);
   }
   for (std::size_t f = 0; f < size.fingers.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (bad(size.fingers[f].length_m[k]) || bad(size.fingers[f].radius_m[k]) || !size.fingers[f].p_HF.allFinite()) {
-        return fail("finger " + std::to_string(f) + ", phalanx " + std::to_string(k) + " has an impossible size",
+        return fail(ErrorCode::invalid_value,
+                    "finger " + std::to_string(f) + ", phalanx " + std::to_string(k) + " has an impossible size",
                     "hand size", remedy);
       }
     }
   }
   if (bad(size.tip_radius_m) || bad(size.sample_spacing_m)) {
-    return fail("tip radius and sample spacing must be positive", "hand size", remedy);
+    return fail(ErrorCode::invalid_value, "the tip radius or the sample spacing is not a positive length", "hand size",
+                remedy);
   }
   return {};
 }

@@ -15,7 +15,7 @@ using state::BodyState;
 using state::HapticMaterial;
 using state::UserState;
 
-// An explicit spring or damper on a body must stay well under what one step can turn round (architecture: the hand on things).
+// An explicit spring or damper must stay well below what would reverse the body's motion within one step, or it would oscillate.
 constexpr double kStiffnessBound = 0.1;
 constexpr double kDampingBound = 0.3;
 
@@ -99,7 +99,7 @@ void render_patches(const state::WorldDescription& description, state::WorldStat
     const double m_eff = effective_mass_kg(description, state, patch.body, patch.p_WC, patch.n_BH_W);
     const PatchForce force = touch_force(patch, material, config, m_eff, v_rel_W);
     add_to_finger(user, patch.segment, force.f_H_W);
-    // What the hand holds it feels through the grasp's spring; only the fingers feel its surface.
+    // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
     if (user.grasp.active && user.grasp.body == patch.body) continue;
     add_to_hand(user, force.f_H_W, patch.p_WC);
     add_local_contact(user, patch, force, v_B_W, material);
@@ -107,7 +107,8 @@ void render_patches(const state::WorldDescription& description, state::WorldStat
   }
 }
 
-/// Equation 18 as published. Its flaws (method.md, section 6) are the point of keeping it.
+/// Equation 18 as published. It is kept to show its flaws: a point that enters with no depth halves the
+/// force, and one average over the whole hand cancels a pinch.
 void render_paper(const state::WorldDescription& description, state::WorldState& state, UserState& user) {
   if (user.contact_count == 0) return;
   const double n = user.contact_count;

@@ -19,7 +19,8 @@ struct ForceConfig {
   ForceMode mode = ForceMode::continuous;
   double friction_speed_m_per_s = 0.02;  ///< below it, friction falls linearly to zero with the speed
   double damping_depth_m = 0.001;        ///< damping comes in over this depth, so that a first touch is not a step
-  hand::GovernorConfig governor;  ///< the server's own limits: the first word; the client's governor has the last
+  hand::GovernorConfig
+      governor;  ///< the server's own limits; the client's governor comes after it and has the last word
 };
 
 /// Renders the forces of a world's users. Remembers nothing itself: what changes lies in the WorldState. Any thread.
@@ -28,7 +29,7 @@ class ForceRenderer {
   /// Errors: a setting of the governor that is out of range.
   [[nodiscard]] static Expected<ForceRenderer> create(const ForceConfig& config);
 
-  /// Governors as they are before anybody came.
+  /// Puts the governors into the state that they have before anybody comes.
   void start(state::WorldState& state) const noexcept;
   /// Writes every user's HapticOutput and adds the opposite forces to the bodies' loads. Allocates nothing.
   void run(const state::WorldDescription& description, state::WorldState& state) const noexcept;

@@ -32,7 +32,7 @@ spdlog::level::level_enum to_spdlog(Level level) {
   return spdlog::level::err;
 }
 
-/// Counts warnings, the equal ones too, and keeps the newest.
+/// Counts all warnings and errors, repeated ones too, and keeps the text of the newest.
 class TroubleSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   TroubleSink() { set_level(spdlog::level::warn); }
@@ -52,7 +52,7 @@ class TroubleSink final : public spdlog::sinks::base_sink<std::mutex> {
   Trouble trouble_;
 };
 
-/// Lets equal warnings through once a minute, and tells how many more there were when the minute is over: with the next message of any kind,
+/// Shows a warning that comes again once a minute. How many more there were is shown after the minute, with the next message of any kind,
 /// or at the end of the program.
 class RepeatLimitSink final : public spdlog::sinks::dist_sink<std::mutex> {
  public:

@@ -1,4 +1,4 @@
-// A message as a terminal and a file may have it, whoever's words are in it.
+// Makes a message safe for terminals and files, wherever its words come from.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace mechane::log {
 
-/// Control characters (of C0 and C1, and DEL) and bytes that are not UTF-8 are shown as "\x1b". A line break stays, and what follows it
-/// is indented: no text can pretend to be a message of its own. Tabs stay.
+/// Control characters (C0, C1 and DEL) and bytes that are not UTF-8 are shown as "\x1b". Line breaks stay, and the lines after them are
+/// indented, so that no text can look like a message of its own. Tabs stay.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace mechane::log

@@ -1,4 +1,4 @@
-// Equal warnings, which a fault that stays may send some thousand times a minute.
+// Counts repeated warnings: a fault that lasts may send thousands of them a minute.
 #pragma once
 
 #include <chrono>
@@ -10,12 +10,12 @@
 
 namespace mechane::log {
 
-/// Lets a text through once in kWindow, and counts it in between. Pure: the caller brings the time. Not thread-safe.
+/// Lets a text through once in kWindow, and counts it in between. The caller passes the time in. Not thread-safe.
 class Repeats {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::seconds kWindow{60};
-  static constexpr std::size_t kTexts = 64;  ///< remembered at most; the oldest goes, and its count is told
+  static constexpr std::size_t kTexts = 64;  ///< how many are remembered; then take_over() gives out the oldest
 
   struct Counted {
     std::string text;
@@ -25,9 +25,9 @@ class Repeats {
 
   /// Whether the text is to be shown. Call take_over() first.
   bool pass(std::string_view text, int level, Time now);
-  /// Texts whose window is over, or for which there is no more room, and that came again in it. They are forgotten.
+  /// Takes out the texts whose window is over, or for which there is no room any more. Returns those that were repeated.
   [[nodiscard]] std::vector<Counted> take_over(Time now);
-  /// All that came again, at the end of the program.
+  /// All that were repeated, at the end of the program.
   [[nodiscard]] std::vector<Counted> take_all() { return take_over(Time::max()); }
 
  private:

@@ -1,12 +1,12 @@
 // machine.bow: a bow whose string a slider draws back, as in the gastraphetes (Heron, Belopoeica 75-81).
 //
-// The claw on the slider catches the string where it rests: when the slider is pushed home. From there the string goes with it, and
-// pulls it back with the force of the draw curve: by default straight from 0 to fullForce over drawLength, so that the bow holds half
-// force times length. Times effort_scale that goes to the slider as a load. When the release's quantity rises the claw lets go: the
-// string leaps home, the bow offers what it held to a projectile, and the slider stays, free. What no projectile takes, the bow's
-// limbs waste. The share that reaches the arrow is the projectile's efficiency (0.8 of a bow: reconstructions).
+// When the slider is pushed home, its claw catches the string. From there the string goes with it, and pulls it back with the force of
+// the draw curve. By default that force grows evenly from 0 to fullForce over drawLength, so that the bow holds half of force times
+// length. Times effort_scale it goes to the slider as a load. When the release's quantity rises, the claw lets go: the string leaps
+// home, the bow offers its energy to a projectile, and the slider stays where it is, free. What no projectile takes is lost in the
+// limbs. The share that reaches the arrow is the projectile's efficiency (0.8 for a bow: reconstructions).
 //
-// Bodies of limbs and string, where the author names them, are put where the draw has them (see BowLimbs).
+// The bodies of limbs and string, where the author names them, are put where the draw has them (see BowLimbs).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -19,9 +19,9 @@ namespace mechane::machines {
 namespace {
 
 constexpr std::size_t kMostPoints = 64;
-constexpr double kCatch_m = 0.002;  // so near to the string the claw catches it
+constexpr double kCatch_m = 0.002;  // the claw catches the string from this near
 
-/// Force over draw through points at equal steps, straight between them, and on beyond the last.
+/// Force over draw: points at equal steps, straight lines between them; beyond the last point the last line goes on.
 class DrawCurve {
  public:
   DrawCurve(std::vector<double> forces_n, double length_m)
@@ -91,7 +91,7 @@ class Bow final : public Machine {
     } else if (s_.strung && joint.enabled && draw_m <= kCatch_m && state.memory[released_] == 0) {
       caught = 1;
     } else if (draw_m > kCatch_m) {
-      state.memory[released_] = 0;  // the claw is open until the slider has been away from the string once
+      state.memory[released_] = 0;  // after a shot the claw catches again only when the slider has been drawn back once
     }
     (void)store_.wait(state, dt_s);
     if (store_.taken_j(state) > 0) state.memory[shot_j_] = store_.taken_j(state);
@@ -107,7 +107,7 @@ class Bow final : public Machine {
     state.memory[force_n_] = draw_m > 0 ? curve_.force_n(draw_m) : 0;
     state.memory[energy_j_] = curve_.energy_j(draw_m);
     if (!joint.enabled || draw_m <= 0) return;
-    // The mean force over this tick's way: so a fast slider gets what the bow loses, and no more.
+    // The mean force over this tick's way, so that a fast slider gets just the energy that the bow loses.
     const double way_m = s_.direction * joint.velocity * dt_s;
     const double force_n = std::abs(way_m) < 1e-7 ? curve_.force_n(draw_m)
                                                   : (curve_.energy_j(draw_m + way_m) - curve_.energy_j(draw_m)) / way_m;
@@ -126,12 +126,14 @@ class Bow final : public Machine {
   EnergyStore store_;
 };
 
-Expected<DrawCurve> read_curve(const state::Parameters& p, const std::string& where) {
+Expected<DrawCurve> read_curve(const Build& build) {
+  const state::Parameters& p = build.parameters;
   const double full_n = p.number("fullForce");
   std::vector<double> points{0, 1};
   if (p.given("curve")) points = p.numbers("curve");
   if (points.size() < 2 || points.size() > kMostPoints)
-    return fail("the draw curve has " + std::to_string(points.size()) + " points", where,
+    return fail(ErrorCode::invalid_value, "the draw curve has " + std::to_string(points.size()) + " points",
+                build.place("curve"),
                 "write from 2 to " + std::to_string(kMostPoints) + " shares of fullForce, at equal steps of the draw");
   for (double& point : points)
     point *= full_n;
@@ -139,17 +141,16 @@ Expected<DrawCurve> read_curve(const state::Parameters& p, const std::string& wh
 }
 
 Expected<std::unique_ptr<Machine>> make_bow(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   BowSettings s;
-  const auto joint = read_joint(build, "joint", state::JointKind::slider);
+  const auto joint = build.joint("joint", state::JointKind::slider);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
   s.direction = p.boolean("reversed") ? -1 : 1;
   s.home_m = p.number("home");
   s.strung = p.boolean("strung");
   s.effort_scale = build.effort_scale();
-  auto curve = read_curve(p, where);
+  auto curve = read_curve(build);
   if (!curve) return tl::unexpected(curve.error());
   const auto limbs = BowLimbs::make(build, s.joint, s.direction);
   if (!limbs) return tl::unexpected(limbs.error());
@@ -198,11 +199,7 @@ constexpr state::ParameterType kBowParameters[] = {
      .kind = ParameterKind::texts,
      .summary = "the bodies of the string's two halves, in the same order; origins at the limbs' tips",
      .reference = state::Reference::body},
-    {.name = "effortScale",
-     .summary = "share of the force that the hand feels; not given: the world's effort_scale",
-     .default_value = 1,
-     .min = 0,
-     .max = 1},
+    effort_scale_parameter("share of the force that the hand feels; not given: the world's effort_scale"),
     {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the slider draws to negative positions"},
 };
 constexpr state::ValueType kBowValues[] = {

@@ -18,17 +18,19 @@ double angle_between(const Vec2& a, const Vec2& b) {
   return std::atan2(cross(a, b), a.dot(b));
 }
 
-/// The two bodies of a parameter. Errors: another count, a fixed one.
-Expected<std::array<BodyId, 2>> read_pair(const Build& build, const std::string& parameter, const std::string& where) {
+/// The two bodies that a parameter names. Errors: another count, a fixed one.
+Expected<std::array<BodyId, 2>> read_pair(const Build& build, const std::string& parameter) {
   const std::vector<std::string> names = build.parameters.texts(parameter);
   if (names.size() != 2)
-    return fail(parameter + " names " + std::to_string(names.size()) + " bodies", where,
+    return fail(names.empty() ? ErrorCode::missing : ErrorCode::invalid_value,
+                "'" + parameter + "' names " + std::to_string(names.size()) + " bodies", build.place(parameter),
                 "give limbs and strings with two bodies each, in the same order; or neither");
   std::array<BodyId, 2> bodies;
   for (std::size_t i = 0; i < 2; ++i) {
     bodies[i] = build.description.find_body(names[i]);
     if (build.description.bodies[bodies[i].index()].fixed)
-      return fail("the body '" + names[i] + "' is fixed", where, "name bodies that can move in '" + parameter + "'");
+      return fail(ErrorCode::conflict, "the body '" + names[i] + "' is fixed", build.place(parameter),
+                  "name bodies that can move in '" + parameter + "'");
   }
   return bodies;
 }
@@ -38,8 +40,7 @@ Expected<std::array<BodyId, 2>> read_pair(const Build& build, const std::string&
 Expected<BowLimbs> BowLimbs::make(const Build& build, JointId slider, double direction) {
   BowLimbs made;
   if (!build.parameters.given("limbs") && !build.parameters.given("strings")) return made;
-  const std::string where = state::component_place(build.component);
-  const auto limbs = read_pair(build, "limbs", where), strings = read_pair(build, "strings", where);
+  const auto limbs = read_pair(build, "limbs"), strings = read_pair(build, "strings");
   if (!limbs) return tl::unexpected(limbs.error());
   if (!strings) return tl::unexpected(strings.error());
   const state::WorldDescription& world = build.description;
@@ -60,15 +61,15 @@ Expected<BowLimbs> BowLimbs::make(const Build& build, JointId slider, double dir
     const Vec3 p_NT = side.X_ST.p - made.p_SN_, p_NL = side.X_SL.p - made.p_SN_;
     side.half_m = p_NT.norm();
     if (side.half_m < kLeast_m || std::abs(p_NT.dot(made.draw_S_)) > kLeast_m)
-      return fail("the string at rest is too short, or not at right angles to the draw", where,
-                  "put the origins of 'strings' at the limbs' tips, level with each other");
+      return fail(ErrorCode::conflict, "the string at rest is too short, or not at right angles to the draw",
+                  build.place("strings"), "put the origins of 'strings' at the limbs' tips, level with each other");
     side.across_S = p_NT / side.half_m;
     side.root = {p_NL.dot(side.across_S), p_NL.dot(made.draw_S_)};
     const Vec2 arm = Vec2(side.half_m, 0) - side.root;
     side.arm_m = arm.norm();
     if (side.arm_m < kLeast_m || side.root.norm() < kLeast_m)
-      return fail("a limb begins where it ends, or at the string", where,
-                  "put the origins of 'limbs' where they leave the bow's middle");
+      return fail(ErrorCode::conflict, "a limb has no length, or its root lies at the string's middle",
+                  build.place("limbs"), "put the origins of 'limbs' where they leave the bow's middle");
     side.sign = cross(-side.root, arm) < 0 ? -1 : 1;
   }
   return made;
@@ -79,7 +80,7 @@ Vec2 BowLimbs::tip(const Side& side, double draw_m) noexcept {
   const double between_m = std::max(way.norm(), kLeast_m);
   const double along_m =
       (side.arm_m * side.arm_m - side.half_m * side.half_m + between_m * between_m) / (2 * between_m);
-  const double held_m = std::clamp(along_m, -side.arm_m, side.arm_m);  // farther the limb cannot reach
+  const double held_m = std::clamp(along_m, -side.arm_m, side.arm_m);  // the limb reaches no farther
   const double off_m = std::sqrt(side.arm_m * side.arm_m - held_m * held_m);
   const Vec2 towards = way / between_m;
   return side.root + held_m * towards + side.sign * off_m * Vec2(-towards.y(), towards.x());

@@ -1,4 +1,4 @@
-// How a bow's limbs and its string lie while the string is drawn. Inside this room only.
+// Where a bow's limbs and its string are while the string is drawn. Inside this room only.
 #pragma once
 
 #include <array>
@@ -7,18 +7,19 @@
 
 namespace mechane::machines {
 
-/// Two stiff limbs that turn where they leave the bow's middle, and two halves of a string that does not stretch. Where they are follows
-/// from the draw alone: a limb's tip lies where a circle about its root meets one about the claw. Their mass is left out. Immutable.
+/// Two stiff limbs that turn about their roots at the bow's middle, and two halves of a string that does not stretch. The draw alone
+/// determines where they are: a limb's tip lies where a circle about its root meets one about the claw. Their mass is left out.
+/// Immutable.
 class BowLimbs {
  public:
   /// From the parameters `limbs` and `strings`, two bodies each, as they lie at the start with the string at rest: a limb's origin is
-  /// its root, a half string's the limb's tip. `slider` draws along its axis times `direction`. Without the parameters there is nothing
-  /// to move. Errors: other counts, fixed bodies, places that make no bow.
+  /// its root, that of half a string is the limb's tip. `slider` draws along its axis times `direction`. Without the parameters there is
+  /// nothing to move. Errors: other counts, fixed bodies, places from which no bow can be made.
   [[nodiscard]] static Expected<BowLimbs> make(const Build& build, JointId slider, double direction);
 
   /// Puts limbs and string where they are while the string is drawn by draw_m.
   void follow(state::WorldState& state, double draw_m) const noexcept;
-  /// A string that is cut is gone.
+  /// Hides the string: it is cut.
   void lose_string(state::WorldState& state) const noexcept;
 
  private:
@@ -33,7 +34,7 @@ class BowLimbs {
     Vec2 root = Vec2::Zero();       // from the string's middle: across, and along the draw
     double arm_m = 0;               // from the root to the tip
     double half_m = 0;              // of the string
-    double sign = 1;                // which of two places is the tip's
+    double sign = 1;                // chooses the tip from the two points where the circles meet
   };
 
   [[nodiscard]] static Vec2 tip(const Side& side, double draw_m) noexcept;

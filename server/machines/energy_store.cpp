@@ -5,7 +5,7 @@
 namespace mechane::machines {
 namespace {
 
-// Long enough for what holds the missile to let it go after the trigger: agents switch joints a tick or two later.
+// An offer stays open this long, because agents switch off the joint that holds the missile a tick or two after the trigger.
 constexpr double kOpen_s = 0.05;
 constexpr const char* kOffered = "store.offered_j";
 constexpr const char* kTaken = "store.taken_j";
@@ -14,7 +14,7 @@ constexpr const char* kTaken = "store.taken_j";
 
 EnergyStore::EnergyStore(const Build& build, QuantityId release)
     : release_(release),
-      was_released_(build.slot("store.was_released", 1)),  // what is pulled at the start was not pulled by anyone
+      was_released_(build.slot("store.was_released", 1)),  // a release that is up at the start does not count as rising
       offered_j_(build.slot(kOffered)),
       left_s_(build.slot("store.left_s")),
       taken_j_(build.slot(kTaken)) {}
@@ -42,12 +42,17 @@ bool EnergyStore::wait(state::WorldState& state, double dt_s) const noexcept {
 
 Expected<EnergyOffer> EnergyOffer::find(const Build& build, std::string_view parameter) {
   const std::string name = build.parameters.text(parameter);
+  const MachineId machine = build.description.find_machine(name);
+  if (machine.index() > build.id.index())
+    return fail(ErrorCode::conflict, "the machine '" + name + "' is written after this one", build.place(parameter),
+                "write it before this one");
   const state::MemorySlot* offered = build.layout.find(name + "." + kOffered);
   const state::MemorySlot* taken = build.layout.find(name + "." + kTaken);
   if (offered == nullptr || taken == nullptr) {
-    return fail("the machine '" + name + "' is not a spring, or is written after this one",
-                state::component_place(build.component),
-                "name a machine.torsion_spring or machine.bow, and write it first");
+    return fail(
+        ErrorCode::invalid_value,
+        "the machine '" + name + "' is a " + build.description.machines[machine.index()].type + ", which has no spring",
+        build.place(parameter), "name a machine.torsion_spring or a machine.bow");
   }
   EnergyOffer out;
   out.offered_j_ = offered->index;

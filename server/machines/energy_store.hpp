@@ -1,4 +1,4 @@
-// How a spring hands its energy to what it throws: machines know each other by slots of memory alone.
+// How a spring hands its energy to what it throws. Machines know of each other only through slots of memory.
 #pragma once
 
 #include <string>
@@ -7,17 +7,16 @@
 
 namespace mechane::machines {
 
-/// The side of the spring. On release it offers what it holds for a short while; whoever is thrown takes a share. A view of slots:
-/// immutable itself.
+/// The spring's side. On release it offers its energy for a short while; the missile takes a share. A view of slots: immutable itself.
 class EnergyStore {
  public:
-  /// Takes the slots. `release` may be none: then nothing is ever offered.
+  /// Takes the slots. Without a `release` nothing is ever offered.
   EnergyStore(const Build& build, QuantityId release);
 
-  /// Once a tick, first. True in the tick in which the release's quantity rises above a half.
+  /// To be called once a tick, before the others. True in the tick in which the release's quantity rises above a half.
   [[nodiscard]] bool released(state::WorldState& state) const noexcept;
   void offer(state::WorldState& state, double energy_j) const noexcept;
-  /// Lets an offer grow old; returns whether one is still open.
+  /// Counts down an offer's time; returns whether one is still open.
   bool wait(state::WorldState& state, double dt_s) const noexcept;
   /// What was taken of the last offer, J.
   [[nodiscard]] double taken_j(const state::WorldState& state) const noexcept { return state.memory[taken_j_]; }
@@ -30,10 +29,10 @@ class EnergyStore {
   std::size_t taken_j_;
 };
 
-/// The side of what is thrown.
+/// The missile's side.
 class EnergyOffer {
  public:
-  /// Of the machine that the text parameter `parameter` names. Errors: it is not a spring, or stands below in the description.
+  /// Of the machine that the text parameter `parameter` names. Errors: it has no spring, or is written after this one.
   [[nodiscard]] static Expected<EnergyOffer> find(const Build& build, std::string_view parameter);
 
   /// What the spring offers in this tick, J; 0: nothing.

@@ -1,16 +1,17 @@
 // machine.force_pump: Ktesibios' pump (Vitruvius X.7; Heron, Pneumatica I.28): one or two cylinders, a vessel, an upright pipe.
 //
-// Pistons. Their positions are those of slider joints, or a rocking beam's angle times `arm`, one up as the other goes down. What they
+// Pistons. Their positions are those of slider joints, or a rocking beam's angle times `arm`, one up as the other goes down. How they
 // draw and press is in pump_cylinder.hpp: the flow is area * stroke * efficiency for each falling stroke.
 //
-// Vessel. What comes in fills the vessel and the pipe (`riser`) first; the head grows with it up to `lift`. Then it leaves by the
-// trumpet. Air under the cowl takes up the pulses: what is above the brim runs out with the time constant `cushion`. That, and the
+// Vessel. The water first fills the vessel and the pipe (`riser`), and the head grows with it up to `lift`. Then it leaves by the
+// trumpet. Air under the cowl evens out the pulses: water above the brim runs out with the time constant `cushion`. That, and the
 // second cylinder, make the jet continuous.
 //
-// Load. A falling piston carries rho g head area; every piston its leather's friction. Through the beam that is a torque, over the
-// handle's arm the force at the hand. Times effort_scale it goes to the joints as a resistance, which holds but never drives: valves keep
-// the water from pushing back. Below kTight_m_s the leather leaks, lifts and carries in proportion less: this model's own, so that a
-// piston that turns round does so smoothly. Energy in is force times way, at least rho g lift times what was lifted.
+// Load. A falling piston carries rho g head area, and every piston has its leather's friction. Through the beam that is a torque;
+// divided by the handle's arm it is the force at the hand. Times effort_scale it goes to the joints as a resistance, which holds but
+// never drives, because the valves keep the water from pushing back. Below kTight_m_s the leather leaks: a piston lifts and carries
+// less in proportion. That is this model's own, so that a piston turns round smoothly. The energy put in is force times way, and at
+// least rho g lift times the volume lifted.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -100,7 +101,7 @@ class ForcePump final : public Machine {
  private:
   [[nodiscard]] JointId joint_of(std::size_t i) const noexcept { return s_.beam ? s_.beam : s_.pistons[i]; }
 
-  /// Of a piston over its bottom.
+  /// How far a piston is above its bottom.
   [[nodiscard]] double piston_m(const state::JointState& joint, std::size_t i) const noexcept {
     const double side = i == 0 ? s_.direction : -s_.direction;
     const double x_m =
@@ -166,13 +167,15 @@ class ForcePump final : public Machine {
   std::size_t known_;     // 1: the piston was there in the tick before
 };
 
-Expected<void> read_valves(const state::Parameters& p, std::string_view name, Valve PumpCylinder::*valve,
-                           const std::string& where, ForcePumpSettings& s) {
-  if (!p.given(name)) return {};
-  const std::vector<std::string> words = p.texts(name);
+Expected<void> read_valves(const Build& build, std::string_view name, Valve PumpCylinder::*valve,
+                           ForcePumpSettings& s) {
+  if (!build.parameters.given(name)) return {};
+  const std::vector<std::string> words = build.parameters.texts(name);
   if (words.size() != 1 && words.size() != s.cylinders)
-    return fail(std::string(name) + " names " + std::to_string(words.size()) + " valves", where,
-                "write one word for all cylinders, or one for each");
+    return fail(ErrorCode::invalid_value,
+                std::string(name) + " has " + std::to_string(words.size()) + " words for " +
+                    std::to_string(s.cylinders) + " cylinders",
+                build.place(name), "write one word for all cylinders, or one for each");
   for (std::size_t i = 0; i < s.cylinders; ++i) {
     const std::string& word = words[words.size() == 1 ? 0 : i];
     if (word == "good") {
@@ -182,56 +185,60 @@ Expected<void> read_valves(const state::Parameters& p, std::string_view name, Va
     } else if (word == "missing") {
       s.cylinder[i].*valve = Valve::missing;
     } else {
-      return fail("'" + word + "' is not a state of a valve", where, "write good, reversed or missing");
+      return fail(ErrorCode::unknown_name, "a valve cannot be '" + word + "'", build.place(name),
+                  "write good, reversed or missing");
     }
   }
   return {};
 }
 
-/// Who moves the pistons: sliders, or a beam.
-Expected<void> read_drive(const Build& build, const std::string& where, ForcePumpSettings& s) {
+/// What moves the pistons: sliders, or a beam.
+Expected<void> read_drive(const Build& build, ForcePumpSettings& s) {
   const state::Parameters& p = build.parameters;
   if (p.given("pistons") == p.given("beam"))
-    return fail("exactly one of 'pistons' and 'beam' must be given", where,
-                "name the pistons' sliders, or the hinge of the beam that moves them");
+    return fail(p.given("beam") ? ErrorCode::conflict : ErrorCode::missing,
+                p.given("beam") ? "both 'pistons' and 'beam' are given" : "neither 'pistons' nor 'beam' is given",
+                build.place("beam"), "name the pistons' sliders, or the hinge of the beam that moves them");
   if (p.given("arm")) s.arm_m = s.handle_m = p.number("arm");
   if (p.given("handleArm")) s.handle_m = p.number("handleArm");
   if (p.given("beam")) {
-    const auto beam = read_joint(build, "beam", state::JointKind::hinge);
+    const auto beam = build.joint("beam", state::JointKind::hinge);
     if (!beam) return tl::unexpected(beam.error());
     s.beam = *beam;
     if (!p.given("arm"))
-      return fail("the beam has no 'arm'", where, "write its length from the hinge to a piston's rod");
-    if (p.number("cylinders") != std::floor(p.number("cylinders")))
-      return fail("cylinders is not a whole number", where, "write 1 or 2");
-    s.cylinders = static_cast<std::size_t>(p.number("cylinders"));
+      return fail(ErrorCode::missing, "the beam has no 'arm'", build.place("beam"),
+                  "write its length from the hinge to a piston's rod");
+    const auto cylinders = build.whole_number("cylinders");
+    if (!cylinders) return tl::unexpected(cylinders.error());
+    s.cylinders = static_cast<std::size_t>(*cylinders);
     return {};
   }
   const std::vector<std::string> names = p.texts("pistons");
   if (names.empty() || names.size() > kMostCylinders)
-    return fail("there are " + std::to_string(names.size()) + " pistons", where, "name one slider or two");
+    return fail(ErrorCode::invalid_value, "'pistons' names " + std::to_string(names.size()) + " joints",
+                build.place("pistons"), "name one slider or two");
   s.cylinders = names.size();
   for (std::size_t i = 0; i < names.size(); ++i) {
     s.pistons[i] = build.description.find_joint(names[i]);
     if (build.description.joints[s.pistons[i].index()].kind != state::JointKind::slider)
-      return fail("the joint '" + names[i] + "' does not slide", where, "name SliderJoints");
+      return fail(ErrorCode::invalid_value, "the joint '" + names[i] + "' in 'pistons' is not a slider",
+                  build.place("pistons"), "name SliderJoints");
   }
   return {};
 }
 
 Expected<std::unique_ptr<Machine>> make_force_pump(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   ForcePumpSettings s;
-  if (auto good = read_drive(build, where, s); !good) return tl::unexpected(good.error());
+  if (auto good = read_drive(build, s); !good) return tl::unexpected(good.error());
   const double radius_m = p.number("bore") / 2;
   for (PumpCylinder& cylinder : s.cylinder) {
     cylinder.area_m2 = kPi * radius_m * radius_m;
     cylinder.efficiency = p.number("efficiency");
   }
-  if (auto good = read_valves(p, "inletValves", &PumpCylinder::inlet, where, s); !good)
+  if (auto good = read_valves(build, "inletValves", &PumpCylinder::inlet, s); !good)
     return tl::unexpected(good.error());
-  if (auto good = read_valves(p, "outletValves", &PumpCylinder::outlet, where, s); !good)
+  if (auto good = read_valves(build, "outletValves", &PumpCylinder::outlet, s); !good)
     return tl::unexpected(good.error());
   s.direction = p.boolean("reversed") ? -1 : 1;
   s.bottom_m = p.number("bottom");
@@ -304,11 +311,7 @@ constexpr state::ParameterType kForcePumpParameters[] = {
      .summary = "of the water in the tub that the jet falls into",
      .min = 1e-4,
      .max = 1e6},
-    {.name = "effortScale",
-     .summary = "share of the load that the hand feels; not given: the world's effort_scale",
-     .default_value = 1,
-     .min = 0,
-     .max = 1},
+    effort_scale_parameter("share of the load that the hand feels; not given: the world's effort_scale"),
     {.name = "reversed",
      .kind = ParameterKind::boolean,
      .summary = "true: the (first) piston rises when its joint goes to negative positions"},

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "server/base/error.hpp"
-#include "server/state/component_type.hpp"
+#include "server/state/component_build.hpp"
 #include "server/state/world_state.hpp"
 
 namespace mechane::machines {
@@ -21,33 +22,22 @@ class Machine {
   virtual void run(state::WorldState& state, double dt_s) const noexcept = 0;
 };
 
-/// What a maker gets. Parameters are checked against the type already.
-struct Build {
-  const state::WorldDescription& description;
-  const state::ComponentDescription& component;
-  const state::Parameters& parameters;
+/// What a maker gets.
+struct Build : state::ComponentBuild {
   MachineId id;
-  state::MemoryLayout& layout;
 
-  [[nodiscard]] std::size_t slot(const std::string& value, double initial = 0) const {
-    return layout.add(component.name, value, initial);
-  }
   /// The parameter effortScale, or the world's where the author wrote none.
   [[nodiscard]] double effort_scale() const {
     return parameters.given("effortScale") ? parameters.number("effortScale") : description.effort_scale;
   }
-  [[nodiscard]] const state::ComponentDescription& agent(AgentId other) const {
-    return description.agents[other.index()];
-  }
 };
 
-/// The joint that `parameter` names, which must turn (a hinge) or slide (a slider). The error says which it does not do.
-[[nodiscard]] Expected<JointId> read_joint(const Build& build, const std::string& parameter, state::JointKind kind);
+/// The parameter that Build::effort_scale() reads.
+[[nodiscard]] constexpr state::ParameterType effort_scale_parameter(std::string_view summary) {
+  return {.name = "effortScale", .summary = summary, .default_value = 1, .min = 0, .max = 1};
+}
 
-struct MachineKind {
-  state::ComponentType type;
-  Expected<std::unique_ptr<Machine>> (*make)(const Build& build);
-};
+using MachineKind = state::ComponentKind<Machine, Build>;
 
 /// One file each.
 [[nodiscard]] const MachineKind& screw_pump_kind();
@@ -58,7 +48,7 @@ struct MachineKind {
 [[nodiscard]] const MachineKind& steam_sphere_kind();
 [[nodiscard]] const MachineKind& pebble_counter_kind();
 
-/// Null where no type has this name.
-[[nodiscard]] const MachineKind* find_kind(std::string_view type);
+/// All of them.
+[[nodiscard]] std::span<const MachineKind* const> kinds();
 
 }  // namespace mechane::machines

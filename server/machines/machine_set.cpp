@@ -1,10 +1,7 @@
 #include "server/machines/machine_set.hpp"
 
-#include <fmt/format.h>
-
 #include "server/base/assert.hpp"
 #include "server/machines/machine.hpp"
-#include "server/machines/registry.hpp"
 
 namespace mechane::machines {
 
@@ -20,18 +17,7 @@ Expected<std::unique_ptr<MachineSet>> MachineSet::create(const state::WorldDescr
                                                          state::MemoryLayout& layout) {
   auto impl = std::make_unique<Impl>();
   for (std::size_t i = 0; i < description.machines.size(); ++i) {
-    const state::ComponentDescription& component = description.machines[i];
-    const MachineKind* kind = find_kind(component.type);
-    if (kind == nullptr) {
-      std::string known;
-      for (const state::ComponentType& type : registry())
-        known += (known.empty() ? "" : ", ") + std::string(type.name);
-      return fail(fmt::format("there is no machine of type '{}'", component.type), state::component_place(component),
-                  "use one of: " + known);
-    }
-    const auto parameters = state::Parameters::check(kind->type, component, description);
-    if (!parameters) return tl::unexpected(parameters.error());
-    auto machine = kind->make({description, component, *parameters, MachineId(i), layout});
+    auto machine = state::make_component(kinds(), "machine", description, description.machines, MachineId(i), layout);
     if (!machine) return tl::unexpected(machine.error());
     impl->machines.push_back(std::move(*machine));
   }

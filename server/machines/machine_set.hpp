@@ -8,11 +8,11 @@
 
 namespace mechane::machines {
 
-/// Made once for a world, linked once, never changed then: all that machines remember lies in WorldState::memory.
+/// Made and linked once for a world, never changed after that: all that machines remember lies in WorldState::memory.
 class MachineSet {
  public:
   /// Takes memory slots. Errors name the machine, its line, what is wrong and what to write: unknown type, bad parameters, a
-  /// geometry that cannot be.
+  /// geometry that is impossible.
   [[nodiscard]] static Expected<std::unique_ptr<MachineSet>> create(const state::WorldDescription& description,
                                                                     state::MemoryLayout& layout);
   /// Lets machines find the values of agents that they read. Once, when the agents have their slots too, and before run().
@@ -23,7 +23,7 @@ class MachineSet {
   MachineSet& operator=(const MachineSet&) = delete;
 
   /// One tick, in the order of the description: reads joints, writes JointState::load and ::resistance, memory and events.
-  /// Allocates nothing. Any thread, one at a time a state.
+  /// Allocates nothing. Any thread, but one at a time for a state.
   void run(state::WorldState& state, double dt_s) const noexcept;
 
  private:

@@ -1,14 +1,16 @@
 // machine.pebble_counter: the last drum of Vitruvius' odometer (De architectura X.9), which drops a pebble for each mile.
 //
-// The drum has holes at equal angles, a pebble in each, and turns over a floor with one opening. As a hole comes over it, its pebble
-// falls into the bronze vessel, and the hole is empty from then on. So it counts forwards only: turned back and on again, the drum
-// brings empty holes. By default the opening lies half way between two holes at rest: a drum that is moved by jerks of a tooth drops its
-// pebble in the middle of a jerk. The distance is pebbles * distancePerPebble; how far that is follows from the wheel and the gears before this drum,
-// and is stated by the author, shortened or not.
+// The drum has holes at equal angles, a pebble in each, and turns over a floor with one opening. As a hole comes over the opening, its
+// pebble falls into the bronze vessel, and the hole stays empty. So the drum counts forwards only: turned back and on again, it brings
+// empty holes. By default the opening lies half way between two holes at rest, so that a drum moved by jerks of a tooth drops its
+// pebble in the middle of a jerk. The distance is pebbles * distancePerPebble. What a pebble stands for depends on the wheel and the
+// gears before this drum; the author states it, to scale or shortened.
 //
-// Bodies, where they are given, are the pebbles: each rides in its hole, held still, until its turn; then it is let go and falls.
+// The bodies in 'stones' are the pebbles: each is held still in its hole until its turn comes, then it is let go and falls.
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "server/machines/machine.hpp"
 
@@ -56,7 +58,7 @@ class PebbleCounter final : public Machine {
   }
 
  private:
-  /// Those that have not fallen go with the drum.
+  /// Moves the stones that have not fallen with the drum.
   void carry(state::WorldState& state, std::size_t from) const noexcept {
     const Pose& X_WD = state[drum_].X_WB;
     for (std::size_t i = from; i < stones_.size(); ++i) {
@@ -75,36 +77,39 @@ class PebbleCounter final : public Machine {
   std::size_t left_;
 };
 
-Expected<std::vector<Pebble>> read_pebbles(const Build& build, const std::string& where, double holes) {
+Expected<std::vector<Pebble>> read_pebbles(const Build& build, double holes) {
   std::vector<Pebble> pebbles;
   const std::vector<std::string> names = build.parameters.texts("stones");
   if (static_cast<double>(names.size()) > holes)
-    return fail("there are more stones than holes", where, "take stones out, or give the drum more holes");
+    return fail(ErrorCode::conflict, fmt::format("there are {} stones for {} holes", names.size(), holes),
+                build.place("stones"), "name fewer stones, or give the drum more holes");
   const state::JointDescription& joint = build.description.joints[build.parameters.joint("joint").index()];
   const Pose X_DW = build.description.bodies[joint.body2.index()].X_WB.inverse();
   for (const std::string& name : names) {
     const BodyId body = build.description.find_body(name);
     const state::BodyDescription& stone = build.description.bodies[body.index()];
-    if (stone.fixed) return fail("the stone '" + name + "' is fixed", where, "name bodies that can fall");
+    if (stone.fixed)
+      return fail(ErrorCode::conflict, "the stone '" + name + "' is fixed", build.place("stones"),
+                  "name bodies that can fall");
     pebbles.push_back({body, X_DW * stone.X_WB});
   }
   return pebbles;
 }
 
 Expected<std::unique_ptr<Machine>> make_pebble_counter(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   PebbleCounterSettings s;
-  const auto joint = read_joint(build, "joint", state::JointKind::hinge);
+  const auto joint = build.joint("joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
-  s.holes = p.number("holes");
-  if (s.holes != std::floor(s.holes)) return fail("holes is not a whole number", where, "write 1, 2, 3 ...");
+  const auto holes = build.whole_number("holes");
+  if (!holes) return tl::unexpected(holes.error());
+  s.holes = *holes;
   s.direction = p.boolean("reversed") ? -1 : 1;
   s.step_rad = 2 * kPi / s.holes;
   s.first_rad = p.given("firstHole") ? p.number("firstHole") : s.step_rad / 2;
   s.distance_m = p.number("distancePerPebble");
-  auto pebbles = read_pebbles(build, where, s.holes);
+  auto pebbles = read_pebbles(build, s.holes);
   if (!pebbles) return tl::unexpected(pebbles.error());
   return std::make_unique<PebbleCounter>(build, s, std::move(*pebbles));
 }

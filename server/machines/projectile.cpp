@@ -1,16 +1,16 @@
 // machine.projectile: a stone or an arrow that a spring throws.
 //
 // The shot. When the spring (machine.torsion_spring, machine.bow) offers its energy E and the missile lies on its seat, free of hands
-// and of the joint that held it, it gets the speed sqrt(2 * efficiency * E / m) along `direction`, in one tick: the string's push
-// lasts some 10 ms in the real machine. The spring is told what was taken.
+// and of the joint that held it, it gets the speed sqrt(2 * efficiency * E / m) along `direction`. This takes one tick; in the real
+// machine the string pushes for some 10 ms. The spring is told what was taken.
 //
-// Flight. Gravity is the dynamics' part. Drag, 1/2 rho Cd A v^2 against the flight, is a load on the body; with `axis` the missile is
+// Flight. The dynamics see to gravity. Drag, 1/2 rho Cd A v^2 against the flight, is a load on the body. With `axis` the missile is
 // fletched and keeps that axis along its flight (its turning is set, not computed). The flight ends where the speed changes by
 // more than air and gravity can account for (it struck something), at `ground`, or in the target.
 //
-// Target. A disc on a body, of straw or wood that holds what enters with the force `stopForce`: the missile goes in by its
-// energy / stopForce, and sticks. The disc is met by the swept way of the missile's tip, so that none is too fast for it. Target and
-// missile are not to collide otherwise.
+// Target. A disc on a body, of straw or wood that stops what enters with the force `stopForce`: the missile goes in by its
+// energy / stopForce, and sticks. The way that the missile's tip sweeps in a tick is tested against the disc, so that no missile is
+// too fast to hit it. Target and missile must not collide otherwise.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace mechane::machines {
 namespace {
 
 constexpr double kStruck_m_s = 1.0;   // a change of speed in a tick that only a blow explains
-constexpr double kStuck_m_s = 0.01;   // slower, and the target holds the missile
+constexpr double kStuck_m_s = 0.01;   // below this speed the missile sticks in the target
 constexpr double kFledge_per_s = 60;  // how fast a fletched missile follows its flight
 
 enum class Phase : int { rests = 0, flies = 1, struck = 2, enters = 3, sticks = 4 };
@@ -55,7 +55,7 @@ struct ProjectileSettings {
   Target target;
 };
 
-/// Three slots of memory that follow each other.
+/// A vector in three slots of memory, one after the other.
 class VectorSlots {
  public:
   VectorSlots(const Build& build, const std::string& name) : first_(build.slot(name + "0")) {
@@ -197,7 +197,7 @@ class Projectile final : public Machine {
     set_phase(state, Phase::struck);
   }
 
-  /// Turns the missile's axis towards its flight; its centre of mass flies on as it did.
+  /// Turns the missile's axis towards its flight without changing the velocity of its centre of mass.
   void fledge(state::BodyState& body, const Vec3& v_W, double dt_s) const noexcept {
     if (v_W.norm() < 1) return;
     const Quat turn = Quat::FromTwoVectors(body.X_WB.rotate(s_.axis_B), v_W);
@@ -228,14 +228,14 @@ class Projectile final : public Machine {
     return share;
   }
 
-  /// Dynamics move a body by its speed at the end of a tick. So that it goes in as far as it should, the push lags by half a tick:
-  /// of one that begins with `left` of a tick to go, left^2 / 2 comes now, and in the next tick what makes left + 1/2 of both.
+  /// Dynamics move a body by its speed at the end of a tick. So that the missile goes in as far as it should, the push lags by half a
+  /// tick: of a push that begins with `left` of a tick to go, left^2 / 2 comes now, and the next tick brings the sum to left + 1/2.
   [[nodiscard]] double first_push(state::WorldState& state, double left) const noexcept {
     state.memory[carry_] = left - 0.5 - left * left / 2;
     return left * left / 2;
   }
 
-  /// The target's force holds the missile back, for `ticks`; never more than stops it.
+  /// The target's force holds the missile back, for `ticks`; never more than what stops it.
   void enter(state::WorldState& state, double ticks, double dt_s) const noexcept {
     state::BodyState& body = state[s_.body];
     const Vec3 v_W = v_WCm(body);
@@ -272,58 +272,47 @@ class Projectile final : public Machine {
   VectorSlots expected_;  // its velocity after this tick if it meets nothing
 };
 
-Vec3 vector_of(const state::Parameters& p, std::string_view name) {
-  const std::vector<double> v = p.numbers(name);
-  return {v[0], v[1], v[2]};
-}
-
-/// A unit vector; the default where it is not given.
-Expected<Vec3> direction_of(const state::Parameters& p, std::string_view name, const Vec3& otherwise,
-                            const std::string& where) {
-  if (!p.given(name)) return otherwise;
-  const Vec3 v = vector_of(p, name);
-  if (v.norm() < 1e-9) return fail(std::string(name) + " has no direction", where, "write a vector that is not 0 0 0");
-  return Vec3(v.normalized());
-}
-
-Expected<Target> read_target(const state::Parameters& p, const std::string& where) {
+Expected<Target> read_target(const Build& build) {
+  const state::Parameters& p = build.parameters;
   Target target;
   if (!p.given("target")) return target;
   target.body = p.body("target");
   if (target.body == p.body("body"))
-    return fail("the missile and its target are the same body", where, "name another body in 'target'");
-  const auto normal = direction_of(p, "targetNormal", Vec3::UnitZ(), where);
+    return fail(ErrorCode::conflict, "'body' and 'target' name the same body", build.place("target"),
+                "name another body in 'target'");
+  const auto normal = build.direction("targetNormal", Vec3::UnitZ());
   if (!normal) return tl::unexpected(normal.error());
   target.n_T = *normal;
-  target.p_TC = vector_of(p, "targetCentre");
+  target.p_TC = build.vector("targetCentre");
   target.radius_m = p.number("targetRadius");
   target.stop_n = p.number("stopForce");
   return target;
 }
 
 Expected<std::unique_ptr<Machine>> make_projectile(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   ProjectileSettings s;
   s.body = p.body("body");
   const state::BodyDescription& body = build.description.bodies[s.body.index()];
-  if (body.fixed) return fail("the body '" + body.name + "' is fixed", where, "name a body that can fly");
+  if (body.fixed)
+    return fail(ErrorCode::conflict, "the body '" + body.name + "' is fixed", build.place("body"),
+                "name a body that can fly");
   const auto offer = EnergyOffer::find(build, "spring");
   if (!offer) return tl::unexpected(offer.error());
-  const auto direction = direction_of(p, "direction", Vec3::UnitX(), where);
+  const auto direction = build.direction("direction", Vec3::UnitX());
   if (!direction) return tl::unexpected(direction.error());
-  const auto axis = direction_of(p, "axis", Vec3::Zero(), where);
+  const auto axis = build.direction("axis", Vec3::Zero());
   if (!axis) return tl::unexpected(axis.error());
-  const auto target = read_target(p, where);
+  const auto target = read_target(build);
   if (!target) return tl::unexpected(target.error());
   s.stock = p.given("stock") ? p.body("stock") : BodyId();
   s.holder = p.given("holder") ? p.joint("holder") : JointId();
   s.mass_kg = body.mass_kg;
   s.felt_scale = body.effort_scale;
   s.p_BCm = body.p_BCm;
-  s.p_BTip = vector_of(p, "tip");
+  s.p_BTip = build.vector("tip");
   s.axis_B = *axis;
-  s.p_FSeat = vector_of(p, "seat");
+  s.p_FSeat = build.vector("seat");
   s.direction_F = *direction;
   s.tolerance_m = p.number("tolerance");
   s.efficiency = p.number("efficiency");
@@ -352,27 +341,14 @@ constexpr state::ParameterType kProjectileParameters[] = {
      .kind = ParameterKind::text,
      .summary = "the body that seat and direction are measured in; not given: the world",
      .reference = state::Reference::body},
-    {.name = "seat",
-     .kind = ParameterKind::numbers,
-     .unit = "m",
-     .summary = "where the missile's origin lies before the shot, in the stock's frame",
-     .required = true,
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::point("seat", "where the missile's origin lies before the shot, in the stock's frame", true),
     {.name = "tolerance",
      .unit = "m",
      .summary = "how far from its seat it may lie to be thrown",
      .default_value = 0.05,
      .min = 1e-3,
      .max = 1},
-    {.name = "direction",
-     .kind = ParameterKind::numbers,
-     .summary = "of the shot, in the stock's frame",
-     .required = true,
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::direction("direction", "of the shot, in the stock's frame", true),
     {.name = "holder",
      .kind = ParameterKind::text,
      .summary = "a joint that holds it before the shot: it is thrown when that is off",
@@ -393,12 +369,8 @@ constexpr state::ParameterType kProjectileParameters[] = {
      .default_value = 0.47,
      .min = 0,
      .max = 10},
-    {.name = "axis",
-     .kind = ParameterKind::numbers,
-     .summary = "in its own frame, towards its tip: the missile is fletched. Not given: it flies as it turns",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::direction("axis",
+                     "in its own frame, towards its tip: the missile is fletched. Not given: it flies as it turns"),
     {.name = "tip",
      .kind = ParameterKind::numbers,
      .unit = "m",
@@ -406,24 +378,17 @@ constexpr state::ParameterType kProjectileParameters[] = {
      .min = -100,
      .max = 100,
      .count = 3},
-    {.name = "ground", .unit = "m", .summary = "height in the world at which the flight ends", .min = -1e4, .max = 1e4},
+    {.name = "ground",
+     .unit = "m",
+     .summary = "height in the world at which the flight ends",
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "target",
      .kind = ParameterKind::text,
      .summary = "the body whose face holds what enters",
      .reference = state::Reference::body},
-    {.name = "targetCentre",
-     .kind = ParameterKind::numbers,
-     .unit = "m",
-     .summary = "of the face, in the target's frame",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
-    {.name = "targetNormal",
-     .kind = ParameterKind::numbers,
-     .summary = "out of the face, in the target's frame; not given: its z",
-     .min = -1e4,
-     .max = 1e4,
-     .count = 3},
+    state::point("targetCentre", "of the face, in the target's frame"),
+    state::direction("targetNormal", "out of the face, in the target's frame; not given: its z"),
     {.name = "targetRadius", .unit = "m", .summary = "of the face", .default_value = 0.5, .min = 0.01, .max = 100},
     {.name = "stopForce",
      .unit = "N",

@@ -5,7 +5,7 @@
 namespace mechane::machines {
 namespace {
 
-constexpr double kLocked_pa = 3e5;
+constexpr double kLocked_pa = 3e5;  // under a piston whose water has no way out
 
 bool lets_up(Valve valve) {
   return valve != Valve::reversed;

@@ -3,12 +3,13 @@
 
 namespace mechane::machines {
 
-/// A flap that should let water up and none down.
+/// A flap that should let water up, but not down.
 enum class Valve { good, reversed, missing };
 
 struct PumpCylinder {
   double area_m2 = 0;
-  double efficiency = 0.8;  ///< share of what the piston displaces that gets through; the rest leaks past its leather
+  double efficiency =
+      0.8;  ///< share of the displaced water that gets through; the rest leaks past the piston's leather
   Valve inlet = Valve::good;
   Valve outlet = Valve::good;
 };
@@ -21,18 +22,18 @@ struct PumpFlow {
   double force_n = 0;  ///< of the water against the piston's motion, >= 0
 };
 
-/// What there is at the pump's other end.
+/// What stands above the outlet valve.
 struct PumpHead {
   double pressure_pa = 0;  ///< of the column over the outlet valve
-  double water_m3 = 0;     ///< what could run back out of it
+  double water_m3 = 0;     ///< what could run back through a faulty outlet valve
 };
 
 /// Moves a piston from `from_m` to `to_m` over its bottom and keeps account of the water under it.
 ///
-/// Rising, the piston draws: from the vessel where the outlet lets water down (there the pressure is higher), else from the well where
-/// the inlet lets it up, else air past its leather. Falling, it presses what does not fit under it any more: back to the well where
-/// the inlet lets it down, else into the vessel where the outlet lets it up, against rho g h A; else the piston is locked and the water
-/// squeezes past it at 3 bar. `tight` (0..1) is how well the leather holds: a creeping piston lifts nothing and feels nothing.
+/// Rising, the piston draws: from the vessel if the outlet lets water down (the pressure is higher there), else from the well if the
+/// inlet lets it up, else air past its leather. Falling, it presses out the water that no longer fits under it: back to the well if the
+/// inlet lets it down, else into the vessel if the outlet lets it up, against rho g h A. If neither does, the piston is locked and the
+/// water squeezes past it at 3 bar. `tight` (0..1) is how well the leather holds: a creeping piston lifts nothing and feels nothing.
 PumpFlow move_piston(const PumpCylinder& cylinder, double from_m, double to_m, double tight, const PumpHead& head,
                      double& water_m3) noexcept;
 

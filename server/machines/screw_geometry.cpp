@@ -21,7 +21,7 @@ bool holds_water(const ScrewShape& shape) {
 
 double volume_ratio(const ScrewShape& shape) {
   MECHANE_ASSERT(holds_water(shape) && shape.core_radius_m < shape.outer_radius_m && shape.blades > 0);
-  // The axis is w, upwards; x is upwards across it: a point's height is w sin(slope) + x cos(slope), and here that over sin(slope).
+  // w goes up along the axis, x up across it. A point's height is w sin(slope) + x cos(slope); heights here are divided by sin(slope).
   // At angle phi (from x, in the sense of the blades) the lower blade is at w = pitch phi / 2 pi.
   const double cotangent = 1 / std::tan(shape.slope_rad);
   const double advance = shape.pitch_m / (2 * kPi);

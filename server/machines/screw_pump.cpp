@@ -1,18 +1,21 @@
 // machine.screw_pump: Archimedes' screw between a river and a basin.
 //
-// Water. A turn lifts what the geometry holds (screw_geometry.hpp). It travels up as a train of buckets with the blades, so that the
+// Water. A turn lifts what the geometry holds (screw_geometry.hpp). It travels up with the blades as a train of buckets, so that the
 // first water comes out after length / pitch turns, and turning backwards brings it down again. Above Muysken's limit n_M a share of
-// what arrives at the top is thrown back over the core; it runs down into the river. The share that stays, (n_M / n)^2, is this
-// model's own: the flow is continuous at the limit and falls beyond it, as 'increasingly more' asks; Muysken gives only the limit.
-// At standstill the buckets leak with the time constant leakTime; above 2 turns a minute the leak of each bucket is made good by
-// the one above it and is left out (Nagel's gap flow would lose a share of the lift; this screw is pitched and tight).
+// what arrives at the top is thrown back over the core and runs down into the river. The share that stays, (n_M / n)^2, is this
+// model's own: Muysken gives only the limit, and says that 'increasingly more' is lost beyond it. So the flow is continuous at the
+// limit and falls beyond it. At standstill the buckets leak with the time constant leakTime. Above 2 turns a minute the leak is left
+// out, because each bucket gets back what it loses from the one above it (Nagel's gap flow would lose a share of the lift; this screw
+// is tight, sealed with pitch).
 //
-// Load. The weight of the water in the screw asks for V rho g H / (2 pi) at the crank when it is full, less in proportion when it is
-// not, over the efficiency (Rorres 2000; efficiency 0.7). Times effort_scale it goes to the joint as a resistance, which holds but
-// never drives: a real screw that is let go may run back; this one stands and leaks, so that no machine turns a visitor's hand.
-// Turning backwards the water helps: only the losses, 1 - efficiency of the load, are left.
+// Load. A full screw's water asks for a torque of V rho g H / (2 pi) at the crank, divided by the efficiency (Rorres 2000; efficiency
+// 0.7); less in proportion when it is not full. Times effort_scale it goes to the joint as a resistance, which holds but never drives:
+// a real screw that is let go may run back, but this one stands and leaks, so that no machine turns a visitor's hand.
+// When the screw turns backwards the water helps: only the losses, 1 - efficiency of the load, are left.
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "server/machines/machine.hpp"
 #include "server/machines/nature.hpp"
@@ -23,7 +26,7 @@ namespace mechane::machines {
 namespace {
 
 constexpr double kTightRate_rad_s = 2.0 * 2 * kPi / 60;  // above it buckets do not leak
-constexpr double kBackBlend_rad_s = 0.2;                 // over which the load changes from forwards to backwards
+constexpr double kBackBlend_rad_s = 0.2;                 // over this range the load changes from forwards to backwards
 constexpr double kEventPeriod_s = 0.5;
 constexpr double kEventLeast_m3 = 1e-5;  // a cup's drop is not an event
 constexpr std::size_t kMostBuckets = 256;
@@ -133,37 +136,38 @@ class ScrewPump final : public Machine {
   std::size_t since_event_s_;
 };
 
-Expected<ScrewShape> read_shape(const state::Parameters& p, const std::string& where) {
+Expected<ScrewShape> read_shape(const Build& build) {
+  const state::Parameters& p = build.parameters;
   ScrewShape shape;
   shape.outer_radius_m = p.number("diameter") / 2;
   shape.core_radius_m = p.given("coreDiameter") ? p.number("coreDiameter") / 2 : shape.outer_radius_m / 2;
   shape.pitch_m = p.given("pitch") ? p.number("pitch") : 2 * kPi * shape.core_radius_m;
   shape.slope_rad = p.number("slope");
-  const double blades = p.number("blades");
-  if (blades != std::floor(blades)) return fail("blades is not a whole number", where, "write 1, 2, 3 ...");
-  shape.blades = static_cast<int>(blades);
+  const auto blades = build.whole_number("blades");
+  if (!blades) return tl::unexpected(blades.error());
+  shape.blades = static_cast<int>(*blades);
   if (shape.core_radius_m >= shape.outer_radius_m)
-    return fail("the core is as thick as the screw", where, "make coreDiameter smaller than diameter");
+    return fail(ErrorCode::conflict, "the core is as thick as the screw", build.place("coreDiameter"),
+                "make coreDiameter smaller than diameter");
   if (!holds_water(shape))
-    return fail("a screw of this pitch and slope holds no water: it runs down over the core", where,
-                "make pitch * tan(slope) smaller than the core's circumference");
+    return fail(ErrorCode::conflict, "a screw of this pitch and slope holds no water: it runs down over the core",
+                build.place("slope"), "make pitch * tan(slope) smaller than the core's circumference");
   return shape;
 }
 
 Expected<std::unique_ptr<Machine>> make_screw_pump(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
-  const auto shape = read_shape(p, where);
+  const auto shape = read_shape(build);
   if (!shape) return tl::unexpected(shape.error());
   ScrewPumpSettings s;
-  const auto joint = read_joint(build, "joint", state::JointKind::hinge);
+  const auto joint = build.joint("joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
   const double turns = p.number("length") / shape->pitch_m;
   const double buckets = std::round(turns * shape->blades);
   if (buckets < 1 || buckets > static_cast<double>(kMostBuckets))
     return fail(
-        "the screw has " + std::to_string(buckets) + " buckets", where,
+        ErrorCode::conflict, fmt::format("the screw has {} buckets", buckets), build.place("length"),
         "choose length, pitch and blades so that length / pitch * blades is from 1 to " + std::to_string(kMostBuckets));
   s.buckets = static_cast<std::size_t>(buckets);
   s.buckets_per_turn = buckets / turns;
@@ -214,11 +218,7 @@ constexpr state::ParameterType kScrewPumpParameters[] = {
      .min = 0.01,
      .max = 100},
     {.name = "efficiency", .summary = "of the lifting, 0 to 1", .default_value = 0.7, .min = 0.05, .max = 1},
-    {.name = "effortScale",
-     .summary = "share of the load that the hand feels; not given: the world's effort_scale",
-     .default_value = 1,
-     .min = 0,
-     .max = 1},
+    effort_scale_parameter("share of the load that the hand feels; not given: the world's effort_scale"),
     {.name = "reversed",
      .kind = ParameterKind::boolean,
      .summary = "true: the screw lifts when the hinge turns to negative angles"},

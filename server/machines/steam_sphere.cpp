@@ -1,12 +1,12 @@
 // machine.steam_sphere: the sphere of Aiolos (Heron, Pneumatica II.11): a fire, a cauldron, a sphere with bent nozzles.
 //
-// Heat. m c dT/dt = fire - loss * (T - ambient) up to 100 degrees C; then what is left boils water away, dm/dt = P / latent heat.
-// All of this runs `timeScale` times as fast as the clock, water used up included; the flow of steam is that of the real time, so that
-// the sphere turns as it would. The steam's space smooths the flow by `steamDelay` seconds.
+// Heat. m c dT/dt = fire - loss * (T - ambient) up to 100 degrees C; from then on the power boils water away, dm/dt = P / latent heat.
+// All of this, and the use of water, runs `timeScale` times as fast as the clock. The flow of steam is that of real time, so that the
+// sphere turns as a real one does. The space that the steam fills smooths the flow by `steamDelay` seconds.
 //
 // Jet. Steam leaves the nozzles at v = flow / (density * their area), at about the pressure of the air, and takes its angular momentum
 // with it: torque = sum over the nozzles of their flow * r * (v cos(phi) - omega r), phi the nozzle's angle from the tangent. A nozzle
-// bent the wrong way (phi = pi) works against the others. The bearing's friction and air drag, c omega^2, limit the speed.
+// bent the wrong way (phi = pi) works against the others. The bearing's friction and the drag of the air, c omega^2, limit the speed.
 // Torque and drag go to the hinge as load and resistance, times effort_scale.
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ namespace mechane::machines {
 namespace {
 
 constexpr double kBoiling_c = 100;
-constexpr double kFastest_m_s = 250;      // beyond, the pressure in the sphere is no longer near that of the air
-constexpr double kLeastWater_kg = 0.005;  // what warms with the last drops: the cauldron's floor
+constexpr double kFastest_m_s = 250;      // beyond this, the pressure in the sphere is no longer near that of the air
+constexpr double kLeastWater_kg = 0.005;  // the cauldron's floor warms too: as much heat as this much water takes
 constexpr std::size_t kMostNozzles = 8;
 
 struct SteamSphereSettings {
@@ -48,7 +48,7 @@ class SteamSphere final : public Machine {
  public:
   SteamSphere(const Build& build, const SteamSphereSettings& settings)
       : s_(settings),
-        where_(state::component_place(build.component)),
+        where_(build.place("litBy")),
         temperature_(build.slot("temperature_c", settings.ambient_c)),
         steam_(build.slot("steam_kg_s")),
         water_(build.slot("water_l", settings.water_kg)),
@@ -61,7 +61,8 @@ class SteamSphere final : public Machine {
     if (s_.fire) return {};
     const state::MemorySlot* slot = layout.find(s_.lit_by + ".lit");
     if (slot == nullptr)
-      return fail("the agent '" + s_.lit_by + "' has no value 'lit'", where_, "name a simulation.lit in 'litBy'");
+      return fail(ErrorCode::invalid_value, "the agent '" + s_.lit_by + "' has no value 'lit'", where_,
+                  "name a simulation.lit in 'litBy'");
     lit_ = slot->index;
     return {};
   }
@@ -79,7 +80,7 @@ class SteamSphere final : public Machine {
     return (s_.fire ? state.quantities[s_.fire.index()] : state.memory[lit_]) > 0.5;
   }
 
-  /// A while of the cauldron's own time; returns the steam that comes off, kg/s.
+  /// Heats for `time_s` of the cauldron's own time; returns the steam that comes off, kg/s.
   double heat(state::WorldState& state, double time_s) const noexcept {
     double& temperature_c = state.memory[temperature_];
     double& water_kg = state.memory[water_];  // a litre to the kilogram
@@ -109,7 +110,7 @@ class SteamSphere final : public Machine {
   }
 
   SteamSphereSettings s_;
-  std::string where_;
+  Place where_;  // for link()
   std::size_t lit_ = 0;
   std::size_t temperature_;
   std::size_t steam_;
@@ -120,11 +121,12 @@ class SteamSphere final : public Machine {
   std::size_t boils_;
 };
 
-Expected<void> read_nozzles(const state::Parameters& p, const std::string& where, SteamSphereSettings& s) {
+Expected<void> read_nozzles(const Build& build, SteamSphereSettings& s) {
+  const state::Parameters& p = build.parameters;
   const std::vector<double> angles = p.given("nozzleAngles") ? p.numbers("nozzleAngles") : std::vector<double>{0, 0};
   if (angles.empty() || angles.size() > kMostNozzles)
-    return fail(fmt::format("there are {} nozzles", angles.size()), where,
-                fmt::format("write from 1 to {} angles", kMostNozzles));
+    return fail(ErrorCode::invalid_value, fmt::format("'nozzleAngles' has {} angles", angles.size()),
+                build.place("nozzleAngles"), fmt::format("write from 1 to {} angles", kMostNozzles));
   double sum = 0;
   for (const double angle : angles)
     sum += std::cos(angle);
@@ -134,8 +136,10 @@ Expected<void> read_nozzles(const state::Parameters& p, const std::string& where
   s.area_m2 = count * kPi * bore_m * bore_m / 4;
   const double exit_m_s = s.fire_w / kEvaporation_j_per_kg / (kSteamDensity_kg_m3 * s.area_m2);
   if (exit_m_s > kFastest_m_s) {
-    return fail(fmt::format("the steam of {:.0f} W would leave these nozzles at {:.0f} m/s", s.fire_w, exit_m_s), where,
-                fmt::format("write {:.4f} or more for nozzleDiameter: up to {:.0f} m/s the formula holds",
+    return fail(ErrorCode::conflict,
+                fmt::format("the steam of {:.0f} W would leave these nozzles at {:.0f} m/s", s.fire_w, exit_m_s),
+                build.place("nozzleDiameter"),
+                fmt::format("write {:.4f} or more for nozzleDiameter: the formula holds up to {:.0f} m/s",
                             bore_m * std::sqrt(exit_m_s / kFastest_m_s), kFastest_m_s));
   }
   return {};
@@ -143,11 +147,11 @@ Expected<void> read_nozzles(const state::Parameters& p, const std::string& where
 
 /// What lights the fire: a quantity, or an agent.
 Expected<void> read_fire(const Build& build, SteamSphereSettings& s) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   if (p.given("fire") == p.given("litBy")) {
-    return fail(p.given("fire") ? "both 'fire' and 'litBy' are given" : "neither 'fire' nor 'litBy' is given", where,
-                "name a quantity in 'fire', or a simulation.lit in 'litBy': one of the two");
+    return fail(p.given("fire") ? ErrorCode::conflict : ErrorCode::missing,
+                p.given("fire") ? "both 'fire' and 'litBy' are given" : "neither 'fire' nor 'litBy' is given",
+                build.place("litBy"), "name a quantity in 'fire', or a simulation.lit in 'litBy': one of the two");
   }
   if (p.given("fire")) {
     s.fire = build.description.find_quantity(p.text("fire"));
@@ -155,16 +159,15 @@ Expected<void> read_fire(const Build& build, SteamSphereSettings& s) {
   }
   s.lit_by = p.text("litBy");
   if (build.agent(p.agent("litBy")).type != "simulation.lit")
-    return fail("'" + s.lit_by + "' is not a simulation.lit, so it cannot say whether a fire burns", where,
-                "name a simulation.lit in 'litBy'");
+    return fail(ErrorCode::invalid_value, "the agent '" + s.lit_by + "' in 'litBy' is not a simulation.lit",
+                build.place("litBy"), "name a simulation.lit in 'litBy'");
   return {};
 }
 
 Expected<std::unique_ptr<Machine>> make_steam_sphere(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   SteamSphereSettings s;
-  const auto joint = read_joint(build, "joint", state::JointKind::hinge);
+  const auto joint = build.joint("joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
   if (auto good = read_fire(build, s); !good) return tl::unexpected(good.error());
@@ -173,7 +176,8 @@ Expected<std::unique_ptr<Machine>> make_steam_sphere(const Build& build) {
   s.loss_w_per_k = p.number("loss");
   s.ambient_c = p.number("ambient");
   if (s.loss_w_per_k * (kBoiling_c - s.ambient_c) >= s.fire_w)
-    return fail("this fire never boils the water: the cauldron loses more than it gets", where,
+    return fail(ErrorCode::conflict, "this fire never boils the water: the cauldron loses more than it gets",
+                build.place("loss"),
                 fmt::format("write less than {:.2f} for loss", s.fire_w / (kBoiling_c - s.ambient_c)));
   s.water_kg = p.number("water");
   s.time_scale = p.number("timeScale");
@@ -183,7 +187,7 @@ Expected<std::unique_ptr<Machine>> make_steam_sphere(const Build& build) {
   s.bearing_nm = p.number("bearing");
   s.air_nm_s2 = p.number("airDrag");
   s.effort_scale = build.effort_scale();
-  if (auto good = read_nozzles(p, where, s); !good) return tl::unexpected(good.error());
+  if (auto good = read_nozzles(build, s); !good) return tl::unexpected(good.error());
   return std::make_unique<SteamSphere>(build, s);
 }
 
@@ -250,11 +254,8 @@ constexpr state::ParameterType kSteamSphereParameters[] = {
      .summary = "torque of the air at 1 rad/s; it grows with the square of the rate",
      .min = 0,
      .max = 1e3},
-    {.name = "effortScale",
-     .summary = "share of the torques that is applied; not given: the world's effort_scale, as for the sphere's mass",
-     .default_value = 1,
-     .min = 0,
-     .max = 1},
+    effort_scale_parameter(
+        "share of the torques that is applied; not given: the world's effort_scale, as for the sphere's mass"),
     {.name = "reversed",
      .kind = ParameterKind::boolean,
      .summary = "true: the nozzles drive the hinge to negative angles"},

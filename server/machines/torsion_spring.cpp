@@ -1,17 +1,17 @@
 // machine.torsion_spring: bundles of twisted sinew that drive an arm.
 //
-// Torque. A bundle is put into its frame with a preload and twists with the arm: torque = preload + stiffness * angle, of each of
-// `springs` bundles, towards rest (angle 0). The preload comes in over the first kHeel_rad: there the arm's heel leaves the frame
-// that carries it at rest. What the springs hold is the area under that curve. Times effort_scale the torque goes to the hinge as a
-// load: it drives.
+// Torque. A bundle is put into its frame with a preload and twists with the arm: torque = preload + stiffness * angle for each of
+// `springs` bundles, towards rest (angle 0). The preload comes in over the first kHeel_rad, while the arm's heel leaves the frame
+// that carries it at rest. The energy of the springs is the area under that curve. Times effort_scale the torque goes to the hinge as
+// a load: it drives.
 //
 // Calibration. Philon (Belopoeica 51): the bundle's diameter in dactyls is 1.1 * cbrt(100 * the stone's weight in minas). (Vitruvius
-// X.11.3 has a table for the same, with smaller springs as it has come down to us.) Where an author gives both, they are checked against
-// each other.
+// X.11.3 has a table for the same; as it has come down to us its springs are smaller.) Where an author gives both, they are checked
+// against each other.
 //
-// The shot. When the release's quantity rises the springs offer their energy to a projectile; while they do, they push nothing.
-// What the stone takes, the arm does not get: until it is at rest again its torque is smaller by that share. So the sum is never more
-// than what was wound up. In the real machine stone and arms share it in time, over some 30 ms; here the stone has its part first.
+// The shot. When the release's quantity rises, the springs offer their energy to a projectile; while they do, they push nothing.
+// The arm does not get what the stone takes: until it is at rest again its torque is smaller by that share. So the sum is never more
+// than what was wound up. In the real machine stone and arms share the energy over some 30 ms; here the stone takes its part first.
 #include <algorithm>
 #include <cmath>
 
@@ -75,18 +75,18 @@ class TorsionSpring final : public Machine {
   [[nodiscard]] double torque(double angle) const noexcept {
     return s_.springs * (s_.preload_nm * std::min(1.0, angle / kHeel_rad) + s_.stiffness_nm_per_rad * angle);
   }
-  /// Over the way that the arm goes in this tick: so a fast arm gets what the springs lose, and no more.
+  /// The mean over the way that the arm goes in this tick, so that a fast arm gets just the energy that the springs lose.
   [[nodiscard]] double mean_torque(double way, double angle) const noexcept {
     return std::abs(way) < 1e-6 ? torque(angle) : (area_j(std::max(0.0, angle + way)) - area_j(angle)) / way;
   }
-  /// Under torque(), from rest.
+  /// The area under torque(), from rest to `angle`.
   [[nodiscard]] double area_j(double angle) const noexcept {
     const double heel = std::min(angle, kHeel_rad);
     const double preload_j = s_.preload_nm * (heel * heel / (2 * kHeel_rad) + angle - heel);
     return s_.springs * (preload_j + 0.5 * s_.stiffness_nm_per_rad * angle * angle);
   }
 
-  /// What a projectile has taken since the release is lost to the arm.
+  /// Takes from the arm's share what a projectile has taken since the release.
   void take_off(state::WorldState& state, double& share) const noexcept {
     const double before_j = state.memory[before_j_], taken_j = store_.taken_j(state);
     if (before_j <= 0 || taken_j <= 0) return;
@@ -109,33 +109,36 @@ double philons_calibre_dactyls(double stone_kg) {
   return 1.1 * std::cbrt(100 * stone_kg / kMina_kg);
 }
 
-Expected<double> read_calibre(const state::Parameters& p, const std::string& where) {
+Expected<double> read_calibre(const Build& build) {
+  const state::Parameters& p = build.parameters;
   if (!p.given("springDiameter")) return p.given("stoneMass") ? philons_calibre_dactyls(p.number("stoneMass")) : 0.0;
   const double calibre = p.number("springDiameter") / kDactyl_m;
   if (!p.given("stoneMass")) return calibre;
   const double philons = philons_calibre_dactyls(p.number("stoneMass"));
   if (std::abs(calibre / philons - 1) > kCalibration) {
-    return fail(fmt::format("springs of {:.1f} dactyls do not fit a stone of {:.1f} minas: Philon's rule gives {:.1f}",
+    return fail(ErrorCode::conflict,
+                fmt::format("springs of {:.1f} dactyls do not fit a stone of {:.1f} minas: Philon's rule gives {:.1f}",
                             calibre, p.number("stoneMass") / kMina_kg, philons),
-                where, fmt::format("write {:.4f} for springDiameter, or another stoneMass", philons * kDactyl_m));
+                build.place("springDiameter"),
+                fmt::format("write {:.4f} for springDiameter, or another stoneMass", philons * kDactyl_m));
   }
   return calibre;
 }
 
 Expected<std::unique_ptr<Machine>> make_torsion_spring(const Build& build) {
-  const std::string where = state::component_place(build.component);
   const state::Parameters& p = build.parameters;
   TorsionSpringSettings s;
-  const auto joint = read_joint(build, "joint", state::JointKind::hinge);
+  const auto joint = build.joint("joint", state::JointKind::hinge);
   if (!joint) return tl::unexpected(joint.error());
   s.joint = *joint;
   s.direction = p.boolean("reversed") ? -1 : 1;
-  s.springs = p.number("springs");
-  if (s.springs != std::floor(s.springs)) return fail("springs is not a whole number", where, "write 0, 1 or 2");
+  const auto springs = build.whole_number("springs");
+  if (!springs) return tl::unexpected(springs.error());
+  s.springs = *springs;
   s.preload_nm = p.number("preload");
   s.stiffness_nm_per_rad = p.number("stiffness");
   s.effort_scale = build.effort_scale();
-  const auto calibre = read_calibre(p, where);
+  const auto calibre = read_calibre(build);
   if (!calibre) return tl::unexpected(calibre.error());
   s.calibre_dactyls = *calibre;
   const QuantityId release = p.given("release") ? build.description.find_quantity(p.text("release")) : QuantityId();
@@ -180,11 +183,7 @@ constexpr state::ParameterType kTorsionSpringParameters[] = {
      .kind = ParameterKind::text,
      .summary = "the quantity that lets the arm go as it rises above 0.5: a projectile may take the energy then",
      .reference = state::Reference::quantity},
-    {.name = "effortScale",
-     .summary = "share of the torque that the hand feels; not given: the world's effort_scale",
-     .default_value = 1,
-     .min = 0,
-     .max = 1},
+    effort_scale_parameter("share of the torque that the hand feels; not given: the world's effort_scale"),
     {.name = "reversed", .kind = ParameterKind::boolean, .summary = "true: the arm is drawn to negative angles"},
 };
 constexpr state::ValueType kTorsionSpringValues[] = {

@@ -1,5 +1,4 @@
-// ByteRing: a bounded queue of records of different lengths, from one thread to one other thread. What a journal's
-// bytes travel in.
+// ByteRing: a bounded queue of records of different lengths, from one thread to one other thread. It carries a journal's bytes.
 #pragma once
 
 #include <atomic>
@@ -28,7 +27,7 @@ class ByteRing {
 
   [[nodiscard]] std::size_t capacity() const noexcept { return bytes_.size(); }
 
-  /// Producer: false when there is no room. Records over a quarter of the capacity are refused always.
+  /// Producer: false when there is no room. Records over a quarter of the capacity are always refused.
   [[nodiscard]] bool push(std::span<const std::byte> record) noexcept {
     const std::size_t need = kPrefix + rounded(record.size());
     if (need > bytes_.size() / 4) return false;

@@ -13,8 +13,8 @@
 
 namespace mechane::realtime {
 
-/// Log-linear buckets: below 128 ns one a nanosecond, above it 64 for each doubling, so that a bucket is at most 1/64
-/// of its value wide and its middle at most 1/128 off. One thread records and resets; any other may read at the same
+/// Log-linear buckets: below 128 ns one for each nanosecond, above that 64 for each doubling, so that a bucket is at most 1/64
+/// of its value wide, and its middle is at most 1/128 off. One thread records and resets; any other may read at the same
 /// time, without a lock, and sees each bucket as it was at some moment of the read (counters are relaxed atomics with a
 /// single writer).
 class LatencyHistogram {
@@ -28,14 +28,13 @@ class LatencyHistogram {
     return *this;
   }
 
-  /// Adds one duration. Negative ones count as 0; those over 17 s fall into the last bucket, max() still knows them
-  /// exactly.
+  /// Adds one duration. Negative ones count as 0; those over 17 s fall into the last bucket, but max() is still exact.
   void record(Duration d) noexcept {
     const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(d.count(), 0));
     add(counts_[bucket_of(ns)], 1);
     if (ns > get(max_ns_)) set(max_ns_, ns);
   }
-  /// Adds all that `other` has counted.
+  /// Adds the counts of `other`.
   void merge(const LatencyHistogram& other) noexcept {
     for (std::size_t i = 0; i < kBuckets; ++i)
       add(counts_[i], get(other.counts_[i]));

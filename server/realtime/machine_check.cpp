@@ -48,11 +48,7 @@ std::string limit_text(rlim_t limit) {
   return limit == RLIM_INFINITY ? "unlimited" : std::to_string(limit);
 }
 
-double microseconds(Duration d) {
-  return std::chrono::duration<double, std::micro>(d).count();
-}
-
-// Asks for the policy in a thread that ends at once: the caller's own priority stays.
+// Asks for the policy in a thread that ends at once, so that the caller's own priority stays.
 bool fifo_is_granted(int priority) {
   bool granted = false;
   std::thread([&] {
@@ -68,7 +64,7 @@ CheckResult socket_buffer(const fs::path& root, const std::string& name) {
   const std::string key = "net.core." + name;
   const auto line = first_line(root / "proc/sys/net/core" / name);
   const std::string remedy =
-      fmt::format("sysctl -w {}={}, and the same in /etc/sysctl.d/60-mechane.conf", key, 4 * kWanted);
+      fmt::format("sysctl -w {}={}, and the same in /etc/sysctl.d/90-mechane.conf", key, 4 * kWanted);
   const std::string wanted = fmt::format("{} or more", kWanted);
   if (!line)
     return result(key, CheckStatus::warning, "cannot be read", wanted, "check it on the host of this container");
@@ -114,7 +110,7 @@ CheckResult check_memory_lock() {
   constexpr rlim_t kWanted = 512u << 20;
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
-  // The limit does not bind who has CAP_IPC_LOCK: so try. One page tells nothing, the default limit allows it: 16 MiB.
+  // A process with CAP_IPC_LOCK may lock more than the limit, so try it. The default limit allows single pages: lock 16 MiB.
   constexpr std::size_t kProbe = 16u << 20;
   void* memory = mmap(nullptr, kProbe, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   const bool locked = memory != MAP_FAILED && mlock(memory, kProbe) == 0;
@@ -139,8 +135,8 @@ CheckResult check_cpu_governor(const fs::path& root) {
     if (*governor != "performance") status = CheckStatus::warning;
     if (found.empty() || *governor != "performance") found = *governor;
   }
-  // A virtual machine has none: its host decides.
-  if (found.empty()) return result(name, CheckStatus::ok, "not ours to set (no cpufreq)", wanted, {});
+  // A virtual machine has no cpufreq: its host sets the frequency.
+  if (found.empty()) return result(name, CheckStatus::ok, "set by the host of this machine (no cpufreq)", wanted, {});
   return result(name, status, found, wanted, "cpupower frequency-set -g performance");
 }
 
@@ -162,7 +158,7 @@ CheckResult check_kernel_preemption(const fs::path& root) {
   const auto command_line = first_line(root / "proc/cmdline").value_or("");
   const bool full = command_line.find("preempt=full") != std::string::npos;
   const bool known = full || version.find("PREEMPT") == std::string::npos;
-  const std::string found = full ? "preempt=full" : known ? "none" : "PREEMPT_DYNAMIC, mode not told";
+  const std::string found = full ? "preempt=full" : known ? "none" : "PREEMPT_DYNAMIC, mode unknown";
   return result("kernel preemption", full ? CheckStatus::ok : CheckStatus::warning, found, wanted, remedy);
 }
 
@@ -189,9 +185,9 @@ std::vector<CheckResult> check_socket_buffers(const fs::path& root) {
 CheckResult check_transparent_hugepage(const fs::path& root) {
   const auto line = first_line(root / "sys/kernel/mm/transparent_hugepage/enabled");
   const std::string found = line ? chosen_word(*line) : "not in this kernel";
-  return result("transparent huge pages", found == "always" ? CheckStatus::warning : CheckStatus::ok, found,
-                "madvise or never",
-                "echo madvise > /sys/kernel/mm/transparent_hugepage/enabled: gathering pages stalls who touches them");
+  return result(
+      "transparent huge pages", found == "always" ? CheckStatus::warning : CheckStatus::ok, found, "madvise or never",
+      "echo madvise > /sys/kernel/mm/transparent_hugepage/enabled: gathering pages stalls the threads that use them");
 }
 
 CheckResult probe_wakeups(int fifo_priority, Duration probe_time) {
@@ -222,14 +218,14 @@ CheckResult probe_wakeups(int fifo_priority, Duration probe_time) {
   thread.stop();
   const PeriodicReport report = thread.report();
   const LatencyHistogram& latency = thread.wake_latency();
-  const double p99_us = microseconds(latency.quantile(0.99));
+  const double p99_us = to_us(latency.quantile(0.99));
   const bool lost_many = report.skipped * 1000 > wanted_ticks;
   CheckStatus status = CheckStatus::ok;
   if (p99_us > 100 || report.skipped > 0) status = CheckStatus::warning;
   if (p99_us > 500 || lost_many) status = CheckStatus::bad;
   return result(name, status,
                 fmt::format("p50 {:.0f} us, p99 {:.0f} us, max {:.0f} us, {} of {} skipped, {}",
-                            microseconds(latency.quantile(0.5)), p99_us, microseconds(latency.max()), report.skipped,
+                            to_us(latency.quantile(0.5)), p99_us, to_us(latency.max()), report.skipped,
                             report.ticks + report.skipped, report.fifo_granted ? "SCHED_FIFO" : "ordinary priority"),
                 wanted, "grant SCHED_FIFO, give the loop a processor of its own, and look at what else runs here");
 }

@@ -14,18 +14,14 @@ namespace mechane::realtime {
 /// factory).
 ///
 /// Why a value is never torn and never goes backwards:
-/// - There are three slots and three places: the producer's `back_`, the consumer's `front_`, and `middle_`. The places
-/// start with
-///   different slots, and each change is an atomic exchange of one's own slot against the middle one: so the places
-///   always hold three different slots, and nobody ever writes a slot that the other reads.
-/// - commit() exchanges with release: the value written before it is visible to whoever acquires that slot. The
-/// consumer's
-///   exchange acquires it. In the other direction the consumer's release and the producer's acquire order the
-///   consumer's last read of a slot before the producer's next write to it. So both sides use acq_rel.
-/// - Only the producer sets kNew and only the consumer clears it. Once the consumer has seen kNew, whatever its
-/// exchange takes is
-///   a slot that the producer committed after the last one taken: the producer overwrites the middle with newer slots
-///   only.
+/// - There are three slots and three places: the producer's `back_`, the consumer's `front_`, and `middle_`. The places start with
+///   different slots, and each change is an atomic exchange of one's own slot against the middle one. So the places always hold three
+///   different slots, and nobody ever writes a slot that the other reads.
+/// - commit() exchanges with release, the consumer's exchange with acquire: so the consumer sees the value that was written before
+///   commit(). In the other direction the consumer's release and the producer's acquire order the consumer's last read of a slot
+///   before the producer's next write to it. So both sides use acq_rel.
+/// - Only the producer sets kNew and only the consumer clears it. Once the consumer has seen kNew, its exchange takes a slot that the
+///   producer committed after the last one taken: the producer overwrites the middle with newer slots only.
 ///
 ///     Mailbox<HandSample> box;
 ///     box.publish(sample);                       // a DDS listener

@@ -1,7 +1,6 @@
 #include "server/realtime/periodic_thread.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <future>
 #include <system_error>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 
+#include "server/base/thread_setup.hpp"
 #include "server/realtime/priority.hpp"
 
 namespace mechane::realtime {
@@ -18,14 +18,14 @@ namespace {
 
 constexpr Duration kLongestSleep = std::chrono::milliseconds(20);
 
-// Counters have one writer, the loop: a load and a store do, and no bus is locked.
+// Counters have one writer, the loop, so a load and a store suffice: no locked instruction is needed.
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t n = 1) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);
 }
 
 bool lock_memory() noexcept {
-  // What is mapped now is locked in full; what is mapped later is locked page by page as it is touched, so that the stacks of
-  // other threads do not cost 8 MiB each.
+  // Memory that is mapped now is locked in full. Memory that is mapped later is locked page by page as it is touched, so that the
+  // stacks of other threads do not cost 8 MiB each.
   return mlockall(MCL_CURRENT) == 0 && mlockall(MCL_FUTURE | MCL_ONFAULT) == 0;
 }
 
@@ -39,28 +39,32 @@ PeriodicThread::~PeriodicThread() {
 
 Expected<void> PeriodicThread::start(Tick tick) {
   const std::string where = "thread " + config_.name;
-  if (thread_.joinable()) return fail("is running already", where, "stop it first");
-  if (!tick) return fail("has nothing to call", where, "give it a function");
-  if (config_.period <= Duration{0}) return fail("the period must be over 0", where, "give it one, such as 1 ms");
+  if (thread_.joinable()) return fail(ErrorCode::busy, "it is running already", where, "stop it first");
+  if (!tick) return fail(ErrorCode::missing, "it has no function to call", where, "give it a function");
+  if (config_.period <= Duration{0})
+    return fail(ErrorCode::invalid_value, "the period is not above 0", where, "give it one, such as 1 ms");
   if (config_.fifo_priority < 0 || config_.fifo_priority > 99) {
-    return fail("real-time priority " + std::to_string(config_.fifo_priority) + " is out of range", where,
+    return fail(ErrorCode::invalid_value,
+                "real-time priority " + std::to_string(config_.fifo_priority) + " is out of range", where,
                 "use 1 to 99, or 0 for an ordinary thread");
   }
   if (config_.cpu && (*config_.cpu < 0 || *config_.cpu >= CPU_SETSIZE)) {
-    return fail("processor " + std::to_string(*config_.cpu) + " is out of range", where, "use one that lscpu shows");
+    return fail(ErrorCode::invalid_value, "processor " + std::to_string(*config_.cpu) + " is out of range", where,
+                "use one that lscpu shows");
   }
   stop_.store(false, std::memory_order_relaxed);
   std::promise<void> ready;
   std::future<void> is_ready = ready.get_future();
   try {
     thread_ = std::thread([this, tick = std::move(tick), &ready]() noexcept {
-      set_up_thread();
+      prepare();
       ready.set_value();
       run(tick);
       running_.store(false, std::memory_order_release);
     });
   } catch (const std::system_error& e) {
-    return fail(std::string("cannot make the thread: ") + e.what(), where, "raise the limit of threads (ulimit -u)");
+    return fail(ErrorCode::failed_process, std::string("the thread could not be started: ") + e.what(), where,
+                "raise the limit of threads (ulimit -u)");
   }
   is_ready.wait();
   return {};
@@ -88,13 +92,9 @@ PeriodicReport PeriodicThread::report() const noexcept {
           .memory_locked = get(memory_locked_)};
 }
 
-void PeriodicThread::set_up_thread() noexcept {
-  // Signals are for the main thread: one that is handled here would be a pause in the loop.
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, nullptr);
-  pthread_setname_np(pthread_self(), config_.name.substr(0, 15).c_str());
-  // An ordinary thread's wake-ups are otherwise put off by up to 50 us, to gather them.
+void PeriodicThread::prepare() noexcept {
+  set_up_thread(config_.name);
+  // Otherwise the kernel delays an ordinary thread's wake-ups by up to 50 us, to handle several at once.
   prctl(PR_SET_TIMERSLACK, 1UL);
   if (config_.cpu) cpu_granted_.store(pin_to(*config_.cpu), std::memory_order_relaxed);
   if (config_.lock_memory) memory_locked_.store(lock_memory(), std::memory_order_relaxed);
@@ -109,7 +109,7 @@ void PeriodicThread::run(const Tick& tick) noexcept {
     const bool slept = sleep_until(timing.due);
     if (stop_.load(std::memory_order_relaxed)) return;
     timing.woke = clock_.now();
-    // A tick that follows a long one at once is late by our own fault, or counted as preempted already: no late wake-up.
+    // A tick that follows a long one at once is late because of that one, which is counted already: not a late wake-up.
     if (slept) {
       const Duration late = timing.woke - timing.due;
       wake_latency_.record(late);
@@ -150,7 +150,7 @@ TickTiming PeriodicThread::next_after(const TickTiming& last) noexcept {
   next.due = last.due + config_.period;
   const Duration behind = clock_.now() - next.due;
   if (behind >= config_.period) {
-    // Onto the first grid point in the future.
+    // Go on at the first grid point in the future.
     next.skipped = static_cast<std::uint64_t>(behind / config_.period) + 1;
     next.due += static_cast<std::int64_t>(next.skipped) * config_.period;
     add(skipped_, next.skipped);

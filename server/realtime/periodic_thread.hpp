@@ -1,5 +1,4 @@
-// PeriodicThread: one thread that wakes on a fixed grid of times, and that tells its own faults from those of the
-// machine.
+// PeriodicThread: one thread that wakes on a fixed grid of times, and that counts its own faults apart from those of the machine.
 #pragma once
 
 #include <atomic>
@@ -41,7 +40,7 @@ struct PeriodicReport {
   std::uint64_t late_wakeups = 0;  ///< slept, and woke more than `late_after` past the due time
   std::uint64_t skipped = 0;       ///< grid points left out because the time for them had passed
   bool running = false;
-  bool fifo_granted = false;   ///< SCHED_FIFO was asked for and given
+  bool fifo_granted = false;   ///< SCHED_FIFO was asked for and granted
   bool cpu_granted = false;    ///< pinning was asked for and done
   bool memory_locked = false;  ///< locking was asked for and done
 };
@@ -84,7 +83,7 @@ class PeriodicThread {
  private:
   using Counter = std::atomic<std::uint64_t>;
 
-  void set_up_thread() noexcept;
+  void prepare() noexcept;
   void run(const Tick& tick) noexcept;
   /// Waits for `due`, in slices that keep a stop prompt. False when it was due already.
   bool sleep_until(TimePoint due) noexcept;

@@ -14,7 +14,7 @@ inline bool take_fifo(int priority) noexcept {
   return priority == 0 || pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
 }
 
-/// The same from a callback on a thread that a library owns: asks at this thread's first call only.
+/// The same for a callback on a thread that a library owns: only this thread's first call asks.
 inline void take_fifo_once(int priority) noexcept {
   thread_local bool asked = false;
   if (asked) return;

@@ -1,4 +1,4 @@
-// Wakeup: many threads wake one. What a loop calls to say that there is something to fetch.
+// Wakeup: many threads wake one. A loop signals it when there is something to fetch.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 namespace mechane::realtime {
 
 /// One futex word. signal() never waits, and makes a system call only while the waiter sleeps: at most one per sleep. Signals that
-/// come before the waiter looks are one signal: keep what there is to fetch in a mailbox or a ring.
+/// come before the waiter looks count as one: keep what there is to fetch in a mailbox or a ring.
 class Wakeup {
  public:
   Wakeup() = default;

@@ -1,53 +1,15 @@
 #include "server/record/file.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "server/base/whole_file.hpp"
+
 namespace mechane::record {
-namespace {
-
-tl::unexpected<Error> system_failure(const std::string& what, const std::string& where, int error) {
-  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  return fail(what + ": " + std::strerror(error), where,
-              full ? "make room on the disk" : "check the disk and the folder's rights");
-}
-
-// Every byte, or errno.
-int write_all(int fd, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
-    if (n == 0) return ENOSPC;
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
-  }
-  return 0;
-}
-
-// A rename is on the disk only when its folder is.
-int sync_folder(const std::filesystem::path& folder) {
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return errno;
-  const int error = ::fsync(fd) == 0 ? 0 : errno;
-  ::close(fd);
-  return error;
-}
-
-int write_new_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0640);
-  if (fd < 0) return errno;
-  int error = write_all(fd, bytes);
-  if (error == 0 && ::fsync(fd) != 0) error = errno;
-  if (::close(fd) != 0 && error == 0) error = errno;
-  return error;
-}
-
-}  // namespace
 
 std::string file_name_of(const std::string& name) {
   std::string out = name.empty() ? "_" : name;
@@ -57,20 +19,6 @@ std::string file_name_of(const std::string& name) {
   }
   if (out.front() == '.') out.front() = '_';
   return out;
-}
-
-Expected<void> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  std::filesystem::path beside = path;
-  beside += ".new";
-  int error = write_new_file(beside, bytes);
-  if (error == 0 && ::rename(beside.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(beside.c_str());
-    return system_failure("cannot be written", path.string(), error);
-  }
-  error = sync_folder(path.has_parent_path() ? path.parent_path() : ".");
-  if (error != 0) return system_failure("cannot be flushed to the disk", path.string(), error);
-  return {};
 }
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
@@ -105,8 +53,8 @@ Expected<AppendFile> AppendFile::create(const std::filesystem::path& path) {
   AppendFile file;
   file.name_ = path.string();
   file.fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0640);
-  if (file.fd_ < 0) return system_failure("cannot be made", file.name_, errno);
-  // Nobody else knows the file yet; a file system without locks only means that retention trusts the folder to us.
+  if (file.fd_ < 0) return tl::unexpected(file_error("cannot be made", file.name_, errno));
+  // The file is new, so that the lock is free. On a file system without locks, retention may delete a journal that is being written.
   (void)::flock(file.fd_, LOCK_EX | LOCK_NB);
   return file;
 }
@@ -125,14 +73,14 @@ Expected<void> AppendFile::append(std::span<const std::byte> bytes) {
     size_ += bytes.size();
     return {};
   }
-  // Cutting a file back needs no room on the disk. If even that fails, a reader finds the half frame by its checksum, and what a
-  // later try appends behind it is not found: so this file is given up.
+  // Cutting a file back needs no room on the disk. If even that fails, the file ends in half a frame. A reader stops there, so that it
+  // would not find what is appended later: the file is given up.
   if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) close();
-  return system_failure("cannot be written", name_, error);
+  return tl::unexpected(file_error("cannot be written", name_, error));
 }
 
 Expected<void> AppendFile::sync() {
-  if (::fdatasync(fd_) != 0) return system_failure("cannot be flushed to the disk", name_, errno);
+  if (::fdatasync(fd_) != 0) return tl::unexpected(file_error("cannot be flushed to the disk", name_, errno));
   return {};
 }
 

@@ -1,4 +1,4 @@
-// Files that the recorder writes: appended to all or nothing, or replaced whole.
+// Files that the recorder appends to, each time all or nothing.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,13 @@
 
 namespace mechane::record {
 
-/// `name` with everything but letters, digits, '.', '-' and '_' replaced by '_', and no dot in front: one component of a path.
+/// `name` as one component of a path: everything but letters, digits, '.', '-' and '_' is replaced by '_', and a dot at the start too.
 [[nodiscard]] std::string file_name_of(const std::string& name);
 
-/// Writes a file beside `path`, flushes it to the disk, renames it to `path` and flushes the folder.
-[[nodiscard]] Expected<void> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
-
-/// The regular files of a folder, in no order. Files that vanish meanwhile are left out; no folder, no files.
+/// The regular files of a folder, in no order. Files that vanish meanwhile are left out. Empty where there is no such folder.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder);
 
-/// A new file that only grows. It is locked (flock) while open: who else looks at the folder can tell that somebody writes it.
+/// A new file that only grows. It is locked (flock) while it is open, so that retention can tell that it is being written.
 class AppendFile {
  public:
   AppendFile() = default;
@@ -29,14 +26,14 @@ class AppendFile {
   AppendFile& operator=(AppendFile&& other) noexcept;
   ~AppendFile();
 
-  /// Errors: it exists already, no room, no rights.
+  /// Errors: io_failure (it exists already, no room, no rights).
   [[nodiscard]] static Expected<AppendFile> create(const std::filesystem::path& path);
-  /// True when nobody holds the file open as an AppendFile, in this process or another.
+  /// True when no AppendFile of any process has the file open.
   [[nodiscard]] static bool is_free(const std::filesystem::path& path);
 
   [[nodiscard]] bool is_open() const { return fd_ >= 0; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// All of `bytes` or none of them: on an error the file is cut back to what it was.
+  /// Appends all of `bytes`, or none of them: on an error the file is cut back to what it was.
   [[nodiscard]] Expected<void> append(std::span<const std::byte> bytes);
   /// Flushes to the disk.
   [[nodiscard]] Expected<void> sync();

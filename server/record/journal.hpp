@@ -5,8 +5,8 @@
 //
 //     kind u8 | length u32 | checksum u64 | payload of `length` bytes
 //
-// with the checksum XXH3-64 of kind, length and payload, seeded with the frame's number in the file, so that a frame that is
-// damaged, missing or in another's place is found. Numbers are little-endian; `v` is a LEB128 number, `s` a length and that many bytes.
+// with the checksum XXH3-64 of kind, length and payload, seeded with the frame's number in the file, so that a reader notices a frame that
+// is damaged, missing or in the wrong place. Numbers are little-endian; `v` is a LEB128 number, `s` a length and that many bytes.
 //
 //     header  one, first: s world, s kiosk, s scenario, s scenario hash, s build, u64 start wall time ns, u64 first tick, s snapshot
 //     ticks   u64 first, u64 last tick, then those that are not idle: v ticks since the one before, and the tick (tick_codec.cpp)
@@ -44,13 +44,13 @@ struct JournalEnd {
   enum class Kind {
     closed,   ///< in order
     cut_off,  ///< in the middle of a frame, or without a close: the writer was killed, or is still writing
-    damaged,  ///< bytes are not what was written
+    damaged,  ///< bytes have changed since they were written
   };
   Kind kind = Kind::cut_off;
   std::uint64_t offset = 0;                 ///< all bytes before it are good
   std::string message;                      ///< for people: what is wrong at the offset; empty when closed
-  std::uint64_t ticks = 0;                  ///< that could be read
-  std::uint64_t lost_ticks = 0;             ///< that the writer says are missing
+  std::uint64_t ticks = 0;                  ///< how many could be read
+  std::uint64_t lost_ticks = 0;             ///< how many are missing, as the journal itself says
   std::optional<std::uint64_t> first_lost;  ///< replay ends before this tick
   std::optional<std::uint64_t> hash;        ///< final state hash, of a closed journal
 };
@@ -60,7 +60,8 @@ namespace journal_format {
 inline constexpr char kMagic[8] = {'M', 'E', 'C', 'H', 'J', 'R', 'N', 'L'};
 inline constexpr std::size_t kPreambleSize = sizeof(kMagic) + 4;
 inline constexpr std::size_t kFrameHeadSize = 1 + 4 + 8;
-inline constexpr std::uint32_t kMaxPayload = 64u << 20;  ///< a header with a large snapshot; ticks stay far below
+inline constexpr std::uint32_t kMaxPayload =
+    64u << 20;  ///< room for a header with a large snapshot; frames of ticks are far smaller
 inline constexpr std::uint64_t kMaxTicksPerFrame = 1'000'000;
 enum class FrameKind : std::uint8_t { header = 1, ticks = 2, loss = 3, close = 4 };
 

@@ -66,7 +66,7 @@ void JournalChannel::drain(TimePoint now) {
   store(now);
 }
 
-// From the ring to the writer. Ticks that the ring had no room for, or that the disk refused before, are a gap that the writer finds.
+// From the ring to the writer. Where ticks are missing, for which the ring or the disk had no room, the writer notices the gap.
 void JournalChannel::gather() {
   for (auto front = ring_.front(); front.found; front = ring_.front()) {
     const std::uint64_t tick = number_of(front.record);
@@ -152,7 +152,7 @@ const std::string& JournalChannel::problem() const {
 }
 
 std::uint64_t JournalChannel::ticks_lost() const {
-  // What is in the ring still may be stored yet: the disk can have room again before its turn comes.
+  // What is still in the ring is not lost: the disk may have room again before it is written.
   if (journal_problem_.empty()) return writer_.lost_ticks();
   return writer_.lost_ticks() + (taken_through_ - stored_.next_tick);
 }
@@ -161,10 +161,10 @@ void JournalChannel::finish(TimePoint now, std::optional<std::uint64_t> hash, bo
   write_snapshot();
   if (remove_snapshot) {
     remove_replaced();
-    std::error_code ignored;  // it may never have been written
+    std::error_code ignored;  // there may be no snapshot
     std::filesystem::remove(snapshot_path_, ignored);
   }
-  // One last try, whether the disk rests or not.
+  // One last try, even before the time to try again has come.
   given_up_ ? discard() : gather();
   taken_through_ = through_tick();
   if (given_up_) return;

@@ -1,4 +1,4 @@
-// JournalChannel: one world's way from its loop to its journal and snapshot file. Inside the record room; others see WorldRecorder.
+// JournalChannel: one world's queue from its loop to its journal and snapshot file. For this room only; others use WorldRecorder.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace mechane::record {
 
-/// The loop side may be called by one thread, the disk side by one other.
+/// One thread may call the loop side, one other thread the disk side.
 class JournalChannel {
  public:
   struct Snapshot {
@@ -25,7 +25,7 @@ class JournalChannel {
     std::vector<std::byte> bytes;
   };
 
-  /// `replaced`: snapshots that go as soon as the first one of this world is on the disk.
+  /// `replaced`: snapshots that are removed when the first one of this world is on the disk.
   JournalChannel(const JournalHeader& header, std::filesystem::path journal, std::filesystem::path snapshot,
                  std::size_t ring_bytes, std::size_t snapshot_capacity, Duration retry_after,
                  std::vector<std::filesystem::path> replaced = {});
@@ -40,16 +40,17 @@ class JournalChannel {
   [[nodiscard]] const std::filesystem::path& journal_path() const noexcept { return journal_path_; }
 
   // The disk side.
-  /// Empties the ring into the journal, and writes the newest snapshot. While the disk refuses, what cannot be written is dropped.
+  /// Writes what is in the ring to the journal, and the newest snapshot. After the disk has refused, the ring is emptied without writing
+  /// until the time to try again has come.
   void drain(TimePoint now);
   void sync();
   /// Drains, ends the journal and closes it.
   void finish(TimePoint now, std::optional<std::uint64_t> hash, bool remove_snapshot);
   [[nodiscard]] bool ok() const { return problem().empty(); }
-  /// The worst that is wrong now; empty while all is well.
+  /// What is wrong now: with the journal, else with the snapshot; empty while all is well.
   [[nodiscard]] const std::string& problem() const;
   [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
-  /// Those that the journal says are missing, and those that it will say when the disk takes them again.
+  /// Ticks that the journal says are missing, and those that it will say so of when the disk can be written again.
   [[nodiscard]] std::uint64_t ticks_lost() const;
   [[nodiscard]] std::uint64_t snapshots_written() const { return snapshots_written_; }
 
@@ -78,7 +79,7 @@ class JournalChannel {
   JournalWriter::Position stored_;    // what the file holds
   std::vector<std::byte> beginning_;  // of the file, until it is stored
   AppendFile file_;
-  bool given_up_ = false;  // the file ends in a half frame that could not be cut off
+  bool given_up_ = false;  // the file ends in half a frame that could not be cut off: nothing more is written
   std::optional<TimePoint> rest_until_;
   std::string journal_problem_;
   std::string sync_problem_;

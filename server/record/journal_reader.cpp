@@ -18,7 +18,7 @@ namespace {
 using journal_format::FrameKind;
 using journal_format::kFrameHeadSize;
 
-// Reads `size` bytes in pieces: a length that lies costs no more memory than the file has bytes.
+// Reads `size` bytes in pieces: a false length takes no more memory than the file has bytes.
 bool read_exactly(std::istream& in, std::size_t size, std::vector<std::byte>& out) {
   constexpr std::size_t kPiece = 1u << 20;
   out.clear();
@@ -50,7 +50,7 @@ JournalReader::~JournalReader() = default;
 
 Expected<JournalReader> JournalReader::open_file(const std::filesystem::path& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
-  if (!*file) return fail("cannot be read", path.string(), "give the path of a .journal file");
+  if (!*file) return fail(ErrorCode::not_found, "cannot be read", path.string(), "name an existing .journal file");
   JournalReader reader(std::move(file));
   if (auto read = reader.read_header(path.string()); !read) return tl::unexpected(read.error());
   return reader;
@@ -67,13 +67,14 @@ Expected<void> JournalReader::read_header(const std::string& name) {
   std::vector<std::byte> preamble;
   const bool complete = read_exactly(*in_, journal_format::kPreambleSize, preamble);
   if (!complete || std::memcmp(preamble.data(), journal_format::kMagic, sizeof journal_format::kMagic) != 0) {
-    return fail("is not a journal", name, "give a .journal file that a Mechane server wrote");
+    return fail(ErrorCode::damaged, "is not a journal", name, "name a .journal file that a Mechane server wrote");
   }
   ByteSource version_bytes(std::span<const std::byte>(preamble).subspan(sizeof journal_format::kMagic));
   const auto version = version_bytes.get<std::uint32_t>();
   header_.state_version = static_cast<state::StateVersion>(version);
   if (!state::is_known(header_.state_version)) {
-    return fail(fmt::format("is a journal of version {}, and this program reads 1 to {}", version,
+    return fail(ErrorCode::wrong_version,
+                fmt::format("is a journal of version {}; this program reads versions 1 to {}", version,
                             static_cast<std::uint32_t>(state::kStateVersion)),
                 name, "use the release that wrote it");
   }
@@ -90,8 +91,8 @@ Expected<void> JournalReader::read_header(const std::string& name) {
   const auto snapshot = in.get_bytes();
   header_.snapshot.assign(snapshot.begin(), snapshot.end());
   if (!read || !in.ok() || in.remaining() != 0) {
-    return fail("the journal's header is cut off or damaged", name,
-                "nothing can be saved from this file; take another one");
+    return fail(ErrorCode::damaged, "the journal's header is cut off or damaged", name,
+                "nothing in this file can be recovered; use another journal");
   }
   good_offset_ += kFrameHeadSize + frame.payload.size();
   next_tick_ = header_.first_tick;
@@ -107,16 +108,16 @@ bool JournalReader::stop(JournalEnd::Kind kind, std::string message) {
   return false;
 }
 
-// A right checksum over a wrong content: written by something else than our writer.
+// The checksum is right and the content wrong: JournalWriter did not write this.
 bool JournalReader::stop_at_nonsense() {
-  return stop(JournalEnd::Kind::damaged, fmt::format("the frame at byte {} does not make sense", good_offset_));
+  return stop(JournalEnd::Kind::damaged, fmt::format("the frame at byte {} has impossible content", good_offset_));
 }
 
 bool JournalReader::read_frame(Frame& frame) {
   using Kind = JournalEnd::Kind;
   std::vector<std::byte> head;
   if (!read_exactly(*in_, kFrameHeadSize, head)) {
-    return stop(Kind::cut_off, fmt::format("the journal breaks off at byte {}, without a close", good_offset_));
+    return stop(Kind::cut_off, fmt::format("the journal breaks off at byte {}, without its close", good_offset_));
   }
   ByteSource in(head);
   const auto kind = in.get<std::uint8_t>();
@@ -165,8 +166,7 @@ bool JournalReader::next_frame() {
   if (frame.kind != FrameKind::close) return true;
   good_offset_ += frame_size_;
   if (in_->peek() == std::char_traits<char>::eof()) return stop(JournalEnd::Kind::closed, {});
-  return stop(JournalEnd::Kind::damaged,
-              fmt::format("there are bytes behind the journal's close, at byte {}", good_offset_));
+  return stop(JournalEnd::Kind::damaged, fmt::format("the journal goes on after its close, at byte {}", good_offset_));
 }
 
 bool JournalReader::take_ticks(std::vector<std::byte> payload) {

@@ -1,4 +1,4 @@
-// JournalReader: a journal's ticks, one after another, up to where it is good.
+// JournalReader: a journal's ticks, one after another, up to the first damage.
 #pragma once
 
 #include <filesystem>
@@ -21,9 +21,9 @@ namespace mechane::record {
 ///     if (journal->end().kind != JournalEnd::Kind::closed) std::cerr << journal->end().message;
 class JournalReader {
  public:
-  /// Errors: no such file, not a journal, another version, a damaged header. Later damage is not an error here: see end().
+  /// Errors: not_found, damaged (not a journal, or its header), wrong_version. Later damage is not an error here: see end().
   [[nodiscard]] static Expected<JournalReader> open_file(const std::filesystem::path& path);
-  /// The same from memory. `name` is what errors call it.
+  /// The same from memory. `name` is the place in errors.
   [[nodiscard]] static Expected<JournalReader> open_bytes(std::span<const std::byte> bytes, const std::string& name);
 
   JournalReader(JournalReader&&) noexcept;
@@ -31,7 +31,7 @@ class JournalReader {
   ~JournalReader();
 
   [[nodiscard]] const JournalHeader& header() const { return header_; }
-  /// The next tick, idle ones too. False at the end, whatever it is; then end() is complete. Every tick before it is as written.
+  /// The next tick, idle or not. False at the end, whatever its reason; then end() is complete. Every tick before it is as it was written.
   [[nodiscard]] bool next(JournalTick& out);
   [[nodiscard]] const JournalEnd& end() const { return end_; }
 

@@ -29,7 +29,7 @@ class JournalWriter {
   void add_encoded(std::uint64_t tick, std::span<const std::byte> encoded);
   /// Ends the frame of ticks.
   void flush();
-  /// Ends the journal. `through_tick` is the first tick that was not run: where it is beyond the last one added, the rest is lost.
+  /// Ends the journal. `through_tick` is the first tick that was not run: ticks between the last one added and it are written as a loss.
   void close(std::optional<std::uint64_t> hash, std::optional<std::uint64_t> through_tick = {});
 
   /// All bytes since the last call.
@@ -38,8 +38,8 @@ class JournalWriter {
   [[nodiscard]] std::uint64_t next_tick() const { return at_.next_tick; }
   [[nodiscard]] std::uint64_t lost_ticks() const { return at_.lost; }
 
-  /// Where the journal stands, and the way back there when the bytes since could not be stored. What was added since then is
-  /// found missing, and written as a loss, by the next add(). Only right after flush() or construction.
+  /// Where the journal is. rewind() goes back to it, for when the bytes since could not be stored: the next add() then writes the ticks
+  /// since as a loss. Only right after flush() or construction.
   struct Position {
     std::uint64_t frame = 0;
     std::uint64_t first_tick = 0;

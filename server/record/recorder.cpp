@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <csignal>
 #include <system_error>
 #include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <pthread.h>
 
+#include "server/base/thread_setup.hpp"
 #include "server/log/log.hpp"
 #include "server/record/file.hpp"
 #include "server/record/journal_channel.hpp"
@@ -45,10 +44,10 @@ void add_counts(const JournalChannel& channel, RecorderStatus& sum) {
   sum.snapshots_written += channel.snapshots_written();
 }
 
-// Once when the trouble begins, once when it is over: a full disk must not fill the log too.
+// Logged once when the trouble begins and once when it is over: a full disk must not fill the log too.
 void tell(const std::string& before, const std::string& problem) {
   if (before.empty() && !problem.empty()) log::error("records are being lost: " + problem);
-  if (!before.empty() && problem.empty()) log::info("records are written again");
+  if (!before.empty() && problem.empty()) log::info("records are being written again");
 }
 
 }  // namespace
@@ -112,19 +111,24 @@ Recorder::Recorder(const RecorderConfig& config) : config_(config) {}
 Expected<std::unique_ptr<Recorder>> Recorder::create(const RecorderConfig& config) {
   const std::string where = "recorder, " + config.folder.string();
   if (config.ring_bytes < (64u << 10) || !std::has_single_bit(config.ring_bytes)) {
-    return fail(fmt::format("ring_bytes is {}", config.ring_bytes), where, "use a power of two of at least 65536");
+    return fail(ErrorCode::invalid_value, fmt::format("ring_bytes is {}", config.ring_bytes), where,
+                "use a power of two of at least 65536");
   }
   if (config.drain_period <= Duration{0} || config.sync_period < Duration{0} || config.retry_after < Duration{0}) {
-    return fail("a period is negative or zero", where, "use 20 ms, 1 s and 5 s");
+    return fail(ErrorCode::invalid_value, "a period is negative or zero", where, "use 20 ms, 1 s and 5 s");
   }
   std::error_code error;
   std::filesystem::create_directories(config.folder, error);
-  if (error) return fail("the folder cannot be made: " + error.message(), where, "check the path and its rights");
+  if (error) {
+    return fail(ErrorCode::io_failure, "the folder cannot be made: " + error.message(), where,
+                "check the path and its rights");
+  }
   std::unique_ptr<Recorder> recorder(new Recorder(config));
   try {
     recorder->thread_ = std::thread([self = recorder.get()] { self->run(); });
   } catch (const std::system_error& e) {
-    return fail(std::string("cannot make the thread: ") + e.what(), where, "raise the limit of threads (ulimit -u)");
+    return fail(ErrorCode::failed_process, std::string("the thread cannot be started: ") + e.what(), where,
+                "raise the limit of threads (ulimit -u)");
   }
   return recorder;
 }
@@ -175,16 +179,12 @@ void Recorder::close_channel(const JournalChannel& channel, std::optional<std::u
   entry.closing = true;
   wake_.notify_one();
   closed_.wait(lock, [&] { return entry.closed; });
-  // Whoever asked for the close takes the entry out: until here the thread may have looked at it.
+  // Removed here and not by the recorder's thread, which may have looked at the entry until now.
   std::erase_if(entries_, [&](const auto& e) { return e.get() == &entry; });
 }
 
 void Recorder::run() {
-  // No signal is handled here; and a file that grows over RLIMIT_FSIZE is an error of write(), not the end of the process.
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, nullptr);
-  pthread_setname_np(pthread_self(), "recorder");
+  set_up_thread("recorder");
 
   next_sync_ = now() + config_.sync_period;
   next_retention_ = now();

@@ -49,7 +49,9 @@ Expected<RetentionResult> keep_within(const std::filesystem::path& folder, std::
     result.bytes -= journal.bytes;
     ++result.deleted;
   }
-  if (!refused.empty()) return fail("an old journal cannot be deleted", refused, "check the folder's rights");
+  if (!refused.empty()) {
+    return fail(ErrorCode::io_failure, "an old journal cannot be deleted", refused, "check the folder's rights");
+  }
   return result;
 }
 

@@ -1,4 +1,4 @@
-// Keeps a folder of journals within a size: the oldest ones that nobody writes go first.
+// Keeps a folder of journals within a size: the oldest ones are deleted first, except those that are being written.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,9 @@ struct RetentionResult {
   std::uint64_t deleted = 0;  ///< journals
 };
 
-/// Deletes closed journals, by the time of their last write, until all journals together have at most `max_bytes`. Journals that
-/// are being written count, and stay. Errors: a file that cannot be deleted; the others are.
+/// Deletes closed journals, the one that was written first before the others, until all journals together have at most `max_bytes`.
+/// Journals that are being written count, but stay. Errors: io_failure, where a file cannot be deleted; the others are deleted all the
+/// same.
 [[nodiscard]] Expected<RetentionResult> keep_within(const std::filesystem::path& folder, std::uint64_t max_bytes);
 
 }  // namespace mechane::record

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include "server/base/byte_order.hpp"
+#include "server/base/whole_file.hpp"
 #include "server/record/file.hpp"
 
 // A file: magic "MECHWRLD", u32 version, u64 checksum (XXH3-64) of what follows: s world, s kiosk, s scenario, s scenario hash,
@@ -19,6 +18,7 @@ namespace {
 constexpr char kMagic[8] = {'M', 'E', 'C', 'H', 'W', 'R', 'L', 'D'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kPrefix = sizeof kMagic + 4 + 8;
+constexpr std::uintmax_t kMostBytes = 256U << 20;  // far more than the state of any world
 constexpr const char* kExtension = ".snapshot";
 
 std::vector<std::byte> to_bytes(const SnapshotInfo& info, std::span<const std::byte> state) {
@@ -46,21 +46,21 @@ std::filesystem::path snapshot_path(const std::filesystem::path& folder, const s
 
 Expected<void> write_snapshot_file(const std::filesystem::path& path, const SnapshotInfo& info,
                                    std::span<const std::byte> state) {
-  return replace_file(path, to_bytes(info, state));
+  return write_whole(path, to_bytes(info, state), WholeFile::durable);
 }
 
 Expected<SnapshotFile> read_snapshot_file(const std::filesystem::path& path) {
   const std::string where = path.string();
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fail("cannot be read", where, "give the path of a .snapshot file");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const std::span<const std::byte> bytes = std::as_bytes(std::span(text.data(), text.size()));
+  const Expected<std::vector<std::byte>> file = read_whole(path, kMostBytes);
+  if (!file) return tl::unexpected(file.error());
+  const std::span<const std::byte> bytes = *file;
   if (bytes.size() < kPrefix || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) {
-    return fail("is not a snapshot of a world", where, "remove it; the world starts afresh");
+    return fail(ErrorCode::damaged, "is not a snapshot of a world", where, "remove it; the world starts afresh");
   }
   ByteSource prefix(bytes.subspan(sizeof kMagic));
   if (const auto version = prefix.get<std::uint32_t>(); version != kVersion) {
-    return fail(fmt::format("is a snapshot of version {}, and this program reads version {}", version, kVersion), where,
+    return fail(ErrorCode::wrong_version,
+                fmt::format("is a snapshot of version {}; this program reads version {}", version, kVersion), where,
                 "use the release that wrote it, or remove it");
   }
   const auto checksum = prefix.get<std::uint64_t>();
@@ -74,7 +74,7 @@ Expected<SnapshotFile> read_snapshot_file(const std::filesystem::path& path) {
   info.wall_ns = in.get<std::uint64_t>();
   const auto state = in.get_bytes();
   if (XXH3_64bits(body.data(), body.size()) != checksum || !in.ok() || in.remaining() != 0) {
-    return fail("the snapshot is damaged", where, "remove it; the world starts afresh");
+    return fail(ErrorCode::damaged, "the snapshot is damaged", where, "remove it; the world starts afresh");
   }
   out.state.assign(state.begin(), state.end());
   return out;

@@ -1,4 +1,4 @@
-// The file that a restarted server finds a world's state in.
+// The file in which a restarted server finds a world's state.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace mechane::record {
 
-/// What a restart must know before it reads the state: whose world, and of which scenario.
+/// What a restart must know before it reads the state: which kiosk's world it is, and of which scenario.
 struct SnapshotInfo {
   std::string world_id;
   std::string kiosk;
@@ -26,18 +26,18 @@ struct SnapshotFile {
   std::vector<std::byte> state;  ///< for state::read_snapshot
 };
 
-/// "<folder>/<world>.snapshot"; characters that a file name should not have become '_'.
+/// "<folder>/<world>.snapshot"; see file_name_of.
 [[nodiscard]] std::filesystem::path snapshot_path(const std::filesystem::path& folder, const std::string& world_id);
 
-/// Writes beside `path`, flushes to the disk, and renames: a reader finds the old file or the new one, whole, also after a power
-/// cut. Errors name the file and the system's reason; the old file is then as it was.
+/// As write_whole, durable: a reader finds the old file or the new one, whole, also after a power cut. Errors: io_failure; the old file
+/// is then as it was.
 [[nodiscard]] Expected<void> write_snapshot_file(const std::filesystem::path& path, const SnapshotInfo& info,
                                                  std::span<const std::byte> state);
 
-/// Errors: no such file, not a snapshot, another version, damaged (checksum).
+/// Errors: those of read_whole, damaged (not a snapshot, or a wrong checksum), wrong_version.
 [[nodiscard]] Expected<SnapshotFile> read_snapshot_file(const std::filesystem::path& path);
 
-/// The snapshots of a folder, by name. None where there is no such folder.
+/// The snapshots of a folder, sorted by name. Empty where there is no such folder.
 [[nodiscard]] std::vector<std::filesystem::path> find_snapshots(const std::filesystem::path& folder);
 
 }  // namespace mechane::record

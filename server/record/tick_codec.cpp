@@ -188,7 +188,7 @@ void get_events(ByteSource& in, std::uint64_t tick, std::vector<Event>& events) 
   }
 }
 
-// What is left of the tick before: the samples of those who were present.
+// Keeps from the tick before only the samples of users who were present.
 void start_from_last(JournalTick& out) {
   for (UserInput& user : out.inputs.users) {
     user.present = false;

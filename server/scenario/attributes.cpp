@@ -44,22 +44,12 @@ bool Attributes::given(std::string_view name) const {
   return node_.attribute(name) != nullptr;
 }
 
-void Attributes::error(std::string what, std::string remedy) {
-  problems_.error(node_.line, where_, std::move(what), std::move(remedy));
+void Attributes::error(ErrorCode code, std::string what, std::string remedy) {
+  problems_.error(code, node_.line, where_, std::move(what), std::move(remedy));
 }
 
-void Attributes::warning(std::string what, std::string remedy) {
-  problems_.warning(node_.line, where_, std::move(what), std::move(remedy));
-}
-
-void Attributes::note(std::string what, std::string remedy) {
-  problems_.note(node_.line, where_, std::move(what), std::move(remedy));
-}
-
-const Key& Attributes::key(std::string_view name, ValueKind kind) const {
-  const Key* found = table_.find(name);
-  MECHANE_ASSERT(found != nullptr && found->kind == kind);
-  return *found;
+void Attributes::warning(ErrorCode code, std::string what, std::string remedy) {
+  problems_.warning(code, node_.line, where_, std::move(what), std::move(remedy));
 }
 
 std::string_view Attributes::value(std::string_view name) const {
@@ -77,20 +67,20 @@ std::vector<double> Attributes::numbers(std::string_view name) const {
 }
 
 double Attributes::number(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::number));
+  static_cast<void>(table_.key(name, ValueKind::number));
   const std::vector<double> values = numbers(name);
   return values.empty() ? 0 : values.front();
 }
 
 Vec3 Attributes::vector(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::vector));
+  static_cast<void>(table_.key(name, ValueKind::vector));
   const std::vector<double> values = numbers(name);
   MECHANE_ASSERT(values.size() == 3);
   return {values[0], values[1], values[2]};
 }
 
 Quat Attributes::rotation(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::rotation));
+  static_cast<void>(table_.key(name, ValueKind::rotation));
   const std::vector<double> values = numbers(name);
   MECHANE_ASSERT(values.size() == 4);
   const Vec3 axis(values[0], values[1], values[2]);
@@ -99,31 +89,32 @@ Quat Attributes::rotation(std::string_view name) const {
 }
 
 Mat3 Attributes::symmetric_matrix(std::string_view name) {
-  static_cast<void>(key(name, ValueKind::matrix));
+  static_cast<void>(table_.key(name, ValueKind::matrix));
   const std::vector<double> values = numbers(name);
   MECHANE_ASSERT(values.size() == 9);
   const Mat3 matrix = Eigen::Map<const Mat3>(values.data());
   if (matrix.isApprox(matrix.transpose(), 1e-6)) return matrix;
-  error(fmt::format("{} is not symmetric", name), "write the same number on both sides of the diagonal");
+  error(ErrorCode::invalid_value, fmt::format("{} is not symmetric", name),
+        "write the same number on both sides of the diagonal");
   return Mat3::Identity();
 }
 
 bool Attributes::boolean(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::boolean));
+  static_cast<void>(table_.key(name, ValueKind::boolean));
   const auto values = x3d::parse_booleans(value(name));
   MECHANE_ASSERT(values.has_value() && values->size() == 1);
   return values->front();
 }
 
 std::vector<std::string> Attributes::strings(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::strings));
+  static_cast<void>(table_.key(name, ValueKind::strings));
   auto values = x3d::parse_strings(value(name));
   MECHANE_ASSERT(values.has_value());
   return std::move(*values);
 }
 
 std::string Attributes::text(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::string));
+  static_cast<void>(table_.key(name, ValueKind::string));
   const std::string* text = node_.attribute(name);
   return text != nullptr ? *text : std::string();
 }

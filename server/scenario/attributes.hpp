@@ -1,4 +1,4 @@
-// An X3D element's fields as typed values: those that the schema says we read, with X3D's own defaults.
+// An X3D element's fields as typed values: the fields that our schema lists, with X3D's own defaults.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace mechane::scenario {
 
-/// A value that is faulty reads as X3D's default: check_nodes() has said so. Reading a field that the element's table in schema.hpp
-/// does not have is our bug.
+/// A faulty value reads as X3D's default: check_nodes() has reported it. Reading a field that the element's table in schema.hpp does not
+/// have is our own bug.
 class Attributes {
  public:
   /// All must outlive this.
@@ -24,7 +24,7 @@ class Attributes {
   [[nodiscard]] Vec3 vector(std::string_view name) const;
   /// SFRotation: axis x y z, angle in radians.
   [[nodiscard]] Quat rotation(std::string_view name) const;
-  /// SFMatrix3f. X3D writes it by columns; what we read is symmetric, or a problem.
+  /// SFMatrix3f. A matrix that is not symmetric is a problem, so X3D's order by columns does not matter.
   [[nodiscard]] Mat3 symmetric_matrix(std::string_view name);
   [[nodiscard]] bool boolean(std::string_view name) const;
   /// MFString.
@@ -32,15 +32,13 @@ class Attributes {
   /// SFString, and DEF.
   [[nodiscard]] std::string text(std::string_view name) const;
 
-  /// An error about this element.
-  void error(std::string what, std::string remedy);
-  void warning(std::string what, std::string remedy);
-  void note(std::string what, std::string remedy);
+  /// Problems of this element, at its line.
+  void error(ErrorCode code, std::string what, std::string remedy);
+  void warning(ErrorCode code, std::string what, std::string remedy);
   [[nodiscard]] int line() const { return node_.line; }
 
  private:
-  const Key& key(std::string_view name, ValueKind kind) const;
-  /// The text that was written, where it is right; X3D's default otherwise.
+  /// The written text where it is right; X3D's default otherwise.
   std::string_view value(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;
 
@@ -51,7 +49,7 @@ class Attributes {
   x3d::Problems& problems_;
 };
 
-/// What is wrong with an attribute's text against X3D and against what we read of it; nothing where it is right. `key` may be null.
+/// What is wrong with an attribute's text by X3D's rules and by our own; none where it is right. `key` may be null.
 [[nodiscard]] std::optional<x3d::BadValue> attribute_fault(const x3d::Field& field, const Key* key,
                                                            std::string_view text);
 

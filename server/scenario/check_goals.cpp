@@ -1,4 +1,4 @@
-// Goals that nobody can reach: a rule against the range of its quantity.
+// Goals that cannot be reached: each rule is compared with the range of its quantity.
 #include <algorithm>
 #include <limits>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The values that a quantity can have, in its own unit, and what limits them.
+/// The values that a quantity can have, in its own unit, and the parameter or stops that limit them.
 struct Range {
   double min = -kInfinity;
   double max = kInfinity;
@@ -23,7 +23,7 @@ const state::ValueType* find_value(const state::ComponentType& type, std::string
   return it == type.values.end() ? nullptr : &*it;
 }
 
-/// An author's number, or the type's default.
+/// A parameter's written number, or the type's default; infinity where neither is known.
 double parameter_of(const state::ComponentDescription& component, const state::ComponentType& type,
                     std::string_view name) {
   const auto it = component.parameters.find(std::string(name));
@@ -52,7 +52,7 @@ void narrow(const std::vector<state::ComponentDescription>& table,
   }
 }
 
-/// A joint's stops.
+/// Narrows the range to a joint's stops.
 void narrow_to_stops(const state::WorldDescription& world, const std::string& name, const std::string& value,
                      const std::string& unit, Range& range) {
   const JointId id = world.find_joint(name);
@@ -102,14 +102,14 @@ void check_goals(Compilation& c) {
     const Range range = range_of(c.world, quantity);
     if (can_hold(written.rule, range)) continue;
     const std::string from = range.from.empty() ? "" : fmt::format(" ({})", range.from);
-    c.problems.error(written.line, written.where,
-                     fmt::format("this can never hold: '{}' {}{}, and the rule asks for {} {}", quantity.name,
+    c.problems.error(ErrorCode::conflict, written.line, written.where,
+                     fmt::format("the rule can never hold: '{}' {}{}, and the rule asks for {} {}", quantity.name,
                                  in_words(range, quantity.unit), from,
                                  written.rule.comparison == state::Comparison::less      ? "less than"
                                  : written.rule.comparison == state::Comparison::greater ? "more than"
                                                                                          : "exactly",
                                  written.rule.value),
-                     "write a value that it can reach");
+                     "write a value that the quantity can reach");
   }
 }
 

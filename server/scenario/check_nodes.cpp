@@ -1,5 +1,5 @@
-// Elements checked against our own tables: ranges that we narrow, fields that we do not read, sets of metadata where nobody reads them;
-// and, once a type, what of a right file is not simulated. X3D's own tables have been checked before (x3d/node_check.hpp).
+// Checks elements against our own tables: ranges narrower than X3D's, fields that are not read, misplaced or misspelt sets of metadata;
+// and notes, once for each type, valid nodes that are not simulated. X3D's own tables are checked first (x3d/node_check.hpp).
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -14,7 +14,7 @@
 namespace mechane::scenario {
 namespace {
 
-/// Fields of physics nodes that tune a solver of another kind, or a bounding box: nobody misses them.
+/// Fields of physics nodes that are ignored without a note: they tune another kind of solver, or give a bounding box.
 constexpr std::string_view kQuiet =
     "bboxCenter bboxSize bboxDisplay forceOutput iterations preferAccuracy maxCorrectionSpeed autoDisable "
     "disableAngularSpeed disableLinearSpeed disableTime errorCorrection";
@@ -24,7 +24,7 @@ bool is_physics(std::string_view type) {
          type == "SliderJoint" || type == "BallJoint";
 }
 
-/// Why a node does nothing here, and what does instead; nothing for nodes that we read, or that only other readers need.
+/// Why a node does nothing here, and what to use instead; none for nodes that are read, or that only other readers need.
 struct Aside {
   std::string_view what;
   std::string_view remedy;
@@ -60,7 +60,7 @@ class OwnNodeChecker {
   void run() {
     struct Open {
       x3d::NodeId id;
-      bool quiet;  // a node above it has been noted
+      bool quiet;  // a node around it has been noted
     };
     std::vector<Open> open{{document_.x3d(), false}};
     while (!open.empty() && !(problems_.full() && problems_.has_errors())) {
@@ -71,7 +71,7 @@ class OwnNodeChecker {
       if (type == nullptr) continue;
       check_attributes(id, *type);
       const bool noted = note_aside(id, *type, quiet);
-      // A prototype's fields and body are text for other readers.
+      // Prototypes are not checked: only other readers use them.
       if (node.name == "ProtoDeclare" || node.name == "ExternProtoDeclare") continue;
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         open.push_back({*child, quiet || noted});
@@ -85,11 +85,11 @@ class OwnNodeChecker {
     const Table* read = find_node_table(type.name);
     for (const x3d::Attribute& attribute : node.attributes) {
       const x3d::Field* field = type.field(attribute.name);
-      if (field == nullptr || field->fault(attribute.value)) continue;  // said of it by x3d::check_nodes()
+      if (field == nullptr || field->fault(attribute.value)) continue;  // reported by x3d::check_nodes()
       const Key* key = read == nullptr ? nullptr : read->find(attribute.name);
       if (const auto fault = attribute_fault(*field, key, attribute.value)) {
-        problems_.error(node.line, document_.describe(id), fmt::format("{}: {}", attribute.name, fault->what),
-                        fault->remedy);
+        problems_.error(ErrorCode::invalid_value, node.line, document_.describe(id),
+                        fmt::format("{}: {}", attribute.name, fault->what), fault->remedy);
       } else if (is_physics(type.name) && key == nullptr && !one_of(attribute.name, kQuiet)) {
         note_unread(id, attribute, *field);
       }
@@ -104,7 +104,7 @@ class OwnNodeChecker {
                    "other X3D readers may use it");
   }
 
-  /// True where the node is left aside.
+  /// Notes a node that does nothing here. True where it is one.
   bool note_aside(x3d::NodeId id, const x3d::NodeType& type, bool quiet) {
     const std::optional<Aside> aside = aside_of(x3d_, type);
     if (!aside) return false;
@@ -135,7 +135,7 @@ class OwnNodeChecker {
   std::map<std::string_view, Asides> asides_;
 };
 
-/// Where each of our sets may stand.
+/// The elements that each of our sets may be on.
 struct OwnSet {
   std::string_view name;
   std::string_view owners;
@@ -147,14 +147,14 @@ constexpr OwnSet kOwnSets[] = {
     {"mechane:agent", "RigidBody SingleAxisHingeJoint SliderJoint BallJoint"},
 };
 
-/// The element that a metadata node belongs to: not a set around it.
+/// The element that a metadata node belongs to, past all sets around it.
 x3d::NodeId owner_of(const x3d::Document& document, x3d::NodeId id) {
   while (document[id].parent && document[id].name.starts_with("Metadata"))
     id = document[id].parent;
   return id;
 }
 
-/// Names that begin as ours do, and are not; and ours where nobody reads them.
+/// Reports sets whose names are nearly ours, and our sets on elements where they are not read.
 void check_own_sets(Compilation& c) {
   std::vector<std::string> known{"mechane"};
   for (const OwnSet& own : kOwnSets)
@@ -168,10 +168,10 @@ void check_own_sets(Compilation& c) {
     const auto own =
         std::find_if(std::begin(kOwnSets), std::end(kOwnSets), [&](const OwnSet& s) { return s.name == *name; });
     if (own == std::end(kOwnSets)) {
-      c.problems.unknown(c.document[id].line, where, fmt::format("the set '{}' is unknown and does nothing", *name),
+      c.problems.unknown(c.document[id].line, where, fmt::format("the set '{}' is not known and does nothing", *name),
                          *name, known);
     } else if (!one_of(c.document[owner].name, own->owners)) {
-      c.problems.error(c.document[id].line, where,
+      c.problems.error(ErrorCode::conflict, c.document[id].line, where,
                        fmt::format("'{}' does nothing on a {}", *name, c.document[owner].name),
                        fmt::format("put it on one of: {}", own->owners));
     }

@@ -26,7 +26,7 @@ std::vector<x3d::Problem> sorted(const x3d::Problems& problems) {
 
 struct Checked {
   std::vector<x3d::Problem> problems;
-  std::string id;  ///< empty where the file is too broken to have one
+  std::string id;  ///< empty where the file could not be compiled
 };
 
 Checked check_one(const fs::path& file) {
@@ -36,7 +36,7 @@ Checked check_one(const fs::path& file) {
   return {sorted(problems), world ? world->id : std::string()};
 }
 
-/// A folder is not a scenario; those in it can be named.
+/// For a folder in place of a scenario: the remedy names the scenarios in it.
 x3d::Problem about_folder(const fs::path& folder) {
   for (const char* depth : {"", "*"}) {
     std::error_code code;
@@ -45,6 +45,7 @@ x3d::Problem about_folder(const fs::path& folder) {
       if (at.depth() >= 1) at.disable_recursion_pending();
       if (at.depth() == (*depth == '\0' ? 0 : 1) && at->path().extension() == ".x3d") {
         return {x3d::Severity::error,
+                ErrorCode::invalid_value,
                 folder.string(),
                 0,
                 "",
@@ -53,19 +54,20 @@ x3d::Problem about_folder(const fs::path& folder) {
       }
     }
   }
-  return {x3d::Severity::error,      folder.string(), 0, "", "this is a folder, and no scenario (.x3d) is in it",
-          "name the scenario's file"};
+  return {
+      x3d::Severity::error,      ErrorCode::not_found, folder.string(), 0, "", "this folder holds no scenario (.x3d)",
+      "name the scenario's file"};
 }
 
-/// Scenarios of one id cannot be on one server; the ids of files that were checked, each with its first file.
+/// One server cannot have two scenarios with the same id. `ids` holds those of the files checked so far, each with its first file.
 void check_ids(const std::string& file, Checked& checked, std::map<std::string, std::string>& ids) {
   if (checked.id.empty()) return;
   const auto [it, first] = ids.emplace(checked.id, file);
   std::error_code code;
   if (first || fs::equivalent(it->second, file, code)) return;
-  checked.problems.push_back({x3d::Severity::error, file, 0, "",
-                              fmt::format("its id '{}' is that of {} too", checked.id, it->second),
-                              "give it an id of its own: no server takes both"});
+  checked.problems.push_back({x3d::Severity::error, ErrorCode::duplicate, file, 0, "",
+                              fmt::format("its id '{}' is also the id of {}", checked.id, it->second),
+                              "give it another id: a server cannot have two scenarios with the same id"});
 }
 
 }  // namespace
@@ -83,7 +85,7 @@ std::vector<x3d::Problem> check_text(std::string_view text, const fs::path& file
 
 int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat format) {
   if (files.empty()) {
-    out << "mechane check: no file is named; write: mechane check scenarios/NAME/NAME.x3d\n";
+    out << "mechane check: no file is given; write: mechane check scenarios/NAME/NAME.x3d\n";
     return 2;
   }
   std::vector<x3d::Problem> all;

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,7 @@
 
 namespace mechane::scenario {
 
-/// A rule as written, for what can be said of it only when all components are known.
+/// A rule as written, to be checked when all components are known.
 struct WrittenRule {
   int line = 0;
   std::string where;
@@ -27,11 +28,8 @@ struct WrittenRule {
   state::RuleDescription rule;
 };
 
-/// A world in the making. Each stage reads the document and adds to the world; a fault becomes a problem and the stage goes on, so that
+/// A world in the making. Each stage reads the document and adds to the world. A fault becomes a problem and the stage goes on, so that
 /// an author sees all faults at once.
-/// Small letters, digits and '-', 64 at most.
-[[nodiscard]] bool is_id(const std::string& text);
-
 struct Compilation {
   const x3d::Document& document;
   ObjectLoader& loader;
@@ -43,10 +41,12 @@ struct Compilation {
   std::vector<int> activity_lines;                  ///< by ActivityId
   std::vector<int> step_lines;                      ///< by StepId
   std::vector<std::vector<int>> question_lines;     ///< by ActivityId, then as in its questionnaire
-  std::set<std::string> foreign_languages;          ///< of texts, and not the scenario's: said once each
-  std::vector<WrittenRule> rules;                   ///< of all triggers, but for those that are faulty
-  std::map<std::pair<std::string, std::string>, int> parameter_lines;  ///< by agent or machine, and parameter
-  std::set<std::pair<std::string, std::string>> misspelt_parameters;   ///< what was meant by them, by agent or machine
+  std::set<std::string>
+      foreign_languages;           ///< of texts in languages that the scenario does not have: each is reported once
+  std::vector<WrittenRule> rules;  ///< of all triggers, without faulty ones
+  /// Names of agents and machines, each with a parameter that it has misspelt or malformed, in its right spelling.
+  std::set<std::pair<std::string, std::string>> misspelt_parameters;
+  std::vector<bool> touchable;  ///< by BodyId: whether hands can touch it
 };
 
 /// Stages, in the order in which they need each other.
@@ -59,31 +59,45 @@ void compile_quantities(Compilation& c);
 void compile_viewpoints(Compilation& c);
 void compile_effects(Compilation& c);     // of quantities, seen and heard
 void compile_activities(Compilation& c);  // activities and their steps
-void check_components(Compilation& c);    // parameters against their types; names may be of anything above
-void check_goals(Compilation& c);         // rules that no value of their quantity can meet
+void check_presented(Compilation& c);     // no more of a kind than displays take
+void check_components(Compilation& c);    // parameters against their types; they may name anything above
+void check_goals(Compilation& c);         // rules that their quantity can never meet
 void compile_visits(Compilation& c);
 void compile_hash(Compilation& c);
 
-/// What a careful author would want to hear of a world that compiles: warnings.
+/// Warns of what compiles, but is likely not meant.
 void lint(Compilation& c);
-/// Of bodies that fall, or stay immovable, because an agent is off. Part of lint().
+/// Warns of bodies that fall, drift away, or stay immovable or tied. Part of lint().
 void lint_bodies(Compilation& c);
 
-/// Whether a step's list of agents has this one.
+/// Whether a text can be an id: small letters, digits and '-', 64 at most.
+[[nodiscard]] bool is_id(const std::string& text);
+
+/// Whether a list of agents has this one.
 [[nodiscard]] bool names(const std::vector<AgentId>& list, AgentId agent);
 
 /// The steps that its triggers and its time-out lead to.
 [[nodiscard]] std::vector<StepId> next_steps(const state::StepDescription& step);
 
-/// The steps that can be reached from these, they included, each once, through steps that pass; without `passes` all do.
+/// The steps that can be reached from `open` (those included), each once, by way of steps that pass; without `passes` all do.
 [[nodiscard]] std::vector<StepId> steps_from(const state::WorldDescription& world, std::vector<StepId> open,
                                              const std::function<bool(StepId)>& passes = {});
 
-/// All of it.
+/// All stages.
 void compile_all(Compilation& c);
 
-/// A set of the scenario's tree; null where there is none.
+/// A set of the scenario's tree; null where the scenario has no such set.
 [[nodiscard]] const x3d::Metadata* tree_set(const Compilation& c, std::string_view name);
+
+/// Reports that nothing has this name: "no body is called 'X'". The remedy names what is known; `if_none` where nothing is.
+void report_unknown(Compilation& c, const Place& at, std::string_view word, const std::string& name,
+                    std::span<const std::string> known, const std::string& if_none);
+
+/// Finds the body with this name. If there is none, reports it and returns BodyId::none().
+[[nodiscard]] BodyId find_body(Compilation& c, const std::string& name, const Place& at);
+/// What the key "body", "quantity" names; none where it is not given, or where nothing has that name, which is reported.
+[[nodiscard]] BodyId find_body(Compilation& c, const Fields& fields);
+[[nodiscard]] QuantityId find_quantity(Compilation& c, const Fields& fields);
 
 /// Texts of a `text` set: keys "<what>.<language>", with `what` among `allowed` (separated by blanks). By what, then by language.
 [[nodiscard]] std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metadata* set,
@@ -92,7 +106,7 @@ void compile_all(Compilation& c);
 /// The questions of an activity; their lines go to Compilation::question_lines.
 [[nodiscard]] std::vector<state::QuestionDescription> read_questionnaire(Compilation& c, const Fields& activity);
 
-/// The type of an agent or machine; null where none has that name.
+/// The type of an agent or machine; null where there is no type of that name.
 [[nodiscard]] const state::ComponentType* find_agent_type(std::string_view name);
 [[nodiscard]] const state::ComponentType* find_machine_type(std::string_view name);
 

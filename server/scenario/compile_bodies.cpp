@@ -1,4 +1,4 @@
-// RigidBody nodes to bodies.
+// Makes bodies of RigidBody nodes.
 #include <algorithm>
 #include <optional>
 
@@ -11,33 +11,33 @@
 namespace mechane::scenario {
 namespace {
 
-/// The url of a model's mesh file, checked to be there; empty after a problem.
+/// The url of the mesh file of a body's model, which exists; empty after a problem.
 std::string model_url(Compilation& c, const Fields& fields) {
   const std::string model = fields.string("model");
   if (!fields.given("model")) return {};
   const x3d::NodeId id = c.document.find_def(model);
   if (!id || c.document[id].name != "Inline") {
     c.problems.error(
-        fields.line("model"), fields.where(), fmt::format("no Inline has the DEF '{}'", model),
+        ErrorCode::unknown_name, fields.line("model"), fields.where(), fmt::format("no Inline has the DEF '{}'", model),
         suggest(model, c.document.defs("Inline"), "add <Inline DEF='...' url='\"model.glb\"'/> to the Scene"));
     return {};
   }
   Attributes inline_node(c.document, id, c.problems);
   const std::vector<std::string> urls = inline_node.strings("url");
   if (urls.empty()) {
-    inline_node.error("the Inline has no url", "write url='\"model.glb\"'");
+    inline_node.error(ErrorCode::missing, "the Inline has no url", "write url='\"model.glb\"'");
     return {};
   }
   const std::string& url = urls.front();
   if (!x3d::is_relative_path(url)) {
-    inline_node.error(fmt::format("the url '{}' is not a path beside the scenario", url),
-                      "copy the file there and name it by a relative path");
+    inline_node.error(ErrorCode::invalid_value, fmt::format("the url '{}' is not a relative path", url),
+                      "copy the file to a folder beside the scenario, and name it by its path from this file");
     return {};
   }
   if (!c.model_hashes.contains(url)) {
     const auto hash = c.loader.content_hash(c.document.path().parent_path() / url);
     if (!hash) {
-      inline_node.error(fmt::format("the mesh file '{}' cannot be read: {}", url, hash.error().what),
+      inline_node.error(hash.error().code, fmt::format("the mesh file '{}' cannot be read: {}", url, hash.error().what),
                         "check the url, or build the models");
       c.model_hashes[url] = "";
       return {};
@@ -47,35 +47,41 @@ std::string model_url(Compilation& c, const Fields& fields) {
   return c.model_hashes[url].empty() ? std::string() : url;
 }
 
-void read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::BodyDescription& body) {
+/// Returns whether hands can touch the body.
+bool read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::BodyDescription& body) {
   const auto set = x3d::read_metadata(c.document, id, "mechane:body", c.problems);
   if (!set) {
-    attributes.warning("the body has no 'mechane:body': it is neither drawn nor touched",
+    attributes.warning(ErrorCode::missing, "the body has no 'mechane:body': it is neither drawn nor touched",
                        "name its model and node there");
-    return;
+    return false;
   }
   const Fields fields(&*set, body_table(), "mechane:body of " + body.name, c.problems);
   body.title = read_texts(c, fields.set("text"), fields.where() + ", text", "title")["title"];
   const std::string url = model_url(c, fields);
-  if (url.empty()) return;
+  if (url.empty()) return false;
   body.mesh = {url, c.model_hashes[url], fields.given("node") ? fields.string("node") : body.name};
   body.collides = fields.boolean("collides");
   body.restitution = fields.number("restitution");
   const std::filesystem::path file = c.document.path().parent_path() / url;
   const auto refuse_node = [&](const Error& error) {
-    c.problems.error(fields.line("node"), fields.where(),
+    c.problems.error(error.code, fields.line("node"), fields.where(),
                      fmt::format("node '{}' of {}: {}", body.mesh.node, url, error.what), error.remedy);
   };
   if (!fields.boolean("touchable")) {
     if (const auto found = c.loader.find_node(file, body.mesh.node); !found) refuse_node(found.error());
-    if (!body.collides) return;
-    c.problems.error(fields.line("collides"), fields.where(), "collides is true, but touchable is false",
-                     "remove touchable false: touch and collisions use one shape");
-    return;
+    if (!body.collides) return false;
+    c.problems.error(ErrorCode::conflict, fields.line("collides"), fields.where(),
+                     "collides is true, but touchable is false",
+                     "remove touchable false: touch and collisions use the same shape");
+    return false;
   }
   auto object = c.loader.load(file, body.mesh.node);
-  if (!object) return refuse_node(object.error());
-  body.object = std::move(*object);
+  if (object) {
+    body.object = std::move(*object);
+  } else {
+    refuse_node(object.error());
+  }
+  return true;
 }
 
 void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
@@ -86,12 +92,13 @@ void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
   body.effort_scale = fields.number("effortScale");
   body.graspable = fields.boolean("graspable");
   if (body.haptic.dynamic_friction > body.haptic.static_friction) {
-    c.problems.error(fields.line("dynamicFriction"), fields.where(), "dynamicFriction is larger than staticFriction",
+    c.problems.error(ErrorCode::conflict, fields.line("dynamicFriction"), fields.where(),
+                     "dynamicFriction is larger than staticFriction",
                      "write a dynamicFriction that is at most the staticFriction");
   }
 }
 
-/// From small to large.
+/// In ascending order.
 Vec3 principal_moments(const Mat3& inertia_kg_m2) {
   return Eigen::SelfAdjointEigenSolver<Mat3>(inertia_kg_m2, Eigen::EigenvaluesOnly).eigenvalues();
 }
@@ -105,59 +112,72 @@ void read_mass(Attributes& attributes, state::BodyDescription& body) {
   body.inertia_kg_m2 = attributes.symmetric_matrix("inertia");
   body.p_BCm = attributes.vector("centerOfMass");
   if (body.fixed) return;
-  if (body.mass_kg <= 0) attributes.error("the mass is 0 kg", "write a mass above 0, or fixed='true'");
+  if (body.mass_kg <= 0)
+    attributes.error(ErrorCode::invalid_value, "the mass is 0 kg", "write a mass above 0, or fixed='true'");
   const Vec3 principal = principal_moments(body.inertia_kg_m2);
   if (principal[0] <= 0) {
-    attributes.error("the inertia is not positive definite", "write the inertia of a solid body, in kg m^2");
+    attributes.error(ErrorCode::invalid_value, "the inertia is not positive definite",
+                     "write the inertia of a solid body, in kg m^2");
   } else if (!is_of_a_solid(principal)) {
-    attributes.error("no solid body has this inertia: one principal moment is larger than the sum of the others",
-                     "compute it anew from the shape, or leave it out: it is computed from a closed mesh");
+    attributes.error(ErrorCode::invalid_value,
+                     "no solid body has this inertia: one principal moment is larger than the sum of the others",
+                     "compute it again from the shape, or leave it out: then it is computed from the mesh");
   }
 }
 
-/// Warns of a mass that nothing of this shape can have; without a shape, of one that no exhibit has.
+/// Warns of a mass that nothing of this shape can have or, without a shape, that no exhibit has.
 void check_mass(Attributes& attributes, const state::BodyDescription& body, const std::optional<Solid>& solid) {
   constexpr double kAir = 1.2, kOsmium = 22600, kOak = 700;  // kg/m^3; no metal is denser than osmium
-  constexpr double kLeast_kg = 1e-4, kMost_kg = 1e6;         // of what is touched in a museum, where no shape is known
+  constexpr double kLeast_kg = 1e-4, kMost_kg = 1e6;  // of things to touch in a museum, where the shape is not known
   const bool closed = solid && solid->is_closed();
   const double room_m3 = closed ? solid->volume_m3 : solid ? std::max(solid->volume_m3, solid->box_m3) : 0;
   if (closed && body.mass_kg < kAir * solid->volume_m3) {
-    attributes.warning(fmt::format("the mass of {:.3g} kg is less than that of air: the mesh encloses {:.3g} m^3",
+    attributes.warning(ErrorCode::invalid_value,
+                       fmt::format("the mass of {:.3g} kg is less than that of air: the mesh encloses {:.3g} m^3",
                                    body.mass_kg, solid->volume_m3),
-                       fmt::format("write it in kilograms: of oak it is some {:.2g}", kOak * solid->volume_m3));
+                       fmt::format("write it in kilograms: made of oak it has some {:.2g}", kOak * solid->volume_m3));
   } else if (room_m3 > 0 && body.mass_kg > kOsmium * room_m3) {
     attributes.warning(
+        ErrorCode::invalid_value,
         fmt::format("the mass of {:.3g} kg is more than that of any metal: the mesh {} {:.3g} m^3", body.mass_kg,
                     closed ? "encloses" : "fits into", room_m3),
-        fmt::format("write it in kilograms, and the mesh in metres: of oak it is some {:.2g}", kOak * room_m3));
+        fmt::format("write it in kilograms, and the mesh in metres: made of oak it has some {:.2g}", kOak * room_m3));
   } else if (!solid && (body.mass_kg < kLeast_kg || body.mass_kg >= kMost_kg)) {
-    attributes.warning(fmt::format("a mass of {:.3g} kg is outside what an exhibit can have", body.mass_kg),
+    attributes.warning(ErrorCode::invalid_value,
+                       fmt::format("a mass of {:.3g} kg is outside what an exhibit can have", body.mass_kg),
                        "write it in kilograms");
   }
 }
 
-/// The inertia that the author left out: from a closed mesh, as of a uniform solid; without one X3D's default stays.
+/// Computes an inertia that the author left out: from a closed mesh as of a uniform solid, from an open one as of a thin shell. Without
+/// a mesh X3D's default stays.
 void complete_inertia(Attributes& attributes, const Expected<std::optional<Solid>>& solid, bool has_mesh,
                       state::BodyDescription& body) {
   std::string why;
   if (!has_mesh) {
-    why = "no mesh is known to compute it from";
+    why = "there is no mesh to compute it from";
   } else if (!solid) {
     why = "it cannot be computed: " + solid.error().what;
   } else if (!*solid) {
-    return;  // the loader does not look into meshes, or has reported the file
-  } else if (!(*solid)->is_closed()) {
-    why = fmt::format("the mesh is not closed ({} open edges), so that none can be computed", (*solid)->open_edges);
+    return;  // the loader does not read meshes, or has reported the file
   } else {
+    const bool closed = (*solid)->is_closed();
     const Mat3 inertia_kg_m2 = body.mass_kg * (*solid)->inertia_per_kg_m2;
     const Vec3 principal = principal_moments(inertia_kg_m2);
     if (principal[0] > 0 && is_of_a_solid(principal)) {
       body.inertia_kg_m2 = inertia_kg_m2;
+      if (closed) return;
+      attributes.warning(ErrorCode::missing,
+                         fmt::format("the inertia is not given, and the mesh is not closed ({} open edges): it is "
+                                     "computed as of a thin shell",
+                                     (*solid)->open_edges),
+                         "write it, or give the body a closed mesh");
       return;
     }
-    why = "the mesh crosses itself, so that none can be computed";
+    why = fmt::format("the mesh {}, so it cannot be computed", closed ? "crosses itself" : "has no area");
   }
-  attributes.warning(fmt::format("the inertia is not given, and {}: it is taken as 1 kg m^2 about every axis", why),
+  attributes.warning(ErrorCode::missing,
+                     fmt::format("the inertia is not given, and {}: it is taken as 1 kg m^2 about every axis", why),
                      "write it, or give the body a closed mesh");
 }
 
@@ -173,7 +193,7 @@ void compare_with_mesh(Compilation& c, Attributes& attributes, state::BodyDescri
 }
 
 double damping(Attributes& attributes, std::string_view name, double otherwise) {
-  // X3D applies the factors only where autoDamp says so; without it a body has the air's small damping.
+  // X3D applies the factors only with autoDamp; without it a body has the small damping of air.
   return attributes.boolean("autoDamp") && attributes.given(name) ? attributes.number(name) : otherwise;
 }
 
@@ -182,7 +202,8 @@ void compile_body(Compilation& c, x3d::NodeId id) {
   state::BodyDescription body;
   body.name = attributes.text("DEF");
   if (body.name.empty()) {
-    attributes.error("a RigidBody has no DEF", "give it a name: everything refers to bodies by name");
+    attributes.error(ErrorCode::missing, "a RigidBody has no DEF",
+                     "give it a name: everything refers to bodies by name");
     return;
   }
   body.fixed = attributes.boolean("fixed");
@@ -193,7 +214,7 @@ void compile_body(Compilation& c, x3d::NodeId id) {
   body.angular_damping = damping(attributes, "angularDampingFactor", body.angular_damping);
   read_mass(attributes, body);
   read_haptic(c, id, body);
-  read_shape(c, id, attributes, body);
+  c.touchable.push_back(read_shape(c, id, attributes, body));
   compare_with_mesh(c, attributes, body);
   c.world.bodies.push_back(std::move(body));
   c.body_lines.push_back(c.document[id].line);
@@ -208,8 +229,9 @@ void compile_bodies(Compilation& c) {
     if (id == collections.front()) {
       c.world.gravity_W = attributes.vector("gravity");
     } else {
-      attributes.warning("a second RigidBodyCollection: its bodies move in the first one, with the first one's gravity",
-                         "merge them");
+      attributes.warning(ErrorCode::duplicate,
+                         "there is a second RigidBodyCollection: its bodies have the gravity of the first one",
+                         "move its bodies and joints into the first one");
     }
   }
   for (const x3d::NodeId id : c.document.elements("RigidBody"))

@@ -1,4 +1,4 @@
-// Agents and machines: from the scenario's tree, and from `mechane:agent` on joints and bodies.
+// Agents and machines: those of the scenario's tree, and those of `mechane:agent` on joints and bodies.
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -29,7 +29,7 @@ std::vector<std::string> names_of_all(auto items) {
   return names;
 }
 
-/// What kind of component a place holds: its word for people, and its types.
+/// A kind of component: its word for people, and its types.
 struct Registry {
   std::string_view word;
   std::span<const ComponentType> types;
@@ -41,7 +41,7 @@ state::Parameter to_parameter(const x3d::Metadata& value) {
   return value.numbers;
 }
 
-/// A decimal comma where a parameter takes a fixed count of numbers.
+/// The fault of decimal commas in a parameter that takes a fixed count of numbers; none where there are no commas.
 std::optional<x3d::BadValue> comma_in(const ParameterType& type, const x3d::Metadata& value) {
   const std::size_t wanted = type.kind == state::ParameterKind::number    ? 1
                              : type.kind == state::ParameterKind::numbers ? type.count
@@ -59,33 +59,35 @@ void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentT
     c.misspelt_parameters.emplace(out.name, nearest(value.name, names));
   } else if (value.kind == x3d::MetadataKind::set ||
              (value.kind == x3d::MetadataKind::booleans && value.booleans.size() != 1)) {
-    c.problems.error(value.line, where, fmt::format("the parameter '{}' must be one value", value.name),
-                     std::string(known->summary));
+    c.problems.error(ErrorCode::invalid_value, value.line, where,
+                     fmt::format("the parameter '{}' must be one value", value.name), std::string(known->summary));
   } else if (const auto comma = comma_in(*known, value)) {
-    c.problems.error(value.line, where, fmt::format("{}: {}", value.name, comma->what), comma->remedy);
+    c.problems.error(ErrorCode::invalid_value, value.line, where, fmt::format("{}: {}", value.name, comma->what),
+                     comma->remedy);
     c.misspelt_parameters.emplace(out.name, value.name);
   } else {
     out.parameters[value.name] = to_parameter(value);
-    c.parameter_lines[{out.name, value.name}] = value.line;
+    out.parameter_lines[value.name] = value.line;
   }
 }
 
-/// Reads type and parameters. Names and kinds of parameters are checked against the type here, where each has its line; values and
-/// references by check_components, when all names are known. Without a type it is kept all the same: what refers to it is right.
+/// Reads type and parameters, and checks the names of the parameters. check_components() checks values and references, once all names are
+/// known. A component with an unknown type is kept, so that no reference to it is a second error.
 void read_component(Compilation& c, const x3d::Metadata& set, const Registry& registry,
                     state::ComponentDescription& out) {
   const std::string where = fmt::format("{} {}", registry.word, out.name);
   out.line = set.line;
   const x3d::Metadata* type_name = set.find("type");
   if (type_name == nullptr || type_name->kind != x3d::MetadataKind::strings || type_name->strings.size() != 1) {
-    c.problems.error(set.line, where, "the key 'type' is missing",
+    c.problems.error(ErrorCode::missing, set.line, where, "the key 'type' is missing",
                      fmt::format("write one of: {}", fmt::join(names_of_all(registry.types), ", ")));
     return;
   }
   out.type = type_name->strings.front();
   const ComponentType* type = find_type(registry.types, out.type);
   if (type == nullptr) {
-    c.problems.error(type_name->line, where, fmt::format("no {} is of the type '{}'", registry.word, out.type),
+    c.problems.error(ErrorCode::unknown_name, type_name->line, where,
+                     fmt::format("there is no {} type '{}'", registry.word, out.type),
                      suggest(out.type, names_of_all(registry.types), "remove it"));
     return;
   }
@@ -97,7 +99,7 @@ void read_component(Compilation& c, const x3d::Metadata& set, const Registry& re
 void add_component(Compilation& c, std::vector<state::ComponentDescription>& table, const x3d::Metadata& set,
                    const Registry& registry, state::ComponentDescription component) {
   if (c.world.find_agent(component.name) || c.world.find_machine(component.name)) {
-    c.problems.error(set.line, fmt::format("{} {}", registry.word, component.name),
+    c.problems.error(ErrorCode::duplicate, set.line, fmt::format("{} {}", registry.word, component.name),
                      "another agent or machine has this name", "rename one of them");
     return;
   }
@@ -105,7 +107,7 @@ void add_component(Compilation& c, std::vector<state::ComponentDescription>& tab
   table.push_back(std::move(component));
 }
 
-/// An agent on a joint or a body means that one: it fills the type's first parameter that names such a thing.
+/// An agent on a joint or a body acts on that one: its name fills the type's first parameter that names a joint or a body.
 void imply_subject(const std::string& name, state::Reference kind, state::ComponentDescription& component) {
   const ComponentType* type = find_agent_type(component.type);
   if (type == nullptr) return;
@@ -124,7 +126,8 @@ void compile_node_agents(Compilation& c, std::string_view node_type, state::Refe
     Attributes attributes(c.document, id, c.problems);
     const std::string name = attributes.text("DEF");
     if (name.empty()) {
-      attributes.error("an element with an agent has no DEF", "write a DEF: the agent gets its name");
+      attributes.error(ErrorCode::missing, "an element with an agent has no DEF",
+                       "write a DEF: the agent gets the same name");
       continue;
     }
     const std::size_t before = c.world.agents.size();
@@ -139,7 +142,7 @@ void compile_tree(Compilation& c, std::string_view key, const Registry& registry
   if (tree == nullptr) return;
   for (const x3d::Metadata& set : tree->children) {
     if (set.kind != x3d::MetadataKind::set) {
-      c.problems.error(set.line, std::string(key), fmt::format("'{}' is not a set", set.name),
+      c.problems.error(ErrorCode::invalid_value, set.line, std::string(key), fmt::format("'{}' is not a set", set.name),
                        "write a MetadataSet with a type and its parameters");
       continue;
     }
@@ -147,7 +150,7 @@ void compile_tree(Compilation& c, std::string_view key, const Registry& registry
   }
 }
 
-/// What snaps into another body sits in it: the two never collide.
+/// A body that snaps into another one touches it all over, so the two never collide.
 void add_mates(Compilation& c, const state::ComponentDescription& component, const state::Parameters& parameters) {
   if (component.type != "geometry.snap" || !parameters.given("into")) return;
   const BodyId object = parameters.body("object");
@@ -155,7 +158,7 @@ void add_mates(Compilation& c, const state::ComponentDescription& component, con
   if (object != into) c.world.mates.push_back({object, into});
 }
 
-/// What there is of the kind that a parameter names; none where it names nothing.
+/// All names of the kind that a parameter refers to; none where it refers to nothing.
 std::optional<std::vector<std::string>> named_by(const state::WorldDescription& world, state::Reference kind) {
   switch (kind) {
     case state::Reference::none:
@@ -185,7 +188,7 @@ std::string_view reference_word(state::Reference kind) {
   return found == std::end(kWords) ? "" : found->second;
 }
 
-/// Names that nothing has, each at its own line. True where all are good.
+/// Reports names that do not exist, each at its own line. True where all exist.
 bool names_are_known(Compilation& c, const state::ComponentDescription& component, const ComponentType& type,
                      const std::string& where) {
   bool good = true;
@@ -198,18 +201,22 @@ bool names_are_known(Compilation& c, const state::ComponentDescription& componen
       if (std::ranges::find(*known, name) != known->end()) continue;
       good = false;
       const std::string_view word = reference_word(parameter.reference);
-      c.problems.error(c.parameter_lines[{component.name, value->first}], where,
+      c.problems.error(ErrorCode::unknown_name, state::parameter_place(component, value->first).line, where,
                        fmt::format("{}: no {} is called '{}'", parameter.name, word, name),
-                       suggest(name, *known, fmt::format("the scenario has no {} at all: add one", word)));
+                       suggest(name, *known, fmt::format("the scenario has no {}: add one", word)));
     }
   }
   return good;
 }
 
-/// The line of the parameter that an error speaks of: its words begin with the name.
-int line_of_fault(const Compilation& c, const state::ComponentDescription& component, const std::string& what) {
-  const auto line = c.parameter_lines.find({component.name, what.substr(0, what.find(' '))});
-  return line == c.parameter_lines.end() ? component.line : line->second;
+/// Whether the first required parameter that is missing was written, but misspelt or malformed, which has been reported.
+bool missing_is_reported(const Compilation& c, const state::ComponentDescription& component,
+                         const ComponentType& type) {
+  const auto missing = std::ranges::find_if(type.parameters, [&](const ParameterType& p) {
+    return p.required && !component.parameters.contains(std::string(p.name));
+  });
+  return missing != type.parameters.end() &&
+         c.misspelt_parameters.contains({component.name, std::string(missing->name)});
 }
 
 void check_one(Compilation& c, const state::ComponentDescription& component, const ComponentType* type,
@@ -220,11 +227,8 @@ void check_one(Compilation& c, const state::ComponentDescription& component, con
   const auto parameters = state::Parameters::check(*type, component, c.world);
   if (parameters) return add_mates(c, component, *parameters);
   const Error& error = parameters.error();
-  // It is there, misspelt, and that has been said.
-  const bool said = std::ranges::any_of(c.misspelt_parameters, [&](const auto& meant) {
-    return meant.first == component.name && error.what == fmt::format("the parameter '{}' is missing", meant.second);
-  });
-  if (!said) c.problems.error(line_of_fault(c, component, error.what), where, error.what, error.remedy);
+  if (error.code == ErrorCode::missing && missing_is_reported(c, component, *type)) return;
+  c.problems.error(error.code, error.line, where, error.what, error.remedy);
 }
 
 }  // namespace

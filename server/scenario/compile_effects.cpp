@@ -1,38 +1,16 @@
-// Viewpoints, and the effects that are seen and heard beside the bodies.
+// Viewpoints, and effects to see and hear beside the bodies.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
 namespace {
 
-QuantityId read_quantity(Compilation& c, const Fields& fields) {
-  const std::string name = fields.string("quantity");
-  const QuantityId quantity = c.world.find_quantity(name);
-  if (fields.given("quantity") && !quantity) {
-    c.problems.error(fields.line("quantity"), fields.where(), fmt::format("no quantity is called '{}'", name),
-                     suggest(name, names_of(c.world.quantities), "add it to the scenario's quantities"));
-  }
-  return quantity;
-}
-
-BodyId read_body(Compilation& c, const Fields& fields) {
-  if (!fields.given("body")) return BodyId::none();
-  const std::string name = fields.string("body");
-  const BodyId body = c.world.find_body(name);
-  if (!body) {
-    c.problems.error(fields.line("body"), fields.where(), fmt::format("no body is called '{}'", name),
-                     suggest(name, names_of(c.world.bodies), "add a RigidBody of that DEF"));
-  }
-  return body;
-}
-
-/// A displayed flow has to be one: what a display makes of it is a width or a speed.
+/// Stream, jet and level need the right unit: displays turn the number into a width, a speed or a height.
 void check_unit(Compilation& c, const Fields& fields, const state::EffectDescription& effect) {
   const bool flow = effect.kind == "stream" || effect.kind == "jet";
   const bool height = effect.kind == "level";
@@ -40,14 +18,14 @@ void check_unit(Compilation& c, const Fields& fields, const state::EffectDescrip
   const std::string& unit = c.world.quantities[effect.quantity.index()].unit;
   const bool fits = flow ? unit == "l/s" || unit == "l/min" || unit == "m3/s" || unit == "kg/s" : unit == "m";
   if (fits) return;
-  c.problems.error(fields.line("quantity"), fields.where(),
-                   fmt::format("a {} is driven by a {}, and '{}' has the unit '{}'", effect.kind,
+  c.problems.error(ErrorCode::conflict, fields.line("quantity"), fields.where(),
+                   fmt::format("a {} is driven by a {}, but '{}' has the unit '{}'", effect.kind,
                                flow ? "flow" : "height", fields.string("quantity"), unit),
                    flow ? "name a quantity with the unit l/s, l/min, m3/s or kg/s" : "name a quantity with the unit m");
 }
 
-/// Whether a mesh file of the scenario's bodies has the node; says what is wrong where none has. Files that cannot be read have been
-/// spoken of with the bodies.
+/// Whether a mesh file of the scenario's bodies has the node; adds a problem where no file has it. Files that cannot be read have been
+/// reported with the bodies.
 bool node_is_there(Compilation& c, const Fields& fields, const std::string& node) {
   std::vector<std::string> files;
   std::optional<Error> missing;
@@ -59,41 +37,42 @@ bool node_is_there(Compilation& c, const Fields& fields, const std::string& node
     if (!missing) missing = found.error();
   }
   if (!missing) return false;
-  c.problems.error(fields.line("node"), fields.where(),
+  c.problems.error(missing->code, fields.line("node"), fields.where(),
                    fmt::format("node '{}' of {}: {}", node, fmt::join(files, ", "), missing->what), missing->remedy);
   return false;
 }
 
-/// A river needs a node that is drawn as water and a direction along its surface; no number drives it.
+/// A river needs a node that is drawn as water, and a direction along its surface; it has no quantity.
 void check_flow(Compilation& c, const Fields& fields, const state::EffectDescription& effect) {
   if (effect.node.empty()) {
-    c.problems.error(fields.line("kind"), fields.where(), "the flow effect names no node that could flow",
-                     "name the node of the mesh file in the key node");
+    c.problems.error(ErrorCode::missing, fields.line("kind"), fields.where(),
+                     "the flow effect does not say which node flows", "name the node of the mesh file in the key node");
   } else if (node_is_there(c, fields, effect.node) && !effect.node.starts_with("WATER_")) {
-    c.problems.error(fields.line("node"), fields.where(),
-                     fmt::format("node '{}' is not water: a display does not let it flow", effect.node),
+    c.problems.error(ErrorCode::conflict, fields.line("node"), fields.where(),
+                     fmt::format("node '{}' is not water, so displays do not let it flow", effect.node),
                      fmt::format("name it WATER_{} in the model, and here", effect.node));
   }
   if (std::hypot(effect.direction_B.x(), effect.direction_B.z()) < 0.1) {
-    c.problems.error(fields.line(fields.given("direction") ? "direction" : "kind"), fields.where(),
-                     "the direction points up or down, not along the water",
+    c.problems.error(ErrorCode::invalid_value, fields.line(fields.given("direction") ? "direction" : "kind"),
+                     fields.where(), "the direction points up or down, not along the water",
                      "write a level direction in W, like 0 0 1");
   }
   for (const char* key : {"quantity", "body"}) {
     if (fields.given(key))
-      c.problems.warning(fields.line(key), fields.where(), fmt::format("a flow effect does not use '{}'", key),
+      c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
+                         fmt::format("a flow effect does not use '{}'", key),
                          "remove it: a river flows steadily, in the world's frame");
   }
 }
 
-/// Of a mesh file a display moves what bodies name, and what the file calls scenery or water; all else it does not even draw.
+/// Displays draw only the nodes that bodies name, SCENE and WATER_*; a level effect needs one of those.
 void check_risen_node(Compilation& c, const Fields& fields, const std::string& node) {
   if (!node_is_there(c, fields, node) || node == "SCENE" || node.starts_with("WATER_")) return;
   const auto& bodies = c.world.bodies;
   const auto shows = [&](const state::BodyDescription& body) { return body.mesh.node == node; };
   if (std::any_of(bodies.begin(), bodies.end(), shows)) return;
-  c.problems.error(fields.line("node"), fields.where(),
-                   fmt::format("node '{}' is not water: a display does not raise it", node),
+  c.problems.error(ErrorCode::conflict, fields.line("node"), fields.where(),
+                   fmt::format("node '{}' is not water, so displays do not raise it", node),
                    fmt::format("name it WATER_{} in the model, and here", node));
 }
 
@@ -102,9 +81,9 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   state::EffectDescription effect;
   effect.name = set.name;
   effect.kind = fields.string("kind");
-  effect.body = read_body(c, fields);
+  effect.body = find_body(c, fields);
   effect.node = fields.string("node");
-  effect.quantity = read_quantity(c, fields);
+  effect.quantity = find_quantity(c, fields);
   effect.full = fields.number("full");
   effect.size_m = fields.number("size");
   effect.speed_m_per_s = fields.number("speed");
@@ -112,26 +91,27 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   if (fields.given("direction")) {
     effect.direction_B = fields.vector("direction");
     if (effect.direction_B.norm() < 1e-9) {
-      c.problems.error(fields.line("direction"), fields.where(), "the direction has no length",
-                       "write a vector, like 0 1 0");
+      c.problems.error(ErrorCode::invalid_value, fields.line("direction"), fields.where(),
+                       "the direction has no length", "write a vector, like 0 1 0");
     } else {
       effect.direction_B.normalize();
     }
   }
   if (effect.kind == "level" && effect.node.empty()) {
-    c.problems.error(set.line, fields.where(), "the level effect names no node that could rise",
+    c.problems.error(ErrorCode::missing, set.line, fields.where(), "the level effect does not say which node rises",
                      "name the node of the mesh file in the key node");
   } else if (effect.kind == "level") {
     check_risen_node(c, fields, effect.node);
   } else if (effect.kind == "flow") {
     check_flow(c, fields, effect);
   } else if (fields.given("kind") && fields.given("node")) {
-    c.problems.warning(fields.line("node"), fields.where(), fmt::format("a {} effect does not use 'node'", effect.kind),
+    c.problems.warning(ErrorCode::conflict, fields.line("node"), fields.where(),
+                       fmt::format("a {} effect does not use 'node'", effect.kind),
                        "remove it: body and point say where the effect is");
   }
   if (effect.kind != "flow" && fields.given("node") && !fields.given("quantity")) {
-    c.problems.error(set.line, fields.where(),
-                     fmt::format("the {} effect names no quantity that drives it", effect.kind),
+    c.problems.error(ErrorCode::missing, set.line, fields.where(),
+                     fmt::format("the {} effect has no quantity to drive it", effect.kind),
                      "name a quantity in the key quantity");
   }
   check_unit(c, fields, effect);
@@ -145,7 +125,8 @@ void compile_effects(Compilation& c) {
   if (tree == nullptr) return;
   for (const x3d::Metadata& set : tree->children) {
     if (set.kind != x3d::MetadataKind::set) {
-      c.problems.error(set.line, "effect " + set.name, "the effect is not a set", "write a MetadataSet");
+      c.problems.error(ErrorCode::invalid_value, set.line, "effect " + set.name, "the effect is not a set",
+                       "write a MetadataSet");
     } else {
       c.world.effects.push_back(read_effect(c, set));
     }
@@ -161,7 +142,8 @@ void compile_viewpoints(Compilation& c) {
     viewpoint.X_WV = {attributes.vector("position"), attributes.rotation("orientation")};
     viewpoint.field_of_view_rad = attributes.number("fieldOfView");
     if (c.document[id].parent != c.document.scene()) {
-      attributes.warning("the Viewpoint is read without the nodes around it", "put it directly under the Scene");
+      attributes.warning(ErrorCode::not_supported, "the nodes around the Viewpoint do not move it",
+                         "put it directly under the Scene");
     }
     c.world.viewpoints.push_back(std::move(viewpoint));
   }

@@ -1,4 +1,4 @@
-// X3D's joints. A joint ties the bodies as they stand at the start: its position is 0 there.
+// X3D's joints. A joint is at position 0 in its bodies' poses at the start.
 #include <array>
 
 #include <fmt/format.h>
@@ -8,10 +8,11 @@
 namespace mechane::scenario {
 namespace {
 
-// X3D cannot write a hinge without stops: its defaults are -pi and pi. Both at pi or beyond is read as none, so that a crank turns on.
+// X3D cannot write a hinge without stops: its defaults are -pi and pi. Stops at pi or beyond on both sides are read as no stops, so that
+// a crank can turn on and on.
 constexpr double kNoStop = kPi - 1e-3;
 
-/// The body in a field of the joint; none for the world, after a problem too.
+/// The body in a field of the joint; none where the field is empty, and after a problem.
 BodyId body_of(Compilation& c, x3d::NodeId joint, std::string_view field, bool& good) {
   for (const x3d::NodeId child : c.document.child_elements(joint)) {
     if (c.document[child].name != "RigidBody" || c.document.container_field(child, "body1") != field) continue;
@@ -19,7 +20,8 @@ BodyId body_of(Compilation& c, x3d::NodeId joint, std::string_view field, bool& 
     const BodyId body = name != nullptr ? c.world.find_body(*name) : BodyId::none();
     if (body) return body;
     Attributes(c.document, child, c.problems)
-        .error(fmt::format("{} is not a body of this world", field), "USE a RigidBody that has a DEF");
+        .error(ErrorCode::unknown_name, fmt::format("{} is not a body of this world", field),
+               "USE a RigidBody that has a DEF");
     good = false;
   }
   return BodyId::none();
@@ -30,22 +32,24 @@ bool read_bodies(Compilation& c, x3d::NodeId id, Attributes& attributes, state::
   joint.body1 = body_of(c, id, "body1", good);
   joint.body2 = body_of(c, id, "body2", good);
   if (!good) return false;
-  // One body alone hangs on the world, which is the frame side.
+  // A single body is joined to the world, which is the frame side.
   if (joint.body1 && !joint.body2) std::swap(joint.body1, joint.body2);
   if (!joint.body2) {
-    attributes.error("the joint has no bodies", "add <RigidBody containerField='body1' USE='...'/> and body2");
+    attributes.error(ErrorCode::missing, "the joint has no bodies",
+                     "add <RigidBody containerField='body1' USE='...'/> and body2");
     return false;
   }
   if (joint.body1 == joint.body2) {
-    attributes.error("the joint ties a body to itself", "give two bodies");
+    attributes.error(ErrorCode::conflict, "the joint ties a body to itself", "give two bodies");
     return false;
   }
   if (c.world.bodies[joint.body2.index()].fixed) {
     if (!joint.body1 || c.world.bodies[joint.body1.index()].fixed) {
-      attributes.error("the joint ties two fixed bodies", "let one of them move");
+      attributes.error(ErrorCode::conflict, "the joint ties two fixed bodies", "let one of them move");
       return false;
     }
-    attributes.error("body2 is fixed; it is the side that moves", "write the fixed body as body1");
+    attributes.error(ErrorCode::conflict, "body2 is fixed, but it is the side that moves",
+                     "write the fixed body as body1");
     return false;
   }
   return true;
@@ -54,7 +58,7 @@ bool read_bodies(Compilation& c, x3d::NodeId id, Attributes& attributes, state::
 Vec3 read_axis(Attributes& attributes) {
   const Vec3 axis = attributes.vector("axis");
   if (axis.norm() > 1e-9) return axis.normalized();
-  attributes.error("the axis has no length", "write a direction, like 0 1 0");
+  attributes.error(ErrorCode::invalid_value, "the axis has no length", "write a direction, like 0 1 0");
   return Vec3::UnitY();
 }
 
@@ -62,10 +66,10 @@ void read_stops(Attributes& attributes, std::string_view least, std::string_view
   joint.min_position = attributes.number(least);
   joint.max_position = attributes.number(most);
   if (joint.min_position > joint.max_position)
-    attributes.error(fmt::format("{} is above {}", least, most), "swap them");
+    attributes.error(ErrorCode::conflict, fmt::format("{} is above {}", least, most), "swap them");
 }
 
-/// A frame whose axis number `which` is the joint's.
+/// A rotation that turns the unit vector `which` into the joint's axis.
 Quat frame_along(const Vec3& axis_W, const Vec3& which) {
   return Quat::FromTwoVectors(which, axis_W).normalized();
 }
@@ -82,7 +86,7 @@ Pose read_geometry(Compilation& c, Attributes& attributes, state::JointDescripti
     }
     case state::JointKind::slider:
       read_stops(attributes, "minSeparation", "maxSeparation", joint);
-      // X3D's slider has no anchor: it acts where its moving body is.
+      // X3D's slider has no anchor: its frame is at the moving body's origin.
       return {c.world.bodies[joint.body2.index()].X_WB.p, frame_along(read_axis(attributes), Vec3::UnitX())};
     case state::JointKind::ball:
       break;

@@ -1,4 +1,4 @@
-// Quantities: names for what components, joints and bodies offer.
+// Quantities: names for the values of components, joints and bodies.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ void add_values(const state::ComponentType* type, std::vector<std::string>& valu
     values.emplace_back(value.name);
 }
 
-/// What can stand behind the dot; empty where nothing has the name. One name may be an agent's and its joint's.
+/// The values that may follow the dot; empty where nothing has the name. An agent and its joint may share a name.
 std::vector<std::string> values_of(const state::WorldDescription& world, const std::string& name) {
   std::vector<std::string> values;
   if (const auto* agent = find_component(world.agents, name)) add_values(find_agent_type(agent->type), values);
@@ -45,12 +45,14 @@ void check_source(Compilation& c, const std::string& source, int line, const std
   const std::vector<std::string> values = values_of(c.world, name);
   const bool has_no_type =
       find_component(c.world.agents, name) != nullptr || find_component(c.world.machines, name) != nullptr;
-  if (values.empty() && has_no_type) return;  // which has been said
+  if (values.empty() && has_no_type) return;  // its unknown type has been reported
   if (values.empty()) {
-    c.problems.error(line, where, fmt::format("the source '{}' names no agent, machine, joint or body", source),
+    c.problems.error(ErrorCode::unknown_name, line, where,
+                     fmt::format("the source '{}' does not name an agent, machine, joint or body", source),
                      suggest(name, all_sources(c.world), "add an agent or a machine"));
   } else if (std::find(values.begin(), values.end(), value) == values.end()) {
-    c.problems.error(line, where, fmt::format("'{}' has no value '{}'", name, value), suggest(value, values, ""));
+    c.problems.error(ErrorCode::unknown_name, line, where, fmt::format("'{}' has no value '{}'", name, value),
+                     suggest(value, values, ""));
   }
 }
 
@@ -66,15 +68,16 @@ bool is_known_unit(const std::string& unit) {
   return std::find(known_units().begin(), known_units().end(), unit) != known_units().end();
 }
 
-/// Any word is shown as it is written; but rpm and deg convert, and a slip there gives a wrong number.
+/// A unit is shown as it is written. rpm and deg are also converted, so a misspelling there would show a wrong number.
 void check_unit(Compilation& c, const std::string& unit, int line, const std::string& where) {
   if (is_known_unit(unit)) return;
-  c.problems.warning(line, where, fmt::format("the unit '{}' is not known and is shown as it is", unit),
+  c.problems.warning(ErrorCode::unknown_name, line, where,
+                     fmt::format("the unit '{}' is not known and is shown as it is", unit),
                      suggest(unit, known_units(),
                              "keep it if visitors know it; only rpm (for rates) and deg (for angles) are converted"));
 }
 
-/// What one source is measured in: the unit first, then those that convert from it.
+/// The units of one source: its own first, then those that it is converted to.
 using Units = std::vector<std::string>;
 
 Units units_of(std::string_view value, std::string_view unit) {
@@ -94,7 +97,7 @@ Units units_of_joint(const state::JointDescription& joint, std::string_view valu
   return units_of(value, slides ? "m" : "rad");
 }
 
-/// Of a source that is there; nothing for one that is not. A component comes before the joint or body of its name.
+/// The units of a source; empty where it does not exist. A component comes before a joint or body of the same name.
 Units units_of_source(const state::WorldDescription& world, const std::string& source) {
   const std::size_t dot = std::min(source.find('.'), source.size() - 1);
   const std::string name = source.substr(0, dot), value = source.substr(dot + 1);
@@ -117,7 +120,7 @@ void check_unit_fits(Compilation& c, const state::QuantityDescription& quantity,
   if (units.empty() || std::find(units.begin(), units.end(), quantity.unit) != units.end()) return;
   const bool plain = units.front().empty();
   c.problems.warning(
-      line, where,
+      ErrorCode::conflict, line, where,
       fmt::format("the unit '{}' does not fit '{}', which {}: the number is not converted", quantity.unit,
                   quantity.source, plain ? std::string("has no unit") : fmt::format("is in {}", units.front())),
       plain ? std::string("leave the unit out") : fmt::format("write {}", fmt::join(units, " or ")));
@@ -143,7 +146,7 @@ void compile_quantities(Compilation& c) {
       check_unit_fits(c, quantity, fields.line("unit"), where);
       line = fields.line("source");
     } else {
-      c.problems.error(item.line, where, "this quantity is neither a source nor a set",
+      c.problems.error(ErrorCode::invalid_value, item.line, where, "this quantity is neither a source nor a set",
                        "write a MetadataString like \"PUMP.basin_l\"");
       continue;
     }

@@ -1,9 +1,8 @@
-// An activity's questionnaire.
+// Reads the questionnaire of an activity.
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -17,22 +16,24 @@ void read_choice(Compilation& c, const Fields& fields, std::map<std::string, sta
     out.answers.push_back({name, texts["answer:" + name]});
   out.correct = fields.string("correct");
   if (fields.given("correct") && std::find(names.begin(), names.end(), out.correct) == names.end()) {
-    c.problems.error(fields.line("correct"), fields.where(), fmt::format("no answer is called '{}'", out.correct),
-                     suggest(out.correct, names, "add it to the answers"));
+    report_unknown(c, {fields.where(), fields.line("correct")}, "answer", out.correct, names, "add it to the answers");
   }
   if (fields.given("steps"))
-    c.problems.warning(fields.line("steps"), fields.where(), "a choice does not use 'steps'", "remove it");
+    c.problems.warning(ErrorCode::conflict, fields.line("steps"), fields.where(), "a choice does not use 'steps'",
+                       "remove it");
 }
 
 void read_scale(Compilation& c, const Fields& fields, std::map<std::string, state::Texts>& texts, Question& out) {
   out.marks = static_cast<int>(fields.number("steps"));
   if (out.marks != fields.number("steps"))
-    c.problems.error(fields.line("steps"), fields.where(), "the number of marks on a scale must be whole", "write 5");
+    c.problems.error(ErrorCode::invalid_value, fields.line("steps"), fields.where(),
+                     "the number of marks on a scale is not whole", "write a whole number, like 5");
   out.low = texts["low"];
   out.high = texts["high"];
   for (const char* key : {"answers", "correct"}) {
     if (fields.given(key))
-      c.problems.warning(fields.line(key), fields.where(), fmt::format("a scale does not use '{}'", key), "remove it");
+      c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
+                         fmt::format("a scale does not use '{}'", key), "remove it");
   }
 }
 
@@ -40,12 +41,12 @@ Question read_question(Compilation& c, const x3d::Metadata& set, const std::stri
   const Fields fields(&set, question_table(), fmt::format("{}, question {}", activity, set.name), c.problems);
   Question out;
   out.name = set.name;
-  // What is said of an unknown kind holds for all of the question.
+  // An unknown kind has been reported; the other keys depend on it.
   if (!fields.given("kind")) return out;
   out.kind = fields.string("kind") == "scale" ? Question::Kind::scale : Question::Kind::choice;
   if (out.kind == Question::Kind::choice && fields.strings("answers").size() < 2) {
-    c.problems.error(fields.line("answers"), fields.where(), "a choice needs two answers or more",
-                     "name them in the key answers, each in quotes of its own, like \"pitch\" \"speed\"");
+    c.problems.error(ErrorCode::missing, fields.line("answers"), fields.where(), "a choice needs two answers or more",
+                     "name them in the key answers, each in its own quotes, like \"pitch\" \"speed\"");
     return out;
   }
   std::string allowed = out.kind == Question::Kind::scale ? "question low high" : "question";
@@ -72,8 +73,8 @@ std::vector<Question> read_questionnaire(Compilation& c, const Fields& activity)
   if (tree == nullptr) return questions;
   for (const x3d::Metadata& set : tree->children) {
     if (set.kind != x3d::MetadataKind::set) {
-      c.problems.error(set.line, activity.where(), fmt::format("the question '{}' is not a set", set.name),
-                       "write a MetadataSet");
+      c.problems.error(ErrorCode::invalid_value, set.line, activity.where(),
+                       fmt::format("the question '{}' is not a set", set.name), "write a MetadataSet");
     } else {
       questions.push_back(read_question(c, set, activity.where()));
       lines.push_back(set.line);

@@ -1,8 +1,9 @@
-// Activities and their steps: two passes, so that a trigger may name a step that is written after it.
+// Activities and their steps, in two passes, so that a trigger may name a later step.
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "server/agents/joint_switch.hpp"
 #include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
@@ -37,13 +38,14 @@ void collect_steps(Compilation& c, Written& activity) {
   for (const x3d::Metadata& step : steps->children) {
     const std::string where = "step " + step.name;
     if (step.kind != x3d::MetadataKind::set) {
-      c.problems.error(step.line, where, "the step is not a set", "write a MetadataSet");
+      c.problems.error(ErrorCode::invalid_value, step.line, where, "the step is not a set", "write a MetadataSet");
     } else if (step.name.empty() || step.name == "end") {
-      c.problems.error(step.line, where, fmt::format("a step cannot be called '{}'", step.name),
+      c.problems.error(ErrorCode::invalid_value, step.line, where,
+                       fmt::format("a step cannot be called '{}'", step.name),
                        "use another name, for example what the visitor does: 'turn'");
     } else if (c.world.find_step(step.name)) {
-      c.problems.error(step.line, where, "another activity has a step of this name",
-                       "give each step a name of its own");
+      c.problems.error(ErrorCode::duplicate, step.line, where, "another activity has a step of this name",
+                       "give one of them another name");
     } else {
       activity.steps.push_back(&step);
       state::StepDescription description;
@@ -54,7 +56,8 @@ void collect_steps(Compilation& c, Written& activity) {
     }
   }
   if (activity.steps.empty())
-    c.problems.error(activity.fields.line("steps"), activity.fields.where(), "the activity has no steps", "add one");
+    c.problems.error(ErrorCode::missing, activity.fields.line("steps"), activity.fields.where(),
+                     "the activity has no steps", "add one");
 }
 
 std::vector<AgentId> read_agents(Compilation& c, const Fields& fields, std::string_view key) {
@@ -64,11 +67,12 @@ std::vector<AgentId> read_agents(Compilation& c, const Fields& fields, std::stri
     if (agent) {
       agents.push_back(agent);
     } else if (c.world.find_joint(name)) {
-      c.problems.error(fields.line(key), fields.where(), fmt::format("the joint '{}' has no agent to switch", name),
+      c.problems.error(ErrorCode::missing, fields.line(key), fields.where(),
+                       fmt::format("the joint '{}' has no agent to switch", name),
                        "put a 'mechane:agent' set on it, like geometry.hinge");
     } else {
-      c.problems.error(fields.line(key), fields.where(), fmt::format("no agent is called '{}'", name),
-                       suggest(name, names_of(c.world.agents), "add it to the scenario's agents"));
+      report_unknown(c, {fields.where(), fields.line(key)}, "agent", name, names_of(c.world.agents),
+                     "add it to the scenario's agents");
     }
   }
   return agents;
@@ -82,26 +86,22 @@ void read_override(Compilation& c, const x3d::Metadata& set, const std::string& 
   const std::string name = set.name.substr(std::string_view("object:").size());
   const Fields fields(&set, override_table(), fmt::format("{}, object {}", step, name), c.problems);
   state::BodyOverride change;
-  change.body = c.world.find_body(name);
-  if (!change.body) {
-    c.problems.error(set.line, fields.where(), fmt::format("no body is called '{}'", name),
-                     suggest(name, names_of(c.world.bodies), "add a RigidBody of that DEF"));
-    return;
-  }
+  change.body = find_body(c, name, {fields.where(), set.line});
+  if (!change.body) return;
   const state::BodyDescription& body = c.world.bodies[change.body.index()];
   change.movable = optional_boolean(fields, "movable");
   change.visible = optional_boolean(fields, "visible");
   change.graspable = optional_boolean(fields, "graspable");
   if (change.movable.value_or(false) && body.fixed) {
-    c.problems.error(fields.line("movable"), fields.where(), "the body is fixed and cannot be made movable",
-                     "remove fixed='true' of the RigidBody");
+    c.problems.error(ErrorCode::conflict, fields.line("movable"), fields.where(),
+                     "the body is fixed and cannot be made movable", "remove fixed='true' of the RigidBody");
   }
   if (fields.given("position") || fields.given("orientation")) {
     change.X_WB = body.X_WB;
     if (fields.given("position")) change.X_WB->p = fields.vector("position");
     if (fields.given("orientation")) change.X_WB->R = fields.rotation("orientation");
     if (body.fixed)
-      c.problems.error(set.line, fields.where(), "the body is fixed and stays where it is",
+      c.problems.error(ErrorCode::conflict, set.line, fields.where(), "the body is fixed and cannot be moved",
                        "remove fixed='true' of the RigidBody");
   }
   out.bodies.push_back(change);
@@ -112,15 +112,10 @@ state::Comparison comparison_of(const std::string& op) {
   return op == "=" ? state::Comparison::equal : state::Comparison::greater;
 }
 
-/// Of a rule's set, or of a trigger that is its own rule.
+/// Reads a rule from its own set, or from a trigger that holds one comparison itself.
 state::RuleDescription read_rule(Compilation& c, const Fields& fields, StepId step) {
   state::RuleDescription rule;
-  const std::string quantity = fields.string("quantity");
-  rule.quantity = c.world.find_quantity(quantity);
-  if (fields.given("quantity") && !rule.quantity) {
-    c.problems.error(fields.line("quantity"), fields.where(), fmt::format("no quantity is called '{}'", quantity),
-                     suggest(quantity, names_of(c.world.quantities), "add it to the scenario's quantities"));
-  }
+  rule.quantity = find_quantity(c, fields);
   rule.comparison = comparison_of(fields.string("op"));
   rule.value = fields.number("value");
   rule.tolerance = fields.number("tolerance");
@@ -135,7 +130,8 @@ StepId read_next(Compilation& c, const Written& activity, const Fields& fields, 
   if (next != "end" && !step) {
     std::vector<std::string> names = activity.names();
     names.emplace_back("end");
-    c.problems.error(fields.line(key), fields.where(), fmt::format("the activity has no step '{}'", next),
+    c.problems.error(ErrorCode::unknown_name, fields.line(key), fields.where(),
+                     fmt::format("the activity has no step '{}'", next),
                      suggest(next, names, "name one of its steps, or end"));
   }
   return step;
@@ -148,9 +144,9 @@ void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& 
   const bool several = !fields.sets_like("rule:*").empty();
   if (set.find("quantity") != nullptr || set.find("op") != nullptr || set.find("value") != nullptr) {
     for (const char* key : {"quantity", "op", "value"}) {
-      if (set.find(key) != nullptr || !several) continue;  // without rules the table has said so
-      c.problems.error(set.line, fields.where(), fmt::format("the key '{}' is missing", key),
-                       "add it: a trigger compares quantity, op and value; or write them into a rule:N of its own");
+      if (set.find(key) != nullptr || !several) continue;  // without rules the table has reported it
+      c.problems.error(ErrorCode::missing, set.line, fields.where(), fmt::format("the key '{}' is missing", key),
+                       "add it: a trigger compares quantity, op and value; or write all three into a rule:1");
     }
     rules.push_back(read_rule(c, fields, id));
   }
@@ -159,7 +155,8 @@ void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& 
     rules.push_back(read_rule(c, of_rule, id));
   }
   if (rules.size() < 2 && fields.given("match")) {
-    c.problems.warning(fields.line("match"), fields.where(), "match has no effect: the trigger has one rule",
+    c.problems.warning(ErrorCode::conflict, fields.line("match"), fields.where(),
+                       "match has no effect: the trigger has one rule",
                        "remove match, or write the comparisons as rule:1, rule:2");
   }
   state::TriggerDescription trigger;
@@ -181,12 +178,12 @@ void read_timeout(Compilation& c, const Written& activity, const Fields& fields,
   if (step.timeout_s > 0) {
     step.timeout_next = read_next(c, activity, fields, "timeoutNext");
   } else if (fields.given("timeoutNext")) {
-    c.problems.warning(fields.line("timeoutNext"), fields.where(),
+    c.problems.warning(ErrorCode::conflict, fields.line("timeoutNext"), fields.where(),
                        "timeoutNext has no effect: the step has no timeoutSeconds", "add timeoutSeconds, or remove it");
   }
 }
 
-/// Sound files lie in the museum: a path from the scenario file.
+/// Sound files are named by a path relative to the scenario file: a museum may have no network.
 void check_audio(Compilation& c, const Fields& fields, state::StepDescription& step) {
   const auto audio = step.texts.find("audio");
   if (audio == step.texts.end()) return;
@@ -197,8 +194,9 @@ void check_audio(Compilation& c, const Fields& fields, state::StepDescription& s
       ++it;
       continue;
     }
-    c.problems.error(written->line, fields.where(), fmt::format("'{}' is not a path beside the scenario", it->second),
-                     "copy the sound there and name it by a relative path, like audio/turn.en.ogg");
+    c.problems.error(
+        ErrorCode::invalid_value, written->line, fields.where(), fmt::format("'{}' is not a relative path", it->second),
+        "copy the sound into the scenario's folder, and name it by its path from this file, like audio/turn.en.ogg");
     it = audio->second.erase(it);
   }
 }
@@ -208,8 +206,8 @@ void read_detail(Compilation& c, const Fields& fields, state::StepDescription& s
   const auto& views = c.world.viewpoints;
   const auto named = [&](const state::Viewpoint& view) { return view.name == step.detail; };
   if (step.detail.empty() || std::any_of(views.begin(), views.end(), named)) return;
-  c.problems.error(fields.line("detail"), fields.where(), fmt::format("no Viewpoint is called '{}'", step.detail),
-                   suggest(step.detail, names_of(views), "add a Viewpoint of that DEF"));
+  report_unknown(c, {fields.where(), fields.line("detail")}, "Viewpoint", step.detail, names_of(views),
+                 "add a Viewpoint of that DEF");
 }
 
 void compile_step(Compilation& c, const Written& activity, const x3d::Metadata& set) {
@@ -220,7 +218,7 @@ void compile_step(Compilation& c, const Written& activity, const x3d::Metadata& 
   step.disable = read_agents(c, fields, "disable");
   for (const AgentId agent : step.enable) {
     if (std::find(step.disable.begin(), step.disable.end(), agent) == step.disable.end()) continue;
-    c.problems.error(fields.line("disable"), where,
+    c.problems.error(ErrorCode::conflict, fields.line("disable"), where,
                      fmt::format("'{}' is both enabled and disabled", c.world.agents[agent.index()].name), "keep one");
   }
   for (const x3d::Metadata* change : fields.sets_like("object:*"))
@@ -231,9 +229,9 @@ void compile_step(Compilation& c, const Written& activity, const x3d::Metadata& 
   read_detail(c, fields, step);
   step.opens = fields.string("opens");
   if (fields.given("opens") && !is_id(step.opens)) {
-    c.problems.error(fields.line("opens"), where,
+    c.problems.error(ErrorCode::invalid_value, fields.line("opens"), where,
                      fmt::format("'{}' cannot be a scenario's id", step.opens.substr(0, 80)),
-                     "write the id of the other scenario, as its key id has it, not its file: \"archimedes-screw\"");
+                     "write the other scenario's id, which is not the name of its file: \"archimedes-screw\"");
   }
   step.texts = read_texts(c, fields.set("text"), where + ", text", "caption narration hint audio");
   check_audio(c, fields, step);
@@ -248,29 +246,27 @@ void compile_first(Compilation& c, const Written& activity) {
   const std::string first = activity.fields.string("first");
   description.first = activity.find(first);
   if (!description.first) {
-    c.problems.error(activity.fields.line("first"), activity.fields.where(),
+    c.problems.error(ErrorCode::unknown_name, activity.fields.line("first"), activity.fields.where(),
                      fmt::format("the activity has no step '{}'", first),
                      suggest(first, activity.names(), "name one of its steps"));
   }
 }
 
-/// Visitors go on as a step begins, and the first one has begun before anybody is there.
+/// A step opens the other scenario as it begins, and an activity's first step begins before any visitor is there.
 void check_first(Compilation& c, const Written& activity) {
   const StepId first = c.world.activities[activity.id.index()].first;
   if (!first || c.world.steps[first.index()].opens.empty()) return;
   const std::string& name = c.world.steps[first.index()].name;
-  c.problems.error(c.step_lines[first.index()], "step " + name,
-                   "the activity's first step cannot open another scenario",
-                   "let a later step do so, to which a trigger leads");
+  c.problems.error(ErrorCode::conflict, c.step_lines[first.index()], "step " + name,
+                   "the activity's first step cannot open another scenario", "let a later step open it");
 }
 
-/// A joint that an agent switches, and that some step switches on, is off before: the world begins as the activity does.
+/// A joint whose agent some step enables is off at the start, as its agent is.
 void open_switched_joints(state::WorldDescription& world) {
   for (const state::StepDescription& step : world.steps) {
     for (const AgentId agent : step.enable) {
-      const std::string* name = world.agents[agent.index()].written_text("joint");
-      if (name == nullptr || !world.agents[agent.index()].type.starts_with("geometry.")) continue;
-      if (const JointId joint = world.find_joint(*name)) world.joints[joint.index()].enabled_at_start = false;
+      const JointId joint = agents::switched_joint(world, world.agents[agent.index()]);
+      if (joint) world.joints[joint.index()].enabled_at_start = false;
     }
   }
 }
@@ -284,7 +280,7 @@ void compile_activities(Compilation& c) {
   for (const x3d::Metadata& set : tree->children) {
     const std::string where = "activity " + set.name;
     if (set.kind != x3d::MetadataKind::set) {
-      c.problems.error(set.line, where, "the activity is not a set", "write a MetadataSet");
+      c.problems.error(ErrorCode::invalid_value, set.line, where, "the activity is not a set", "write a MetadataSet");
       continue;
     }
     Written activity{ActivityId(c.world.activities.size()), Fields(&set, activity_table(), where, c.problems), {}, 0};
@@ -300,7 +296,8 @@ void compile_activities(Compilation& c) {
     written.push_back(std::move(activity));
   }
   if (tree->children.empty())
-    c.problems.error(tree->line, "activities", "the scenario has no activity", "add one with its steps");
+    c.problems.error(ErrorCode::missing, tree->line, "activities", "the scenario has no activity",
+                     "add one with its steps");
   for (const Written& activity : written) {
     for (const x3d::Metadata* step : activity.steps)
       compile_step(c, activity, *step);

@@ -1,9 +1,8 @@
-// Scripted visits: what a person's hand would do.
+// Reads scripted visits: the moves of a visitor's hand.
 #include <array>
 
 #include <fmt/format.h>
 
-#include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -27,19 +26,13 @@ Kind kind_of(const std::string& word) {
 
 void need(Compilation& c, const Fields& fields, std::string_view kind, std::string_view key) {
   if (fields.given(key)) return;
-  c.problems.error(fields.line(key), fields.where(), fmt::format("a {} needs the key '{}'", kind, key), "add it");
+  c.problems.error(ErrorCode::missing, fields.line(key), fields.where(),
+                   fmt::format("a {} needs the key '{}'", kind, key), "add it");
 }
 
 BodyId read_body(Compilation& c, const Fields& fields, std::string_view kind) {
   need(c, fields, kind, "body");
-  if (!fields.given("body")) return BodyId::none();
-  const std::string name = fields.string("body");
-  const BodyId body = c.world.find_body(name);
-  if (!body) {
-    c.problems.error(fields.line("body"), fields.where(), fmt::format("no body is called '{}'", name),
-                     suggest(name, names_of(c.world.bodies), "add a RigidBody of that DEF"));
-  }
-  return body;
+  return find_body(c, fields);
 }
 
 JointId read_hinge(Compilation& c, const Fields& fields, std::string_view kind) {
@@ -48,11 +41,11 @@ JointId read_hinge(Compilation& c, const Fields& fields, std::string_view kind) 
   const std::string name = fields.string("joint");
   const JointId joint = c.world.find_joint(name);
   if (!joint) {
-    c.problems.error(fields.line("joint"), fields.where(), fmt::format("no joint is called '{}'", name),
-                     suggest(name, names_of(c.world.joints), "add a SingleAxisHingeJoint of that DEF"));
+    report_unknown(c, {fields.where(), fields.line("joint")}, "joint", name, names_of(c.world.joints),
+                   "add a SingleAxisHingeJoint of that DEF");
   } else if (c.world.joints[joint.index()].kind != state::JointKind::hinge) {
-    c.problems.error(fields.line("joint"), fields.where(), fmt::format("the joint '{}' does not turn", name),
-                     "name a hinge");
+    c.problems.error(ErrorCode::conflict, fields.line("joint"), fields.where(),
+                     fmt::format("the joint '{}' is not a hinge", name), "name a SingleAxisHingeJoint");
   }
   return joint;
 }
@@ -90,7 +83,7 @@ state::VisitMove compile_move(Compilation& c, const x3d::Metadata& set, const st
       need(c, fields, kind, "angle");
       move.amplitude_rad = fields.number("angle");
       if (fields.given("angle") && move.amplitude_rad == 0) {
-        c.problems.error(fields.line("angle"), fields.where(), "the angle of this swing is 0",
+        c.problems.error(ErrorCode::invalid_value, fields.line("angle"), fields.where(), "the angle of this swing is 0",
                          "write how far it goes, in radians");
       }
       move.cycles = fields.number("cycles");
@@ -111,7 +104,7 @@ void compile_visits(Compilation& c) {
   for (const x3d::Metadata& set : tree->children) {
     const std::string where = "visit " + set.name;
     if (set.kind != x3d::MetadataKind::set) {
-      c.problems.error(set.line, where, "the visit is not a set", "write a MetadataSet");
+      c.problems.error(ErrorCode::invalid_value, set.line, where, "the visit is not a set", "write a MetadataSet");
       continue;
     }
     const Fields fields(&set, visit_table(), where, c.problems);
@@ -120,8 +113,8 @@ void compile_visits(Compilation& c) {
     const std::string activity = fields.string("activity");
     visit.activity = c.world.find_activity(activity);
     if (fields.given("activity") && !visit.activity) {
-      c.problems.error(fields.line("activity"), where, fmt::format("no activity is called '{}'", activity),
-                       suggest(activity, names_of(c.world.activities), "add it to the scenario's activities"));
+      report_unknown(c, {where, fields.line("activity")}, "activity", activity, names_of(c.world.activities),
+                     "add it to the scenario's activities");
     }
     for (const x3d::Metadata* move : fields.sets_like("move:*"))
       visit.moves.push_back(compile_move(c, *move, where));

@@ -20,7 +20,7 @@ bool is_language(const std::string& text) {
          });
 }
 
-/// <unit> statements in the head change what every number means; we read metres, kilograms and radians only.
+/// <unit> statements in the head change the meaning of every number. Mechane reads only metres, kilograms and radians.
 void refuse_units(Compilation& c) {
   for (const x3d::NodeId head : c.document.child_elements(c.document.x3d())) {
     if (c.document[head].name != "head") continue;
@@ -28,7 +28,7 @@ void refuse_units(Compilation& c) {
       if (c.document[id].name != "unit") continue;
       Attributes unit(c.document, id, c.problems);
       if (unit.given("conversionFactor") && unit.number("conversionFactor") != 1) {
-        unit.error(fmt::format("the unit '{}' is not SI", unit.text("name")),
+        unit.error(ErrorCode::not_supported, fmt::format("the unit '{}' is not SI", unit.text("name")),
                    "write metres, kilograms, seconds and radians, and remove the unit");
       }
     }
@@ -38,37 +38,39 @@ void refuse_units(Compilation& c) {
 void read_languages(Compilation& c, const Fields& fields) {
   c.world.languages = fields.strings("languages");
   if (fields.given("languages") && c.world.languages.empty()) {
-    c.problems.error(fields.line("languages"), fields.where(), "no language is named", "write \"el\" \"en\"");
+    c.problems.error(ErrorCode::missing, fields.line("languages"), fields.where(), "no language is given",
+                     "write \"el\" \"en\"");
   }
   for (const std::string& language : c.world.languages) {
     if (!is_language(language)) {
-      c.problems.error(fields.line("languages"), fields.where(), fmt::format("'{}' is not a language code", language),
-                       "write a code of BCP 47, like el or en");
+      c.problems.error(ErrorCode::invalid_value, fields.line("languages"), fields.where(),
+                       fmt::format("'{}' is not a language code", language),
+                       "write a language code (BCP 47), like el or en");
     }
   }
 }
 
-/// An X3D file of somebody else's: its bodies and joints move, and there is nothing to do. A file that has some of our metadata was
-/// meant to be more.
+/// A file without our metadata becomes a scene in which bodies and joints move, but there is nothing to do. A file with some of our
+/// metadata was meant to be a scenario: an error.
 void take_plain_file(Compilation& c) {
   const std::string remedy = "add <WorldInfo><MetadataSet containerField='metadata' name='mechane:scenario'>...";
   const int line = c.document[c.document.scene()].line;
   for (const x3d::NodeId id : c.document.elements("MetadataSet")) {
     const std::string* name = c.document[id].attribute("name");
     if (name == nullptr || !name->starts_with("mechane")) continue;
-    // Where it is there, it is faulty or misplaced, and that has been said.
+    // It is faulty or misplaced, which has been reported.
     if (*name == "mechane:scenario") return;
-    c.problems.error(line, "WorldInfo", "there is no metadata set 'mechane:scenario'", remedy);
+    c.problems.error(ErrorCode::missing, line, "WorldInfo", "there is no metadata set 'mechane:scenario'", remedy);
     return;
   }
-  c.problems.warning(line, "WorldInfo", "the file has no 'mechane:scenario': it is a scene with nothing to do in it",
-                     remedy);
+  c.problems.warning(ErrorCode::missing, line, "WorldInfo",
+                     "the file has no 'mechane:scenario': it is a scene with nothing to do in it", remedy);
   const std::string stem = c.document.path().stem().string();
   c.world.id = is_id(stem) ? stem : "scene";
   c.world.languages = {"en"};
 }
 
-/// ", like my-screw" for "My Screw"; empty where nothing is left of it.
+/// ", like my-screw" for "My Screw"; empty where the text cannot be made into an id.
 std::string like_it(const std::string& text) {
   std::string id;
   for (const char letter : text.substr(0, 64)) {
@@ -91,6 +93,33 @@ const x3d::Metadata* tree_set(const Compilation& c, std::string_view name) {
   return found != nullptr && found->kind == x3d::MetadataKind::set ? found : nullptr;
 }
 
+void report_unknown(Compilation& c, const Place& at, std::string_view word, const std::string& name,
+                    std::span<const std::string> known, const std::string& if_none) {
+  c.problems.error(ErrorCode::unknown_name, at.line, at.text, fmt::format("no {} is called '{}'", word, name),
+                   suggest(name, known, if_none));
+}
+
+BodyId find_body(Compilation& c, const std::string& name, const Place& at) {
+  const BodyId body = c.world.find_body(name);
+  if (!body) report_unknown(c, at, "body", name, names_of(c.world.bodies), "add a RigidBody of that DEF");
+  return body;
+}
+
+BodyId find_body(Compilation& c, const Fields& fields) {
+  if (!fields.given("body")) return BodyId::none();
+  return find_body(c, fields.string("body"), {fields.where(), fields.line("body")});
+}
+
+QuantityId find_quantity(Compilation& c, const Fields& fields) {
+  if (!fields.given("quantity")) return QuantityId::none();
+  const std::string name = fields.string("quantity");
+  const QuantityId quantity = c.world.find_quantity(name);
+  if (!quantity)
+    report_unknown(c, {fields.where(), fields.line("quantity")}, "quantity", name, names_of(c.world.quantities),
+                   "add it to the scenario's quantities");
+  return quantity;
+}
+
 std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metadata* set, const std::string& where,
                                                std::string_view allowed) {
   std::map<std::string, state::Texts> texts;
@@ -105,14 +134,15 @@ std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metada
     const auto& known = c.world.languages;
     if (padded.find(" " + what + " ") == std::string::npos || language.empty()) {
       const std::string near = nearest(what, words_of(allowed));
-      c.problems.warning(child.line, where, fmt::format("the text '{}' is not shown anywhere", child.name),
+      c.problems.warning(ErrorCode::unknown_name, child.line, where,
+                         fmt::format("the text '{}' is not shown anywhere", child.name),
                          near.empty() || near == what || language.empty()
-                             ? fmt::format("name it <what>.<language>, with what one of: {}", allowed)
+                             ? fmt::format("name it <what>.<language>, where <what> is one of: {}", allowed)
                              : fmt::format("did you mean '{}.{}'?", near, language));
     } else if (std::find(known.begin(), known.end(), language) == known.end()) {
       if (!c.foreign_languages.insert(language).second) continue;
-      c.problems.warning(child.line, where,
-                         fmt::format("'{}' is not among the scenario's languages: no text in it is shown", language),
+      c.problems.warning(ErrorCode::unknown_name, child.line, where,
+                         fmt::format("'{}' is not among the scenario's languages: its texts are not shown", language),
                          known.empty()
                              ? std::string("add it to the key languages")
                              : fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
@@ -131,13 +161,15 @@ void compile_scenario(Compilation& c) {
   if (!c.scenario) return take_plain_file(c);
   const Fields fields(&*c.scenario, scenario_table(), "mechane:scenario", c.problems);
   if (fields.given("format") && fields.number("format") != kFormatVersion) {
-    c.problems.error(fields.line("format"), fields.where(),
-                     fmt::format("version {} of the scenario format is not known", fields.number("format")),
-                     fmt::format("write {}, or read the file with the program that it was made for", kFormatVersion));
+    c.problems.error(
+        ErrorCode::wrong_version, fields.line("format"), fields.where(),
+        fmt::format("version {} of the scenario format is not known", fields.number("format")),
+        fmt::format("write {}, or read the file with the version of Mechane that it was made for", kFormatVersion));
   }
   c.world.id = fields.string("id");
   if (fields.given("id") && !is_id(c.world.id)) {
-    c.problems.error(fields.line("id"), fields.where(), fmt::format("'{}' cannot be an id", c.world.id.substr(0, 80)),
+    c.problems.error(ErrorCode::invalid_value, fields.line("id"), fields.where(),
+                     fmt::format("'{}' cannot be an id", c.world.id.substr(0, 80)),
                      fmt::format("use small letters, digits and '-', 64 at most{}", like_it(c.world.id)));
   }
   c.world.effort_scale = fields.number("effortScale");
@@ -164,6 +196,7 @@ void compile_all(Compilation& c) {
   compile_viewpoints(c);
   compile_effects(c);
   compile_activities(c);
+  check_presented(c);
   check_components(c);
   check_goals(c);
   compile_visits(c);

@@ -1,4 +1,4 @@
-// From a document to a world: names become ids, X3D's physics nodes become bodies and joints, metadata become agents, machines, steps.
+// Makes a world of a document: names become ids, X3D's physics nodes bodies and joints, metadata agents, machines and steps.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace mechane::scenario {
 
-/// Where mesh files come from. The server's makes and caches collision objects; a checker's only looks whether the file is there.
+/// Gives the compiler what is in mesh files. The server's loader makes and caches collision objects; a checker's only reads the files.
 class ObjectLoader {
  public:
   virtual ~ObjectLoader() = default;
@@ -21,24 +21,24 @@ class ObjectLoader {
   /// A loader that builds nothing returns null.
   [[nodiscard]] virtual Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                                                 const std::string& node) = 0;
-  /// Whether a mesh file has a node, for bodies that are only drawn. A loader that does not look says yes.
+  /// Success where a mesh file has the node, for bodies that are only drawn; also from a loader that does not look into files.
   [[nodiscard]] virtual Expected<void> find_node(const std::filesystem::path&, const std::string&) { return {}; }
-  /// What the mesh of a node says of a body's mass; nothing from a loader that does not look into meshes. This one imports the file anew,
-  /// and is asked only for bodies whose inertia is not given. Errors: those of content::import_mesh and collision_parts.
+  /// The solid of a node's mesh, to check or compute a body's mass; none from a loader that does not look into files. This one imports the
+  /// file at each call, so it is called only for bodies without an inertia. Errors: those of content::import_mesh and collision_parts.
   [[nodiscard]] virtual Expected<std::optional<Solid>> solid(const std::filesystem::path& file,
                                                              const std::string& node);
-  /// Whether solid() costs little: it is then asked for every body, to check the mass.
+  /// Whether solid() costs little: then it is called for every body, to check the mass.
   [[nodiscard]] virtual bool has_meshes_at_hand() const { return false; }
-  /// The name of the file's bytes: content::content_hash(). Fails where the file cannot be read.
+  /// The hash of the file's bytes: content::content_hash(). Fails where the file cannot be read.
   [[nodiscard]] virtual Expected<std::string> content_hash(const std::filesystem::path& file) = 0;
 };
 
-/// What a loader's content_hash() is: content::content_hash() of the file.
+/// What a loader's content_hash() returns: content::content_hash() of the file.
 [[nodiscard]] Expected<std::string> hash_file(const std::filesystem::path& file);
 
-/// A world. Every name in it is resolved; every component's parameters hold against its type's schema. All problems go to `problems`,
-/// errors and warnings; the Error is the first error. Calls the loader once a touchable body. One thread, not in a tick; the same
-/// document and meshes give the same description and content_hash.
+/// Makes a world. Every name in it is resolved, and every component's parameters fit its type. All problems are added to `problems`; the
+/// Error is the first error among them. Calls load() once for each touchable body. One thread, not in a tick; the same document and
+/// meshes give the same description and content_hash.
 [[nodiscard]] Expected<state::WorldDescription> compile(const x3d::Document& document, ObjectLoader& loader,
                                                         x3d::Problems& problems);
 

@@ -36,7 +36,7 @@ void add_questions(Wordings& wordings, const state::ActivityDescription& activit
   }
 }
 
-/// What a visitor reads or hears. A step must have a caption; the rest may be absent, but not in one language only.
+/// All texts that a visitor reads or hears. A step must have a caption; other texts may be absent, but not in one language only.
 Wordings wordings_of(const state::WorldDescription& world) {
   Wordings wordings;
   add_wording(wordings, "title", world.title);
@@ -55,7 +55,7 @@ Wordings wordings_of(const state::WorldDescription& world) {
   return wordings;
 }
 
-/// X3D's own meta names, after Dublin Core. Where a name stands twice, both are said.
+/// X3D's own meta names, after Dublin Core. Where a name is given twice, both contents are kept.
 void read_meta(const std::string& name, const std::string& content, ScenarioFacts& facts) {
   struct Place {
     std::string_view name;
@@ -101,7 +101,7 @@ void read_files(const x3d::Document& document, ScenarioFacts& facts) {
     const bool sound = document[reference.node].name == "MetadataString";
     for (const std::string& url : reference.urls) {
       const std::string path = url.substr(0, url.find('#'));
-      // A script may stand in its url: "ecmascript:...".
+      // A url may hold a script: "ecmascript:...".
       if (x3d::is_relative_path(path) && path.find(':') == std::string::npos)
         facts.files.emplace(path, sound ? name.substr(name.find('.') + 1) : "");
     }

@@ -1,4 +1,4 @@
-// What a scenario says of itself, for a catalogue: whose it is, in which languages, and which files it needs.
+// Facts about a scenario, for a catalogue: author, licence, languages, and the files that it needs.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +18,13 @@ struct ScenarioFacts {
   std::vector<std::string> tags;  ///< <meta name='keywords'>
   std::map<std::string, std::string> titles;
   std::vector<std::string> languages;
-  /// Files it names, relative to its folder ("../models/screw.glb"), each once, there or not; each with its language, "" for none.
+  /// Files it names, relative to its folder ("../models/screw.glb"), whether they exist or not; each with its language, "" for none.
   std::map<std::string, std::string> files;
-  std::set<std::string> opens;                               ///< ids of the scenarios that visitors go on to from it
+  std::set<std::string> opens;                               ///< ids of the scenarios that its steps open
   std::map<std::string, std::vector<std::string>> wordings;  ///< as content::CatalogueEntry has them
 };
 
-/// Reads and compiles the file; builds nothing. Errors: the first of the scenario's own, as mechane check says it.
+/// Reads and compiles the file; builds nothing. Errors: the first error that `mechane check` reports.
 [[nodiscard]] Expected<ScenarioFacts> read_facts(const std::filesystem::path& file);
 
 }  // namespace mechane::scenario

@@ -14,7 +14,7 @@ bool is_number(const x3d::Metadata& m) {
   return m.kind == x3d::MetadataKind::numbers || m.kind == x3d::MetadataKind::integers;
 }
 
-/// What a value is: "2 numbers".
+/// A value's kind and count: "2 numbers".
 std::string value_in_words(const x3d::Metadata& m) {
   const auto count = [](std::size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); };
   switch (m.kind) {
@@ -31,7 +31,7 @@ std::string value_in_words(const x3d::Metadata& m) {
   return count(m.numbers.size(), "number");
 }
 
-/// How many numbers a kind has; 0 for what holds none.
+/// How many numbers a kind has; 0 for kinds without numbers.
 std::size_t count_of(ValueKind kind) {
   switch (kind) {
     case ValueKind::number:
@@ -71,7 +71,7 @@ bool is_of_kind(ValueKind kind, const x3d::Metadata& m) {
   return false;
 }
 
-/// What may have been meant by a name: for "objct:INNER" the pattern "object:*" stands as "object:INNER".
+/// The names that an unknown name may have meant: for "objct:INNER" the pattern "object:*" gives "object:INNER".
 std::vector<std::string> candidates(const Table& table, const std::string& name) {
   const std::size_t colon = name.find(':');
   const std::string rest = colon == std::string::npos ? "1" : name.substr(colon + 1);
@@ -95,7 +95,7 @@ void Fields::check(x3d::Problems& problems) {
     const Key* key = table_.find(child.name);
     if (key == nullptr) {
       const std::vector<std::string> known = candidates(table_, child.name);
-      // "triger" is near to "trigger:1" once it has a number too.
+      // "triger" gets a number too, so that it is near to "trigger:1".
       const bool numbered = child.name.find(':') == std::string::npos && nearest(child.name, known).empty();
       const std::string word = child.name + (numbered ? ":1" : "");
       problems.unknown(child.line, where_, fmt::format("the key '{}' is not known here and does nothing", child.name),
@@ -107,10 +107,10 @@ void Fields::check(x3d::Problems& problems) {
   }
   for (const Key& key : table_.keys) {
     if (!key.required || set_->find(key.name) != nullptr || has_like(key.unless)) continue;
-    // It is there, misspelt, and that has been said.
+    // It is given, but misspelt, which has been reported.
     if (std::find(meant.begin(), meant.end(), key.name) != meant.end()) continue;
     problems.error(
-        set_->line, where_, fmt::format("the key '{}' is missing", key.name),
+        ErrorCode::missing, set_->line, where_, fmt::format("the key '{}' is missing", key.name),
         fmt::format("add it: {}{}", key.summary, key.example.empty() ? "" : fmt::format(", like {}", key.example)));
   }
 }
@@ -125,10 +125,11 @@ bool Fields::check_value(const Key& key, const x3d::Metadata& value, x3d::Proble
     const auto comma =
         is_number(value) ? x3d::comma_fault(value.commas, value.numbers.size(), count_of(key.kind)) : std::nullopt;
     if (comma) {
-      problems.error(value.line, where_, fmt::format("'{}': {}", value.name, comma->what), comma->remedy);
+      problems.error(ErrorCode::invalid_value, value.line, where_, fmt::format("'{}': {}", value.name, comma->what),
+                     comma->remedy);
       return false;
     }
-    problems.error(value.line, where_,
+    problems.error(ErrorCode::invalid_value, value.line, where_,
                    fmt::format("'{}' is of the wrong type or count: it is {}", value.name, value_in_words(value)),
                    fmt::format("write a {}{}", kind_in_words(key.kind),
                                key.example.empty() ? "" : fmt::format(", like {}", key.example)));
@@ -136,16 +137,11 @@ bool Fields::check_value(const Key& key, const x3d::Metadata& value, x3d::Proble
   }
   const std::string* text = key.kind == ValueKind::string ? &value.strings.front() : nullptr;
   if (const auto fault = range_fault(key, value.numbers, text)) {
-    problems.error(value.line, where_, fmt::format("'{}': {}", value.name, fault->what), fault->remedy);
+    problems.error(ErrorCode::invalid_value, value.line, where_, fmt::format("'{}': {}", value.name, fault->what),
+                   fault->remedy);
     return false;
   }
   return true;
-}
-
-const Key& Fields::key(std::string_view name, ValueKind kind) const {
-  const Key* found = table_.find(name);
-  MECHANE_ASSERT(found != nullptr && found->kind == kind);
-  return *found;
 }
 
 const x3d::Metadata* Fields::value(std::string_view name) const {
@@ -158,38 +154,38 @@ bool Fields::given(std::string_view name) const {
 }
 
 double Fields::number(std::string_view name) const {
-  const Key& of = key(name, ValueKind::number);
+  const Key& of = table_.key(name, ValueKind::number);
   const x3d::Metadata* found = value(name);
   return found != nullptr ? found->numbers.front() : of.default_number;
 }
 
 bool Fields::boolean(std::string_view name) const {
-  const Key& of = key(name, ValueKind::boolean);
+  const Key& of = table_.key(name, ValueKind::boolean);
   const x3d::Metadata* found = value(name);
   return found != nullptr ? found->booleans.front() : of.default_number != 0;
 }
 
 std::string Fields::string(std::string_view name) const {
-  const Key& of = key(name, ValueKind::string);
+  const Key& of = table_.key(name, ValueKind::string);
   const x3d::Metadata* found = value(name);
   return found != nullptr ? found->strings.front() : std::string(of.default_text);
 }
 
 std::vector<std::string> Fields::strings(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::strings));
+  static_cast<void>(table_.key(name, ValueKind::strings));
   const x3d::Metadata* found = value(name);
   return found != nullptr ? found->strings : std::vector<std::string>();
 }
 
 Vec3 Fields::vector(std::string_view name) const {
-  const Key& of = key(name, ValueKind::vector);
+  const Key& of = table_.key(name, ValueKind::vector);
   const x3d::Metadata* found = value(name);
   if (found == nullptr) return Vec3::Constant(of.default_number);
   return {found->numbers[0], found->numbers[1], found->numbers[2]};
 }
 
 Quat Fields::rotation(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::rotation));
+  static_cast<void>(table_.key(name, ValueKind::rotation));
   const x3d::Metadata* found = value(name);
   if (found == nullptr || found->numbers[3] == 0) return Quat::Identity();
   const Vec3 axis = Vec3(found->numbers[0], found->numbers[1], found->numbers[2]).normalized();
@@ -197,12 +193,12 @@ Quat Fields::rotation(std::string_view name) const {
 }
 
 const x3d::Metadata* Fields::set(std::string_view name) const {
-  static_cast<void>(key(name, ValueKind::set));
+  static_cast<void>(table_.key(name, ValueKind::set));
   return value(name);
 }
 
 std::vector<const x3d::Metadata*> Fields::sets_like(std::string_view pattern) const {
-  static_cast<void>(key(pattern, ValueKind::set));
+  static_cast<void>(table_.key(pattern, ValueKind::set));
   std::vector<const x3d::Metadata*> found;
   if (set_ == nullptr) return found;
   for (const x3d::Metadata& child : set_->children) {

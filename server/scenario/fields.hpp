@@ -1,4 +1,4 @@
-// A set of metadata through the schema's table of its keys: typed values, and what is wrong with them.
+// A set of metadata, read by the schema's table of its keys: typed values, and problems for faulty ones.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 namespace mechane::scenario {
 
 /// A set checked against its table of the schema: a key that is nearly a known one is an error, any other unknown key a warning; wrong
-/// types, counts, ranges and missing keys are errors. Values that were not written, or are wrong, read as the table's default.
+/// types, counts, ranges and missing keys are errors. Values that are not written, or are wrong, read as the table's default.
 class Fields {
  public:
   /// `where` names the set for people: "step turn". `set` must outlive this; null reads as empty.
@@ -27,7 +27,7 @@ class Fields {
   [[nodiscard]] Vec3 vector(std::string_view key) const;
   /// An X3D rotation: axis x y z, angle in radians.
   [[nodiscard]] Quat rotation(std::string_view key) const;
-  /// Null where it is not given.
+  /// The set of that key; null where it is not given.
   [[nodiscard]] const x3d::Metadata* set(std::string_view key) const;
   /// Sets whose names begin with the key's prefix ("trigger:" of the key "trigger:*"), in the order written.
   [[nodiscard]] std::vector<const x3d::Metadata*> sets_like(std::string_view key) const;
@@ -36,7 +36,6 @@ class Fields {
   [[nodiscard]] const std::string& where() const { return where_; }
 
  private:
-  const Key& key(std::string_view name, ValueKind kind) const;
   const x3d::Metadata* value(std::string_view name) const;
   void check(x3d::Problems& problems);
   bool has_like(std::string_view pattern) const;

@@ -1,11 +1,11 @@
-// For who needs a scenario without its collision parts: a checker, a visitor.
+// A loader for programs that need a scenario without its collision parts: catalogue, visitor.
 #pragma once
 
 #include "server/scenario/compiler.hpp"
 
 namespace mechane::scenario {
 
-/// Looks whether mesh files are there and names their content; builds nothing.
+/// Hashes mesh files, and does not read their content.
 class FileFinder final : public ObjectLoader {
  public:
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path&,

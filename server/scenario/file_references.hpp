@@ -1,4 +1,4 @@
-// Where a scenario names other files: urls of X3D's nodes, sounds of its steps.
+// The places in a scenario that name other files: urls of X3D's nodes, sounds of its steps.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ namespace mechane::scenario {
 struct FileReference {
   x3d::NodeId node;
   std::string attribute;
-  std::vector<std::string> urls;  ///< as written: "../models/screw.glb", or what is not a path at all
+  std::vector<std::string> urls;  ///< as written: paths like "../models/screw.glb", and what is not a path
 };
 
-/// All of them, in the order written. What is not a list of strings is left out.
+/// All of them, in the order written. Attributes that do not hold a list of strings are left out.
 [[nodiscard]] std::vector<FileReference> file_references(const x3d::Document& document);
 
 }  // namespace mechane::scenario

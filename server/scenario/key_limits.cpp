@@ -1,4 +1,4 @@
-// What a key of the schema allows, in words, and what a value breaks of it.
+// The limits of the schema's keys: in words, and checked against values.
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What compiles, but likely is not meant.
+// Warnings of what compiles, but is likely not meant.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -17,7 +17,8 @@ void check_texts(Compilation& c, const state::Texts& texts, int line, const std:
     if (it == texts.end() || it->second.empty()) missing.push_back(language);
   }
   if (missing.empty()) return;
-  c.problems.warning(line, where, fmt::format("the {} is missing in: {}", what, fmt::join(missing, ", ")),
+  c.problems.warning(ErrorCode::missing, line, where,
+                     fmt::format("the {} is missing in: {}", what, fmt::join(missing, ", ")),
                      fmt::format("add {}.{}", what, missing.front()));
 }
 
@@ -30,15 +31,16 @@ void check_question(Compilation& c, const state::QuestionDescription& question, 
   check_texts(c, question.high, line, where, "high");
 }
 
-/// Recordings may come later: without them a step is silent.
+/// A sound file that does not exist is a warning only: it may be recorded later, and its step is silent until then.
 void check_sounds(Compilation& c) {
   for (std::size_t i = 0; i < c.world.steps.size(); ++i) {
     const auto audio = c.world.steps[i].texts.find("audio");
     if (audio == c.world.steps[i].texts.end()) continue;
     for (const auto& [language, url] : audio->second) {
       if (c.loader.content_hash(c.document.path().parent_path() / url)) continue;
-      c.problems.warning(c.step_lines[i], "step " + c.world.steps[i].name,
-                         fmt::format("the sound '{}' is not there", url), "record it, or correct audio." + language);
+      c.problems.warning(ErrorCode::not_found, c.step_lines[i], "step " + c.world.steps[i].name,
+                         fmt::format("the sound file '{}' does not exist", url),
+                         "record it, or correct audio." + language);
     }
   }
 }
@@ -81,12 +83,12 @@ void check_reach(Compilation& c) {
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const StepDescription& step = c.world.steps[i];
     if (!reached[i]) {
-      c.problems.warning(c.step_lines[i], "step " + step.name, "no trigger leads to this step",
+      c.problems.warning(ErrorCode::missing, c.step_lines[i], "step " + step.name, "no trigger leads to this step",
                          "name it as the next of a trigger, or remove it");
     }
     if (step.triggers.empty() && step.timeout_s == 0) {
-      c.problems.warning(c.step_lines[i], "step " + step.name, "the step has no trigger: a visitor cannot leave it",
-                         "add trigger:1, or timeoutSeconds");
+      c.problems.warning(ErrorCode::missing, c.step_lines[i], "step " + step.name,
+                         "the step has no trigger: a visitor cannot leave it", "add trigger:1, or timeoutSeconds");
     }
   }
 }
@@ -98,7 +100,7 @@ AgentId agent_behind(const state::WorldDescription& world, QuantityId quantity) 
   return world.find_joint(name) ? AgentId::none() : world.find_agent(name);
 }
 
-/// The agent that a rule waits for though it is off: the same step has switched it off, or no step of the activity has it on.
+/// The agent that a rule waits for although it is off: the same step switches it off, or only steps of other activities switch it on.
 AgentId agent_off(const Compilation& c, const StepDescription& step, QuantityId quantity) {
   const AgentId agent = agent_behind(c.world, quantity);
   if (!agent) return agent;
@@ -121,7 +123,7 @@ void check_triggers(Compilation& c) {
                                     : std::any_of(quantities.begin(), quantities.end(), off);
       if (!dead) continue;
       const QuantityId quantity = *std::find_if(quantities.begin(), quantities.end(), off);
-      c.problems.warning(c.step_lines[i], "step " + step.name,
+      c.problems.warning(ErrorCode::conflict, c.step_lines[i], "step " + step.name,
                          fmt::format("the trigger on '{}' can never fire: the agent '{}' is off in this step",
                                      c.world.quantities[quantity.index()].name,
                                      c.world.agents[agent_off(c, step, quantity).index()].name),
@@ -136,24 +138,27 @@ void check_visits(Compilation& c) {
       return visit.activity == ActivityId(i) && !visit.moves.empty();
     };
     if (std::any_of(c.world.visits.begin(), c.world.visits.end(), plays)) continue;
-    c.problems.warning(c.activity_lines[i], "activity " + c.world.activities[i].name,
-                       "no visit plays this activity, so tests and the attract mode cannot", "add a set to 'visits'");
+    c.problems.warning(ErrorCode::missing, c.activity_lines[i], "activity " + c.world.activities[i].name,
+                       "no visit plays this activity, so neither tests nor the attract mode can play it",
+                       "add a set to 'visits'");
   }
 }
 
 void check_world(Compilation& c) {
   const int line = c.document[c.document.scene()].line;
   if (c.world.bodies.empty())
-    c.problems.warning(line, "Scene", "there is no RigidBody: nothing can be touched", "add a RigidBodyCollection");
+    c.problems.warning(ErrorCode::missing, line, "Scene", "there is no RigidBody: nothing can be touched",
+                       "add a RigidBodyCollection");
   if (c.world.viewpoints.empty())
-    c.problems.warning(line, "Scene", "there is no Viewpoint", "add one that shows the whole machine");
+    c.problems.warning(ErrorCode::missing, line, "Scene", "there is no Viewpoint",
+                       "add one that shows the whole machine");
   const auto graspable = [](const state::BodyDescription& body) { return body.graspable; };
-  // Signs are touched, not held.
+  // A sign to another exhibit is pointed at, not held.
   const auto points = [](const state::ComponentDescription& agent) { return agent.type == "simulation.point"; };
   if (!c.world.bodies.empty() && std::none_of(c.world.bodies.begin(), c.world.bodies.end(), graspable) &&
       std::none_of(c.world.agents.begin(), c.world.agents.end(), points)) {
-    c.problems.warning(line, "Scene", "no body is graspable",
-                       "add graspable true to the mechane:haptic of what is to be held");
+    c.problems.warning(ErrorCode::missing, line, "Scene", "no body is graspable",
+                       "add graspable true to the mechane:haptic of a body that hands can take");
   }
 }
 

@@ -1,6 +1,7 @@
-// Warnings of bodies that fall, or that nobody can move any more, because an agent is off.
+// Warnings of bodies that fall or drift away because nothing holds them, and of bodies that stay immovable or tied.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@ namespace {
 
 using state::StepDescription;
 
-/// Whether one of a component's texts, or only that parameter's, names a body.
+/// Whether a component names a body, in that parameter or, without one, in any.
 bool names_body(const state::ComponentDescription& component, const std::string& body,
                 std::string_view parameter = {}) {
   return std::ranges::any_of(component.parameters, [&](const auto& item) {
@@ -61,7 +62,7 @@ bool says_movable(const StepDescription& step, BodyId body) {
   return change != nullptr && change->movable.has_value();
 }
 
-/// Agents are on at the start, but for those that some step enables.
+/// All agents are on at the start, except those that a step enables.
 bool on_at_start(const state::WorldDescription& world, AgentId agent) {
   return std::ranges::none_of(world.steps, [&](const StepDescription& step) { return names(step.enable, agent); });
 }
@@ -70,13 +71,16 @@ bool on_after(const StepDescription& step, AgentId agent, bool before) {
   return (before || names(step.enable, agent)) && !names(step.disable, agent);
 }
 
-/// Whether gravity moves the body as this step begins an activity; what collides may lie on something.
-bool is_free(const state::WorldDescription& world, const StepDescription& first, BodyId id) {
+bool has_weight(const state::WorldDescription& world, const state::BodyDescription& body) {
+  return body.use_gravity && !world.gravity_W.isZero();
+}
+
+/// Whether only an agent could hold the body as this step begins an activity. A body that collides may lie on something.
+bool is_loose(const state::WorldDescription& world, const StepDescription& first, BodyId id) {
   const state::BodyDescription& body = world.bodies[id.index()];
   const state::BodyOverride* change = override_of(first, id);
   const bool movable = !body.fixed && (change == nullptr || change->movable.value_or(true));
-  return movable && body.use_gravity && !world.gravity_W.isZero() && !body.collides &&
-         !moved_by_machine(world, body.name);
+  return movable && !body.collides && !moved_by_machine(world, body.name) && !has_own_joint(world, id);
 }
 
 /// "until step 'turn' enables it"
@@ -90,7 +94,7 @@ std::string until_when(const state::WorldDescription& world, ActivityId activity
 
 void check_fall(Compilation& c, ActivityId activity, StepId first, BodyId body) {
   const StepDescription& step = c.world.steps[first.index()];
-  if (!is_free(c.world, step, body) || has_own_joint(c.world, body)) return;
+  if (!has_weight(c.world, c.world.bodies[body.index()]) || !is_loose(c.world, step, body)) return;
   AgentId missing;
   for (std::size_t i = 0; i < c.world.agents.size(); ++i) {
     const AgentId agent(i);
@@ -100,7 +104,7 @@ void check_fall(Compilation& c, ActivityId activity, StepId first, BodyId body) 
   }
   if (!missing) return;
   const std::string& name = c.world.bodies[body.index()].name;
-  c.problems.warning(c.step_lines[first.index()], "step " + step.name,
+  c.problems.warning(ErrorCode::conflict, c.step_lines[first.index()], "step " + step.name,
                      fmt::format("the body '{}' falls as this step begins: the agent '{}', which holds it, is off {}",
                                  name, c.world.agents[missing.index()].name, until_when(c.world, activity, missing)),
                      fmt::format("enable '{}' in this step, or hold the body still: movable false in object:{}",
@@ -115,11 +119,63 @@ void check_falls(Compilation& c) {
   }
 }
 
+/// Whether a push sends a body out of the exhibit: it has no weight, and its damping stops it too late.
+bool glides_away(const state::WorldDescription& world, const state::BodyDescription& body) {
+  constexpr double kPush_m_per_s = 0.5, kRoom_m = 5;
+  if (has_weight(world, body)) return false;
+  // Damping leaves v (1 - damping)^t, so the way to rest is v / -ln(1 - damping).
+  const double slowing_per_s = -std::log1p(-body.linear_damping);
+  return kPush_m_per_s > kRoom_m * slowing_per_s;
+}
+
+/// Whether a body begins the step within reach of its snap, which then takes it at once.
+bool begins_in_place(const state::WorldDescription& world, const StepDescription& step,
+                     const state::ComponentDescription& snap, BodyId id) {
+  const auto pose_of = [&](BodyId body) {
+    const state::BodyOverride* change = body ? override_of(step, body) : nullptr;
+    if (change != nullptr && change->X_WB) return *change->X_WB;
+    return body ? world.bodies[body.index()].X_WB : Pose{};
+  };
+  const std::string* into = snap.written_text("into");
+  const auto* at = snap.written<std::vector<double>>("position");
+  const Vec3 p_IT = at != nullptr ? Vec3(Eigen::Map<const Vec3>(at->data())) : Vec3::Zero();
+  const Vec3 p_WT = pose_of(into != nullptr ? world.find_body(*into) : BodyId::none()) * p_IT;
+  return (p_WT - pose_of(id).p).norm() <= snap.written<std::vector<double>>("tolerance")->front();
+}
+
+/// A body that hands can push away for good, at its own line: the remedy is there.
+void check_drift(Compilation& c, BodyId id) {
+  const state::BodyDescription& body = c.world.bodies[id.index()];
+  if (!c.touchable[id.index()] || !glides_away(c.world, body)) return;
+  const auto is_held = [&](const StepDescription& first) {
+    for (std::size_t i = 0; i < c.world.agents.size(); ++i) {
+      const state::ComponentDescription& agent = c.world.agents[i];
+      const bool on = on_after(first, AgentId(i), on_at_start(c.world, AgentId(i)));
+      if (!on || !holds(c.world, agent, id)) continue;
+      if (agent.type != "geometry.snap" || begins_in_place(c.world, first, agent, id)) return true;
+    }
+    return false;
+  };
+  for (const state::ActivityDescription& activity : c.world.activities) {
+    if (!activity.first) continue;
+    const StepDescription& first = c.world.steps[activity.first.index()];
+    if (!is_loose(c.world, first, id) || is_held(first)) continue;
+    return c.problems.warning(
+        ErrorCode::conflict, c.body_lines[id.index()], "RigidBody " + body.name,
+        fmt::format("the body '{}' drifts away once a hand pushes it: it has no weight and next to no damping, and "
+                    "nothing holds it in step '{}'",
+                    body.name, first.name),
+        fmt::format("write autoDamp='true' linearDampingFactor='0.9' angularDampingFactor='0.9', or hold the body "
+                    "still: movable false in object:{}",
+                    body.name));
+  }
+}
+
 /// Whether an agent may be on when the step begins, before the step switches it.
 bool may_be_on(const state::WorldDescription& world, StepId step, AgentId agent) {
   const StepId first = world.activities[world.steps[step.index()].activity.index()].first;
   std::vector<StepId> on;
-  // Steps in which it is on, from wherever it is switched on.
+  // First the steps that switch it on, or begin with it on; then all during which it stays on.
   for (std::size_t i = 0; i < world.steps.size(); ++i) {
     const bool begins = StepId(i) == first && on_at_start(world, agent);
     if (world.steps[i].activity == world.steps[step.index()].activity && on_after(world.steps[i], agent, begins))
@@ -132,22 +188,48 @@ bool may_be_on(const state::WorldDescription& world, StepId step, AgentId agent)
   });
 }
 
-/// A snap that is switched off lets go of nothing: what it has placed stands still for good.
+/// Whether this step, or any that can follow it, does something.
+bool here_or_later(const state::WorldDescription& world, StepId id,
+                   const std::function<bool(const StepDescription&)>& does) {
+  const StepDescription& step = world.steps[id.index()];
+  return does(step) || std::ranges::any_of(steps_from(world, next_steps(step)),
+                                           [&](StepId later) { return does(world.steps[later.index()]); });
+}
+
+/// A tied snap that is switched off unties nothing. Moving the body to another place parts it, and so does a breakable.
+void check_tied(Compilation& c, StepId id, AgentId snap, BodyId body) {
+  const state::ComponentDescription& agent = c.world.agents[snap.index()];
+  const auto breaks = [&](const state::ComponentDescription& other) {
+    const std::string* target = other.type == "geometry.breakable" ? other.written_text("agent") : nullptr;
+    return target != nullptr && *target == agent.name;
+  };
+  const auto settles = [&](const StepDescription& s) {
+    const state::BodyOverride* change = override_of(s, body);
+    return names(s.enable, snap) || (change != nullptr && (change->X_WB || !change->movable.value_or(true)));
+  };
+  if (std::ranges::any_of(c.world.agents, breaks) || here_or_later(c.world, id, settles)) return;
+  const std::string* into = agent.written_text("into");
+  const std::string& object = c.world.bodies[body.index()].name;
+  c.problems.warning(
+      ErrorCode::conflict, c.step_lines[id.index()], "step " + c.world.steps[id.index()].name,
+      fmt::format("'{}' is switched off, but a body that it has placed stays tied: '{}' cannot be taken from {}",
+                  agent.name, object, into != nullptr ? "'" + *into + "'" : "its place"),
+      fmt::format("leave '{}' on, or part the two: by a geometry.breakable on it, or by a position in object:{}",
+                  agent.name, object));
+}
+
+/// A snap that is switched off does not release the body that it has placed.
 void check_stuck(Compilation& c, StepId id, AgentId snap) {
   const state::ComponentDescription& agent = c.world.agents[snap.index()];
   const std::string* object = agent.written_text("object");
-  const bool* tied = agent.written<bool>("tied");
-  if (agent.type != "geometry.snap" || (tied != nullptr && *tied) || object == nullptr) return;
+  if (agent.type != "geometry.snap" || object == nullptr) return;
   const BodyId body = c.world.find_body(*object);
   if (!body || moved_by_machine(c.world, *object) || !may_be_on(c.world, id, snap)) return;
-  const StepDescription& step = c.world.steps[id.index()];
-  const auto settles = [&](StepId later) {
-    const StepDescription& s = c.world.steps[later.index()];
-    return says_movable(s, body) || names(s.enable, snap);
-  };
-  if (says_movable(step, body) || std::ranges::any_of(steps_from(c.world, next_steps(step)), settles)) return;
+  if (const bool* tied = agent.written<bool>("tied"); tied != nullptr && *tied) return check_tied(c, id, snap, body);
+  const auto settles = [&](const StepDescription& s) { return says_movable(s, body) || names(s.enable, snap); };
+  if (here_or_later(c.world, id, settles)) return;
   c.problems.warning(
-      c.step_lines[id.index()], "step " + step.name,
+      ErrorCode::conflict, c.step_lines[id.index()], "step " + c.world.steps[id.index()].name,
       fmt::format("'{}' is switched off, but a body that it has placed stays immovable: '{}' cannot be taken or fall",
                   agent.name, *object),
       fmt::format("write movable into object:{} of this step: true frees it, false keeps it there", *object));
@@ -164,6 +246,8 @@ void check_snaps(Compilation& c) {
 
 void lint_bodies(Compilation& c) {
   check_falls(c);
+  for (std::size_t b = 0; b < c.world.bodies.size(); ++b)
+    check_drift(c, BodyId(b));
   check_snaps(c);
 }
 

@@ -13,12 +13,12 @@ Expected<void> find_in(const content::ImportedScene& scene, const std::string& n
   if (content::find_node(scene, node)) return {};
   std::vector<std::string> names;
   for (const content::ImportedNode& other : scene.nodes) {
-    // What a body is made of is not a body, and some exporters leave nodes without a name.
+    // Parts of a body are not bodies, and some exporters leave nodes without a name.
     const bool piece = other.name.starts_with("part_") || other.name.starts_with("visual_");
     if (!other.name.empty() && !piece) names.push_back(other.name);
   }
-  return fail("the mesh file has no node of that name", "node " + node,
-              suggest(node, names, "name the object so in the model, and export it again"));
+  return fail(ErrorCode::unknown_name, "the mesh file has no node of that name", "node " + node,
+              suggest(node, names, "give the object that name in the model, and export it again"));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
-// The tables of metadata keys, from the inside out: a table stands before those that hold it.
+// The tables of metadata keys, from the inside out: each table comes before those that refer to it.
 #include "server/scenario/schema.hpp"
 
 #include <algorithm>
 #include <array>
 
+#include "server/base/assert.hpp"
+#include "server/state/component_type.hpp"
 #include "server/state/description.hpp"
 
 namespace mechane::scenario {
@@ -35,8 +37,8 @@ constexpr Key kOverrideKeys[] = {
      .unit = "m",
      .summary = "put it there when the step begins, in W",
      .example = "0 0.8 0.75",
-     .min = -kFarthest_m,
-     .max = kFarthest_m},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "orientation",
      .kind = rotation,
      .unit = "rad",
@@ -130,7 +132,7 @@ constexpr Key kStepKeys[] = {
     {.name = "timeoutSeconds",
      .kind = number,
      .unit = "s",
-     .summary = "the step is left after so long, whatever happens; 0: never",
+     .summary = "the step ends after this time, whatever happens; 0: never",
      .example = "60",
      .min = 0,
      .max = 3600},
@@ -145,9 +147,9 @@ constexpr Key kStepKeys[] = {
      .names = Names::view},
     {.name = "opens",
      .summary =
-         "the id of the scenario that the visitors go on to as this step begins. Where the server has none of that id "
-         "they stay, and the step is as any other: give it a timeoutSeconds that leads back. Not for an activity's "
-         "first step",
+         "the id of the scenario that the visitors go on to as this step begins. If the server does not have this "
+         "scenario, they stay, and this is an ordinary step: give it a timeoutSeconds that leads back. Not for an "
+         "activity's first step",
      .example = "\"archimedes-screw\""},
     {.name = "hintSeconds",
      .kind = number,
@@ -193,7 +195,7 @@ constexpr Key kActivityKeys[] = {
      .names = Names::step},
     {.name = "text",
      .kind = set,
-     .summary = "title.LANGUAGE; goal.LANGUAGE: what a visitor shall learn",
+     .summary = "title.LANGUAGE; goal.LANGUAGE: what a visitor should learn",
      .inner = &kText},
     {.name = "steps",
      .kind = set,
@@ -221,15 +223,15 @@ constexpr Key kMoveKeys[] = {
      .unit = "m",
      .summary = "reach: the grip's centre in the body's frame",
      .example = "0.25 0 1.36",
-     .min = -kFarthest_m,
-     .max = kFarthest_m},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "position",
      .kind = vector,
      .unit = "m",
      .summary = "move_to: where the body goes, in W",
      .example = "0 0.55 0",
-     .min = -kFarthest_m,
-     .max = kFarthest_m},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "orientation",
      .kind = rotation,
      .unit = "rad",
@@ -272,7 +274,7 @@ constexpr Key kMoveKeys[] = {
     {.name = "seconds",
      .kind = number,
      .unit = "s",
-     .summary = "how long, but for turn and swing",
+     .summary = "how long it lasts; not for turn and swing",
      .example = "1.5",
      .default_number = 1,
      .min = 0,
@@ -304,7 +306,7 @@ constexpr Key kEffectKeys[] = {
      .choices = state::effect_kinds()},
     {.name = "quantity",
      .summary =
-         "what drives it: l/s or l/min for stream and jet, a height in m for level, else any number; a flow: none",
+         "what drives it: l/s or l/min for stream and jet, a height in m for level, else any number; not for a flow",
      .example = "\"flow\"",
      .required = true,
      .unless = "node",
@@ -316,8 +318,8 @@ constexpr Key kEffectKeys[] = {
      .unit = "m",
      .summary = "where, in the body's frame",
      .example = "0 0.2 1.4",
-     .min = -kFarthest_m,
-     .max = kFarthest_m},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "direction",
      .kind = vector,
      .summary = "which way, in the body's frame, of a flow in W; none: 0 1 0",
@@ -342,7 +344,7 @@ constexpr Key kEffectKeys[] = {
     {.name = "speed",
      .kind = number,
      .unit = "m/s",
-     .summary = "how fast water or steam leaves, or a river flows; of a jet of water the flow says so",
+     .summary = "how fast water or steam leaves, or a river flows; not for a jet of water, whose flow says it",
      .example = "0.6",
      .default_number = 0.5,
      .min = 0,
@@ -477,6 +479,12 @@ constexpr std::array<const Table*, 14> kTables{&kScenario, &kQuantity, &kActivit
 const Key* Table::find(std::string_view wanted) const {
   const auto it = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return matches(key.name, wanted); });
   return it == keys.end() ? nullptr : &*it;
+}
+
+const Key& Table::key(std::string_view wanted, ValueKind kind) const {
+  const Key* found = find(wanted);
+  MECHANE_ASSERT(found != nullptr && found->kind == kind);
+  return *found;
 }
 
 const Table& scenario_table() {

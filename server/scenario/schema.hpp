@@ -1,5 +1,5 @@
-// Every key that a scenario may hold, in tables: keys of its metadata, and those fields of X3D's nodes that Mechane reads. The reader
-// takes types, ranges and defaults from here, the checker its remedies, the merge what refers to what, the reference page its text.
+// Tables of every key that a scenario may hold: keys of its metadata, and the fields of X3D's nodes that Mechane reads. They give the
+// reader types, ranges and defaults, the checker its remedies, the merge the references between names, the reference page its text.
 #pragma once
 
 #include <limits>
@@ -29,13 +29,11 @@ enum class Names { nothing, body, joint, agent, quantity, step, activity, model,
 
 struct Table;
 
-/// How far from the origin anything may be: a slip of a digit is found, and sums of squares stay finite.
-inline constexpr double kFarthest_m = 1e4;
-/// Of the numbers of a direction, and of an angle in radians.
+/// The limit of a direction's numbers, and of an angle in radians.
 inline constexpr double kLargest = 1e6;
 
 struct Key {
-  std::string_view name;  ///< "trigger:*" stands for every name with that beginning, "*" for any name
+  std::string_view name;  ///< "trigger:*" is every name with that beginning, "*" any name
   ValueKind kind = ValueKind::string;
   std::string_view unit = {};
   std::string_view summary = {};
@@ -47,9 +45,9 @@ struct Key {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   std::string_view choices = {};  ///< of a string: the words allowed, separated by blanks; empty: any
-  Names names = Names::nothing;   ///< what the strings name; of a set "object:*": what stands for the star
-  const Table* inner = nullptr;   ///< of a set: its own table, or, where its names are free, that of each set in it
-  bool free_names = false;        ///< of a set: what it holds is named as the author likes
+  Names names = Names::nothing;   ///< what the strings name; of a set "object:*": what the star names
+  const Table* inner = nullptr;   ///< of a set: its own table; with free names, the table of each set in it
+  bool free_names = false;        ///< of a set: the author chooses the names in it
 };
 
 struct Table {
@@ -57,8 +55,10 @@ struct Table {
   std::string_view summary;
   std::span<const Key> keys;
 
-  /// Null where no key of that name may be.
+  /// The key of that name; null where the table has none.
   [[nodiscard]] const Key* find(std::string_view name) const;
+  /// The key of that name. That it is missing, or of another kind, is our own bug.
+  const Key& key(std::string_view name, ValueKind kind) const;
 };
 
 inline constexpr int kFormatVersion = 1;
@@ -79,22 +79,22 @@ inline constexpr int kFormatVersion = 1;
 [[nodiscard]] const Table& body_table();    ///< `mechane:body` on a RigidBody
 [[nodiscard]] std::span<const Table* const> all_tables();
 
-/// The nodes of X3D that Mechane reads, each with the fields that it reads: types and defaults are X3D's own (x3d_schema.hpp).
+/// The nodes of X3D that Mechane reads, each with the fields that it reads: types and defaults are X3D's own (x3d/schema.hpp).
 [[nodiscard]] std::span<const Table> node_tables();
-/// Null where Mechane reads nothing of such nodes.
+/// The table of a node type; null where Mechane does not read such nodes.
 [[nodiscard]] const Table* find_node_table(std::string_view node_type);
 
-/// Words that are separated by single blanks, as a Key's choices are.
+/// Splits words that are separated by single blanks, like a Key's choices.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view list);
 /// Whether a word is one of a Key's choices.
 [[nodiscard]] bool one_of(std::string_view word, std::string_view choices);
-/// Whether a key's name is of a pattern: "trigger:1" of "trigger:*".
+/// Whether a name matches a key's pattern: "trigger:1" matches "trigger:*".
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
-/// What is wrong with numbers or a string that a key holds, against its range and choices; nothing where they are right.
+/// What is wrong with a key's numbers or string by its range and choices; none where they are right.
 [[nodiscard]] std::optional<x3d::BadValue> range_fault(const Key& key, std::span<const double> numbers,
                                                        const std::string* text);
 
-/// The unit, the range and the choices of a key in words: "s, 0 to 3600". For remedies and tables; may be empty.
+/// A key's unit, range and choices in words: "s, 0 to 3600". For remedies and tables; may be empty.
 [[nodiscard]] std::string limits_of(const Key& key);
 /// What to write for a kind of value, by its metadata node: "MetadataDouble with 3 numbers".
 [[nodiscard]] std::string_view kind_in_words(ValueKind kind);

@@ -1,8 +1,9 @@
-// The nodes of X3D that Mechane reads, and the fields that it reads of them.
+// The nodes of X3D that Mechane reads, with the fields that it reads.
 #include <algorithm>
 #include <iterator>
 
 #include "server/scenario/schema.hpp"
+#include "server/state/component_type.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -15,8 +16,8 @@ constexpr Key kPosition{.name = "position",
                         .unit = "m",
                         .summary = "where its origin is at the start, in the world",
                         .example = "0 0.55 0",
-                        .min = -kFarthest_m,
-                        .max = kFarthest_m};
+                        .min = -state::kFarthest_m,
+                        .max = state::kFarthest_m};
 constexpr Key kOrientation{.name = "orientation",
                            .kind = rotation,
                            .unit = "rad",
@@ -29,8 +30,8 @@ constexpr Key kAnchor{.name = "anchorPoint",
                       .unit = "m",
                       .summary = "a point of the joint, in the world as it stands at the start",
                       .example = "0 0.55 0",
-                      .min = -kFarthest_m,
-                      .max = kFarthest_m};
+                      .min = -state::kFarthest_m,
+                      .max = state::kFarthest_m};
 constexpr Key kAxis{.name = "axis",
                     .kind = vector,
                     .summary = "its direction, in the world as it stands at the start; any length but 0",
@@ -103,8 +104,8 @@ constexpr Key kRigidBody[] = {
     {.name = "inertia",
      .kind = matrix,
      .unit = "kg m2",
-     .summary = "about the centre of mass, row by row; left out: computed from a closed mesh and the mass, as of a "
-                "uniform solid",
+     .summary = "about the centre of mass, row by row; left out: computed from the mass and the mesh, as of a "
+                "uniform solid, or of a thin shell where the mesh is open; without a mesh 1 about every axis",
      .example = "20.4 0 0 0 20.3 0 0 0 0.35",
      .min = -1e12,
      .max = 1e12},
@@ -113,8 +114,8 @@ constexpr Key kRigidBody[] = {
      .unit = "m",
      .summary = "from its origin, in its own frame",
      .example = "0 0 0.1",
-     .min = -kFarthest_m,
-     .max = kFarthest_m},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     kPosition,
     kOrientation,
     {.name = "useGlobalGravity", .kind = boolean, .summary = "false: it floats, as if balanced"},
@@ -152,15 +153,15 @@ constexpr Key kSlider[] = {
      .unit = "m",
      .summary = "how far it slides back",
      .example = "0",
-     .min = -kFarthest_m,
-     .max = kFarthest_m},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
     {.name = "maxSeparation",
      .kind = number,
      .unit = "m",
      .summary = "how far it slides",
      .example = "0.4",
-     .min = -kFarthest_m,
-     .max = kFarthest_m},
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
 };
 constexpr Key kBall[] = {kDef, kAnchor};
 

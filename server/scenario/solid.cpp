@@ -5,26 +5,40 @@
 namespace mechane::scenario {
 namespace {
 
-/// Integrals over a solid, about a point near it, where no digits are lost.
+/// Integrals over a solid or its skin, about a point near it, so that no digits are lost.
 struct Integrals {
-  double volume = 0;
+  double size = 0;  ///< m^3; of a skin m^2
   Vec3 first = Vec3::Zero();
   Mat3 second = Mat3::Zero();  ///< of x x^T
 };
 
-/// By signed tetrahedra from the reference point to each triangle.
-Integrals integrals_of(const geometry::Mesh& mesh, const Vec3& about) {
+/// By signed tetrahedra from the reference point to each triangle; of a skin, by the triangles. The moments of a simplex of n corners
+/// have its size over n and over n (n + 1).
+Integrals integrals_of(const geometry::Mesh& mesh, const Vec3& about, bool skin) {
+  const Vec3 divisors = skin ? Vec3(2, 6, 24) : Vec3(6, 24, 120);
   Integrals sum;
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.vertices[t[0]] - about, b = mesh.vertices[t[1]] - about, c = mesh.vertices[t[2]] - about;
-    const double six_volumes = a.dot(b.cross(c));
+    const double product = skin ? (b - a).cross(c - a).norm() : a.dot(b.cross(c));  // two areas, or six volumes
     const Vec3 corners = a + b + c;
-    sum.volume += six_volumes / 6;
-    sum.first += six_volumes / 24 * corners;
-    sum.second +=
-        six_volumes / 120 * (corners * corners.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+    sum.size += product / divisors[0];
+    sum.first += product / divisors[1] * corners;
+    sum.second += product / divisors[2] *
+                  (corners * corners.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
   }
   return sum;
+}
+
+Integrals integrals_of(std::span<const geometry::NamedMesh> parts, const Vec3& about, bool skin) {
+  Integrals all;
+  for (const geometry::NamedMesh& part : parts) {
+    const Integrals one = integrals_of(part.mesh, about, skin);
+    const double sign = one.size < 0 ? -1 : 1;  // a part may be inside out
+    all.size += sign * one.size;
+    all.first += sign * one.first;
+    all.second += sign * one.second;
+  }
+  return all;
 }
 
 }  // namespace
@@ -39,18 +53,12 @@ Solid solid_of(std::span<const geometry::NamedMesh> parts) {
   if (box.isEmpty()) return solid;
   solid.box_m3 = box.volume();
   const Vec3 about = box.center();
-  Integrals all;
-  for (const geometry::NamedMesh& part : parts) {
-    const Integrals one = integrals_of(part.mesh, about);
-    const double sign = one.volume < 0 ? -1 : 1;  // a part may be inside out
-    all.volume += sign * one.volume;
-    all.first += sign * one.first;
-    all.second += sign * one.second;
-  }
-  solid.volume_m3 = all.volume;
-  if (!solid.is_closed()) return solid;
-  const Vec3 middle = all.first / all.volume;
-  const Mat3 spread = all.second / all.volume - middle * middle.transpose();
+  Integrals all = integrals_of(parts, about, false);
+  solid.volume_m3 = all.size;
+  if (!solid.is_closed()) all = integrals_of(parts, about, true);
+  if (all.size <= 0) return solid;
+  const Vec3 middle = all.first / all.size;
+  const Mat3 spread = all.second / all.size - middle * middle.transpose();
   solid.p_OC = about + middle;
   solid.inertia_per_kg_m2 = spread.trace() * Mat3::Identity() - spread;
   return solid;

@@ -11,7 +11,7 @@ BodyId body_of(const WorldDescription& description, const ComponentDescription& 
   return texts == nullptr || texts->empty() ? BodyId{} : description.find_body(texts->front());
 }
 
-/// As many as were asked for; zeros where the author wrote none.
+/// The first `count` numbers of a parameter; zeros where the author wrote fewer.
 std::vector<double> numbers_of(const ComponentDescription& component, const char* name, std::size_t count) {
   std::vector<double> out(count, 0.0);
   const auto* written = component.written<std::vector<double>>(name);
@@ -58,7 +58,7 @@ void add_fire(const WorldDescription& description, AgentId agent, std::vector<Af
   if (!flame || !hearth) return;
   const Pose at{point_of(lit, "at"), Quat::Identity()};
   const Pose burns{point_of(lit, "flamePoint"), Quat::Identity()};
-  // A torch is brought to the fire as well as fire to the hearth.
+  // The flame is brought to the hearth; but where the flame's body is fixed, the torch is brought to the flame.
   const bool comes = description.bodies[flame.index()].fixed;
   out.push_back(comes ? Affordance{Affordance::Kind::brought, agent, hearth, flame, burns, at}
                       : Affordance{Affordance::Kind::brought, agent, flame, hearth, at, burns});

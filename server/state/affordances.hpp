@@ -20,12 +20,12 @@ struct Affordance {
   Pose X_BJ;
 };
 
-/// More are left out: a scene of thousands of loose things, all of which are taken the same way.
+/// Further ones are left out. Only a scene of thousands of loose things has more, and all of those are taken the same way.
 inline constexpr std::size_t kMaxAffordances = 4096;
 
 /// From the joints (turns, slides: the second body against the first) and from the agents of the types simulation.grasp (taken),
-/// geometry.snap (placed) and simulation.lit (brought). Reads their parameters as a checked scenario has them; what names no body of
-/// the world is left out.
+/// geometry.snap (placed) and simulation.lit (brought). Reads their parameters as a checked scenario has them, and leaves out names
+/// that the world does not have.
 [[nodiscard]] std::vector<Affordance> affordances_of(const WorldDescription& description);
 
 }  // namespace mechane::state

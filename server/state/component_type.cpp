@@ -44,28 +44,31 @@ std::string names_of_items(const Items& items) {
   std::string list;
   for (const auto& item : items)
     list += (list.empty() ? "" : ", ") + item.name;
-  return list.empty() ? "(there is none)" : list;
+  return list;
 }
 
-Expected<void> check_numbers(const ParameterType& type, const std::vector<double>& values, const std::string& where) {
+Expected<void> check_numbers(const ParameterType& type, const std::vector<double>& values, const Place& where) {
   const std::size_t wanted = type.kind == ParameterKind::number ? 1 : type.count;
   if (wanted != 0 && values.size() != wanted)
-    return fail(fmt::format("{} has {} numbers", type.name, values.size()), where, fmt::format("write {}", wanted));
+    return fail(ErrorCode::invalid_value, fmt::format("{} has {} numbers", type.name, values.size()), where,
+                fmt::format("write {}", wanted));
   for (const double value : values) {
     if (!std::isfinite(value))
-      return fail(fmt::format("{} is not a finite number", type.name), where, "write a number");
+      return fail(ErrorCode::invalid_value, fmt::format("{} is not a finite number", type.name), where,
+                  "write a number");
     if (value < type.min || value > type.max)
-      return fail(fmt::format("{} is {} {}", type.name, value, type.unit), where,
+      return fail(ErrorCode::invalid_value, fmt::format("{} is {} {}", type.name, value, type.unit), where,
                   fmt::format("write a value from {} to {}", type.min, type.max));
   }
   return {};
 }
 
-Expected<void> check_reference(const ParameterType& type, const std::string& text, const std::string& where,
+Expected<void> check_reference(const ParameterType& type, const std::string& text, const Place& where,
                                const WorldDescription& world) {
   const auto unknown = [&](std::string_view kind, const std::string& known) {
-    return fail(fmt::format("{} names the {} '{}', which is not in this world", type.name, kind, text), where,
-                fmt::format("name one of: {}", known));
+    return fail(ErrorCode::unknown_name,
+                fmt::format("{} names the {} '{}', which is not in this world", type.name, kind, text), where,
+                known.empty() ? fmt::format("this world has no {}: add one", kind) : "name one of: " + known);
   };
   switch (type.reference) {
     case Reference::none:
@@ -92,10 +95,10 @@ Expected<void> check_reference(const ParameterType& type, const std::string& tex
   return {};
 }
 
-Expected<void> check_value(const ParameterType& type, const Parameter& value, const std::string& where,
+Expected<void> check_value(const ParameterType& type, const Parameter& value, const Place& where,
                            const WorldDescription& world) {
   const auto wrong_kind = [&] {
-    return fail(fmt::format("{} is of the wrong kind", type.name), where,
+    return fail(ErrorCode::invalid_value, fmt::format("{} is of the wrong kind", type.name), where,
                 fmt::format("write {}", kind_name(type.kind)));
   };
   switch (type.kind) {
@@ -113,7 +116,7 @@ Expected<void> check_value(const ParameterType& type, const Parameter& value, co
   if (!std::holds_alternative<std::vector<std::string>>(value)) return wrong_kind();
   const auto& texts = std::get<std::vector<std::string>>(value);
   if (type.kind == ParameterKind::text && texts.size() != 1)
-    return fail(fmt::format("{} has {} texts", type.name, texts.size()), where, "write one");
+    return fail(ErrorCode::invalid_value, fmt::format("{} has {} texts", type.name, texts.size()), where, "write one");
   for (const std::string& text : texts) {
     if (auto good = check_reference(type, text, where, world); !good) return good;
   }
@@ -122,23 +125,29 @@ Expected<void> check_value(const ParameterType& type, const Parameter& value, co
 
 }  // namespace
 
-std::string component_place(const ComponentDescription& component) {
-  return fmt::format("line {}, {} {}", component.line, component.type, component.name);
+Place parameter_place(const ComponentDescription& component, std::string_view parameter) {
+  const auto written = component.parameter_lines.find(std::string(parameter));
+  const int line = written == component.parameter_lines.end() ? component.line : written->second;
+  return {fmt::format("line {}, {} {}", line, component.type, component.name), line};
 }
 
 Expected<Parameters> Parameters::check(const ComponentType& type, const ComponentDescription& component,
                                        const WorldDescription& description) {
-  const std::string where = component_place(component);
   for (const auto& [name, value] : component.parameters) {
+    const Place where = parameter_place(component, name);
     const ParameterType* known = find_type(type, name);
+    if (known == nullptr && type.parameters.empty())
+      return fail(ErrorCode::unknown_name, fmt::format("{} takes no parameters, but '{}' is given", type.name, name),
+                  where, "remove it");
     if (known == nullptr)
-      return fail(fmt::format("{} has no parameter '{}'", type.name, name), where,
+      return fail(ErrorCode::unknown_name, fmt::format("{} has no parameter '{}'", type.name, name), where,
                   fmt::format("use one of: {}", names_of(type)));
     if (auto good = check_value(*known, value, where, description); !good) return tl::unexpected(good.error());
   }
   for (const ParameterType& p : type.parameters) {
     if (p.required && !component.parameters.contains(std::string(p.name)))
-      return fail(fmt::format("the parameter '{}' is missing", p.name), where,
+      return fail(ErrorCode::missing, fmt::format("the parameter '{}' is missing", p.name),
+                  parameter_place(component, p.name),
                   fmt::format("add it: {}{}{}", p.summary, p.unit.empty() ? "" : ", in ", p.unit));
   }
   Parameters out;

@@ -65,6 +65,35 @@ struct ValueType {
   return {name, unit, summary, 0, std::numeric_limits<double>::infinity(), max_parameter};
 }
 
+/// The limit of a place, along each axis: it finds misplaced digits, and keeps sums of squares finite.
+inline constexpr double kFarthest_m = 1e4;
+
+/// A parameter of three numbers: a point of a frame, in m.
+[[nodiscard]] constexpr ParameterType point(std::string_view name, std::string_view summary, bool required = false) {
+  return {.name = name,
+          .kind = ParameterKind::numbers,
+          .unit = "m",
+          .summary = summary,
+          .required = required,
+          .min = -kFarthest_m,
+          .max = kFarthest_m,
+          .count = 3};
+}
+
+/// A parameter of three numbers: a vector whose length does not matter.
+[[nodiscard]] constexpr ParameterType direction(std::string_view name, std::string_view summary,
+                                                bool required = false) {
+  ParameterType type = point(name, summary, required);
+  type.unit = {};
+  return type;
+}
+
+/// A parameter of one number: a position of a joint, in m, or in rad of a hinge.
+[[nodiscard]] constexpr ParameterType joint_position(std::string_view name, std::string_view unit,
+                                                     std::string_view summary) {
+  return {.name = name, .unit = unit, .summary = summary, .min = -kFarthest_m, .max = kFarthest_m};
+}
+
 struct ComponentType {
   std::string_view name;  ///< "geometry.hinge"
   std::string_view summary;
@@ -82,21 +111,12 @@ template <class Kinds>
   return types;
 }
 
-/// The kind of that name; null where no type has it.
-template <class Kinds>
-[[nodiscard]] auto find_kind_in(const Kinds& kinds, std::string_view type) -> typename Kinds::value_type {
-  for (const auto* kind : kinds) {
-    if (kind->type.name == type) return kind;
-  }
-  return nullptr;
-}
-
 /// The parameters of one component, already held against its type. Any thread; immutable.
 class Parameters {
  public:
-  /// Errors name the component, its line, what is wrong and what to write: an unknown or a missing name, the wrong kind or count, a
-  /// number that is not finite or out of range, and a text that names no such body, joint, agent or activity. The returned object
-  /// points into its arguments.
+  /// Errors name the component, the parameter's line, what is wrong and what to write: unknown_name (a parameter that the type does
+  /// not have, a text that names no such body, joint, agent or activity), missing (a required parameter), invalid_value (the wrong
+  /// kind or count, a number that is not finite or out of range). The returned object points into its arguments.
   [[nodiscard]] static Expected<Parameters> check(const ComponentType& type, const ComponentDescription& component,
                                                   const WorldDescription& description);
 
@@ -119,7 +139,8 @@ class Parameters {
   const WorldDescription* description_ = nullptr;
 };
 
-/// Where a component was written, for the `where` of an Error: "line 41, geometry.hinge HINGE".
-[[nodiscard]] std::string component_place(const ComponentDescription& component);
+/// Where a parameter of a component was written, for an Error: "line 43, geometry.hinge HINGE". The component's own line if the
+/// parameter is not written, or empty.
+[[nodiscard]] Place parameter_place(const ComponentDescription& component, std::string_view parameter);
 
 }  // namespace mechane::state

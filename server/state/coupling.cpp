@@ -34,7 +34,7 @@ double signed_angle(const Vec3& from, const Vec3& to, const Vec3& axis) {
   return std::atan2(axis.dot(from.cross(to)), from.dot(to));
 }
 
-/// A rope that has just come off a sheave counts as a little less than nothing, not as a whole turn.
+/// How far the rope goes round, -pi/2 to 3 pi/2: one that has just come off the sheave has a small negative angle, not a whole turn.
 double wrap_of(const Sheave& sheave, const Vec3& p_in, const Vec3& p_out) {
   const double angle = sheave.sense * signed_angle(p_in - sheave.p_WC, p_out - sheave.p_WC, sheave.axis_W);
   return angle < -0.5 * kPi ? angle + 2 * kPi : angle;

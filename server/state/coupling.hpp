@@ -1,5 +1,5 @@
-// What ties joints and bodies beyond the joints themselves: gears, ratchets, ropes. Plain data: an agent sets it, dynamics fulfils
-// it and writes what it bears.
+// What ties joints and bodies beyond the joints themselves: gears, ratchets, ropes. Plain data: an agent sets it, dynamics solve it
+// and write back the forces on it.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ enum class CouplingKind : std::uint8_t {
   intermittent,  ///< joint2 goes one `step` while joint1 passes its window, once a turn: F(q1) - q2 = offset
   stop,          ///< joint1 does not go back beyond `offset`: sign * (q1 - offset) >= 0
   rope,          ///< the way over the nodes is at most `offset` long
-  watch,         ///< ties nothing: says what joint1 bears
+  watch,         ///< ties nothing: measures what joint1 bears
 };
 
 /// Where a rope is fastened, or a sheave that it runs over.
@@ -34,7 +34,7 @@ struct RopeNode {
 struct Coupling {
   // What it is; set when the world is made.
   CouplingKind kind = CouplingKind::watch;
-  BodyId body1;  ///< fixed: none is the world. rope with a drum: the body that bears the drum
+  BodyId body1;  ///< fixed: without one, the world. rope with a drum: the body that bears the drum
   BodyId body2;
   JointId joint1;
   JointId joint2;

@@ -52,10 +52,10 @@ struct BodyDescription {
   bool collides = false;  ///< with other bodies that do; see dynamics::DynamicsWorld for those that never meet
   double restitution =
       0;        ///< share of the approach speed that a collision gives back, 0 to 1; of a pair: the geometric mean
-  Texts title;  ///< what visitors call it; empty: `name` is not for them
+  Texts title;  ///< what visitors call it; empty: it has no title (`name` is not meant for them)
 };
 
-/// Two bodies that never collide, for one is made to sit in the other, closer than distance maps are exact.
+/// Two bodies that never collide, because one is made to fit into the other, more closely than distance maps are exact.
 struct Mates {
   BodyId body1;
   BodyId body2;
@@ -85,6 +85,7 @@ struct ComponentDescription {
   std::string type;  ///< "geometry.hinge", "simulation.grasp", "machine.screw_pump" ...
   std::map<std::string, Parameter> parameters;
   int line = 0;
+  std::map<std::string, int> parameter_lines = {};  ///< of each written parameter; empty where no file was read
 
   /// A parameter as it was written, before it is checked against the type; null where it is not there, or of another type than T.
   template <class T>
@@ -163,7 +164,7 @@ struct QuestionDescription {
   Kind kind = Kind::choice;
   Texts question;
   std::vector<Answer> answers;  ///< choice: in the order shown
-  std::string correct;          ///< choice: the right answer's name; empty: there is none
+  std::string correct;          ///< choice: the right answer's name; empty: no answer is right or wrong
   int marks = 5;                ///< scale: how many
   Texts low;                    ///< scale: what its ends mean
   Texts high;
@@ -173,7 +174,7 @@ struct ActivityDescription {
   std::string name;
   StepId first;
   Texts title;
-  Texts goal{};  ///< what a visitor shall learn
+  Texts goal{};  ///< what a visitor is to learn
   std::vector<QuestionDescription> questionnaire{};
 };
 
@@ -206,7 +207,7 @@ struct Viewpoint {
   double field_of_view_rad = kPi / 4;
 };
 
-/// What is seen or heard of a machine's working beside its bodies: water, steam, fire. Physics knows nothing of it; a quantity of
+/// What is seen or heard of a working machine besides its bodies: water, steam, fire. It has no part in the physics; a quantity of
 /// the world drives it, so that it stands still when the world does.
 struct EffectDescription {
   std::string name;

@@ -5,8 +5,9 @@
 
 namespace mechane::state {
 
-inline constexpr std::size_t kMaxContacts = 512;  ///< of one user in one tick; the deepest are kept
-inline constexpr std::size_t kMaxRopeNodes = 12;  ///< of one rope: its two ends and what it runs over
+inline constexpr std::size_t kMaxContacts = 512;   ///< of one user in one tick; the deepest are kept
+inline constexpr std::size_t kMaxRopeNodes = 12;   ///< of one rope: its two ends and what it runs over
+inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
 inline constexpr std::size_t kMaxEventsPerTick = 64;
 inline constexpr std::size_t kMaxCommandsPerTick = 8;
 

@@ -9,15 +9,15 @@ namespace {
 constexpr std::size_t kArcPoints = 9;    // round a sheave
 constexpr std::size_t kSpanPoints = 8;   // within a free part
 constexpr std::size_t kCoilPoints = 60;  // wound on a drum
-constexpr double kMostTurns = 5;         // more lie in layers below, and are not seen
+constexpr double kMostTurns = 5;         // further turns lie in layers below, and are not seen
 
 /// A point on the sheave, turned about its axis from p_W by an angle.
 Vec3 turned(const Vec3& p_W, const Vec3& p_WC, const Vec3& axis_W, double angle_rad) {
   return p_WC + Eigen::AngleAxisd(angle_rad, axis_W) * (p_W - p_WC);
 }
 
-/// From the drum to where the rope leaves it: the turns that it has taken up since the start, side by side along the axis. Those of the
-/// start are the model's.
+/// From the drum to where the rope leaves it: the turns that were wound since the start, side by side along the axis. The turns at the
+/// start are part of the drum's model.
 void add_coil(const Coupling& rope, const Pose& X_WN, const Vec3& p_out_W, std::vector<Vec3>& shape) {
   const RopeNode& drum = rope.nodes[0];
   const double wound_m = rope.offset - rope.length_m;
@@ -26,7 +26,7 @@ void add_coil(const Coupling& rope, const Pose& X_WN, const Vec3& p_out_W, std::
   const Vec3 p_WC = X_WN * drum.p_BC;
   for (std::size_t i = 0; i < kCoilPoints; ++i) {
     const double back = turns * (1 - static_cast<double>(i) / kCoilPoints);
-    // Rope lies about a tenth of its diameter apart.
+    // Between two turns is a gap of about a tenth of the rope's diameter.
     shape.push_back(turned(p_out_W, p_WC, axis_W, -drum.sense * 2 * kPi * back) +
                     -1.1 * rope.diameter_m * back * axis_W);
   }
@@ -64,7 +64,7 @@ std::size_t longest_span(const RopePath& path, std::size_t nodes) {
   return longest;
 }
 
-/// Where the end of a rope hangs that nothing holds there: below the last sheave, as far as its last part reaches.
+/// Where the end of a rope hangs when it is let go: below the last sheave, as far as its last part reaches.
 Vec3 loose_end(const Coupling& rope, const RopePath& path, const Vec3& down_W) {
   const std::size_t last = rope.node_count - 1;
   const double span_m = (path.p_in_W[last] - path.p_out_W[last - 1]).norm();

@@ -85,7 +85,8 @@ bool same_tables(const Header& a, const Header& b) {
          a.memory == b.memory;
 }
 
-/// Ids that later index tables must lie inside them. Steps and activities are the world's to check: it has the description.
+/// Whether the ids lie inside the tables that they index. Those of steps and activities are checked by the world, which has the
+/// description.
 bool ids_in_range(const WorldState& state) {
   for (const UserState& user : state.users) {
     if (user.grasp.active && (!user.grasp.body || user.grasp.body.index() >= state.bodies.size())) return false;
@@ -108,28 +109,31 @@ void write_snapshot(const WorldState& state, std::vector<std::byte>& out, StateV
 }
 
 Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state) {
-  const char* start_anew = "delete it; the world starts from the beginning";
+  const auto refuse = [](ErrorCode code, std::string what) {
+    return fail(code, std::move(what), "snapshot", "delete it; the world then starts from the beginning");
+  };
   Header header{};
-  if (bytes.size() < sizeof header) return fail("the snapshot is cut off in its header", "snapshot", start_anew);
+  if (bytes.size() < sizeof header) return refuse(ErrorCode::damaged, "the snapshot is cut off in its header");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) return fail("not a snapshot", "snapshot", start_anew);
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0)
+    return refuse(ErrorCode::damaged, "this is not a snapshot");
   if (!is_known(header.version)) {
-    return fail(fmt::format("the snapshot is of version {}, this program reads 1 to {}",
-                            static_cast<std::uint32_t>(header.version), static_cast<std::uint32_t>(kStateVersion)),
-                "snapshot", start_anew);
+    return refuse(ErrorCode::wrong_version,
+                  fmt::format("the snapshot has version {}, but this program reads versions 1 to {}",
+                              static_cast<std::uint32_t>(header.version), static_cast<std::uint32_t>(kStateVersion)));
   }
   if (!same_tables(header, header_of(state, header.version))) {
-    return fail("the snapshot is of another scenario, or of an earlier form of this one", "snapshot", start_anew);
+    return refuse(ErrorCode::conflict, "the snapshot is of another scenario, or of an earlier form of this one");
   }
   const auto body = bytes.subspan(sizeof header);
   if (body.size() != header.body_bytes || XXH3_64bits(body.data(), body.size()) != header.checksum) {
-    return fail("the snapshot is damaged", "snapshot", start_anew);
+    return refuse(ErrorCode::damaged, "the snapshot is damaged");
   }
   ReadArchive archive(body);
   WorldState read = state;
   StateWalk<ReadArchive, WorldState>(archive, read, header.version).run();
   if (!archive.complete() || !ids_in_range(read)) {
-    return fail("the snapshot holds impossible values", "snapshot", start_anew);
+    return refuse(ErrorCode::damaged, "the snapshot holds impossible values");
   }
   state = read;
   return {};

@@ -6,7 +6,7 @@
 namespace mechane::state {
 namespace {
 
-/// Takes a beginning off a text; false, and the text as it was, where it begins otherwise.
+/// Removes a beginning from a text. False where the text begins otherwise; it then stays as it was.
 bool take(std::string_view& text, std::string_view beginning) {
   if (!text.starts_with(beginning)) return false;
   text.remove_prefix(beginning.size());
@@ -34,7 +34,7 @@ std::optional<VisitAnswer> parse_visit_answer(std::string_view argument, const W
   const bool after = take(argument, "after:");
   if (!after && !take(argument, "before:")) return std::nullopt;
   out.when = after ? AnswerTime::after : AnswerTime::before;
-  // Names may hold any sign: they are looked for, not cut out.
+  // Names may contain "/" and "=": so try each known name, instead of splitting the text at the signs.
   for (std::size_t a = 0; a < world.activities.size(); ++a) {
     std::string_view rest = argument;
     if (!take(rest, world.activities[a].name) || !take(rest, "/")) continue;

@@ -12,7 +12,7 @@ namespace mechane::state {
 /// When a question is asked, seen from the activity.
 enum class AnswerTime : std::uint8_t { before, after };
 
-/// What a visitor answered, checked against the scenario: indices are into its description. From here on nothing checks it again.
+/// What a visitor answered, checked against the scenario: indices are into its description.
 struct VisitAnswer {
   ActivityId activity;
   std::uint32_t question = 0;  ///< of the activity's questionnaire

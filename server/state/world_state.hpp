@@ -1,5 +1,5 @@
-// All that changes while a world runs. dynamics, haptics, machines and agents never see each other: what one tells another is a
-// field here. Everything is sized when the world is built; a tick only overwrites.
+// All that changes while a world runs. dynamics, haptics, machines and agents do not include each other: what one of them tells
+// another is a field here. Everything is sized when the world is built; a tick only overwrites.
 #pragma once
 
 #include <array>
@@ -34,11 +34,12 @@ struct JointState {
   double velocity = 0;
   double min_position = 0;  ///< min > max: none
   double max_position = -1;
-  double friction = 0;              ///< Coulomb friction, N m or N, as felt (already scaled)
-  double viscous = 0;               ///< N m s/rad or N s/m, as felt
-  double pitch_m_per_rad = 0;       ///< hinge: not 0: a screw, which goes so far along its axis as it turns
-  Vec3 cone_axis_J = Vec3::Zero();  ///< ball: not 0: unit vector, in either joint frame, that stays within the cone
-  double cone_rad = 0;              ///< ball: half the cone's opening
+  double friction = 0;         ///< Coulomb friction, N m or N, as felt (already scaled)
+  double viscous = 0;          ///< N m s/rad or N s/m, as felt
+  double pitch_m_per_rad = 0;  ///< hinge: if not 0, it is a screw, which goes this far along its axis as it turns
+  Vec3 cone_axis_J =
+      Vec3::Zero();     ///< ball: if not 0, a unit vector, in either joint frame, that stays within the cone
+  double cone_rad = 0;  ///< ball: half the cone's opening
   double load = 0;  ///< torque or force along the axis this tick, from machines (signed). Cleared by `step_dynamics`.
   double resistance =
       0;  ///< torque or force this tick, from machines, that only opposes motion (>= 0). Cleared by `step_dynamics`.

@@ -4,18 +4,18 @@
 #include <future>
 #include <utility>
 
-#include <pthread.h>
 #include <sched.h>
 
+#include "server/base/thread_setup.hpp"
 #include "server/realtime/priority.hpp"
 #include "server/transport/kiosk_link.hpp"
 
 namespace mechane::transport {
 namespace {
 
-// Longer than a tick should take; a longer one is waited for asleep.
+// Longer than a tick should take. For the forces of a longer tick the thread sleeps.
 constexpr Duration kLongestSpin = std::chrono::microseconds(200);
-// A pause that is longer may be meant: a pointer sends nothing between two taps.
+// A longer pause may be intended: a pointer sends nothing between two taps.
 constexpr Duration kLongestGap = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -23,7 +23,7 @@ constexpr Duration kLongestGap = std::chrono::milliseconds(100);
 HapticPublisher::HapticPublisher(int fifo_priority, std::optional<int> cpu) {
   std::promise<void> ready;
   thread_ = std::thread([this, fifo_priority, cpu, &ready] {
-    pthread_setname_np(pthread_self(), "haptic-out");
+    set_up_thread("haptic-out");
     if (cpu) (void)realtime::pin_to(*cpu);
     fifo_granted_ = fifo_priority > 0 && realtime::take_fifo(fifo_priority);
     ready.set_value();
@@ -42,16 +42,16 @@ HapticPublisher::~HapticPublisher() {
   thread_.join();
 }
 
-void HapticPublisher::add(const std::shared_ptr<Lane>& lane) {
+void HapticPublisher::add(const std::shared_ptr<HandChannel>& channel) {
   const std::lock_guard lock(mutex_);
-  wanted_.push_back(lane);
+  wanted_.push_back(channel);
   changes_.fetch_add(1, std::memory_order_release);
 }
 
-void HapticPublisher::remove(const std::shared_ptr<Lane>& lane) {
+void HapticPublisher::remove(const std::shared_ptr<HandChannel>& channel) {
   {
     const std::lock_guard lock(mutex_);
-    std::erase(wanted_, lane);
+    std::erase(wanted_, channel);
     changes_.fetch_add(1, std::memory_order_release);
   }
   wakeup_.signal();
@@ -60,7 +60,7 @@ void HapticPublisher::remove(const std::shared_ptr<Lane>& lane) {
 void HapticPublisher::follow_changes() {
   if (changes_.load(std::memory_order_acquire) == changes_seen_) return;
   const std::lock_guard lock(mutex_);
-  lanes_ = wanted_;
+  channels_ = wanted_;
   changes_seen_ = changes_.load(std::memory_order_relaxed);
 }
 
@@ -76,8 +76,8 @@ void HapticPublisher::await_forces() noexcept {
   }
 }
 
-void HapticPublisher::note_age(Lane& lane, Duration age) noexcept {
-  const Duration before = std::exchange(lane.input_age, age);
+void HapticPublisher::note_age(HandChannel& channel, Duration age) noexcept {
+  const Duration before = std::exchange(channel.input_age, age);
   if (age >= before || before <= hand::kHoldFor || before > kLongestGap) return;
   input_gaps_.fetch_add(1, std::memory_order_relaxed);
   std::int64_t longest = longest_gap_ns_.load(std::memory_order_relaxed);
@@ -87,13 +87,13 @@ void HapticPublisher::note_age(Lane& lane, Duration age) noexcept {
 
 bool HapticPublisher::write_all() noexcept {
   bool any = false;
-  for (const auto& lane : lanes_) {
-    const OutgoingForce* force = lane->forces.take();
+  for (const auto& channel : channels_) {
+    const OutgoingForce* force = channel->forces.take();
     if (force == nullptr) continue;
     any = true;
-    note_age(*lane, force->waited);
+    note_age(*channel, force->waited);
     const TimePoint begin = std::chrono::steady_clock::now();
-    if (!lane->link->write(*lane, *force)) failed_.fetch_add(1, std::memory_order_relaxed);
+    if (!channel->link->write(*channel, *force)) failed_.fetch_add(1, std::memory_order_relaxed);
     write_time_.record(std::chrono::steady_clock::now() - begin);
   }
   return any;

@@ -1,4 +1,4 @@
-// HapticPublisher: the thread that writes HapticOutput and nothing else, so that no reliable write ever holds a force back.
+// HapticPublisher: the thread that writes HapticOutput and nothing else, so that no reliable write ever delays a force.
 #pragma once
 
 #include <atomic>
@@ -10,13 +10,13 @@
 
 #include "server/realtime/histogram.hpp"
 #include "server/realtime/wakeup.hpp"
-#include "server/transport/lane.hpp"
+#include "server/transport/hand_channel.hpp"
 
 namespace mechane::transport {
 
-/// Owns one thread, SCHED_FIFO where that is granted. add() and remove() are the main thread's. A loop calls expect_forces() when a
-/// tick begins that answers a hand, and forces_are_ready() when it has filled the lanes: the thread wakes while the tick computes and
-/// spins for its end, which saves every force a wake-up (about 50 us on the machines seen here).
+/// Owns one thread, SCHED_FIFO where that is granted. add() and remove() are for the main thread. A loop calls expect_forces() at the
+/// beginning of a tick with a fresh sample, and forces_are_ready() when the forces are in the channels. The thread wakes while the tick
+/// computes and spins until its end, so that no force waits for a wake-up (about 50 us on our machines).
 class HapticPublisher {
  public:
   HapticPublisher(int fifo_priority, std::optional<int> cpu);
@@ -26,14 +26,14 @@ class HapticPublisher {
 
   void expect_forces() noexcept;
   void forces_are_ready() noexcept { wakeup_.signal(); }
-  void add(const std::shared_ptr<Lane>& lane);
-  void remove(const std::shared_ptr<Lane>& lane);
+  void add(const std::shared_ptr<HandChannel>& channel);
+  void remove(const std::shared_ptr<HandChannel>& channel);
 
   [[nodiscard]] bool fifo_granted() const { return fifo_granted_.load(); }
   [[nodiscard]] const realtime::LatencyHistogram& write_time() const { return write_time_; }
-  /// Times that a hand which was sending paused for longer than its force holds (10 ms) and sent again within 100 ms.
+  /// How often a hand that was sending paused for longer than its force is held (10 ms) and sent again within 100 ms.
   [[nodiscard]] std::uint64_t input_gaps() const { return input_gaps_.load(std::memory_order_relaxed); }
-  /// The longest of them since the last call. One other thread.
+  /// The longest of these pauses since the last call. For one other thread.
   [[nodiscard]] Duration take_longest_gap() { return Duration(longest_gap_ns_.exchange(0, std::memory_order_relaxed)); }
   [[nodiscard]] std::uint64_t writes_failed() const { return failed_.load(std::memory_order_relaxed); }
 
@@ -41,11 +41,11 @@ class HapticPublisher {
   void follow_changes();
   void await_forces() noexcept;
   bool write_all() noexcept;
-  void note_age(Lane& lane, Duration age) noexcept;
+  void note_age(HandChannel& channel, Duration age) noexcept;
 
   realtime::Wakeup wakeup_;
   std::mutex mutex_;  // for wanted_; the thread takes it only when the list has changed
-  std::vector<std::shared_ptr<Lane>> wanted_;
+  std::vector<std::shared_ptr<HandChannel>> wanted_;
   std::atomic<std::uint64_t> changes_{0};
   std::atomic<int> loop_cpu_{-1};  // where the last tick began
   std::atomic<bool> stop_{false};
@@ -54,8 +54,8 @@ class HapticPublisher {
   std::atomic<std::uint64_t> input_gaps_{0};
   std::atomic<std::int64_t> longest_gap_ns_{0};
   realtime::LatencyHistogram write_time_;
-  std::vector<std::shared_ptr<Lane>> lanes_;  // the thread's
-  std::uint64_t changes_seen_ = 0;            // the thread's
+  std::vector<std::shared_ptr<HandChannel>> channels_;  // for the thread only
+  std::uint64_t changes_seen_ = 0;                      // for the thread only
   std::thread thread_;
 };
 

@@ -52,7 +52,7 @@ Expected<std::shared_ptr<KioskLink>> KioskLink::create(const proto::Participant&
   auto writer = proto::Writer<proto::HapticOutput>::create(participant, partition);
   if (!writer) return tl::unexpected<Error>(writer.error());
   link->writer_ = std::move(*writer);
-  KioskLink* const raw = link.get();  // the reader is the link's own, and goes before it
+  KioskLink* const raw = link.get();  // the reader is a member of the link, and ends before it
   auto reader = proto::Reader<proto::HapticInput>::create(
       participant, partition, [raw](proto::ReaderView<proto::HapticInput> view) { raw->take(view); });
   if (!reader) return tl::unexpected<Error>(reader.error());
@@ -60,14 +60,14 @@ Expected<std::shared_ptr<KioskLink>> KioskLink::create(const proto::Participant&
   return link;
 }
 
-void KioskLink::open(const std::shared_ptr<Lane>& lane) {
+void KioskLink::open(const std::shared_ptr<HandChannel>& channel) {
   const std::lock_guard lock(mutex_);
-  hands_[lane->user].lane = lane;
+  hands_[channel->user].channel = channel;
 }
 
-void KioskLink::close(const std::shared_ptr<Lane>& lane) {
+void KioskLink::close(const std::shared_ptr<HandChannel>& channel) {
   const std::lock_guard lock(mutex_);
-  if (hands_[lane->user].lane == lane) hands_[lane->user].lane.reset();
+  if (hands_[channel->user].channel == channel) hands_[channel->user].channel.reset();
 }
 
 void KioskLink::shut() {
@@ -75,7 +75,7 @@ void KioskLink::shut() {
 }
 
 void KioskLink::take(proto::ReaderView<proto::HapticInput> view) noexcept {
-  // The network's receive thread: a hand must not wait there behind a display's drawing.
+  // This is the network's receive thread. At ordinary priority, samples would wait while a display draws.
   realtime::take_fifo_once(fifo_priority_);
   proto::HapticInput wire;
   proto::SampleInfo info;
@@ -91,21 +91,21 @@ Reject KioskLink::accept(const proto::HapticInput& wire, TimePoint now) noexcept
   if (hand.owner.load(std::memory_order_relaxed) != wire.session) return Reject::wrong_session;
   hand.heard_ns.store(now.time_since_epoch().count(), std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
-  if (!hand.lane || hand.lane->session != wire.session) return Reject::none;  // its world is still being made
-  const hand::SampleOrder order = hand.lane->order.offer(wire.session, wire.seq, now);
+  if (!hand.channel || hand.channel->session != wire.session) return Reject::none;  // its world is still being made
+  const hand::SampleOrder order = hand.channel->order.offer(wire.session, wire.seq, now);
   if (order == hand::SampleOrder::older) return Reject::old_sequence;
   if (order == hand::SampleOrder::too_high) return Reject::high_sequence;
   arriving_.arrived = now;
-  hand.lane->inputs.publish(arriving_);
+  hand.channel->inputs.publish(arriving_);
   return Reject::none;
 }
 
-bool KioskLink::write(const Lane& lane, const OutgoingForce& force) noexcept {
+bool KioskLink::write(const HandChannel& channel, const OutgoingForce& force) noexcept {
   proto::set_text(wire_.kiosk, kiosk_);
-  wire_.user = lane.user;
+  wire_.user = channel.user;
   wire_.protocol = proto::kProtocol;
-  wire_.session = lane.session;
-  wire_.seq = hands_[lane.user].next_sequence++;
+  wire_.session = channel.session;
+  wire_.seq = hands_[channel.user].next_sequence++;
   wire_.tick = force.tick;
   wire_.waited_us = to_us(force.waited);
   wire_.epoch = epoch_;

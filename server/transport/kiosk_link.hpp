@@ -1,4 +1,4 @@
-// KioskLink: one kiosk's haptic endpoints. Its listener is the door: it checks each sample and gives it to the hand's lane.
+// KioskLink: one kiosk's haptic endpoints. Its listener checks each sample and puts it into the hand's channel.
 #pragma once
 
 #include <array>
@@ -7,13 +7,13 @@
 #include <mutex>
 #include <string>
 
-#include "server/transport/lane.hpp"
+#include "server/transport/hand_channel.hpp"
 #include "server/transport/validate.hpp"
 #include <mechane/proto/entity.hpp>
 
 namespace mechane::transport {
 
-/// Made and changed by the main thread; the listener runs on a thread of Cyclone's; write() is the haptic publisher's.
+/// Made and changed by the main thread. The listener runs on a thread of Cyclone's. write() is for the haptic publisher's thread.
 class KioskLink {
  public:
   /// `rejects` outlives the link. Errors: DDS out of resources.
@@ -25,26 +25,26 @@ class KioskLink {
 
   // Main thread.
   [[nodiscard]] const std::string& kiosk() const { return kiosk_; }
-  /// Whose samples of this hand count; 0: nobody's.
+  /// The session whose samples of this hand are accepted; 0: none.
   void set_owner(std::uint32_t user, std::uint64_t session) { hands_[user].owner.store(session); }
-  /// When the owner's last good sample came; none since it got the hand: TimePoint{}.
+  /// When the owner's last good sample came. TimePoint{}: none has come since the session got the hand.
   [[nodiscard]] TimePoint heard(std::uint32_t user) const {
     return TimePoint(Duration(hands_[user].heard_ns.load(std::memory_order_relaxed)));
   }
-  void open(const std::shared_ptr<Lane>& lane);
-  void close(const std::shared_ptr<Lane>& lane);
-  /// Ends listening: the reader goes, and with it the last call into lanes.
+  void open(const std::shared_ptr<HandChannel>& channel);
+  void close(const std::shared_ptr<HandChannel>& channel);
+  /// Ends listening: after this call, no sample is put into a channel.
   void shut();
 
-  /// Haptic publisher's thread. False when DDS refused.
-  bool write(const Lane& lane, const OutgoingForce& force) noexcept;
+  /// For the haptic publisher's thread. False when DDS refused.
+  bool write(const HandChannel& channel, const OutgoingForce& force) noexcept;
 
  private:
   struct Hand {
     std::atomic<std::uint64_t> owner{0};
     std::atomic<std::int64_t> heard_ns{0};
-    std::shared_ptr<Lane> lane;       // under mutex_
-    std::uint64_t next_sequence = 1;  // the publisher's: goes on when the hand moves to another world
+    std::shared_ptr<HandChannel> channel;  // under mutex_
+    std::uint64_t next_sequence = 1;       // for the publisher; goes on when the hand moves to another world
   };
 
   KioskLink(std::string kiosk, std::uint64_t epoch, RejectCounters& rejects, int fifo_priority)
@@ -56,10 +56,10 @@ class KioskLink {
   std::uint64_t epoch_;
   RejectCounters& rejects_;
   int fifo_priority_;
-  std::mutex mutex_;  // held by the listener for a copy, by the main thread for a swap of pointers
+  std::mutex mutex_;  // held briefly: by the listener to copy a sample, by the main thread to change a pointer
   std::array<Hand, hand::kMaxUsers> hands_;
-  ArrivedSample arriving_;    // the listener's
-  proto::HapticOutput wire_;  // the publisher's
+  ArrivedSample arriving_;    // for the listener
+  proto::HapticOutput wire_;  // for the publisher
   proto::Writer<proto::HapticOutput> writer_;
   proto::Reader<proto::HapticInput> reader_;  // last: its listener ends first
 };

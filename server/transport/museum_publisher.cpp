@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include <pthread.h>
-
+#include "server/base/thread_setup.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::transport {
@@ -30,7 +29,7 @@ MuseumPublisher::~MuseumPublisher() {
 }
 
 void MuseumPublisher::run() {
-  pthread_setname_np(pthread_self(), "museum-out");
+  set_up_thread("museum-out");
   while (!stop_.load(std::memory_order_acquire)) {
     wakeup_.wait(kLookEvery);
     const std::lock_guard lock(mutex_);

@@ -1,4 +1,4 @@
-// MuseumPublisher: the thread that writes everything but HapticOutput. A reliable write may block it; forces go on.
+// MuseumPublisher: the thread that writes everything but HapticOutput. A reliable write may block it, but does not delay forces.
 #pragma once
 
 #include <atomic>
@@ -15,33 +15,33 @@
 
 namespace mechane::transport {
 
-/// What WorldAssignment says of one kiosk.
+/// The content of a kiosk's WorldAssignment.
 struct Assignment {
   std::uint64_t epoch = 0;  ///< of the kiosk's link
   std::string world;
   std::string trouble;
-  std::string no_room;                          ///< why a program that comes now gets no hand; empty: it may
+  std::string no_room;                          ///< why a program that comes now gets no hand; empty: it may get one
   std::array<Session, hand::kMaxUsers> owners;  ///< id 0: nobody
 };
 
-/// Owns one thread. All functions are the main thread's.
+/// Owns one thread. All functions are for the main thread.
 class MuseumPublisher {
  public:
-  /// `status` holds what never changes: server, incarnation, version, host point at texts that outlive this object.
+  /// `status` has the fields that never change. The texts that they point at outlive this object.
   MuseumPublisher(proto::Writer<proto::ServerStatus> status_writer,
                   proto::Writer<proto::WorldAssignment> assignment_writer, const proto::ServerStatus& status);
   ~MuseumPublisher();
   MuseumPublisher(const MuseumPublisher&) = delete;
   MuseumPublisher& operator=(const MuseumPublisher&) = delete;
 
-  /// From now on its manifest, frames, status and events go out.
+  /// Publishes the world's manifest, frames, status and events from now on.
   void add(std::unique_ptr<WorldEndpoints> writer);
-  /// Returns when the thread does not touch the port any more; the endpoints are gone then.
+  /// Ends this. When it returns, the thread does not use the port any more, and the endpoints are gone.
   void remove(const WorldPort& port);
   void assign(const std::string& kiosk, const Assignment& assignment);
-  /// The kiosk is gone.
+  /// To be called when the kiosk is gone.
   void forget(const std::string& kiosk);
-  /// Health; the fields that never change stay.
+  /// The server's status from now on.
   void set_status(const proto::ServerStatus& status, const std::string& overload);
   [[nodiscard]] std::uint64_t writes_failed() const { return failed_.load(std::memory_order_relaxed); }
 
@@ -54,7 +54,7 @@ class MuseumPublisher {
     Assignment assignment;
     bool gone = false;
   };
-  std::mutex mutex_;  // for what follows, up to the thread's own
+  std::mutex mutex_;  // guards the members from here to overload_
   std::vector<std::unique_ptr<WorldEndpoints>> worlds_;
   std::map<std::string, Pending> pending_;
   proto::ServerStatus status_;

@@ -1,4 +1,4 @@
-// State in words: what events and status say on the wire.
+// Names of events and of what they are about, for the wire.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ struct EventNames {
   std::string object;
 };
 
-/// "kiosk-1/0", or "user 2" where nobody is known in that slot.
+/// "kiosk-1/0", or "user 2" where the slot has no session.
 [[nodiscard]] std::string user_name(const std::array<HandSnapshot, hand::kMaxUsers>& hands, std::uint32_t slot);
 
-/// Indices that point at nothing give empty names.
+/// An index out of range gives an empty name.
 [[nodiscard]] EventNames names_of(const state::WorldDescription& world, const state::Event& event,
                                   const std::array<HandSnapshot, hand::kMaxUsers>& hands);
 

@@ -1,10 +1,19 @@
 #include "server/transport/presentation.hpp"
 
 #include "server/state/affordances.hpp"
+#include "server/state/limits.hpp"
 #include "server/transport/wire_texts.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::transport {
+
+static_assert(mechane_kMaxPresented == state::kMaxPresented);
+static_assert(mechane_kMaxAffordances == state::kMaxAffordances);
+static_assert(mechane_affordance_taken == static_cast<int>(state::Affordance::Kind::taken));
+static_assert(mechane_affordance_turns == static_cast<int>(state::Affordance::Kind::turns));
+static_assert(mechane_affordance_slides == static_cast<int>(state::Affordance::Kind::slides));
+static_assert(mechane_affordance_placed == static_cast<int>(state::Affordance::Kind::placed));
+static_assert(mechane_affordance_brought == static_cast<int>(state::Affordance::Kind::brought));
 
 template <class Sequence>
 void Presentation::set_texts(Sequence& sequence, const state::Texts& texts) {
@@ -16,7 +25,7 @@ Presentation::Presentation(const std::string& world, const state::WorldDescripti
   add_activities(description);
   add_views(description);
   add_effects(description);
-  add_ways(description);
+  add_affordances(description);
   proto::set_text(wire_.world, world);
   wire_.protocol = proto::kProtocol;
   wire_.seq = 1;
@@ -50,7 +59,8 @@ proto::WireQuestion Presentation::question_of(const state::QuestionDescription& 
   }
   proto::WireQuestion wire{};
   wire.name = proto::look_into(question.name);
-  wire.kind = question.kind == state::QuestionDescription::Kind::scale ? 1 : 0;
+  wire.kind =
+      question.kind == state::QuestionDescription::Kind::scale ? mechane_question_scale : mechane_question_choice;
   wire.marks = static_cast<std::uint32_t>(question.marks);
   set_texts(wire.text, question.question);
   set_texts(wire.low, question.low);
@@ -84,7 +94,7 @@ void Presentation::add_effects(const state::WorldDescription& description) {
   }
 }
 
-void Presentation::add_ways(const state::WorldDescription& description) {
+void Presentation::add_affordances(const state::WorldDescription& description) {
   for (const state::Affordance& affordance : state::affordances_of(description)) {
     proto::WireAffordance& wire = affordances_.emplace_back();
     wire.kind = static_cast<std::uint32_t>(affordance.kind);

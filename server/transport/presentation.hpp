@@ -1,4 +1,4 @@
-// What a display shows of a world and that never changes, as a sample.
+// The WorldPresentation of a world: what displays show and what never changes.
 #pragma once
 
 #include <deque>
@@ -10,7 +10,7 @@
 
 namespace mechane::transport {
 
-/// A WorldPresentation with the storage that its sequences look into. Its address must not change.
+/// A WorldPresentation with the storage that its sequences point at. Its address must not change.
 class Presentation {
  public:
   /// `description` outlives it.
@@ -24,15 +24,15 @@ class Presentation {
   void add_activities(const state::WorldDescription& description);
   void add_views(const state::WorldDescription& description);
   void add_effects(const state::WorldDescription& description);
-  void add_ways(const state::WorldDescription& description);
+  void add_affordances(const state::WorldDescription& description);
   [[nodiscard]] proto::WireQuestion question_of(const state::QuestionDescription& question);
-  /// Lets a sequence of texts look into a copy kept here.
+  /// Lets a sequence of texts point at a copy kept here.
   template <class Sequence>
   void set_texts(Sequence& sequence, const state::Texts& texts);
 
   proto::WorldPresentation wire_{};
   std::vector<char*> languages_;
-  std::deque<std::vector<proto::WireText>> texts_;  // a deque: what stands in it stays where it is
+  std::deque<std::vector<proto::WireText>> texts_;  // a deque: its elements keep their addresses
   std::deque<std::vector<proto::WireAnswer>> answers_;
   std::deque<std::vector<proto::WireQuestion>> questions_;
   std::vector<proto::WireActivity> activities_;

@@ -4,11 +4,9 @@
 #include <chrono>
 #include <deque>
 #include <map>
-#include <random>
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "server/log/log.hpp"
 #include "server/transport/haptic_publisher.hpp"
@@ -16,28 +14,17 @@
 #include "server/transport/museum_publisher.hpp"
 #include <mechane/proto/convert.hpp>
 #include <mechane/proto/entity.hpp>
+#include <mechane/proto/identity.hpp>
 
 namespace mechane::transport {
 namespace {
 
 constexpr Duration kReportEvery = std::chrono::seconds(1);
-// A fault of other programs that lasts is logged this often: it must not fill the log.
+// How often a lasting fault of other programs is logged: it must not fill the log.
 constexpr Duration kSayAgainAfter = std::chrono::minutes(1);
 constexpr Duration kNextOtherServerAfter = std::chrono::seconds(10);
-// How many other servers, and kiosks without room, are remembered.
-constexpr std::size_t kMostOthers = 64;
-constexpr std::size_t kMostLeftOut = 64;
-
-std::uint64_t random_nonzero() {
-  std::random_device device;
-  const std::uint64_t high = device();
-  return ((high << 32) | device()) | 1u;
-}
-
-std::string host_name() {
-  char name[64] = {};
-  return ::gethostname(name, sizeof(name) - 1) == 0 ? std::string(name) : std::string("unknown");
-}
+constexpr std::size_t kMostOthers = 64;   // other servers that are remembered
+constexpr std::size_t kMostLeftOut = 64;  // kiosks that a full server tells why they get no world
 
 }  // namespace
 
@@ -47,8 +34,8 @@ class ServerTransport::Impl {
       : server(config.server),
         version(config.version),
         scenarios(config.scenarios),
-        host(host_name()),
-        incarnation(random_nonzero()),
+        host(proto::host_name()),
+        incarnation(proto::random_id()),
         participant_(std::move(participant)),
         fifo_priority_(config.fifo_priority),
         haptic_(config.fifo_priority, config.cpu) {}
@@ -91,25 +78,27 @@ class ServerTransport::Impl {
   void report(TimePoint now);
   void warn_of_others(TimePoint now);
   void warn_of_version(const proto::KioskStatus& wire, TimePoint now);
-  [[nodiscard]] std::shared_ptr<Lane> open_lane(const std::string& kiosk, std::uint32_t user, std::uint64_t session);
-  void close_lane(const std::shared_ptr<Lane>& lane);
+  [[nodiscard]] std::shared_ptr<HandChannel> open_channel(const std::string& kiosk, std::uint32_t user,
+                                                          std::uint64_t session);
+  void close_channel(const std::shared_ptr<HandChannel>& channel);
 
   proto::Participant participant_;
   std::map<std::string, Kiosk> kiosks_;
-  // A link that is made anew counts its forces from 1 again: by the epoch a client tells them from those it had. Begins at a random
-  // number, so that no two servers, and no two runs of one, share an epoch.
-  std::uint64_t next_epoch_ = random_nonzero();
+  // A new link to a kiosk counts its forces from 1 again; a client recognises them by their epoch. The first epoch is random, so that no
+  // two servers, and no two runs of one server, share an epoch.
+  std::uint64_t next_epoch_ = proto::random_id();
   std::map<std::uint64_t, TimePoint> last_status_;  // by session, on our clock
   std::vector<std::unique_ptr<WorldPort>> ports_;
-  std::vector<std::shared_ptr<Lane>> closed_lanes_;  // until nobody holds them: a real-time thread must not be the last
+  std::vector<std::shared_ptr<HandChannel>>
+      closed_channels_;  // kept until no other thread holds them: freeing memory is not for real-time threads
   RejectReport reject_report_;
   TimePoint next_report_{};
   const int fifo_priority_;
   HapticPublisher haptic_;
   std::unique_ptr<MuseumPublisher> museum_;
-  std::deque<std::uint64_t> others_;  // incarnations of other servers that were warned of, newest last
+  std::deque<std::uint64_t> others_;  // incarnations of other servers that a warning was logged for, newest last
   TimePoint next_warning_of_others_{};
-  // Kiosks that were told that there is no room for them, and when they asked last.
+  // Kiosks that were told that the server has no room for them, and when they last asked.
   std::map<std::string, TimePoint> left_out_;
   TimePoint next_warning_of_left_out_{};
   TimePoint next_warning_of_version_{};
@@ -149,13 +138,13 @@ std::vector<News> ServerTransport::Impl::poll(TimePoint now) {
   drop_empty_kiosks(news);
   for (const auto& port : ports_)
     port->collect();
-  std::erase_if(closed_lanes_, [](const auto& lane) { return lane.use_count() == 1; });
+  std::erase_if(closed_channels_, [](const auto& channel) { return channel.use_count() == 1; });
   report(now);
   warn_of_others(now);
   return news;
 }
 
-/// Two servers both answer every kiosk, and each drives the kiosk's hands in a world of its own: a forgotten demo beside the service.
+/// Two servers in one domain, such as a forgotten demo beside the service, both answer every kiosk, and each drives the kiosk's hands.
 void ServerTransport::Impl::warn_of_others(TimePoint now) {
   server_status_.view().take_each([&](const proto::ServerStatus& wire, const proto::SampleInfo& info) {
     if (!info.valid || wire.incarnation == incarnation || now < next_warning_of_others_) return;
@@ -165,7 +154,7 @@ void ServerTransport::Impl::warn_of_others(TimePoint now) {
     next_warning_of_others_ = now + kNextOtherServerAfter;
     log::warning(
         fmt::format("another server, {} on {}, answers the kiosks of this DDS domain too: stop one of "
-                    "the two, or give it a --domain of its own",
+                    "the two servers, or start it with another --domain",
                     std::string(wire.server), proto::string_of(wire.host)));
   });
 }
@@ -187,13 +176,13 @@ void ServerTransport::Impl::take_kiosks(TimePoint now, std::vector<News>& news) 
   }
 }
 
-/// The program cannot be answered: it drops what we send, as we do what it sends. It sees our version in ServerStatus.
+/// The program drops what we send, as we drop what it sends. It sees our version in ServerStatus.
 void ServerTransport::Impl::warn_of_version(const proto::KioskStatus& wire, TimePoint now) {
   if (now < next_warning_of_version_) return;
   next_warning_of_version_ = now + kSayAgainAfter;
   log::warning(fmt::format(
-      "{} of kiosk {} on {} speaks protocol {}, this server ({}) protocol {}: install the same version of Mechane on "
-      "both machines",
+      "{} of kiosk {} on {} speaks protocol {}, but this server ({}) speaks protocol {}: install the same version of "
+      "Mechane on both machines",
       proto::text_of(wire.program), proto::text_of(wire.kiosk), proto::text_of(wire.host), wire.protocol, version,
       proto::kProtocol));
 }
@@ -221,19 +210,19 @@ void ServerTransport::Impl::session_appeared(const Session& session, TimePoint n
   news.push_back({NewsKind::session_appeared, session});
 }
 
-/// A kiosk of which no program is connected is told why it gets no world. At any other, displays follow its world all the same, and a
-/// further hand is told.
+/// Tells a kiosk that has no connected program why it gets no world. At any other kiosk, displays follow its world all the same, and only
+/// further hands are told.
 void ServerTransport::Impl::leave_out(const Session& session, TimePoint now) {
   if (now >= next_warning_of_left_out_) {
     next_warning_of_left_out_ = now + kSayAgainAfter;
     log::warning(fmt::format(
-        "{} programs are connected, which is the limit: {} of {} on {} and all further ones are refused until some "
-        "end. List them with: mechane echo KioskStatus",
+        "{} programs are connected, which is the limit: {} of {} on {} and all further ones are refused until some of "
+        "them end. List them with: mechane echo KioskStatus",
         SessionTable::kMaxSessions, session.program, session.kiosk, session.host));
   }
   const std::string why = fmt::format(
-      "the server has no room: {} programs are connected, which is its limit; end some of them (mechane echo "
-      "KioskStatus lists them)",
+      "the server is full: {} programs are connected, which is its limit; end some of them (mechane echo KioskStatus "
+      "lists them)",
       SessionTable::kMaxSessions);
   if (const auto kiosk = kiosks_.find(session.kiosk); kiosk != kiosks_.end()) {
     if (kiosk->second.assignment.no_room.empty()) {
@@ -325,37 +314,38 @@ void ServerTransport::Impl::report(TimePoint now) {
   if (!line.empty()) log::warning(line);
 }
 
-std::shared_ptr<Lane> ServerTransport::Impl::open_lane(const std::string& kiosk, std::uint32_t user,
-                                                       std::uint64_t session) {
+std::shared_ptr<HandChannel> ServerTransport::Impl::open_channel(const std::string& kiosk, std::uint32_t user,
+                                                                 std::uint64_t session) {
   const auto it = kiosks_.find(kiosk);
   if (it == kiosks_.end() || user >= hand::kMaxUsers) return nullptr;
-  auto lane = std::make_shared<Lane>();
-  lane->link = it->second.link;
-  lane->user = user;
-  lane->session = session;
-  it->second.link->open(lane);
-  haptic_.add(lane);
-  return lane;
+  auto channel = std::make_shared<HandChannel>();
+  channel->link = it->second.link;
+  channel->user = user;
+  channel->session = session;
+  it->second.link->open(channel);
+  haptic_.add(channel);
+  return channel;
 }
 
-void ServerTransport::Impl::close_lane(const std::shared_ptr<Lane>& lane) {
-  lane->link->close(lane);
-  haptic_.remove(lane);
-  closed_lanes_.push_back(lane);
+void ServerTransport::Impl::close_channel(const std::shared_ptr<HandChannel>& channel) {
+  channel->link->close(channel);
+  haptic_.remove(channel);
+  closed_channels_.push_back(channel);
 }
 
 Expected<WorldPort*> ServerTransport::Impl::open_world(const std::string& world,
                                                        std::shared_ptr<const state::WorldDescription> description) {
   if (auto named = proto::check_name(world, "world"); !named) return tl::unexpected<Error>(named.error());
   if (std::any_of(ports_.begin(), ports_.end(), [&](const auto& p) { return p->world() == world; })) {
-    return fail("a world of this name is open", world, "choose another name, or close it first");
+    return fail(ErrorCode::duplicate, "a world of this name is already open", world,
+                "choose another name, or close that world first");
   }
   auto port = std::make_unique<WorldPort>(
       world, std::move(description), haptic_,
       [this](const std::string& kiosk, std::uint32_t user, std::uint64_t session) {
-        return open_lane(kiosk, user, session);
+        return open_channel(kiosk, user, session);
       },
-      [this](const std::shared_ptr<Lane>& lane) { close_lane(lane); });
+      [this](const std::shared_ptr<HandChannel>& channel) { close_channel(channel); });
   auto writer = WorldEndpoints::create(participant_, *port, rejects, scenarios);
   if (!writer) return tl::unexpected<Error>(writer.error());
   museum_->add(std::move(*writer));
@@ -390,18 +380,18 @@ proto::ServerStatus ServerTransport::Impl::wire_status(const ServerStatusData& d
   wire.worlds = data.worlds;
   wire.worlds_limit = data.worlds_limit;
   wire.users = data.users;
-  wire.ticks = data.ticks;
-  wire.overruns = data.overruns;
-  wire.late_wakeups = data.late_wakeups;
-  wire.preemptions = data.preemptions;
+  wire.ticks = data.loops.ticks;
+  wire.overruns = data.loops.overruns;
+  wire.late_wakeups = data.loops.late_wakeups;
+  wire.preemptions = data.loops.preemptions;
   wire.samples_rejected = rejects.total();
-  wire.tick_us_median = static_cast<float>(data.tick_us_median);
-  wire.tick_us_p99 = static_cast<float>(data.tick_us_p99);
-  wire.tick_us_p999 = static_cast<float>(data.tick_us_p999);
-  wire.tick_us_max = static_cast<float>(data.tick_us_max);
-  wire.wake_us_p99 = static_cast<float>(data.wake_us_p99);
-  wire.wake_us_max = static_cast<float>(data.wake_us_max);
-  wire.realtime = data.realtime;
+  wire.tick_us_median = static_cast<float>(data.loops.tick_us_median);
+  wire.tick_us_p99 = static_cast<float>(data.loops.tick_us_p99);
+  wire.tick_us_p999 = static_cast<float>(data.loops.tick_us_p999);
+  wire.tick_us_max = static_cast<float>(data.loops.tick_us_max);
+  wire.wake_us_p99 = static_cast<float>(data.loops.wake_us_p99);
+  wire.wake_us_max = static_cast<float>(data.loops.wake_us_max);
+  wire.realtime = data.loops.realtime;
   wire.records_ok = data.records_ok;
   wire.input_gaps = haptic_.input_gaps();
   wire.input_gap_ms = static_cast<float>(data.input_gap_ms);

@@ -22,32 +22,35 @@ struct TransportConfig {
   std::uint32_t domain = 0;              ///< DDS domain, 0 .. 230; the network is set up by CYCLONEDDS_URI
   int fifo_priority =
       0;  ///< SCHED_FIFO of the threads that receive hands and write forces, 0 .. 98; 0: ordinary threads
-  std::optional<int> cpu{};  ///< pins that thread
+  std::optional<int> cpu{};  ///< pins the thread that writes forces to this processor
 };
 
-/// What a server says of itself. Fields as in ServerStatus of idl/mechane.idl; the transport adds name, version and its own counts.
+/// Over all loops. Times in microseconds: a tick's own CPU time, and how late the loop woke.
+struct LoopFigures {
+  std::uint64_t ticks = 0, overruns = 0, late_wakeups = 0, preemptions = 0;
+  std::uint64_t skipped = 0;  ///< is not sent
+  double tick_us_median = 0, tick_us_p99 = 0, tick_us_p999 = 0, tick_us_max = 0;
+  double wake_us_p99 = 0, wake_us_max = 0;
+  bool realtime = false;
+};
+
+/// The server's status. Fields as in ServerStatus of idl/mechane.idl; the transport adds name, version and its own counts.
 struct ServerStatusData {
   std::uint32_t worlds = 0;
   std::uint32_t worlds_limit = 0;
   std::uint32_t users = 0;
-  std::uint64_t ticks = 0;
-  std::uint64_t overruns = 0;
-  std::uint64_t late_wakeups = 0;
-  std::uint64_t preemptions = 0;
-  double tick_us_median = 0, tick_us_p99 = 0, tick_us_p999 = 0, tick_us_max = 0;
-  double wake_us_p99 = 0, wake_us_max = 0;
-  bool realtime = false;
+  LoopFigures loops{};
   bool records_ok = true;
   double input_gap_ms = 0;  ///< the longest pause of a hand in the last ten seconds
-  std::string overload{};   ///< what is too much, and what to do; empty: nothing
+  std::string overload{};   ///< what the server is too slow for, and what to do; empty: nothing
 };
 
 /// What happened at the kiosks since the last poll, in order.
 enum class NewsKind {
-  kiosk_appeared,    ///< its first session came: give it a world, by the session's requests
+  kiosk_appeared,    ///< its first session came: give it a world, as the session asks
   session_appeared,  ///< any session, after kiosk_appeared for the first; its requests may differ
   hand_granted,      ///< the session owns its kiosk's hand `user` now: bind it
-  hand_freed,        ///< it does not any more: unbind it
+  hand_freed,        ///< the session does not own it any more: unbind it
   session_left,      ///< unregistered, or silent for 3 s
   kiosk_left,        ///< its last session has left; hand_freed came before
 };
@@ -57,8 +60,8 @@ struct News {
   Session session;
 };
 
-/// Owns the participant, all endpoints and two threads: one writes HapticOutput alone, one writes everything else. Listeners check
-/// and copy samples on Cyclone's own threads. Every function is for the main thread; the loops see only their WorldPort.
+/// Owns the participant, all endpoints and two threads: one writes only HapticOutput, one writes everything else. Listeners check
+/// and copy samples on Cyclone's own threads. Every function is for the main thread; the loops use only their WorldPort.
 ///
 ///   auto transport = *ServerTransport::start({.server = "server-1"});
 ///   for (const News& n : transport->poll(clock.now())) ...          // 20 times a second or more
@@ -66,38 +69,39 @@ struct News {
 ///     hand_granted:   port->bind_user(port->free_slot(), n.session.kiosk, n.session.user, n.session.id);
 class ServerTransport {
  public:
-  /// Errors: a bad server name, no network interface, a wrong CYCLONEDDS_URI. A refused SCHED_FIFO is not an error: see fifo_granted().
+  /// Errors: invalid_value (the server's name), and those of proto::Participant::create. A refused SCHED_FIFO is not an error: see
+  /// fifo_granted().
   [[nodiscard]] static Expected<std::unique_ptr<ServerTransport>> start(const TransportConfig& config);
   /// Worlds must be closed, or their loops stopped.
   ~ServerTransport();
   ServerTransport(const ServerTransport&) = delete;
   ServerTransport& operator=(const ServerTransport&) = delete;
 
-  /// Takes what kiosks said, settles who owns which hand, tells kiosks. Call it 20 times a second or more. Never blocks long.
+  /// Reads what kiosks sent, decides who owns which hand, and tells the kiosks. Call it 20 times a second or more. Never blocks long.
   [[nodiscard]] std::vector<News> poll(TimePoint now);
   [[nodiscard]] const SessionTable& sessions() const;
 
-  /// Makes a world's endpoints and publishes its manifest. `world` is a name of 1 to 31 characters, new among open worlds. The port
-  /// lives until close_world(). Errors: a bad or used name, DDS out of resources.
+  /// Makes a world's endpoints and publishes its manifest. `world` is a name of 1 to 31 characters that no open world has. The port
+  /// lives until close_world(). Errors: invalid_value (the name), duplicate, io_failure (DDS out of resources).
   [[nodiscard]] Expected<WorldPort*> open_world(const std::string& world,
                                                 std::shared_ptr<const state::WorldDescription> description);
-  /// The world's loop must not use the port any more. Kiosks assigned to it are without a world then.
+  /// The world's loop must not use the port any more. Kiosks assigned to the world are without one afterwards.
   void close_world(WorldPort& port);
 
   /// Tells a kiosk which world it is in.
   void assign_kiosk(const std::string& kiosk, const WorldPort& port);
-  /// Tells a kiosk that it gets no world, and why, in words for a person.
+  /// Tells a kiosk that it gets no world. `why` is shown to people.
   void refuse_kiosk(const std::string& kiosk, const std::string& why);
 
-  /// What ServerStatus says from now on; it goes out ten times a second.
+  /// The server's status from now on; it is sent ten times a second.
   void publish_server_status(const ServerStatusData& data);
 
   [[nodiscard]] bool fifo_granted() const;
   [[nodiscard]] const RejectCounters& rejected() const;
-  /// What one dds_write of HapticOutput takes in its thread.
+  /// How long a dds_write of HapticOutput takes.
   [[nodiscard]] const realtime::LatencyHistogram& haptic_write_time() const;
   [[nodiscard]] std::uint64_t haptic_writes_failed() const;
-  /// Times that a hand which was sending paused for 10 to 100 ms; and the longest of them since the last call.
+  /// How often a hand that was sending paused for 10 to 100 ms, and the longest of these pauses since the last call.
   [[nodiscard]] std::uint64_t input_gaps() const;
   [[nodiscard]] Duration take_longest_input_gap();
 

@@ -14,7 +14,7 @@ bool SessionTable::appeared(const Session& session) {
   }
   if (full()) return false;
   sessions_.push_back(session);
-  if (session.role == Role::hand) hands_[{session.kiosk, session.user}].line.push_back(session.id);
+  if (session.role == Role::hand) hands_[{session.kiosk, session.user}].queue.push_back(session.id);
   return true;
 }
 
@@ -23,7 +23,7 @@ bool SessionTable::left(std::uint64_t session) {
   if (it == sessions_.end()) return false;
   if (it->role == Role::hand) {
     Hand& hand = hands_[{it->kiosk, it->user}];
-    std::erase(hand.line, session);
+    std::erase(hand.queue, session);
     if (hand.owner && hand.owner->id == session) {
       freed_by_leaving_.push_back({false, *hand.owner});
       hand.owner.reset();
@@ -50,14 +50,14 @@ std::vector<HandChange> SessionTable::decide(TimePoint now) {
   std::vector<HandChange> grants;
   for (auto it = hands_.begin(); it != hands_.end();) {
     Hand& hand = it->second;
-    if (hand.owner && !hand.line.empty() && silent(hand, now)) {
+    if (hand.owner && !hand.queue.empty() && silent(hand, now)) {
       changes.push_back({false, *hand.owner});
-      hand.line.push_back(hand.owner->id);
+      hand.queue.push_back(hand.owner->id);
       hand.owner.reset();
     }
-    if (!hand.owner && !hand.line.empty()) {
-      hand.owner = *find(hand.line.front());
-      hand.line.erase(hand.line.begin());
+    if (!hand.owner && !hand.queue.empty()) {
+      hand.owner = *find(hand.queue.front());
+      hand.queue.erase(hand.queue.begin());
       hand.granted = now;
       hand.heard.reset();
       grants.push_back({true, *hand.owner});

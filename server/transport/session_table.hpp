@@ -1,4 +1,4 @@
-// Who owns which hand: the policy, without network or threads.
+// Decides which session owns which hand. Without network or threads.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace mechane::transport {
 
 enum class Role { hand, watcher };
 
-/// One process at a kiosk, as it describes itself.
+/// One process at a kiosk, with what it says about itself.
 struct Session {
   std::uint64_t id = 0;  ///< random, never 0
   std::string kiosk;
@@ -22,9 +22,9 @@ struct Session {
   Role role = Role::watcher;
   std::string program;
   std::string host;
-  std::string scenario;    ///< request: id of the scenario; empty: the server's first
-  bool was_there = false;  ///< it is not a request: the kiosk was in that scenario last
-  std::string join_kiosk;  ///< request: share the world of this kiosk; empty: a world of its own
+  std::string scenario;    ///< id of the scenario that it asks for; empty: the server's first
+  bool was_there = false;  ///< `scenario` is not a request, but where the kiosk was last
+  std::string join_kiosk;  ///< asks to share the world of this kiosk; empty: a world of its own
 };
 
 /// A hand came to a session, or was taken from it.
@@ -33,30 +33,30 @@ struct HandChange {
   Session session;
 };
 
-/// The first session on a hand wins, and keeps it while it lives. A session that owns a hand but sends nothing for 500 ms loses it
-/// when another one waits for it, and goes to the end of the line. One thread.
+/// The first session that asks for a hand owns it as long as it is connected. When it sends nothing for 500 ms and another session waits
+/// for the hand, that one gets it, and the first goes to the end of the queue. One thread.
 class SessionTable {
  public:
   static constexpr Duration kSilence = std::chrono::milliseconds(500);
-  /// A session that just got the hand may still be finding its endpoints.
+  /// A session that has just got the hand may need this long until its first sample: DDS still has to match its endpoints.
   static constexpr Duration kFirstInputGrace = std::chrono::seconds(3);
   static constexpr std::size_t kMaxSessions = 512;
 
-  /// False when it is known already (its requests are then brought up to date), or when the table is full.
+  /// False when the session is known already (then its requests are updated), or when the table is full.
   bool appeared(const Session& session);
-  /// False when it is not known.
+  /// False when the session is not known.
   bool left(std::uint64_t session);
   /// `at`: when the last input of this session arrived.
   void heard(std::uint64_t session, TimePoint at);
-  /// Settles who owns what at `now`; frees come before grants. Call it regularly.
+  /// Decides who owns which hand at `now`. Hands that are freed come first, then hands that are granted. Call it regularly.
   [[nodiscard]] std::vector<HandChange> decide(TimePoint now);
 
-  /// Nobody else is taken until somebody leaves.
+  /// No further session is accepted until one leaves.
   [[nodiscard]] bool full() const { return sessions_.size() >= kMaxSessions; }
-  /// Null when nobody owns the hand. Good until the next change.
+  /// Null when nobody owns the hand. Valid until the next change.
   [[nodiscard]] const Session* owner(const std::string& kiosk, std::uint32_t user) const;
   [[nodiscard]] const Session* find(std::uint64_t session) const;
-  /// How many sessions a kiosk has, of any role.
+  /// How many sessions a kiosk has, hands and watchers.
   [[nodiscard]] std::size_t sessions_at(const std::string& kiosk) const;
   [[nodiscard]] const std::vector<Session>& sessions() const { return sessions_; }  ///< in the order they appeared
 
@@ -66,7 +66,7 @@ class SessionTable {
     std::optional<Session> owner;
     TimePoint granted;
     std::optional<TimePoint> heard;
-    std::vector<std::uint64_t> line;  // sessions that wait, first come first
+    std::vector<std::uint64_t> queue;  // sessions that wait for the hand, in the order in which they came
   };
 
   [[nodiscard]] static bool silent(const Hand& hand, TimePoint now);

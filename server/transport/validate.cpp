@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "server/base/utf8.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::transport {
@@ -18,14 +19,6 @@ bool finite(const proto::HapticInput& s) {
 bool good_values(const proto::HapticInput& s) {
   return s.user < hand::kMaxUsers && hand::is_hand_kind(s.kind) && s.grasp_intent >= 0 && s.grasp_intent <= 1 &&
          std::all_of(std::begin(s.joints), std::end(s.joints), [](float a) { return std::abs(a) <= kMaxJointRad; });
-}
-
-/// A text from the network as it may stand in a log or a terminal: no control characters.
-std::string printable(std::string_view text) {
-  std::string clean(text);
-  std::replace_if(
-      clean.begin(), clean.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  return clean;
 }
 
 }  // namespace
@@ -89,17 +82,17 @@ Reject validate(const proto::HapticInput& s, hand::SentSample& out) noexcept {
 Reject validate(const proto::KioskStatus& s, Session& out) {
   if (s.protocol != proto::kProtocol) return Reject::wrong_protocol;
   if (!proto::is_name(proto::text_of(s.kiosk))) return Reject::wrong_kiosk;
-  if (s.user >= hand::kMaxUsers || s.role > 1) return Reject::bad_value;
+  if (s.user >= hand::kMaxUsers || s.role > mechane_role_watcher) return Reject::bad_value;
   if (s.session == 0) return Reject::wrong_session;
   out.id = s.session;
   out.kiosk = proto::text_of(s.kiosk);
   out.user = s.user;
-  out.role = s.role == 0 ? Role::hand : Role::watcher;
-  out.program = printable(proto::text_of(s.program));
-  out.host = printable(proto::text_of(s.host));
-  out.scenario = printable(proto::text_of(s.scenario));
+  out.role = s.role == mechane_role_hand ? Role::hand : Role::watcher;
+  out.program = without_controls(proto::text_of(s.program));
+  out.host = without_controls(proto::text_of(s.host));
+  out.scenario = without_controls(proto::text_of(s.scenario));
   out.was_there = s.was_there != 0;
-  out.join_kiosk = printable(proto::text_of(s.join_kiosk));
+  out.join_kiosk = without_controls(proto::text_of(s.join_kiosk));
   return Reject::none;
 }
 

@@ -1,4 +1,4 @@
-// The check at the door: what a device's sample must be before the loop may see it. Nothing behind it checks again.
+// Checks samples and statuses from the network, before anything else sees them. The loop relies on it and does not check again.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr double kMaxJointRad = 7;
 inline constexpr double kMinHandScale = 0.5;
 inline constexpr double kMaxHandScale = 1.5;
 
-/// Why a sample is not taken.
+/// Why a sample is dropped.
 enum class Reject : std::uint8_t {
   none = 0,
   wrong_protocol,  ///< another version of the wire
@@ -30,21 +30,21 @@ enum class Reject : std::uint8_t {
   too_fast,        ///< over 50 m/s or 200 rad/s
   bad_hand_scale,  ///< not 0.5 .. 1.5
   bad_value,       ///< a joint over 7 rad, intent out of 0 .. 1, an unknown kind or user
-  wrong_kiosk,     ///< the sample names another kiosk than its partition
+  wrong_kiosk,     ///< the sample names another kiosk than its partition does
   wrong_session,   ///< 0, or a session that does not own this hand
   old_sequence,    ///< repeated or older
-  high_sequence,   ///< higher than any device can have counted to
+  high_sequence,   ///< higher than any device can have counted since its last sample
   kinds
 };
 
 [[nodiscard]] std::string_view to_string(Reject reason);
 
-/// Fills `out` when the sample is fit for the loop, with the rotation brought to unit length; returns Reject::none. Does not know
-/// sessions and sequences. Allocates nothing.
+/// Where the sample is fit for the loop, fills `out`, with the rotation scaled to unit length, and returns Reject::none. Does not check
+/// who owns the hand, nor sequence numbers. Allocates nothing.
 [[nodiscard]] Reject validate(const proto::HapticInput& sample, hand::SentSample& out) noexcept;
 
-/// Fills `out` when the status is one of a client that can be served: version, names, user, role, session. Texts are cleaned of
-/// control characters.
+/// Where a client's version, names, user, role and session are valid, fills `out` and returns Reject::none. Control characters in texts are
+/// replaced.
 [[nodiscard]] Reject validate(const proto::KioskStatus& status, Session& out);
 
 /// Counts per reason. Any thread.
@@ -62,8 +62,8 @@ class RejectCounters {
   std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(Reject::kinds)> counts_{};
 };
 
-/// Turns counters into at most one line a call: "rejected 12 samples: 10 not finite, 2 of another version". Empty when nothing
-/// was rejected since the last call. One thread.
+/// Turns counters into at most one line for each call: "rejected 12 samples: 10 not finite, 2 of another protocol version". Empty when
+/// nothing was rejected since the last call. One thread.
 class RejectReport {
  public:
   [[nodiscard]] std::string since_last(const RejectCounters& counters);

@@ -12,7 +12,7 @@
 namespace mechane::transport {
 namespace {
 
-// The tick's kinds of commands have the wire's numbers; the other kinds are the main thread's.
+// Commands for the tick have the same numbers in the state and on the wire; the other kinds are for the main thread.
 template <state::CommandKind ours, proto::CommandKind wire>
 constexpr bool kSame = static_cast<int>(ours) == static_cast<int>(wire);
 static_assert(kSame<state::CommandKind::none, mechane_command_none>);
@@ -37,7 +37,7 @@ const Item* item_at(const std::vector<Item>& items, IdType id) {
   return id && id.index() < items.size() ? &items[id.index()] : nullptr;
 }
 
-/// What the step's first trigger waits for, where that is more or less of something; the others lead aside, or back.
+/// The quantities that the step's first trigger waits for to rise or fall. Other triggers lead to side steps, or back.
 std::vector<proto::WireQuantityGoal> goals_of(const state::StepDescription* step) {
   std::vector<proto::WireQuantityGoal> goals;
   const auto add = [&](const auto& rule) {
@@ -178,7 +178,7 @@ void WorldEndpoints::refuse(std::uint64_t id) {
 }
 
 void WorldEndpoints::reply(std::uint64_t id, state::EventKind kind) {
-  // A full ring: somebody sends commands faster than they can be answered; those go unanswered.
+  // The ring is full where somebody sends commands faster than they can be answered: these get no answer.
   if (!replies_.push({id, kind})) rejects_.add(Reject::bad_value);
 }
 
@@ -186,7 +186,7 @@ void WorldEndpoints::write_manifest() {
   const state::WorldDescription& world = port_.description();
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const state::BodyDescription& body = world.bodies[i];
-    const std::string parent;  // bodies stand in W
+    const std::string parent;  // a body's pose is in W
     proto::SceneObject o{};
     proto::set_text(o.world, port_.world());
     o.object = static_cast<std::uint32_t>(i);
@@ -218,7 +218,7 @@ void WorldEndpoints::write() {
   if (const SceneSnapshot* snapshot = port_.take_snapshot()) {
     const bool status_changed = !last_ || !same_progress(*last_, *snapshot);
     if (status_changed) write_status(*snapshot);
-    // When nothing moves every second frame is left out: 30 a second are enough to tell that the world lives.
+    // While nothing moves, every second frame is left out: 30 a second are enough to show that the world is running.
     skipped_last_ = !status_changed && !skipped_last_ && !moved(*snapshot);
     if (!skipped_last_) {
       write_frame(*snapshot);
@@ -269,7 +269,7 @@ void WorldEndpoints::write_frame(const SceneSnapshot& snapshot) {
     proto::set_vec3(wire.f_W, hand.f_W);
   }
   set_ropes(snapshot);
-  SceneSnapshot copy = snapshot;  // wire sequences point at writable buffers, though nobody writes to them
+  SceneSnapshot copy = snapshot;  // wire sequences need buffers that are not const, though nobody writes to them
   proto::SceneFrame frame{};
   proto::set_text(frame.world, port_.world());
   frame.protocol = proto::kProtocol;
@@ -335,7 +335,7 @@ void WorldEndpoints::write_status(const SceneSnapshot& snapshot) {
   status.activity = proto::look_into(activity != nullptr ? activity->name : none);
   status.step = proto::look_into(step != nullptr ? step->name : none);
   status.steps_done = progress.steps_done;
-  // Of the steps that lead elsewhere a visitor takes one, and leaves.
+  // A visitor takes one of the steps that lead to another scenario, and leaves: they do not count.
   status.steps_total =
       static_cast<std::uint32_t>(std::count_if(world.steps.begin(), world.steps.end(), [&](const auto& s) {
         return s.activity == progress.activity && s.opens.empty();

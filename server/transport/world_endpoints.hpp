@@ -1,4 +1,4 @@
-// WorldEndpoints: one world's endpoints but for the hands', and how its state becomes samples.
+// WorldEndpoints: one world's endpoints, except those of hands. Turns the world's state into samples.
 #pragma once
 
 #include <atomic>
@@ -14,10 +14,10 @@
 
 namespace mechane::transport {
 
-/// Made by the main thread; write() is the museum publisher's; commands are checked on a thread of Cyclone's.
+/// Made by the main thread. write() is for the museum publisher's thread. Commands are checked on a thread of Cyclone's.
 class WorldEndpoints {
  public:
-  /// `scenarios`: ids of what a kiosk may ask for, home first. The references outlive it.
+  /// `scenarios`: ids of what a kiosk may ask for, home first. What the references refer to outlives it. Errors: io_failure (DDS).
   [[nodiscard]] static Expected<std::unique_ptr<WorldEndpoints>> create(const proto::Participant& participant,
                                                                         WorldPort& port, RejectCounters& rejects,
                                                                         const std::vector<std::string>& scenarios);
@@ -35,9 +35,9 @@ class WorldEndpoints {
   WorldEndpoints(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios);
   void take_request(const std::string& scenario, std::uint64_t id);
   void take_commands(proto::ReaderView<proto::Command> view);
-  /// A command that the tick carries out.
+  /// For commands that a tick carries out.
   void take_for_tick(const proto::Command& wire);
-  /// Whether a command was not heard before: a link that was cut and found again brings those of the last seconds twice.
+  /// False for a command that came before: a link that was interrupted brings those of the last seconds twice.
   [[nodiscard]] bool is_new(std::uint64_t session, std::uint64_t id);
   void take_answer(const std::string& argument, std::uint64_t id);
   void take_language(const std::string& language, std::uint64_t id);
@@ -54,7 +54,7 @@ class WorldEndpoints {
   RejectCounters& rejects_;
   const std::vector<std::string>& scenarios_;
 
-  /// To a command that the tick does not see.
+  /// The reply to a command that no tick carries out.
   struct Reply {
     std::uint64_t id = 0;
     state::EventKind kind = state::EventKind::command_refused;
@@ -62,10 +62,10 @@ class WorldEndpoints {
   realtime::Ring<Reply> replies_{64};  // command listener to publisher
 
   struct Heard {
-    std::uint64_t session = 0;  // a client's own are odd
+    std::uint64_t session = 0;  // of a client; 0: free
     std::uint64_t id = 0;       // of its newest command; a client counts upwards
   };
-  std::array<Heard, 64> heard_{};  // the listener's
+  std::array<Heard, 64> heard_{};  // for the listener
   std::size_t next_heard_ = 0;
   std::uint64_t failed_ = 0;
   std::uint64_t frame_sequence_ = 0;

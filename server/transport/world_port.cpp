@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "server/base/assert.hpp"
+#include "server/transport/hand_channel.hpp"
 #include "server/transport/haptic_publisher.hpp"
-#include "server/transport/lane.hpp"
 #include <mechane/proto/names.hpp>
 
 namespace mechane::transport {
 namespace {
 
-// The age of a hand that never sent: old enough for every rule, small enough to be added to.
+// The age of a hand that never sent: beyond every limit, and far from an overflow.
 constexpr Duration kNeverHeard = std::chrono::hours(24);
 
 SceneSnapshot sized_for(const state::WorldDescription& world) {
@@ -43,26 +43,26 @@ HandSnapshot snapshot_of(const state::UserState& user, const SlotName& name) noe
 }  // namespace
 
 WorldPort::WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description,
-                     HapticPublisher& haptic, OpenLane open_lane, CloseLane close_lane)
+                     HapticPublisher& haptic, OpenChannel open_channel, CloseChannel close_channel)
     : world_(std::move(world)),
       description_(std::move(description)),
-      open_lane_(std::move(open_lane)),
-      close_lane_(std::move(close_lane)),
+      open_channel_(std::move(open_channel)),
+      close_channel_(std::move(close_channel)),
       haptic_(haptic),
       snapshots_([this] { return sized_for(*description_); }) {}
 
 WorldPort::~WorldPort() {
-  for (const auto& lane : lanes_) {
-    if (lane) close_lane_(lane);
+  for (const auto& channel : channels_) {
+    if (channel) close_channel_(channel);
   }
 }
 
 bool WorldPort::bind_user(std::size_t slot, const std::string& kiosk, std::uint32_t user, std::uint64_t session) {
-  MECHANE_ASSERT(slot < lanes_.size());
-  if (lanes_[slot]) unbind_user(slot);
-  lanes_[slot] = open_lane_(kiosk, user, session);
-  if (!lanes_[slot]) return false;
-  wanted_.lanes[slot] = lanes_[slot].get();
+  MECHANE_ASSERT(slot < channels_.size());
+  if (channels_[slot]) unbind_user(slot);
+  channels_[slot] = open_channel_(kiosk, user, session);
+  if (!channels_[slot]) return false;
+  wanted_.channels[slot] = channels_[slot].get();
   SlotName& name = wanted_.names[slot];
   name = SlotName{};
   std::copy_n(kiosk.begin(), std::min(kiosk.size(), name.kiosk.size() - 1), name.kiosk.begin());
@@ -73,13 +73,13 @@ bool WorldPort::bind_user(std::size_t slot, const std::string& kiosk, std::uint3
 }
 
 void WorldPort::unbind_user(std::size_t slot) {
-  MECHANE_ASSERT(slot < lanes_.size());
-  if (!lanes_[slot]) return;
-  close_lane_(lanes_[slot]);
-  wanted_.lanes[slot] = nullptr;
+  MECHANE_ASSERT(slot < channels_.size());
+  if (!channels_[slot]) return;
+  close_channel_(channels_[slot]);
+  wanted_.channels[slot] = nullptr;
   wanted_.names[slot] = SlotName{};
   hand_over_bindings();
-  retired_.push_back({wanted_.generation, std::move(lanes_[slot])});
+  retired_.push_back({wanted_.generation, std::move(channels_[slot])});
 }
 
 void WorldPort::hand_over_bindings() {
@@ -88,12 +88,13 @@ void WorldPort::hand_over_bindings() {
 }
 
 std::size_t WorldPort::slot_of(std::uint64_t session) const {
-  const auto it = std::find_if(lanes_.begin(), lanes_.end(), [&](const auto& l) { return l && l->session == session; });
-  return static_cast<std::size_t>(it - lanes_.begin());
+  const auto it =
+      std::find_if(channels_.begin(), channels_.end(), [&](const auto& c) { return c && c->session == session; });
+  return static_cast<std::size_t>(it - channels_.begin());
 }
 
 std::size_t WorldPort::free_slot() const {
-  return static_cast<std::size_t>(std::find(lanes_.begin(), lanes_.end(), nullptr) - lanes_.begin());
+  return static_cast<std::size_t>(std::find(channels_.begin(), channels_.end(), nullptr) - channels_.begin());
 }
 
 std::optional<std::uint32_t> WorldPort::take_request() {
@@ -124,9 +125,9 @@ void WorldPort::take_bindings() noexcept {
   const Bindings* fresh = bindings_.take();
   if (fresh == nullptr) return;
   for (std::size_t i = 0; i < users_.size(); ++i) {
-    if (fresh->lanes[i] == current_.lanes[i]) continue;
+    if (fresh->channels[i] == current_.channels[i]) continue;
     users_[i] = state::UserInput{};
-    users_[i].present = fresh->lanes[i] != nullptr;
+    users_[i].present = fresh->channels[i] != nullptr;
     users_[i].age = kNeverHeard;
     arrived_[i] = now_ - kNeverHeard;
   }
@@ -141,8 +142,8 @@ void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
   for (std::size_t i = 0; i < users_.size(); ++i) {
     state::UserInput& user = users_[i];
     user.fresh = false;
-    if (current_.lanes[i] != nullptr) {
-      if (const ArrivedSample* sample = current_.lanes[i]->inputs.take()) {
+    if (current_.channels[i] != nullptr) {
+      if (const ArrivedSample* sample = current_.channels[i]->inputs.take()) {
         user.fresh = any_fresh = true;
         user.sample = sample->sample;
         arrived_[i] = sample->arrived;
@@ -160,14 +161,14 @@ void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
 
 void WorldPort::publish_forces(const state::WorldState& state) noexcept {
   bool any_force = false;
-  for (std::size_t i = 0; i < current_.lanes.size(); ++i) {
+  for (std::size_t i = 0; i < current_.channels.size(); ++i) {
     const state::UserState& user = state.users[i];
-    if (current_.lanes[i] == nullptr || !user.present) continue;
-    OutgoingForce& out = current_.lanes[i]->forces.writable();
+    if (current_.channels[i] == nullptr || !user.present) continue;
+    OutgoingForce& out = current_.channels[i]->forces.writable();
     out.output = user.output;
     out.tick = state.tick;
     out.waited = user.age;
-    current_.lanes[i]->forces.commit();
+    current_.channels[i]->forces.commit();
     any_force = true;
   }
   if (any_force) haptic_.forces_are_ready();

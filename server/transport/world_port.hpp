@@ -1,4 +1,4 @@
-// WorldPort: where one world's loop meets the network. Its loop side is wait-free; it calls no DDS.
+// WorldPort: connects one world's loop with the network. What the loop calls is wait-free and does not call DDS.
 #pragma once
 
 #include <array>
@@ -19,16 +19,16 @@
 namespace mechane::transport {
 
 class HapticPublisher;
-struct Lane;
+struct HandChannel;
 
-/// Who sits in a slot of a world, as displays are told.
+/// Whose hand is in a slot of a world, for displays.
 struct SlotName {
   std::array<char, 32> kiosk{};
   std::uint32_t user = 0;
   std::uint64_t session = 0;
 };
 
-/// What a frame shows of one hand.
+/// One hand, as a frame shows it.
 struct HandSnapshot {
   bool present = false;
   bool stale = false;
@@ -41,7 +41,7 @@ struct HandSnapshot {
 
 inline constexpr std::size_t kMaxShownRopes = 8;
 
-/// All that displays and status need of one tick. Its vectors are sized once.
+/// What displays and status need from one tick. Its vectors are sized once.
 struct SceneSnapshot {
   std::uint64_t tick = 0;
   std::uint64_t sampled_ns = 0;
@@ -51,26 +51,26 @@ struct SceneSnapshot {
   std::vector<std::uint8_t> agent_enabled;
   state::Progress progress;
   std::array<HandSnapshot, hand::kMaxUsers> hands{};
-  std::array<state::Coupling, kMaxShownRopes> ropes{};  ///< the first so many of the world
+  std::array<state::Coupling, kMaxShownRopes> ropes{};  ///< the first ropes of the world
   std::size_t rope_count = 0;
 };
 
 /// Made and owned by ServerTransport. The main thread binds users; one loop thread gathers and publishes.
 class WorldPort {
  public:
-  /// How many ticks lie between two frames: 62.5 a second.
+  /// Ticks between two frames: 62.5 frames a second.
   static constexpr std::uint64_t kTicksPerFrame = 16;
   static constexpr std::size_t kEventCapacity = 1024;
   static constexpr std::size_t kCommandCapacity = 64;
 
-  /// Makes a lane for a hand, known to the kiosk's listener and to the publisher; null when the kiosk is gone.
-  using OpenLane =
-      std::function<std::shared_ptr<Lane>(const std::string& kiosk, std::uint32_t user, std::uint64_t session)>;
-  /// Takes a lane away from listener and publisher.
-  using CloseLane = std::function<void(const std::shared_ptr<Lane>&)>;
+  /// Makes a channel for a hand, and gives it to the kiosk's listener and to the publisher. Null when the kiosk is gone.
+  using OpenChannel =
+      std::function<std::shared_ptr<HandChannel>(const std::string& kiosk, std::uint32_t user, std::uint64_t session)>;
+  /// Takes a channel from the listener and the publisher.
+  using CloseChannel = std::function<void(const std::shared_ptr<HandChannel>&)>;
 
   WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description, HapticPublisher& haptic,
-            OpenLane open_lane, CloseLane close_lane);
+            OpenChannel open_channel, CloseChannel close_channel);
   /// The loop must not use the port any more.
   ~WorldPort();
   WorldPort(const WorldPort&) = delete;
@@ -80,33 +80,33 @@ class WorldPort {
   [[nodiscard]] const std::string& world() const { return world_; }
   [[nodiscard]] const state::WorldDescription& description() const { return *description_; }
   /// Gives a slot (0 .. kMaxUsers - 1) to a session's hand; the loop sees it in its next gather(). A slot in use is freed first.
-  /// False when the kiosk is not there any more.
+  /// False when the kiosk is gone.
   bool bind_user(std::size_t slot, const std::string& kiosk, std::uint32_t user, std::uint64_t session);
   void unbind_user(std::size_t slot);
-  /// The slot that this session's hand has; kMaxUsers when it has none.
+  /// The slot of this session's hand; kMaxUsers when it has none.
   [[nodiscard]] std::size_t slot_of(std::uint64_t session) const;
-  /// A slot that nobody has; kMaxUsers when all are taken.
+  /// A free slot; kMaxUsers when all are taken.
   [[nodiscard]] std::size_t free_slot() const;
-  /// The newest request of somebody at a kiosk of this world: the scenario to go on to, by its place in TransportConfig::scenarios.
+  /// The newest request from a kiosk of this world: the scenario to go on to, as its index in TransportConfig::scenarios.
   [[nodiscard]] std::optional<std::uint32_t> take_request();
   /// The next answer of a visitor, in the order in which they came.
   [[nodiscard]] std::optional<state::VisitAnswer> take_answer();
-  /// The newest language that a display has told: by its place in the description's languages.
+  /// The newest language that a display has reported, as its index in the description's languages.
   [[nodiscard]] std::optional<std::uint32_t> take_language();
-  /// Lets go of lanes that the loop has stopped using. ServerTransport::poll() calls it.
+  /// Releases channels that the loop has stopped using. ServerTransport::poll() calls it.
   void collect();
 
   // Loop thread: wait-free, no allocation, no DDS.
   /// Fills all of `inputs`: for each slot the newest sample with its age on our clock, and the commands that came (at most
-  /// kMaxCommandsPerTick a tick; the rest wait for the next). A fresh sample wakes the force writer, so that it is there when
+  /// kMaxCommandsPerTick in a tick; the rest wait for the next one). A fresh sample wakes the haptic publisher, so that it is ready when
   /// the forces are.
   void gather(state::TickInputs& inputs, TimePoint now) noexcept;
-  /// Forces to their devices at once. One futex wake at most, with that of gather().
+  /// Sends the forces to their devices at once. At most one futex wake, together with gather()'s.
   void publish_forces(const state::WorldState& state) noexcept;
-  /// Every 16th tick a snapshot for displays; all events.
+  /// Publishes all events, and every 16th tick a snapshot for displays.
   void publish(const state::WorldState& state) noexcept;
 
-  // The other sides, each for one thread of the transport's.
+  // For other threads of the transport, each function for the one named.
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
   bool offer_request(std::uint32_t scenario) noexcept { return requests_.push(scenario); }        ///< command listener
   bool offer_answer(const state::VisitAnswer& answer) noexcept { return answers_.push(answer); }  ///< command listener
@@ -116,27 +116,27 @@ class WorldPort {
   [[nodiscard]] std::uint64_t events_lost() const noexcept { return events_lost_.load(std::memory_order_relaxed); }
 
  private:
-  /// What the loop knows of the slots; replaced as a whole.
+  /// What the loop knows about the slots; replaced as a whole.
   struct Bindings {
     std::uint64_t generation = 0;
-    std::array<Lane*, hand::kMaxUsers> lanes{};
+    std::array<HandChannel*, hand::kMaxUsers> channels{};
     std::array<SlotName, hand::kMaxUsers> names{};
   };
   struct Retired {
-    std::uint64_t generation = 0;  // from this one on the loop does not use the lane
-    std::shared_ptr<Lane> lane;
+    std::uint64_t generation = 0;  // of the first bindings without the channel
+    std::shared_ptr<HandChannel> channel;
   };
 
   void hand_over_bindings();
   void take_bindings() noexcept;
   void publish_snapshot(const state::WorldState& state) noexcept;
 
-  // Main thread's.
+  // For the main thread.
   std::string world_;
   std::shared_ptr<const state::WorldDescription> description_;
-  OpenLane open_lane_;
-  CloseLane close_lane_;
-  std::array<std::shared_ptr<Lane>, hand::kMaxUsers> lanes_;
+  OpenChannel open_channel_;
+  CloseChannel close_channel_;
+  std::array<std::shared_ptr<HandChannel>, hand::kMaxUsers> channels_;
   Bindings wanted_;
   std::vector<Retired> retired_;
 
@@ -152,7 +152,7 @@ class WorldPort {
   realtime::Ring<std::uint32_t> languages_{8};
   std::atomic<std::uint64_t> events_lost_{0};
 
-  // Loop thread's.
+  // For the loop thread.
   Bindings current_;
   std::array<state::UserInput, hand::kMaxUsers> users_{};
   std::array<TimePoint, hand::kMaxUsers> arrived_{};

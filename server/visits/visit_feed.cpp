@@ -7,7 +7,7 @@ namespace {
 
 using state::EventKind;
 
-/// Kinds that no sheet needs, or that come too often.
+/// False for kinds that no visit record needs, or that come too often.
 bool is_noted(EventKind kind) noexcept {
   switch (kind) {
     case EventKind::none:
@@ -32,7 +32,7 @@ bool is_tied(const state::Coupling& coupling, std::uint32_t body) noexcept {
                      [&](const state::RopeNode& node) { return is_it(node.body); });
 }
 
-/// By a joint, a tie or a rope: it does not fall when a hand opens.
+/// Whether a joint, a tie or a rope holds the body, so that it does not fall when a hand opens.
 bool is_held(const state::WorldDescription& description, const state::WorldState& state, std::uint32_t body) noexcept {
   for (std::size_t j = 0; j < description.joints.size(); ++j) {
     const state::JointDescription& joint = description.joints[j];
@@ -42,7 +42,7 @@ bool is_held(const state::WorldDescription& description, const state::WorldState
   return std::ranges::any_of(state.couplings, [body](const state::Coupling& c) { return is_tied(c, body); });
 }
 
-/// A hand that jumped or went away has not opened: that is the device's doing, not the visitor's.
+/// Whether the visitor opened the hand. Where it jumped or vanished, the device let go.
 bool has_opened(const state::WorldDescription& description, const state::WorldState& state,
                 const state::Event& event) noexcept {
   if (event.subject >= state.users.size()) return false;
@@ -57,7 +57,7 @@ state::CommandKind kind_of(const state::TickInputs& inputs, const state::Event& 
   return state::CommandKind::none;
 }
 
-/// Only a command begins an activity in a running world, and two in one tick do not come from one person.
+/// In a running world only a command begins an activity, and one person does not send two in one tick.
 state::CommandKind kind_of_start(const state::TickInputs& inputs) noexcept {
   for (std::uint32_t i = 0; i < std::min<std::uint32_t>(inputs.command_count, state::kMaxCommandsPerTick); ++i) {
     if (inputs.commands[i].kind == state::CommandKind::restart_activity) return inputs.commands[i].kind;

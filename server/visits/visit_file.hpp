@@ -1,4 +1,4 @@
-// VisitFile: the sheets of a museum's visits in one SQLite file, which the server writes and `mechane visits` reads.
+// VisitFile: the records of a museum's visits in one SQLite file, which the server writes and `mechane visits` reads.
 #pragma once
 
 #include <cstdint>
@@ -10,61 +10,56 @@
 #include <vector>
 
 #include "server/base/error.hpp"
-#include "server/visits/visit_sheet.hpp"
+#include "server/visits/visit_record.hpp"
 
 namespace mechane::visits {
 
 inline constexpr const char* kVisitFileName = "visits.db";
 
-/// Which sheets; what is left out does not choose.
+/// Which visits: those that fit all fields. An empty field fits every visit.
 struct VisitChoice {
-  std::optional<std::int64_t> since{};   ///< minute: began then or later
-  std::optional<std::int64_t> before{};  ///< minute: began before it
+  std::optional<std::int64_t> since{};   ///< began in this minute or later
+  std::optional<std::int64_t> before{};  ///< began before this minute
   std::string scenario{};
   std::string kiosk{};
   std::string number{};  ///< or its first letters, with or without dashes
 };
 
 /// One open file. Not thread-safe, and never for a loop thread: it reads the disk. Several programs may have it open; a writer waits up
-/// to five seconds for another one. It is in SQLite's write-ahead mode: what was put is there after a kill, and after a power cut.
+/// to five seconds for another one. It is in SQLite's write-ahead mode: what was put is still there after a kill or a power cut.
 class VisitFile {
  public:
-  /// read: an observer's desk. write: the server, and an observer who remarks or forgets; write_new also makes the file.
+  /// read: an observer who looks. write: an observer who remarks or forgets. write_new: the server, which makes the file where it is
+  /// missing.
   enum class Access : std::uint8_t { read, write, write_new };
 
-  /// Why a file cannot be used, for who has to decide what to do about it.
-  enum class Trouble : std::uint8_t {
-    none,
-    missing,
-    foreign,  ///< another program's, or a newer Mechane's: nothing to be touched
-    damaged,
-    other,  ///< rights, disk, another writer: may pass
-  };
-
-  /// Errors: no such file, not ours, one of a newer Mechane, a damaged one, no right to read or write. `trouble`: which of them.
-  [[nodiscard]] static Expected<VisitFile> open(const std::filesystem::path& file, Access access,
-                                                Trouble* trouble = nullptr);
+  /// Errors: not_found; invalid_value (not a file, or another program's database); wrong_version (a newer Mechane's); damaged; io_failure,
+  /// busy.
+  [[nodiscard]] static Expected<VisitFile> open(const std::filesystem::path& file, Access access);
   VisitFile(VisitFile&&) noexcept;
   VisitFile& operator=(VisitFile&&) noexcept;
   ~VisitFile();
 
-  /// Writes a sheet as it is now, without its remarks, which are an observer's. `is_new`: it is not in the file yet; else, where it is
-  /// not there any more, somebody wanted it forgotten, and it stays so: false.
-  [[nodiscard]] Expected<bool> put(const VisitSheet& sheet, bool is_new, Trouble* trouble = nullptr);
+  /// Writes a record as it is now, without its remarks: those only an observer writes. `is_new`: it is not in the file yet. False where it
+  /// is not new and not in the file any more: somebody has had the visit forgotten, and it is not written again.
+  [[nodiscard]] Expected<bool> put(const VisitRecord& record, bool is_new);
 
-  /// By when they began, then by number. Errors: damaged.
-  [[nodiscard]] Expected<std::vector<VisitSheet>> sheets(const VisitChoice& choice) const;
-  /// How many sheets there are in all.
+  /// Sorted by when they began, then by number. Errors: damaged.
+  [[nodiscard]] Expected<std::vector<VisitRecord>> records(const VisitChoice& choice) const;
+  /// How many records there are in all.
   [[nodiscard]] Expected<std::size_t> count() const;
 
-  /// Errors: no sheet of that number, or several begin so; an empty or too long text; control characters.
-  [[nodiscard]] Expected<std::string> remark(const std::string& number, const SheetRemark& remark);
-  /// Deletes, and writes over where they stood. Returns how many there were. A choice of nothing is an error: all would go.
+  /// Adds a remark; `number` may be the beginning of one. Returns the whole number. Errors: unknown_name (no such visit), conflict (several
+  /// begin with it), invalid_value and too_large (the text).
+  [[nodiscard]] Expected<std::string> remark(const std::string& number, const RecordedRemark& remark);
+  /// Deletes visits, and overwrites their place in the file. Returns how many there were. A choice without any field is an error (missing):
+  /// it would delete all.
   [[nodiscard]] Expected<std::size_t> forget(const VisitChoice& choice);
 
-  /// Calls what still runs 'cut', for nobody writes at it any more, and returns those that began at or after `since`.
-  [[nodiscard]] Expected<std::vector<VisitSheet>> cut_running(std::int64_t since, Trouble* trouble = nullptr);
-  /// Deletes what began before a minute, and then the oldest until the file has `max_bytes` at most. Returns how many.
+  /// Changes the ending of visits that are still 'running' to 'cut': the server that wrote them has stopped. Returns the visits that ended
+  /// so and began at or after `since`.
+  [[nodiscard]] Expected<std::vector<VisitRecord>> cut_running(std::int64_t since);
+  /// Deletes visits that began before a minute, and then the oldest until the file has at most `max_bytes`. Returns how many.
   [[nodiscard]] Expected<std::size_t> keep_within(std::int64_t before_minute, std::uint64_t max_bytes);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }

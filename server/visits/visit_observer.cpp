@@ -20,8 +20,8 @@ std::string name_of(const List& list, std::uint32_t index) {
 
 constexpr double kHalfTick_s = 0.5 * kTickSeconds;
 
-SheetAnswer sheet_answer(const state::QuestionDescription& question, const state::VisitAnswer& given) {
-  SheetAnswer answer{.question = question.name, .when = given.when};
+RecordedAnswer recorded_answer(const state::QuestionDescription& question, const state::VisitAnswer& given) {
+  RecordedAnswer answer{.question = question.name, .when = given.when};
   if (question.kind == state::QuestionDescription::Kind::scale) {
     answer.marks = question.marks;
     answer.mark = static_cast<int>(given.answer);
@@ -35,7 +35,7 @@ SheetAnswer sheet_answer(const state::QuestionDescription& question, const state
 }  // namespace
 
 VisitObserver::VisitObserver(std::shared_ptr<const state::WorldDescription> description, std::string kiosk,
-                             const state::Progress& at, std::uint64_t tick, std::optional<VisitSheet> unfinished,
+                             const state::Progress& at, std::uint64_t tick, std::optional<VisitRecord> unfinished,
                              VisitSources sources)
     : description_(std::move(description)),
       kiosk_(std::move(kiosk)),
@@ -47,28 +47,29 @@ VisitObserver::VisitObserver(std::shared_ptr<const state::WorldDescription> desc
   if (unfinished) take_up(std::move(*unfinished), tick);
 }
 
-/// The world may be a second older than the sheet: steps that the sheet has and the world has not come again, and are taken out.
-void VisitObserver::take_up(VisitSheet sheet, std::uint64_t tick) {
-  if (!activity_ || sheet.activity != description_->activities[activity_.index()].name || !step_) return;
+/// The resumed world may be a second older than the record: steps that it has not reached yet will come again, so that they are removed
+/// from the record.
+void VisitObserver::take_up(VisitRecord record, std::uint64_t tick) {
+  if (!activity_ || record.activity != description_->activities[activity_.index()].name || !step_) return;
   const std::string& now = description_of(step_).name;
-  const auto last =
-      std::find_if(sheet.steps.rbegin(), sheet.steps.rend(), [&](const SheetStep& step) { return step.name == now; });
-  if (last != sheet.steps.rend()) {
-    sheet.steps.erase(last.base() - 1, sheet.steps.end());
-  } else if (!sheet.steps.empty() && sheet.steps.back().ending == StepEnding::unfinished) {
-    sheet.steps.pop_back();
+  const auto last = std::find_if(record.steps.rbegin(), record.steps.rend(),
+                                 [&](const RecordedStep& step) { return step.name == now; });
+  if (last != record.steps.rend()) {
+    record.steps.erase(last.base() - 1, record.steps.end());
+  } else if (!record.steps.empty() && record.steps.back().ending == StepEnding::unfinished) {
+    record.steps.pop_back();
   }
-  sheet.steps.push_back(steps_.back());
-  steps_ = sheet.steps;
-  const auto spent = static_cast<std::uint64_t>(sheet.duration_s / kTickSeconds);
+  record.steps.push_back(steps_.back());
+  steps_ = record.steps;
+  const auto spent = static_cast<std::uint64_t>(record.duration_s / kTickSeconds);
   began_ = tick - std::min(tick, spent);
   last_sign_ = tick;
   touched_ = true;
   did_something_ = true;
-  hands_seen_ = sheet.hands == 0 ? 0 : (1U << std::min<std::uint32_t>(sheet.hands, hand::kMaxUsers)) - 1;
-  sheet.ending = VisitEnding::running;
+  hands_seen_ = record.hands == 0 ? 0 : (1U << std::min<std::uint32_t>(record.hands, hand::kMaxUsers)) - 1;
+  record.ending = VisitEnding::running;
   lost_before_ = 0;
-  sheet_ = std::move(sheet);
+  record_ = std::move(record);
   changed_ = true;
 }
 
@@ -116,7 +117,7 @@ void VisitObserver::take_event(const state::Event& event) {
       did_something_ = true;
       return;
     case EventKind::lit:
-      // A torch that lies in the coals lights itself.
+      // A torch that lies in the coals may catch fire without a visitor.
       if (holding_ == 0) return;
       sign(event.tick);
       did_something_ = true;
@@ -147,7 +148,7 @@ void VisitObserver::take_release(const VisitNote& note) {
   if (note.opened_hand && let_go_.size() < kMostMistakes) let_go_.push_back({event.object, event.tick});
 }
 
-/// What was let go at `since` or later.
+/// Forgets releases of `body` in the tick `since` or later: they were no mistakes.
 void VisitObserver::forget_let_go(std::uint32_t body, std::uint64_t since) {
   std::erase_if(let_go_, [=](const LetGo& one) { return one.body == body && one.tick >= since; });
 }
@@ -159,16 +160,16 @@ void VisitObserver::count_let_go(std::uint64_t tick) {
   std::erase_if(let_go_, [tick](const LetGo& one) { return tick > one.tick + kSettles; });
 }
 
-/// The loop says what a command did first, and that it was a command after it.
+/// The event of what the command did has come before this one.
 void VisitObserver::command_done(const VisitNote& note) {
   const std::uint64_t tick = note.event.tick;
   if (note.command == state::CommandKind::click) return sign(tick);
   if (note.command != state::CommandKind::next_step || step_ended_ != tick) return;
   const auto ended = std::find_if(steps_.rbegin(), steps_.rend(),
-                                  [](const SheetStep& step) { return step.ending != StepEnding::unfinished; });
+                                  [](const RecordedStep& step) { return step.ending != StepEnding::unfinished; });
   if (ended != steps_.rend()) ended->ending = StepEnding::skipped;
-  if (sheet_) sheet_->steps = steps_;
-  changed_ = sheet_.has_value();
+  if (record_) record_->steps = steps_;
+  changed_ = record_.has_value();
 }
 
 void VisitObserver::activity_started(ActivityId activity, std::uint64_t tick, bool restarted) {
@@ -182,7 +183,7 @@ void VisitObserver::activity_started(ActivityId activity, std::uint64_t tick, bo
     measure_step(left_step, tick);
     return mistake(MistakeKind::restarted, "");
   }
-  const bool goes_on = was_here && !did_something_;  // so far it was answers, or a hand on its way
+  const bool goes_on = was_here && !did_something_;  // so far only answers, or a touch in passing
   if (!goes_on) finish(VisitEnding::left, last_sign_, left_step);
   activity_ = activity;
   activity_tick_ = tick;
@@ -191,16 +192,16 @@ void VisitObserver::activity_started(ActivityId activity, std::uint64_t tick, bo
   did_something_ = false;
   hands_seen_ = holding_;
   if (!goes_on) {
-    if (sheet_) finished_.push_back(std::move(*sheet_));
-    return sheet_.reset();
+    if (record_) finished_.push_back(std::move(*record_));
+    return record_.reset();
   }
-  sheet_->activity = description_->activities[activity.index()].name;
-  sheet_->from_start = true;
+  record_->activity = description_->activities[activity.index()].name;
+  record_->from_start = true;
   began_ = last_sign_ = tick;
   changed_ = true;
 }
 
-/// How long the visitor has been in a step that did not end.
+/// Notes how long the visitor has been in a step that has not ended.
 void VisitObserver::measure_step(StepId id, std::uint64_t tick) {
   if (!id || steps_.empty() || steps_.back().ending != StepEnding::unfinished) return;
   const state::StepDescription& step = description_of(id);
@@ -208,18 +209,18 @@ void VisitObserver::measure_step(StepId id, std::uint64_t tick) {
     return static_cast<double>(tick - std::min(tick, from)) * kTickSeconds;
   };
   steps_.back().duration_s = since(step_tick_);
-  // The world's own clock of the step: who comes late sees the hint at once.
+  // Hints follow the world's time in the step: a visitor who comes late sees the hint at once.
   steps_.back().hint_shown = step.texts.contains("hint") && since(step_began_) >= step.hint_after_s;
 }
 
 void VisitObserver::step_started(StepId step, std::uint64_t tick) {
   if (step.index() >= description_->steps.size()) return;
-  let_go_.clear();  // what was let go may be what the step waited for
+  let_go_.clear();  // letting go may be what the step asked for
   if (step_) end_step(tick, step);
   begin_step(step, tick);
   const std::string& opens = description_of(step).opens;
   if (opens.empty() || is_over()) return;
-  sheet_->went_on_to = opens;  // a sign was touched: that is what there was to do
+  record_->went_on_to = opens;  // the visitor touched a sign, and that is all there was to do
   activity_done(tick);
 }
 
@@ -229,7 +230,7 @@ void VisitObserver::begin_step(StepId step, std::uint64_t tick) {
   spilled_in_step_.clear();
   if (steps_.size() < kMostSteps) steps_.push_back({.name = description_of(step).name});
   if (is_over()) return;
-  sheet_->steps = steps_;
+  record_->steps = steps_;
   changed_ = true;
 }
 
@@ -239,7 +240,7 @@ void VisitObserver::end_step(std::uint64_t tick, StepId next) {
   measure_step(step_, tick);
   step_ended_ = tick;
   step_ = StepId::none();
-  if (steps_.empty() || steps_.back().ending != StepEnding::unfinished) return;  // there was no room for it
+  if (steps_.empty() || steps_.back().ending != StepEnding::unfinished) return;  // it is beyond kMostSteps
   const double whole_s = static_cast<double>(tick - std::min(tick, step_began_)) * kTickSeconds;
   const bool late = step.timeout_s > 0 && whole_s + kHalfTick_s >= step.timeout_s;
   steps_.back().ending = late && next == step.timeout_next ? StepEnding::timed_out : StepEnding::done;
@@ -250,44 +251,44 @@ void VisitObserver::activity_done(std::uint64_t tick) {
   if (step_) end_step(tick, StepId::none());
   if (is_over()) return;
   last_sign_ = tick;
-  sheet_->steps = steps_;
-  sheet_->duration_s = seconds_from(began_);
-  sheet_->ending = VisitEnding::done;
+  record_->steps = steps_;
+  record_->duration_s = seconds_from(began_);
+  record_->ending = VisitEnding::done;
   changed_ = true;
 }
 
 void VisitObserver::sign(std::uint64_t tick) {
-  if (!activity_ || (!step_ && is_over())) return;  // nothing to do here, or done: playing on is not a visit
+  if (!activity_ || (!step_ && is_over())) return;  // no activity is running: what follows is not part of a visit
   if (is_over()) begin(tick);
   last_sign_ = tick;
   touched_ = true;
   const auto hands = static_cast<std::uint32_t>(std::popcount(hands_seen_));
-  const std::string& language = language_.empty() ? sheet_->language : language_;
-  changed_ = changed_ || hands != sheet_->hands || language != sheet_->language;
-  sheet_->hands = hands;
-  sheet_->language = language;
+  const std::string& language = language_.empty() ? record_->language : language_;
+  changed_ = changed_ || hands != record_->hands || language != record_->language;
+  record_->hands = hands;
+  record_->language = language;
 }
 
 void VisitObserver::begin(std::uint64_t tick) {
-  if (sheet_) finished_.push_back(std::move(*sheet_));
+  if (record_) finished_.push_back(std::move(*record_));
   const bool at_first = !step_ || step_ == description_->activities[activity_.index()].first;
   const bool just_begun = !touched_ && tick - std::min(tick, activity_tick_) < kAway;
-  if (!just_begun) {  // the activity has waited for somebody: its time counts from now
+  if (!just_begun) {  // nobody was there until now: the time before does not count
     steps_.clear();
     if (step_) steps_.push_back({.name = description_of(step_).name, .whole = at_first});
     step_tick_ = tick;
   }
   began_ = just_begun ? activity_tick_ : tick;
-  sheet_.emplace();
-  sheet_->number = sources_.number();
-  sheet_->minute = sources_.minute();
-  sheet_->kiosk = kiosk_;
-  sheet_->scenario = description_->id;
-  sheet_->scenario_hash = description_->content_hash;
-  sheet_->activity = description_->activities[activity_.index()].name;
-  sheet_->language = language_;
-  sheet_->from_start = just_begun || at_first;
-  sheet_->steps = steps_;
+  record_.emplace();
+  record_->number = sources_.number();
+  record_->minute = sources_.minute();
+  record_->kiosk = kiosk_;
+  record_->scenario = description_->id;
+  record_->scenario_hash = description_->content_hash;
+  record_->activity = description_->activities[activity_.index()].name;
+  record_->language = language_;
+  record_->from_start = just_begun || at_first;
+  record_->steps = steps_;
   did_something_ = false;
   changed_ = true;
 }
@@ -295,13 +296,13 @@ void VisitObserver::begin(std::uint64_t tick) {
 void VisitObserver::finish(VisitEnding ending, std::uint64_t tick, StepId step) {
   if (is_over()) return;
   count_let_go(tick + kSettles + 1);
-  sheet_->duration_s = static_cast<double>(tick - std::min(tick, began_)) * kTickSeconds;
+  record_->duration_s = static_cast<double>(tick - std::min(tick, began_)) * kTickSeconds;
   measure_step(step, tick);
-  sheet_->steps = steps_;
-  sheet_->ending = ending;
+  record_->steps = steps_;
+  record_->ending = ending;
   hands_seen_ = 0;
-  finished_.push_back(std::move(*sheet_));
-  sheet_.reset();
+  finished_.push_back(std::move(*record_));
+  record_.reset();
   changed_ = false;
 }
 
@@ -309,11 +310,11 @@ void VisitObserver::mistake(MistakeKind kind, const std::string& subject) {
   if (is_over()) return;
   changed_ = true;
   const auto known = std::ranges::find_if(
-      sheet_->mistakes, [&](const SheetMistake& one) { return one.kind == kind && one.subject == subject; });
-  if (known != sheet_->mistakes.end()) {
+      record_->mistakes, [&](const RecordedMistake& one) { return one.kind == kind && one.subject == subject; });
+  if (known != record_->mistakes.end()) {
     ++known->count;
-  } else if (sheet_->mistakes.size() < kMostMistakes) {
-    sheet_->mistakes.push_back({kind, subject, 1});
+  } else if (record_->mistakes.size() < kMostMistakes) {
+    record_->mistakes.push_back({kind, subject, 1});
   }
 }
 
@@ -331,7 +332,7 @@ void VisitObserver::look(std::uint64_t tick, std::uint32_t lost) {
     return;
   }
   if (lost != lost_before_) {
-    sheet_->notes_lost += lost - lost_before_;
+    record_->notes_lost += lost - lost_before_;
     lost_before_ = lost;
     changed_ = true;
   }
@@ -342,24 +343,25 @@ void VisitObserver::look(std::uint64_t tick, std::uint32_t lost) {
 Expected<void> VisitObserver::answer(const state::VisitAnswer& given) {
   const state::ActivityDescription& asked = description_->activities[given.activity.index()];
   if (given.activity != activity_) {
-    return fail(fmt::format("a question of activity {} was answered, and {} runs", asked.name,
-                            activity_ ? description_->activities[activity_.index()].name : "none"),
-                description_->id, "ask before another activity begins");
+    return fail(ErrorCode::conflict,
+                fmt::format("a question of activity {} was answered while {} is running", asked.name,
+                            activity_ ? "activity " + description_->activities[activity_.index()].name : "no activity"),
+                description_->id, "ask the question before another activity begins");
   }
-  SheetAnswer answer = sheet_answer(asked.questionnaire[given.question], given);
-  if (!sheet_ && given.when == AnswerTime::after) {
-    return fail("nobody was seen at the activity that this asks about", "question " + answer.question,
-                "ask after a visit, and before the activity begins anew");
+  RecordedAnswer answer = recorded_answer(asked.questionnaire[given.question], given);
+  if (!record_ && given.when == AnswerTime::after) {
+    return fail(ErrorCode::conflict, "there was no visitor whom this question could be about",
+                "question " + answer.question, "ask it after a visit and before the activity begins again");
   }
-  if (!sheet_ || (is_over() && given.when == AnswerTime::before)) begin(tick_);
+  if (!record_ || (is_over() && given.when == AnswerTime::before)) begin(tick_);
   if (!is_over()) last_sign_ = tick_;
-  const auto known = std::ranges::find_if(sheet_->answers, [&](const SheetAnswer& one) {
+  const auto known = std::ranges::find_if(record_->answers, [&](const RecordedAnswer& one) {
     return one.question == answer.question && one.when == answer.when;
   });
-  if (known != sheet_->answers.end()) {
-    *known = std::move(answer);  // thought better of
+  if (known != record_->answers.end()) {
+    *known = std::move(answer);  // the visitor has changed the answer
   } else {
-    sheet_->answers.push_back(std::move(answer));
+    record_->answers.push_back(std::move(answer));
   }
   changed_ = true;
   return {};
@@ -367,21 +369,21 @@ Expected<void> VisitObserver::answer(const state::VisitAnswer& given) {
 
 void VisitObserver::close(VisitEnding why, const std::string& went_on_to) {
   if (is_over()) {
-    if (sheet_ && changed_) finished_.push_back(*sheet_);
-    sheet_.reset();
+    if (record_ && changed_) finished_.push_back(*record_);
+    record_.reset();
     changed_ = false;
     return;
   }
-  sheet_->went_on_to = went_on_to;
-  // Who leaves for another exhibit is seen until now.
+  record_->went_on_to = went_on_to;
+  // A visitor who goes on to another exhibit was there until now.
   finish(why, why == VisitEnding::cut || !went_on_to.empty() ? tick_ : std::max(last_sign_, began_), step_);
 }
 
-std::vector<VisitSheet> VisitObserver::take_changed() {
-  std::vector<VisitSheet> changed = std::exchange(finished_, {});
-  if (sheet_ && changed_) {
-    if (!is_over()) sheet_->duration_s = seconds_from(began_);
-    changed.push_back(*sheet_);
+std::vector<VisitRecord> VisitObserver::take_changed() {
+  std::vector<VisitRecord> changed = std::exchange(finished_, {});
+  if (record_ && changed_) {
+    if (!is_over()) record_->duration_s = seconds_from(began_);
+    changed.push_back(*record_);
   }
   changed_ = false;
   return changed;

@@ -36,7 +36,7 @@ void leave(state::WorldState& state, UserState& user, std::uint32_t index) {
 }
 
 void take_sample(state::WorldState& state, UserState& user, const UserInput& input, std::uint32_t index) {
-  // What the hand can have moved since the last new sample, which is as old as `age` was in the last tick, and one tick more.
+  // How far the hand can have moved since the last new sample, which is one tick older than `age` was in the last tick.
   const double elapsed_s = to_seconds(user.age + kTickPeriod);
   const double moved_m = (input.sample.X_WH.p - user.X_WH.p).norm();
   user.jumped = moved_m > kHandSpeedLimit * elapsed_s + kJumpSlackM;
@@ -52,7 +52,7 @@ void take_user(state::WorldState& state, UserState& user, const UserInput& input
   const bool same_session = user.present && (!input.fresh || user.sample.session == input.sample.session);
   if (!same_session) {
     leave(state, user, index);
-    // A hand appears with its first sample: before it there is no pose to put it at.
+    // A hand appears with its first sample; before that it has no pose.
     if (!input.fresh) return;
     user.present = true;
     user.X_WH = input.sample.X_WH;

@@ -1,4 +1,4 @@
-// Phases 1 and 2 of the tick: what the devices said, and where that puts the hands.
+// Phases 1 and 2 of the tick: the devices' samples, and where they put the hands.
 #pragma once
 
 #include <span>

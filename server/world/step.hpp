@@ -11,7 +11,7 @@ namespace mechane::world {
 class Publisher {
  public:
   virtual ~Publisher() = default;
-  /// As soon as every user's output is final: a device need not wait for the bodies to move.
+  /// Called as soon as every user's output is final, so that a device need not wait for the bodies to move.
   virtual void publish_forces(const state::WorldState& state) noexcept = 0;
   /// At the end of the tick.
   virtual void publish(const state::WorldState& state) noexcept = 0;

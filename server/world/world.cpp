@@ -55,10 +55,10 @@ Expected<std::unique_ptr<World>> World::resume(const std::shared_ptr<const state
   state::WorldState& state = (*world)->state;
   if (auto read = state::read_snapshot(snapshot, state); !read) return tl::unexpected(read.error());
   if (!progress_in_range(*description, state.progress)) {
-    return fail("the snapshot is at a step that the scenario does not have", "snapshot",
-                "delete it; the world starts from the beginning");
+    return fail(ErrorCode::conflict, "the snapshot is at a step that the scenario does not have", "snapshot",
+                "delete it; the world then starts from the beginning");
   }
-  // The hands left with the server that stopped, and come back as new ones.
+  // The hands were those of the server that stopped; they come back as new ones.
   for (state::UserState& user : state.users)
     user = state::UserState{};
   (*world)->forces.start(state);

@@ -24,11 +24,11 @@ struct WorldConfig {
 /// All parts of a world. Made on the main thread, then stepped by one loop thread at a time; it starts no thread of its own.
 class World {
  public:
-  /// A world at the beginning of its scenario. Errors: what the agents, machines or joints of the description cannot be.
+  /// A world at the beginning of its scenario. Errors: those of agents, machines, bodies and joints that cannot work as described.
   [[nodiscard]] static Expected<std::unique_ptr<World>> create(
       const std::shared_ptr<const state::WorldDescription>& description, const WorldConfig& config);
-  /// A world where a snapshot of the same scenario left it. Hands come back by themselves; nobody holds anything, so that no
-  /// force is there before a hand is.
+  /// A world where a snapshot of the same scenario left it. Its hands come back as new ones and hold nothing, so that there is no force
+  /// before there is a hand.
   [[nodiscard]] static Expected<std::unique_ptr<World>> resume(
       const std::shared_ptr<const state::WorldDescription>& description, const WorldConfig& config,
       std::span<const std::byte> snapshot);

@@ -1,5 +1,5 @@
-// An X3D file as a tree: its elements and texts in the order written, with their places, so that an error can say where and an editor
-// can change one place and leave the rest. DEF and USE are resolved, and nothing is expanded. Knows XML and X3D's naming, nothing of
+// An X3D file as a tree: its elements and texts in the order written, with their places, so that an error can say where, and an editor
+// can change one place and leave the rest. DEF and USE are resolved; nothing is copied or expanded. Knows XML and X3D's naming, not
 // machines.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace mechane::x3d {
 
 using NodeId = Id<struct NodeTag>;
 
-/// Caps on what a file may ask of us. A file over a cap is an error, never a slow or a dead server.
+/// Caps on the size of a file. A file over a cap is an error, so that it cannot slow down or stop a server.
 struct DocumentLimits {
   std::size_t bytes = 16u << 20;
   std::size_t depth = 200;
@@ -28,10 +28,10 @@ struct DocumentLimits {
   std::size_t metadata_bytes = 4u << 20;  ///< of all values of Metadata nodes together
 };
 
-/// Comments, the DOCTYPE and instructions are in Document::source() alone.
+/// Comments, the DOCTYPE and instructions are kept in Document::source() only.
 enum class NodeKind : std::uint8_t { element, text };
 
-/// Offsets into the text: <name ...>inner</name>, or <name .../> where tag_end, inner_end and end are the same.
+/// Offsets into the text: <name ...>inner</name>, or <name .../>, where tag_end, inner_end and end are the same.
 struct ElementSpan {
   std::uint32_t begin = 0;
   std::uint32_t tag_end = 0;    ///< after the start tag
@@ -52,7 +52,7 @@ struct Node {
   std::vector<Attribute> attributes;  ///< in the order written
   NodeId parent;                      ///< none for the outermost element
   std::vector<NodeId> children;
-  NodeId used;  ///< of an element with USE: the element that it stands for
+  NodeId used;  ///< of an element with USE: the element it refers to
   int line = 0;
   ElementSpan span;  ///< of an element: where it stands in Document::source()
 
@@ -67,11 +67,11 @@ class Document {
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   [[nodiscard]] NodeId x3d() const { return x3d_; }
   [[nodiscard]] NodeId scene() const { return scene_; }
-  /// The element that DEF names, outside prototypes; none where there is none.
+  /// The element of that DEF, outside prototypes; none where no element has it.
   [[nodiscard]] NodeId find_def(std::string_view def) const;
-  /// The element itself, or what it stands for by USE.
+  /// The element itself, or the one that its USE refers to.
   [[nodiscard]] NodeId resolve(NodeId id) const;
-  /// All elements of a type under the Scene, in the order written, without those that are a USE or lie in a prototype.
+  /// All elements of a type under the Scene, in the order written; without USEs, and without the insides of prototypes.
   [[nodiscard]] std::vector<NodeId> elements(std::string_view type) const;
   /// Children that are elements, as written (not resolved).
   [[nodiscard]] std::vector<NodeId> child_elements(NodeId id) const;
@@ -83,7 +83,7 @@ class Document {
   [[nodiscard]] std::vector<std::string> defs(std::string_view type) const;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// The bytes that were read, every one of them.
+  /// All bytes that were read.
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
@@ -96,13 +96,14 @@ class Document {
   NodeId scene_;
 };
 
-/// Reads a file. Problems are added to `problems`; the Error is the first of them. Errors: unreadable, over a cap, not UTF-8, not
-/// well-formed XML, entities declared, not X3D 3 or 4, no Scene, a DEF given twice, a USE without DEF, of another type, or in a circle.
-/// Any thread; takes no lock; reads nothing but this file.
+/// Reads a file. Problems are added to `problems`; the Error is the first of them: unreadable (not_found, io_failure), over a cap
+/// (too_large), not UTF-8 or not well-formed XML (damaged), entities declared (not_supported), not X3D (invalid_value) or not of version
+/// 3 or 4 (wrong_version), no Scene (missing), a DEF given twice (duplicate), a USE without DEF (unknown_name), of another type or in a
+/// circle (conflict). Any thread; takes no lock; reads only this file.
 [[nodiscard]] Expected<Document> read_document(const std::filesystem::path& path, Problems& problems,
                                                const DocumentLimits& limits = {});
 
-/// The same from memory. `path` is only a name, and the folder to which urls are relative.
+/// The same from memory. `path` is the name in messages, and urls are relative to its folder; it is not opened.
 [[nodiscard]] Expected<Document> read_document(std::string_view bytes, const std::filesystem::path& path,
                                                Problems& problems, const DocumentLimits& limits = {});
 

@@ -15,10 +15,10 @@
 namespace mechane::x3d {
 namespace {
 
-// An attribute takes five bytes in a file and a hundred in memory.
+// An attribute may take only five bytes in a file, but takes a hundred in memory.
 constexpr std::size_t kMostAttributes = 1'000'000;
 
-/// Offsets to lines.
+/// Finds the line of an offset.
 class Lines {
  public:
   explicit Lines(std::string_view bytes) {
@@ -42,7 +42,7 @@ std::string megabytes(std::size_t bytes) {
 
 }  // namespace
 
-/// Fills one Document. Its methods are the stages, in order; each returns false after it has said what is wrong.
+/// Fills one Document. Its methods are the stages, in order; each returns false once it has added a problem.
 class DocumentBuilder {
  public:
   DocumentBuilder(std::string_view bytes, const std::filesystem::path& path, Problems& problems,
@@ -63,36 +63,37 @@ class DocumentBuilder {
   }
 
  private:
-  bool refuse(int line, std::string node, std::string what, std::string remedy) {
-    problems_.error(line, std::move(node), std::move(what), std::move(remedy));
+  bool refuse(ErrorCode code, int line, std::string node, std::string what, std::string remedy) {
+    problems_.error(code, line, std::move(node), std::move(what), std::move(remedy));
     return false;
   }
 
-  /// What can be known before a parser sees the file, so that no parser has to be trusted with more memory than the caps allow.
+  /// Checks the caps before the parser sees the file, so that the parser cannot take more memory than they allow.
   bool check_bytes() {
     if (bytes_.size() > limits_.bytes) {
       return refuse(
-          0, {},
+          ErrorCode::too_large, 0, {},
           fmt::format("the file has {}, more than the {} allowed", megabytes(bytes_.size()), megabytes(limits_.bytes)),
           "put meshes into .glb files and name them by Inline");
     }
     if (bytes_.find_first_not_of(" \t\r\n") == std::string_view::npos)
-      return refuse(0, {}, "the file is empty", "write an X3D scene");
+      return refuse(ErrorCode::damaged, 0, {}, "the file is empty", "write an X3D scene");
     if (const auto bad = first_bad_utf8(bytes_)) {
-      return refuse(lines_.at(static_cast<std::ptrdiff_t>(*bad)), {}, "the text is not UTF-8",
+      return refuse(ErrorCode::damaged, lines_.at(static_cast<std::ptrdiff_t>(*bad)), {}, "the text is not UTF-8",
                     "save the file as UTF-8");
     }
-    // An element has one or two '<'; text inside comments is counted too, which only matters to files that are nearly too large.
+    // An element has one or two '<'. Those in comments are counted too, which matters only where a file is nearly too large.
     if (static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.end(), '<')) > 2 * limits_.nodes + 64)
       return refuse_node_count(0);
     if (static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.end(), '=')) > kMostAttributes) {
-      return refuse(0, {}, fmt::format("the file has more than {} attributes", kMostAttributes), "split it into files");
+      return refuse(ErrorCode::too_large, 0, {}, fmt::format("the file has more than {} attributes", kMostAttributes),
+                    "split it into files");
     }
     return true;
   }
 
   bool refuse_node_count(int line) {
-    return refuse(line, {}, fmt::format("the file has more than {} nodes", limits_.nodes),
+    return refuse(ErrorCode::too_large, line, {}, fmt::format("the file has more than {} nodes", limits_.nodes),
                   "split it, or put geometry into .glb files");
   }
 
@@ -118,19 +119,19 @@ class DocumentBuilder {
   }
 
   bool refuse_as_xml(XmlFault fault) {
-    return refuse(lines_.at(static_cast<std::ptrdiff_t>(fault.offset)), std::move(fault.element),
+    return refuse(ErrorCode::damaged, lines_.at(static_cast<std::ptrdiff_t>(fault.offset)), std::move(fault.element),
                   "not well-formed XML: " + fault.what, std::move(fault.remedy));
   }
 
-  /// Where the parser stands: at the beginning of what it tells of.
+  /// The beginning of what the parser reports now.
   [[nodiscard]] std::size_t here() const { return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_)); }
-  /// The end of what it tells of.
+  /// The end of it.
   [[nodiscard]] std::size_t there() const {
     return here() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_));
   }
   [[nodiscard]] int line_here() const { return lines_.at(static_cast<std::ptrdiff_t>(here())); }
 
-  // What the parser calls. It may call once more after it has been stopped, for the end of an empty element.
+  // Called by the parser. It may call once more after it has been stopped, for the end of an empty element.
 
   static DocumentBuilder* of(void* builder) {
     auto* self = static_cast<DocumentBuilder*>(builder);
@@ -153,7 +154,7 @@ class DocumentBuilder {
     self->pass();
   }
 
-  /// Comments, instructions, blanks beside the outermost element; the ends of a CDATA section, and the pieces of a DOCTYPE.
+  /// Called for comments, instructions, blanks outside the outermost element, the ends of a CDATA section, and the pieces of a DOCTYPE.
   static void XMLCALL on_other(void* builder, const XML_Char*, int) {
     auto* self = of(builder);
     if (self == nullptr) return;
@@ -173,29 +174,31 @@ class DocumentBuilder {
   static void XMLCALL on_entity(void* builder, const XML_Char*, int, const XML_Char*, int, const XML_Char*,
                                 const XML_Char*, const XML_Char*, const XML_Char*) {
     if (auto* self = of(builder); self != nullptr) {
-      self->stop_unless(self->refuse(self->line_here(), "DOCTYPE", "the file declares entities, which are never read",
+      self->stop_unless(self->refuse(ErrorCode::not_supported, self->line_here(), "DOCTYPE",
+                                     "the file declares entities, which are never read",
                                      "write the text in its place and remove <!ENTITY ...>"));
     }
   }
 
-  /// Their defaults would cost memory for each element.
+  /// Declared attributes are refused: their defaults would take memory for each element.
   static void XMLCALL on_attribute_list(void* builder, const XML_Char*, const XML_Char*, const XML_Char*,
                                         const XML_Char*, int) {
     if (auto* self = of(builder); self != nullptr) {
-      self->stop_unless(self->refuse(self->line_here(), "DOCTYPE", "the file declares attributes, which are never read",
+      self->stop_unless(self->refuse(ErrorCode::not_supported, self->line_here(), "DOCTYPE",
+                                     "the file declares attributes, which are never read",
                                      "write them on the elements that need them, and remove <!ATTLIST ...>"));
     }
   }
 
-  /// A DOCTYPE that names a file may have declared it there: the parser leaves it out, and we refuse it.
+  /// An entity that may be declared in the file named by the DOCTYPE: the parser skips it, so it is refused here.
   static void XMLCALL on_skipped_entity(void* builder, const XML_Char*, int) {
     auto* self = of(builder);
-    if (self == nullptr || !self->open_) return;  // a DOCTYPE's own
+    if (self == nullptr || !self->open_) return;  // within the DOCTYPE itself
     self->stop_unless(self->refuse_as_xml(
         explain(self->bytes_, self->document_.nodes_, self->open_, {self->here(), self->here(), "undefined entity"})));
   }
 
-  /// What the parser tells of has been read, unless it is in the midst of something.
+  /// Marks what the parser reports as read, unless a DOCTYPE or CDATA section is still open.
   void pass() {
     if (!within_) read_ = there();
   }
@@ -211,7 +214,8 @@ class DocumentBuilder {
     const std::size_t begin = here();
     if (document_.nodes_.size() >= limits_.nodes) return refuse_node_count(line_here());
     if (depth_ >= limits_.depth) {
-      return refuse(line_here(), name, fmt::format("nodes are nested more than {} deep", limits_.depth),
+      return refuse(ErrorCode::too_large, line_here(), name,
+                    fmt::format("nodes are nested more than {} deep", limits_.depth),
                     "flatten the tree; no scenario needs that depth");
     }
     auto spans = find_attributes(bytes_, begin);
@@ -222,7 +226,11 @@ class DocumentBuilder {
     node.span.begin = static_cast<std::uint32_t>(begin);
     node.span.tag_end = static_cast<std::uint32_t>(there());
     const auto count = static_cast<std::size_t>(XML_GetSpecifiedAttributeCount(parser_)) / 2;
-    MECHANE_ASSERT(spans->size() == count);
+    // Both read the same UTF-8, and ATTLIST and entities are refused, so they agree. Should they not, it is a fault of the file.
+    if (spans->size() != count) {
+      return refuse(ErrorCode::damaged, node.line, name, "the tag's attributes cannot be told apart",
+                    "write each as name='value', with a blank before it");
+    }
     for (std::size_t i = 0; i < count; ++i)
       node.attributes.push_back({attributes[2 * i], attributes[2 * i + 1], (*spans)[i]});
     open_ = add(std::move(node));
@@ -242,7 +250,7 @@ class DocumentBuilder {
     return true;
   }
 
-  /// The text between two tags, unless it is blank.
+  /// Adds the text between two tags as a node, unless it is blank.
   bool take_text() {
     if (text_.find_first_not_of(" \t\r\n") != std::string::npos) {
       if (document_.nodes_.size() >= limits_.nodes) return refuse_node_count(text_line_);
@@ -264,35 +272,39 @@ class DocumentBuilder {
     return id;
   }
 
-  /// Of the element that is open.
+  /// Counts the metadata of the element that is open against the cap.
   bool check_metadata() {
     const Node& node = document_[open_];
     if (!node.name.starts_with("Metadata")) return true;
     for (const Attribute& attribute : node.attributes)
       metadata_bytes_ += attribute.value.size();
     if (metadata_bytes_ <= limits_.metadata_bytes) return true;
-    return refuse(node.line, document_.describe(open_),
+    return refuse(ErrorCode::too_large, node.line, document_.describe(open_),
                   fmt::format("metadata values take more than {}", megabytes(limits_.metadata_bytes)),
                   "keep recordings and data in files of their own");
   }
 
   bool refuse_without_x3d() {
-    return refuse(1, {}, "there is no X3D element", "begin with <X3D profile='Interactive' version='4.0'>");
+    return refuse(ErrorCode::missing, 1, {}, "there is no X3D element",
+                  "begin with <X3D profile='Interactive' version='4.0'>");
   }
 
   bool find_scene() {
     document_.x3d_ = NodeId(0);
     const Node& x3d = document_[document_.x3d_];
     if (x3d.name != "X3D") {
-      return refuse(x3d.line, x3d.name, "the file is XML, but not X3D", "its outermost element must be X3D");
+      return refuse(ErrorCode::invalid_value, x3d.line, x3d.name, "the file is XML, but not X3D",
+                    "its outermost element must be X3D");
     }
     if (!check_version(x3d)) return false;
     for (const NodeId child : document_.child_elements(document_.x3d_)) {
       if (document_[child].name != "Scene") continue;
-      if (document_.scene_) return refuse(document_[child].line, "Scene", "there is a second Scene", "keep one");
+      if (document_.scene_)
+        return refuse(ErrorCode::duplicate, document_[child].line, "Scene", "there is a second Scene", "keep one");
       document_.scene_ = child;
     }
-    if (!document_.scene_) return refuse(x3d.line, "X3D", "there is no Scene", "put the nodes into <Scene>...</Scene>");
+    if (!document_.scene_)
+      return refuse(ErrorCode::missing, x3d.line, "X3D", "there is no Scene", "put the nodes into <Scene>...</Scene>");
     return true;
   }
 
@@ -301,10 +313,11 @@ class DocumentBuilder {
     const std::string given = version != nullptr ? *version : "";
     if (given.starts_with("4.")) return true;
     if (given.starts_with("3.")) {
-      problems_.warning(x3d.line, "X3D", fmt::format("X3D {} is read as 4.0", given), "write version='4.0'");
+      problems_.warning(ErrorCode::wrong_version, x3d.line, "X3D", fmt::format("X3D {} is read as 4.0", given),
+                        "write version='4.0'");
       return true;
     }
-    return refuse(x3d.line, "X3D",
+    return refuse(version == nullptr ? ErrorCode::missing : ErrorCode::wrong_version, x3d.line, "X3D",
                   version == nullptr ? "no version is given" : fmt::format("X3D version '{}' is not known", given),
                   "write version='4.0'");
   }
@@ -314,9 +327,9 @@ class DocumentBuilder {
   const DocumentLimits& limits_;
   Lines lines_;
   XML_Parser parser_ = nullptr;  // while it reads
-  bool refused_ = false;         // and said why
-  bool within_ = false;          // a DOCTYPE or a CDATA section, which come in pieces
-  std::size_t read_ = 0;         // the end of what could be read; the beginning of what it is within
+  bool refused_ = false;         // a problem says why
+  bool within_ = false;          // within a DOCTYPE or a CDATA section, which come in pieces
+  std::size_t read_ = 0;         // the end of what could be read
   NodeId open_;                  // the innermost element that is not closed
   std::size_t depth_ = 0;
   std::string text_;  // since the last tag
@@ -335,7 +348,9 @@ Expected<Document> read_document(const std::filesystem::path& path, Problems& pr
   const bool is_file = std::filesystem::is_regular_file(path, status);
   std::ifstream file(path, std::ios::binary);
   if (!is_file || !file) {
-    problems.error(0, {}, "the file cannot be read", "check the name and the rights");
+    const bool exists = std::filesystem::exists(path, status);
+    problems.error(exists ? ErrorCode::io_failure : ErrorCode::not_found, 0, {}, "the file cannot be read",
+                   "check the name and the rights");
     return tl::unexpected(problems.first_error());
   }
   // One byte more than allowed is enough to see that it is too large.

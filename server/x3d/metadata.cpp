@@ -7,7 +7,7 @@
 namespace mechane::x3d {
 namespace {
 
-// A USE copies what it stands for, and copies of copies grow by powers: so the size of one set is bounded.
+// Each USE is read as a copy, and copies of copies multiply, so the size of one set is limited.
 constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostBytes = 8u << 20;
 constexpr std::size_t kDeepest = 64;
@@ -17,7 +17,7 @@ std::string attribute_or(const Node& node, std::string_view name, const std::str
   return value != nullptr ? *value : otherwise;
 }
 
-/// Reads one tree of metadata. Each method returns false after it has said what is wrong.
+/// Reads one tree of metadata. Each method returns false once it has added a problem.
 class MetadataReader {
  public:
   MetadataReader(const Document& document, Problems& problems) : document_(document), problems_(problems) {}
@@ -29,16 +29,16 @@ class MetadataReader {
     const std::string* value = node.attribute("value");
     bytes_ += value != nullptr ? value->size() : 0;
     if (++nodes_ > kMostNodes || bytes_ > kMostBytes || depth > kDeepest) {
-      return refuse(out, "the metadata is too large or too deep once every USE stands for a copy",
-                    "write less of it, or without USE");
+      return refuse(ErrorCode::too_large, out, "the metadata is too large or too deep, counting every USE as a copy",
+                    "shorten it, or use USE less often");
     }
     if (node.name == "MetadataSet") return read_children(document_.resolve(id), depth, out);
     return read_value(node.name, value != nullptr ? *value : std::string(), out);
   }
 
  private:
-  bool refuse(const Metadata& at, std::string what, std::string remedy) {
-    problems_.error(at.line, fmt::format("metadata '{}'", at.name), std::move(what), std::move(remedy));
+  bool refuse(ErrorCode code, const Metadata& at, std::string what, std::string remedy) {
+    problems_.error(code, at.line, fmt::format("metadata '{}'", at.name), std::move(what), std::move(remedy));
     return false;
   }
 
@@ -52,8 +52,8 @@ class MetadataReader {
         if (problems_.full() || nodes_ > kMostNodes || bytes_ > kMostBytes) return false;
         good = false;
       } else if (const Metadata* before = out.find(metadata.name)) {
-        good = refuse(metadata, fmt::format("'{}' is already given in line {}", metadata.name, before->line),
-                      "keep one of them");
+        good = refuse(ErrorCode::duplicate, metadata,
+                      fmt::format("'{}' is already given in line {}", metadata.name, before->line), "keep one of them");
       } else {
         out.children.push_back(std::move(metadata));
       }
@@ -63,20 +63,21 @@ class MetadataReader {
 
   bool read_value(const std::string& type, const std::string& text, Metadata& out) {
     if (type != "MetadataString" && text.find('"') != std::string::npos)
-      return refuse(out, fmt::format("a {} cannot hold text", type), "write a MetadataString, or remove the quotes");
+      return refuse(ErrorCode::invalid_value, out, fmt::format("a {} cannot hold text", type),
+                    "write a MetadataString, or remove the quotes");
     if (type == "MetadataString") return take(parse_strings(text), MetadataKind::strings, out.strings, out);
     out.commas = decimal_commas(text);
     if (type == "MetadataDouble" || type == "MetadataFloat")
       return take(parse_numbers(text), MetadataKind::numbers, out.numbers, out);
     if (type == "MetadataInteger") return take(parse_integers(text), MetadataKind::integers, out.numbers, out);
     if (type == "MetadataBoolean") return take(parse_booleans(text), MetadataKind::booleans, out.booleans, out);
-    return refuse(out, fmt::format("{} is not a metadata node of X3D", type),
+    return refuse(ErrorCode::unknown_name, out, fmt::format("{} is not a metadata node of X3D", type),
                   "use MetadataSet, String, Double, Float, Integer or Boolean");
   }
 
   template <class T>
   bool take(Value<std::vector<T>> value, MetadataKind kind, std::vector<T>& into, Metadata& out) {
-    if (!value) return refuse(out, value.error().what, value.error().remedy);
+    if (!value) return refuse(ErrorCode::invalid_value, out, value.error().what, value.error().remedy);
     out.kind = kind;
     into = std::move(*value);
     return true;

@@ -13,7 +13,7 @@ namespace mechane::x3d {
 
 enum class MetadataKind { set, strings, numbers, integers, booleans };
 
-/// One Metadata node with what it holds; USE is resolved.
+/// One Metadata node with its content; USE is resolved.
 struct Metadata {
   std::string name;
   MetadataKind kind = MetadataKind::set;
@@ -27,14 +27,15 @@ struct Metadata {
   [[nodiscard]] const Metadata* find(std::string_view child) const;
 };
 
-/// The MetadataSet of that name on an element, read whole: the element's own metadata node, or a set in it, because X3D allows one
-/// metadata node an element. None where there is none, or where its values are faulty (then there is a problem).
+/// The MetadataSet of that name on an element, with all that is in it. It is the element's own metadata node, or a set within that node,
+/// because X3D allows one metadata node per element. None where the element has no such set, or where a value is faulty (which is added
+/// to `problems`).
 [[nodiscard]] std::optional<Metadata> read_metadata(const Document& document, NodeId owner, std::string_view name,
                                                     Problems& problems);
 
-/// The metadata element of that name which fills the field `value` of a set; none where there is none. USE is resolved.
+/// The metadata element of that name in the field `value` of a set; none where the set has none. USE is resolved.
 [[nodiscard]] NodeId find_child(const Document& document, NodeId set, std::string_view name);
-/// The set of that name on an element, or in the set that stands on it, as read_metadata() finds it.
+/// The set of that name on an element, or within the element's own set, as read_metadata() finds it.
 [[nodiscard]] NodeId find_set(const Document& document, NodeId owner, std::string_view name);
 /// The name of a metadata element, with USE resolved.
 [[nodiscard]] std::string name_of(const Document& document, NodeId metadata);

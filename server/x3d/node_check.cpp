@@ -22,7 +22,7 @@ bool is_metadata(std::string_view type) {
   return type.starts_with("Metadata");
 }
 
-/// Where a node that stands wrong likely belongs; the first that fits.
+/// Where a misplaced node likely belongs; the first that fits.
 struct Home {
   std::string_view type;
   std::string_view holder;
@@ -55,15 +55,15 @@ class NodeChecker {
       }
       check_attributes(id, *type);
       check_place(id, *type);
-      // A prototype's fields and body are text for other readers.
+      // Prototypes are not checked: only other readers use them.
       if (node.name == "ProtoDeclare" || node.name == "ExternProtoDeclare") continue;
       open.insert(open.end(), node.children.rbegin(), node.children.rend());
     }
-    report_unsaid();
+    report_unwritten();
   }
 
  private:
-  /// X3D's text stands in attributes.
+  /// X3D writes its text in attributes; text between elements is likely a mistake.
   void check_text(const Node& node) {
     const Node& parent = document_[node.parent];
     const NodeType* type = x3d_.find(parent.name);
@@ -72,7 +72,7 @@ class NodeChecker {
     const std::size_t begin = std::min(node.text.find_first_not_of(" \t\r\n"), node.text.size());
     if (begin == node.text.size()) return;
     const auto lines = std::count(node.text.begin(), node.text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-    problems_.warning(node.line + static_cast<int>(lines), document_.describe(node.parent),
+    problems_.warning(ErrorCode::not_supported, node.line + static_cast<int>(lines), document_.describe(node.parent),
                       fmt::format("the text '{}' between elements does nothing", node.text.substr(begin, 30)),
                       "remove it, or write it as a comment: <!-- ... -->");
   }
@@ -89,8 +89,8 @@ class NodeChecker {
       }
       if (is_metadata(type.name) && attribute.name == "value") continue;  // read_metadata checks it, with its name
       if (const auto fault = field->fault(attribute.value)) {
-        problems_.error(node.line, document_.describe(id), fmt::format("{}: {}", attribute.name, fault->what),
-                        fault->remedy);
+        problems_.error(ErrorCode::invalid_value, node.line, document_.describe(id),
+                        fmt::format("{}: {}", attribute.name, fault->what), fault->remedy);
       }
     }
   }
@@ -105,7 +105,7 @@ class NodeChecker {
                       fmt::format("a {} has no attribute '{}', and it does nothing", type.name, name), name, known);
   }
 
-  /// Which field of its parent the element fills.
+  /// Checks which field of its parent the element fills.
   void check_place(NodeId id, const NodeType& type) {
     const Node& node = document_[id];
     if (!node.parent) return;
@@ -124,19 +124,20 @@ class NodeChecker {
     if (fitting.empty()) return misplaced(id, type, *parent);
     const std::string remedy = fmt::format("write containerField='{}'", fmt::join(fitting, "' or '"));
     if (written != nullptr) {
-      problems_.error(node.line, document_.describe(id),
+      problems_.error(ErrorCode::conflict, node.line, document_.describe(id),
                       fmt::format("containerField='{}': a {} has no such field for a {}", field.substr(0, 80),
                                   parent->name, type.name),
                       remedy);
     } else if (fitting.size() > 1) {
       problems_.error(
-          node.line, document_.describe(id),
-          fmt::format("the containerField is missing: which field of the {} it fills is not clear", parent->name),
+          ErrorCode::missing, node.line, document_.describe(id),
+          fmt::format("the containerField is missing, and the {} has several fields for a {}", parent->name, type.name),
           remedy);
     } else {
       problems_.warning(
-          node.line, document_.describe(id),
-          fmt::format("the containerField is missing: other readers cannot tell what it is to the {}", parent->name),
+          ErrorCode::missing, node.line, document_.describe(id),
+          fmt::format("the containerField is missing: other readers cannot tell which field of the {} it fills",
+                      parent->name),
           remedy);
     }
   }
@@ -153,9 +154,10 @@ class NodeChecker {
       };
       if (holders.empty() && std::any_of(slots.begin(), slots.end(), takes)) holders.push_back(name);
     }
-    problems_.error(
-        document_[id].line, document_.describe(id), fmt::format("a {} cannot stand in a {}", type.name, parent.name),
-        holders.empty() ? std::string("move it out; an end tag before it may be missing")
+    problems_.error(ErrorCode::conflict, document_[id].line, document_.describe(id),
+                    fmt::format("a {} cannot stand in a {}", type.name, parent.name),
+                    holders.empty()
+                        ? std::string("move it out; an end tag before it may be missing")
                         : fmt::format("move it into a {}; an end tag before it may be missing", holders.front()));
   }
 
@@ -164,21 +166,21 @@ class NodeChecker {
     const std::string wanted = parent.name == "MetadataSet" ? "value" : "metadata";
     const std::string* written = node.attribute("containerField");
     if (written == nullptr) {
-      if (++unsaid_ == 1) first_unsaid_ = id;
+      if (++unwritten_ == 1) first_unwritten_ = id;
       return;
     }
     if (*written == wanted || *written == "metadata") return;
     problems_.error(
-        node.line, document_.describe(id),
+        ErrorCode::conflict, node.line, document_.describe(id),
         fmt::format("containerField='{}' is wrong for metadata of a {}", written->substr(0, 80), parent.name),
         fmt::format("write containerField='{}'", wanted));
   }
 
-  void report_unsaid() {
-    if (unsaid_ == 0) return;
-    problems_.warning(document_[first_unsaid_].line, document_.describe(first_unsaid_),
-                      fmt::format("{} metadata node{} without containerField: readers differ in what they are", unsaid_,
-                                  unsaid_ == 1 ? " is" : "s are"),
+  void report_unwritten() {
+    if (unwritten_ == 0) return;
+    problems_.warning(ErrorCode::missing, document_[first_unwritten_].line, document_.describe(first_unwritten_),
+                      fmt::format("{} metadata node{} without containerField: X3D readers treat {} differently",
+                                  unwritten_, unwritten_ == 1 ? " is" : "s are", unwritten_ == 1 ? "it" : "them"),
                       "write containerField='metadata' on a node's own set, and 'value' inside a set");
   }
 
@@ -186,8 +188,8 @@ class NodeChecker {
   Problems& problems_;
   const Schema& x3d_;
   std::vector<std::string> names_;
-  std::size_t unsaid_ = 0;
-  NodeId first_unsaid_;
+  std::size_t unwritten_ = 0;
+  NodeId first_unwritten_;
 };
 
 /// Names that an IMPORT gives to nodes of another file.
@@ -209,9 +211,11 @@ void check_routes(const Document& document, Problems& problems) {
     for (const char* end : {"fromNode", "toNode"}) {
       const std::string* name = route.attribute(end);
       if (name == nullptr) {
-        problems.error(route.line, "ROUTE", fmt::format("{} is missing", end), "name a DEF");
+        problems.error(ErrorCode::missing, route.line, "ROUTE", fmt::format("{} is missing", end),
+                       "write the DEF of an element");
       } else if (!document.find_def(*name) && !imported.contains(*name)) {
-        problems.error(route.line, "ROUTE", fmt::format("{}: no element has the DEF '{}'", end, name->substr(0, 80)),
+        problems.error(ErrorCode::unknown_name, route.line, "ROUTE",
+                       fmt::format("{}: no element has the DEF '{}'", end, name->substr(0, 80)),
                        suggest(*name, defs, "give an element that DEF"));
       }
     }

@@ -6,8 +6,8 @@
 
 namespace mechane::x3d {
 
-/// Types, attributes and their values, which field of its parent an element fills, and the ends of routes. Values of metadata are
-/// read_metadata()'s to check. Any thread.
+/// Checks types, attributes and their values, which field of its parent an element fills, and the ends of routes. read_metadata() checks
+/// the values of metadata. Any thread.
 void check_nodes(const Document& document, Problems& problems);
 
 }  // namespace mechane::x3d

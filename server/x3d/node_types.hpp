@@ -1,4 +1,4 @@
-// The text of node_types.txt, built in: read by schema.cpp alone.
+// The text of node_types.txt, built in: only schema.cpp reads it.
 #pragma once
 
 #include <string_view>

@@ -21,32 +21,35 @@ std::string place(const Problem& problem) {
 
 }  // namespace
 
-void Problems::add(Severity severity, int line, std::string node, std::string what, std::string remedy) {
-  // An error is never lost: the first one may come after as many warnings.
+void Problems::add(Severity severity, ErrorCode code, int line, std::string node, std::string what,
+                   std::string remedy) {
+  // The first error is always kept, even behind that many warnings.
   if (full() && !(severity == Severity::error && errors_ == 0)) return;
-  problems_.push_back({severity, file_, line, std::move(node), std::move(what), std::move(remedy)});
+  problems_.push_back({severity, code, file_, line, std::move(node), std::move(what), std::move(remedy)});
 }
 
-void Problems::error(int line, std::string node, std::string what, std::string remedy) {
-  add(Severity::error, line, std::move(node), std::move(what), std::move(remedy));
+void Problems::error(ErrorCode code, int line, std::string node, std::string what, std::string remedy) {
+  add(Severity::error, code, line, std::move(node), std::move(what), std::move(remedy));
   ++errors_;
 }
 
-void Problems::warning(int line, std::string node, std::string what, std::string remedy) {
-  add(Severity::warning, line, std::move(node), std::move(what), std::move(remedy));
+void Problems::warning(ErrorCode code, int line, std::string node, std::string what, std::string remedy) {
+  add(Severity::warning, code, line, std::move(node), std::move(what), std::move(remedy));
 }
 
 void Problems::unknown(int line, std::string node, std::string what, const std::string& word,
                        std::span<const std::string> candidates) {
   if (full() && errors_ > 0) return;
   const bool near = !nearest(word, candidates).empty();
-  add(near ? Severity::error : Severity::warning, line, std::move(node), std::move(what),
-      near ? suggest(word, candidates, "") : "remove it; " + suggest(word, candidates, "nothing may be written here"));
+  std::string remedy = suggest(word, candidates, "remove it; nothing may be written here");
+  if (!near && !candidates.empty()) remedy = "remove it, or " + remedy;
+  add(near ? Severity::error : Severity::warning, ErrorCode::unknown_name, line, std::move(node), std::move(what),
+      std::move(remedy));
   if (near) ++errors_;
 }
 
 void Problems::note(int line, std::string node, std::string what, std::string remedy) {
-  add(Severity::note, line, std::move(node), std::move(what), std::move(remedy));
+  add(Severity::note, ErrorCode::not_supported, line, std::move(node), std::move(what), std::move(remedy));
 }
 
 Error Problems::first_error() const {
@@ -57,7 +60,7 @@ Error Problems::first_error() const {
   if (!first->node.empty()) where += ", " + first->node;
   std::string remedy = first->remedy;
   if (errors_ > 1) remedy += fmt::format(" (and {} more: run `mechane check {}`)", errors_ - 1, file_);
-  return {first->what, where, remedy};
+  return {first->code, first->what, std::move(where), std::move(remedy), first->line};
 }
 
 std::string_view word_of(Severity severity) {
@@ -77,13 +80,14 @@ std::string to_json(std::span<const Problem> problems) {
   nlohmann::json list = nlohmann::json::array();
   for (const Problem& p : problems) {
     list.push_back({{"severity", word_of(p.severity)},
+                    {"code", name_of(p.code)},
                     {"file", p.file},
                     {"line", p.line},
                     {"node", p.node},
                     {"what", p.what},
                     {"remedy", p.remedy}});
   }
-  // File names and garbled attributes may be of any bytes: a byte that is not UTF-8 is shown as such, not thrown.
+  // File names and garbled attributes may hold any bytes: a byte that is not UTF-8 is replaced, where dump() would else throw.
   return list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -1,4 +1,4 @@
-// What is wrong in a scenario, said so that its author can mend it.
+// What is wrong in a scenario, in words that let its author mend it.
 #pragma once
 
 #include <span>
@@ -12,10 +12,11 @@ namespace mechane::x3d {
 
 enum class Severity { note, warning, error };
 
-/// One fault. An error keeps the scenario from running; a warning does not, but is likely not meant; a note says what of a right file
-/// Mechane leaves aside.
+/// One fault. With an error the scenario cannot run; a warning is of something that is likely not meant; a note is of something valid
+/// that Mechane ignores.
 struct Problem {
   Severity severity = Severity::error;
+  ErrorCode code = ErrorCode::invalid_value;
   std::string file;    ///< as the caller named it
   int line = 0;        ///< from 1; 0 where no line can be named
   std::string node;    ///< "RigidBody INNER", "step turn"; empty where it is about the whole file
@@ -28,24 +29,25 @@ class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
-  void error(int line, std::string node, std::string what, std::string remedy);
-  void warning(int line, std::string node, std::string what, std::string remedy);
-  /// For a word that is not known where it stands: an error that names the nearest candidate, for something was meant; a warning
-  /// where none is near.
+  void error(ErrorCode code, int line, std::string node, std::string what, std::string remedy);
+  void warning(ErrorCode code, int line, std::string node, std::string what, std::string remedy);
+  /// For a word that is not known in its place, with ErrorCode::unknown_name: an error that names the nearest candidate, because that
+  /// was likely meant; a warning where no candidate is near.
   void unknown(int line, std::string node, std::string what, const std::string& word,
                std::span<const std::string> candidates);
+  /// For something valid that Mechane ignores: ErrorCode::not_supported.
   void note(int line, std::string node, std::string what, std::string remedy);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
-  /// True once no more are kept: whoever looks for more may stop. A broken file can have one fault a line.
+  /// True once no more are kept, so that a search for more may stop: a broken file can have one fault a line.
   [[nodiscard]] bool full() const { return problems_.size() >= kMost; }
-  /// The first error, as the Error of an Expected, with a count of the others. There must be one.
+  /// The first error, as the Error of an Expected, with a count of the others. There must be an error.
   [[nodiscard]] Error first_error() const;
   [[nodiscard]] const std::vector<Problem>& all() const { return problems_; }
   [[nodiscard]] const std::string& file() const { return file_; }
 
  private:
-  void add(Severity severity, int line, std::string node, std::string what, std::string remedy);
+  void add(Severity severity, ErrorCode code, int line, std::string node, std::string what, std::string remedy);
 
   static constexpr std::size_t kMost = 200;
 

@@ -1,5 +1,5 @@
-// What X3D 4.0 knows: its node types, their fields with type, range and default, and which node may fill which field of which other.
-// Says nothing of what Mechane does with a node: see schema.hpp.
+// X3D 4.0's own tables: its node types, their fields with type, range and default, and which node may fill which field of another.
+// What Mechane does with a node is in server/scenario/schema.hpp.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace mechane::x3d {
 struct Field {
   std::string_view name;
   std::string_view type;           ///< as the standard calls it: "SFVec3f"
-  std::string_view default_value;  ///< numbers apart by commas; empty: none, or an empty list
+  std::string_view default_value;  ///< numbers separated by commas; empty: no default, or an empty list
   double min = 0;                  ///< of every number; see the flags
   double max = 0;
   bool has_min = false;
@@ -25,9 +25,9 @@ struct Field {
   bool above_min = false;  ///< the end itself is not allowed
   bool below_max = false;
 
-  /// "0 to 1", "above 0", "0 or more"; empty where any number will do.
+  /// "0 to 1", "above 0", "0 or more"; empty where any number is allowed.
   [[nodiscard]] std::string range() const;
-  /// What is wrong with a value as it stands in the file, and what to write; nothing where it is right.
+  /// What is wrong with a value as written in the file, and what to write instead; none where it is right.
   [[nodiscard]] std::optional<BadValue> fault(std::string_view text) const;
 };
 
@@ -49,19 +49,19 @@ struct NodeType {
   [[nodiscard]] const Field* field(std::string_view name) const;
   [[nodiscard]] const Slot* slot(std::string_view name) const;
   [[nodiscard]] bool is_abstract() const { return name.starts_with("X3D") && name != "X3D"; }
-  /// ROUTE, head, ProtoDeclare ...: not a node.
+  /// Whether it is a statement like ROUTE, head or ProtoDeclare, and not a node.
   [[nodiscard]] bool is_statement() const;
 };
 
 /// All types. Immutable; any thread.
 class Schema {
  public:
-  /// That of X3D 4.0, made at the first call.
+  /// The schema of X3D 4.0, made at the first call.
   [[nodiscard]] static const Schema& standard();
 
-  /// Null where X3D has no such element.
+  /// The type of that name; null where X3D has no such element.
   [[nodiscard]] const NodeType* find(std::string_view name) const;
-  /// Whether a type is another or comes from it.
+  /// Whether a type is `base` or inherits from it.
   [[nodiscard]] bool is_a(std::string_view type, std::string_view base) const;
   [[nodiscard]] bool accepts(const Slot& slot, std::string_view type) const;
   /// The names of all elements that a file may hold, in alphabetical order.

@@ -14,7 +14,7 @@ bool is_name(char c) {
          c == '.' || c == ':' || byte >= 0x80;
 }
 
-/// What stands between & and ; where it gives a letter's number.
+/// Whether the text between & and ; is a character's number, like #233 or #xe9.
 bool is_number_reference(std::string_view name) {
   if (!name.starts_with('#')) return false;
   name.remove_prefix(1);
@@ -59,7 +59,7 @@ class StartTag {
     const std::string tag = shown_name(name_);
     if (!begins_name(text_[at_])) {
       const bool quote = text_[at_] == '"' || text_[at_] == '\'';
-      return fail(begin, fmt::format("'{}' stands in the tag <{}> where an attribute should", text_[at_], tag),
+      return fail(begin, fmt::format("the tag <{1}> has '{0}' where an attribute should be", text_[at_], tag),
                   quote ? "a quote is left over, or the value before it holds a quote: write &quot; or &apos; there"
                         : "close the tag with > or />, and write attributes as name='value'");
     }
@@ -71,15 +71,15 @@ class StartTag {
     if (at_ >= text_.size() || text_[at_] != '=') {
       return fail(begin, fmt::format("'{}' in the tag <{}> has no value", shown, tag),
                   !apart || (at_ < text_.size() && (text_[at_] == '\'' || text_[at_] == '"'))
-                      ? "the quote before it ended the value: write &apos; there, or &quot; for a double one"
+                      ? "the quote before it ended the value: write &apos; there, or &quot; for a double quote"
                       : fmt::format("write {}='...', or close the tag before it", shown));
     }
-    if (!apart) return fail(begin, fmt::format("no blank stands before '{}'", shown), "put one there");
+    if (!apart) return fail(begin, fmt::format("there is no blank before '{}'", shown), "write a blank there");
     ++at_;
     skip_spaces();
     const char quote = at_ < text_.size() ? text_[at_] : ' ';
     if (quote != '\'' && quote != '"') {
-      // Curly quotes are three bytes in UTF-8, and no word of XML begins so.
+      // Curly quotes are three bytes in UTF-8, and the first byte is 0xe2.
       const bool curly = static_cast<unsigned char>(quote) == 0xe2;
       return fail(begin,
                   fmt::format("the value of '{}' in the tag <{}> is {}", shown, tag,
@@ -139,11 +139,11 @@ std::optional<XmlFault> reference_fault(std::string_view text, std::size_t begin
       ++stop;
     const std::string_view name = text.substr(i + 1, stop - i - 1);
     if (name.empty() || stop >= end || text[stop] != ';')
-      return XmlFault{i, {}, "a bare & stands in the text", "write &amp; for the letter &"};
+      return XmlFault{i, {}, "the text has a bare &", "write &amp; for the letter &"};
     if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end() || is_number_reference(name)) continue;
     return XmlFault{i,
                     {},
-                    fmt::format("&{}; is not a letter that XML knows", name.substr(0, 40)),
+                    fmt::format("&{}; is not one of XML's own references", name.substr(0, 40)),
                     "write the letter itself, in UTF-8; for & write &amp;"};
   }
   return std::nullopt;

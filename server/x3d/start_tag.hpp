@@ -1,5 +1,5 @@
-// Where the attributes of one start tag stand, and what is wrong with a tag that a parser refuses. The parser decides what is XML;
-// this finds places, and words for people.
+// The places of a start tag's attributes, and what is wrong with a tag that the parser refuses. The parser decides what is XML; this
+// finds the places and the words for people.
 #pragma once
 
 #include <cstddef>
@@ -29,20 +29,20 @@ struct XmlFault {
   std::string remedy;
 };
 
-/// The attributes of the start tag at `begin`, in the order written; or the first fault in it. Holds nothing of a tag's name and end
-/// against XML: of a tag that a parser has read, it finds all attributes.
+/// The attributes of the start tag at `begin`, in the order written; or the first fault in it. It does not check the tag's name and end:
+/// in a tag that a parser has accepted, it finds all attributes.
 [[nodiscard]] tl::expected<std::vector<AttributeSpan>, XmlFault> find_attributes(std::string_view text,
                                                                                  std::size_t begin);
 
-/// The first '&' between two offsets that does not begin a reference that XML itself defines.
+/// The first '&' between two offsets that does not begin one of XML's own references.
 [[nodiscard]] std::optional<XmlFault> reference_fault(std::string_view text, std::size_t begin, std::size_t end);
 
-/// The letters of a name at an offset. Bytes above ASCII are letters of some alphabet.
+/// The letters of the name at an offset. All bytes above ASCII count as letters.
 [[nodiscard]] std::string_view name_at(std::string_view text, std::size_t at);
 [[nodiscard]] bool begins_name(char c);
 [[nodiscard]] bool is_space(char c);
 
-/// A name as it is shown to people: not longer than a line.
+/// A name as a message shows it: at most one line.
 [[nodiscard]] std::string shown_name(std::string_view name);
 
 }  // namespace mechane::x3d

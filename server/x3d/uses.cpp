@@ -13,7 +13,7 @@ namespace {
 using NameScope = NodeId;
 using NamesByScope = std::map<std::pair<NameScope, std::string>, NodeId>;
 
-/// The scope of each node. Parents stand before their children.
+/// The scope of each node. Parents come before their children in `nodes`.
 std::vector<NameScope> scopes_of(const std::vector<Node>& nodes) {
   std::vector<NameScope> scopes(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -32,7 +32,7 @@ NamesByScope collect_names(const std::vector<Node>& nodes, const std::vector<Nam
     if (def == nullptr || def->empty()) continue;
     const auto [it, fresh] = names.try_emplace({scopes[i], *def}, NodeId(i));
     if (!fresh) {
-      problems.error(nodes[i].line, nodes[i].name + " " + *def,
+      problems.error(ErrorCode::duplicate, nodes[i].line, nodes[i].name + " " + *def,
                      fmt::format("the DEF '{}' is already given in line {}", *def, nodes[it->second.index()].line),
                      "give this element another name");
     }
@@ -56,33 +56,33 @@ void resolve_one(std::vector<Node>& nodes, std::size_t i, NameScope scope, const
   const std::string place = node.name + " USE " + *use;
   const auto it = names.find({scope, *use});
   if (it == names.end()) {
-    problems.error(node.line, place, fmt::format("no element has the DEF '{}'", *use),
+    problems.error(ErrorCode::unknown_name, node.line, place, fmt::format("no element has the DEF '{}'", *use),
                    suggest(*use, names_within(names, scope), "give an element that DEF"));
     return;
   }
   const Node& target = nodes[it->second.index()];
   if (target.name != node.name) {
-    problems.error(node.line, place,
+    problems.error(ErrorCode::conflict, node.line, place,
                    fmt::format("'{}' is a {} (line {}), not a {}", *use, target.name, target.line, node.name),
                    "USE an element of the same type");
     return;
   }
   if (it->second.index() > i) {
     problems.warning(
-        node.line, place,
-        fmt::format("USE stands before its DEF (line {}); other X3D readers will not find it", target.line),
+        ErrorCode::conflict, node.line, place,
+        fmt::format("the USE comes before its DEF (line {}): other X3D readers do not find it", target.line),
         "move the DEF before it");
   }
   node.used = it->second;
 }
 
-/// Depth first over children and uses: an edge to a node that is still open closes a circle.
+/// Depth first over children and USEs: an edge to a node that is still open closes a circle.
 void find_circles(std::vector<Node>& nodes, Problems& problems) {
   enum class Mark : std::uint8_t { unseen, open, done };
   std::vector<Mark> marks(nodes.size(), Mark::unseen);
   struct Visit {
     std::size_t node;
-    std::size_t next = 0;  // child to go to; children.size() is the use
+    std::size_t next = 0;  // the next child to visit; children.size(): the element it uses
   };
   std::vector<Visit> stack;
   for (std::size_t root = 0; root < nodes.size(); ++root) {
@@ -101,10 +101,10 @@ void find_circles(std::vector<Node>& nodes, Problems& problems) {
       const NodeId to = step < node.children.size() ? node.children[step] : node.used;
       if (!to || marks[to.index()] == Mark::done) continue;
       if (marks[to.index()] == Mark::open) {
-        problems.error(node.line, node.name + " USE " + *node.attribute("USE"),
+        problems.error(ErrorCode::conflict, node.line, node.name + " USE " + *node.attribute("USE"),
                        fmt::format("this USE is inside the element that it refers to (line {}), which makes a circle",
                                    nodes[to.index()].line),
-                       "move the USE out of it, or write an element of its own");
+                       "move the USE out of it, or write a new element in its place");
         node.used = NodeId::none();
         continue;
       }

@@ -1,4 +1,4 @@
-// DEF and USE: which element stands for which. A part of reading a document.
+// DEF and USE: which element each USE refers to. A part of reading a document.
 #pragma once
 
 #include <map>
@@ -10,8 +10,9 @@
 
 namespace mechane::x3d {
 
-/// Fills Node::used, and `defs` with the DEFs outside prototypes (a prototype's body has names of its own). Problems: a DEF given
-/// twice, a USE that names nothing, or an element of another type, or stands before its DEF (warning), or closes a circle.
+/// Fills Node::used, and `defs` with the DEFs outside prototypes (a prototype's body has its own names). Problems: a DEF given twice; a
+/// USE whose name no element has, that names an element of another type, that closes a circle, or (a warning) that is written before
+/// its DEF.
 void resolve_uses(std::vector<Node>& nodes, std::map<std::string, NodeId, std::less<>>& defs, Problems& problems);
 
 }  // namespace mechane::x3d

@@ -25,7 +25,7 @@ std::string_view next_word(std::string_view& text) {
   return word;
 }
 
-/// A word as it is shown to people: not longer than a line.
+/// A word as a message shows it, cut to 40 bytes.
 std::string shown(std::string_view word) {
   return std::string(word.substr(0, 40));
 }
@@ -44,7 +44,7 @@ bool is_decimal_comma(std::string_view word) {
 constexpr std::string_view kQuotes[] = {"\"",     "'",      "\u201c", "\u201d", "\u201e", "\u201f",
                                         "\u2018", "\u2019", "\u201a", "\u201b", "\u00ab", "\u00bb"};
 
-/// Takes quotes of any kind off both ends.
+/// Removes quotes of any kind from both ends.
 std::string_view without_quotes(std::string_view text) {
   for (bool found = true; found;) {
     found = false;

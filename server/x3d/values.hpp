@@ -1,4 +1,4 @@
-// X3D's field values in XML attributes, strictly: what is not a value is named, not guessed at.
+// Reads X3D's field values from XML attributes, strictly: a malformed value is an error, and is never guessed at.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace mechane::x3d {
 
-/// What a value cannot be: "'1e999' is not a finite number".
+/// Why a text is not a value ("'1e999' is not a finite number"), and what to write. Its ErrorCode is invalid_value.
 struct BadValue {
   std::string what;
   std::string remedy;
@@ -20,24 +20,24 @@ struct BadValue {
 template <class T>
 using Value = tl::expected<T, BadValue>;
 
-/// Words like "12,5", which are read as two numbers each: X3D separates numbers by commas too.
+/// Words like "12,5": each is read as two numbers, because X3D also separates numbers by commas.
 struct DecimalCommas {
   std::string first;  ///< the first such word, as written; empty if there are none
   std::size_t count = 0;
 };
 [[nodiscard]] DecimalCommas decimal_commas(std::string_view text);
-/// Why there are more numbers than wanted, and what to write: where commas that were meant as decimal points make the difference.
+/// Where decimal commas explain why there are more numbers than wanted: the fault, and what to write.
 [[nodiscard]] std::optional<BadValue> comma_fault(const DecimalCommas& commas, std::size_t count, std::size_t wanted);
 
-/// What to write for a text that is not in straight double quotes: attribute='"text"', without the curly quotes that it may have.
+/// How to write a text that is not in straight double quotes: attribute='"text"', without its curly quotes.
 [[nodiscard]] std::string in_straight_quotes(std::string_view attribute, std::string_view text);
 
-/// Numbers apart by blanks or commas, all finite.
+/// Numbers separated by blanks or commas, all finite.
 [[nodiscard]] Value<std::vector<double>> parse_numbers(std::string_view text);
 /// The same, whole numbers only.
 [[nodiscard]] Value<std::vector<double>> parse_integers(std::string_view text);
 [[nodiscard]] Value<std::vector<bool>> parse_booleans(std::string_view text);
-/// Whether a url is a path from the file that holds it, as everything is in a museum without a network.
+/// Whether a url is a path relative to the file that holds it: a museum may have no network.
 [[nodiscard]] bool is_relative_path(std::string_view url);
 /// MFString: "one" "two", with \" and \\ inside.
 [[nodiscard]] Value<std::vector<std::string>> parse_strings(std::string_view text);

@@ -25,7 +25,7 @@ class FaultFinder {
     if (sees("<!DOCTYPE")) return doctype();
     if (sees("</")) return end_tag();
     if (at_ + 1 < text_.size() && begins_name(text_[at_ + 1])) return start_tag();
-    return fault(at_, "a bare < stands in the text", "write &lt; for the letter <");
+    return fault(at_, "the text has a bare <", "write &lt; for the letter <");
   }
 
  private:
@@ -35,12 +35,12 @@ class FaultFinder {
     return {offset, open_ ? shown_name(open().name) : std::string(), std::move(what), std::move(remedy)};
   }
 
-  /// Where nothing better is known.
+  /// The parser's own words, where nothing better is known.
   XmlFault as_the_parser_says() const {
     const std::size_t at = refusal_.offset;
     const unsigned byte = at < text_.size() ? static_cast<unsigned char>(text_[at]) : ' ';
     if (byte < ' ' && !is_space(static_cast<char>(byte))) {
-      return fault(at, fmt::format("a control character (0x{:02x}) stands in the text", byte), "remove it");
+      return fault(at, fmt::format("the text has a control character (0x{:02x})", byte), "remove it");
     }
     return fault(at, fmt::format("the parser stops here: {}", refusal_.words),
                  "close what is open and quote every attribute; an XML editor shows the place");
@@ -62,11 +62,11 @@ class FaultFinder {
     if (auto reference = reference_fault(text_, at_, end))
       return fault(reference->offset, std::move(reference->what), std::move(reference->remedy));
     const std::size_t brackets = text_.substr(0, end).find("]]>", at_);
-    if (brackets != std::string_view::npos) return fault(brackets, "]]> stands in the text", "write ]]&gt; there");
+    if (brackets != std::string_view::npos) return fault(brackets, "the text has ]]>", "write ]]&gt; there");
     return as_the_parser_says();
   }
 
-  /// `what` that begins at at_ and should end with `end`.
+  /// For something that begins at at_ and should end with `end`.
   XmlFault unclosed(std::string_view what, std::string_view end) const {
     if (text_.find(end, at_) != std::string_view::npos) return as_the_parser_says();
     return fault(at_, fmt::format("{} is never closed", what), fmt::format("write {} where it ends", end));
@@ -76,7 +76,7 @@ class FaultFinder {
     const std::size_t dashes = text_.find("--", at_ + 4);
     if (dashes == std::string_view::npos || text_.substr(dashes).starts_with("-->"))
       return unclosed("a comment", "-->");
-    return fault(dashes, "-- stands inside a comment", "XML forbids it: write one dash, or end the comment with -->");
+    return fault(dashes, "a comment has -- in it", "XML forbids it: write one dash, or end the comment with -->");
   }
 
   XmlFault cdata() const {
@@ -86,13 +86,13 @@ class FaultFinder {
 
   XmlFault instruction() const {
     if (name_at(text_, at_ + 2) == "xml" && at_ > 0 && text_.find("?>", at_) != std::string_view::npos)
-      return fault(at_, "<?xml ...?> is not the first thing in the file", "remove what stands before it, blanks too");
+      return fault(at_, "<?xml ...?> is not the first thing in the file", "remove everything before it, blanks too");
     return unclosed("an instruction <?", "?>");
   }
 
   XmlFault doctype() const {
     if (!nodes_.empty())
-      return fault(at_, "a DOCTYPE stands behind the first element", "remove it; a scenario needs none");
+      return fault(at_, "the DOCTYPE comes after the first element", "remove it; a scenario needs none");
     if (text_.find('>', at_) == std::string_view::npos)
       return fault(at_, "the DOCTYPE is never closed", "write > where it ends");
     return fault(at_, fmt::format("the DOCTYPE cannot be read: {}", refusal_.words),
@@ -109,7 +109,7 @@ class FaultFinder {
     const std::string wanted = shown_name(open().name);
     if (name == wanted) return as_the_parser_says();
     const std::vector<std::string> meant{wanted};
-    return fault(at_, fmt::format("</{}> comes where </{}> is awaited", name, wanted),
+    return fault(at_, fmt::format("</{}> is written where </{}> should be", name, wanted),
                  nearest(name, meant).empty() ? fmt::format("<{}> of line {} is still open: close it first{}", wanted,
                                                             open().line, by_indentation())
                                               : fmt::format("write the same name here and in line {}", open().line));
@@ -135,9 +135,9 @@ class FaultFinder {
     return as_the_parser_says();
   }
 
-  /// How far an element is indented; none where other things stand before it on its line.
+  /// How far an element is indented; none where it is not the first thing on its line.
   std::optional<std::size_t> column_of(std::size_t begin) const {
-    constexpr std::size_t kWidestIndent = 400;  // nobody indents further
+    constexpr std::size_t kWidestIndent = 400;  // no author indents further
     const std::size_t from = begin > kWidestIndent ? begin - kWidestIndent : 0;
     const std::size_t found = text_.substr(from, begin - from).find_last_not_of(" \t");
     if (found == std::string_view::npos) return std::nullopt;
@@ -145,8 +145,8 @@ class FaultFinder {
     return text_[last] == '\n' ? std::optional(begin - last - 1) : std::nullopt;
   }
 
-  /// Where to look, for a fault of tags that do not fit each other: authors indent, so an element that stands no deeper than the one
-  /// around it shows that this was likely meant to end before.
+  /// For tags that do not match: a hint where to look. Authors indent, so where an element is indented no further than the one around
+  /// it, the outer one was likely meant to end before it.
   std::string by_indentation() const {
     for (const Node& node : nodes_) {
       if (node.kind != NodeKind::element || !node.parent) continue;

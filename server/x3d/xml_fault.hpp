@@ -1,4 +1,4 @@
-// Where a parser refuses a text as XML: what its author did wrong, and what to write instead.
+// For a text that the parser refuses as XML: what its author did wrong, and what to write instead.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace mechane::x3d {
 
-/// What a parser says.
+/// What the parser reports.
 struct Refusal {
-  std::size_t begin = 0;   ///< of the tag, text or comment that it could not read, behind all that it could
+  std::size_t begin = 0;   ///< the beginning of the tag, text or comment that it could not read
   std::size_t offset = 0;  ///< where it stopped
   std::string_view words;
 };

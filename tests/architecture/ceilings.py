@@ -19,7 +19,10 @@ TEXT_SUFFIXES = {".cpp", ".hpp", ".h", ".idl", ".py", ".sh", ".cmake", ".txt", "
 _MACHINE_PATH = re.compile(r"(?<![\w.}$/-])/(?:work|root|home)(?=/|\b)(?!-)")
 _TEMPORARY_PATH = re.compile(r"(?<![\w.}$/-])/" + r"tmp\b")
 _UNFINISHED = re.compile(r"\b(?:TO" + r"DO|FIX" + r"ME|XX" + r"X|HA" + r"CK)\b")
-_SLEEP = re.compile(r"\b(?:sleep_" + r"for|usleep|nanosleep|sleep)\s*\(")
+_SLEEP = re.compile(r"(?<!void )\b(?:sleep_" + r"for|sleep_until|usleep|nanosleep|sleep)\s*\(")
+_PYTHON_SLEEP = re.compile(r"\btime\.sleep\(")
+_MAY_SLEEP = re.compile(r"(?://|#) sleeps: \w")  # behind the call, with the reason: a look now and then, a pace, time as the subject
+_MUTEX = re.compile(r"\bstd::(?:\w*mutex|lock_guard|unique_lock|scoped_lock|shared_lock|condition_variable\w*)\b")
 _USING_NAMESPACE = re.compile(r"^\s*using\s+namespace\b", re.MULTILINE)
 
 
@@ -124,17 +127,31 @@ def text_faults(root: Path) -> list[Fault]:
         if path.parts[0] != "tests":
             faults += _matches("machine-path", _TEMPORARY_PATH, path, text, "ask the system for its folder of temporary files")
         faults += _matches("unfinished", _UNFINISHED, path, text, "finish it, or say plainly what is not there")
-        if path.parts[0] == "tests" and path.suffix in CPP_SUFFIXES:
-            faults += _matches("sleep", _SLEEP, path, without_comments(text, strings=True),
-                               "a test waits for what it wants to see, with a deadline; a fake clock turns time")
+        if path.suffix in CPP_SUFFIXES and path.parts[:2] == ("client-sdk", "pointer"):
+            faults += _matches("pointer-mutex", _MUTEX, path, without_comments(text, strings=True),
+                               "drawing would hold up the hand; let a ring or a mailbox of realtime carry it")
+        faults += _sleep_faults(path, text)
     return faults
+
+
+def _sleep_faults(path: Path, text: str) -> list[Fault]:
+    if path.parts[0] == "tests" and path.suffix in CPP_SUFFIXES:
+        pattern, code = _SLEEP, without_comments(text, strings=True)
+    elif path.parts[:2] == ("tests", "integration") and path.suffix == ".py" and path.name != "harness.py":
+        pattern, code = _PYTHON_SLEEP, text
+    else:
+        return []
+    lines = text.splitlines()
+    found = _matches("sleep", pattern, path, code, "a test waits for what it wants to see, with a deadline; a fake clock turns time. "
+                     "Where it must sleep, a comment behind it says why: 'sleeps: the pace'")
+    return [fault for fault in found if not _MAY_SLEEP.search(lines[fault.line - 1])]
 
 
 def folder_faults(root: Path) -> list[Fault]:
     faults = []
     cpp = cpp_files(root, *CPP_TOPS)
     rooms = {Path(*path.parts[:2]) for path in cpp if path.parts[0] in ("server", "client-sdk") and len(path.parts) > 2}
-    tests = {path.parent for path in cpp if path.parts[0] == "tests" and path.name.endswith("_test.cpp")}
+    tests = {Path(*path.parent.parts[:3]) for path in cpp if path.parts[0] == "tests" and path.name.endswith("_test.cpp")}
     for folder in sorted(rooms | tests):
         if not (root / folder / "CMakeLists.txt").exists():
             faults.append(Fault("folder-cmake", str(folder), 1, "no CMakeLists.txt: nothing builds this folder"))

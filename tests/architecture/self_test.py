@@ -97,6 +97,10 @@ PLANTED = [
     ("unfinished", "server/base/a.cpp", "// TO" + "DO: the rest\n"),
     ("unfinished", "README.md", "FIX" + "ME\n"),
     ("sleep", "tests/unit/base/a_test.cpp", "std::this_thread::sleep_" + "for(1ms);\n"),
+    ("sleep", "tests/unit/base/a_test.cpp", "clock.sleep_until(end);  // sleeps:\n"),
+    ("sleep", "tests/integration/a_e2e.py", "time.sleep(1)  # until it is there\n"),
+    ("pointer-mutex", "client-sdk/pointer/p.cpp", "std::mutex m;\n"),
+    ("pointer-mutex", "client-sdk/pointer/p.hpp", "#pragma once\nstd::condition_variable_any changed;\n"),
     ("folder-cmake", "server/agents/a.cpp", "int a();\n"),
     ("folder-cmake", "tests/property/p_test.cpp", "int a();\n"),
     ("fuzz-corpus", "tests/fuzz/wire_fuzz.cpp", "int a();\n"),
@@ -153,7 +157,12 @@ class Tree(unittest.TestCase):
             "server/base/a.hpp": "#pragma once\n// using namespace std;\n" + "int a();\n" * 348,
             "server/world/w.cpp": "namespace {\nint e(double y) {\n  struct E {};\n  int kE = 2;\n  return kE;\n}\n}  // namespace\n",
             "server/state/e.cpp": "namespace {\nstruct E {};\n}  // namespace\n",
-            "tests/unit/base/a_test.cpp": "// sleep_" + "for(1ms) would hide a race\nauto p = \"server/root/x\";\n",
+            "tests/unit/base/a_test.cpp": "// sleep_" + "for(1ms) would hide a race\nauto p = \"server/root/x\";\n"
+                                          "void sleep_until(int wake);\nvoid f() {\n  clock.sleep_until(next);  // sleeps: the pace\n}\n",
+            "tests/integration/a_e2e.py": "time.sleep(1)  # sleeps: a second is the subject\n",
+            "tests/integration/harness.py": "time.sleep(1)\n",
+            "client-sdk/pointer/CMakeLists.txt": "\n",
+            "client-sdk/pointer/p.cpp": "// no std::mutex\n",
         }
         self.assertEqual([], [str(fault) for fault in self.faults(innocent)])
 

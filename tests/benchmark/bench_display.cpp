@@ -1,5 +1,6 @@
-// How long a display takes for a picture of a scenario, pass by pass, offscreen: at the start of the visit, nobody there. Wall time, and the
-// processor's (all threads: a software renderer's cost, however busy the machine is). From a frame's receipt to its picture. Memory.
+// How long a display takes for a picture of a scenario, pass by pass, offscreen: at the start of the visit, nobody
+// there. Wall time, and the processor's (all threads: a software renderer's cost, however busy the machine is). From a
+// frame's receipt to its picture. Memory.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -13,6 +14,7 @@
 #include "client-sdk/client/frame_history.hpp"
 #include "client-sdk/client/parse.hpp"
 #include "client-sdk/display/display_loop.hpp"
+#include "client-sdk/display/spare_memory.hpp"
 #include "client-sdk/draw/renderer.hpp"
 #include "client-sdk/picture/image_file.hpp"
 #include "client-sdk/scene/scene_builder.hpp"
@@ -102,8 +104,8 @@ class FrameSource {
   proto::SceneFrame frame_{};
 };
 
-/// From a frame as it comes from the network to the finished picture of it. A display shows each frame kInterpolationDelay after its receipt:
-/// this is counted, the wait for the screen is not.
+/// From a frame as it comes from the network to the finished picture of it. A display shows each frame
+/// kInterpolationDelay after its receipt: this is counted, the wait for the screen is not.
 Expected<void> measure_latency(const Config& config, picture::Stereo stereo, const state::WorldDescription& world,
                                scene::SceneBuilder& builder, const picture::SceneAssets& assets, Report& report) {
   auto renderer = draw::Renderer::create({});
@@ -116,7 +118,8 @@ Expected<void> measure_latency(const Config& config, picture::Stereo stereo, con
   for (int i = -2; i < config.frames; ++i) {
     const proto::SceneFrame& wire = source.next();
     const TimePoint received = std::chrono::steady_clock::now();
-    if (!client::parse(wire, frame)) return fail("a frame was refused", config.scenario, "mend this benchmark");
+    if (!client::parse(wire, frame))
+      return fail(ErrorCode::invalid_value, "a frame was refused", config.scenario, "correct this benchmark");
     frame.received = received;
     history.add(frame, wire.sent_ns);
     (void)history.at(received, frame);
@@ -149,7 +152,7 @@ Expected<void> measure_passes(const Config& config, picture::Stereo stereo, cons
   client::Frame moved;
   for (int frame = -2; frame < config.frames; ++frame) {
     if (!client::parse(source.next(), moved))
-      return fail("a frame was refused", config.scenario, "mend this benchmark");
+      return fail(ErrorCode::invalid_value, "a frame was refused", config.scenario, "correct this benchmark");
     picture::RenderScene scene = builder.build(&moved, nullptr, client::LinkState::joined);
     scene.time_s += frame / 60.0;
     if (auto ok = (*renderer)->draw(scene, stereo, {config.width, config.height}); !ok) return ok;
@@ -178,7 +181,8 @@ Expected<void> measure(const Config& config, const state::WorldDescription& worl
                        Report& report) {
   const auto stereo =
       std::ranges::find(picture::stereo_names(), config.stereo, &std::pair<std::string_view, picture::Stereo>::first);
-  if (stereo == picture::stereo_names().end()) return fail("no such mode", config.stereo, "see mechane display --help");
+  if (stereo == picture::stereo_names().end())
+    return fail(ErrorCode::unknown_name, "no such mode", config.stereo, "see mechane display --help");
   scene::SceneBuilder builder(library, "en");
   builder.set_manifest(objects_of(world));
   builder.set_presentation(presentation_of(world));
@@ -229,5 +233,6 @@ int main(int argc, char** argv) {
   app.add_option("--stereo", config.stereo, "as mechane display has it");
   app.add_option("--out", config.out, "writes the last picture, PNG");
   CLI11_PARSE(app, argc, argv);
+  mechane::display::keep_large_blocks_apart();  // as a display does: it decides what a picture on the processor costs
   return mechane::benchmark::main_of(config);
 }

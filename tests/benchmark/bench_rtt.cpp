@@ -58,7 +58,7 @@ void measure(client::Client& client, double seconds, Trips& trips) {
   TimePoint due = clock.now();
   for (std::uint64_t number = 0; number < count; ++number) {
     due = std::max(due + kPeriod, clock.now());
-    clock.sleep_until(due);
+    clock.sleep_until(due);  // sleeps: the pace
     const TimePoint sent = clock.now();
     const bool went = client.send(hand_at(number));
     const auto force = went ? answer_to(client, client.sent_sequence(), clock) : std::nullopt;

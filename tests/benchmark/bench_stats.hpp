@@ -1,4 +1,4 @@
-// What every benchmark says of its samples: median, p99, p99.9, max, and the curve of quantiles for a plot.
+// The report of every benchmark about its samples: median, p99, p99.9, max, and the curve of quantiles for a plot.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Samples {
   /// Left out when the room is used up.
   void add(Duration took) {
     if (us_.size() == us_.capacity()) return;
-    us_.push_back(std::chrono::duration<double, std::micro>(took).count());
+    us_.push_back(to_us(took));
     sorted_ = false;
   }
   [[nodiscard]] std::size_t size() const { return us_.size(); }
@@ -52,8 +52,8 @@ class Report {
   void metric(const std::string& name, double value) { json_["metrics"][name] = value; }
   void note(const std::string& text) { json_["notes"].push_back(text); }
 
-  /// `name`.median, .p99, .p999, .max and .count; and its curve: pairs of (share that is slower, microseconds), as far out as there
-  /// are samples.
+  /// `name`.median, .p99, .p999, .max and .count; and its curve: pairs of (share that is slower, microseconds), as far
+  /// out as there are samples.
   /// For anything with quantile_us(share) and size().
   template <class Quantiles>
   void distribution(const std::string& name, Quantiles& samples) {

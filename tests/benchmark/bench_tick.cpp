@@ -1,5 +1,5 @@
-// What a tick costs: the shipped scenario, paced at 1 kHz as the server paces it, with one hand that holds the crank and turns it.
-// Publishing goes nowhere here: what the network and the journal add is in the server's own report.
+// What a tick costs: the shipped scenario, paced at 1 kHz as the server paces it, with one hand that holds the crank
+// and turns it. Publishing goes nowhere here: what the network and the journal add is in the server's own report.
 #include <array>
 #include <future>
 #include <iostream>
@@ -89,8 +89,8 @@ Expected<std::unique_ptr<Run>> make_run(const Config& config) {
   const auto description = store->first();
   const auto hand = test::visit_hand(*description, config.activity, 2 * kPi * kTurnsPerSecond);
   if (!hand)
-    return fail("no visit of '" + config.activity + "' that reaches and turns", config.scenario,
-                "name another activity");
+    return fail(ErrorCode::unknown_name, "no visit of '" + config.activity + "' that reaches and turns",
+                config.scenario, "name another activity");
   auto world = world::World::create(description, store->world_config());
   if (!world) return tl::unexpected(world.error());
   const auto activity = static_cast<std::uint32_t>(description->find_activity(config.activity).index());

@@ -1,6 +1,6 @@
-// What a museum's worlds cost one core. Each scenario is loaded from cached parts; its good visits are played, and what the server took
-// in is played again, as fast as the machine can, each tick timed by the thread's own CPU clock. Then more and more worlds, of mixed
-// exhibits, are stepped one after another in every millisecond.
+// What a museum's worlds cost one core. Each scenario is loaded from cached parts; its good visits are played, and what
+// the server took in is played again, as fast as the machine can, each tick timed by the thread's own CPU clock. Then
+// more and more worlds, of mixed exhibits, are stepped one after another in every millisecond.
 #include <algorithm>
 #include <array>
 #include <future>
@@ -36,10 +36,6 @@ constexpr double kOverrunShare = 1e-3;  // of the ticks: with fewer, one core ho
 constexpr Duration kInterrupted = std::chrono::microseconds(10);
 // Where seats begin in their visits: steps of the golden ratio fill an interval evenly, however many there are.
 constexpr double kGoldenShare = 0.6180339887498949;
-
-double in_us(Duration duration) {
-  return std::chrono::duration<double, std::micro>(duration).count();
-}
 
 /// What the server took in, in one tick of one visitor.
 struct Taken {
@@ -183,7 +179,7 @@ Expected<bool> replay(const Show& show, const Visit& visit, Ticks& ticks, std::v
 
 void report_ticks(const std::string& name, Ticks& ticks, Report& report) {
   report.distribution("tick_us." + name, ticks.every);
-  report.metric("tick_us." + name + ".mean", in_us(ticks.sum) / static_cast<double>(ticks.every.size()));
+  report.metric("tick_us." + name + ".mean", to_us(ticks.sum) / static_cast<double>(ticks.every.size()));
   report.distribution("tick_floor_us." + name, ticks.floor);
   constexpr double kPercentOfTick = 1e-1;  // of 1000 us
   report.metric("budget_pct." + name + ".median", ticks.every.quantile_us(0.5) * kPercentOfTick);
@@ -191,7 +187,7 @@ void report_ticks(const std::string& name, Ticks& ticks, Report& report) {
   if (ticks.uninterrupted == 0) return;
   for (std::size_t i = 0; i < world::kPhases; ++i) {
     report.metric("phase_us." + name + "." + std::string(world::kPhaseNames[i]),
-                  in_us(ticks.phases[i]) / static_cast<double>(ticks.uninterrupted));
+                  to_us(ticks.phases[i]) / static_cast<double>(ticks.uninterrupted));
   }
 }
 
@@ -201,7 +197,8 @@ Expected<Show> measure(const std::string& file, Report& report, bool& stable) {
   if (!show) return show;
   std::cerr << "bench_worlds: " << show->name << "\n";
   play(*show, report);
-  if (show->visits.empty()) return fail("no visit of any activity", file, "write one under 'visits', or leave it out");
+  if (show->visits.empty())
+    return fail(ErrorCode::missing, "no visit of any activity", file, "write one under 'visits', or leave it out");
   std::size_t count = 0;
   for (const Visit& visit : show->visits)
     count += visit.ticks.size();
@@ -219,7 +216,7 @@ Expected<Show> measure(const std::string& file, Report& report, bool& stable) {
       ticks.floor.add(least);
   }
   report_ticks(show->name, ticks, report);
-  show->mean_us = in_us(ticks.sum) / static_cast<double>(ticks.every.size());
+  show->mean_us = to_us(ticks.sum) / static_cast<double>(ticks.every.size());
   return show;
 }
 
@@ -228,7 +225,8 @@ class Seat {
  public:
   Seat(const Show& show, std::size_t number) : show_(&show), number_(number) {}
 
-  /// Somewhere in a visit with so many ticks before it, where it is that long; a new visitor unless the present one stays as long.
+  /// Somewhere in a visit with so many ticks before it, where it is that long; a new visitor unless the present one
+  /// stays as long.
   Expected<void> prepare(std::size_t ticks) {
     if (feed_ && feed_->left() >= ticks) return {};
     const std::size_t turn = number_ + visitors_++;
@@ -321,12 +319,12 @@ class Core {
     for (const auto& [name, share] : {std::pair{"median", 0.5}, std::pair{"p99", 0.99}, std::pair{"p999", 0.999}}) {
       std::vector<std::array<double, 2>> curve;
       for (const auto& [count, paced] : runs_)
-        curve.push_back({static_cast<double>(count), in_us(paced.cpu_time.quantile(share))});
+        curve.push_back({static_cast<double>(count), to_us(paced.cpu_time.quantile(share))});
       report_.curve("worlds." + std::string(name), curve);
     }
     for (const auto& [count, paced] : runs_) {
       report_.metric("worlds_over_pct." + std::to_string(count), 100 * paced.overrun_share());
-      report_.metric("worlds_tick_us." + std::to_string(count) + ".median", in_us(paced.cpu_time.quantile(0.5)));
+      report_.metric("worlds_tick_us." + std::to_string(count) + ".median", to_us(paced.cpu_time.quantile(0.5)));
     }
   }
 

@@ -1,5 +1,5 @@
-// The floor under every round trip: two processes on this machine that do nothing but pass UDP datagrams, at the priority, payload
-// and rate of the haptic samples.
+// The floor under every round trip: two processes on this machine that do nothing but pass UDP datagrams, at the
+// priority, payload and rate of the haptic samples.
 #include <algorithm>
 #include <csignal>
 #include <cstring>
@@ -46,7 +46,7 @@ struct Socket {
     auto* address = reinterpret_cast<sockaddr*>(&socket.address);
     if (socket.fd < 0 || ::bind(socket.fd, address, size) != 0 || ::getsockname(socket.fd, address, &size) != 0 ||
         ::setsockopt(socket.fd, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit) != 0)
-      return fail(std::string("no UDP socket on 127.0.0.1: ") + std::strerror(errno));
+      return fail(ErrorCode::io_failure, std::string("no UDP socket on 127.0.0.1: ") + std::strerror(errno));
     return socket;
   }
 };
@@ -84,7 +84,7 @@ void ask(const Socket& socket, const Socket& answerer, const Config& config, Rep
   TimePoint due = clock.now();
   for (std::uint64_t number = 1; number <= count; ++number) {
     due = std::max(due + kTickPeriod, clock.now());
-    clock.sleep_until(due);
+    clock.sleep_until(due);  // sleeps: the pace
     std::memcpy(out.data(), &number, sizeof number);
     const TimePoint sent = clock.now();
     ::sendto(socket.fd, out.data(), out.size(), 0, to, sizeof answerer.address);

@@ -152,7 +152,7 @@ TEST(CatapultVisits, WithItsRopeCutNothingIsWound) {
   const auto visit =
       catapult().play_changed("shooting", [](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
   EXPECT_EQ(visit.stopped_at, "wind") << visit;
-  EXPECT_GT(visit.quantities.at("turns"), 3) << "the drum turns, for nothing";
+  EXPECT_GT(visit.quantities.at("turns"), 3) << "the drum turns, but lifts and draws nothing";
 }
 
 TEST(CatapultVisits, AHandWithoutStrengthWindsNothing) {
@@ -192,7 +192,7 @@ TEST(CatapultVisits, AShotWithoutAStoneLeavesTheWallStanding) {
   const auto visit = catapult().play_changed("shooting", [](state::WorldDescription& world) {
     test::take_away(world, "STONE");
     state::StepDescription& load = world.steps[world.find_step("load").index()];
-    load.triggers.at(0).value = 0;  // whoever skips the step: seated or not, it goes on
+    load.triggers.at(0).value = 0;  // as if the step were skipped: it goes on, seated or not
   });
   EXPECT_EQ(visit.stopped_at, "wall") << visit;
   EXPECT_EQ(visit.quantities.at("fired"), 1) << visit;

@@ -207,7 +207,7 @@ TEST(CrossbowVisits, WithTheRopeOfTheWinchCutNothingIsDrawn) {
   const test::PlayedVisit visit =
       crossbow().play_changed("shooting", [](state::WorldDescription& world) { test::switch_off(world, "ROPE"); });
   EXPECT_EQ(failed_at(visit), "wind") << visit;
-  EXPECT_GT(visit.quantities.at("turns"), 2) << "the drum turns, for nothing";
+  EXPECT_GT(visit.quantities.at("turns"), 2) << "the drum turns, but lifts and draws nothing";
 }
 
 TEST(CrossbowVisits, WithoutAnArrowThereIsNothingToLayIn) {

@@ -77,7 +77,7 @@ TEST(PulleyCraneVisits, WithTheRopeCutNothingIsLifted) {
 TEST(PulleyCraneVisits, WithTheRopeOffTheDrumNothingIsLifted) {
   const test::PlayedVisit visit = single_crane().play_changed("lifting", test::take_rope_off_drum);
   EXPECT_EQ(visit.stopped_at, "lift") << visit;
-  EXPECT_GT(visit.quantities.at("turns"), 2) << "the drum turns, for nothing";
+  EXPECT_GT(visit.quantities.at("turns"), 2) << "the drum turns, but lifts and draws nothing";
 }
 
 TEST(PulleyCraneVisits, WithoutItsPawlTheStoneComesDownAgain) {

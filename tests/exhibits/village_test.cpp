@@ -1,4 +1,4 @@
-// The village: its visits lead to a machine's step; each sign to its own; and what is not a finger on a sign leads nowhere.
+// The village: its visits lead to a machine's step, each sign to its own machine; nothing but a finger on a sign leads anywhere.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

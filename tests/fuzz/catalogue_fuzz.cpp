@@ -1,4 +1,4 @@
-// A catalogue may come on a stick from anywhere: whatever its bytes, it is entries inside its folder, or an error.
+// A catalogue may come on a stick from anywhere: whatever its bytes, it gives entries inside its folder, or an error.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -12,7 +12,7 @@ namespace {
 
 using mechane::content::Catalogue;
 
-/// One file for all inputs of a run, in memory where there is a place for that; it goes with the program.
+/// One file for all inputs of a run, in memory where possible; it is deleted at the end of the program.
 const std::filesystem::path& catalogue_file() {
   static const mechane::test::ScratchFolder kFolder(mechane::test::folder_in_memory());
   static const std::filesystem::path kFile = kFolder.path() / "catalogue.db";
@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& entry : *entries) {
     if (!mechane::content::is_inside(entry.path) || entry.hash.size() != 32) std::abort();
     const auto files = catalogue->files_of(entry.hash);
-    if (!files) continue;  // a page of the index that the rows did not need is damaged, and told so
+    if (!files) continue;  // the damaged page is of the index, which entries() does not read
     for (const auto& found : *files) {
       if (!mechane::content::is_inside(found.lexically_relative(file.parent_path()).string())) std::abort();
     }

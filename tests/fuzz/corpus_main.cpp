@@ -1,4 +1,5 @@
-// Runs a fuzzer's entry point over every file of a corpus, for compilers without libFuzzer: what a fuzzer once found stays mended.
+// Runs a fuzzer's entry point over every file of a corpus, for compilers without libFuzzer: faults that a fuzzer once found do not come
+// back.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The journal's reader takes any bytes. Unless they begin as a journal does, they are the content of a frame of ticks whose checksum is right:
-// a fuzzer would not get past the checksum else.
+// The journal's reader accepts any bytes. Unless they begin like a journal, they become the content of a frame with a right checksum, which
+// a fuzzer would not find by itself.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

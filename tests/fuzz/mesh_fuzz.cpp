@@ -1,6 +1,6 @@
-// Any triangles as an object for touch: an Error that says what, where and what to do, or an object that is whole, whose report
-// agrees with it, that its own file's reader takes, and that can be asked without a fault. This is the path behind the import, which a
-// mesh takes in `mechane fit` and in the server.
+// Any triangles as an object for touch: an Error that says what, where and what to do, or an object that is whole, that its report
+// describes, that can be read again from its file, and that can be queried without a fault. This is what happens to a mesh after the import
+// in `mechane fit` and in the server.
 //
 // Bytes: how to build (1), nodes less one (1, modulo 3); per node its vertices (1), its triangles (1), then the vertices as three
 // floats, or as three signed bytes in centimetres, and the triangles as three bytes each. What is missing at the end reads as zero.
@@ -83,7 +83,7 @@ geometry::Mesh read_mesh(Bytes& bytes, std::uint8_t flags) {
   return mesh;
 }
 
-/// Small in all that takes time, so that an execution takes some milliseconds.
+/// Small values where large ones take time, so that an execution takes some milliseconds.
 collision_build::BuildConfig config_of(std::uint8_t flags) {
   collision_build::BuildConfig config;
   config.parts = (flags & kAsGiven) != 0      ? collision_build::Parts::as_given

@@ -1,5 +1,5 @@
-// Any bytes as a part file: an Error, or an object that can be asked without a fault. The checksum would stop nearly every input at
-// the door, so the bytes are tried as they are and with their checksum set right.
+// Any bytes as a part file: an Error, or an object that can be queried without a fault. The checksum would stop nearly every input, so the
+// bytes are tried as they are, and with a right checksum.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A recording may come on a stick from another museum: whatever its bytes, it is drawn or refused. With the first byte even, the rest is the
-// payload of a record whose checksum is right, behind a status and a manifest: a fuzzer would not get past the checksum else.
+// A recording may come on a stick from another museum: whatever its bytes, it is drawn or refused. Where the first byte is even, the rest
+// is the payload of a record with a right checksum, after a status and a manifest: a fuzzer would not find the checksum by itself.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

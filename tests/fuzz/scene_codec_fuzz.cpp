@@ -1,5 +1,5 @@
-// Any bytes as the message of a mesh import: an Error, or a scene that holds its promises. The checksum would stop nearly every input
-// at the door, so the bytes are tried as they are and as the payload of a header that is right.
+// Any bytes as the message of a mesh import: an Error with a code that exists, or a scene that check_scene accepts. The checksum would stop
+// nearly every input, so the bytes are tried as they are, and as the payload of a scene and of an error with a right header.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -15,7 +15,11 @@ namespace {
 void try_message(std::span<const std::byte> message) {
   const mechane::content::ImportLimits limits;
   const auto scene = mechane::content::decode_scene(message, limits);
-  if (!scene) return;
+  if (!scene) {
+    const mechane::Error& error = scene.error();
+    if (error.code > mechane::kLastErrorCode || error.line < 0) std::abort();
+    return;
+  }
   if (!mechane::content::check_scene(*scene, limits)) std::abort();
   (void)mechane::content::collision_parts(*scene, "");
 }
@@ -27,7 +31,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try_message(bytes);
   std::vector<std::byte> message(mechane::content::kSceneHeaderBytes);
   message.insert(message.end(), bytes.begin(), bytes.end());
-  mechane::content::seal_scene(message);
-  try_message(message);
+  for (const auto kind : {mechane::content::SceneMessage::scene, mechane::content::SceneMessage::failure}) {
+    mechane::content::seal_scene(message, kind);
+    try_message(message);
+  }
   return 0;
 }

@@ -1,4 +1,4 @@
-// Sheets of visits may come on a stick from another museum: whatever the file's bytes, it is sheets of ours, or an error.
+// A file of visits may come on a stick from another museum: whatever its bytes, it gives valid records of visits, or an error.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,16 +18,16 @@ namespace {
 namespace cli = mechane::cli;
 using mechane::visits::VisitFile;
 
-/// One file for all inputs of a run, in memory where there is a place for that; it goes with the program.
-struct SheetsFile {
-  SheetsFile() {
+/// One file for all inputs of a run, in memory where possible; it is deleted at the end of the program.
+struct VisitsFile {
+  VisitsFile() {
     const bool memory = access("/dev/shm", W_OK) == 0;
     const std::filesystem::path folder = memory ? "/dev/shm" : std::filesystem::temp_directory_path();
     path = folder / fmt::format("mechane-visits-fuzz-{}.db", getpid());
   }
-  SheetsFile(const SheetsFile&) = delete;
-  SheetsFile& operator=(const SheetsFile&) = delete;
-  ~SheetsFile() { remove(); }
+  VisitsFile(const VisitsFile&) = delete;
+  VisitsFile& operator=(const VisitsFile&) = delete;
+  ~VisitsFile() { remove(); }
   /// With what SQLite keeps beside it: an input is one file.
   void remove() const {
     std::error_code ignored;
@@ -40,23 +40,23 @@ struct SheetsFile {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const SheetsFile file;
+  static const VisitsFile file;
   file.remove();
   std::ofstream(file.path, std::ios::binary | std::ios::trunc)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   const auto visits = VisitFile::open(file.path, VisitFile::Access::read);
   if (!visits) return 0;
-  const auto sheets = visits->sheets({});
-  if (!sheets) return 0;
-  for (const auto& sheet : *sheets) {
-    if (sheet.number.size() != 14 || !(sheet.duration_s >= 0) || sheet.minute < 0) std::abort();
-    for (const auto& answer : sheet.answers) {
+  const auto records = visits->records({});
+  if (!records) return 0;
+  for (const auto& record : *records) {
+    if (record.number.size() != 14 || !(record.duration_s >= 0) || record.minute < 0) std::abort();
+    for (const auto& answer : record.answers) {
       if (answer.mark > answer.marks || (answer.marks > 0 && answer.mark < 1)) std::abort();
     }
   }
-  const auto activities = cli::summarise(*sheets);
+  const auto activities = cli::summarise(*records);
   if (cli::visits_report(activities).empty() || cli::report_json(activities).empty()) std::abort();
-  if (cli::visits_csv(*sheets).empty() || cli::visits_list(*sheets).empty()) std::abort();
+  if (cli::visits_csv(*records).empty() || cli::visits_list(*records).empty()) std::abort();
   if (cli::visits_svg(activities).find('\x1b') != std::string::npos) std::abort();
   return 0;
 }

@@ -1,4 +1,4 @@
-// Whatever bytes arrive as a sample: the doors of server and client take it or refuse it, and what they take is fit for use.
+// Whatever bytes arrive as a sample: server and client accept or refuse it, and what they accept is fit for use.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace mechane;
 
-/// Reads values off the input, zeros behind its end.
+/// Reads values from the input, and zeros after its end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -156,7 +156,7 @@ void fuzz_presentation(Bytes bytes) {
          way.kind <= client::Affordance::Kind::brought);
 }
 
-/// What a step waits for, of quantities that are there or not.
+/// The goals of a step, for quantities that exist or not.
 void fuzz_status(Bytes bytes) {
   std::vector<proto::WireQuantity> quantities(bytes.take<std::uint8_t>() % 4);
   std::vector<proto::WireQuantityGoal> goals(bytes.take<std::uint8_t>() % 6);
@@ -200,7 +200,7 @@ std::vector<proto::WireSetting> take_settings(Bytes& bytes) {
   return settings;
 }
 
-/// A request as a display takes it: whatever it says, the settings stay within their ranges.
+/// A request to a display: whatever it says, the settings stay within their ranges.
 void fuzz_request(Bytes bytes) {
   proto::DisplayRequest wire{};
   wire.protocol = proto::kProtocol;
@@ -216,11 +216,11 @@ void fuzz_request(Bytes bytes) {
   must(taken || now == before);
   must(now.volume >= 0 && now.volume <= 1 && now.home_after_s >= 0 && now.home_after_s <= 86'400);
   must(now.attract_after_s >= 5 && (now.language == "el" || now.language == "en"));
-  client::DisplaySettings again;  // what is told of them can be requested
+  client::DisplaySettings again;  // what a display reports can be requested
   must(client::apply(client::settings_of(now), again).has_value());
 }
 
-/// Where a tracker says that a head is: a display uses it for its picture.
+/// The position of a head from a tracker, which a display uses for its picture.
 void fuzz_head(Bytes bytes) {
   proto::ViewerHead wire{};
   wire.protocol = proto::kProtocol;
@@ -282,7 +282,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
   }
-  switch (data[0] % 4) {
+  switch (data[0] % 5) {
     case 0:
       fuzz_input(rest);
       break;
@@ -293,10 +293,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz_kiosk(rest);
       break;
     case 3:
-      fuzz_head(rest);
+      fuzz_frame(rest);
       break;
     default:
-      fuzz_frame(rest);
+      fuzz_head(rest);
       break;
   }
   return 0;

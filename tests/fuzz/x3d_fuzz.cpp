@@ -1,5 +1,5 @@
 // Any bytes as a scenario file: read, compiled, checked; and, where they are X3D, edited and merged with themselves. Mesh files are not
-// there, so that nothing but the bytes decides.
+// read, so that only the bytes decide.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -28,7 +28,7 @@ class NoFiles final : public scenario::ObjectLoader {
   mechane::Expected<std::string> content_hash(const std::filesystem::path&) override { return std::string(32, '0'); }
 };
 
-/// Every edit gives a file that reads, or an error; what is only read stays as it was.
+/// Every edit gives a file that can be read, or an error. Reading alone changes nothing.
 void edit(const x3d::Document& document) {
   auto editor = authoring::Editor::read(document.source(), "fuzz.x3d");
   MECHANE_ASSERT(editor.has_value() && editor->text() == document.source());
@@ -49,6 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const auto document = x3d::read_document(bytes, "fuzz.x3d", problems);
   MECHANE_ASSERT(document.has_value() || problems.has_errors());
+  MECHANE_ASSERT(document.has_value() || !document.error().remedy.empty());
   if (document) {
     NoFiles files;
     const auto world = scenario::compile(*document, files, problems);

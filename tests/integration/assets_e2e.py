@@ -120,7 +120,7 @@ class Assets(EndToEnd):
         self.assets.gate = threading.Event()
         display = self.display("--every-step", path="/")
         wait_until(lambda: self.assets.asked, 60, "the model is on its way")
-        time.sleep(1.5)  # a picture would be taken half a second after the step began
+        time.sleep(1.5)  # sleeps: a picture would be taken half a second after the step began
         self.assertNotIn("wrote ", display.text())
         self.assets.gate.set()
         wait_until(lambda: "wrote " in display.text(), 60, "the picture is taken")
@@ -145,7 +145,7 @@ class Assets(EndToEnd):
             self.skipTest("no small disk can be made here")
         display = self.display(prefix=prefix)
         self.assertEqual(self.summary(display, f"{MODEL}: is here")["missing_assets"], [])
-        self.assertIn("files are fetched anew at each start", display.text())
+        self.assertIn("files are fetched again at each start", display.text())
 
     def test_what_is_no_address_is_told_at_once(self):
         result = self.run_command("display", "--offscreen", "--assets", "http://somebody:word@museum/screw")

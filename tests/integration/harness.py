@@ -7,11 +7,15 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "deploy/common_lib"))
+from running import network  # noqa: E402
+
 BIN = pathlib.Path(os.environ.get("MECHANE_BIN", ROOT / "build/release/bin"))
 SCENARIO = ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d"
 # A sanitizer makes everything some times slower.
@@ -80,9 +84,7 @@ class EndToEnd(unittest.TestCase):
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory(prefix="mechane-test-")
         self.folder = pathlib.Path(self._folder.name)
-        self.environment = dict(os.environ)
-        self.environment["CYCLONEDDS_URI"] = "file://" + str(ROOT / "deploy/cyclonedds/test.xml")
-        self.environment["CYCLONEDDS_TEST_TAG"] = f"{os.getpid()}-{self.id().split('.')[-1]}"
+        self.environment = network(self.id().split(".")[-1])
         self.processes = []
         self._count = 0
 

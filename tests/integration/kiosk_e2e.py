@@ -67,7 +67,7 @@ class Kiosk(EndToEnd):
         # Before any server: a calm picture, and no end.
         told = self.wait_for_displays(lambda told: len(told) == 2 and all(d["pictures"] > 1 for d in told.values()), 30, "both draw")
         self.assertEqual({d["link"] for d in told.values()}, {"searching"})
-        self.assertIn("it looks for a server", told["wall"]["remarks"][0])
+        self.assertIn("it is looking for a server", told["wall"]["remarks"][0])
         server = self.server(records=False)
         joined = lambda told: len(told) == 2 and all(d["link"] == "joined" and d["frames_per_s"] > 10 for d in told.values())
         told = self.wait_for_displays(joined, 30, "both have joined")
@@ -87,7 +87,7 @@ class Kiosk(EndToEnd):
         self.assertEqual([settings["wall"][s] for s in ("volume", "language", "large-text", "ask")], ["0.25", "en", "on", "none"])
         self.assertEqual([settings["bystanders"][s] for s in ("volume", "language", "large-text", "ask")], ["0.8", "el", "off", "none"])
         self.assertIn("volume=... with 0 to 1", command("set", "--kiosk", "kiosk-1", "volume=7", status=2))
-        self.assertIn("there are: kiosk-1/bystanders, kiosk-1/wall", command("set", "--kiosk", "kiosk-2", "mute=on", status=1))
+        self.assertIn("name one of: kiosk-1/bystanders, kiosk-1/wall", command("set", "--kiosk", "kiosk-2", "mute=on", status=1))
         pictures = command("picture", "--kiosk", "kiosk-1", status=1)
         self.assertIn("bystanders: refused: this display has no folder for pictures: start it with --out", pictures)
         (file,) = (line.split(":")[-1] for line in pictures.splitlines() if line.startswith("kiosk-1/wall"))
@@ -168,7 +168,7 @@ class Kiosk(EndToEnd):
                 display = self.start(place, "display", *arguments, "--stereo", "quad", "--frames", "1", "--size", "160x90", "--mute", "--out", out,
                                      environment=environment)
                 self.assertEqual(display.wait(60), 0, display.text())
-                self.assertIn("no picture for each eye (quad-buffered stereo): it shows one for both; try --stereo sbs", display.text())
+                self.assertIn("a picture for each eye (quad-buffered stereo), so it shows a mono picture: try --stereo sbs", display.text())
                 self.assertEqual([file.name for file in out.iterdir()], ["frame-mono.png"])
 
     def test_what_a_display_lacks_is_told_and_it_goes_on(self):
@@ -194,7 +194,7 @@ class Kiosk(EndToEnd):
         visit = ("visitor", "--kiosk", "kiosk-1", "--scenario", SCENARIO, "--activity", "use", "--endless")
         first = self.start("first", *visit)
         wait_until(lambda: "use: turn" in first.text(), 60, "somebody turns the crank")
-        wait_until(lambda: film.stat().st_size > 20_000, 60, "and is recorded")
+        wait_until(lambda: film.exists() and film.stat().st_size > 20_000, 60, "and is recorded")
         self.assertEqual(recorder.stop(), 0, recorder.text())
         first.stop()
         wall = self.display("--attract", film, "--attract-after", "5", "--out", self.folder / "out")
@@ -252,7 +252,7 @@ class Kiosk(EndToEnd):
             self.assertNotRegex(result.stdout + result.stderr, r"[\x00-\x09\x0b-\x1f]", arguments)
         self.assertEqual(film.read_text(), "a recorded visit")
 
-    def test_a_command_that_is_none_is_told_with_the_nearest(self):
+    def test_an_unknown_command_is_reported_with_the_nearest(self):
         for words, said in ((["displya"], "there is no command 'displya': did you mean 'display'? (mechane --help"),
                             (["xyzzy", "--kiosk", "wall"], "there is no command 'xyzzy' (mechane --help"),
                             ([], "A subcommand is required"), (["--no-such"], "A subcommand is required")):
@@ -264,20 +264,20 @@ class Kiosk(EndToEnd):
         told = " ".join(self.run_command("display", "--help").stdout.split())
         self.assertRegex(told, r"--ask TEXT:\{none,after,both\}=after ")
         self.assertRegex(told, r"--stereo TEXT:\{mono,\S+\}=mono ")
-        self.assertRegex(told, r"--mute let nothing be heard")
+        self.assertRegex(told, r"--mute play no sound")
         self.assertRegex(told, r"--no-touch mouse, finger")
 
-    def test_a_head_of_no_kiosk_and_lines_that_are_none(self):
+    def test_a_head_without_a_kiosk_and_malformed_lines(self):
         for at in (("0", "0", "-1"), ("0", "0", "0"), ("0", "0", "600")):
             result = self.run_command("head", "--at", *at)
             self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-            self.assertIn("--at: a head is before the screen, and within 20 m", result.stderr)
+            self.assertIn("--at: the head is not in front of the screen and within 20 m", result.stderr)
         result = self.run_command("head", "--kiosk", "kiosk-7", "--at", "0", "0", "1", "--seconds", "4")
         self.assertEqual((result.returncode, result.stderr.count("no display answered")), (0, 1), result.stderr)
         self.display()
         self.wait_for_displays(lambda told: told and told["wall"]["pictures"] > 0, 30, "a display draws")
         result = self.run_command("head", "--kiosk", "kiosk-7", "--at", "0", "0", "1", "--seconds", "4")
-        self.assertIn("kiosk-7/*: there is no such display; there are: kiosk-1/wall", result.stderr)
+        self.assertIn("kiosk-7/*: there is no such display; name one of: kiosk-1/wall", result.stderr)
         result = self.run_command("head", "--kiosk", "kiosk-1", "--at", "0", "0", "1", "--seconds", "4")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
 
@@ -310,7 +310,7 @@ class Kiosk(EndToEnd):
         self.wait_for_displays(lambda told: 0.002 < told["wall"]["frames_lost"] < 0.05, 40, "a loss of one in a hundred is told")
         link.set(loss=0.1)
         told = self.wait_for_displays(lambda told: 0.05 < told["wall"]["frames_lost"] < 0.3, 40, "a loss of one in ten is told")["wall"]
-        self.assertTrue(any("frames are lost on the way" in remark for remark in told["remarks"]), told["remarks"])
+        self.assertTrue(any("frames are lost on the network" in remark for remark in told["remarks"]), told["remarks"])
         self.assertEqual(visitor.wait(120), 0, visitor.text())
         self.wait_for_displays(joined, 20, "it has stayed")
 

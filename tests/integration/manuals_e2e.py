@@ -1,5 +1,5 @@
 """The examples of the manuals held against the programs: each command line uses subcommands, options and words that --help knows.
-The programs are asked for nothing but their help: no network, no device, and no time to speak of."""
+What needs nothing but the tree, and no time to speak of, is run; of the rest the programs are asked for nothing but their help."""
 
 import functools
 import os
@@ -133,6 +133,19 @@ class Manuals(unittest.TestCase):
             examples += sum(1 for _, words in command_lines(text) if _PROGRAM.match(words[0]) or _SCRIPT.match(words[0]))
         self.assertEqual(faults, [])
         self.assertGreater(examples, 100, "the manuals' examples were not found")
+
+    def test_examples_that_need_nothing_but_the_tree_run(self):
+        lines = {tuple(words[1:]) for page in pages() for _, words in command_lines(page.read_text()) if _PROGRAM.match(words[0])}
+        checks = [line for line in lines if line[0:1] == ("check",) and line[1:]
+                  and not any(_PLACEHOLDER.match(word) or re.search(r"^-|\*", word) for word in line)]
+        references = [line[:1] for line in lines if line[0:1] == ("reference",)]  # without what takes it up
+        self.assertTrue(checks and references, "the manuals' examples were not found")
+        for line in sorted({*checks, *references}):
+            with self.subTest(line):
+                done = subprocess.run([str(BIN / "mechane"), *line], cwd=ROOT, capture_output=True, text=True, timeout=60,
+                                      stdin=subprocess.DEVNULL, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertTrue(done.stdout)
 
     def test_each_option_in_a_sentence_is_known_to_some_program(self):
         commands = [("mechane",), *(("mechane", name) for name in help_of("mechane").commands)]

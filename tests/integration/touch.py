@@ -159,7 +159,7 @@ class TouchVisitor:
         began = time.monotonic()
         while (share := (time.monotonic() - began) / seconds) < 1:
             self.point(way(share))
-            time.sleep(0.03)
+            time.sleep(0.03)  # sleeps: the pace
         self.point(way(1))
 
     def take(self, body, grip):
@@ -233,7 +233,7 @@ class TouchVisitor:
         goes_on = lambda t: t < seconds or (t < 1.3 * seconds and self.status.now()["step"] == step)
         while goes_on(t := time.monotonic() - began) and not self.done(activity):
             self.point(way(angle(t)))
-            time.sleep(0.03)
+            time.sleep(0.03)  # sleeps: the pace
 
     def play(self, activity, patience=60):
         """True when the activity is done."""
@@ -252,15 +252,15 @@ class TouchVisitor:
                 self.work(move, activity)
                 self.story.append(f"{kind}: still held {self.holding()}, at step {self.status.now()['step']}")
             elif kind == "release":
-                time.sleep(0.3)
+                time.sleep(0.3)  # sleeps: as a person, who holds still before letting go
                 self.xdo("mouseup", 1)
                 wait_until(lambda: not self.holding(), 5, "it is let go")
             elif kind == "wait":
                 end = time.monotonic() + float(move.get("seconds", 1))
                 while time.monotonic() < end and not self.done(activity):
-                    time.sleep(0.1)
+                    time.sleep(0.1)  # sleeps: between two looks
         self.xdo("mouseup", 1)
         end = time.monotonic() + patience * PATIENCE
         while not self.done(activity) and time.monotonic() < end:
-            time.sleep(0.1)
+            time.sleep(0.1)  # sleeps: between two looks
         return self.done(activity)

@@ -107,7 +107,7 @@ class Visit(EndToEnd):
         self.assertEqual(self.scenario_of("kiosk-1"), "archimedes-screw")
         for kiosk, request, status, answer in (("kiosk-1", (), 0, "kiosk-1 is at village"),
                                             ("kiosk-1", ("archimedes-screw",), 0, "kiosk-1 is at archimedes-screw"),
-                                            ("kiosk-1", ("archimedes",), 1, "it has village, archimedes-screw"),
+                                            ("kiosk-1", ("archimedes",), 1, "name one of: village, archimedes-screw"),
                                             ("kiosk-2", (), 1, "name one of: kiosk-1")):
             result = self.run_command("open", "--kiosk", kiosk, *request)
             self.assertEqual(result.returncode, status, result.stdout + result.stderr)
@@ -115,7 +115,7 @@ class Visit(EndToEnd):
         # A server that no longer has the exhibit brings the kiosk home; what nobody has been in stays an error.
         server.kill()
         server = self.server(scenario=scenarios[0])
-        wait_until(lambda: "kiosk-1 was in 'archimedes-screw', which this server was not started with" in server.text(), 20, "the kiosk goes home")
+        wait_until(lambda: "kiosk-1 was in 'archimedes-screw', which this server does not have" in server.text(), 20, "the kiosk goes home")
         self.assertEqual(self.scenario_of("kiosk-1"), "village")
         lost = self.visitor("kiosk-3")
         wait_until(lambda: "this server has no scenario 'archimedes-screw'" in server.text(), 20, "a request for what is not there is refused")
@@ -131,8 +131,8 @@ class Visit(EndToEnd):
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         self.assertLess(time.monotonic() - began, 150 * PATIENCE, "it waited for what cannot come")
         activity = json.loads(file.read_text())["activities"][0]
-        self.assertEqual(activity["reason"], "visit pointing, step to-archimedes-screw: it opens 'archimedes-screw', which the "
-                                             "server was not started with")
+        self.assertEqual(activity["reason"], "visit pointing, step to-archimedes-screw: it opens 'archimedes-screw', which this "
+                                             "server does not have")
         self.assertIn(activity["reason"], result.stdout)
 
     def test_a_visitor_says_what_it_waits_for_once_its_moves_are_over(self):
@@ -141,8 +141,8 @@ class Visit(EndToEnd):
         result = self.run_command("visitor", "--scenario", SCENARIO, "--kiosk", "kiosk-1", "--activity", "use", "--offset", "0", "0.5", "0",
                                   "--patience", "1", "--report", file, limit_s=120)
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
-        self.assertRegex(result.stdout, r"use: visit turning, step \w+: its moves are over; it waits up to 1 s for the step to be over")
-        self.assertRegex(json.loads(file.read_text())["activities"][0]["reason"], r"visit turning, step \w+: nothing more came of it")
+        self.assertRegex(result.stdout, r"use: visit turning, step \w+: all moves made; waiting up to 1 s for the step to be done")
+        self.assertRegex(json.loads(file.read_text())["activities"][0]["reason"], r"visit turning, step \w+: it was not done in time")
 
     @marked("draws", "not-address")
     def test_a_click_on_a_sign_opens_its_exhibit_and_the_key_home_leads_back(self):
@@ -167,7 +167,7 @@ class Visit(EndToEnd):
     def test_a_kiosk_without_a_name_is_refused_before_the_network_is_asked(self):
         result = self.run_command("open", "--kiosk", "", limit_s=5)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("a kiosk has a name", result.stderr)
+        self.assertIn("the kiosk's name is empty", result.stderr)
 
     def test_who_opens_where_nobody_is_hears_whether_a_server_is_there(self):
         result = self.run_command("open", "archimedes-screw", "--kiosk", "kiosk-9")
@@ -176,8 +176,13 @@ class Visit(EndToEnd):
         self.server(records=False)
         result = self.run_command("open", "archimedes-screw", "--kiosk", "kiosk-9")
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
-        self.assertIn("a server is there, and nobody at any kiosk", result.stderr)
+        self.assertIn("no display and no device has joined any kiosk", result.stderr)
         self.assertIn("start 'mechane display --kiosk kiosk-9' first", result.stderr)
+
+    def test_a_visit_that_is_not_there_is_answered_with_the_list_of_visits(self):
+        result = self.run_command("visitor", "--scenario", SCENARIO, "--visit", "nobodys", limit_s=10)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stdout + result.stderr, r"nobodys.*\bassembling\b.*\bturning\b")
 
     def test_wrong_arguments_end_with_one_status(self):
         for command in (("visitor", "--kios", "a"), ("fit",), ("echo", "--count", "x"), ("haptic", "--device"), ("replay", "--fast", "x"),

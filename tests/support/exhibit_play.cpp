@@ -7,17 +7,16 @@
 #include "client-sdk/haptic/virtual_device.hpp"
 #include "server/app/scenario_store.hpp"
 #include "server/realtime/histogram.hpp"
+#include "server/transport/world_port.hpp"
 #include "server/world/step.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace mechane::test {
 namespace {
 
-// A visitor sees a frame of 60 Hz; the haptic answer is one tick old.
-constexpr std::uint64_t kTicksPerFrame = 16;
 // A person's reaction time before the hand sets out.
 constexpr std::uint64_t kReactionTicks = 200;
-// Where a part is that was taken away: out of any snap's reach.
+// Where a removed part is put: out of any snap's reach.
 constexpr double kUnderTheFloorM = 3;
 
 template <class T>
@@ -79,7 +78,7 @@ class Play {
     world::step(*world_, inputs, publisher_, timer_);
     took_.record(clock_.now() - began);
     feel(hand.V_WH, state.users[0].output);
-    if (sequence_ % kTicksPerFrame == 1) {
+    if (sequence_ % transport::WorldPort::kTicksPerFrame == 1) {
       std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
     }
     note_steps();

@@ -1,4 +1,4 @@
-// Closed meshes that are not convex, for whatever takes solids apart: each a known number of parts to the eye.
+// Closed meshes that are not convex, for tests that take solids apart. A person sees a known number of parts in each.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How much of the sky is hidden by what stands near by, from the depth of the picture alone: scalable ambient obscurance (McGuire 2012).
+// The share of the sky that nearby things hide, from the picture's depth alone: scalable ambient obscurance (McGuire 2012).
 out vec4 colour;
 uniform sampler2D depth;
 uniform vec2 depth_to_m;  // of clip space: distance before the eye = y / (x + depth)
@@ -8,7 +8,7 @@ uniform float pixels_per_m;  // at one metre
 const float kReach_m = 0.25;
 const int kTaps = 12;
 
-// Of the pixel, from its middle: half a pixel beside it a floor seen at a grazing angle would have steps.
+// At the pixel's centre: half a pixel beside it, a floor seen at a grazing angle would have steps.
 vec3 seen(vec2 at) {
   vec2 size = vec2(textureSize(depth, 0));
   at = (clamp(floor(at * size), vec2(0.0), size - 1.0) + 0.5) / size;
@@ -16,7 +16,7 @@ vec3 seen(vec2 at) {
   return vec3((at * 2.0 - 1.0) * rays.xy + rays.zw, -1.0) * m;
 }
 
-// Of two differences the one that stays on this surface.
+// Of two differences, the smaller one: it stays on this surface.
 vec3 lesser(vec3 a, vec3 b) { return abs(a.z) < abs(b.z) ? a : b; }
 
 void main() {
@@ -28,7 +28,7 @@ void main() {
   vec3 n = normalize(cross(across, up));
   float far = -p.z;
   float reach = clamp(kReach_m * pixels_per_m / far, 2.0, 90.0);
-  // A pattern of four by four, which the blur after it evens out.
+  // A pattern of 4 x 4 pixels, which the following blur smooths out.
   ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
   float start = float((cell.x * 5 + cell.y * 7 + (cell.x ^ cell.y) * 3) & 15) * 0.3927;
   float hidden = 0.0;
@@ -41,7 +41,7 @@ void main() {
     hidden += f * f * f * max((dot(v, n) - 0.004 - 0.0015 * far) / (vv + 0.0006), 0.0);
   }
   hidden *= 0.40 * 5.0 / (pow(kReach_m, 6.0) * float(kTaps));
-  // Beyond some metres the haze of distance has it all.
+  // Beyond some metres it fades out.
   float open = mix(max(1.0 - hidden, 0.0), 1.0, smoothstep(30.0, 60.0, far));
   colour = vec4(open, far, 0.0, 1.0);
 }

@@ -1,4 +1,4 @@
-// Evens out the pattern of ambient_occlusion.frag, over its four by four places, and over no edge.
+// Smooths the 4 x 4 pattern of ambient_occlusion.frag, but not across edges.
 in vec2 place;
 out vec4 colour;
 uniform sampler2D openness;

@@ -1,4 +1,4 @@
-// Four places about this one, each between four texels.
+// Four places around this one, each between four texels.
 in vec2 place;
 out vec4 colour;
 uniform sampler2D from;

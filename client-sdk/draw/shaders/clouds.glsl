@@ -1,5 +1,5 @@
-// Thin high cloud, drawn out by the wind, before the sky in direction d (unit). What is seen and what lights the land are the same sky: without its
-// clouds the sky's light would be far bluer than measured, and so would each shadow.
+// Thin high clouds, stretched by the wind, in direction d (unit). The visible sky also lights the land: without clouds its
+// light, and so each shadow, would be much bluer than measured.
 vec3 with_clouds(vec3 sky, vec3 d) {
   if (d.y <= 0.0) return sky;
   vec2 q = d.xz / (d.y + 0.12) * vec2(0.9, 2.2);

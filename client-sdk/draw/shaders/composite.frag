@@ -1,4 +1,4 @@
-// Both eyes' finished pictures in one.
+// Combines both eyes' finished pictures.
 in vec2 place;
 out vec4 colour;
 uniform sampler2D left_eye;
@@ -10,7 +10,7 @@ vec3 linear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)),
 vec3 srgb(vec3 c) { return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
 
 // Least squares in CIE XYZ of what both eyes see through red and cyan filters: E. Dubois, "A projection method to generate anaglyph stereo
-// images", ICASSP 2001; the published numbers for an LCD. Each row of both together makes white of white.
+// images", ICASSP 2001; the published numbers for an LCD. Each row of both matrices together maps white to white.
 const mat3 from_left = transpose(mat3(0.4561, 0.500484, 0.176381, -0.0400822, -0.0378246, -0.0157589, -0.0152161, -0.0205971, -0.00546856));
 const mat3 from_right = transpose(mat3(-0.0434706, -0.0879388, -0.00155529, 0.378476, 0.73364, -0.0184503, -0.0721527, -0.112961, 1.2264));
 

@@ -1,4 +1,4 @@
-// Earth: the plain about an exhibit, and what of an exhibit is earth.
+// Earth: the plain around an exhibit, and the exhibit's own earth.
 in vec3 p_W;
 in vec3 n_W;
 in vec4 t_W;
@@ -13,12 +13,12 @@ void main() {
   vec3 n = normalize(n_W);
   if (!gl_FrontFacing) n = -n;
   vec2 q = p_W.xz;
-  // Where a piece of land is cut off, its side is seen as if the land went on over it: by the light from above, and by places further out.
+  // The cut side of a piece of land looks as if the land continued over it: lit from above, with the texture from further out.
   if (abs(n.y) < 0.35) {
     q -= p_W.y * n.xz;
     n = vec3(0.0, 1.0, 0.0);
   }
-  // Where it goes under the plain it is as level as that: a rim that slopes would be seen by its light.
+  // Where it meets the plain its normal becomes vertical, or the sloping rim would be visible by its shading.
   n = normalize(mix(n, vec3(0.0, 1.0, 0.0), 1.0 - smoothstep(0.02, 0.12, abs(p_W.y - plain_height_m))));
   Surface s = Surface(land_base(base_image, q, distance(eye_W, p_W)), 0.0, 0.95, land_normal(normal_image, q, n), 1.0);
   colour = vec4(through_air(shade(s, p_W, n), p_W), 1.0);

@@ -1,9 +1,9 @@
-// Dry open land in summer: dust, straw-coloured and green turf. By place alone, so that a modelled piece of earth goes over into the plain
-// about it without an edge. Images: a material's own, laid over the land by metres.
+// Dry open land in summer: dust, straw-coloured and green turf. It depends on the place only, so that a modelled piece of earth continues
+// into the plain without an edge. The material's images are laid over the land by metres.
 const float kLandTile_m = 1.9;
 
-// A pixel of land is far longer than broad. One look at a copy that is small enough both ways would smear it across: these are four, one
-// behind the other.
+// A pixel's footprint on the land is much longer than wide. One sample from a mip level for its length would blur it
+// sideways, so four samples are taken along it.
 vec4 lying(sampler2D image, vec2 uv) {
   vec2 broad = dFdx(uv);
   vec2 far = dFdy(uv);
@@ -18,10 +18,10 @@ vec4 lying(sampler2D image, vec2 uv) {
   return sum * 0.25;
 }
 
-// What the light falls on. `far_m` from the eye: what is finer than a pixel there is left out.
+// The land's colour and normal at distance `far_m` from the eye, without detail finer than a pixel.
 vec3 land_base(sampler2D image, vec2 q, float far_m) {
   float fields = value_noise(q * 0.031 + 31.0);
-  // Seen flat, patches are streaks: the smaller they are, the sooner they run into each other.
+  // At a grazing angle patches become streaks: smaller ones merge sooner.
   float patches = mix(value_noise(q * 0.21), 0.5, smoothstep(25.0, 120.0, far_m)) * 0.6;
   patches += mix(value_noise(q * 0.9 + 7.0), 0.5, smoothstep(5.0, 22.0, far_m)) * 0.4;
   float tufts = mix(value_noise(q * 3.7 + 3.0), 0.5, smoothstep(3.0, 12.0, far_m));
@@ -30,7 +30,7 @@ vec3 land_base(sampler2D image, vec2 q, float far_m) {
   vec3 green = vec3(0.155, 0.185, 0.065);
   vec3 base = mix(dust, straw, smoothstep(0.30, 0.62, patches * 0.7 + tufts * 0.3));
   base = mix(base, green, 0.8 * smoothstep(0.46, 0.74, fields * 0.45 + patches * 0.30 + tufts * 0.25));
-  // The image's grain, without its own colour: relative to its mean, which is its smallest copy.
+  // The image's texture without its colour: relative to its mean, which is the smallest mip level.
   vec3 grain = lying(image, q / kLandTile_m).rgb / max(textureLod(image, vec2(0.5), 16.0).rgb, vec3(0.01));
   return base * mix(vec3(1.0), grain, 0.85 * (1.0 - smoothstep(20.0, 70.0, far_m)));
 }

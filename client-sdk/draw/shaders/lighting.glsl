@@ -24,7 +24,7 @@ struct Surface {
   float metallic;
   float roughness;
   vec3 n;  // shading normal, unit, in W
-  float open;  // share of the sky that its own hollows leave open
+  float open;  // share of the sky that is visible from its own hollows
 };
 
 vec3 irradiance_from_sky(vec3 n) {
@@ -32,12 +32,12 @@ vec3 irradiance_from_sky(vec3 n) {
                                      sh[6] * (3.0 * n.z * n.z - 1.0) + sh[7] * n.x * n.z + sh[8] * (n.x * n.x - n.y * n.y));
 }
 
-// The sun's disc as seen from here, half of its half degree as a tangent; a little more, for the eye's pleasure.
+// The tangent of the sun's angular radius (a quarter of a degree); a little more looks better.
 const float kSunTangent = 0.0075;
 const mat2 kGoldenTurn = mat2(-0.737369, 0.675490, -0.675490, -0.737369);
 
-// Share of the sun that arrives, by one map. Edges are as soft as what throws them is far off (Fernando 2005). What is not `asked` costs
-// nothing: loops that are not entered are skipped even by a renderer that goes through both sides of every branch.
+// The share of the sun that arrives, from one map. Edges are softer for farther casters (Fernando 2005). Without `asked` it
+// costs nothing: even a renderer that executes both sides of every branch skips loops that are not entered.
 float sunlight_of(int k, vec3 p_L, vec3 n_L, bool asked) {
   vec4 c = cascades[k];
   p_L += n_L * c.w * (1.0 + 2.5 * (1.0 - clamp(-n_L.z, 0.0, 1.0)));
@@ -55,7 +55,7 @@ float sunlight_of(int k, vec3 p_L, vec3 n_L, bool asked) {
     depth += is_blocked * d;
     turn = kGoldenTurn * turn;
   }
-  // Where all agree, the finer look would too: it is never wider.
+  // If all samples agree, the finer ones would too, as they are never wider.
   int fine = blocked > 0.5 && blocked < 6.5 ? 16 : 0;
   float soft_m = clamp(kSunTangent * (q.z - depth / max(blocked, 1.0)) * shadow_range.y, 1.3 * c.w, search_m);
   float sum = 0.0;
@@ -66,7 +66,8 @@ float sunlight_of(int k, vec3 p_L, vec3 n_L, bool asked) {
   return fine > 0 ? sum / 16.0 : blocked > 0.5 ? 0.0 : 1.0;
 }
 
-// Share of the sun that arrives: by the narrowest map that reaches here, mixed with the next towards its edge. Beyond the widest lies open land.
+// The share of the sun that arrives: from the narrowest map that reaches here, blended with the next one towards its edge.
+// Beyond the widest is open land.
 float sunlight(vec3 p_W, vec3 n_geometric) {
   vec3 p_L = (X_LW * vec4(p_W, 1.0)).xyz;
   vec3 n_L = mat3(X_LW) * n_geometric;
@@ -81,7 +82,7 @@ float sunlight(vec3 p_W, vec3 n_geometric) {
   return sum + rest;
 }
 
-// Share of the sky that small spheres leave open, by their solid angle about the normal.
+// The share of the sky that small spheres leave visible, by their solid angle about the normal.
 float openness(vec3 p_W, vec3 n) {
   if (occluder_count == 0 || distance(p_W, occluder_bound.xyz) > occluder_bound.w) return 1.0;
   float open = 1.0;
@@ -90,7 +91,7 @@ float openness(vec3 p_W, vec3 n) {
     float d2 = max(dot(to, to), 1e-6);
     float r2 = occluders[i].w * occluders[i].w;
     float facing = max(dot(n, to * inversesqrt(d2)), 0.0);
-    // Points inside a sphere are the hand itself: they do not shade themselves.
+    // Points inside a sphere belong to the hand, which does not shade itself.
     if (d2 > r2 * 1.02) open *= 1.0 - 0.85 * clamp(facing * r2 / d2, 0.0, 1.0);
   }
   return open;
@@ -105,7 +106,7 @@ vec2 environment_factor(float roughness, float nv) {
 
 vec3 reflected_sky(vec3 r, float roughness) { return sky_on * textureLod(sky_cube, r, roughness * kSkyLevels).rgb; }
 
-// What fires near by send, without shadows; a normal of no length takes light from all around.
+// The light of nearby fires, without shadows; a zero normal takes light from all sides.
 vec3 fire_irradiance(vec3 p_W, vec3 n) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < fire_count; ++i) {
@@ -117,7 +118,7 @@ vec3 fire_irradiance(vec3 p_W, vec3 n) {
   return sum;
 }
 
-// Light from the body of a surface, and light mirrored by it.
+// Diffuse and specular light of a surface.
 void shade_apart(Surface s, vec3 p_W, vec3 n_geometric, out vec3 body, out vec3 mirrored) {
   vec3 v = normalize(eye_W - p_W);
   float nv = max(dot(s.n, v), 1e-3);
@@ -144,7 +145,7 @@ void shade_apart(Surface s, vec3 p_W, vec3 n_geometric, out vec3 body, out vec3 
     mirrored += ggx * visible * f * arriving;
   }
   vec2 split = environment_factor(s.roughness, nv);
-  // Hollows that an image tells of keep out the sky; the sun's share has the shadow maps.
+  // The occlusion image darkens only the sky's light; shadow maps handle the sun.
   open *= s.open;
   body += diffuse / kPi * irradiance_from_sky(s.n) * open;
   mirrored += reflected_sky(reflect(-v, s.n), s.roughness) * (f0 * split.x + split.y) * open;
@@ -162,7 +163,7 @@ vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
   return body + mirrored;
 }
 
-// Clear near by, and hazy from some hundred metres on.
+// Clear nearby, and hazy beyond some hundred metres.
 vec3 through_air(vec3 light, vec3 p_W) {
   float far = distance(eye_W, p_W) * 0.0030;
   return mix(light, haze_colour(), sky_on * (1.0 - exp(-far * sqrt(far))));

@@ -18,7 +18,7 @@ uniform sampler2D metallic_roughness_image;
 uniform sampler2D emissive_image;
 uniform sampler2D occlusion_image;
 
-// Discards what is cut out. `n` is the geometry's normal, towards the eye's side.
+// Discards fragments by alpha_cutoff. `n` is the geometric normal on the eye's side.
 Surface material(out vec3 n, out float opacity, out vec3 glow) {
   vec4 base = base_colour;
   if ((images & 1) != 0) base *= texture(base_image, uv);

@@ -6,7 +6,7 @@ layout(location = 3) in vec2 uv_in;
 uniform mat4 X_WM[32];  // of each instance
 uniform mat3 N_WM[32];  // inverse transposes of their linear parts
 uniform mat4 PV;
-uniform vec4 clip_W;  // a plane: what is below it may be cut away
+uniform vec4 clip_W;  // a plane: parts below it may be clipped
 
 out vec3 p_W;
 out vec3 n_W;

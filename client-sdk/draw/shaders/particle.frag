@@ -24,7 +24,7 @@ void main() {
     float lumps = value_noise(q) * 0.62 + value_noise(q * 2.6 + 11.0) * 0.38;
     body = smoothstep(1.0, 0.10, r + (0.5 - lumps) * 0.75) * smoothstep(1.0, 0.8, r);
   }
-  // Where a puff meets a wall it fades out before it; near the eye, too.
+  // A puff fades out in front of a wall, and near the eye.
   float z_m = metres(gl_FragCoord.z);
   float behind_m = metres(texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r) - z_m;
   float opacity = tint.a * body * clamp(behind_m / (0.5 * radius + 0.002), 0.0, 1.0) * clamp(z_m * 4.0 - 0.4, 0.0, 1.0);
@@ -35,7 +35,7 @@ void main() {
   }
   vec3 n_C = vec3(place, sqrt(max(1.0 - r * r, 0.0)));
   vec3 n = transpose(mat3(V_CW)) * n_C;
-  // Light goes round inside a cloud: even its far side is not dark.
+  // Light is scattered inside a cloud, so even its far side is not dark.
   float round = 0.45 + 0.55 * (0.5 + 0.5 * dot(n, to_sun));
   vec3 light = irradiance_from_sky(n) / kPi + sun_irradiance * sun * round * 0.5 / kPi + fire_irradiance(p_W, vec3(0.0)) / kPi;
   if (look.z > 0.5) {

@@ -20,7 +20,7 @@ void main() {
   float s = sin(look_in.x);
   float c = cos(look_in.x);
   turned = mat2(c, s, -s, c) * place;
-  // Flames are drawn out upwards.
+  // Flames are stretched upwards.
   vec2 size = look_in.z > 1.5 ? vec2(0.85, 1.6) : vec2(1.0);
   vec4 p_C = V_CW * vec4(middle_W, 1.0) + vec4(place * size * radius_m, 0.0, 0.0);
   p_W = middle_W;

@@ -1,4 +1,4 @@
-// Laid rope: three strands about each other, as relief and as colour, by the length along the rope.
+// Laid rope: three twisted strands, as relief and as colour, by the length along the rope.
 in vec3 p_W;
 in vec3 n_W;
 in vec4 t_W;
@@ -14,7 +14,7 @@ void main() {
   float q = kStrands * (uv.x + uv.y / kLay);
   float across = fract(q) - 0.5;
   float strand = mod(floor(q), kStrands);
-  // From afar a strand is less than a pixel: its relief goes, its mean colour stays.
+  // From afar a strand is smaller than a pixel: its relief fades, its mean colour stays.
   float detail = 1.0 - smoothstep(0.30, 0.80, length(vec2(dFdx(uv.x + uv.y / kLay), dFdy(uv.x + uv.y / kLay))) * kStrands);
   vec3 g = cross(t, n) / 6.2831853 + t / kLay;
   g = normalize(g - n * dot(n, g) + 1e-5 * t);

@@ -1,6 +1,6 @@
-// What a mirror of some roughness sees of a cube map where it is looked at straight on: the first factor of the split sum (B. Karis, "Real
-// Shading in Unreal Engine 4", 2013). Directions are drawn by GGX; each is looked up as blurred as they are apart (Krivanek & Colbert 2008), so
-// that few of them do, and what is small and bright leaves no specks.
+// Prefilters a cube map for a roughness, seen at normal incidence: the first factor of the split sum (B. Karis, "Real
+// Shading in Unreal Engine 4", 2013). Directions are sampled by GGX; each uses a mip level that matches the samples' spacing
+// (Krivanek & Colbert 2008), so that a few are enough and small bright spots leave no specks.
 in vec2 place;
 out vec4 colour;
 uniform samplerCube sharp;
@@ -9,7 +9,7 @@ uniform int samples;
 
 const float kPi = 3.14159265;
 
-// Van der Corput's sequence: the bits of i, mirrored behind the point.
+// Van der Corput's sequence: the bits of i, reversed behind the binary point.
 float mirrored_bits(int i) {
   float sum = 0.0;
   for (float share = 0.5; i > 0; share *= 0.5, i /= 2)

@@ -7,7 +7,7 @@ out vec4 colour;
 
 uniform float time_s;
 uniform float lumps_per_s;
-uniform float broken_s;  // when a jet's core is gone
+uniform float broken_s;  // when a jet's core has broken up
 
 void main() {
   vec3 v = normalize(eye_W - p_W);

@@ -1,11 +1,12 @@
-// Linear light to what a screen shows: the samples of a pixel are put together after weighing down the brightest (no ragged edges at
-// glints), darkened by ambient occlusion, with a glow about what glares; then ACES (the fit of Stephen Hill: RRT and ODT), then the sRGB curve.
+// From linear light to screen colours: a pixel's samples are averaged with less weight for the brightest (no ragged edges at
+// glints), darkened by ambient occlusion, with a glow around glaring things; then ACES (Stephen Hill's fit of RRT and ODT),
+// then the sRGB curve.
 in vec2 place;
 out vec4 colour;
 uniform sampler2DMS samples;
 uniform int sample_count;
 uniform float exposure;
-uniform sampler2D bloom;  // what glares, in the picture's own exposure
+uniform sampler2D bloom;  // glaring light, in the picture's own exposure
 uniform sampler2D openness;  // share of the sky that is open
 uniform float bloom_share;
 uniform float occlusion_share;  // 0: both are left out

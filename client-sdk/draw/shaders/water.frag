@@ -1,5 +1,5 @@
-// Water from above: what stands about it, or the sky, mirrored by Fresnel over a body that lets the bottom through. Ripples move with the
-// world's time, and a river's are carried along.
+// Water from above: the surroundings or the sky, mirrored by Fresnel, over a body through which the bottom is visible. Ripples
+// move with the world's time, and a river carries them along.
 in vec3 p_W;
 in vec3 n_W;
 in vec4 t_W;
@@ -14,13 +14,13 @@ uniform vec2 flow;  // along x and z, m/s; none: it stands
 uniform float width_m;  // over 0: uv's x is the share of the way across, and the sides end softly
 uniform sampler2D depth;  // of all that is solid
 uniform vec2 depth_to_m;  // of clip space: distance before the eye = y / (x + depth)
-uniform sampler2D mirror;  // what stands about it, as the eye sees it mirrored by still water; opacity 0: nothing was drawn
+uniform sampler2D mirror;  // the surroundings as mirrored by still water; opacity 0: nothing was drawn
 uniform bool mirrors;
 
-// As far from what is mirrored as this: the nearer it stands, the less a ripple shifts it.
+// The distance to the mirrored thing: the nearer it is, the less a ripple shifts it.
 const float kMirrored_m = 0.8;
 
-// Waves that run their own ways, seen from the water.
+// Waves in different directions, relative to the water.
 vec2 waves(vec2 q) {
   vec2 sum = vec2(0.0);
   float strength = 0.050;
@@ -37,7 +37,7 @@ vec2 waves(vec2 q) {
   return sum;
 }
 
-// A river's unrest, drawn out along its way: layers that are carried past each other, so that no pattern ever comes again.
+// A river's turbulence, stretched along its flow: layers that move relative to each other, so that no pattern repeats.
 vec2 unrest(vec2 q, vec2 along, float speed) {
   vec2 across = vec2(-along.y, along.x);
   vec2 sum = vec2(0.0);
@@ -61,7 +61,7 @@ vec2 slope(vec2 q, float speed) {
   return (0.55 * waves(q - flow * time_s) + unrest(q, along, speed)) * ripple * mix(0.45, 1.25, calm);
 }
 
-// Metres of water over what is seen through it; where something stands before it, that is not known.
+// Metres of water above the bottom; unknown where something is in front of it.
 float depth_of_water(vec3 n) {
   float here = 1.0 / gl_FragCoord.w;
   float solid = depth_to_m.y / (depth_to_m.x + 2.0 * texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r - 1.0);
@@ -75,7 +75,7 @@ vec3 mirrored_about(vec3 r) {
   q.y = 2.0 * p_W.y - q.y;
   vec4 clip = PV * vec4(q, 1.0);
   vec4 seen = texture(mirror, clip.xy / clip.w * 0.5 + 0.5);
-  // Beyond the water's edge nothing was drawn: as if it lay still.
+  // Beyond the water's edge nothing was drawn: there, use the mirror image of still water.
   if (seen.a < 0.3) seen = texture(mirror, gl_FragCoord.xy / vec2(textureSize(depth, 0)));
   return seen.a < 0.1 ? sky : seen.rgb / seen.a;
 }
@@ -93,7 +93,7 @@ void main() {
   float nv = clamp(dot(n, v), 0.02, 1.0);
   vec3 r = reflect(-v, n);
   r.y = abs(r.y);
-  // It ends where it has no depth: at the bank, at what stands in it, and at its own sides.
+  // It fades out where it has no depth: at the bank, at things in it, and at its own sides.
   float deep_m = depth_of_water(flat_n);
   float side = 1.0;
   if (width_m > 0.0) side = smoothstep(0.0, 0.5, min(uv.x, 1.0 - uv.x) * width_m + 0.4 * (value_noise(p_W.xz * 0.9) - 0.5));
@@ -107,7 +107,7 @@ void main() {
   vec3 light = body * cover + mirrored_about(r) * fresnel + vec3(1.0, 0.9, 0.75) * glint * fresnel * 6.0;
   float opacity = clamp(cover + fresnel, 0.0, 1.0);
   if (speed > 0.0) {
-    // A torn line of foam where the current rubs against a bank.
+    // A broken line of foam where the current touches a bank.
     float bank = smoothstep(0.002, 0.010, deep_m) * (1.0 - smoothstep(0.012, 0.045, deep_m));
     float torn = value_noise((p_W.xz - flow * time_s) * 7.0) * 0.6 + value_noise((p_W.xz - flow * time_s) * 19.0) * 0.4;
     float foam = 0.5 * side * bank * smoothstep(0.50, 0.75, torn);

@@ -1,4 +1,4 @@
-// Between wire types (float32 arrays, C sequences) and ours. Reading checks nothing but pointers; validators check values.
+// Converts between wire types (float32 arrays, C sequences) and our own. Reading checks only pointers; validators check values.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ inline void set_vec3(float (&out)[3], const Vec3& v) noexcept {
     out[i] = static_cast<float>(v[i]);
 }
 
-/// Takes the quaternion as it is; normalise() makes it safe.
+/// Does not check or scale the quaternion: see normalise().
 [[nodiscard]] inline Pose to_pose(const WirePose& w) noexcept {
   return {to_vec3(w.p), Quat(w.q[0], w.q[1], w.q[2], w.q[3])};
 }
@@ -42,7 +42,7 @@ template <std::size_t N>
   return all_finite(w.p) && all_finite(w.q);
 }
 
-/// Brings a nearly unit rotation to unit length. False, and X unchanged, where its length is more than 1 % off.
+/// Scales the rotation to unit length. False, and X unchanged, where its length is more than 1 % away from 1.
 [[nodiscard]] inline bool normalise(Pose& X) noexcept {
   const double norm = X.R.norm();
   if (!(norm > 0.99 && norm < 1.01)) return false;
@@ -57,7 +57,7 @@ template <class Sequence>
   return std::span<Element>(sequence._buffer, sequence._buffer == nullptr ? 0 : sequence._length);
 }
 
-/// Lets a wire sequence look into a vector, which must outlive it and not grow meanwhile.
+/// Lets a wire sequence point at the elements of a vector, which must outlive it and not grow meanwhile.
 template <class Sequence, class Element>
 void look_into(Sequence& sequence, std::vector<Element>& storage) noexcept {
   sequence._buffer = storage.data();
@@ -65,7 +65,7 @@ void look_into(Sequence& sequence, std::vector<Element>& storage) noexcept {
   sequence._release = false;
 }
 
-/// Lets a wire string look into a std::string, which must outlive it. DDS only reads it.
+/// Lets a wire string point at the characters of a std::string, which must outlive it. DDS only reads them.
 [[nodiscard]] inline char* look_into(const std::string& text) noexcept {
   return const_cast<char*>(text.c_str());
 }

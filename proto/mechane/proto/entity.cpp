@@ -12,7 +12,7 @@
 namespace mechane::proto {
 namespace {
 
-constexpr std::uint32_t kLastDomain = 230;  // beyond it, the ports of the RTPS mapping pass 65535
+constexpr std::uint32_t kLastDomain = 230;  // of higher ones, the ports of the RTPS mapping would exceed 65535
 
 std::string interfaces_here() {
   std::string names;
@@ -35,21 +35,24 @@ std::string with_environment(std::string text) {
   return text;
 }
 
-/// What is wrong with a configuration that Cyclone refused, as far as we can tell.
+/// What is wrong with a configuration that Cyclone refused; nothing where we cannot tell.
 std::optional<Error> fault_of(const std::string& uri) {
   std::string xml = uri;
   if (uri.find('<') == std::string::npos) {
     const std::string path = uri.rfind("file://", 0) == 0 ? uri.substr(7) : uri;
     std::ifstream file(path);
-    if (!file) return Error{"the DDS configuration cannot be read", path, "set CYCLONEDDS_URI to an existing file"};
+    if (!file) {
+      return Error{ErrorCode::not_found, "the DDS configuration cannot be read", path,
+                   "set CYCLONEDDS_URI to an existing file"};
+    }
     xml.assign(std::istreambuf_iterator<char>(file), {});
   }
   static const std::regex interface_name(R"re(<NetworkInterface\s[^>]*name\s*=\s*"([^"]*)")re", std::regex::icase);
   for (std::sregex_iterator i(xml.begin(), xml.end(), interface_name), end; i != end; ++i) {
     const std::string name = with_environment((*i)[1].str());
     if (if_nametoindex(name.c_str()) == 0) {
-      return Error{"there is no network interface '" + name + "'", "CYCLONEDDS_URI, NetworkInterface",
-                   "name one of: " + interfaces_here()};
+      return Error{ErrorCode::unknown_name, "there is no network interface '" + name + "'",
+                   "CYCLONEDDS_URI, NetworkInterface", "name one of: " + interfaces_here()};
     }
   }
   return std::nullopt;
@@ -58,13 +61,14 @@ std::optional<Error> fault_of(const std::string& uri) {
 }  // namespace
 
 Error dds_error(dds_return_t code, const std::string& doing, const std::string& where) {
-  return {"DDS: " + doing + " failed: " + dds_strretcode(code), where,
+  return {ErrorCode::io_failure, "DDS: " + doing + " failed: " + dds_strretcode(code), where,
           "Cyclone DDS has written its reason to stderr; check CYCLONEDDS_URI and the network"};
 }
 
 Expected<Participant> Participant::create(std::uint32_t domain) {
   const std::string where = "DDS domain " + std::to_string(domain);
-  if (domain > kLastDomain) return fail("there is no such domain", where, "choose one of 0 to 230");
+  if (domain > kLastDomain)
+    return fail(ErrorCode::invalid_value, "there is no such domain", where, "choose one of 0 to 230");
   const dds_entity_t handle = dds_create_participant(domain, nullptr, nullptr);
   if (handle > 0) return Participant(Entity(handle));
   const char* uri = std::getenv("CYCLONEDDS_URI");

@@ -1,4 +1,4 @@
-// RAII over Cyclone DDS' C API: participants, typed writers and readers. The only header through which C++ of ours meets dds.h.
+// RAII over Cyclone DDS' C API: participants, typed writers and readers.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace mechane::proto {
 
-/// Owns one DDS entity. Deleting waits for listeners of it that are running.
+/// Owns one DDS entity. Deleting it waits until its listeners have returned.
 class Entity {
  public:
   Entity() = default;
@@ -38,14 +38,14 @@ class Entity {
   dds_entity_t handle_ = 0;
 };
 
-/// An error of a DDS call, with the entity it was about.
+/// The error of a DDS call: io_failure.
 [[nodiscard]] Error dds_error(dds_return_t code, const std::string& doing, const std::string& where);
 
-/// One process' place in a DDS domain. The network is set up by CYCLONEDDS_URI.
+/// One process in a DDS domain. The network is set up by CYCLONEDDS_URI.
 class Participant {
  public:
-  /// Errors: a domain over 230; a configuration that Cyclone cannot use (file missing, no such interface): says which, and which
-  /// interfaces there are.
+  /// Errors: invalid_value (a domain over 230); not_found (the file of CYCLONEDDS_URI); unknown_name (an interface in it: the error lists
+  /// those that exist); io_failure.
   [[nodiscard]] static Expected<Participant> create(std::uint32_t domain);
   [[nodiscard]] dds_entity_t get() const { return entity_.get(); }
 
@@ -54,19 +54,19 @@ class Participant {
   Entity entity_;
 };
 
-/// What DDS says of a sample that was taken.
+/// What DDS says about a sample that was taken.
 struct SampleInfo {
   bool valid = false;  ///< all fields; otherwise only the key's
   bool alive = false;  ///< the instance has a live writer and was not disposed
 };
 
-/// Takes samples from a reader; handed to listeners, and made from a Reader by view().
+/// Takes samples from a reader. Listeners are given one; Reader::view() makes one.
 template <TopicType T>
 class ReaderView {
  public:
   explicit ReaderView(dds_entity_t reader) : reader_(reader) {}
 
-  /// Takes one sample into the caller's storage, without the heap. False when there is none.
+  /// Takes one sample into the caller's storage, without the heap. False when there is no sample.
   bool take_into(T& out, SampleInfo& info) const noexcept requires FixedSize<T> {
     void* storage = &out;
     dds_sample_info_t raw;
@@ -75,7 +75,7 @@ class ReaderView {
     return true;
   }
 
-  /// Calls f(const T&, const SampleInfo&) for each sample there is, oldest first within a key.
+  /// Takes all samples and calls f(const T&, const SampleInfo&) for each, oldest first within a key.
   template <class F>
   void take_each(F&& f) const {
     constexpr std::uint32_t kBatch = 32;
@@ -107,7 +107,7 @@ class Reader {
 
   Reader() = default;
   Reader(Reader&& other) noexcept = default;
-  /// What listens to the old entity ends before what it calls is gone; member by member it would be the other way round.
+  /// Deletes the old reader before the function that its listener calls; a default assignment would do it in the other order.
   Reader& operator=(Reader&& other) noexcept {
     if (this == &other) return *this;
     reader_.reset();
@@ -117,12 +117,12 @@ class Reader {
     return *this;
   }
   ~Reader() = default;
-  /// Partition "": the default one. `on_data` may be empty: then take by polling. Errors: out of memory, or a broken participant.
+  /// Partition "": the default one. `on_data` may be empty: then poll view(). Errors: io_failure (out of memory, or a broken participant).
   [[nodiscard]] static Expected<Reader> create(const Participant& participant, const std::string& partition,
                                                OnData on_data = {});
 
   [[nodiscard]] ReaderView<T> view() const { return ReaderView<T>(reader_.get()); }
-  /// Writers that match now.
+  /// How many writers match now.
   [[nodiscard]] std::uint32_t matched() const {
     dds_subscription_matched_status_t status{};
     return dds_get_subscription_matched_status(reader_.get(), &status) == 0 ? status.current_count : 0;
@@ -130,7 +130,7 @@ class Reader {
   explicit operator bool() const { return static_cast<bool>(reader_); }
 
  private:
-  std::unique_ptr<OnData> on_data_;  // stays at its address: the listener holds it
+  std::unique_ptr<OnData> on_data_;  // keeps its address when the Reader is moved: the listener has a pointer to it
   Entity topic_;
   Entity reader_;  // last: deleted first, so that no listener outlives on_data_
 };

@@ -1,4 +1,4 @@
-// Holds the contract's sizes and numbers of the hand (idl/mechane.idl) against those of server/hand. Nothing here runs.
+// Checks at compile time that the contract's sizes and numbers of the hand (idl/mechane.idl) are those of server/hand.
 #include <bit>
 #include <type_traits>
 

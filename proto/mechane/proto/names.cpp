@@ -12,8 +12,8 @@ bool is_name(std::string_view name) {
 
 Expected<void> check_name(std::string_view name, const std::string& what) {
   if (is_name(name)) return {};
-  return fail("'" + std::string(name.substr(0, 64)) + "' is not a name of a " + what, what,
-              "use 1 to 31 characters of A-Z a-z 0-9 - and _");
+  return fail(ErrorCode::invalid_value, "'" + std::string(name.substr(0, 64)) + "' is not a valid name for a " + what,
+              what, "use 1 to 31 characters of A-Z a-z 0-9 - and _");
 }
 
 std::string kiosk_partition(std::string_view kiosk) {

@@ -1,4 +1,4 @@
-// Names on the wire: kiosks and worlds, the partitions made from them, and the fixed char arrays that carry them.
+// Names on the wire: kiosks and worlds, the partitions named after them, and the fixed char arrays that hold them.
 #pragma once
 
 #include <cstring>
@@ -6,14 +6,15 @@
 #include <string_view>
 
 #include "server/base/error.hpp"
+#include "server/base/utf8.hpp"
 
 namespace mechane::proto {
 
 inline constexpr std::size_t kNameSize = 32;  ///< with the closing zero
 
-/// A name of a kiosk, world or server: 1 to 31 characters of A-Z a-z 0-9 - _ (a partition must hold no wildcard).
+/// Whether this can be the name of a kiosk, world or server: 1 to 31 characters of A-Z a-z 0-9 - _ (in a partition, others are wildcards).
 [[nodiscard]] bool is_name(std::string_view name);
-/// An error that says which kind of name (`what`: "kiosk") is wrong, and what is allowed.
+/// Errors: invalid_value, which says what kind of name is wrong (`what`: "kiosk") and what is allowed.
 [[nodiscard]] Expected<void> check_name(std::string_view name, const std::string& what);
 
 [[nodiscard]] std::string kiosk_partition(std::string_view kiosk);  ///< kiosk/<name>
@@ -28,17 +29,13 @@ template <std::size_t N>
 /// Fills a char array, zeros behind the text; a text that is too long is cut at a UTF-8 character. Always ends in a zero.
 template <std::size_t N>
 void set_text(char (&chars)[N], std::string_view text) noexcept {
-  std::size_t n = text.size() < N ? text.size() : N - 1;
-  if (n < text.size()) {
-    while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xc0u) == 0x80u)
-      --n;
-  }
+  const std::size_t n = utf8_beginning(text, N - 1).size();
   std::memset(chars, 0, N);
   if (n > 0) std::memcpy(chars, text.data(), n);
 }
 
-/// Text of a wire string, which may be null. Another name than text_of: an overload would win over it for char arrays, and read
-/// past one that has no closing zero.
+/// Text of a wire string, which may be null. Not an overload of text_of: that would be chosen for char arrays too, and read past one that
+/// has no closing zero.
 [[nodiscard]] inline std::string string_of(const char* text) {
   return text == nullptr ? std::string() : std::string(text);
 }

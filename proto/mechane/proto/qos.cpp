@@ -3,7 +3,7 @@
 namespace mechane::proto {
 namespace {
 
-// A reliable write waits no longer than this for a reader that is behind; the writer's thread goes on and says so.
+// A reliable write waits no longer than this for a slow reader; then it fails.
 constexpr dds_duration_t kMaxBlocking = DDS_MSECS(100);
 
 Qos newest_value_stream() {
@@ -73,8 +73,8 @@ Qos world_status_qos() {
 }
 
 Qos event_qos() {
-  // Kept for who is matched late: a client sees the server's writer before the server sees the client's reader, and between the
-  // two a volatile event would be lost. The lifespan bounds what a newcomer hears of the past.
+  // Kept for readers that are matched late: a client sees the server's writer before the server sees the client's reader, and in between a
+  // volatile event would be lost. The lifespan limits how old the events are that a new reader gets.
   Qos q;
   q.reliable().transient_local().keep_last(kEventDepth).lifespan(kEventLifespan);
   return q;

@@ -1,5 +1,5 @@
-// Quality of service by name: one function for each row of the table "On the wire" in ARCHITECTURE.md. Writers and readers of a
-// topic use the same one, so that they always match.
+// Quality of service: one function for each row of the table "On the wire" in ARCHITECTURE.md. Writers and readers of a topic use the same
+// function, so that they always match.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,8 @@ namespace mechane::proto {
 
 inline constexpr Duration kServerLiveliness = std::chrono::milliseconds(500);
 inline constexpr Duration kKioskLiveliness = std::chrono::seconds(3);
-/// A display says nothing while it reads an exhibit's files; for longer than this it hangs. One that ended is noticed sooner.
+/// A display is silent while it reads an exhibit's files. When it is silent for longer than this, it hangs. One that has ended is noticed
+/// sooner.
 inline constexpr Duration kDisplayLiveliness = std::chrono::seconds(15);
 inline constexpr Duration kEventLifespan = std::chrono::seconds(2);
 inline constexpr int kEventDepth = 64;

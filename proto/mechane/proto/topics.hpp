@@ -11,8 +11,8 @@
 
 namespace mechane::proto {
 
-/// Version of idl/mechane.idl. Raise it when a field changes its meaning, not for a topic that is added: who does not know it does not
-/// subscribe to it. Receivers drop samples of another version.
+/// Version of idl/mechane.idl. Raise it when a message has another field, a field another meaning, or CommandKind another kind. A new
+/// topic needs no new version: programs that do not know it do not subscribe to it. Receivers drop samples of another version.
 inline constexpr std::uint32_t kProtocol = 3;
 
 using HapticInput = ::mechane_HapticInput;
@@ -87,7 +87,7 @@ concept TopicType = requires {
   TopicOf<T>::descriptor;
 };
 
-/// Samples of these types hold no pointers: they are read into caller storage and copied freely.
+/// Samples of these types have no pointers: they are read into the caller's storage and may be copied.
 template <class T>
 concept FixedSize = std::is_same_v<T, HapticInput> || std::is_same_v<T, HapticOutput> || std::is_same_v<T, KioskStatus>;
 

@@ -15,6 +15,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include "server/base/utf8.hpp"
 #include "server/content/importer/folder_io.hpp"
 #include "server/content/importer/gltf_counts.hpp"
 #include "server/content/importer/material_reader.hpp"
@@ -26,7 +27,7 @@ constexpr std::array kRead{".glb", ".gltf", ".obj", ".stl", ".ply"};
 constexpr std::array kLoaders{"glTF2 Importer", "Wavefront Object Importer", "Stereolithography (STL) Importer",
                               "Stanford Polygon Library (PLY) Importer"};
 
-/// Assimp knows some fifty formats; each loader that is not there is one that a file cannot attack.
+/// Assimp has loaders of some fifty formats. A file cannot attack a loader that was removed.
 void keep_our_loaders(Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     Assimp::BaseImporter* loader = importer.GetImporter(i);
@@ -42,13 +43,13 @@ Eigen::Vector3f vector(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
 
-/// A unit vector, or what stands in for one that a degenerate triangle left without length.
+/// `v` at unit length, or `otherwise` where it has no length, as beside a degenerate triangle.
 Vec3f unit_or(const Vec3f& v, const Vec3f& otherwise) {
   const float length = v.norm();
   return std::isfinite(length) && length > 1e-12F ? Vec3f(v / length) : otherwise;
 }
 
-/// Tangents of degenerate uv come as NaN: any vector in the surface serves then.
+/// Where uv are degenerate, the tangent is NaN: any vector in the surface takes its place.
 Eigen::Vector4f tangent(const aiMesh& mesh, unsigned i, const Vec3f& normal) {
   const Vec3f raw = vector(mesh.mTangents[i]);
   const Vec3f t = unit_or(raw - normal * normal.dot(raw), normal.unitOrthogonal());
@@ -105,28 +106,29 @@ void configure(Assimp::Importer& importer) {
                                                           aiComponent_CAMERAS);
 }
 
-/// Before any step of assimp's: joining of vertices takes a NaN for equal to its neighbour, and the triangles about it are gone.
+/// To be called before assimp's steps: joining vertices takes a NaN to be equal to its neighbour, and drops the triangles around it.
 Expected<void> check_numbers(const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       if (vector(mesh.mVertices[i]).allFinite()) continue;
       const std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : std::to_string(m + 1);
-      return fail(fmt::format("corner {} has a coordinate that is not a finite number", i + 1), "mesh " + name,
+      return fail(ErrorCode::invalid_value,
+                  fmt::format("corner {} has a coordinate that is not a finite number", i + 1), "mesh " + name,
                   "look for broken modifiers or a scale of zero in the model, and export it again");
     }
   }
   return {};
 }
 
-/// Why assimp read nothing. Throws std::bad_alloc where memory was missing: assimp makes a text of it, and the caller knows the limit.
+/// Why assimp read nothing. Throws std::bad_alloc again, which assimp turns into a text: only the caller knows the limit of memory.
 std::string why_not(const Assimp::Importer& importer) {
   if (importer.GetException()) {
     try {
       std::rethrow_exception(importer.GetException());
     } catch (const std::bad_alloc&) {
       throw;
-    } catch (...) {  // said below
+    } catch (...) {  // GetErrorString() has its text
     }
   }
   std::string why = importer.GetErrorString();
@@ -137,9 +139,9 @@ std::string why_not(const Assimp::Importer& importer) {
 }  // namespace
 
 Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, const ImportLimits& limits) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = lower_case(file.extension().string());
   if (std::find(kRead.begin(), kRead.end(), extension) == kRead.end()) {
-    return fail(fmt::format("the format '{}' is not read", extension), {},
+    return fail(ErrorCode::not_supported, fmt::format("files of the format '{}' cannot be read", extension), {},
                 "export the model as .glb, .gltf, .obj, .stl or .ply");
   }
   if (extension == ".glb" || extension == ".gltf") {
@@ -159,7 +161,7 @@ Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, cons
   importer.SetIOHandler(nullptr);  // `io` is ours; assimp would delete it
   if (!numbers) return tl::unexpected<Error>(numbers.error());
   if (from == nullptr || from->mRootNode == nullptr) {
-    return fail("it cannot be read: " + why_not(importer), {},
+    return fail(ErrorCode::damaged, "the model cannot be read: " + why_not(importer), {},
                 "open the file in a modelling program and export it again, best as .glb");
   }
   ImportedScene scene;

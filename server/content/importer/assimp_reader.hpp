@@ -9,8 +9,8 @@
 
 namespace mechane::content {
 
-/// Reads glb, gltf, obj, stl and ply; other formats are refused by name. The error's `where` is a place inside the file.
-/// May throw what assimp throws (std::bad_alloc when memory is limited).
+/// Reads glb, gltf, obj, stl and ply. The error's `where` is a place inside the file. Errors: not_supported (another format, by the file's
+/// name), damaged, and those of check_gltf_counts and read_materials. May throw what assimp throws (std::bad_alloc when memory is limited).
 [[nodiscard]] Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, const ImportLimits& limits);
 
 }  // namespace mechane::content

@@ -9,6 +9,7 @@
 
 #include <assimp/MemoryIOWrapper.h>
 
+#include "server/base/utf8.hpp"
 #include "server/content/importer/obj_text.hpp"
 
 namespace mechane::content {
@@ -29,13 +30,6 @@ Assimp::IOStream* open_obj(const fs::path& file) {
 }
 
 }  // namespace
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return extension;
-}
 
 FolderIo::FolderIo(const fs::path& folder, std::uint64_t most_bytes) : most_bytes_(most_bytes) {
   std::error_code code;
@@ -59,7 +53,7 @@ bool FolderIo::Exists(const char* name) const {
 Assimp::IOStream* FolderIo::Open(const char* name, const char* mode) {
   const std::optional<fs::path> real = allowed(name);
   if (!real || std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
-  if (lower_extension(name) == ".obj") return open_obj(*real);
+  if (lower_case(fs::path(name).extension().string()) == ".obj") return open_obj(*real);
   return DefaultIOSystem::Open(real->c_str(), mode);
 }
 

@@ -1,21 +1,17 @@
-// File access for assimp that ends at a folder: a model may name buffers, materials and images beside itself, not /etc/passwd.
+// File access for assimp within one folder: a model may refer to buffers, materials and images beside itself, but not to /etc/passwd.
 #pragma once
 
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include <assimp/DefaultIOSystem.h>
 
 namespace mechane::content {
 
-/// ".obj", whatever the case in the name.
-[[nodiscard]] std::string lower_extension(const std::filesystem::path& file);
-
-/// OBJ files are opened as plain_obj gives them.
+/// OBJ files are read through plain_obj().
 class FolderIo : public Assimp::DefaultIOSystem {
  public:
-  /// `folder` and `most_bytes` (of one file) bound what can be opened.
+  /// Only files in `folder` of at most `most_bytes` each can be opened.
   FolderIo(const std::filesystem::path& folder, std::uint64_t most_bytes);
 
   bool Exists(const char* name) const override;

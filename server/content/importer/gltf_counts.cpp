@@ -1,8 +1,6 @@
 #include "server/content/importer/gltf_counts.hpp"
 
-#include <array>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <numeric>
 #include <optional>
@@ -12,29 +10,34 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "server/content/model_references.hpp"
+
 namespace mechane::content {
 namespace {
 
 using Json = nlohmann::json;
 
-/// Vertices that stand in several primitives' lists are read once for each and joined only then, so that a good file may have more of them
-/// than ImportLimits::vertices while it is read. So many fit into ImportLimits::memory_bytes.
+/// The reader copies vertices that several primitives share once for each, and joins them afterwards: while it reads, a good file may have
+/// more of them than ImportLimits::vertices. This many times as many fit into ImportLimits::memory_bytes.
 constexpr std::uint64_t kVerticesWhileReading = 4;
 
-/// Reads the JSON once, and keeps of it what counts. Places in it are paths without the indices of arrays: "/nodes/children".
+/// Reads the JSON once, and keeps only what check_gltf_counts needs. Places in it are paths without the indices of arrays:
+/// "/nodes/children".
 class Counter final : public Json::json_sax_t {
  public:
   explicit Counter(const ImportLimits& limits) : limits_(limits) {}
 
-  /// What is over the limits; nothing: all is within them.
+  /// What is over the limits; nothing where all is within them.
   [[nodiscard]] std::optional<Error> fault() const {
     if (nodes_.size() > limits_.nodes || placed_nodes() > limits_.nodes) {
-      return Error{fmt::format("more than {} nodes, counted wherever they are placed", limits_.nodes),
+      return Error{ErrorCode::too_large,
+                   fmt::format("more than {} nodes, counted wherever they are placed", limits_.nodes),
                    {},
                    "leave out copies, or join small objects in the model"};
     }
     if (primitives_.size() > limits_.meshes) {
-      return Error{fmt::format("{} meshes, of which {} at most are read", primitives_.size(), limits_.meshes),
+      return Error{ErrorCode::too_large,
+                   fmt::format("{} meshes; the limit is {}", primitives_.size(), limits_.meshes),
                    {},
                    "join small objects in the model"};
     }
@@ -44,7 +47,8 @@ class Counter final : public Json::json_sax_t {
           return std::min(most + 1, sum + std::min(most + 1, count_of(accessor)));
         });
     if (vertices > most) {
-      return Error{fmt::format("more than {} vertices, counted for each mesh that uses them", most),
+      return Error{ErrorCode::too_large,
+                   fmt::format("more than {} vertices, counted for each mesh that uses them", most),
                    {},
                    "simplify the model, or give each mesh only its own vertices"};
     }
@@ -90,7 +94,7 @@ class Counter final : public Json::json_sax_t {
   [[nodiscard]] std::uint64_t count_of(std::uint64_t accessor) const {
     return accessor < counts_.size() ? counts_[accessor] : 0;
   }
-  /// In the scene that is shown; stops beyond the limit, as it must where nodes are their own children.
+  /// Of the scene that is shown. Stops beyond the limit: nodes may be their own children.
   [[nodiscard]] std::uint64_t placed_nodes() const {
     if (scene_ >= scenes_.size()) return 0;
     std::vector<std::uint64_t> waiting = scenes_[scene_];
@@ -118,10 +122,7 @@ class Counter final : public Json::json_sax_t {
 
 Expected<void> check_gltf_counts(const std::filesystem::path& file, const ImportLimits& limits) {
   std::ifstream in(file, std::ios::binary);
-  std::array<char, 20> head{};  // of a .glb: "glTF", version, length; the chunk's length, "JSON"
-  const bool binary = in.read(head.data(), head.size()) && std::memcmp(head.data(), "glTF", 4) == 0;
-  in.clear();
-  if (!binary) in.seekg(0);
+  static_cast<void>(seek_glb_json(in));
   Counter counter(limits);
   Json::sax_parse(in, &counter, Json::input_format_t::json, false);  // not strict: bytes follow in a .glb
   if (auto fault = counter.fault()) return tl::unexpected<Error>(std::move(*fault));

@@ -1,4 +1,4 @@
-// How much a glTF file asks for, before anything is made of it. A file of one kilobyte can place a mesh a billion times, or share one list of
+// Checks the sizes in a glTF file before the file is read. A file of one kilobyte can place a mesh a billion times, or share one list of
 // vertices among thousands of meshes, each of which gets a copy.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace mechane::content {
 
-/// A file whose JSON is faulty, or that is not glTF, is left to the reader to refuse. Errors: over the limits.
+/// Accepts a file with faulty JSON, or of another format: the reader refuses it later. Errors: too_large.
 [[nodiscard]] Expected<void> check_gltf_counts(const std::filesystem::path& file, const ImportLimits& limits);
 
 }  // namespace mechane::content

@@ -1,6 +1,5 @@
-// mechane-mesh-import: reads one mesh file and writes it to standard output in the form of scene_codec.hpp. Started by import_mesh;
-// everything that can go wrong with a foreign file goes wrong in here.
-#include <cerrno>
+// mechane-mesh-import: reads one mesh file and writes it to standard output in the form of scene_codec.hpp. import_mesh starts it, so that
+// a foreign file that crashes the reader crashes only this process.
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "server/base/whole_file.hpp"
 #include "server/content/importer/assimp_reader.hpp"
 #include "server/content/importer/confinement.hpp"
 #include "server/content/scene_check.hpp"
@@ -24,22 +24,13 @@ Expected<ImportedScene> read_checked(const std::filesystem::path& file, const Im
     if (auto good = check_scene(*scene, limits); !good) return tl::unexpected<Error>(good.error());
     return scene;
   } catch (const std::bad_alloc&) {
-    return fail(fmt::format("reading it takes more than {} MiB of memory", limits.memory_bytes >> 20U), {},
+    return fail(ErrorCode::too_large,
+                fmt::format("reading it takes more than {} MiB of memory", limits.memory_bytes >> 20U), {},
                 "simplify the model");
   } catch (const std::exception& e) {
-    return fail(fmt::format("it cannot be read: {}", e.what()), {},
+    return fail(ErrorCode::damaged, fmt::format("the model cannot be read: {}", e.what()), {},
                 "open the file in a modelling program and export it again, best as .glb");
   }
-}
-
-bool write_all(int fd, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
-  }
-  return true;
 }
 
 int run(int argc, char** argv) {
@@ -64,16 +55,16 @@ int run(int argc, char** argv) {
     std::fputs("mechane-mesh-import: the output is binary; redirect it\n", stderr);
     return 2;
   }
-  // Whatever a library prints must not get between the bytes of the result.
+  // What a library prints goes to stderr: it must not get between the bytes of the result.
   const int result = dup(STDOUT_FILENO);
   if (result < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
   if (!confine_this_process(limits.memory_bytes, limits.cpu_seconds)) {
-    std::fputs("mechane-mesh-import: this system does not let the import be confined\n", stderr);
+    std::fputs("mechane-mesh-import: this system refuses to limit what the import may do\n", stderr);
     return 3;
   }
   const Expected<ImportedScene> scene = read_checked(std::filesystem::absolute(file), limits);
   const std::vector<std::byte> message = scene ? encode_scene(*scene) : encode_failure(scene.error());
-  return write_all(result, message) ? 0 : 4;
+  return write_all(result, message) == 0 ? 0 : 4;
 }
 
 }  // namespace

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <limits>
 #include <map>
 #include <span>
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+
+#include "server/base/whole_file.hpp"
 
 namespace mechane::content {
 namespace {
@@ -48,7 +50,7 @@ class MaterialReader {
     return read_occlusion(from, to);
   }
 
-  /// Baked occlusion is often laid out by a second set of uv, of which we have none: by the first it would be stains.
+  /// Baked occlusion often has a second set of uv, which we do not read. Drawn with the first set, it would look like stains: left out.
   Expected<void> read_occlusion(const aiMaterial& from, ImportedMaterial& to) {
     constexpr aiTextureType kPlace = aiTextureType_LIGHTMAP;  // where assimp has glTF's occlusionTexture
     aiString path;
@@ -132,21 +134,21 @@ class MaterialReader {
   Expected<ImportedTexture> load_file(std::string name) const {
     std::replace(name.begin(), name.end(), '\\', '/');
     const auto file = io_.allowed(name);
-    if (!file)
-      return fail("there is no such image beside the model", "texture " + name,
-                  "put it there, or export with the images inside (.glb)");
-    std::ifstream in(*file, std::ios::binary | std::ios::ate);
-    std::vector<std::byte> bytes(in ? static_cast<std::size_t>(in.tellg()) : 0);
-    in.seekg(0);
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!in) return fail("the image cannot be read", "texture " + name, "check the file's rights");
-    return encoded(name, bytes);
+    if (!file) {
+      return fail(ErrorCode::not_found, "the image is not in the model's folder", "texture " + name,
+                  "put it there, or export the model with its images inside (.glb)");
+    }
+    const auto bytes = read_whole(*file, std::numeric_limits<std::uintmax_t>::max());  // allowed() has a limit
+    if (!bytes) return tl::unexpected(bytes.error().in("texture " + name));
+    return encoded(name, *bytes);
   }
 
   static Expected<ImportedTexture> encoded(const std::string& name, std::span<const std::byte> bytes) {
     const auto encoding = encoding_of(bytes);
-    if (!encoding)
-      return fail("the image is neither PNG nor JPEG", "texture " + name, "export the images as PNG or JPEG");
+    if (!encoding) {
+      return fail(ErrorCode::not_supported, "the image is neither PNG nor JPEG", "texture " + name,
+                  "export the images as PNG or JPEG");
+    }
     return ImportedTexture{name, *encoding, 0, 0, {bytes.begin(), bytes.end()}};
   }
 

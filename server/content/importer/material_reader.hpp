@@ -9,8 +9,8 @@ struct aiScene;
 
 namespace mechane::content {
 
-/// Fills scene.materials and scene.textures; images that lie beside the file are read through `io`. Fails when an image is missing or
-/// neither PNG nor JPEG.
+/// Fills scene.materials and scene.textures; images that lie beside the file are read through `io`. Errors: not_found (an image),
+/// not_supported (neither PNG nor JPEG), io_failure.
 [[nodiscard]] Expected<void> read_materials(const aiScene& from, const FolderIo& io, ImportedScene& scene);
 
 }  // namespace mechane::content

@@ -1,4 +1,4 @@
-// OBJ text as assimp 5.2 reads it rightly.
+// OBJ text that assimp 5.2 reads without mistakes.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace mechane::content {
 
-/// The same file without what assimp's parser takes amiss: it drops a vertex without a word, and then refuses the faces that name it.
-/// It counts a line's numbers by their first characters, so that '.1' is not a number to it and each word of a comment behind them may be
-/// one (assimp issue 5890); and it does not know a line that is indented. In lines v, vn, vt and f '.1' becomes '0.1' and comments
-/// go; no line is indented. The count of lines stays.
+/// The same file without what assimp's parser misreads: it drops vertices silently, and then refuses the faces that use them. The parser
+/// counts the numbers of a line by their first characters: '.1' is not a number for it, but a word of a comment may be one (assimp issue
+/// 5890). It also ignores indented lines. In lines v, vn, vt and f, '.1' becomes '0.1' and comments are removed; no line is indented any
+/// more. The number of lines stays the same.
 [[nodiscard]] std::string plain_obj(std::string_view text);
 
 }  // namespace mechane::content

@@ -11,7 +11,6 @@ namespace mechane::benchmark {
 namespace {
 
 constexpr double kHeld_m = 0.2;  // the diagonal of a thing without a unit
-constexpr double kWeld = 1e-6;   // of a part's diagonal, as our builder welds
 
 /// A body is the node right above its parts.
 bool is_body(const content::ImportedScene& scene, std::uint32_t node) {
@@ -26,7 +25,7 @@ SceneObject object_of(const std::string& name, std::vector<geometry::NamedMesh> 
   std::vector<geometry::Mesh> welded;
   geometry::Mesh whole;
   for (const geometry::NamedMesh& part : parts) {
-    welded.push_back(geometry::weld(part.mesh, kWeld * part.mesh.bounds().diagonal().norm()));
+    welded.push_back(geometry::weld(part.mesh));
     whole.append(welded.back());
   }
   SceneObject object = make_scene_object(name, std::move(whole), Pose{});

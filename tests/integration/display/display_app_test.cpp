@@ -1,4 +1,5 @@
-// A whole display without a server: a recording is played and drawn, and what it would do on a museum's wall is seen in its pictures.
+// A whole display without a server: a recording is played and drawn, and what it would do on a museum's wall is seen in
+// its pictures.
 #include "client-sdk/display/display_app.hpp"
 
 #include <filesystem>
@@ -169,7 +170,7 @@ class SmallWindow final : public StandInWindow {
 };
 
 Expected<DisplaySummary> run_in(Window& window, DisplayOptions options, Worker* worker) {
-  options.offscreen = true;  // nothing is copied to a window that is none; what it says counts all the same
+  options.offscreen = true;  // there is no real window to copy to, but its input counts
   options.assets = (kSource / "scenarios/aiolos-sphere").string();
   options.source.play = (kSource / "tests/golden/scenes/aiolos-sphere.frames").string();
   auto source = open_source(options.source, {});

@@ -6,8 +6,9 @@ namespace {
 
 /// A hand over a pale table, seen from a visitor's place, near.
 struct HandScene {
-  scene::AssetLibrary assets{
-      [](const std::string&) -> Expected<content::ImportedScene> { return fail("none", "", ""); }};
+  scene::AssetLibrary assets{[](const std::string&) -> Expected<content::ImportedScene> {
+    return fail(ErrorCode::not_found, "none", "", "");
+  }};
   scene::HandModel model{assets};
   picture::RenderScene scene;
   client::HandPose hand;

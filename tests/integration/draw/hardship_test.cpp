@@ -6,6 +6,7 @@
 
 #include "server/log/log.hpp"
 #include "tests/integration/draw/drawn_picture.hpp"
+#include "tests/support/error_like.hpp"
 
 namespace mechane::draw {
 namespace {
@@ -39,7 +40,7 @@ TEST_F(DrawnPicture, a_size_that_the_driver_does_not_have_is_refused_and_the_nex
   for (const picture::Stereo stereo : {picture::Stereo::mono, picture::Stereo::anaglyph}) {
     const Expected<void> drawn = renderer_->draw(scene, stereo, {1'000'000, 16});
     ASSERT_FALSE(drawn.has_value());
-    EXPECT_THAT(drawn.error().remedy, testing::HasSubstr("smaller --size"));
+    EXPECT_THAT(drawn.error(), test::is_error(ErrorCode::too_large, 0, {"smaller --size"}));
     const picture::ImageData picture = draw(assets, scene, stereo);
     EXPECT_GT(mean(picture, kSize.width / 2.0, kSize.height / 2.0, 3), 200);
   }

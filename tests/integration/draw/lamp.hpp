@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "client-sdk/draw/overlay_layout.hpp"
+#include "client-sdk/draw/text/overlay_layout.hpp"
 #include "client-sdk/picture/procedural_mesh.hpp"
 #include "client-sdk/picture/render_scene.hpp"
 

@@ -1,11 +1,11 @@
 // The sky as rough things mirror it, held against sums over the whole sphere.
-#include "client-sdk/draw/sky_light.hpp"
+#include "client-sdk/draw/passes/sky_light.hpp"
 
 #include <cmath>
 
 #include <epoxy/gl.h>
 
-#include "client-sdk/draw/sky_cube.hpp"
+#include "client-sdk/draw/passes/sky_cube.hpp"
 #include "tests/integration/draw/drawn_picture.hpp"
 
 namespace mechane::draw {

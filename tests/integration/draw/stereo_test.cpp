@@ -252,8 +252,7 @@ TEST_F(StereoPicture, before_a_known_screen_parallax_is_what_eyes_would_see_thro
 
 TEST_F(StereoPicture, a_button_is_pressed_where_it_is_seen_in_every_kind) {
   Lamp lamp(Vec3(0, 0, -1.5));
-  for (auto kind = picture::Stereo::mono; kind <= picture::Stereo::right_eye;
-       kind = static_cast<picture::Stereo>(static_cast<int>(kind) + 1)) {
+  for (const auto& [name, kind] : picture::stereo_names()) {
     lamp.scene.overlay.corner.clear();
     const picture::ImageData bare = draw(lamp.assets, lamp.scene, kind);
     const picture::OverlayAction home{picture::OverlayAction::Kind::home, ""};

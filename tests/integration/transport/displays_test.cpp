@@ -1,4 +1,4 @@
-// Displays and who looks after them, over the loopback: how one is goes out, requests come in, lies are refused.
+// Displays and technicians over the loopback: a status goes out, requests come in, invalid samples are refused.
 #include <cstring>
 
 #include <gmock/gmock.h>
@@ -182,6 +182,30 @@ TEST_F(Displays, ATrackersHeadComesToTheScreensThatItIsBefore) {
   EXPECT_TRUE(hears(wall, other.p)) << "what is not a pose is not sent";
   ASSERT_TRUE(eventually([&] { return !wall.client->viewer_head()->seen; }, 10s, [&] { (void)(*all)->tell_nobody(); }));
   EXPECT_FALSE(client::HeadTracker::open("kiosk 1", "", kServerDomain).has_value());
+}
+
+TEST_F(Displays, AreListedUpToALimit) {
+  constexpr std::size_t kMost = client::DisplayWatch::kMostDisplays;
+  auto participant = proto::Participant::create(kServerDomain);
+  ASSERT_TRUE(participant.has_value());
+  auto crowd = proto::Writer<proto::DisplayStatus>::create(*participant, "");
+  ASSERT_TRUE(crowd.has_value());
+  proto::DisplayStatus wire{};
+  proto::set_text(wire.kiosk, "kiosk-1");
+  proto::set_text(wire.display, "crowd");
+  wire.protocol = proto::kProtocol;
+  const auto tell = [&](std::uint64_t session, std::uint64_t uptime_s) {
+    wire.session = session;
+    wire.uptime_s = uptime_s;
+    return crowd->write(wire);
+  };
+  for (std::uint64_t session = 1; session <= kMost; ++session)
+    ASSERT_TRUE(tell(session, 0));
+  ASSERT_TRUE(eventually([&] { return watch_->displays().size() == kMost; }));
+  ASSERT_TRUE(tell(kMost + 1, 0));
+  ASSERT_TRUE(tell(1, 7));
+  ASSERT_TRUE(eventually([&] { return watch_->displays().front().uptime_s == 7; })) << "one that is listed goes on";
+  EXPECT_EQ(watch_->displays().size(), kMost);
 }
 
 TEST_F(Displays, OneThatEndedIsGone) {

@@ -107,16 +107,14 @@ class LoopbackDomain {
 /// A server that gives every kiosk the same world, in which a hand feels its own position as a force: f = p, in newtons.
 class EchoServer {
  public:
-  /// `spin`: the loop answers as soon as a sample is there, so that only the transport's time is measured.
-  explicit EchoServer(std::size_t bodies = 3, bool spin = false) : state_(*small_world(bodies)) {
-    auto transport = transport::ServerTransport::start(
-        {.server = "test", .version = "1.2.3", .domain = kServerDomain, .fifo_priority = spin ? 70 : 0});
+  explicit EchoServer(const std::shared_ptr<const state::WorldDescription>& world = small_world()) : state_(*world) {
+    auto transport = transport::ServerTransport::start({.server = "test", .version = "1.2.3", .domain = kServerDomain});
     if (!transport) {
       ADD_FAILURE() << transport.error().to_string();
       return;
     }
     transport_ = std::move(*transport);
-    auto port = transport_->open_world("w1", small_world(bodies));
+    auto port = transport_->open_world("w1", world);
     if (!port) {
       ADD_FAILURE() << port.error().to_string();
       return;
@@ -128,11 +126,11 @@ class EchoServer {
     rope.node_count = 2;
     rope.nodes[0].body = BodyId(0);
     rope.nodes[1].body = BodyId(2);
-    if (bodies > 2) state_.couplings.push_back(rope);
+    if (world->bodies.size() > 2) state_.couplings.push_back(rope);
     state_.progress.activity = ActivityId(0);
     state_.progress.step = StepId(0);
     main_ = std::thread([this] { run_main(); });
-    loop_ = std::thread([this, spin] { run_loop(spin); });
+    loop_ = std::thread([this] { run_loop(); });
   }
   ~EchoServer() {
     stop_ = true;
@@ -143,6 +141,11 @@ class EchoServer {
   EchoServer& operator=(const EchoServer&) = delete;
 
   [[nodiscard]] const transport::ServerTransport& transport() const { return *transport_; }
+  /// Changes the world between two ticks. What a hand is answered stays as it is set here, but for f and the echo.
+  void change(const std::function<void(state::WorldState&)>& how) {
+    const std::lock_guard lock(state_mutex_);
+    how(state_);
+  }
   /// How many programs it knows.
   [[nodiscard]] std::size_t sessions() const { return sessions_; }
   /// As if no client had been heard for longer than a session lives. Reports that wait are taken first: on a busy machine one waits at
@@ -212,18 +215,16 @@ class EchoServer {
     }
   }
 
-  void run_loop(bool spin) {
+  void run_loop() {
     SystemClock clock;
     state::TickInputs inputs;
     TimePoint next = clock.now();
     while (!stop_) {
-      if (!spin) {
-        next += kTickPeriod;
-        clock.sleep_until(next);
-      }
+      next += kTickPeriod;
+      clock.sleep_until(next);  // sleeps: the pace
+      const std::lock_guard lock(state_mutex_);
       port_->gather(inputs, clock.now());
-      const bool fresh = std::any_of(inputs.users.begin(), inputs.users.end(), [](const auto& u) { return u.fresh; });
-      if (!spin || fresh) tick(inputs);
+      tick(inputs);
     }
   }
 
@@ -255,6 +256,7 @@ class EchoServer {
 
   std::unique_ptr<transport::ServerTransport> transport_;
   transport::WorldPort* port_ = nullptr;
+  std::mutex state_mutex_;
   state::WorldState state_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> forget_{false};
@@ -291,6 +293,32 @@ inline bool eventually(const std::function<bool()>& wanted, Duration timeout = s
     return nullptr;
   }
   return std::move(*made);
+}
+
+/// Both domains without loss.
+class Loopback : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(server_domain_.good());
+    ASSERT_TRUE(client_domain_.good());
+  }
+  LoopbackDomain server_domain_{kServerDomain, 0};
+  LoopbackDomain client_domain_{kClientDomain, 0};
+};
+
+[[nodiscard]] inline client::HandSample hand_at(const Vec3& p) {
+  client::HandSample input;
+  input.X_WH.p = p;
+  return input;
+}
+
+/// Sends until a force answers a sample sent now.
+[[nodiscard]] inline bool feels(client::Client& client, const Vec3& p) {
+  return eventually([&] {
+    client.send(hand_at(p));
+    const auto force = client.wait_force(std::chrono::milliseconds(50));
+    return force && (force->force_W.f - p).norm() < 1e-6;
+  });
 }
 
 }  // namespace mechane::test

@@ -1,10 +1,8 @@
 #include "tests/integration/transport/loopback.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "server/log/log.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::test {
@@ -14,31 +12,6 @@ using client::HandSample;
 using client::LinkState;
 using client::Role;
 using namespace std::chrono_literals;
-
-class Loopback : public ::testing::Test {
- protected:
-  void SetUp() override {
-    ASSERT_TRUE(server_domain_.good());
-    ASSERT_TRUE(client_domain_.good());
-  }
-  LoopbackDomain server_domain_{kServerDomain, 0};
-  LoopbackDomain client_domain_{kClientDomain, 0};
-};
-
-HandSample hand_at(const Vec3& p) {
-  HandSample input;
-  input.X_WH.p = p;
-  return input;
-}
-
-/// Sends until a force answers a sample sent now.
-bool feels(client::Client& client, const Vec3& p) {
-  return eventually([&] {
-    client.send(hand_at(p));
-    const auto force = client.wait_force(50ms);
-    return force && (force->force_W.f - p).norm() < 1e-6;
-  });
-}
 
 TEST_F(Loopback, AHandArrivesToTheBitAndItsForceComesBackWithItsEcho) {
   EchoServer server;
@@ -298,116 +271,6 @@ TEST_F(Loopback, AHandThatWasSilentFeelsAgainHoweverLongItHadBeenInUse) {
   EXPECT_LT(server.samples().size() - arrived_before, 1000u) << "as many answers were thrown away as had come before";
 }
 
-/// One process that says that it is many programs, or many servers.
-template <class T>
-struct Crowd {
-  proto::Participant participant = *proto::Participant::create(kClientDomain);
-  proto::Writer<T> writer = *proto::Writer<T>::create(participant, "");
-};
-
-TEST_F(Loopback, WhoFindsNoRoomIsToldAndComesInWhenOthersHaveLeft) {
-  log::start("test", log::Level::warning);
-  EchoServer server;
-  auto crowd = std::make_unique<Crowd<proto::KioskStatus>>();
-  ASSERT_TRUE(eventually([&] { return crowd->writer.matched() > 0; }));
-  const auto report = [&] {
-    for (std::uint64_t i = 0; i < transport::SessionTable::kMaxSessions; ++i) {
-      proto::KioskStatus status{};
-      proto::set_text(status.kiosk, "crowd");
-      status.protocol = proto::kProtocol;
-      status.session = 2 * i + 2;
-      status.role = 1;
-      crowd->writer.write(status);
-    }
-  };
-  report();
-  ASSERT_TRUE(eventually([&] { return server.sessions() == transport::SessionTable::kMaxSessions; }));
-  auto late = connect(Role::hand, "late");
-  auto among_them = connect(Role::hand, "among-them", 0, "crowd");
-  for (const auto* client : {late.get(), among_them.get()}) {
-    ASSERT_TRUE(eventually([&] { return client->state() == LinkState::refused; }, 10s, report)) << "not told";
-    EXPECT_NE(client->refusal().find("no room"), std::string::npos) << client->refusal();
-  }
-  EXPECT_EQ(server.sessions(), transport::SessionTable::kMaxSessions);
-  EXPECT_EQ(log::trouble().count, 1u) << "one warning for both: " << log::trouble().last;
-
-  crowd.reset();
-  EXPECT_TRUE(late->wait_for(LinkState::joined, 20s));
-  EXPECT_TRUE(among_them->wait_for(LinkState::joined, 20s));
-}
-
-TEST_F(Loopback, ServersThatCameAndWentDoNotKeepTheNextOneOut) {
-  auto hand = connect(Role::hand);
-  Crowd<proto::ServerStatus> gone;
-  ASSERT_TRUE(eventually([&] { return gone.writer.matched() > 0; }));
-  const std::string none;
-  for (std::uint64_t i = 0; i < 40; ++i) {
-    proto::ServerStatus status{};
-    proto::set_text(status.server, fmt::format("a-server-{}", i));
-    status.protocol = proto::kProtocol;
-    status.incarnation = i + 1;
-    status.version = status.host = proto::look_into(none);
-    gone.writer.write(status);
-  }
-  EchoServer server;
-  EXPECT_TRUE(hand->wait_for(LinkState::joined, 10s));
-}
-
-TEST_F(Loopback, AServerOfAnotherVersionIsToldInsteadOfSearchedForEver) {
-  auto hand = connect(Role::hand);
-  Crowd<proto::ServerStatus> newer;
-  const std::string version = "9.8.7";
-  const std::string host = "far";
-  proto::ServerStatus status{};
-  proto::set_text(status.server, "newer");
-  status.protocol = proto::kProtocol + 1;
-  status.incarnation = 7;
-  status.version = proto::look_into(version);
-  status.host = proto::look_into(host);
-  ASSERT_TRUE(
-      eventually([&] { return hand->state() == LinkState::refused; }, 10s, [&] { newer.writer.write(status); }));
-  for (const std::string& part : {version, host, fmt::format("protocol {}", proto::kProtocol + 1)})
-    EXPECT_NE(hand->refusal().find(part), std::string::npos) << hand->refusal();
-
-  EchoServer server;
-  EXPECT_TRUE(hand->wait_for(LinkState::joined, 10s));
-}
-
-TEST_F(Loopback, AProgramOfAnotherVersionIsNamedInTheServersLog) {
-  log::start("test", log::Level::warning);
-  EchoServer server;
-  Crowd<proto::KioskStatus> older;
-  proto::KioskStatus status{};
-  proto::set_text(status.kiosk, "kiosk-7");
-  proto::set_text(status.program, "old-display");
-  status.protocol = proto::kProtocol - 1;
-  status.session = 8;
-  EXPECT_TRUE(eventually([] { return log::trouble().last.find("old-display of kiosk kiosk-7") != std::string::npos; },
-                         10s, [&] { older.writer.write(status); }))
-      << log::trouble().last;
-  const TimePoint until = std::chrono::steady_clock::now() + 3200ms;
-  (void)eventually([&] { return std::chrono::steady_clock::now() > until; }, 10s, [&] { older.writer.write(status); });
-  EXPECT_LE(log::trouble().count, 2u) << "this warning, and one of rejected samples; not one each second";
-}
-
-TEST_F(Loopback, ManyOtherServersAreNotManyWarnings) {
-  log::start("test", log::Level::warning);
-  EchoServer server;
-  Crowd<proto::ServerStatus> others;
-  const auto say = [&] {
-    for (std::uint64_t i = 0; i < 40; ++i) {
-      proto::ServerStatus status{};
-      proto::set_text(status.server, fmt::format("other-{}", i));
-      status.incarnation = i + 1;
-      others.writer.write(status);
-    }
-  };
-  EXPECT_TRUE(eventually([] { return log::trouble().last.find("another server") != std::string::npos; }, 10s, say));
-  auto hand = connect(Role::hand);
-  EXPECT_TRUE(hand->wait_for(LinkState::joined, 10s));
-  EXPECT_LT(log::trouble().count, 5u);
-}
-
 TEST_F(Loopback, PausesOfAHandAreCountedButNotThoseBetweenTaps) {
   EchoServer server;
   auto hand = connect(Role::hand);
@@ -479,7 +342,7 @@ TEST(LossyLoopback, FivePercentLossIsSurvived) {
   LoopbackDomain server_domain(kServerDomain, 50);
   LoopbackDomain client_domain(kClientDomain, 50);
   ASSERT_TRUE(server_domain.good() && client_domain.good());
-  EchoServer server(60);
+  EchoServer server(small_world(60));
   auto hand = connect(Role::hand);
   ASSERT_TRUE(hand->wait_for(LinkState::joined, 20s));
   // Reliable topics arrive in full.

@@ -4,7 +4,6 @@ namespace mechane::agents::test {
 namespace {
 
 using state::EventKind;
-using ::testing::HasSubstr;
 
 /// Parts P0, P1, P2 with snaps S0, S1, S2 at 0, 1 and 2 m; the graph is written last.
 state::WorldDescription with_parts(std::map<std::string, state::Parameter> parameters = {}) {
@@ -81,11 +80,17 @@ TEST(Assembled, WhileOffLeavesTheSnapsAlone) {
 }
 
 TEST(Assembled, RefusesWhatCannotBe) {
-  EXPECT_THAT(error_of(with_parts({{"order", text({"S0 before S1", "S1 before S0"})}})),
-              HasSubstr("wait for each other"));
-  EXPECT_THAT(error_of(with_parts({{"order", text({"S0 after S1"})}})), HasSubstr("ONE before OTHER"));
-  EXPECT_THAT(error_of(with_parts({{"parts", text({"S0", "S0"})}})), HasSubstr("named twice"));
-  EXPECT_THAT(error_of(with_parts({{"parts", text({"BUILD"})}})), HasSubstr("name a geometry.snap"));
+  const auto with = [](const char* parameter, std::initializer_list<std::string> values) {
+    return error_of(with_parts({{parameter, text(values)}}));
+  };
+  EXPECT_THAT(with("order", {"S0 before S1", "S1 before S0"}), is_error(ErrorCode::conflict, line_of("order")));
+  EXPECT_THAT(with("order", {"S0 after S1"}),
+              is_error(ErrorCode::invalid_value, line_of("order"), {"'S0 after S1'", "ONE before OTHER"}));
+  EXPECT_THAT(with("order", {"S0 before S7"}), is_error(ErrorCode::unknown_name, line_of("order"), {"'S0 before S7'"}));
+  EXPECT_THAT(with("parts", {"S0", "S0"}), is_error(ErrorCode::duplicate, line_of("parts"), {"'S0'"}));
+  EXPECT_THAT(with("parts", {"BUILD"}),
+              is_error(ErrorCode::invalid_value, line_of("parts"), {"'BUILD'", "geometry.snap"}));
+  EXPECT_THAT(with("parts", {}), is_error(ErrorCode::missing, line_of("parts")));
 }
 
 }  // namespace

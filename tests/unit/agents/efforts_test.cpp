@@ -5,7 +5,6 @@ namespace mechane::agents::test {
 namespace {
 
 using state::EventKind;
-using ::testing::HasSubstr;
 
 state::WorldDescription with_effort(const std::string& type, std::map<std::string, state::Parameter> parameters) {
   state::WorldDescription world = stage_world();
@@ -112,11 +111,14 @@ TEST(Fired, ReleasesOnceAndIsCockedAgainByItsSwitch) {
 }
 
 TEST(Efforts, RefuseWhatCannotBe) {
-  EXPECT_THAT(error_of(with_effort("simulation.pulled", {})), HasSubstr("write force, travel or both"));
+  EXPECT_THAT(error_of(with_effort("simulation.pulled", {})), is_error(ErrorCode::missing, 3, {"force", "travel"}));
   EXPECT_THAT(error_of(with_effort("simulation.pushed", {{"force", number({1})}, {"axis", number({0, 0, 0})}})),
-              HasSubstr("no direction"));
+              is_error(ErrorCode::invalid_value, line_of("axis"), {"'axis'"}));
   EXPECT_THAT(error_of(with_effort("simulation.fired", {{"force", number({1})}, {"releases", text({"EFFORT"})}})),
-              HasSubstr("switches itself off"));
+              is_error(ErrorCode::conflict, line_of("releases"), {"'releases'"}));
+  state::WorldDescription world = with_effort("simulation.pulled", {{"force", number({1})}, {"joint", text({"AXLE"})}});
+  world.joints[0].kind = state::JointKind::ball;
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::invalid_value, line_of("joint"), {"'AXLE'", "SliderJoint"}));
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 namespace mechane::agents::test {
 namespace {
 
-using ::testing::HasSubstr;
-
 state::WorldDescription geared(const std::string& type, std::map<std::string, state::Parameter> parameters) {
   state::WorldDescription world = wheel_world({0.05, 0.02});
   parameters["joint1"] = text({"HINGE0"});
@@ -39,13 +37,16 @@ TEST(GearAgent, MeshesWhereTheWheelsStandWhenOneIsPutIn) {
 }
 
 TEST(GearAgent, RefusesWhatCannotBe) {
-  EXPECT_THAT(error_of(geared("geometry.gear", {})), HasSubstr("exactly one of ratio, teeth and radius"));
+  EXPECT_THAT(error_of(geared("geometry.gear", {})), is_error(ErrorCode::missing, 9, {"ratio", "teeth", "radius"}));
   EXPECT_THAT(error_of(geared("geometry.gear", {{"ratio", number({1})}, {"radius", number({1})}})),
-              HasSubstr("exactly one"));
-  EXPECT_THAT(error_of(geared("geometry.gear", {{"radius", number({1})}})), HasSubstr("a radius is given"));
+              is_error(ErrorCode::conflict, line_of("radius"), {"more than one"}));
+  EXPECT_THAT(error_of(geared("geometry.gear", {{"radius", number({1})}})),
+              is_error(ErrorCode::conflict, line_of("radius"), {"joint2"}));
+  EXPECT_THAT(error_of(geared("geometry.gear", {{"ratio", number({0})}})),
+              is_error(ErrorCode::invalid_value, line_of("ratio")));
   state::WorldDescription world = geared("geometry.gear", {{"ratio", number({1})}});
   world.agents[2].parameters["joint2"] = text({"HINGE0"});
-  EXPECT_THAT(error_of(world), HasSubstr("the same joint"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("joint2")));
 }
 
 TEST(WormAgent, TurnsItsWheelAndIsNotTurnedByIt) {
@@ -106,10 +107,17 @@ TEST(RatchetAgent, SwitchedOffHoldsNothing) {
 TEST(RatchetAgent, RefusesWhatCannotBe) {
   state::WorldDescription world = ratcheted();
   world.agents[1].parameters.erase("teeth");
-  EXPECT_THAT(error_of(world), HasSubstr("give teeth for a hinge"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::missing, 9, {"teeth", "pitch"}));
   world = ratcheted();
   world.agents[1].parameters["pawl"] = text({"HINGE0"});
-  EXPECT_THAT(error_of(world), HasSubstr("the same; name the pawl"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("pawl"), {"'pawl'"}));
+  world = ratcheted();
+  world.agents[1].parameters["pitch"] = number({0.1});
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("pitch"), {"both"}));
+  world = ratcheted();
+  world.joints[0].kind = state::JointKind::slider;
+  world.agents.erase(world.agents.begin());
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("teeth"), {"slider"}));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@ namespace {
 
 using hand::HandKind;
 using state::EventKind;
-using ::testing::HasSubstr;
 
 const BodyId kPart(1);
 const BodyId kCrank(2);
@@ -201,10 +200,10 @@ TEST(Grasp, TwoHandsHoldTwoBodies) {
 TEST(Grasp, RefusesWhenNothingCanBeGrasped) {
   state::WorldDescription world = with_grasp();
   world.agents[0].parameters["bodies"] = text({"FRAME"});
-  EXPECT_THAT(error_of(world), HasSubstr("line 5, simulation.grasp GRASP: there is no body"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("bodies"), {"simulation.grasp GRASP"}));
   world.agents[0].parameters["bodies"] = text({"HANDLE"});
   EXPECT_THAT(error_of(world),
-              HasSubstr("names the body 'HANDLE', which is not in this world; name one of: FRAME, PART, CRANK"));
+              is_error(ErrorCode::unknown_name, line_of("bodies"), {"'HANDLE'", "FRAME, PART, CRANK"}));
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 namespace mechane::agents::test {
 namespace {
 
-using ::testing::HasSubstr;
-
 state::WorldDescription sled_world() {
   state::WorldDescription world = wheel_world({0.1});
   world.joints[0].kind = state::JointKind::slider;
@@ -31,13 +29,13 @@ TEST(SliderAgent, SlidesWithItsFrictionToItsStop) {
 TEST(SliderAgent, RefusesWhatCannotBe) {
   state::WorldDescription world = sled_world();
   world.joints[0].kind = state::JointKind::hinge;
-  EXPECT_THAT(error_of(world), HasSubstr("this agent needs; name a SliderJoint"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::invalid_value, line_of("joint"), {"'HINGE0'", "SliderJoint"}));
   world = sled_world();
   world.agents[0].parameters.erase("maxPosition");
-  EXPECT_THAT(error_of(world), HasSubstr("only one of minPosition and maxPosition"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::missing, line_of("minPosition"), {"maxPosition"}));
   world = sled_world();
   world.agents.push_back(agent("AGAIN", "geometry.slider", {{"joint", text({"HINGE0"})}}));
-  EXPECT_THAT(error_of(world), HasSubstr("switches the same joint"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("joint"), {"'AGAIN'"}));
 }
 
 TEST(BallAgent, KeepsTheBodyInItsConeAndSaysItsTilt) {
@@ -97,10 +95,10 @@ TEST(FixedAgent, TiesBodiesAsTheyStandWhenItIsSwitchedOn) {
 TEST(FixedAgent, RefusesWhatCannotBe) {
   state::WorldDescription world = tied_world();
   world.agents[0].parameters["to"] = text({"BLOCK"});
-  EXPECT_THAT(error_of(world), HasSubstr("tied to itself"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("to")));
   world = tied_world();
   world.agents[0].parameters["body"] = text({"FRAME"});
-  EXPECT_THAT(error_of(world), HasSubstr("fixed already"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("body"), {"'FRAME'"}));
 }
 
 }  // namespace

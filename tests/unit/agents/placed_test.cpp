@@ -4,7 +4,6 @@ namespace mechane::agents::test {
 namespace {
 
 using state::EventKind;
-using ::testing::HasSubstr;
 
 /// `placed` is written before its snap: the order of the description does not matter.
 state::WorldDescription with_placed() {
@@ -33,7 +32,7 @@ TEST(Placed, SaysOnceThatTheBodyIsInItsPlace) {
 TEST(Placed, WatchesASnapOnly) {
   state::WorldDescription world = with_placed();
   world.agents[0].parameters["snap"] = text({"HINGE"});
-  EXPECT_THAT(error_of(world), HasSubstr("'HINGE' is a geometry.hinge"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::invalid_value, line_of("snap"), {"'HINGE'", "geometry.hinge"}));
 }
 
 }  // namespace

@@ -237,10 +237,10 @@ TEST(Quantities, ReadMemoryJointsAndBodiesInTheirUnits) {
 TEST(Quantities, AnUnknownSourceIsAnErrorThatListsWhatExists) {
   state::WorldDescription world = two_activities();
   world.quantities[2].source = "AXLE.speed";
-  const std::string error = error_of(world);
-  EXPECT_THAT(error, HasSubstr("quantity turns: the source 'AXLE.speed' does not exist; use one of: HINGE.angle"));
-  EXPECT_THAT(error, HasSubstr("PART.position.x|y|z"));
-  EXPECT_THAT(error, ::testing::Not(HasSubstr("user0"))) << "what agents keep to themselves is not offered";
+  const Error error = error_of(world);
+  EXPECT_THAT(error, is_error(ErrorCode::unknown_name, 0,
+                              {"quantity turns", "'AXLE.speed'", "use one of: HINGE.angle", "PART.position.x|y|z"}));
+  EXPECT_THAT(error.remedy, ::testing::Not(HasSubstr("user0"))) << "what agents keep to themselves is not offered";
 }
 
 TEST(Touches, SayWhenAHandComesToABodyAndNotWhileItTrembles) {
@@ -264,31 +264,30 @@ TEST(Touches, SayWhenAHandComesToABodyAndNotWhileItTrembles) {
 TEST(AgentSet, RefusesStepsThatPointNowhere) {
   state::WorldDescription world = two_activities();
   world.steps[0].triggers[0].next = StepId(9);
-  EXPECT_THAT(error_of(world), HasSubstr("step lift: a trigger leads to a step that is not there"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::unknown_name, 0, {"step lift", "trigger", "name a step"}));
   world = two_activities();
   world.steps[0].triggers[0].quantity = QuantityId::none();
-  EXPECT_THAT(error_of(world), HasSubstr("quantity that is not there"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::unknown_name, 0, {"step lift", "name a quantity"}));
   world = two_rules(true);
   world.steps[0].triggers[0].more[0].quantity = QuantityId(77);
-  EXPECT_THAT(error_of(world), HasSubstr("quantity that is not there"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::unknown_name, 0, {"step lift", "name a quantity"}));
   world = two_activities();
   world.steps[0].timeout_next = StepId(9);
-  EXPECT_THAT(error_of(world), HasSubstr("its time-out leads to a step that is not there"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::unknown_name, 0, {"step lift", "time-out", "name a step"}));
   world = two_activities();
   world.steps[1].enable = {AgentId(77)};
-  EXPECT_THAT(error_of(world), HasSubstr("agent that is not there"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::unknown_name, 0, {"name an agent"}));
   world = two_activities();
   world.steps[1].bodies[0].body = BodyId(77);
-  EXPECT_THAT(error_of(world), HasSubstr("body that is not there"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::unknown_name, 0, {"name a body"}));
   world = two_activities();
   world.activities[1].first = StepId::none();
-  EXPECT_THAT(error_of(world), HasSubstr("activity use: it has no first step"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::missing, 0, {"activity use"}));
   world = two_activities();
   world.agents[0].type = "geometry.string";
-  EXPECT_THAT(
-      error_of(world),
-      HasSubstr(
-          "line 10, geometry.string HINGE: there is no agent of type 'geometry.string'; use one of: geometry.hinge"));
+  EXPECT_THAT(error_of(world),
+              is_error(ErrorCode::unknown_name, 10,
+                       {"line 10, geometry.string HINGE", "'geometry.string'", "use one of: geometry.hinge"}));
 }
 
 TEST(AgentSet, ATickAllocatesNothing) {

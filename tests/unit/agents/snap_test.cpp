@@ -7,7 +7,6 @@ namespace mechane::agents::test {
 namespace {
 
 using state::EventKind;
-using ::testing::HasSubstr;
 
 constexpr double kTolerance_m = 0.05, kTolerance_rad = 0.2;
 
@@ -115,16 +114,16 @@ TEST(Snap, LosesABodyThatIsFreedAndTakenAway) {
 TEST(Snap, RefusesWhatCannotBe) {
   state::WorldDescription world = with_snap();
   world.agents[0].parameters["object"] = text({"FRAME"});
-  EXPECT_THAT(error_of(world), HasSubstr("is fixed"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("object"), {"'FRAME'"}));
   world = with_snap();
   world.agents[0].parameters["into"] = text({"PART"});
-  EXPECT_THAT(error_of(world), HasSubstr("'object' and 'into' are the same"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("into"), {"'object'", "'into'"}));
   world = with_snap();
   world.agents[0].parameters["rotation"] = number({0, 0, 0, 1});
-  EXPECT_THAT(error_of(world), HasSubstr("no axis"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::invalid_value, line_of("rotation")));
   world = with_snap();
   world.agents[0].parameters.erase("tolerance");
-  EXPECT_THAT(error_of(world), HasSubstr("'tolerance' is missing"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::missing, world.agents[0].line, {"'tolerance'"}));
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "server/agents/agent_set.hpp"
+#include "tests/support/error_like.hpp"
+#include "tests/support/parameter_lines.hpp"
 
 namespace mechane::agents::test {
 
@@ -103,11 +105,15 @@ struct Stage {
   }
 };
 
-/// The message of the error that making a set from `world` gives; empty where it works.
-inline std::string error_of(const state::WorldDescription& world) {
+using mechane::test::is_error;
+using mechane::test::line_of;
+
+/// The error of making a set from `world`, whose parameters get the lines that line_of() tells; empty where it works.
+inline Error error_of(state::WorldDescription world) {
+  mechane::test::number_lines(world.agents);
   state::MemoryLayout layout;
   auto made = AgentSet::create(world, layout);
-  return made ? std::string() : made.error().to_string();
+  return made ? Error{} : made.error();
 }
 
 }  // namespace mechane::agents::test

@@ -1,4 +1,4 @@
-// When a server says that it is overloaded, of what, and how often.
+// When and how often a server says that it is overloaded, and by what.
 #include "server/app/overload.hpp"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 class Overload : public ::testing::Test {
  protected:
-  /// So many windows of 10 000 ticks each, with these among them; how often it spoke.
+  /// Passes `count` windows of 10 000 ticks, each with these counts. Returns how often there was something to log.
   int windows(int count, const LoadCounts& each) {
     int spoke = 0;
     for (int i = 0; i < count; ++i) {
@@ -28,7 +28,7 @@ class Overload : public ::testing::Test {
   void SetUp() override { EXPECT_FALSE(watch_.look(counts_, now_)); }
 
   OverloadWatch watch_;
-  LoadCounts counts_{.ticks = 5'000, .overruns = 400};  // of the time when worlds were made
+  LoadCounts counts_{.ticks = 5'000, .overruns = 400};  // from when the worlds were made
   TimePoint now_{1h};
 };
 

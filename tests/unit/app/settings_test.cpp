@@ -6,12 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::app {
 namespace {
 
-using testing::HasSubstr;
+using test::is_error;
 
 class SettingsTest : public testing::Test {
  protected:
@@ -49,11 +50,22 @@ TEST_F(SettingsTest, AFlagWinsOverTheFileOnWhicheverSideItStands) {
 TEST_F(SettingsTest, AFileThatIsMissingOrWrongIsAnError) {
   const auto missing = read({"--settings=" + (folder_.path() / "none.toml").string()});
   ASSERT_FALSE(missing);
-  EXPECT_THAT(missing.error().to_string(), HasSubstr("none.toml"));
+  EXPECT_THAT(missing.error(), is_error(ErrorCode::not_found, 0, {"none.toml"}));
   EXPECT_FALSE(read({"--scenario=a.x3d", "--settings", ""}));
-  const auto misspelt = read({"--settings=" + folder_.write("bad.toml", "\nmax_force = 2\n").string()});
-  ASSERT_FALSE(misspelt);
-  EXPECT_THAT(misspelt.error().to_string(), HasSubstr("bad.toml:2"));
+  EXPECT_THAT(read({"--scenario=a.x3d", "--no-such-flag"}).error(),
+              is_error(ErrorCode::invalid_value, 0, {"--no-such-flag", "--help"}));
+  EXPECT_THAT(read({}).error(), is_error(ErrorCode::missing, 0, {"--scenario"}));
+}
+
+TEST_F(SettingsTest, AFaultInTheFileIsNamedWithItsLine) {
+  const auto error_of = [&](const std::string& text) {
+    const auto settings = read({"--settings=" + folder_.write("bad.toml", "scenarios = ['a.x3d']\n" + text).string()});
+    return settings ? Error{} : settings.error();
+  };
+  EXPECT_THAT(error_of("\nmax_force = 2\n"), is_error(ErrorCode::unknown_name, 3, {"bad.toml:3", "'max_force'"}));
+  EXPECT_THAT(error_of("worlds = 'many'\n"), is_error(ErrorCode::invalid_value, 2, {"bad.toml:2", "'worlds'"}));
+  EXPECT_THAT(error_of("[force]\nmode = 'papr'\n"), is_error(ErrorCode::invalid_value, 3, {"'papr'", "'paper'"}));
+  EXPECT_THAT(error_of("worlds 3\n"), is_error(ErrorCode::damaged, 2, {"bad.toml:2"}));
 }
 
 TEST_F(SettingsTest, AForceLimitOutOfItsRangeIsAnErrorThatNamesIt) {
@@ -62,8 +74,7 @@ TEST_F(SettingsTest, AForceLimitOutOfItsRangeIsAnErrorThatNamesIt) {
       const auto file = folder_.write("force.toml", "scenarios = ['a.x3d']\n[force]\n" + name + " = " + value + "\n");
       const auto wrong = read({"--settings", file.string()});
       ASSERT_FALSE(wrong) << name << " = " << value;
-      EXPECT_THAT(wrong.error().what, HasSubstr(name));
-      EXPECT_THAT(wrong.error().remedy, HasSubstr(" to "));
+      EXPECT_THAT(wrong.error(), is_error(ErrorCode::invalid_value, 0, {name, " to "}));
     }
   }
   for (const std::string flag : {"--max-force=100.5", "--max-force=-0.5", "--max-force=nan", "--stiffness-scale=nan"})

@@ -9,6 +9,7 @@
 
 #include "server/app/settings.hpp"
 #include "tests/support/crank_world.hpp"
+#include "tests/support/error_like.hpp"
 
 namespace mechane::app {
 namespace {
@@ -19,9 +20,9 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using visits::VisitEnding;
 using visits::VisitFile;
-using visits::VisitSheet;
+using visits::VisitRecord;
 
-/// A crank with a questionnaire, and sheets in a folder of the test.
+/// A crank with a questionnaire, and records of visits in a folder of the test.
 class WorldVisitsTest : public testing::Test {
  public:
   ~WorldVisitsTest() override { fs::remove_all(folder_); }
@@ -38,16 +39,16 @@ class WorldVisitsTest : public testing::Test {
     start();
   }
 
-  /// A server, or the next one.
+  /// Starts a server, or the next one.
   void start() {
-    sheets_.reset();
-    visits::VisitSheetsConfig config;
+    writer_.reset();
+    visits::VisitWriterConfig config;
     config.file = folder_ / visits::kVisitFileName;
-    auto made = visits::VisitSheets::create(config);
+    auto made = visits::VisitWriter::create(config);
     ASSERT_TRUE(made) << made.error().to_string();
-    sheets_ = std::move(*made);
+    writer_ = std::move(*made);
   }
-  /// What a loop does in a tick in which these happen.
+  /// Does what a loop does in a tick with these events.
   void tick(WorldVisits& visits, state::WorldState& state, std::initializer_list<state::EventKind> kinds) const {
     ++state.tick;
     state.event_count = 0;
@@ -55,11 +56,11 @@ class WorldVisitsTest : public testing::Test {
       state.emit(kind, 0, 1);
     visits.feed().push(*description_, state, {});
   }
-  std::vector<VisitSheet> on_disk() {
-    sheets_.reset();  // writes what waits
+  std::vector<VisitRecord> on_disk() {
+    writer_.reset();  // writes what waits
     const auto file = VisitFile::open(folder_ / visits::kVisitFileName, VisitFile::Access::read);
     EXPECT_TRUE(file) << file.error().to_string();
-    return file ? file->sheets({}).value() : std::vector<VisitSheet>();
+    return file ? file->records({}).value() : std::vector<VisitRecord>();
   }
   [[nodiscard]] state::WorldState begun() const {
     state::WorldState state(*description_);
@@ -70,36 +71,36 @@ class WorldVisitsTest : public testing::Test {
 
   fs::path folder_;
   std::shared_ptr<const state::WorldDescription> description_;
-  std::unique_ptr<visits::VisitSheets> sheets_;
+  std::unique_ptr<visits::VisitWriter> writer_;
 };
 
 TEST_F(WorldVisitsTest, WhatTheLoopNotesAndTheVisitorAnswersIsOnTheDisk) {
   state::WorldState state = begun();
   {
-    WorldVisits visits(*sheets_, description_, "kiosk-1", state, false);
+    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     tick(visits, state, {state::EventKind::activity_done});
     ASSERT_TRUE(visits.answer({ActivityId(0), 0, 5, state::AnswerTime::after}));
     visits.close(VisitEnding::left, "");
   }
-  const auto sheets = on_disk();
-  ASSERT_THAT(sheets, SizeIs(1));
-  EXPECT_EQ(sheets[0].scenario, "crank");
-  EXPECT_EQ(sheets[0].ending, VisitEnding::done);
-  ASSERT_THAT(sheets[0].answers, SizeIs(1));
-  EXPECT_EQ(sheets[0].answers[0].mark, 5);
+  const auto records = on_disk();
+  ASSERT_THAT(records, SizeIs(1));
+  EXPECT_EQ(records[0].scenario, "crank");
+  EXPECT_EQ(records[0].ending, VisitEnding::done);
+  ASSERT_THAT(records[0].answers, SizeIs(1));
+  EXPECT_EQ(records[0].answers[0].mark, 5);
 }
 
-TEST_F(WorldVisitsTest, AWorldThatIsResumedGoesOnWithItsSheetAndANewOneDoesNot) {
+TEST_F(WorldVisitsTest, AWorldThatIsResumedGoesOnWithItsRecordAndANewOneDoesNot) {
   state::WorldState state = begun();
   {
-    WorldVisits visits(*sheets_, description_, "kiosk-1", state, false);
+    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     visits.close(VisitEnding::cut, "");
   }
   start();
   {
-    WorldVisits visits(*sheets_, description_, "kiosk-1", state, true);
+    WorldVisits visits(*writer_, description_, "kiosk-1", state, true);
     tick(visits, state, {state::EventKind::activity_done});
     visits.close(VisitEnding::left, "");
   }
@@ -108,7 +109,7 @@ TEST_F(WorldVisitsTest, AWorldThatIsResumedGoesOnWithItsSheetAndANewOneDoesNot) 
   start();
   state = begun();
   {
-    WorldVisits visits(*sheets_, description_, "kiosk-1", state, false);
+    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     visits.close(VisitEnding::left, "elsewhere");
   }
@@ -118,7 +119,7 @@ TEST_F(WorldVisitsTest, AWorldThatIsResumedGoesOnWithItsSheetAndANewOneDoesNot) 
 TEST_F(WorldVisitsTest, AWorldThatNobodyTouchedLeavesNothing) {
   state::WorldState state = begun();
   {
-    WorldVisits visits(*sheets_, description_, "kiosk-1", state, false);
+    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::user_joined});
     visits.look();
     visits.close(VisitEnding::left, "");
@@ -158,7 +159,7 @@ TEST(VisitsSetting, FlagsAndFileAreReadAndRangesKept) {
   const std::array<const char*, 5> wrong{"server", "--settings", path.c_str(), "--visits-keep-days", "99999"};
   const auto refused = read_settings(static_cast<int>(wrong.size()), wrong.data(), help);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().to_string(), HasSubstr("visits_keep_days is 99999"));
+  EXPECT_THAT(refused.error(), test::is_error(ErrorCode::invalid_value, 0, {"visits_keep_days is 99999", "36500"}));
   fs::remove(file);
 }
 

@@ -10,7 +10,18 @@ std::string address_of(const char* base, const std::string& name) {
   const auto address = AssetAddress::parse(base);
   if (!address) return "no base";
   const auto whole = address->of(name);
+  if (!whole && whole.error().remedy.empty()) return "refused without a remedy";
   return whole ? *whole : "refused";
+}
+
+/// Why it is not the address of a scenario's folder.
+ErrorCode fault_of(const char* base) {
+  const auto address = AssetAddress::parse(base);
+  EXPECT_FALSE(address.has_value()) << base;
+  if (address) return {};
+  EXPECT_NE(address.error().remedy, "");
+  EXPECT_EQ(address.error().where, base);
+  return address.error().code;
 }
 
 TEST(AssetAddress, names_are_relative_to_the_scenarios_folder) {
@@ -47,15 +58,11 @@ TEST(AssetAddress, the_root_of_a_web_server_serves_as_the_scenarios_folder_and_a
 }
 
 TEST(AssetAddress, what_is_no_address_is_told) {
-  for (const char* base :
-       {"", "ftp://m/s", "m/s", "http://", "http:///x", "http://:80/x", "http://user:word@m/s", "http://m/s?x=1",
-        "http://m/s#x", "http://m/../s", "http://m//s", "http://m/a b", "http://m/\x01", "file:///etc"}) {
-    const auto address = AssetAddress::parse(base);
-    EXPECT_FALSE(address.has_value()) << base;
-    if (!address) {
-      EXPECT_NE(address.error().remedy, "");
-    }
-  }
+  for (const char* base : {"", "ftp://m/s", "m/s", "http://user:word@m/s", "http://m/s?x=1", "http://m/s#x",
+                           "http://m/../s", "http://m//s", "http://m/a b", "http://m/\x01", "file:///etc"})
+    EXPECT_EQ(fault_of(base), ErrorCode::invalid_value) << base;
+  for (const char* no_host : {"http://", "http:///x", "http://:80/x"})
+    EXPECT_EQ(fault_of(no_host), ErrorCode::missing) << no_host;
   EXPECT_TRUE(is_web_address("https://m"));
   EXPECT_FALSE(is_web_address("scenarios/http"));
   EXPECT_TRUE(AssetAddress::parse("https://m/s")->secure());

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "server/content/content_hash.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::assets {
@@ -78,6 +79,9 @@ TEST_F(MeshFilesTest, OtherBytesThanTheServersAreShownAndSaid) {
 TEST_F(MeshFilesTest, WhatIsNowhereIsAnError) {
   EXPECT_EQ(find(nullptr, hash_, "not on this machine"), "nowhere");
   EXPECT_EQ(find(&*catalogue_, std::string(32, 'a'), "not on this machine"), "nowhere");
+  const auto found = MeshFiles(top_ / "not on this machine", nullptr).find("screw.glb");
+  ASSERT_FALSE(found.has_value());
+  EXPECT_THAT(found.error(), test::is_error(ErrorCode::not_found, 0, {"screw.glb"}));
 }
 
 TEST(MeshFiles, WhereAFolderIsRelativeTheRemedyBeginsWithTheServersFolder) {

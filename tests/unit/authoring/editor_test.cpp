@@ -1,4 +1,4 @@
-// Writing back: what is not changed stays to the byte, what is changed reads as it was set.
+// Writing back: what is not changed stays the same to the byte, and what is changed reads as it was set.
 #include "client-sdk/authoring/editor.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include "client-sdk/authoring/reference_example.hpp"
 #include "client-sdk/authoring/text_edits.hpp"
 #include "server/x3d/metadata.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/scenario/scenario_fixture.hpp"
 
@@ -84,7 +85,7 @@ TEST(Editor, EverySpanIsWhereTheTreeSaysItIs) {
   }
 }
 
-/// Each sample file with some of its attributes written anew: all else stays, and what was written is read.
+/// Each sample file with an attribute changed and changed back: all else stays the same, and the change can be read.
 RC_GTEST_PROP(Editor, AnyAttributeOfAnyFileCanBeWrittenAndWrittenBack, ()) {
   static const std::vector<std::filesystem::path> kFiles = sample_files();
   const std::string before = text_of(kFiles[*rc::gen::inRange<std::size_t>(0, kFiles.size())]);
@@ -93,7 +94,7 @@ RC_GTEST_PROP(Editor, AnyAttributeOfAnyFileCanBeWrittenAndWrittenBack, ()) {
   for (std::size_t i = 0; i < editor.document().size(); ++i) {
     const x3d::NodeId id(i);
     const x3d::Node& node = editor.document()[id];
-    // A DEF, and what X3D needs of its outermost element, cannot be just anything.
+    // A DEF, and the attributes of the outermost element, cannot have just any value.
     if (node.kind != x3d::NodeKind::element || node.attributes.empty() || node.name == "X3D" ||
         node.attributes[0].name == "DEF")
       continue;
@@ -176,31 +177,34 @@ TEST(Editor, AddsAndRemovesAStep) {
   ASSERT_TRUE(editor.remove("activities/use/steps/rest"));
   bool said = false;
   for (const x3d::Problem& p : editor.check(loader))
-    said = said || to_string(p).find("the activity has no step 'rest'") != std::string::npos;
-  EXPECT_TRUE(said) << "what still names the step is the checker's to find";
+    said = said || is_problem(p, ErrorCode::unknown_name, kAnyLine, "'rest'");
+  EXPECT_TRUE(said) << "the checker finds what still names the step";
   ASSERT_TRUE(editor.set("activities/use/steps/turn/trigger:1/next", Texts{"fill"}));
   EXPECT_EQ(editor.text(), before);
 }
 
-TEST(Editor, RefusesWhatTheSchemaDoesNotKnowAndChangesNothing) {
+TEST(Editor, RefusesWhatTheSchemaDoesNotAllowAndChangesNothing) {
   Editor editor = shipped();
   const std::string before = editor.text();
-  const auto expect = [&](const Expected<void>& result, const std::string& words) {
-    ASSERT_FALSE(result) << words;
-    EXPECT_NE(result.error().to_string().find(words), std::string::npos) << result.error().to_string();
+  const auto expect = [&](const Expected<void>& result, ErrorCode code, int line, const std::string& name) {
+    ASSERT_FALSE(result) << name;
+    EXPECT_THAT(result.error(), test::is_error(code, line, {name}));
   };
-  expect(editor.set("activities/use/steps/fill/hintSecond", Numbers{1}), "did you mean 'hintSeconds'?");
-  expect(editor.set("activities/use/steps/fill/hintSeconds", Texts{"soon"}), "write a MetadataDouble with one number");
-  expect(editor.set("activities/use/steps/fill/hintSeconds", Numbers{-1}), "0 to 3600");
-  expect(editor.set("machines/PUMP/basinCapacty", Numbers{1}), "did you mean 'basinCapacity'?");
-  expect(editor.set("INER/mechane:haptic/stiffness", Numbers{1}), "did you mean 'INNER'?");
-  expect(editor.set("id/name", Numbers{1}), "is a value, not a set");
-  expect(editor.set("", Numbers{1}), "empty");
-  expect(editor.set_attribute("INNER", "masss", "1"), "did you mean 'mass'?");
-  expect(editor.set_attribute("INNER", "mass", "heavy"), "'heavy' is not a number");
-  expect(editor.add("activities/use/steps/fill"), "is there already");
-  expect(editor.add("activities/use/steps/x", "nowhere"), "name a sibling");
-  expect(editor.remove("activities/use/steps/nowhere"), "nothing to remove");
+  using enum ErrorCode;
+  const int inner = line_of(before, "<RigidBody DEF='INNER'");
+  expect(editor.set("activities/use/steps/fill/hintSecond", Numbers{1}), unknown_name, 0,
+         "did you mean 'hintSeconds'?");
+  expect(editor.set("activities/use/steps/fill/hintSeconds", Texts{"soon"}), invalid_value, 0, "MetadataDouble");
+  expect(editor.set("activities/use/steps/fill/hintSeconds", Numbers{-1}), invalid_value, 0, "0 to 3600");
+  expect(editor.set("machines/PUMP/basinCapacty", Numbers{1}), unknown_name, 0, "did you mean 'basinCapacity'?");
+  expect(editor.set("INER/mechane:haptic/stiffness", Numbers{1}), unknown_name, 0, "did you mean 'INNER'?");
+  expect(editor.set("id/name", Numbers{1}), conflict, line_of(before, "name='id'"), "'id'");
+  expect(editor.set("", Numbers{1}), missing, 0, "activities/use/steps");
+  expect(editor.set_attribute("INNER", "masss", "1"), unknown_name, inner, "did you mean 'mass'?");
+  expect(editor.set_attribute("INNER", "mass", "heavy"), invalid_value, inner, "mass: 'heavy'");
+  expect(editor.add("activities/use/steps/fill"), duplicate, line_of(before, "name='fill'>"), "'fill'");
+  expect(editor.add("activities/use/steps/x", "nowhere"), unknown_name, 0, "'nowhere'");
+  expect(editor.remove("activities/use/steps/nowhere"), unknown_name, 0, "steps/nowhere");
   EXPECT_EQ(editor.text(), before);
 }
 
@@ -234,8 +238,10 @@ TEST(Editor, KeepsLineEndsAndOpensEmptySets) {
 TEST(Editor, SaysWhenAFileCannotBeWritten) {
   const auto result = shipped().save("/nowhere/at/all.x3d");
   ASSERT_FALSE(result);
-  EXPECT_FALSE(result.error().remedy.empty());
-  EXPECT_FALSE(Editor::open("/nowhere/at/all.x3d"));
+  EXPECT_THAT(result.error(), test::is_error(ErrorCode::io_failure, 0, {"/nowhere/at/all.x3d"}));
+  const auto opened = Editor::open("/nowhere/at/all.x3d");
+  ASSERT_FALSE(opened);
+  EXPECT_THAT(opened.error(), test::is_error(ErrorCode::not_found, 0, {"/nowhere/at/all.x3d"}));
 }
 
 }  // namespace

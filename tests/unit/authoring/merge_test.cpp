@@ -1,4 +1,4 @@
-// Two scenarios in one file: names that clash change wherever they stand.
+// Two scenarios in one file: names that clash change everywhere.
 #include "client-sdk/authoring/merge.hpp"
 
 #include <cstdlib>
@@ -198,6 +198,8 @@ TEST_F(MergeFiles, TheCommandWritesChecksAndSaysWhatItDid) {
   EXPECT_TRUE(std::filesystem::exists(out));
   std::ostringstream none;
   EXPECT_EQ(run_merge(std::vector<std::string>{file}, out, none), 2);
+  EXPECT_EQ(merge_files(std::vector<std::string>{file}, out).error().code, ErrorCode::missing);
+  EXPECT_EQ(merge_files(std::vector<std::string>{file, "nowhere.x3d"}, out).error().code, ErrorCode::not_found);
   EXPECT_EQ(run_merge(std::vector<std::string>{file, "nowhere.x3d"}, out, none), 2);
   EXPECT_NE(none.str().find("nowhere.x3d"), std::string::npos);
 }

@@ -1,4 +1,4 @@
-// The manual holds what the tables hold, its copy is fresh, and its example is a scenario.
+// The manual holds everything in the tables, its copy is up to date, and its example is a scenario.
 #include "client-sdk/authoring/reference.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using namespace scenario;
 
 TEST(Reference, TheCopyBesideTheScenariosIsFresh) {
   EXPECT_EQ(text_of(source_folder() / "scenarios/REFERENCE.md"), reference_page())
-      << "write it anew: mechane reference > scenarios/REFERENCE.md";
+      << "write it again: mechane reference > scenarios/REFERENCE.md";
 }
 
 TEST(Reference, SaysWhichAgentsAreOnAndWhatASnapThatIsOffLeaves) {
@@ -40,7 +40,7 @@ TEST(Reference, TheExampleIsWithoutFault) {
   EXPECT_NE(reference_page().find(reference_example()), std::string::npos);
 }
 
-/// The example with a chapter's additions, read; what a reader finds amiss is a failure of the test.
+/// The example with a chapter's additions, read; a problem in it is a failure of the test.
 state::WorldDescription read_variation(std::string_view title) {
   for (const Variation& variation : reference_variations()) {
     if (variation.title != title) continue;

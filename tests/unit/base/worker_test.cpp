@@ -9,19 +9,19 @@
 namespace mechane {
 namespace {
 
-TEST(Worker, DoesItsJobsInOrderAndWaitsForNone) {
+TEST(Worker, DoesItsJobsInOrderWithoutBlocking) {
   std::promise<void> gate;
   std::vector<int> done;
   Worker worker("test");
   worker.give([opened = gate.get_future().share()] { opened.wait(); });
   for (int i = 0; i < 3; ++i)
     worker.give([&done, i] { done.push_back(i); });
-  gate.set_value();  // give() came back while the first job was held
+  gate.set_value();  // give() returned although the first job still runs
   worker.wait_until_left(0);
   EXPECT_EQ(done, (std::vector{0, 1, 2}));
 }
 
-TEST(Worker, GivesAJobsResultToWhoeverAskedForIt) {
+TEST(Worker, GivesTheJobsResultThroughItsFuture) {
   std::promise<void> gate;
   Worker worker("test");
   worker.give([opened = gate.get_future().share()] { opened.wait(); });
@@ -34,7 +34,7 @@ TEST(Worker, GivesAJobsResultToWhoeverAskedForIt) {
   worker.wait_until_left(0);
   ASSERT_TRUE(is_ready(kept));
   EXPECT_EQ(*kept.get(), 2);
-  EXPECT_FALSE(is_ready(kept)) << "it was taken";
+  EXPECT_FALSE(is_ready(kept)) << "get() has taken the result";
 }
 
 TEST(Worker, EndsWhenAllJobsAreDone) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/error_like.hpp"
+
 namespace mechane::cli {
 namespace {
 
@@ -42,7 +44,7 @@ TEST(DisplaysText, each_fault_has_its_remark_and_says_what_to_do) {
     const auto remarks = remarks_of(display);
     return remarks.size() == 1 ? remarks[0] : std::to_string(remarks.size()) + " remarks";
   };
-  EXPECT_THAT(remark([](auto& d) { d.link = 0; }), HasSubstr("looks for a server"));
+  EXPECT_THAT(remark([](auto& d) { d.link = 0; }), HasSubstr("looking for a server"));
   EXPECT_THAT(remark([](auto& d) { d.link = 3; }), HasSubstr("fallen silent"));
   EXPECT_THAT(remark([](auto& d) {
                 d.link = 2;
@@ -66,9 +68,9 @@ TEST(DisplaysText, each_fault_has_its_remark_and_says_what_to_do) {
               "--assets or --catalogue");
   EXPECT_THAT(remark([](auto& d) {
                 d.sound.clear();
-                d.sound_problem = "there is no device for sound";
+                d.sound_problem = "there is no sound device";
               }),
-              HasSubstr("there is no device"));
+              HasSubstr("there is no sound device"));
   EXPECT_THAT(remark([](auto& d) {
                 d.warnings = 3;
                 d.last_warning = "a.glb: no such file";
@@ -126,9 +128,9 @@ TEST(DisplaysText, numbers_of_the_wire_are_rounded_to_what_they_mean) {
 }
 
 TEST(DisplaysText, who_names_no_display_hears_which_there_are) {
-  EXPECT_THAT(no_display({}, "kiosk-2", "").to_string(), HasSubstr("no display answered"));
-  EXPECT_EQ(no_display({well(), well()}, "kiosk-2", "").to_string(),
-            "kiosk-2/*: there is no such display; there are: kiosk-1/wall");
+  EXPECT_THAT(no_display({}, "kiosk-2", ""), test::is_error(ErrorCode::not_found, 0));
+  EXPECT_THAT(no_display({well(), well()}, "kiosk-2", ""),
+              test::is_error(ErrorCode::unknown_name, 0, {"kiosk-2/*", "kiosk-1/wall"}));
 }
 
 }  // namespace

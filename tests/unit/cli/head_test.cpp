@@ -5,14 +5,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/error_like.hpp"
+
 namespace mechane::cli {
 namespace {
 
+using test::is_error;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Keeps what is told: z, and 0 for nobody.
+/// Keeps what it is sent: z, and 0 for nobody.
 class HeardTracker final : public client::HeadTracker {
  public:
   bool tell(const Pose& X_SV) override {
@@ -33,7 +37,7 @@ class Museum final : public client::DisplayWatch {
   [[nodiscard]] std::vector<client::DisplayStatus> displays() override { return all; }
   [[nodiscard]] Expected<std::uint64_t> request(const std::string&, const std::string&,
                                                 const std::vector<client::DisplaySetting>&, bool) override {
-    return fail("nobody requests here");
+    return fail(ErrorCode::not_supported, "nobody requests here");
   }
   void add(const char* kiosk, const char* display) {
     all.emplace_back();
@@ -54,7 +58,7 @@ class TurningClock final : public Clock {
   TimePoint now_{};
 };
 
-/// What becomes of a tracker's lines.
+/// Passes a tracker's lines on, and keeps the results.
 struct Passing {
   explicit Passing(const std::string& lines, HeadOptions options = {}, const char* kiosk = "kiosk-1") {
     museum.add(kiosk, "wall");
@@ -89,7 +93,7 @@ TEST(ReadHead, SaysWhatIsWrong) {
                            "1e999 0 1", "somebody", "{\x1b[2J"}) {
     const auto head = read_head(line);
     ASSERT_FALSE(head) << line;
-    EXPECT_NE(head.error().remedy.find("nobody"), std::string::npos);
+    EXPECT_THAT(head.error(), is_error(ErrorCode::invalid_value, 0, {"'nobody'"})) << line;
   }
 }
 
@@ -97,7 +101,7 @@ TEST(ReadHead, TakesNoPlaceBehindTheScreenOrFarAway) {
   for (const char* line : {"0 0 0", "0.1 0.2 -1.5", "0 0 20.1", "-30 0 1", "0 1500 600"}) {
     const auto head = read_head(line);
     ASSERT_FALSE(head) << line;
-    EXPECT_THAT(head.error().to_string(), HasSubstr("before the screen, and within 20 m"));
+    EXPECT_THAT(head.error(), is_error(ErrorCode::invalid_value, 0, {line, "20 m"}));
   }
   EXPECT_TRUE(read_head("0 0 19.9"));
   EXPECT_TRUE(read_head("-3 0 0.01"));
@@ -108,7 +112,7 @@ TEST(Head, ABadLineIsToldWithItsNumberAndTheNextIsRead) {
       "0 0 1\n0 0 gar\x1b"
       "bled\n0 0 2\nnobody\n0 0 3");
   EXPECT_THAT(passing.tracker.told, ElementsAre(1, 2, 0, 3, 0));
-  EXPECT_THAT(passing.said, HasSubstr("line 2: tracker: no place of a head: '0 0 gar?bled'"));
+  EXPECT_THAT(passing.said, AllOf(HasSubstr("line 2: "), HasSubstr("'0 0 gar?bled'")));
   EXPECT_EQ(passing.status, 0);
 }
 
@@ -122,7 +126,7 @@ TEST(Head, OfAThousandBadLinesFewAreTold) {
   EXPECT_GE(told, 3) << passing.said;  // 20 s of the tracker's
   EXPECT_LE(told, 5) << passing.said;
   EXPECT_LT(passing.said.size(), 2000U);
-  EXPECT_THAT(passing.said, HasSubstr("more were bad since the last that was told"));
+  EXPECT_THAT(passing.said, HasSubstr("more bad lines since the last message"));
   EXPECT_THAT(passing.said, HasSubstr("5001 of 5003 lines were bad"));
 }
 
@@ -138,18 +142,17 @@ TEST(Head, ThatNoDisplayHearsIsToldOnce) {
   for (int i = 0; i < 3000; ++i)
     lines += "0 0 1\n";
   const Passing passing(lines, {}, "kiosk-2");
-  EXPECT_EQ(
-      passing.said,
-      "mechane head: kiosk-1/*: there is no such display; there are: kiosk-2/wall. It goes on, for one that comes "
-      "later\n");
+  EXPECT_THAT(passing.said,
+              AllOf(HasSubstr("kiosk-1/*: there is no such display"), HasSubstr("name one of: kiosk-2/wall")));
+  EXPECT_EQ(std::ranges::count(passing.said, '\n'), 1) << passing.said;
   EXPECT_EQ(passing.tracker.told.size(), 3001U);
-  // With one line, too, and where it is the display's name that is wrong.
-  EXPECT_THAT(Passing("0 0 1\n", {}, "kiosk-2").said, HasSubstr("there is no such display"));
+  // The same with one line, and with a wrong name of the display.
+  EXPECT_THAT(Passing("0 0 1\n", {}, "kiosk-2").said, HasSubstr("kiosk-1/*"));
   HeadOptions of_one;
   of_one.display = "wall";
   EXPECT_THAT(Passing(lines, of_one).said, IsEmpty());
   of_one.display = "floor";
-  EXPECT_THAT(Passing(lines, of_one).said, HasSubstr("kiosk-1/floor: there is no such display"));
+  EXPECT_THAT(Passing(lines, of_one).said, HasSubstr("kiosk-1/floor"));
 }
 
 }  // namespace

@@ -28,51 +28,51 @@ using visits::MistakeKind;
 using visits::StepEnding;
 using visits::VisitEnding;
 using visits::VisitFile;
-using visits::VisitSheet;
+using visits::VisitRecord;
 
-VisitSheet visit_of(const std::string& number, double turn_s, VisitEnding ending = VisitEnding::done) {
-  VisitSheet sheet;
-  sheet.number = number;
-  sheet.kiosk = "kiosk-1";
-  sheet.scenario = "machine";
-  sheet.scenario_hash = "hash";
-  sheet.activity = "use";
-  sheet.minute = 29'922'357;
-  sheet.duration_s = 2 + turn_s;
-  sheet.hands = 1;
-  sheet.ending = ending;
-  sheet.steps = {
+VisitRecord visit_of(const std::string& number, double turn_s, VisitEnding ending = VisitEnding::done) {
+  VisitRecord record;
+  record.number = number;
+  record.kiosk = "kiosk-1";
+  record.scenario = "machine";
+  record.scenario_hash = "hash";
+  record.activity = "use";
+  record.minute = 29'922'357;
+  record.duration_s = 2 + turn_s;
+  record.hands = 1;
+  record.ending = ending;
+  record.steps = {
       {"take", 2, StepEnding::done, false, true},
       {"turn", turn_s, ending == VisitEnding::done ? StepEnding::done : StepEnding::unfinished, false, true}};
-  return sheet;
+  return record;
 }
 
 /// Ten visits: eight done (one with a hint, two with mistakes), one left, one cut off.
-std::vector<VisitSheet> ten_visits() {
-  std::vector<VisitSheet> sheets;
+std::vector<VisitRecord> ten_visits() {
+  std::vector<VisitRecord> records;
   for (int i = 0; i < 8; ++i) {
-    sheets.push_back(visit_of("000" + std::to_string(i) + "-0000-0000", 1 + i));
-    sheets.back().answers.push_back({"easy", AnswerTime::after, "", i < 6 ? 5 : 3, 5, {}});
-    sheets.back().answers.push_back({"why", AnswerTime::before, i < 2 ? "water" : "wind", 0, 0, i < 2});
-    sheets.back().answers.push_back({"why", AnswerTime::after, i < 6 ? "water" : "wind", 0, 0, i < 6});
+    records.push_back(visit_of("000" + std::to_string(i) + "-0000-0000", 1 + i));
+    records.back().answers.push_back({"easy", AnswerTime::after, "", i < 6 ? 5 : 3, 5, {}});
+    records.back().answers.push_back({"why", AnswerTime::before, i < 2 ? "water" : "wind", 0, 0, i < 2});
+    records.back().answers.push_back({"why", AnswerTime::after, i < 6 ? "water" : "wind", 0, 0, i < 6});
   }
-  sheets[0].steps[1].hint_shown = true;
-  sheets[1].mistakes = {{MistakeKind::let_go, "STONE", 3}};
-  sheets[2].mistakes = {{MistakeKind::restarted, "", 1}, {MistakeKind::let_go, "STONE", 1}};
-  sheets.push_back(visit_of("0008-0000-0000", 100, VisitEnding::left));
-  sheets.push_back(visit_of("0009-0000-0000", 200, VisitEnding::cut));
-  return sheets;
+  records[0].steps[1].hint_shown = true;
+  records[1].mistakes = {{MistakeKind::let_go, "STONE", 3}};
+  records[2].mistakes = {{MistakeKind::restarted, "", 1}, {MistakeKind::let_go, "STONE", 1}};
+  records.push_back(visit_of("0008-0000-0000", 100, VisitEnding::left));
+  records.push_back(visit_of("0009-0000-0000", 200, VisitEnding::cut));
+  return records;
 }
 
-/// A file of sheets in a folder of the test; and what the command said last.
+/// A file of visits in a folder of the test; and what the command said last.
 class VisitsTest : public testing::Test {
  protected:
   VisitsTest() { options_.records = folder_; }
-  void keep(const std::vector<VisitSheet>& sheets) {
+  void keep(const std::vector<VisitRecord>& records) {
     auto file = VisitFile::open(folder_ / "visits.db", VisitFile::Access::write_new);
     ASSERT_TRUE(file) << file.error().to_string();
-    for (const VisitSheet& sheet : sheets)
-      ASSERT_TRUE(file->put(sheet, true));
+    for (const VisitRecord& record : records)
+      ASSERT_TRUE(file->put(record, true));
   }
   int run(std::string_view verb) {
     std::ostringstream out;
@@ -136,7 +136,7 @@ TEST_F(VisitsTest, TheReportCountsWhatVisitorsDidAndSaid) {
 }
 
 TEST_F(VisitsTest, TimesOfWhoCameInTheMidstAreNoMeasure) {
-  VisitSheet late = visit_of("0000-0000-0000", 90);
+  VisitRecord late = visit_of("0000-0000-0000", 90);
   late.from_start = false;
   late.steps = {{"turn", 1, StepEnding::done, false, false}};
   keep({late});
@@ -148,11 +148,11 @@ TEST_F(VisitsTest, TimesOfWhoCameInTheMidstAreNoMeasure) {
 }
 
 TEST_F(VisitsTest, ItIsChosenByScenarioKioskAndDate) {
-  std::vector<VisitSheet> sheets = ten_visits();
-  sheets[0].kiosk = "kiosk-2";
-  sheets[1].scenario = "other";
-  sheets[2].minute += 24 * 60;
-  keep(sheets);
+  std::vector<VisitRecord> records = ten_visits();
+  records[0].kiosk = "kiosk-2";
+  records[1].scenario = "other";
+  records[2].minute += 24 * 60;
+  keep(records);
   options_.kiosk = "kiosk-2";
   EXPECT_EQ(json("")["visits"], 1);
   options_.kiosk.clear();
@@ -166,26 +166,26 @@ TEST_F(VisitsTest, ItIsChosenByScenarioKioskAndDate) {
   EXPECT_THAT(errors_, HasSubstr("last week: this is not a date; write it as 2026-11-22"));
 }
 
-TEST_F(VisitsTest, AScenarioOrKioskThatNoSheetKnowsIsToldWithThoseThatAre) {
+TEST_F(VisitsTest, AScenarioOrKioskThatNoVisitHasIsToldWithThoseThatAre) {
   options_.scenario = "archimedes-scew";
   keep({});
-  EXPECT_EQ(run("list"), 0) << "without a sheet nothing is known to be wrong";
-  auto sheets = ten_visits();
-  sheets[1].scenario = "archimedes-screw";
-  keep(sheets);
+  EXPECT_EQ(run("list"), 0) << "without a visit nothing is known to be wrong";
+  auto records = ten_visits();
+  records[1].scenario = "archimedes-screw";
+  keep(records);
   for (const char* verb : {"", "list"}) {
     EXPECT_EQ(run(verb), 2);
     EXPECT_THAT(out_, IsEmpty());
-    EXPECT_THAT(errors_, AllOf(HasSubstr("no sheet is of the scenario 'archimedes-scew'"),
+    EXPECT_THAT(errors_, AllOf(HasSubstr("no visit has the scenario 'archimedes-scew'"),
                                HasSubstr("did you mean 'archimedes-screw'?")));
   }
   options_.scenario = "pump";
   EXPECT_EQ(run(""), 2);
-  EXPECT_THAT(errors_, HasSubstr("there is: archimedes-screw, machine"));
+  EXPECT_THAT(errors_, HasSubstr("use one of: archimedes-screw, machine"));
   options_.scenario = "machine";
   options_.kiosk = "desk";
   EXPECT_EQ(run(""), 2);
-  EXPECT_THAT(errors_, AllOf(HasSubstr("no sheet is of the kiosk 'desk'"), HasSubstr("there is: kiosk-1")));
+  EXPECT_THAT(errors_, AllOf(HasSubstr("no visit has the kiosk 'desk'"), HasSubstr("use one of: kiosk-1")));
   options_.kiosk.clear();
   options_.since = "9998-01-01";
   EXPECT_EQ(run(""), 0) << "a known scenario, of which there was no visit since";
@@ -234,10 +234,10 @@ TEST_F(VisitsTest, AnObserverRemarksAndForgets) {
 }
 
 TEST_F(VisitsTest, TheSpreadsheetHasALineAVisitAndNoFormula) {
-  std::vector<VisitSheet> sheets = ten_visits();
-  sheets[0].kiosk = "=HYPERLINK(\"x\")";
-  sheets[1].kiosk = "a,b\nc";
-  keep(sheets);
+  std::vector<VisitRecord> records = ten_visits();
+  records[0].kiosk = "=HYPERLINK(\"x\")";
+  records[1].kiosk = "a,b\nc";
+  keep(records);
   options_.csv = folder_ / "visits.csv";
   EXPECT_EQ(run(""), 0) << errors_;
   EXPECT_THAT(errors_, HasSubstr("wrote"));
@@ -254,10 +254,10 @@ TEST_F(VisitsTest, TheSpreadsheetHasALineAVisitAndNoFormula) {
 }
 
 TEST_F(VisitsTest, ThePlotIsDrawnAndSafe) {
-  std::vector<VisitSheet> sheets = ten_visits();
-  for (VisitSheet& sheet : sheets)
-    sheet.activity = "<script>&'";
-  keep(sheets);
+  std::vector<VisitRecord> records = ten_visits();
+  for (VisitRecord& record : records)
+    record.activity = "<script>&'";
+  keep(records);
   options_.svg = folder_ / "visits.svg";
   EXPECT_EQ(run(""), 0) << errors_;
   EXPECT_THAT(text_of(options_.svg), AllOf(HasSubstr("<svg xmlns="), HasSubstr("&lt;script&gt;&amp;&#39;"),
@@ -275,16 +275,16 @@ TEST_F(VisitsTest, NothingIsAReportToo) {
   EXPECT_EQ(out_, "0 visits\n");
 }
 
-TEST_F(VisitsTest, WhatIsNoFileOfSheetsIsSaidOnOneLine) {
+TEST_F(VisitsTest, WhatIsNotAFileOfVisitsIsSaidOnOneLine) {
   EXPECT_EQ(run(""), 1);
-  EXPECT_THAT(errors_, AllOf(HasSubstr("visits.db: there are no visits' sheets"), HasSubstr("--records")));
+  EXPECT_THAT(errors_, AllOf(HasSubstr("visits.db: there is no file of visits"), HasSubstr("--records")));
   std::ofstream(folder_ / "letter.txt") << std::string(2000, 'a');
   options_.file = folder_ / "letter.txt";
   for (const char* verb : {"", "list", "show", "remark", "forget"}) {
     options_.visit = "0000";
     options_.text = "x";
     EXPECT_EQ(run(verb), 1) << verb;
-    EXPECT_THAT(errors_, HasSubstr("SQLite does not know the file")) << verb;
+    EXPECT_THAT(errors_, HasSubstr("not a file of visits")) << verb;
     EXPECT_THAT(out_, IsEmpty()) << verb;
   }
 }
@@ -303,24 +303,24 @@ TEST(VisitStatistics, MedianAndNinetiethOfFewAndMany) {
 }
 
 TEST(VisitStatistics, SatisfiedIsAboveTheMiddleOfItsScale) {
-  VisitSheet sheet = visit_of("0000-0000-0000", 1);
+  VisitRecord record = visit_of("0000-0000-0000", 1);
   for (const auto& [mark, marks] :
        {std::pair(3, 5), std::pair(4, 5), std::pair(2, 4), std::pair(3, 4), std::pair(1, 1)})
-    sheet.answers.push_back(
+    record.answers.push_back(
         {std::to_string(mark) + " of " + std::to_string(marks), AnswerTime::after, "", mark, marks, {}});
-  sheet.answers.push_back({"before", AnswerTime::before, "", 5, 5, {}});
-  const std::vector<ActivitySummary> all = summarise(std::vector{sheet});
+  record.answers.push_back({"before", AnswerTime::before, "", 5, 5, {}});
+  const std::vector<ActivitySummary> all = summarise(std::vector{record});
   EXPECT_EQ(satisfaction_of(all).marks, 5U);
   EXPECT_EQ(satisfaction_of(all).satisfied, 2U);
 }
 
 TEST(VisitStatistics, StepsStandInTheOrderInWhichVisitorsCameToThem) {
-  VisitSheet sheet = visit_of("0000-0000-0000", 1);
-  sheet.steps = {{"zeta", 1, StepEnding::done, false, true},
-                 {"alpha", 1, StepEnding::unfinished, false, true},
-                 {"zeta", 2, StepEnding::done, false, true},
-                 {"alpha", 1, StepEnding::timed_out, true, true}};
-  const auto all = summarise(std::vector{sheet});
+  VisitRecord record = visit_of("0000-0000-0000", 1);
+  record.steps = {{"zeta", 1, StepEnding::done, false, true},
+                  {"alpha", 1, StepEnding::unfinished, false, true},
+                  {"zeta", 2, StepEnding::done, false, true},
+                  {"alpha", 1, StepEnding::timed_out, true, true}};
+  const auto all = summarise(std::vector{record});
   ASSERT_THAT(all[0].steps, SizeIs(2));
   EXPECT_EQ(all[0].steps[0].name, "zeta");
   EXPECT_EQ(all[0].steps[0].visits, 1U);

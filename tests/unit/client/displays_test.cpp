@@ -5,19 +5,21 @@
 #include <gtest/gtest.h>
 
 #include "client-sdk/client/parse.hpp"
+#include "tests/support/error_like.hpp"
 #include <mechane/client/displays.hpp>
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::client {
 namespace {
 
-using testing::HasSubstr;
+using test::is_error;
 
-std::string refusal_of(const std::string& name, const std::string& value) {
+Error refusal_of(const std::string& name, const std::string& value) {
   DisplaySettings settings;
   const auto applied = client::apply(DisplaySetting{name, value}, settings);
   EXPECT_EQ(settings, DisplaySettings{}) << name << "=" << value << " changed something";
-  return applied ? "" : applied.error().to_string();
+  EXPECT_FALSE(applied.has_value()) << name << "=" << value;
+  return applied ? Error{} : applied.error();
 }
 
 TEST(DisplaySettings, each_is_read_as_it_is_written) {
@@ -30,15 +32,15 @@ TEST(DisplaySettings, each_is_read_as_it_is_written) {
 
 TEST(DisplaySettings, what_is_out_of_its_range_is_refused_with_the_range) {
   for (const std::string value : {"1.01", "-0.1", "nan", "inf", "1e300", "", " 0.5", "0.5 ", "0,5", "half"})
-    EXPECT_THAT(refusal_of("volume", value), HasSubstr("0 to 1")) << value;
-  EXPECT_THAT(refusal_of("language", "de"), HasSubstr("el, en"));
-  EXPECT_THAT(refusal_of("language", ""), HasSubstr("el, en"));
-  EXPECT_THAT(refusal_of("mute", "yes"), HasSubstr("on, off"));
-  EXPECT_THAT(refusal_of("ask", "always"), HasSubstr("none, after, both"));
-  EXPECT_THAT(refusal_of("home-after", "86401"), HasSubstr("86400"));
-  EXPECT_THAT(refusal_of("attract-after", "4"), HasSubstr("5 to 86400"));
-  EXPECT_THAT(refusal_of("colour", "red"), HasSubstr("choose one of volume, mute"));
-  EXPECT_EQ(refusal_of("\x1b[2J", "1").find('\x1b'), std::string::npos) << "it may stand on a terminal";
+    EXPECT_THAT(refusal_of("volume", value), is_error(ErrorCode::invalid_value, 0, {"0 to 1"})) << value;
+  EXPECT_THAT(refusal_of("language", "de"), is_error(ErrorCode::invalid_value, 0, {"el, en"}));
+  EXPECT_THAT(refusal_of("language", ""), is_error(ErrorCode::invalid_value, 0, {"el, en"}));
+  EXPECT_THAT(refusal_of("mute", "yes"), is_error(ErrorCode::invalid_value, 0, {"on, off"}));
+  EXPECT_THAT(refusal_of("ask", "always"), is_error(ErrorCode::invalid_value, 0, {"none, after, both"}));
+  EXPECT_THAT(refusal_of("home-after", "86401"), is_error(ErrorCode::invalid_value, 0, {"86400"}));
+  EXPECT_THAT(refusal_of("attract-after", "4"), is_error(ErrorCode::invalid_value, 0, {"5 to 86400"}));
+  EXPECT_THAT(refusal_of("colour", "red"), is_error(ErrorCode::unknown_name, 0, {"\'colour\'", "volume, mute"}));
+  EXPECT_EQ(refusal_of("\x1b[2J", "1").to_string().find('\x1b'), std::string::npos) << "it may stand on a terminal";
 }
 
 TEST(DisplaySettings, of_several_all_are_taken_or_none) {
@@ -55,7 +57,7 @@ TEST(DisplaySettings, a_word_without_a_value_sets_nothing) {
   EXPECT_EQ(*read_setting("volume=0.5"), (DisplaySetting{"volume", "0.5"}));
   EXPECT_EQ(*read_setting("language=a=b"), (DisplaySetting{"language", "a=b"}));
   for (const char* text : {"volume", "", "=0.5"})
-    EXPECT_FALSE(read_setting(text).has_value()) << text;
+    EXPECT_EQ(read_setting(text).error().code, ErrorCode::invalid_value) << text;
 }
 
 /// A status that is well, for tests that spoil one thing of it.

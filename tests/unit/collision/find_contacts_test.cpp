@@ -46,7 +46,7 @@ TEST(FindContacts, AFingerOnAPlankIsPushedUp) {
   for (const PointContact& c : contacts) {
     EXPECT_GT(c.n_BA_W.z(), 0.8);  // the finger's own samples see +z; the plank's see the fingertip's curve
     EXPECT_NEAR(c.n_BA_W.norm(), 1, 1e-5);
-    EXPECT_NEAR(c.p_WC.z(), 0.01, 1e-4);  // on B's surface, whoever brought the sample
+    EXPECT_NEAR(c.p_WC.z(), 0.01, 1e-4);  // on B's surface, whichever body the sample is of
     deepest = std::max(deepest, c.depth_m);
   }
   EXPECT_NEAR(deepest, 0.002, 2e-4);

@@ -1,12 +1,15 @@
 #include "server/collision/object_io.hpp"
 
 #include <cstring>
+#include <span>
 
 #include <gtest/gtest.h>
 
 #include "server/collision/samples.hpp"
 #include "server/collision/superquadric_object.hpp"
 #include "server/collision_build/object_builder.hpp"
+#include "tests/support/error_like.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace mechane::collision {
@@ -28,21 +31,32 @@ TEST(ObjectIo, ComesBackAsItWent) {
 }
 
 TEST(ObjectIo, SaysWhatIsWrong) {
+  using mechane::test::is_error;
   geometry::Superquadric shape;
   shape.a = Vec3::Constant(0.01);
   const std::vector<std::byte> good = write_object(make_superquadric_object(shape, 0.005));
-  EXPECT_NE(read_object({}).error().what.find("not a part file"), std::string::npos);
+  const auto error_of = [](std::span<const std::byte> bytes) {
+    const auto read = read_object(bytes);
+    return read ? Error{} : read.error();
+  };
+  EXPECT_THAT(error_of({}), is_error(ErrorCode::damaged, 0));
   std::vector<std::byte> version = good;
   version[8] = std::byte{99};
-  EXPECT_NE(read_object(version).error().what.find("version 99"), std::string::npos);
+  EXPECT_THAT(error_of(version), is_error(ErrorCode::wrong_version, 0, {"version 99"}));
   std::vector<std::byte> flipped = good;
   flipped[good.size() / 2] ^= std::byte{4};
-  EXPECT_NE(read_object(flipped).error().what.find("checksum"), std::string::npos);
+  EXPECT_THAT(error_of(flipped), is_error(ErrorCode::damaged, 0, {"checksum"}));
   std::vector<std::byte> count = good;  // four thousand million parts, sealed
   std::memset(count.data() + 12, 0xFF, 4);
   reseal(count);
-  EXPECT_NE(read_object(count).error().what.find("cannot be"), std::string::npos);
-  EXPECT_FALSE(read_object(count).error().remedy.empty());
+  EXPECT_THAT(error_of(count), is_error(ErrorCode::damaged, 0, {"values"}));
+}
+
+TEST(ObjectIo, AMissingFileIsNotFoundAndADamagedOneIsNamed) {
+  using mechane::test::is_error;
+  const mechane::test::ScratchFolder folder;
+  EXPECT_THAT(load_object(folder.path() / "lid.part").error(), is_error(ErrorCode::not_found, 0, {"lid.part"}));
+  EXPECT_THAT(load_object(folder.write("lid.part", "no part")).error(), is_error(ErrorCode::damaged, 0, {"lid.part"}));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "server/collision/samples.hpp"
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
@@ -213,25 +214,29 @@ TEST(BuildObject, ABudgetOutOfReachGetsNoWorseMapThanOneWithinReach) {
 }
 
 TEST(BuildObject, BadPartsAreNamedWithARemedy) {
+  using mechane::test::is_error;
   const auto error_of = [](std::vector<NamedMesh> parts, BuildConfig config = {}) {
     const auto object = build_object(parts, config);
     EXPECT_FALSE(object);
     return object ? Error{} : object.error();
   };
-  EXPECT_EQ(error_of({}).where, "object");
-  EXPECT_EQ(error_of({{"good", test::box({1, 1, 1})}, {"empty", {}}}).where, "part 'empty'");
+  const auto with = [&](const BuildConfig& config) { return error_of({{"good", test::box({1, 1, 1})}}, config); };
+  EXPECT_THAT(error_of({}), is_error(ErrorCode::missing, 0, {"object: "}));
+  EXPECT_THAT(error_of({{"good", test::box({1, 1, 1})}, {"empty", {}}}),
+              is_error(ErrorCode::missing, 0, {"part 'empty'"}));
   std::vector<NamedMesh> nan = {{"lid", test::box({1, 1, 1})}};
   nan[0].mesh.vertices[0].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(error_of(nan).where, "part 'lid'");
-  const Error flat = error_of({{"sheet", test::box({1, 1, 1e-7})}});
-  EXPECT_EQ(flat.where, "part 'sheet'");
-  EXPECT_FALSE(flat.remedy.empty());
+  EXPECT_THAT(error_of(nan), is_error(ErrorCode::invalid_value, 0, {"part 'lid'", "vertex 0"}));
+  EXPECT_THAT(error_of({{"sheet", test::box({1, 1, 1e-7})}}), is_error(ErrorCode::invalid_value, 0, {"part 'sheet'"}));
   BuildConfig config;
   config.map_resolution = 20;
-  EXPECT_EQ(error_of({{"good", test::box({1, 1, 1})}}, config).where, "build settings");
+  EXPECT_THAT(with(config), is_error(ErrorCode::invalid_value, 0, {"build settings", "map_resolution is 20"}));
   config = {};
   config.sample_spacing_m = 0;
-  EXPECT_EQ(error_of({{"good", test::box({1, 1, 1})}}, config).where, "build settings");
+  EXPECT_THAT(with(config), is_error(ErrorCode::invalid_value, 0, {"build settings", "sample_spacing_m"}));
+  config = {};
+  config.radial_maps = config.bricks = false;
+  EXPECT_THAT(with(config), is_error(ErrorCode::conflict, 0, {"build settings"}));
 }
 
 geometry::Mesh small_gear() {

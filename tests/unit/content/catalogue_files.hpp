@@ -13,7 +13,7 @@
 
 namespace mechane::content {
 
-/// An entry that says nothing of itself but what its path tells.
+/// An entry with only what follows from its path.
 inline CatalogueEntry plain_entry(const std::string& path) {
   CatalogueEntry entry;
   entry.path = path;

@@ -10,16 +10,17 @@
 #include <sys/resource.h>
 
 #include "server/content/content_hash.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/unit/content/catalogue_files.hpp"
 
 namespace mechane::content {
 namespace {
 
+using test::is_error;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::SizeIs;
 
-/// Any bytes: a title may hold what no language writes.
+/// Any bytes: a title need not be valid text.
 std::string any_text() {
   return *rc::gen::container<std::string>(rc::gen::arbitrary<char>());
 }
@@ -52,9 +53,10 @@ Catalogue opened(const std::filesystem::path& file, Catalogue::Access access = C
   return std::move(*catalogue);
 }
 
-std::string error_of(const std::filesystem::path& file, Catalogue::Access access = Catalogue::Access::read) {
+/// Empty where it opens after all.
+Error error_of(const std::filesystem::path& file, Catalogue::Access access = Catalogue::Access::read) {
   const auto catalogue = Catalogue::open(file, access);
-  return catalogue ? "it opens" : catalogue.error().to_string();
+  return catalogue ? Error{} : catalogue.error();
 }
 
 RC_GTEST_PROP(Catalogue, WhatIsPutComesBack, ()) {
@@ -127,13 +129,26 @@ TEST(Catalogue, WritersAtOnceLoseNothing) {
   EXPECT_THAT(*opened(folder.path() / "c.db").entries(), SizeIs(15));
 }
 
-TEST(Catalogue, SaysWhatIsNoCatalogue) {
+TEST(Catalogue, AFileThatIsNotACatalogueIsAnErrorWithARemedy) {
   const ScratchFolder folder;
-  EXPECT_THAT(error_of(folder.path() / "absent.db"), HasSubstr("there is no catalogue"));
-  EXPECT_THAT(error_of(folder.path()), HasSubstr("a folder"));
-  EXPECT_THAT(error_of(folder.write("text.db", std::string(5000, 'x'))), HasSubstr("SQLite does not know the file"));
-  EXPECT_THAT(error_of(folder.write("empty.db", "")), HasSubstr("the file is empty"));
-  EXPECT_THAT(error_of(folder.path() / "no/such/folder/c.db", Catalogue::Access::write), HasSubstr("cannot be opened"));
+  EXPECT_THAT(error_of(folder.path() / "absent.db"), is_error(ErrorCode::not_found, 0, {"absent.db", "content add"}));
+  EXPECT_THAT(error_of(folder.path()), is_error(ErrorCode::invalid_value, 0, {folder.path().string(), "--catalogue"}));
+  EXPECT_THAT(error_of(folder.write("text.db", std::string(5000, 'x'))),
+              is_error(ErrorCode::damaged, 0, {"text.db", "--catalogue", "content add"}));
+  EXPECT_THAT(error_of(folder.write("empty.db", "")), is_error(ErrorCode::not_found, 0, {"empty.db", "content add"}));
+  EXPECT_THAT(error_of(folder.path() / "no/such/folder/c.db", Catalogue::Access::write),
+              is_error(ErrorCode::io_failure, 0, {"no/such/folder/c.db"}));
+}
+
+TEST(Catalogue, AnotherProgramsDatabaseIsLeftAlone) {
+  const ScratchFolder folder;
+  { const Catalogue made = opened(folder.path() / "c.db"); }
+  std::string bytes = bytes_of(folder.path() / "c.db");
+  bytes.replace(68, 4, "ABCD");  // PRAGMA application_id
+  for (const auto access : {Catalogue::Access::read, Catalogue::Access::write})
+    EXPECT_THAT(error_of(folder.write("foreign.db", bytes), access),
+                is_error(ErrorCode::invalid_value, 0, {"foreign.db", "another program"}));
+  EXPECT_EQ(bytes_of(folder.path() / "foreign.db"), bytes);
 }
 
 TEST(Catalogue, ANewerOneIsLeftAlone) {
@@ -142,7 +157,8 @@ TEST(Catalogue, ANewerOneIsLeftAlone) {
   std::string bytes = bytes_of(folder.path() / "c.db");
   bytes[63] = 2;  // PRAGMA user_version, see SQLite's file format, 1.3
   for (const auto access : {Catalogue::Access::read, Catalogue::Access::write})
-    EXPECT_THAT(error_of(folder.write("new.db", bytes), access), HasSubstr("a newer Mechane"));
+    EXPECT_THAT(error_of(folder.write("new.db", bytes), access),
+                is_error(ErrorCode::wrong_version, 0, {"new.db", "format 2"}));
   EXPECT_EQ(bytes_of(folder.path() / "new.db"), bytes);
 }
 
@@ -156,10 +172,11 @@ TEST(Catalogue, DamageIsSaidAndNeverRead) {
     ASSERT_TRUE(catalogue.put(entries));
   }
   const std::string whole = bytes_of(folder.path() / "c.db");
-  EXPECT_THAT(error_of(folder.write("half.db", whole.substr(0, whole.size() / 2))), HasSubstr("damaged"));
+  EXPECT_THAT(error_of(folder.write("half.db", whole.substr(0, whole.size() / 2))),
+              is_error(ErrorCode::damaged, 0, {"half.db", "content add"}));
   std::string holes = whole;
   std::fill(holes.begin() + 4096, holes.end() - 4096, '\xff');
-  EXPECT_THAT(error_of(folder.write("holes.db", holes)), HasSubstr("damaged"));
+  EXPECT_THAT(error_of(folder.write("holes.db", holes)), is_error(ErrorCode::damaged, 0, {"holes.db", "content add"}));
   std::string path_out = whole;
   for (std::size_t at = path_out.find("77.glb"); at != std::string::npos; at = path_out.find("77.glb", at))
     path_out.replace(at, 6, "../..g");
@@ -182,7 +199,7 @@ TEST(Catalogue, APutThatFailsHalfWayLeavesWhatWasThere) {
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   ASSERT_FALSE(put);
-  EXPECT_THAT(put.error().to_string(), HasSubstr("the catalogue is as it was"));
+  EXPECT_THAT(put.error(), is_error(ErrorCode::io_failure, 0, {"the catalogue is as it was"}));
   EXPECT_EQ(*opened(folder.path() / "c.db").entries(), std::vector{plain_entry("a.glb")});
   EXPECT_TRUE(catalogue.put(std::vector{plain_entry("b.glb")})) << "and it goes on";
 }
@@ -194,9 +211,10 @@ TEST(Catalogue, NothingLeavesTheFolder) {
     EXPECT_TRUE(is_inside(path)) << path;
   const ScratchFolder folder;
   EXPECT_EQ(path_inside(folder.path(), folder.path() / "x/../a.glb"), "a.glb");
-  EXPECT_THAT(path_inside(folder.path() / "below", folder.path() / "a.glb").error().to_string(),
-              HasSubstr("not in the"));
-  EXPECT_FALSE(opened(folder.path() / "c.db").put(std::vector{plain_entry("../a.glb")}));
+  EXPECT_THAT(path_inside(folder.path() / "below", folder.path() / "a.glb").error(),
+              is_error(ErrorCode::conflict, 0, {"a.glb", (folder.path() / "below").string()}));
+  EXPECT_THAT(opened(folder.path() / "c.db").put(std::vector{plain_entry("../a.glb")}).error(),
+              is_error(ErrorCode::invalid_value, 0, {"../a.glb"}));
 }
 
 TEST(Catalogue, FindsByPathByNameAndByHash) {

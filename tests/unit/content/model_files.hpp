@@ -14,7 +14,7 @@ namespace mechane::content {
 
 using test::ScratchFolder;
 
-/// A cube of side 2 m about the origin, faces outwards.
+/// A cube of 2 m around the origin; its faces look outwards.
 inline constexpr float kCube[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                       {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 inline constexpr std::uint16_t kCubeFaces[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
@@ -74,7 +74,7 @@ inline std::string glb(std::string json, std::string binary) {
   return bytes;
 }
 
-/// The smallest image that says of itself that it is a PNG; nobody decodes it here.
+/// Begins like a PNG; nothing here decodes it.
 inline const std::string kPng = "\x89PNG\r\n\x1a\n not decoded by the import";
 
 /// A cube under nodes BODY (shifted by 1 m along x) > part_block and BODY > trimming (the same mesh, shrunk and mirrored), with a

@@ -1,10 +1,11 @@
-// What a model needs beside itself, however its file writes it.
+// The other files that a model needs, in all forms in which its file can name them.
 #include "server/content/model_references.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/support/error_like.hpp"
 #include "tests/unit/content/catalogue_files.hpp"
 #include "tests/unit/content/model_files.hpp"
 
@@ -40,7 +41,8 @@ TEST(ModelReferences, OfAnObjAreItsLibrariesAndTheirImages) {
 TEST(ModelReferences, OthersHaveNoneAndAFileThatIsNotThereIsAnError) {
   const ScratchFolder folder;
   EXPECT_THAT(*files_of_model(folder.write("a.stl", cube_stl())), IsEmpty());
-  EXPECT_FALSE(files_of_model(folder.path() / "gone.glb"));
+  EXPECT_THAT(files_of_model(folder.path() / "gone.glb").error(),
+              test::is_error(ErrorCode::io_failure, 0, {"gone.glb"}));
 }
 
 RC_GTEST_PROP(ModelReferences, AnyBytesGiveAnAnswer, (const std::string& bytes)) {

@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "server/collision/object_io.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/unit/content/model_files.hpp"
 
 namespace mechane::content {
 namespace {
 
-using testing::HasSubstr;
+using test::is_error;
 using testing::SizeIs;
 
 class ObjectStoreTest : public testing::Test {
@@ -18,7 +19,7 @@ class ObjectStoreTest : public testing::Test {
     config_.map_resolution = 16;
     config_.sample_spacing_m = 0.2;
   }
-  /// A store of its own each time, as after a restart. Counts the builds.
+  /// Loads with a new store, as after a restart. Counts the builds.
   Expected<std::shared_ptr<const collision::Object>> load(const std::string& node) {
     ObjectStore store(cache_);
     store.on_progress([this](const std::string&, std::size_t parts) {
@@ -122,9 +123,9 @@ TEST_F(ObjectStoreTest, ACacheThatCannotBeWrittenOnlyCostsTime) {
 }
 
 TEST_F(ObjectStoreTest, SaysWhatIsMissing) {
-  EXPECT_THAT(load("ABSENT").error().to_string(), testing::AllOf(HasSubstr("cube.glb"), HasSubstr("ABSENT")));
+  EXPECT_THAT(load("ABSENT").error(), is_error(ErrorCode::unknown_name, 0, {"cube.glb", "ABSENT"}));
   model_ = folder_.path() / "missing.glb";
-  EXPECT_THAT(load("BODY").error().to_string(), HasSubstr("missing.glb"));
+  EXPECT_THAT(load("BODY").error(), is_error(ErrorCode::not_found, 0, {"missing.glb"}));
 }
 
 }  // namespace

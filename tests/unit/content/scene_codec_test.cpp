@@ -1,13 +1,20 @@
 #include "server/content/scene_codec.hpp"
 
+#include <limits>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/support/error_like.hpp"
+
 namespace mechane::content {
 namespace {
 
-/// A scene that is right, of any size: the codec must carry it whole.
+using test::is_error;
+
+/// A valid scene of any size.
 rc::Gen<ImportedScene> any_scene() {
   return rc::gen::exec([] {
     ImportedScene scene;
@@ -83,10 +90,58 @@ RC_GTEST_PROP(SceneCodec, RefusesAnyShorterMessage, ()) {
   RC_ASSERT(!decode_scene(message, kWide).has_value());
 }
 
-TEST(SceneCodec, CarriesAnError) {
-  const auto back = decode_scene(encode_failure({"what", "where", "remedy"}), {});
-  ASSERT_FALSE(back);
-  EXPECT_EQ(back.error().to_string(), "where: what; remedy");
+Error any_error() {
+  Error error;
+  error.code = static_cast<ErrorCode>(*rc::gen::inRange(0, static_cast<int>(kLastErrorCode) + 1));
+  error.what = *rc::gen::string<std::string>();
+  error.where = *rc::gen::string<std::string>();
+  error.remedy = *rc::gen::string<std::string>();
+  error.line = *rc::gen::inRange(0, std::numeric_limits<int>::max());
+  return error;
+}
+
+RC_GTEST_PROP(SceneCodec, CarriesAnErrorWhole, ()) {
+  const Error error = any_error();
+  const auto back = decode_scene(encode_failure(error), {});
+  RC_ASSERT(!back.has_value());
+  RC_ASSERT(back.error().code == error.code);
+  RC_ASSERT(back.error().line == error.line);
+  RC_ASSERT(back.error().what == error.what);
+  RC_ASSERT(back.error().where == error.where);
+  RC_ASSERT(back.error().remedy == error.remedy);
+}
+
+/// An error's message with one byte of its payload changed, and a header that fits it.
+std::vector<std::byte> changed_failure(std::size_t at, std::uint8_t value) {
+  std::vector<std::byte> message = encode_failure({ErrorCode::too_large, "what", "where", "remedy", 7});
+  message.at(kSceneHeaderBytes + at) = std::byte{value};
+  seal_scene(message, SceneMessage::failure);
+  return message;
+}
+
+TEST(SceneCodec, AnErrorsCodeOrLineThatNoErrorHasIsDamage) {
+  constexpr auto kLast = static_cast<std::uint8_t>(kLastErrorCode);
+  EXPECT_EQ(decode_scene(changed_failure(0, kLast), {}).error().code, kLastErrorCode);
+  for (const int code : {kLast + 1, 0x7f, 0xff})
+    EXPECT_THAT(decode_scene(changed_failure(0, static_cast<std::uint8_t>(code)), {}).error(),
+                is_error(ErrorCode::damaged, 0, {fmt::format("code {}", code)}));
+  EXPECT_THAT(decode_scene(changed_failure(4, 0x80), {}).error(), is_error(ErrorCode::damaged, 0, {"line -"}));
+}
+
+TEST(SceneCodec, AnErrorThatIsCutShortIsDamage) {
+  const std::vector<std::byte> whole = encode_failure({ErrorCode::too_large, "what", "where", "remedy", 7});
+  for (std::size_t size = kSceneHeaderBytes; size < whole.size(); ++size) {
+    std::vector<std::byte> message(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    seal_scene(message, SceneMessage::failure);
+    EXPECT_THAT(decode_scene(message, {}).error(), is_error(ErrorCode::damaged, 0)) << size;
+  }
+}
+
+TEST(SceneCodec, AnotherVersionIsSaid) {
+  std::vector<std::byte> message = encode_failure({ErrorCode::too_large, "what", "where", "remedy"});
+  message[4] = std::byte{kSceneCodecVersion + 1};
+  EXPECT_THAT(decode_scene(message, {}).error(),
+              is_error(ErrorCode::wrong_version, 0, {std::to_string(kSceneCodecVersion + 1)}));
 }
 
 }  // namespace

@@ -1,14 +1,19 @@
-"""What deploy's scripts say when they are asked, or asked wrongly: at once, before anything is installed or built."""
+"""What deploy's scripts say when they are asked, or asked wrongly: at once, before anything is installed or built; and what the demo
+starts."""
 
+import contextlib
+import io
 import json
 import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "deploy/demo_lib"))
@@ -73,15 +78,21 @@ class Scripts(unittest.TestCase):
         self.assertEqual(demo.tour_progress(log, 22), "2 of 22 visits, 1 not done | catapult use: wind")
         self.assertEqual(demo.tour_progress("", 22), "0 of 22 visits")
 
-    def test_the_demo_reports_what_the_server_measured_and_nothing_in_its_place(self):
+    def test_the_demo_reports_what_was_measured_and_nothing_in_its_place(self):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder)
             metrics, _, _, simd = demo.gather(out, [], (0, 0))
             self.assertIsNone(simd)
-            self.assertNotIn("overruns", metrics)
+            for name in ("overruns", "water_l", "force_n.max"):
+                self.assertNotIn(name, metrics)
             (out / "server.json").write_text('{"simd": "avx2", "overruns": 3, "tick_us": {"p99": 71}}')
             metrics, _, _, simd = demo.gather(out, [], (0, 0))
             self.assertEqual((simd, metrics["overruns"], metrics["tick_us.p99"]), ("avx2", 3, 71))
+            for name, report in (("dry", {"force_n": {"ticks": 0}, "rtt_us": {}}),
+                                 ("wet", {"water_l": 2.5, "force_n": {"max": 1.5}, "rtt_us": {"p99": 900}})):
+                (out / f"{name}.json").write_text(json.dumps(report))
+            metrics = demo.gather(out, ["dry", "wet"], (0, 0))[0]
+            self.assertEqual((metrics["water_l"], metrics["force_n.max"], metrics["rtt_us.p99"]), (2.5, 1.5, 900))
 
     def test_the_demo_counts_a_step_without_its_picture_as_missed(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -96,6 +107,81 @@ class Scripts(unittest.TestCase):
     def test_the_demo_counts_the_visits_of_its_tour(self):
         screw = ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d"
         self.assertEqual(demo.count_visits([screw, screw]), 4)
+
+
+# In the place of the command `mechane`: notes how it was started; what it records is whole only once it was told to end.
+STAND_IN = f"""#!{sys.executable} -IS
+import json, os, pathlib, signal, sys
+with open(os.environ["STARTED"], "a") as started:
+    started.write(json.dumps(sys.argv[1:]) + "\\n")
+options = dict(zip(sys.argv[2:], sys.argv[3:]))
+if "--play" in options:
+    whole = pathlib.Path(options["--play"]).is_file()
+    sys.exit(0 if whole and not options["--out"].endswith(os.environ["UNDRAWN"]) else 1)
+if sys.argv[1] in ("server", "display", "haptic"):
+    print(" ready: ", flush=True)
+    signal.sigwait([signal.SIGTERM])
+    if "--record" in options:
+        pathlib.Path(options["--record"]).touch()
+"""
+
+
+def value(command, option):
+    """What follows an option."""
+    return command[command.index(option) + 1]
+
+
+class WhatTheDemoStarts(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name).resolve()
+        self.out = self.folder / "out"
+        (self.folder / "mechane").write_text(STAND_IN)
+        (self.folder / "mechane").chmod(0o755)
+        # Programs inherit the mask: one that is told to end before it waits for that is not killed.
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTERM])
+        self.addCleanup(signal.pthread_sigmask, signal.SIG_SETMASK, mask)
+
+    def demo(self, *arguments, screen, undrawn="none"):
+        """Runs the demo with stand-ins: the displays that it started, in order, each a list of arguments; and what it complained of."""
+        started = self.folder / "started"
+        started.unlink(missing_ok=True)
+        environment = {"STARTED": str(started), "UNDRAWN": undrawn, "DISPLAY": screen, "WAYLAND_DISPLAY": ""}
+        with mock.patch.dict(os.environ, environment), contextlib.redirect_stdout(io.StringIO()), \
+                contextlib.redirect_stderr(io.StringIO()) as complaints, \
+                mock.patch.object(sys, "argv", ["demo", "--bin", str(self.folder), "--out", str(self.out), "--domain", "7", *arguments]):
+            demo.main()
+        commands = [json.loads(line) for line in started.read_text().splitlines()]
+        return [command for command in commands if command[0] == "display"], complaints.getvalue()
+
+    def test_without_a_window_it_records_and_draws_every_step_once_all_is_recorded(self):
+        for arguments, screen in (((), ""), (("--headless",), ":0")):
+            with self.subTest(arguments):
+                displays, complaints = self.demo(*arguments, screen=screen)
+                recorded, drawn = displays[:3], displays[3:]
+                for each in recorded:  # drawing takes no time from the visit, and leaves no pictures
+                    self.assertEqual(value(each, "--size"), "32x18")
+                    self.assertNotIn("--out", each)
+                self.assertEqual({(value(each, "--kiosk"), value(each, "--record"), value(each, "--domain")) for each in recorded},
+                                 {(kiosk, str(self.out / f"{kiosk}.frames"), "7") for kiosk in demo.KIOSKS})
+                self.assertEqual([(value(each, "--play"), value(each, "--out")) for each in drawn],
+                                 [(str(self.out / f"{kiosk}.frames"), str(self.out / "pictures" / kiosk)) for kiosk in demo.KIOSKS])
+                for each in displays:
+                    self.assertIn("--offscreen", each)
+                    self.assertIn("--every-step", each)
+                for wrong in ("could not be drawn", "ended badly"):
+                    self.assertNotIn(wrong, complaints)
+
+    def test_a_kiosk_whose_recording_cannot_be_drawn_is_named_and_the_others_are_drawn(self):
+        displays, complaints = self.demo(screen="", undrawn="kiosk-1")
+        self.assertEqual(sum("--play" in each for each in displays), 3)
+        self.assertEqual(re.findall(r"the steps at (\S+) could not be drawn", complaints), ["kiosk-1"])
+
+    def test_with_a_screen_it_opens_windows_and_records_nothing(self):
+        displays, complaints = self.demo(screen=":0")
+        self.assertEqual(sorted(displays), [["display", "--kiosk", kiosk, "--domain", "7"] for kiosk in ("kiosk-1", "village")])
+        self.assertNotIn("picture", complaints)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import contextlib
 import io
 import json
 import pathlib
+import subprocess
 import sys
 import tempfile
 import threading
@@ -91,9 +92,10 @@ class Report(unittest.TestCase):
         return json.loads((self.folder / "report.json").read_text())
 
     def test_counts_and_the_time_of_each_phase(self):
-        report = self.written({"build-release": Ran(Tally([Case("build", "passed")]), 61.04),
+        report = self.written({"build-release": Ran(Tally([Case("build", "passed")]), 61.04, 243.26),
                                "fuzz": Ran(Tally([Case("x", "failed", seconds=2), Case("y", "skipped"), Case("z", "passed")]), 9.5)})
-        self.assertEqual(report["metrics"], {"seconds": 70.5, "passed": 2, "failed": 1, "skipped": 1, "left_out": 0, "phase_s.build-release": 61.0, "phase_s.fuzz": 9.5})
+        self.assertEqual(report["metrics"], {"seconds": 70.5, "passed": 2, "failed": 1, "skipped": 1, "left_out": 0, "phase_s.build-release": 61.0,
+                                             "phase_s.fuzz": 9.5, "cpu_s.build-release": 243.3, "cpu_s.fuzz": 0})
         self.assertEqual((report["name"], report["seconds"], report["notes"]), ("test", 70.5, ["2.0 s  x  (fuzz)"]))
         for key in ("commit", "cpu", "cores", "simd"):
             self.assertTrue(report[key], key)
@@ -207,6 +209,29 @@ class Phases(unittest.TestCase):
         self.assertIn("the reason", said)
         self.assertIn("not run: its build failed", said)
 
+    def test_only_the_tests_of_a_full_run_are_filled_with_what_comes_later(self):
+        order = []
+        beside = mock.Mock(end=lambda: order.append("end"))
+        planned = [suite.Phase(title, lambda log, title=title: order.append(title) or Tally(), "one")
+                   for title in ("build one", "test one", "fuzz", "clang-tidy")]
+        with mock.patch.object(suite.processes, "Beside", lambda command, log: order.append(command[-1]) or beside):
+            self.run_phases(*planned)
+            self.assertEqual(order, ["build one", "test one", "fuzz", "clang-tidy"])
+            order.clear()
+            planned[0].ahead, planned[2].ahead, planned[3].ahead = "earlier", "one", "another"
+            self.run_phases(*planned)
+            self.assertEqual(order, ["build one", "one && another", "test one", "end", "fuzz", "clang-tidy"])
+        ahead = [[phase.title for phase in suite.phases(quick) if phase.ahead] for quick in (True, False)]
+        self.assertEqual(ahead, [["build quick"], ["build release", "build asan-ubsan", "build tsan", "clang-tidy"]])
+
+    def test_a_phase_has_the_processor_time_of_its_processes_and_of_no_other(self):
+        def works(log):
+            subprocess.run([sys.executable, "-c", "import time\nwhile time.process_time() < 0.3: pass"], check=True)
+            return Tally()
+        done, _ = self.run_phases(suite.Phase("test one", works, "one"), suite.Phase("test two", lambda log: Tally(), "one"))
+        self.assertGreaterEqual(done["test-one"].cpu_s, 0.25)
+        self.assertLess(done["test-two"].cpu_s, 0.2)
+
     def test_no_two_phases_share_a_name(self):
         for quick in (False, True):
             names = [phase.name for phase in suite.phases(quick)]
@@ -245,6 +270,17 @@ class Phases(unittest.TestCase):
         self.assertEqual(titles(30, 5, ""), ["build release", "test release in-process, 30 times from seed 5", "test release end-to-end, 2 times"])
         self.assertEqual(titles(30, 5, "unit_record"), ["build release", "test release in-process, 30 times from seed 5"])
         self.assertEqual(titles(30, 5, "integration.Fit"), ["build release", "test release end-to-end, 2 times"])
+
+    def test_what_runs_beside_is_ended_with_all_that_it_started(self):
+        suite.processes.adopt_orphans()  # as a run does: else whoever adopts them may leave them unreaped, and the wait has no end
+        with tempfile.TemporaryDirectory() as folder:
+            ended = pathlib.Path(folder) / "ended"
+            beside = suite.processes.Beside(["sh", "-c", f"(trap '' TERM; echo > {ended}.begun; sleep 0.5; touch {ended}) & sleep 60"],
+                                            pathlib.Path(folder) / "log")
+            while not pathlib.Path(f"{ended}.begun").exists():
+                time.sleep(0.01)  # sleeps: the poll of a condition
+            beside.end()
+            self.assertTrue(ended.exists(), "end() waits for those that take their time")
 
 
 if __name__ == "__main__":

@@ -89,7 +89,7 @@ class HeardWorld {
       if (clock.now() > end) return false;
       frame_.tick += 20;
       hear({});
-      clock.sleep_until(clock.now() + std::chrono::milliseconds(20));
+      clock.sleep_until(clock.now() + std::chrono::milliseconds(20));  // sleeps: between two looks
     }
     return true;
   }

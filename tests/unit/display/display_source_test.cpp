@@ -3,13 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::display {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using test::is_error;
 
 SourceOptions play_and_record(const fs::path& play, const fs::path& record) {
   SourceOptions options;
@@ -30,10 +31,10 @@ TEST(DisplaySource, what_is_read_is_not_recorded_to_by_whatever_name) {
     const fs::path record = scratch.path() / name;
     const auto played = check_recordings(play_and_record(visit, record), "");
     ASSERT_FALSE(played) << name;
-    EXPECT_THAT(played.error().to_string(), HasSubstr("this is the file of --play"));
+    EXPECT_THAT(played.error(), is_error(ErrorCode::conflict, 0, {"--play", "--record"}));
     const auto invites = check_recordings(play_and_record("", record), visit.string());
     ASSERT_FALSE(invites) << name;
-    EXPECT_THAT(invites.error().to_string(), HasSubstr("this is the file of --attract"));
+    EXPECT_THAT(invites.error(), is_error(ErrorCode::conflict, 0, {"--attract", "--record"}));
   }
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "client-sdk/display/display_app.hpp"
+#include "tests/support/error_like.hpp"
 
 namespace mechane::display {
 namespace {
@@ -10,7 +11,7 @@ TEST(ParseSize, takes_sizes_and_tells_what_is_none) {
   for (const char* bad : {"", "x", "1280", "1280x", "x720", "1280x720x", "-5x10", "99999x10", "12 x 9", "0x0"}) {
     const auto size = parse_size(bad);
     ASSERT_FALSE(size.has_value()) << bad;
-    EXPECT_FALSE(size.error().remedy.empty());
+    EXPECT_THAT(size.error(), test::is_error(ErrorCode::invalid_value, 0, {bad}));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "server/state/world_state.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/unit/dynamics/blocks.hpp"
 
@@ -238,25 +239,26 @@ TEST(NoCollision, OfTwoBodiesInHandsButOfOneAlone) {
 }
 
 TEST(CollisionCreate, RefusesWhatCannotCollide) {
+  using mechane::test::is_error;
   const auto error_of = [](const state::WorldDescription& world) {
     const state::WorldState state(world);
     auto made = DynamicsWorld::create(world, state);
-    return made ? std::string() : made.error().to_string();
+    return made ? Error{} : made.error();
   };
   const state::WorldDescription good = world_of({table(), block("BLOCK", kBlockHalf_m, at(0, 1, 0))});
-  EXPECT_EQ(error_of(good), "");
+  EXPECT_EQ(error_of(good).what, "");
   state::WorldDescription world = good;
   world.bodies[1].object = nullptr;
-  EXPECT_THAT(error_of(world), ::testing::HasSubstr("body BLOCK: the body is to collide but has no"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, 0, {"body BLOCK"}));
   world = good;
   world.bodies[1].restitution = 1.5;
-  EXPECT_THAT(error_of(world), ::testing::HasSubstr("restitution"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::invalid_value, 0, {"body BLOCK", "restitution", "1.5"}));
   world = good;
   world.bodies[1].haptic.static_friction = std::nan("");
-  EXPECT_THAT(error_of(world), ::testing::HasSubstr("friction"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::invalid_value, 0, {"body BLOCK", "friction"}));
   world = good;
   world.bodies.resize(200, good.bodies[1]);
-  EXPECT_THAT(error_of(world), ::testing::HasSubstr("at most 128"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::too_large, 0, {"200", "at most 128"}));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/piece_region.hpp"
 #include "server/geometry/surface_samples.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
@@ -253,27 +254,28 @@ TEST(Decompose, AnOpenMeshIsOnePieceThatMeetsNothing) {
 
 TEST(Decompose, WhatCannotBeTakenApartIsNamed) {
   MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
-  const auto what = [](const Mesh& mesh, const DecomposeConfig& config = {}) {
+  using mechane::test::is_error;
+  const auto error_of = [](const Mesh& mesh, const DecomposeConfig& config = {}) {
     const auto d = decompose(mesh, config);
-    return d ? std::string("no error") : d.error().what;
+    return d ? Error{} : d.error();
   };
-  EXPECT_NE(what({}).find("no triangles"), std::string::npos);
+  EXPECT_THAT(error_of({}), is_error(ErrorCode::missing, 0));
   Mesh mesh = test::box({1, 1, 1});
   mesh.vertices[2].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(what(mesh).find("vertex 2"), std::string::npos);
+  EXPECT_THAT(error_of(mesh), is_error(ErrorCode::invalid_value, 0, {"vertex 2"}));
   mesh = test::box({1, 1, 1});
   for (auto& t : mesh.triangles)
     std::swap(t[0], t[1]);
-  EXPECT_NE(what(mesh).find("inside out"), std::string::npos);
+  EXPECT_THAT(error_of(mesh), is_error(ErrorCode::invalid_value, 0, {"inside out"}));
   const Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
-  EXPECT_NE(what(sheet).find("no volume"), std::string::npos);
+  EXPECT_THAT(error_of(sheet), is_error(ErrorCode::invalid_value, 0, {"volume"}));
   const Mesh point{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}};
-  EXPECT_NE(what(point).find("smaller than a micrometre"), std::string::npos);
+  EXPECT_THAT(error_of(point), is_error(ErrorCode::invalid_value, 0, {"micrometre"}));
   const Mesh line{{{1, 1, 1}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}};
-  EXPECT_NE(what(line).find("without area"), std::string::npos);
-  EXPECT_NE(what(test::ball(1), {.max_concavity = 0}).find("max_concavity"), std::string::npos);
-  EXPECT_NE(what(test::ball(1), {.max_parts = 0}).find("max_parts"), std::string::npos);
-  EXPECT_NE(what(test::ball(1), {.grid_cells = 1000}).find("grid_cells"), std::string::npos);
+  EXPECT_THAT(error_of(line), is_error(ErrorCode::invalid_value, 0, {"area"}));
+  EXPECT_THAT(error_of(test::ball(1), {.max_concavity = 0}), is_error(ErrorCode::invalid_value, 0, {"max_concavity"}));
+  EXPECT_THAT(error_of(test::ball(1), {.max_parts = 0}), is_error(ErrorCode::invalid_value, 0, {"max_parts"}));
+  EXPECT_THAT(error_of(test::ball(1), {.grid_cells = 1000}), is_error(ErrorCode::invalid_value, 0, {"grid_cells"}));
 }
 
 /// Whatever triangles between a few points: a result or an Error, in a moment.

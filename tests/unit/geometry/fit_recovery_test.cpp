@@ -122,6 +122,7 @@ TEST(FitRecovery, WhatIsNoPointIsNamed) {
     points[42].y() = bad;
     const auto fit = fit_superquadric(points, for_scans());
     ASSERT_FALSE(fit);
+    EXPECT_EQ(fit.error().code, ErrorCode::invalid_value);
     EXPECT_NE(fit.error().what.find("42"), std::string::npos);
     EXPECT_FALSE(fit.error().remedy.empty());
   }

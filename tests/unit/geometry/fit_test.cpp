@@ -116,6 +116,7 @@ TEST(Fit, PointsThatMakeNoPartAreAnError) {
     plane.emplace_back(0.1 * (i % 10), 0.1 * (i / 10), 0.0);
   const auto flat = fit_superquadric(plane);
   ASSERT_FALSE(flat);
+  EXPECT_EQ(flat.error().code, ErrorCode::invalid_value);
   EXPECT_NE(flat.error().what.find("plane"), std::string::npos);
   EXPECT_FALSE(flat.error().remedy.empty());
 
@@ -127,6 +128,7 @@ TEST(Fit, PointsThatMakeNoPartAreAnError) {
   nan[17].x() = std::numeric_limits<double>::quiet_NaN();
   const auto bad = fit_superquadric(nan);
   ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().code, ErrorCode::invalid_value);
   EXPECT_NE(bad.error().what.find("17"), std::string::npos);
   EXPECT_FALSE(fit_superquadric(Mesh{}));
 }

@@ -93,12 +93,16 @@ TEST(MeshCheck, WeldingClosesWhatAnExporterSplit) {
 
 TEST(MeshCheck, BadMeshesAreNamed) {
   EXPECT_EQ(check_mesh({}, "lid").error().where, "lid");
+  EXPECT_EQ(check_mesh({}, "lid").error().code, ErrorCode::missing);
   Mesh nan = test::box({1, 1, 1});
   nan.vertices[3].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(check_mesh(nan, "lid").error().code, ErrorCode::invalid_value);
   EXPECT_NE(check_mesh(nan, "lid").error().what.find("vertex 3"), std::string::npos);
   Mesh index = test::box({1, 1, 1});
   index.triangles[2][1] = 8;
+  EXPECT_EQ(check_mesh(index, "lid").error().code, ErrorCode::damaged);
   EXPECT_NE(check_mesh(index, "lid").error().what.find("triangle 2"), std::string::npos);
+  EXPECT_FALSE(check_mesh(index, "lid").error().remedy.empty());
   EXPECT_TRUE(check_mesh(test::box({1, 1, 1}), "lid").has_value());
 }
 

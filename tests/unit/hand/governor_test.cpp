@@ -10,6 +10,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/sanitizers.hpp"
 
 namespace mechane::hand {
@@ -256,17 +257,21 @@ TEST(ForceGovernor, APassiveWallIsNotDamped) {
 }
 
 TEST(ForceGovernor, RefusesSettingsOutOfRangeByName) {
+  using mechane::test::is_error;
   const auto error_of = [](auto change) {
     GovernorConfig config;
     change(config);
     const auto made = ForceGovernor::make(config);
-    return made ? std::string() : made.error().to_string();
+    return made ? Error{} : made.error();
   };
-  EXPECT_EQ(error_of([](auto&) {}), "");
-  EXPECT_THAT(error_of([](auto& c) { c.max_force_n = -1; }), testing::HasSubstr("max_force_n"));
-  EXPECT_THAT(error_of([](auto& c) { c.max_slew_n_per_s = std::nan(""); }), testing::HasSubstr("max_slew_n_per_s"));
-  EXPECT_THAT(error_of([](auto& c) { c.energy_credit_j = 0; }), testing::HasSubstr("energy_credit_j"));
-  EXPECT_THAT(error_of([](auto& c) { c.zero_by = c.hold; }), testing::HasSubstr("zero_by"));
+  EXPECT_EQ(error_of([](auto&) {}).what, "");
+  EXPECT_THAT(error_of([](auto& c) { c.max_force_n = -1; }),
+              is_error(ErrorCode::invalid_value, 0, {"max_force_n", "-1", "from 0"}));
+  EXPECT_THAT(error_of([](auto& c) { c.max_slew_n_per_s = std::nan(""); }),
+              is_error(ErrorCode::invalid_value, 0, {"max_slew_n_per_s"}));
+  EXPECT_THAT(error_of([](auto& c) { c.energy_credit_j = 0; }),
+              is_error(ErrorCode::invalid_value, 0, {"energy_credit_j"}));
+  EXPECT_THAT(error_of([](auto& c) { c.zero_by = c.hold; }), is_error(ErrorCode::conflict, 0, {"zero_by"}));
 }
 
 /// A push that the observer must damp, with every field of the state in use.

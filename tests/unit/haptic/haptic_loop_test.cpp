@@ -63,7 +63,8 @@ class HapticLoopTest : public ::testing::Test {
     ASSERT_TRUE(made.has_value()) << made.error().to_string();
     loop_ = std::move(*made);
   }
-  /// The next tick, `dt` after the last one; the server's answer to it pushes with kPressN, or there is none. What the device renders, N.
+  /// The next tick, `dt` after the last one; the server answers it with kPressN, or not at all. Returns the rendered
+  /// force, N.
   double tick(bool answered, Duration dt = kTick) {
     now_ += dt;
     if (answered) {

@@ -103,7 +103,9 @@ TEST(HandModel, ImpossibleSizesAreRefusedByName) {
   size.fingers[2].radius_m[1] = -1;
   const auto made = HandModel::create(size);
   ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::invalid_value);
   EXPECT_NE(made.error().what.find("finger 2"), std::string::npos);
+  EXPECT_FALSE(made.error().remedy.empty());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What stands on stderr for one message.
+/// What is on stderr after one message.
 std::string shown(std::string_view text) {
   testing::internal::CaptureStderr();
   start("test", Level::info);

@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Shows what a log would: "text" or "text +repeats".
+/// What a log would show: "text" or "text +repeats".
 class RepeatsTest : public testing::Test {
  protected:
   std::vector<std::string> say(std::string_view text, std::chrono::seconds at) {

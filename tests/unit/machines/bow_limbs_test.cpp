@@ -8,8 +8,6 @@
 namespace mechane::machines::test {
 namespace {
 
-using ::testing::HasSubstr;
-
 const Vec3 kLimbTip(0, 0.6, 0), kLimbRoot(-0.15, 0.12, -0.08);
 
 Vec3 to_side(const Vec3& p, double side) {
@@ -84,13 +82,13 @@ TEST(BowLimbs, LeapHomeAtTheShotAndACutStringIsGone) {
 TEST(BowLimbs, ErrorsSayWhatToWrite) {
   state::WorldDescription world = limbed_world();
   world.machines[0].parameters.erase("strings");
-  EXPECT_THAT(error_of(world), HasSubstr("give limbs and strings with two bodies each"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::missing, world.machines[0].line, {"'strings'", "limbs"}));
   world = limbed_world();
   world.bodies[world.find_body("STRING_B").index()].X_WB.p += Vec3(0.1, 0.1, 0.2);
-  EXPECT_THAT(error_of(world), HasSubstr("not at right angles to the draw"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("strings")));
   world = limbed_world();
   world.bodies[world.find_body("LIMB_A").index()].fixed = true;
-  EXPECT_THAT(error_of(world), HasSubstr("the body 'LIMB_A' is fixed"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("limbs"), {"'LIMB_A'"}));
 }
 
 }  // namespace

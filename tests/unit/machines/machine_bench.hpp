@@ -11,6 +11,8 @@
 #include "server/dynamics/dynamics_world.hpp"
 #include "server/machines/machine_set.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/error_like.hpp"
+#include "tests/support/parameter_lines.hpp"
 
 namespace mechane::machines::test {
 
@@ -54,13 +56,18 @@ inline void add_quantity(state::WorldDescription& world, const std::string& name
   world.quantities.push_back({name, name, ""});
 }
 
-/// The error of making and linking the machines of a world without agents' slots; empty where there is none.
-inline std::string error_of(const state::WorldDescription& world) {
+using mechane::test::is_error;
+using mechane::test::line_of;
+
+/// The error of making and linking the machines of a world without agents' slots, whose parameters get the lines that line_of() tells;
+/// empty where there is none.
+inline Error error_of(state::WorldDescription world) {
+  mechane::test::number_lines(world.machines);
   state::MemoryLayout layout;
   auto made = MachineSet::create(world, layout);
-  if (!made) return made.error().to_string();
+  if (!made) return made.error();
   auto linked = (*made)->link(layout);
-  return linked ? std::string() : linked.error().to_string();
+  return linked ? Error{} : linked.error();
 }
 
 class Bench {

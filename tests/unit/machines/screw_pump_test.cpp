@@ -10,13 +10,16 @@
 #include "server/machines/registry.hpp"
 #include "server/machines/screw_geometry.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/error_like.hpp"
+#include "tests/support/parameter_lines.hpp"
 #include "tests/support/sanitizers.hpp"
 
 namespace mechane::machines {
 namespace {
 
+using mechane::test::is_error;
+using mechane::test::line_of;
 using state::EventKind;
-using ::testing::HasSubstr;
 
 constexpr double kStep = 1e-3;
 constexpr double kLength = 2.4, kPitch = 2 * kPi * 0.075;
@@ -229,34 +232,42 @@ TEST(ScrewPump, ATickAllocatesNothing) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-std::string error_of(const state::WorldDescription& world) {
+Error error_of(state::WorldDescription world) {
+  mechane::test::number_lines(world.machines);
   state::MemoryLayout layout;
   auto made = MachineSet::create(world, layout);
-  return made ? std::string() : made.error().to_string();
+  return made ? Error{} : made.error();
 }
 
 TEST(MachineSet, ErrorsNameTheMachineItsLineAndTheRemedy) {
   state::WorldDescription world = screw_world();
   world.machines[0].type = "machine.perpetuum";
-  EXPECT_THAT(error_of(world), HasSubstr("line 12, machine.perpetuum PUMP: there is no machine of type"));
-  EXPECT_THAT(error_of(world), HasSubstr("machine.screw_pump"));
+  EXPECT_THAT(error_of(world),
+              is_error(ErrorCode::unknown_name, 12,
+                       {"line 12, machine.perpetuum PUMP", "'machine.perpetuum'", "machine.screw_pump"}));
   const auto with = [](const std::string& name, const state::Parameter& value) {
     state::WorldDescription changed = screw_world();
     changed.machines[0].parameters[name] = value;
     return error_of(changed);
   };
-  EXPECT_THAT(with("diametre", std::vector<double>{1}), HasSubstr("use one of: joint, diameter"));
-  EXPECT_THAT(with("diameter", std::vector<double>{0}), HasSubstr("write a value from 0.01 to 20"));
-  EXPECT_THAT(with("diameter", std::vector<double>{std::nan("")}), HasSubstr("not a finite number"));
-  EXPECT_THAT(with("diameter", std::vector<double>{1, 2}), HasSubstr("has 2 numbers"));
-  EXPECT_THAT(with("diameter", true), HasSubstr("wrong kind"));
-  EXPECT_THAT(with("joint", std::vector<std::string>{"AXLE"}), HasSubstr("name one of: CRANK"));
-  EXPECT_THAT(with("slope", std::vector<double>{0.9}), HasSubstr("holds no water"));
-  EXPECT_THAT(with("coreDiameter", std::vector<double>{0.3}), HasSubstr("as thick as"));
-  EXPECT_THAT(with("blades", std::vector<double>{2.5}), HasSubstr("whole number"));
+  const auto wrong = [](const char* parameter, const std::vector<std::string>& words = {}) {
+    return is_error(ErrorCode::invalid_value, line_of(parameter), words);
+  };
+  EXPECT_THAT(with("diametre", std::vector<double>{1}),
+              is_error(ErrorCode::unknown_name, line_of("diametre"), {"'diametre'", "use one of: joint, diameter"}));
+  EXPECT_THAT(with("diameter", std::vector<double>{0}), wrong("diameter", {"from 0.01 to 20"}));
+  EXPECT_THAT(with("diameter", std::vector<double>{std::nan("")}), wrong("diameter", {"finite"}));
+  EXPECT_THAT(with("diameter", std::vector<double>{1, 2}), wrong("diameter", {"2 numbers", "write 1"}));
+  EXPECT_THAT(with("diameter", true), wrong("diameter", {"one number"}));
+  EXPECT_THAT(with("joint", std::vector<std::string>{"AXLE"}),
+              is_error(ErrorCode::unknown_name, line_of("joint"), {"'AXLE'", "name one of: CRANK"}));
+  EXPECT_THAT(with("slope", std::vector<double>{0.9}), is_error(ErrorCode::conflict, line_of("slope")));
+  EXPECT_THAT(with("coreDiameter", std::vector<double>{0.3}), is_error(ErrorCode::conflict, line_of("coreDiameter")));
+  EXPECT_THAT(with("blades", std::vector<double>{2.5}), wrong("blades", {"2.5"}));
+  EXPECT_THAT(with("length", std::vector<double>{150}), is_error(ErrorCode::conflict, line_of("length"), {"256"}));
   world = screw_world();
   world.machines[0].parameters.erase("lift");
-  EXPECT_THAT(error_of(world), HasSubstr("'lift' is missing; add it: from the river's surface"));
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::missing, 12, {"'lift'", "from the river's surface"}));
 }
 
 TEST(Registry, EveryTypeSaysWhatItsParametersAndValuesAre) {

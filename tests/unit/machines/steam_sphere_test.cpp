@@ -8,8 +8,6 @@
 namespace mechane::machines::test {
 namespace {
 
-using ::testing::HasSubstr;
-
 constexpr double kFire = 1000, kNozzle_m = 0.12, kBore_m = 0.003, kBearing = 2e-4, kAir = 2e-7, kSphereInertia = 2e-4;
 constexpr double kNozzleArea = 2 * kPi * kBore_m * kBore_m / 4;
 constexpr double kSteamFlow = kFire / 2.26e6;
@@ -182,14 +180,17 @@ TEST(SteamSphere, TheAgentThatIsNamedLightsTheFireAndPutsItOut) {
 }
 
 TEST(SteamSphere, SaysWhatTheFireIsLitBy) {
-  EXPECT_THAT(error_of(sphere_lit_by("simulation.dwell")), HasSubstr("name a simulation.lit in 'litBy'"));
+  EXPECT_THAT(error_of(sphere_lit_by("simulation.dwell")),
+              is_error(ErrorCode::invalid_value, line_of("litBy"), {"'FIRE'", "simulation.lit"}));
   state::WorldDescription both = sphere_lit_by("simulation.lit");
   both.machines[0].parameters["fire"] = text("lit");
-  EXPECT_THAT(error_of(both), HasSubstr("both 'fire' and 'litBy'"));
+  EXPECT_THAT(error_of(both), is_error(ErrorCode::conflict, line_of("litBy"), {"'fire'", "'litBy'"}));
   state::WorldDescription none = sphere_world();
   none.machines[0].parameters.erase("fire");
-  EXPECT_THAT(error_of(none), HasSubstr("line 5, machine.steam_sphere STEAM: neither 'fire' nor 'litBy' is given"));
-  EXPECT_THAT(error_of(sphere_lit_by("simulation.lit")), HasSubstr("'FIRE' has no value 'lit'"));
+  EXPECT_THAT(error_of(none),
+              is_error(ErrorCode::missing, 5, {"line 5, machine.steam_sphere STEAM", "'fire'", "'litBy'"}));
+  EXPECT_THAT(error_of(sphere_lit_by("simulation.lit")),
+              is_error(ErrorCode::invalid_value, line_of("litBy"), {"'FIRE' has no value 'lit'"}));
 }
 
 TEST(SteamSphere, ATickAllocatesNothing) {
@@ -199,10 +200,13 @@ TEST(SteamSphere, ATickAllocatesNothing) {
 }
 
 TEST(SteamSphere, ErrorsSayWhatToWrite) {
-  EXPECT_THAT(error_of(sphere_with("nozzleDiameter", number(0.001))), HasSubstr("write 0.0014 or more"));
-  EXPECT_THAT(error_of(sphere_with("loss", number(20))), HasSubstr("write less than 12.50 for loss"));
-  EXPECT_THAT(error_of(sphere_with("fire", text("flame"))), HasSubstr("name one of: lit"));
-  EXPECT_THAT(error_of(sphere_with("nozzleAngles", std::vector<double>{})), HasSubstr("from 1 to 8 angles"));
+  EXPECT_THAT(error_of(sphere_with("nozzleDiameter", number(0.001))),
+              is_error(ErrorCode::conflict, line_of("nozzleDiameter"), {"0.0014 or more"}));
+  EXPECT_THAT(error_of(sphere_with("loss", number(20))), is_error(ErrorCode::conflict, line_of("loss"), {"12.50"}));
+  EXPECT_THAT(error_of(sphere_with("fire", text("flame"))),
+              is_error(ErrorCode::unknown_name, line_of("fire"), {"'flame'", "name one of: lit"}));
+  EXPECT_THAT(error_of(sphere_with("nozzleAngles", std::vector<double>{})),
+              is_error(ErrorCode::invalid_value, line_of("nozzleAngles"), {"0 angles", "1 to 8"}));
 }
 
 }  // namespace

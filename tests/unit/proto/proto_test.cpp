@@ -7,11 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/error_like.hpp"
 #include <mechane/proto/entity.hpp>
 #include <mechane/proto/names.hpp>
 
 namespace mechane::proto {
 namespace {
+
+using test::is_error;
 
 TEST(Names, AreKeptToWhatAPartitionCanHold) {
   EXPECT_TRUE(is_name("kiosk-1"));
@@ -20,7 +23,7 @@ TEST(Names, AreKeptToWhatAPartitionCanHold) {
        {std::string(), std::string(32, 'a'), std::string("a*"), std::string("a/b"), std::string("ä")}) {
     EXPECT_FALSE(is_name(bad)) << bad;
   }
-  EXPECT_FALSE(check_name("a b", "kiosk").error().remedy.empty());
+  EXPECT_THAT(check_name("a b", "kiosk").error(), is_error(ErrorCode::invalid_value, 0, {"'a b'", "kiosk"}));
 }
 
 TEST(Names, LongTextsAreCutAtACharacter) {
@@ -37,7 +40,7 @@ TEST(Topics, OneKilohertzTypesAreOfFixedSize) {
   EXPECT_LT(sizeof(HapticOutput), 1400u);  // one datagram, never fragmented
 }
 
-/// What a listener's function saw of its own life.
+/// What happened to a listener's function.
 struct ListenerLife {
   std::mutex mutex;
   std::condition_variable changed;
@@ -46,7 +49,7 @@ struct ListenerLife {
   bool gone_while_called = false;
 };
 
-/// A listener's function that takes its time, and tells when it is no more.
+/// A slow listener's function that notes when it is deleted.
 struct SlowListener {
   explicit SlowListener(std::shared_ptr<ListenerLife> l) : life(std::move(l)) {}
   SlowListener(const SlowListener& other) = default;
@@ -63,7 +66,7 @@ struct SlowListener {
     std::unique_lock lock(life->mutex);
     life->called = true;
     life->changed.notify_all();
-    // Long enough for who replaces the reader to do it wrongly; who does it rightly waits for the end of this call.
+    // Long enough for a wrong replacement of the reader to delete this function; a right one waits for the end of this call.
     life->changed.wait_for(lock, std::chrono::milliseconds(200), [this] { return life->gone; });
     life->gone_while_called = life->gone;
   }
@@ -81,8 +84,8 @@ TEST(Reader, ThatIsReplacedKeepsItsFunctionUntilTheLastCallIsOver) {
   auto reader = Reader<Command>::create(*participant, "alone", SlowListener(life));
   auto writer = Writer<Command>::create(*participant, "alone");
   ASSERT_TRUE(reader && writer);
-  life->gone = false;  // of the copies that were made on the way
-  // Of one participant, the writer's thread runs the listener.
+  life->gone = false;  // set by copies that are gone already
+  // Within one participant, the writer's thread runs the listener.
   std::thread writing([&] { EXPECT_TRUE(writer->write(Command{})); });
   {
     std::unique_lock lock(life->mutex);
@@ -102,9 +105,8 @@ TEST(Participant, SaysWhichInterfaceIsMissingAndWhichThereAre) {
       1);
   const auto participant = Participant::create(77);
   ASSERT_FALSE(participant);
-  EXPECT_NE(participant.error().what.find("nosuch0"), std::string::npos);
-  EXPECT_NE(participant.error().remedy.find("lo"), std::string::npos);
-  EXPECT_FALSE(Participant::create(4000));
+  EXPECT_THAT(participant.error(), is_error(ErrorCode::unknown_name, 0, {"nosuch0", "lo"}));
+  EXPECT_THAT(Participant::create(4000).error(), is_error(ErrorCode::invalid_value, 0, {"4000", "0 to 230"}));
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace mechane::realtime {
 namespace {
@@ -62,6 +65,18 @@ TEST_F(MachineCheck, TellsAGoodMachineFromABadOne) {
   EXPECT_EQ(buffers[0].status, CheckStatus::warning);
   EXPECT_EQ(buffers[1].status, CheckStatus::ok);
   EXPECT_EQ(worst_of(buffers), CheckStatus::warning);
+}
+
+TEST_F(MachineCheck, SocketBuffersAreSetAsTheFileForMuseumsSetsThem) {
+  write("proc/sys/net/core/rmem_max", "1");
+  write("proc/sys/net/core/wmem_max", "1");
+  std::ifstream file(test::source_folder() / "deploy/systemd/90-mechane.conf");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const CheckResult& r : check_socket_buffers(root_)) {
+    EXPECT_NE(r.remedy.find("/etc/sysctl.d/90-mechane.conf"), std::string::npos) << r.remedy;
+    EXPECT_NE(r.remedy.find(r.name + "=4194304,"), std::string::npos) << r.remedy;
+    EXPECT_NE(text.find(r.name + " = 4194304\n"), std::string::npos) << text;
+  }
 }
 
 TEST_F(MachineCheck, AnEmptyMachineIsNoCrashAndEveryFaultHasARemedy) {

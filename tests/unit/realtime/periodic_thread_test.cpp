@@ -8,12 +8,14 @@
 #include <sched.h>
 
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/sanitizers.hpp"
 
 namespace mechane::realtime {
 namespace {
 
 using namespace std::chrono_literals;
+using mechane::test::is_error;
 
 // Time that stands still but where a test moves it. Only the loop's thread calls it, and the tick runs there.
 class FakeClock final : public Clock {
@@ -140,24 +142,29 @@ TEST(PeriodicThread, AnOverrunOfManyPeriodsIsOneOverrunAndItsSkips) {
 
 TEST(PeriodicThread, RefusesABadConfiguration) {
   FakeClock clock;
-  const auto starts = [&](auto change) {
+  const auto error_of = [&](auto change) {
     PeriodicConfig config;
+    config.name = "loop";
     change(config);
-    return PeriodicThread(config, clock).start([](const TickTiming&) {}).has_value();
+    const auto started = PeriodicThread(config, clock).start([](const TickTiming&) {});
+    return started ? Error{} : started.error();
   };
-  EXPECT_TRUE(starts([](PeriodicConfig&) {}));
-  EXPECT_FALSE(starts([](PeriodicConfig& c) { c.period = 0ms; }));
-  EXPECT_FALSE(starts([](PeriodicConfig& c) { c.fifo_priority = 100; }));
-  EXPECT_FALSE(starts([](PeriodicConfig& c) { c.cpu = -1; }));
+  const auto wrong = [](const char* word) { return is_error(ErrorCode::invalid_value, 0, {"thread loop", word}); };
+  EXPECT_EQ(error_of([](PeriodicConfig&) {}).what, "");
+  EXPECT_THAT(error_of([](PeriodicConfig& c) { c.period = 0ms; }), wrong("period"));
+  EXPECT_THAT(error_of([](PeriodicConfig& c) { c.fifo_priority = 100; }), wrong("100"));
+  EXPECT_THAT(error_of([](PeriodicConfig& c) { c.cpu = -1; }), wrong("-1"));
   PeriodicThread thread({}, clock);
-  EXPECT_FALSE(thread.start(nullptr).has_value());
+  EXPECT_THAT(thread.start(nullptr).error(), is_error(ErrorCode::missing, 0));
 }
 
 TEST(PeriodicThread, ASecondStartIsRefusedAndASecondLifeIsNot) {
   SystemClock clock;
   PeriodicThread thread({}, clock);
   ASSERT_TRUE(thread.start([](const TickTiming&) {}).has_value());
-  EXPECT_FALSE(thread.start([](const TickTiming&) {}).has_value());
+  const auto again = thread.start([](const TickTiming&) {});
+  ASSERT_FALSE(again.has_value());
+  EXPECT_THAT(again.error(), is_error(ErrorCode::busy, 0));
   thread.stop();
   EXPECT_FALSE(thread.report().running);
   ASSERT_TRUE(thread.start([](const TickTiming&) {}).has_value());

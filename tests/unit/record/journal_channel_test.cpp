@@ -17,7 +17,7 @@ void push_ticks(JournalChannel& channel, std::uint64_t begin, std::uint64_t end)
     channel.push(tick.record());
 }
 
-// What waits in the ring was once counted as lost, and was then stored after all.
+// Ticks in the ring were once counted as lost, although they were stored later.
 TEST(JournalChannel, WhatStillWaitsIsNotLost) {
   const test::ScratchFolder scratch;
   const std::filesystem::path folder = scratch.path() / "later";

@@ -1,4 +1,4 @@
-// Ticks for tests of the journal: anything that a world could take in, odd doubles included.
+// Ticks for tests of the journal: any inputs that a world could get, unusual doubles included.
 #pragma once
 
 #include <bit>
@@ -96,7 +96,7 @@ inline bool same(const hand::SentSample& a, const hand::SentSample& b) {
   return same;
 }
 
-/// True when `b`, out of a journal, is all of `a` that a tick may depend on.
+/// True when `b`, from a journal, equals `a` in all that a tick may depend on.
 inline bool same(const WorldTick& a, const JournalTick& b) {
   bool same_all = a.tick == b.tick && a.hash == b.hash && a.events.size() == b.events.size() &&
                   a.inputs.command_count == b.inputs.command_count;
@@ -131,7 +131,7 @@ inline JournalHeader a_header(std::uint64_t first_tick = 0) {
   return header;
 }
 
-/// All ticks up to where the journal is good.
+/// All ticks up to the first damage.
 inline std::vector<JournalTick> read_all(JournalReader& reader) {
   std::vector<JournalTick> ticks;
   for (JournalTick tick; reader.next(tick);)

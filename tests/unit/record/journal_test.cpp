@@ -8,12 +8,14 @@
 
 #include "server/record/tick_codec.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/unit/record/journal_generators.hpp"
 
 namespace mechane::record {
 namespace {
 
 using Kind = JournalEnd::Kind;
+using test::is_error;
 
 JournalReader open(const std::vector<std::byte>& bytes) {
   auto reader = JournalReader::open_bytes(bytes, "test.journal");
@@ -248,11 +250,12 @@ TEST(Journal, TheLargestTickFitsAndEncodingAllocatesNothing) {
 TEST(Journal, AnotherVersionAndAnotherFileAreNamed) {
   auto bytes = a_journal().bytes;
   bytes[8] = std::byte{9};
-  EXPECT_THAT(JournalReader::open_bytes(bytes, "x").error().to_string(), testing::HasSubstr("version 9"));
+  EXPECT_THAT(JournalReader::open_bytes(bytes, "x").error(),
+              is_error(ErrorCode::wrong_version, 0, {"x: ", "version 9"}));
   bytes[0] = std::byte{'m'};
-  EXPECT_THAT(JournalReader::open_bytes(bytes, "x").error().to_string(), testing::HasSubstr("not a journal"));
-  EXPECT_THAT(JournalReader::open_file("/nowhere/at/all.journal").error().to_string(),
-              testing::HasSubstr("/nowhere/at/all.journal"));
+  EXPECT_THAT(JournalReader::open_bytes(bytes, "x").error(), is_error(ErrorCode::damaged, 0, {"x: ", "not a journal"}));
+  EXPECT_THAT(JournalReader::open_file("/nowhere/at/all.journal").error(),
+              is_error(ErrorCode::not_found, 0, {"/nowhere/at/all.journal"}));
 }
 
 }  // namespace

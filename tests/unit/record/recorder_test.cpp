@@ -15,6 +15,7 @@
 #include "server/record/retention.hpp"
 #include "server/record/snapshot_file.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/unit/record/journal_generators.hpp"
 
@@ -60,7 +61,7 @@ WorldTick hand_tick(std::uint64_t n) {
   return tick;
 }
 
-// Waits for what another thread brings about; the test fails when it does not come.
+// Waits until another thread has made the condition true; false after a deadline.
 ::testing::AssertionResult comes_true(const std::function<bool()>& condition) {
   const auto deadline = std::chrono::steady_clock::now() + 20s;
   while (!condition()) {
@@ -121,7 +122,7 @@ TEST_F(RecorderTest, PushAndSnapshotAllocateNothing) {
 
 TEST_F(RecorderTest, ARingThatIsFullCostsTicksAndTheJournalSaysWhich) {
   config_.ring_bytes = 64u << 10;
-  config_.drain_period = 1h;  // nobody empties the ring but the close
+  config_.drain_period = 1h;  // only the close empties the ring
   auto recorder = make();
   WorldRecorder world = recorder->open(a_header(), 1024);
   for (std::uint64_t n = 0; n < 5000; ++n)
@@ -171,7 +172,7 @@ TEST_F(RecorderTest, AWriterThatIsKilledLeavesAReadableJournal) {
   EXPECT_EQ(reader->end().kind, JournalEnd::Kind::cut_off);
 }
 
-// Files of this process may not grow over `bytes`: what a full disk looks like to write(), on any machine and for any user.
+// Files of this process may not grow over `bytes`: to write(), this looks like a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -340,9 +341,12 @@ TEST_F(RecorderTest, ASnapshotIsTheOldOneOrTheNewOneWhole) {
   damage.seekp(-1, std::ios::end);
   damage.put('x');
   damage.close();
-  EXPECT_THAT(read_snapshot_file(path).error().to_string(), testing::HasSubstr("damaged"));
+  EXPECT_THAT(read_snapshot_file(path).error(), test::is_error(ErrorCode::damaged, 0, {path.string(), "is damaged"}));
   fs::resize_file(path, 5);
-  EXPECT_THAT(read_snapshot_file(path).error().to_string(), testing::HasSubstr("not a snapshot"));
+  EXPECT_THAT(read_snapshot_file(path).error(),
+              test::is_error(ErrorCode::damaged, 0, {path.string(), "not a snapshot"}));
+  fs::remove(path);
+  EXPECT_THAT(read_snapshot_file(path).error(), test::is_error(ErrorCode::not_found, 0, {path.string()}));
 }
 
 TEST_F(RecorderTest, TheOldestClosedJournalsGoWhenThereAreTooMany) {
@@ -377,10 +381,10 @@ TEST_F(RecorderTest, AFolderThatCannotBeIsAnError) {
   config_.folder = "/proc/no/such/folder";
   const auto made = Recorder::create(config_);
   ASSERT_FALSE(made.has_value());
-  EXPECT_THAT(made.error().to_string(), testing::HasSubstr("/proc/no/such/folder"));
+  EXPECT_THAT(made.error(), test::is_error(ErrorCode::io_failure, 0, {"/proc/no/such/folder"}));
   config_.folder = folder_;
   config_.ring_bytes = 100'000;
-  EXPECT_FALSE(Recorder::create(config_).has_value());
+  EXPECT_THAT(Recorder::create(config_).error(), test::is_error(ErrorCode::invalid_value, 0, {"100000", "65536"}));
 }
 
 }  // namespace

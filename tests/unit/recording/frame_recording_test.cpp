@@ -13,11 +13,14 @@
 #include <unistd.h>
 
 #include "client-sdk/recording/recording_codec.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/recording/recording_samples.hpp"
 
 namespace mechane::recording {
 namespace {
+
+using test::is_error;
 
 using std::chrono::milliseconds;
 
@@ -162,7 +165,8 @@ TEST(FrameRecording, what_cannot_be_drawn_is_refused) {
   EXPECT_FALSE(decode(encode(presentation), read));
 }
 
-// Whatever is cut from it, or changed in it, a recording gives what was recorded from its beginning on, or says what is wrong.
+// Whatever is cut from it, or changed in it, a recording gives what was recorded from its beginning on, or says what is
+// wrong.
 RC_GTEST_PROP(FrameRecording, never_gives_what_was_not_recorded, ()) {
   static const std::vector<std::byte> whole = a_recording();
   static const FrameRecording good = FrameRecording::open_bytes(whole, "good").value();
@@ -175,6 +179,8 @@ RC_GTEST_PROP(FrameRecording, never_gives_what_was_not_recorded, ()) {
   const auto recording = FrameRecording::open_bytes(bytes, "spoilt");
   if (!recording) {
     RC_ASSERT(recording.error().where == "spoilt");
+    RC_ASSERT(recording.error().code == ErrorCode::damaged || recording.error().code == ErrorCode::wrong_version ||
+              recording.error().code == ErrorCode::missing);
     RC_ASSERT(!recording.error().what.empty() && !recording.error().remedy.empty());
     return;
   }
@@ -188,17 +194,19 @@ RC_GTEST_PROP(FrameRecording, never_gives_what_was_not_recorded, ()) {
 
 TEST(FrameRecording, a_file_that_is_none_is_told) {
   const test::ScratchFolder folder;
-  const auto told = [](const Expected<FrameRecording>& recording) {
-    return recording ? std::string("it was opened") : recording.error().to_string();
+  const auto fault = [](const Expected<FrameRecording>& recording) {
+    EXPECT_FALSE(recording.has_value());
+    return recording ? Error{} : recording.error();
   };
-  EXPECT_THAT(told(FrameRecording::open_file(folder.path() / "none")), testing::HasSubstr("No such file"));
-  EXPECT_THAT(told(FrameRecording::open_file(folder.path())), testing::HasSubstr("cannot be read"));
-  EXPECT_THAT(told(FrameRecording::open_file(folder.write("text", "hello"))), testing::HasSubstr("--record"));
+  EXPECT_THAT(fault(FrameRecording::open_file(folder.path() / "none")), is_error(ErrorCode::not_found, 0, {"none"}));
+  EXPECT_THAT(fault(FrameRecording::open_file(folder.path())), is_error(ErrorCode::io_failure, 0));
+  EXPECT_THAT(fault(FrameRecording::open_file(folder.write("text", "hello"))),
+              is_error(ErrorCode::damaged, 0, {"--record"}));
   RecordingWriter empty;
-  EXPECT_THAT(told(FrameRecording::open_bytes(empty.take_bytes(), "x")), testing::HasSubstr("nothing was recorded"));
+  EXPECT_THAT(fault(FrameRecording::open_bytes(empty.take_bytes(), "x")), is_error(ErrorCode::missing, 0, {"x"}));
   std::vector<std::byte> later = a_recording();
   later[8] = std::byte{9};
-  EXPECT_THAT(told(FrameRecording::open_bytes(later, "x")), testing::HasSubstr("version 9"));
+  EXPECT_THAT(fault(FrameRecording::open_bytes(later, "x")), is_error(ErrorCode::wrong_version, 0, {"version 9"}));
 }
 
 TEST(FrameRecording, knows_moments_by_name) {
@@ -215,6 +223,9 @@ TEST(FrameRecording, knows_moments_by_name) {
   EXPECT_NEAR(seconds("@1"), 1.5, 0.05);
   for (const char* text : {"9", "dance", "turn@2", "turn@", "-1", "", "turn@x"})
     EXPECT_EQ(seconds(text), text[0] == 0 ? seconds("@0") : -1) << text;
+  EXPECT_THAT(recording->moment("9").error(), is_error(ErrorCode::invalid_value, 0, {"9"}));
+  EXPECT_THAT(recording->moment("turn@x").error(), is_error(ErrorCode::invalid_value, 0, {"turn@x"}));
+  EXPECT_THAT(recording->moment("dance").error(), is_error(ErrorCode::unknown_name, 0, {"dance"}));
 }
 
 TEST(FrameRecorder, ends_at_its_measure_and_the_file_is_whole) {
@@ -273,7 +284,7 @@ TEST(FrameRecorder, a_disk_that_stands_still_holds_up_nobody_and_loses_nothing) 
 TEST(FrameRecorder, tells_where_it_cannot_write) {
   const auto recorder = FrameRecorder::create("/nowhere/visit.frames", {});
   ASSERT_FALSE(recorder.has_value());
-  EXPECT_THAT(recorder.error().to_string(), testing::HasSubstr("No such file"));
+  EXPECT_THAT(recorder.error(), is_error(ErrorCode::io_failure, 0, {"/nowhere/visit.frames", "No such file"}));
 }
 
 }  // namespace

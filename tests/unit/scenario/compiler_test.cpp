@@ -117,12 +117,15 @@ TEST_F(ArchimedesScrew, TheHashFollowsWhatThePhysicsDependsOn) {
   EXPECT_NE(compile_text(edited("mass='42'", "mass='43'")).world->content_hash, world.content_hash);
 }
 
-// Every fault: what is edited, where the error must point, and what it must say.
+using enum ErrorCode;
+
+// Every fault: what is edited, where the error must point, its code, and a name or number that it must hold.
 struct Fault {
   const char* from;
   const char* to;
-  const char* at;     // text on the line that the error names
-  const char* words;  // of the error or its remedy
+  const char* at;  // text on the line that the error names
+  ErrorCode code;
+  const char* name;
 };
 
 void PrintTo(const Fault& fault, std::ostream* out) {
@@ -131,54 +134,66 @@ void PrintTo(const Fault& fault, std::ostream* out) {
 
 class Faults : public ::testing::TestWithParam<Fault> {};
 
-TEST_P(Faults, NameLineNodeAndRemedy) {
+TEST_P(Faults, HaveCodeLineNodeAndRemedy) {
   const Fault& fault = GetParam();
   const std::string text = edited(fault.from, fault.to);
   const Outcome outcome = compile_text(text);
-  EXPECT_FALSE(outcome.world) << fault.to;
-  const x3d::Problem problem = outcome.find(fault.words);
-  EXPECT_EQ(problem.line, line_of(text, fault.at)) << to_string(problem);
+  ASSERT_FALSE(outcome.world) << fault.to;
+  const x3d::Problem problem = outcome.find(fault.code, line_of(text, fault.at), fault.name);
   EXPECT_EQ(problem.severity, x3d::Severity::error);
   EXPECT_FALSE(problem.node.empty());
-  EXPECT_FALSE(problem.remedy.empty());
+  const auto first = std::ranges::find(outcome.problems, x3d::Severity::error, &x3d::Problem::severity);
+  ASSERT_NE(first, outcome.problems.end());
+  EXPECT_EQ(outcome.world.error().code, first->code) << "the Error is the first problem";
+  EXPECT_EQ(outcome.world.error().line, first->line);
 }
 
 const Fault kFaults[] = {
-    {"mass='42'", "mass='nan'", "mass='nan'", "not a finite number"},
-    {"mass='42'", "mass='-3'", "mass='-3'", "mass: -3 kg is out of its range"},
-    {"mass='42'", "mass='0'", "mass='0'", "the mass is 0 kg"},
-    {"mass='42'", "mass='1 2'", "mass='1 2'", "it has 2 numbers"},
-    {"inertia='20.4 0 0 0 20.3", "inertia='20.4 0 0 0 200", "inertia=", "no solid body"},
+    {"mass='42'", "mass='nan'", "mass='nan'", invalid_value, "mass: 'nan'"},
+    {"mass='42'", "mass='-3'", "mass='-3'", invalid_value, "mass: -3 kg"},
+    {"mass='42'", "mass='0'", "mass='0'", invalid_value, "the mass is 0 kg"},
+    {"mass='42'", "mass='1 2'", "mass='1 2'", invalid_value, "mass: it has 2"},
+    {"inertia='20.4 0 0 0 20.3", "inertia='20.4 0 0 0 200", "inertia=", invalid_value, "principal moment"},
     {"value='\"turn\"'/>\n              <MetadataString containerField='value' name='joint' value='\"AXLE\"'/>\n"
      "              <MetadataDouble containerField='value' name='turns' value='9'",
      "value='\"swing\"'/>\n              <MetadataString containerField='value' name='joint' value='\"AXLE\"'/>\n"
      "              <MetadataDouble containerField='value' name='angle' value='0'",
-     "name='angle' value='0'", "the angle of this swing is 0"},
-    {"axis='-0.79", "axis='0 0 0' class='", "<SingleAxisHingeJoint", "has no length"},
-    {"containerField='body2' USE='INNER'", "containerField='body2' USE='INER'", "USE='INER'", "did you mean 'INNER'?"},
-    {"containerField='body2' USE='INNER'", "containerField='body2' USE='OUTER'", "<SingleAxisHingeJoint", "to itself"},
-    {"name='quantity' value='\"turns\"'", "name='quantity' value='\"trns\"'", "value='\"trns\"'",
+     "name='angle' value='0'", invalid_value, "swing is 0"},
+    {"axis='-0.79", "axis='0 0 0' class='", "<SingleAxisHingeJoint", invalid_value, "axis"},
+    {"containerField='body2' USE='INNER'", "containerField='body2' USE='INER'", "USE='INER'", unknown_name,
+     "did you mean 'INNER'?"},
+    {"containerField='body2' USE='INNER'", "containerField='body2' USE='OUTER'", "<SingleAxisHingeJoint", conflict,
+     "to itself"},
+    {"name='quantity' value='\"turns\"'", "name='quantity' value='\"trns\"'", "value='\"trns\"'", unknown_name,
      "did you mean 'turns'?"},
-    {"value='\"PUMP.basin_l\"'", "value='\"PUMP.basin\"'", "PUMP.basin\"", "did you mean 'basin_l'?"},
-    {"value='\"PUMP.basin_l\"'", "value='\"PMP.basin_l\"'", "PMP.basin_l", "did you mean 'PUMP'?"},
-    {"name='op' value='\"=\"'", "name='op' value='\"==\"'", "value='\"==\"'", "one of: < = >"},
-    {"name='next' value='\"fill\"'", "name='next' value='\"fil\"'", "value='\"fil\"'", "did you mean 'fill'?"},
-    {"name='format' value='1'", "name='format' value='2'", "name='format'", "version 2"},
-    {"name='id' value='\"archimedes-screw\"'", "name='id' value='\"../etc\"'", "../etc", "cannot be an id"},
-    {"value='\"CARRY\" \"SEAT\"'", "value='\"CARRY\" \"SEAL\"'", "\"SEAL\"", "did you mean 'SEAT'?"},
-    {"name='object:INNER'", "name='object:INNR'", "object:INNR", "did you mean 'INNER'?"},
-    {"value='\"geometry.snap\"'", "value='\"geometry.snop\"'", "geometry.snop", "did you mean 'geometry.snap'?"},
-    {"name='model' value='\"MODEL\"'", "name='model' value='\"MODLE\"'", "MODLE", "did you mean 'MODEL'?"},
-    {"../models/archimedes-screw.glb", "https://example.org/a.glb", "https://example.org", "relative path"},
-    {"name='joint' value='\"AXLE\"'", "name='joint' value='\"AXEL\"'", "AXEL", "did you mean 'AXLE'?"},
+    {"value='\"PUMP.basin_l\"'", "value='\"PUMP.basin\"'", "PUMP.basin\"", unknown_name, "did you mean 'basin_l'?"},
+    {"value='\"PUMP.basin_l\"'", "value='\"PMP.basin_l\"'", "PMP.basin_l", unknown_name, "did you mean 'PUMP'?"},
+    {"name='op' value='\"=\"'", "name='op' value='\"==\"'", "value='\"==\"'", invalid_value, "one of: < = >"},
+    {"name='next' value='\"fill\"'", "name='next' value='\"fil\"'", "value='\"fil\"'", unknown_name,
+     "did you mean 'fill'?"},
+    {"name='format' value='1'", "name='format' value='2'", "name='format'", wrong_version, "version 2"},
+    {"name='id' value='\"archimedes-screw\"'", "name='id' value='\"../etc\"'", "../etc", invalid_value, "'../etc'"},
+    {"value='\"CARRY\" \"SEAT\"'", "value='\"CARRY\" \"SEAL\"'", "\"SEAL\"", unknown_name, "did you mean 'SEAT'?"},
+    {"name='object:INNER'", "name='object:INNR'", "object:INNR", unknown_name, "did you mean 'INNER'?"},
+    {"value='\"geometry.snap\"'", "value='\"geometry.snop\"'", "geometry.snop", unknown_name,
+     "did you mean 'geometry.snap'?"},
+    {"name='model' value='\"MODEL\"'", "name='model' value='\"MODLE\"'", "MODLE", unknown_name,
+     "did you mean 'MODEL'?"},
+    {"../models/archimedes-screw.glb", "https://example.org/a.glb", "https://example.org", invalid_value,
+     "'https://example.org/a.glb'"},
+    {"name='joint' value='\"AXLE\"'", "name='joint' value='\"AXEL\"'", "AXEL", unknown_name, "did you mean 'AXLE'?"},
+    {"name='tolerance' value='0.06 0.26'", "name='tolerance' value='0.06 -1'", "value='0.06 -1'", invalid_value,
+     "tolerance is -1"},
+    {"<MetadataDouble containerField='value' name='tolerance' value='0.06 0.26'/>\n", "", "name='SEAT'>",
+     ErrorCode::missing, "'tolerance'"},
     {"name='node' value='\"INNER\"'/>",
      "name='node' value='\"INNER\"'/>\n<MetadataBoolean containerField='value' name='touchable' value='false'/>"
      "<MetadataBoolean containerField='value' name='collides' value='true'/>",
-     "name='collides'", "collides is true, but touchable is false"},
+     "name='collides'", conflict, "touchable"},
     {"name='node' value='\"INNER\"'/>",
      "name='node' value='\"INNER\"'/>\n<MetadataDouble containerField='value' name='restitution' value='1.5'/>",
-     "name='restitution'", "restitution"},
-    {"name='grip' value='0.25 0 1.36'", "name='grip' value='0.25 0'", "value='0.25 0'", "3 numbers"},
+     "name='restitution'", invalid_value, "'restitution': 1.5"},
+    {"name='grip' value='0.25 0 1.36'", "name='grip' value='0.25 0'", "value='0.25 0'", invalid_value, "3 numbers"},
 };
 
 INSTANTIATE_TEST_SUITE_P(OfAnAuthor, Faults, ::testing::ValuesIn(kFaults));
@@ -189,12 +204,12 @@ TEST(Compiler, MeshesThatAreMissing) {
   empty.no_files = true;
   const Outcome none = compile_text(text, empty);
   EXPECT_FALSE(none.world);
-  EXPECT_EQ(none.find("cannot be read").line, line_of(text, "<Inline"));
+  static_cast<void>(none.find(not_found, line_of(text, "<Inline"), "archimedes-screw.glb"));
   FakeLoader partial;
   partial.missing_node = "INNER";
   const Outcome outcome = compile_text(text, partial);
   EXPECT_FALSE(outcome.world);
-  EXPECT_EQ(outcome.find("does not exist").line, line_of(text, "name='node' value='\"INNER\"'"));
+  static_cast<void>(outcome.find(unknown_name, line_of(text, "name='node' value='\"INNER\"'"), "'INNER'"));
 }
 
 TEST(Compiler, BodiesCollideWhenAskedToAndWhatSnapsTogetherIsMated) {
@@ -225,15 +240,15 @@ TEST(Compiler, ABodyHasATitleForVisitorsWhereTheAuthorGivesOne) {
             (state::Texts{{"el", "Ο κύλινδρος"}, {"en", "The barrel"}}));
   const Outcome one = compile_text(edited(greek, ""));
   EXPECT_EQ(title_of(one), (state::Texts{{"en", "The barrel"}}));
-  EXPECT_NE(to_string(one.find("the title is missing in: el")).find("mechane:body of OUTER"), std::string::npos);
+  const int line = line_of(edited(greek, ""), "<RigidBody DEF='OUTER'");
+  EXPECT_NE(one.find(ErrorCode::missing, line, ": el").node.find("mechane:body of OUTER"), std::string::npos);
   std::string none = edited(greek, "");
   none.replace(none.find(english), english.size(), "");
   const Outcome untitled = compile_text(none);
   EXPECT_TRUE(untitled.world && title_of(untitled).empty());
   EXPECT_TRUE(untitled.problems.empty()) << "not every body is one for visitors";
-  EXPECT_FALSE(compile_text(edited("name='title.el' value='\"Ο κύλινδρος", "name='titel.el' value='\"Ο κύλινδρος"))
-                   .find("is not shown anywhere")
-                   .what.empty());
+  const std::string misspelt = edited("name='title.el' value='\"Ο κύλινδρος", "name='titel.el' value='\"Ο κύλινδρος");
+  static_cast<void>(compile_text(misspelt).find(unknown_name, line_of(misspelt, "titel.el"), "'title.el'"));
 }
 
 TEST(Compiler, SlidersAndBallsStandWhereTheirBodiesDo) {

@@ -1,4 +1,4 @@
-// Effects and close-ups of a scenario: read, and faults said with a remedy.
+// Effects and close-ups of a scenario: what is read, and the faults.
 #include <gtest/gtest.h>
 
 #include "tests/unit/scenario/scenario_fixture.hpp"
@@ -33,57 +33,62 @@ TEST(Effects, ARiverFlowsAndNothingDrivesIt) {
   EXPECT_DOUBLE_EQ(river->direction_B.z(), 1);
 }
 
-TEST(Effects, FaultsOfARiverAreSaidWithTheirRemedy) {
-  const auto expect_problem = [](const std::string& from, const std::string& to, const std::string& words,
-                                 x3d::Severity severity) {
-    const x3d::Problem problem = compile_text(edited(from, to)).find(words);
+TEST(Effects, FaultsOfARiverHaveCodeLineAndRemedy) {
+  const auto expect_problem = [](const std::string& from, const std::string& to, ErrorCode code, const std::string& at,
+                                 const std::string& name, x3d::Severity severity) {
+    const std::string text = edited(from, to);
+    const x3d::Problem problem = compile_text(text).find(code, line_of(text, at), name);
     EXPECT_EQ(problem.severity, severity) << to_string(problem);
-    EXPECT_GT(problem.line, 0);
-    EXPECT_FALSE(problem.remedy.empty());
   };
   const std::string node = "<MetadataString containerField='value' name='node' value='\"WATER_RIVER\"'/>";
   const std::string way = "<MetadataDouble containerField='value' name='direction' value='0 0 1'/>";
-  expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", "node 'SCENE' is not water", x3d::Severity::error);
-  expect_problem(way, "", "not along the water", x3d::Severity::error);
-  expect_problem(way, "<MetadataDouble containerField='value' name='direction' value='0 1 0'/>", "not along the water",
-                 x3d::Severity::error);
+  const std::string flow = "name='kind' value='\"flow\"'";
+  const x3d::Severity error = x3d::Severity::error;
+  expect_problem("'\"WATER_RIVER\"'", "'\"SCENE\"'", ErrorCode::conflict, "'\"SCENE\"'", "'SCENE'", error);
+  expect_problem(way, "", ErrorCode::invalid_value, flow, "direction", error);
+  expect_problem(way, "<MetadataDouble containerField='value' name='direction' value='0 1 0'/>",
+                 ErrorCode::invalid_value, "value='0 1 0'", "direction", error);
   expect_problem(node, node + "<MetadataString containerField='value' name='quantity' value='\"flow\"'/>",
-                 "a flow effect does not use 'quantity'", x3d::Severity::warning);
-  expect_problem("<MetadataString containerField='value' name='kind' value='\"flow\"'/>",
-                 "<MetadataString containerField='value' name='kind' value='\"level\"'/>",
-                 "names no quantity that drives it", x3d::Severity::error);
+                 ErrorCode::conflict, "\"WATER_RIVER\"", "'quantity'", x3d::Severity::warning);
+  expect_problem("<MetadataString containerField='value' " + flow + "/>",
+                 "<MetadataString containerField='value' name='kind' value='\"level\"'/>", ErrorCode::missing,
+                 "name='RIVER'>", "quantity", error);
 }
 
 TEST(Quantities, AnUnknownUnitIsWarnedOf) {
-  const x3d::Problem slip = compile_text(edited("'\"rpm\"'", "'\"rmp\"'")).find("did you mean 'rpm'?");
+  const std::string text = edited("'\"rpm\"'", "'\"rmp\"'");
+  const x3d::Problem slip =
+      compile_text(text).find(ErrorCode::unknown_name, line_of(text, "'\"rmp\"'"), "did you mean 'rpm'?");
   EXPECT_EQ(slip.severity, x3d::Severity::warning);
 }
 
-TEST(Effects, FaultsAreSaidWithTheirRemedy) {
-  const auto expect_error = [](const Outcome& outcome, const std::string& words) {
-    const x3d::Problem problem = outcome.find(words);
+TEST(Effects, FaultsHaveCodeLineAndRemedy) {
+  const auto expect_error = [](const std::string& text, ErrorCode code, const std::string& at,
+                               const std::string& name) {
+    const x3d::Problem problem = compile_text(text).find(code, line_of(text, at), name);
     EXPECT_EQ(problem.severity, x3d::Severity::error) << to_string(problem);
-    EXPECT_GT(problem.line, 0);
-    EXPECT_FALSE(problem.remedy.empty());
   };
-  expect_error(compile_text(edited("'\"stream\"'", "'\"streem\"'")), "'streem' is not one of: level flow stream");
+  using enum ErrorCode;
+  expect_error(edited("'\"stream\"'", "'\"streem\"'"), invalid_value, "'\"streem\"'", "'streem'");
   const std::string body = "<MetadataString containerField='value' name='body' value=";
-  expect_error(
-      compile_text(edited(body + "'\"OUTER\"'/>\n            <MetadataDouble containerField='value' name='point'",
-                          body + "'\"OTER\"'/>\n            <MetadataDouble containerField='value' name='point'")),
-      "did you mean 'OUTER'?");
+  expect_error(edited(body + "'\"OUTER\"'/>\n            <MetadataDouble containerField='value' name='point'",
+                      body + "'\"OTER\"'/>\n            <MetadataDouble containerField='value' name='point'"),
+               unknown_name, "'\"OTER\"'", "did you mean 'OUTER'?");
   const std::string flow =
       "<MetadataString containerField='value' name='quantity' value='\"flow\"'/>\n            "
       "<MetadataDouble containerField='value' name='full' value='3'/>";
   const auto driven_by = [&](const std::string& quantity) {
-    return edited(flow, "<MetadataString containerField='value' name='quantity' value='\"" + quantity + "\"'/>");
+    return edited(flow,
+                  "<MetadataString containerField='value' class='here' name='quantity' value='\"" + quantity + "\"'/>");
   };
-  expect_error(compile_text(driven_by("flw")), "did you mean 'flow'?");
-  expect_error(compile_text(driven_by("speed")), "a stream is driven by a flow, and 'speed' has the unit 'rpm'");
-  expect_error(compile_text(edited("value='-0.5083 0 0.8612'", "value='0 0 0'")), "the direction has no length");
-  expect_error(compile_text(edited("<MetadataString containerField='value' name='node' value='\"WATER_BASIN\"'/>", "")),
-               "names no node that could rise");
-  expect_error(compile_text(edited("'\"BASIN_VIEW\"'", "'\"BASIN_VIW\"'")), "did you mean 'BASIN_VIEW'?");
+  expect_error(driven_by("flw"), unknown_name, "class='here'", "did you mean 'flow'?");
+  expect_error(driven_by("speed"), conflict, "class='here'", "'speed' has the unit 'rpm'");
+  expect_error(edited("value='-0.5083 0 0.8612'", "value='0 0 0' class='here'"), invalid_value, "class='here'",
+               "direction");
+  expect_error(edited("<MetadataString containerField='value' name='node' value='\"WATER_BASIN\"'/>", ""),
+               ErrorCode::missing, "name='BASIN_WATER'>", "key node");
+  expect_error(edited("'\"BASIN_VIEW\"'", "'\"BASIN_VIW\"'"), unknown_name, "'\"BASIN_VIW\"'",
+               "did you mean 'BASIN_VIEW'?");
 }
 
 }  // namespace

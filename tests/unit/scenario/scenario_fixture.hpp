@@ -20,7 +20,7 @@ using test::shipped_file;
 using test::source_folder;
 using test::text_of;
 
-/// The line on which `needle` first stands.
+/// The line on which `needle` first occurs.
 inline int line_of(const std::string& text, const std::string& needle) {
   const std::size_t at = text.find(needle);
   EXPECT_NE(at, std::string::npos) << needle;
@@ -44,11 +44,12 @@ class FakeLoader final : public ObjectLoader {
   Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
                                                           const std::string& node) override {
     loaded.push_back(file.filename().string() + "#" + node);
-    if (node == missing_node) return fail("the node does not exist", file.string(), "name one of: OUTER");
+    if (node == missing_node)
+      return fail(ErrorCode::unknown_name, "the node does not exist", file.string(), "name one of: OUTER");
     return std::make_shared<collision::Object>();
   }
   Expected<std::string> content_hash(const std::filesystem::path& file) override {
-    if (no_files) return fail("no such file", file.string(), "check the path");
+    if (no_files) return fail(ErrorCode::not_found, "no such file", file.string(), "check the path");
     return hash;
   }
 
@@ -62,20 +63,37 @@ class FakeLoader final : public ObjectLoader {
   bool no_files = false;
 };
 
+/// Any line of the file; not 0, which is no line.
+inline constexpr int kAnyLine = -1;
+
+/// Whether a problem has this code and line, and holds in its text a name or number that tells it from others of its code.
+inline bool is_problem(const x3d::Problem& problem, ErrorCode code, int line, const std::string& name) {
+  return problem.code == code && (line == kAnyLine ? problem.line > 0 : problem.line == line) &&
+         to_string(problem).find(name) != std::string::npos;
+}
+
+/// The first such problem, which must have a remedy; a test failure where none is such.
+inline x3d::Problem find_problem(const std::vector<x3d::Problem>& problems, ErrorCode code, int line,
+                                 const std::string& name = {}) {
+  const auto found =
+      std::ranges::find_if(problems, [&](const x3d::Problem& p) { return is_problem(p, code, line, name); });
+  if (found != problems.end()) {
+    EXPECT_FALSE(found->remedy.empty()) << to_string(*found);
+    return *found;
+  }
+  std::string all;
+  for (const x3d::Problem& p : problems)
+    all += std::string(name_of(p.code)) + " " + to_string(p) + "\n";
+  ADD_FAILURE() << "no problem is " << name_of(code) << " in line " << line << " with '" << name << "', but:\n" << all;
+  return {};
+}
+
 struct Outcome {
   Expected<state::WorldDescription> world;
   std::vector<x3d::Problem> problems;
 
-  /// The first problem whose text holds `part`; a test failure where there is none.
-  [[nodiscard]] x3d::Problem find(const std::string& part) const {
-    for (const x3d::Problem& p : problems) {
-      if (to_string(p).find(part) != std::string::npos) return p;
-    }
-    std::string all;
-    for (const x3d::Problem& p : problems)
-      all += to_string(p) + "\n";
-    ADD_FAILURE() << "no problem says '" << part << "', but:\n" << all;
-    return {};
+  [[nodiscard]] x3d::Problem find(ErrorCode code, int line, const std::string& name = {}) const {
+    return find_problem(problems, code, line, name);
   }
 };
 

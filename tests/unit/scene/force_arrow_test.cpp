@@ -19,7 +19,9 @@ double reach_m(const AssetLibrary& library, const picture::RenderScene& scene, c
 }
 
 TEST(ForceArrow, IsAsLongAsTheForceIsLargeAndPointsWhereItPushes) {
-  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> { return fail("none", "test", ""); });
+  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> {
+    return fail(ErrorCode::not_found, "none", "test", "");
+  });
   const ForceArrow arrow(library);
   picture::Camera camera;
   camera.p_WC = Vec3(0, 0, 3);
@@ -44,7 +46,9 @@ TEST(ForceArrow, IsAsLongAsTheForceIsLargeAndPointsWhereItPushes) {
 }
 
 TEST(ForceArrow, NothingIsShownOfWhatNobodyFeels) {
-  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> { return fail("none", "test", ""); });
+  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> {
+    return fail(ErrorCode::not_found, "none", "test", "");
+  });
   const ForceArrow arrow(library);
   client::HandPose hand;
   picture::RenderScene scene;

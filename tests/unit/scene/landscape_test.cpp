@@ -10,7 +10,9 @@ namespace mechane::scene {
 namespace {
 
 AssetLibrary empty_library() {
-  return AssetLibrary([](const std::string&) -> Expected<content::ImportedScene> { return fail("none", "", ""); });
+  return AssetLibrary([](const std::string&) -> Expected<content::ImportedScene> {
+    return fail(ErrorCode::not_found, "none", "", "");
+  });
 }
 
 /// A machine at (3, -1), and a river 4 m wide along z, 40 m to its right.

@@ -42,7 +42,7 @@ content::ImportedScene machine_file() {
 AssetLibrary library_of(int& loads) {
   return AssetLibrary([&loads](const std::string& uri) -> Expected<content::ImportedScene> {
     ++loads;
-    if (uri != "machine.glb") return fail("no such file", uri, "export it");
+    if (uri != "machine.glb") return fail(ErrorCode::not_found, "no such file", uri, "export it");
     return machine_file();
   });
 }
@@ -80,6 +80,18 @@ std::shared_ptr<const client::WorldPresentation> water_presentation() {
   return presentation;
 }
 
+/// A river that flows along x.
+std::shared_ptr<client::WorldPresentation> river_presentation() {
+  auto presentation = std::make_shared<client::WorldPresentation>();
+  client::Effect river;
+  river.kind = "flow";
+  river.node = "WATER_RIVER";
+  river.direction_B = Vec3::UnitX();
+  river.speed_m_per_s = 0.3;
+  presentation->effects = {river};
+  return presentation;
+}
+
 TEST(AssetLibrary, a_missing_file_or_node_is_a_box_and_is_told) {
   int loads = 0;
   AssetLibrary library = library_of(loads);
@@ -96,7 +108,7 @@ TEST(AssetLibrary, a_missing_file_or_node_is_a_box_and_is_told) {
 TEST(AssetLibrary, a_file_that_comes_late_takes_its_placeholders_place) {
   bool there = false;
   AssetLibrary library([&](const std::string& uri) -> Expected<content::ImportedScene> {
-    if (!there) return fail("it is being fetched", uri);
+    if (!there) return fail(ErrorCode::busy, "it is being fetched", uri);
     return machine_file();
   });
   const ObjectModel& barrel = library.model("machine.glb", "OUTER");
@@ -174,13 +186,7 @@ TEST(SceneBuilder, a_river_flows_and_goes_on_beyond_its_model_and_standing_water
   const auto waters = [&] { return builder.build(nullptr, nullptr, client::LinkState::joined).waters; };
   ASSERT_EQ(waters().size(), 1U);
   EXPECT_TRUE(waters()[0].flow_W.isZero());
-  auto presentation = std::make_shared<client::WorldPresentation>();
-  client::Effect river;
-  river.kind = "flow";
-  river.node = "WATER_RIVER";
-  river.direction_B = Vec3::UnitX();
-  river.speed_m_per_s = 0.3;
-  presentation->effects = {river};
+  auto presentation = river_presentation();
   builder.set_presentation(presentation);
   const std::vector<picture::WaterInstance> all = waters();
   ASSERT_EQ(all.size(), 3U) << "the model's, upstream and downstream";
@@ -332,13 +338,7 @@ TEST(SceneBuilder, trees_keep_off_a_river_that_goes_on_and_earth_of_a_body_has_n
     scene.meshes.push_back(imported(picture::box_mesh(Vec3(2, 0.1, 1))));
     return scene;
   });
-  auto presentation = std::make_shared<client::WorldPresentation>();
-  client::Effect river;
-  river.kind = "flow";
-  river.node = "WATER_RIVER";
-  river.direction_B = Vec3::UnitX();
-  river.speed_m_per_s = 0.3;
-  presentation->effects = {river};
+  const auto presentation = river_presentation();
   SceneBuilder builder(library, "en");
   builder.set_manifest({object(0, "machine.glb", "OUTER")});
   builder.set_presentation(presentation);

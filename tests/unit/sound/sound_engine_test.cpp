@@ -11,6 +11,7 @@
 #include <sndfile.h>
 
 #include "client-sdk/sound/sound_file.hpp"
+#include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::sound {
@@ -267,10 +268,11 @@ TEST_F(SoundEngineTest, a_crowd_of_sounds_does_not_clip_and_the_loudest_are_hear
 }
 
 TEST(SoundFile, what_is_no_sound_is_an_error_with_a_remedy) {
-  for (const char* file : {"/dev/null", "/nowhere/a.wav"}) {
+  for (const auto& [file, code] :
+       {std::pair("/dev/null", ErrorCode::damaged), std::pair("/nowhere/a.wav", ErrorCode::not_found)}) {
     const auto read = read_sound(file);
     ASSERT_FALSE(read.has_value());
-    EXPECT_NE(read.error().remedy, "");
+    EXPECT_THAT(read.error(), test::is_error(code, 0, {file}));
   }
 }
 

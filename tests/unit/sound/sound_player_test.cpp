@@ -34,7 +34,7 @@ bool comes(const std::function<bool()>& what) {
   const TimePoint end = clock.now() + std::chrono::seconds(20);
   while (!what()) {
     if (clock.now() > end) return false;
-    clock.sleep_until(clock.now() + milliseconds(2));
+    clock.sleep_until(clock.now() + milliseconds(2));  // sleeps: between two looks
   }
   return true;
 }
@@ -87,7 +87,7 @@ int goes_on_without_a_card() {
   player.play(water());
   if (!comes([&] { return !player.state().problem.empty(); })) return 1;
   SystemClock clock;
-  clock.sleep_until(clock.now() + milliseconds(300));  // for some more tries, which must add nothing to the log
+  clock.sleep_until(clock.now() + milliseconds(300));  // sleeps: more tries add nothing to the log
   const SoundState state = player.state();
   return !state.sounding && state.device.empty() && state.voices == 0 ? 0 : 2;
 }
@@ -112,7 +112,7 @@ int notices_a_lost_device() {
   bool lost = false;
   const bool back = comes([&] {
     player.play(water());
-    lost = lost || player.state().problem == "the device for sound was lost";
+    lost = lost || player.state().problem == "the sound device was lost";
     return lost && player.state().sounding;  // it is looked for, and found
   });
   std::filesystem::remove(settings);
@@ -124,8 +124,7 @@ TEST_F(SoundPlayerDeathTest, plays_what_it_is_told) {
 }
 
 TEST_F(SoundPlayerDeathTest, without_a_card_it_goes_on_silently_and_says_so_once) {
-  EXPECT_EXIT(std::exit(goes_on_without_a_card()), testing::ExitedWithCode(0),
-              SaysOnce("there is no device for sound"));
+  EXPECT_EXIT(std::exit(goes_on_without_a_card()), testing::ExitedWithCode(0), SaysOnce("there is no sound device"));
 }
 
 TEST_F(SoundPlayerDeathTest, alsa_says_nothing_past_the_log) {
@@ -133,7 +132,7 @@ TEST_F(SoundPlayerDeathTest, alsa_says_nothing_past_the_log) {
 }
 
 TEST_F(SoundPlayerDeathTest, a_lost_device_is_told_and_looked_for) {
-  EXPECT_EXIT(std::exit(notices_a_lost_device()), testing::ExitedWithCode(0), "the device for sound was lost");
+  EXPECT_EXIT(std::exit(notices_a_lost_device()), testing::ExitedWithCode(0), "the sound device was lost");
 }
 
 }  // namespace

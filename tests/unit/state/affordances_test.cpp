@@ -37,7 +37,7 @@ WorldDescription workshop() {
 
 TEST(Ways, JointsGraspsPlacesAndFires) {
   const std::vector<Affordance> affordances = affordances_of(workshop());
-  ASSERT_EQ(affordances.size(), 4U) << "what is fixed is not taken, what is not there neither";
+  ASSERT_EQ(affordances.size(), 4U) << "fixed bodies and unknown names are left out";
   EXPECT_EQ(affordances[0].kind, Affordance::Kind::turns);
   EXPECT_EQ(affordances[0].object, BodyId(1));
   EXPECT_EQ(affordances[0].base, BodyId(0));

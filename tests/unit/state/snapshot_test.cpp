@@ -67,8 +67,25 @@ TEST(Snapshot, ACutFileIsAnErrorThatSaysWhatToDo) {
     WorldState state = empty_state();
     const auto read = read_snapshot(std::span(bytes).first(size), state);
     ASSERT_FALSE(read.has_value()) << size;
+    EXPECT_EQ(read.error().code, ErrorCode::damaged);
     EXPECT_FALSE(read.error().remedy.empty());
   }
+}
+
+TEST(Snapshot, TellsAnotherVersionFromDamage) {
+  std::vector<std::byte> bytes;
+  write_snapshot(sample_state(1), bytes);
+  const auto code_after = [&](std::size_t at, int value) {
+    std::vector<std::byte> changed = bytes;
+    changed[at] = static_cast<std::byte>(value);
+    WorldState state = empty_state();
+    const auto read = read_snapshot(changed, state);
+    EXPECT_FALSE(read.has_value());
+    return read ? ErrorCode{} : read.error().code;
+  };
+  EXPECT_EQ(code_after(0, 'X'), ErrorCode::damaged);
+  EXPECT_EQ(code_after(8, 99), ErrorCode::wrong_version);
+  EXPECT_EQ(code_after(bytes.size() - 1, 77), ErrorCode::damaged);
 }
 
 TEST(Snapshot, AnotherScenariosSnapshotIsRefused) {
@@ -77,7 +94,9 @@ TEST(Snapshot, AnotherScenariosSnapshotIsRefused) {
   WorldDescription other = two_bodies();
   other.bodies.resize(5);
   WorldState state(other);
-  EXPECT_FALSE(read_snapshot(bytes, state).has_value());
+  const auto read = read_snapshot(bytes, state);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_EQ(read.error().code, ErrorCode::conflict);
 }
 
 TEST(StateHash, SeesEveryTable) {

@@ -23,7 +23,7 @@ TEST(Validate, TakesAnHonestSample) {
 }
 
 RC_GTEST_PROP(Validate, WhatItTakesIsFitForTheLoop, ()) {
-  // Honest but for one word of random bits: whatever is taken keeps its promises.
+  // A valid sample except for one word of random bits: where it is accepted, it must be fit for the loop.
   proto::HapticInput s = honest();
   const auto words = sizeof(s) / 4;
   const auto where = *rc::gen::inRange<std::size_t>(0, words);

@@ -53,7 +53,7 @@ TEST_F(GraspReason, WhatCannotBeTakenAtAll) {
 
 TEST_F(GraspReason, WhatTheStepForbids) {
   enabled_ = {"other"};
-  EXPECT_THAT(why(), AllOf(HasSubstr("'hands'"), HasSubstr("is off in step 'turn'")));
+  EXPECT_THAT(why(), AllOf(HasSubstr("'hands'"), HasSubstr("is disabled in step 'turn'")));
   enabled_ = {"hands"};
   change(1).graspable = false;
   EXPECT_THAT(why(), HasSubstr("not graspable in step 'turn'"));

@@ -3,13 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/error_like.hpp"
+
 namespace mechane::visits {
 namespace {
 
 using state::CommandKind;
 using state::EventKind;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -60,12 +61,12 @@ std::shared_ptr<state::WorldDescription> make_machine() {
   return world;
 }
 
-/// A world whose loop says what the test says.
+/// A world whose loop notes what the test says.
 class VisitObserverTest : public testing::Test {
  protected:
   VisitObserverTest() { restart(); }
 
-  void restart(std::optional<VisitSheet> unfinished = {}, std::uint32_t step = kTake, std::uint64_t tick = 0) {
+  void restart(std::optional<VisitRecord> unfinished = {}, std::uint32_t step = kTake, std::uint64_t tick = 0) {
     state::Progress at;
     at.activity = ActivityId(0);
     at.step = StepId(step);
@@ -92,15 +93,15 @@ class VisitObserverTest : public testing::Test {
     observer_->take({.event = {tick, EventKind::released, 0, body, 0}, .opened_hand = opened});
   }
   void begin(std::uint64_t tick = 1000) { say(tick, EventKind::touched, 0, kCrank); }
-  /// The newest state of the sheet that changed last.
-  VisitSheet sheet() {
+  /// The newest state of the record that changed last.
+  VisitRecord record() {
     const auto changed = observer_->take_changed();
     EXPECT_FALSE(changed.empty());
-    return changed.empty() ? VisitSheet() : changed.back();
+    return changed.empty() ? VisitRecord() : changed.back();
   }
-  VisitSheet left() {
+  VisitRecord left() {
     observer_->close(VisitEnding::left);
-    return sheet();
+    return record();
   }
 
   std::shared_ptr<state::WorldDescription> description_ = make_machine();
@@ -114,14 +115,14 @@ TEST_F(VisitObserverTest, WhatLightsItselfIsNobodysVisit) {
   EXPECT_THAT(observer_->take_changed(), IsEmpty());
   say(4000, EventKind::grasped, 0, kCrank);
   say(5000, EventKind::lit, 0);
-  EXPECT_EQ(sheet().ending, VisitEnding::running);
+  EXPECT_EQ(record().ending, VisitEnding::running);
 }
 
 TEST_F(VisitObserverTest, AVisitThatGoesWellIsDoneStepByStepWithItsTimes) {
   begin(2000);
   say(5000, EventKind::step_started, kTurn);
   say(9000, EventKind::activity_done, 0);
-  const VisitSheet s = sheet();
+  const VisitRecord s = record();
   EXPECT_EQ(s.number, "number-1");
   EXPECT_EQ(s.minute, 1000);
   EXPECT_EQ(s.kiosk, "kiosk-1");
@@ -131,8 +132,8 @@ TEST_F(VisitObserverTest, AVisitThatGoesWellIsDoneStepByStepWithItsTimes) {
   EXPECT_EQ(s.ending, VisitEnding::done);
   EXPECT_EQ(s.hands, 1U);
   EXPECT_DOUBLE_EQ(s.duration_s, 9);  // reading what to do is part of it
-  EXPECT_THAT(s.steps, ElementsAre(SheetStep{"take", 5, StepEnding::done, false, true},
-                                   SheetStep{"turn", 4, StepEnding::done, false, true}));
+  EXPECT_THAT(s.steps, ElementsAre(RecordedStep{"take", 5, StepEnding::done, false, true},
+                                   RecordedStep{"turn", 4, StepEnding::done, false, true}));
   EXPECT_THAT(s.mistakes, IsEmpty());
   EXPECT_TRUE(s.done_alone());
 }
@@ -140,13 +141,13 @@ TEST_F(VisitObserverTest, AVisitThatGoesWellIsDoneStepByStepWithItsTimes) {
 TEST_F(VisitObserverTest, TheLanguageIsTheLastThatTheVisitorSawAndNotTheOneThatTheKioskGoesBackTo) {
   observer_->set_language("el");
   begin(2000);
-  EXPECT_EQ(sheet().language, "el");
+  EXPECT_EQ(record().language, "el");
   observer_->set_language("en");
   say(5000, EventKind::touched, 0);
-  EXPECT_EQ(sheet().language, "en");
+  EXPECT_EQ(record().language, "en");
   observer_->set_language("el");
   say(9000, EventKind::activity_done, 0);
-  EXPECT_EQ(sheet().language, "en");
+  EXPECT_EQ(record().language, "en");
 }
 
 TEST_F(VisitObserverTest, NobodyIsNoVisit) {
@@ -160,9 +161,9 @@ TEST_F(VisitObserverTest, NobodyIsNoVisit) {
 TEST_F(VisitObserverTest, WhoComesLateIsTimedFromTheFirstTouchAndHasSeenTheHint) {
   begin(300'000);
   say(303'000, EventKind::step_started, kTurn);
-  const VisitSheet s = left();
+  const VisitRecord s = left();
   EXPECT_TRUE(s.from_start);
-  EXPECT_EQ(s.steps.front(), (SheetStep{"take", 3, StepEnding::done, true, true}));
+  EXPECT_EQ(s.steps.front(), (RecordedStep{"take", 3, StepEnding::done, true, true}));
   EXPECT_FALSE(s.done_alone());
 }
 
@@ -171,26 +172,26 @@ TEST_F(VisitObserverTest, WhoGoesAwayLeftAndTheNextOneIsAnotherVisitInTheMidst) 
   say(2000, EventKind::step_started, kTurn);
   say(12'000, EventKind::touched, 0, kCrank);
   observer_->look(12'000 + VisitObserver::kAway - 1, 0);
-  EXPECT_EQ(sheet().ending, VisitEnding::running);
+  EXPECT_EQ(record().ending, VisitEnding::running);
   observer_->look(12'000 + VisitObserver::kAway, 0);
-  const VisitSheet first = sheet();
+  const VisitRecord first = record();
   EXPECT_EQ(first.ending, VisitEnding::left);
   EXPECT_DOUBLE_EQ(first.duration_s, 12);
-  EXPECT_EQ(first.steps.back(), (SheetStep{"turn", 10, StepEnding::unfinished, false, true}));
+  EXPECT_EQ(first.steps.back(), (RecordedStep{"turn", 10, StepEnding::unfinished, false, true}));
   begin(200'000);
-  const VisitSheet second = sheet();
+  const VisitRecord second = record();
   EXPECT_NE(second.number, first.number);
   EXPECT_FALSE(second.from_start);
-  EXPECT_THAT(second.steps, ElementsAre(SheetStep{"turn", 0, StepEnding::unfinished, false, false}));
+  EXPECT_THAT(second.steps, ElementsAre(RecordedStep{"turn", 0, StepEnding::unfinished, false, false}));
 }
 
 TEST_F(VisitObserverTest, WhoHoldsSomethingIsThere) {
   say(1000, EventKind::grasped, 0, kCrank);
   observer_->look(1000 + 3 * VisitObserver::kAway, 0);
-  EXPECT_EQ(sheet().ending, VisitEnding::running);
+  EXPECT_EQ(record().ending, VisitEnding::running);
   let_go(1000 + 3 * VisitObserver::kAway, kCrank, false);
   observer_->look(1000 + 4 * VisitObserver::kAway, 0);
-  EXPECT_EQ(sheet().ending, VisitEnding::left);
+  EXPECT_EQ(record().ending, VisitEnding::left);
 }
 
 TEST_F(VisitObserverTest, ASkippedAndATimedOutStepAreNotDone) {
@@ -198,7 +199,7 @@ TEST_F(VisitObserverTest, ASkippedAndATimedOutStepAreNotDone) {
   say(3000, EventKind::step_started, kTurn);
   command(3000, CommandKind::next_step);
   say(43'000, EventKind::activity_done, 0);
-  const VisitSheet s = sheet();
+  const VisitRecord s = record();
   EXPECT_EQ(s.steps[0].ending, StepEnding::skipped);
   EXPECT_EQ(s.steps[1].ending, StepEnding::timed_out);
   EXPECT_EQ(s.ending, VisitEnding::done);
@@ -210,7 +211,7 @@ TEST_F(VisitObserverTest, AnActivityThatIsSkippedToItsEndIsNotDoneAlone) {
   say(2000, EventKind::step_started, kTurn);
   say(3000, EventKind::activity_done, 0);
   command(3000, CommandKind::next_step);
-  EXPECT_EQ(sheet().steps[1].ending, StepEnding::skipped);
+  EXPECT_EQ(record().steps[1].ending, StepEnding::skipped);
 }
 
 TEST_F(VisitObserverTest, LettingGoIsAMistakeUnlessThePartSettles) {
@@ -224,19 +225,19 @@ TEST_F(VisitObserverTest, LettingGoIsAMistakeUnlessThePartSettles) {
   say(11'500, EventKind::touched, 0, kStone);
   say(12'001, EventKind::grasped, 0, kStone);  // picked up again
   observer_->look(11'000 + VisitObserver::kSettles, 0);
-  EXPECT_THAT(sheet().mistakes, IsEmpty());
+  EXPECT_THAT(record().mistakes, IsEmpty());
   observer_->look(11'001 + VisitObserver::kSettles, 0);
-  EXPECT_THAT(sheet().mistakes, ElementsAre(SheetMistake{MistakeKind::let_go, "STONE", 1}));
+  EXPECT_THAT(record().mistakes, ElementsAre(RecordedMistake{MistakeKind::let_go, "STONE", 1}));
   let_go(19'000, kCrank, false);  // a joint has it
   let_go(19'500, kStone);
   say(19'600, EventKind::step_started, kTurn);  // that was what the step waited for
-  EXPECT_THAT(left().mistakes, ElementsAre(SheetMistake{MistakeKind::let_go, "STONE", 1}));
+  EXPECT_THAT(left().mistakes, ElementsAre(RecordedMistake{MistakeKind::let_go, "STONE", 1}));
 }
 
 TEST_F(VisitObserverTest, WhoLeavesWithAFallingPartHasLetItGo) {
   say(1000, EventKind::grasped, 0, kStone);
   let_go(2000, kStone);
-  EXPECT_THAT(left().mistakes, ElementsAre(SheetMistake{MistakeKind::let_go, "STONE", 1}));
+  EXPECT_THAT(left().mistakes, ElementsAre(RecordedMistake{MistakeKind::let_go, "STONE", 1}));
 }
 
 TEST_F(VisitObserverTest, AgentsAndMachinesSayTheOtherMistakes) {
@@ -248,9 +249,9 @@ TEST_F(VisitObserverTest, AgentsAndMachinesSayTheOtherMistakes) {
   say(5000, EventKind::spilled, 0);
   say(6000, EventKind::step_started, kTurn);
   say(7000, EventKind::spilled, 0);
-  EXPECT_THAT(left().mistakes,
-              ElementsAre(SheetMistake{MistakeKind::wrong_part, "STONE", 2},
-                          SheetMistake{MistakeKind::broke, "ROPE", 1}, SheetMistake{MistakeKind::spilled, "PUMP", 2}));
+  EXPECT_THAT(left().mistakes, ElementsAre(RecordedMistake{MistakeKind::wrong_part, "STONE", 2},
+                                           RecordedMistake{MistakeKind::broke, "ROPE", 1},
+                                           RecordedMistake{MistakeKind::spilled, "PUMP", 2}));
 }
 
 TEST_F(VisitObserverTest, RestartedByWhoWasHereIsTheSameVisitAndLaterAnother) {
@@ -258,16 +259,16 @@ TEST_F(VisitObserverTest, RestartedByWhoWasHereIsTheSameVisitAndLaterAnother) {
   say(2000, EventKind::step_started, kTurn);
   start(4000, 0, CommandKind::restart_activity);
   say(4000, EventKind::step_started, kTake);
-  const VisitSheet again = sheet();
-  EXPECT_THAT(again.mistakes, ElementsAre(SheetMistake{MistakeKind::restarted, "", 1}));
+  const VisitRecord again = record();
+  EXPECT_THAT(again.mistakes, ElementsAre(RecordedMistake{MistakeKind::restarted, "", 1}));
   EXPECT_THAT(again.steps, SizeIs(3));
-  EXPECT_EQ(again.steps[1], (SheetStep{"turn", 2, StepEnding::unfinished, false, true}));
+  EXPECT_EQ(again.steps[1], (RecordedStep{"turn", 2, StepEnding::unfinished, false, true}));
   start(5000 + VisitObserver::kAway, 0, CommandKind::restart_activity);
   say(5000 + VisitObserver::kAway, EventKind::step_started, kTake);
-  const VisitSheet first = sheet();
+  const VisitRecord first = record();
   EXPECT_EQ(first.ending, VisitEnding::left);
   begin(6000 + VisitObserver::kAway);
-  const VisitSheet next = sheet();
+  const VisitRecord next = record();
   EXPECT_NE(next.number, first.number);
   EXPECT_TRUE(next.from_start);
   EXPECT_THAT(next.mistakes, IsEmpty());
@@ -278,20 +279,20 @@ TEST_F(VisitObserverTest, StartedIsAnotherVisitOnceSomethingWasDone) {
   say(2000, EventKind::grasped, 0, kCrank);
   start(3000, 0);
   say(3000, EventKind::step_started, kTake);
-  const VisitSheet first = sheet();
+  const VisitRecord first = record();
   EXPECT_EQ(first.ending, VisitEnding::left);
   EXPECT_THAT(first.mistakes, IsEmpty());
   begin(4000);
-  EXPECT_NE(sheet().number, first.number);
+  EXPECT_NE(record().number, first.number);
 }
 
 TEST_F(VisitObserverTest, ATouchOnTheWayToTheStartIsNoVisitOfItsOwn) {
   begin(1000);
-  const std::string number = sheet().number;
+  const std::string number = record().number;
   start(5000, 1);
   say(5000, EventKind::step_started, kTurn);
   say(7000, EventKind::activity_done, 1);
-  const VisitSheet s = sheet();
+  const VisitRecord s = record();
   EXPECT_EQ(s.number, number);
   EXPECT_EQ(s.activity, "other");
   EXPECT_DOUBLE_EQ(s.duration_s, 2);
@@ -304,9 +305,9 @@ TEST_F(VisitObserverTest, AnotherActivityIsAnotherVisit) {
   say(1500, EventKind::grasped, 0, kCrank);
   start(2000, 1, CommandKind::start_activity);
   say(2000, EventKind::step_started, kTurn);
-  EXPECT_EQ(sheet().ending, VisitEnding::left);
+  EXPECT_EQ(record().ending, VisitEnding::left);
   begin(3000);
-  EXPECT_EQ(sheet().activity, "other");
+  EXPECT_EQ(record().activity, "other");
 }
 
 TEST_F(VisitObserverTest, PlayingOnAfterTheEndIsNoNewVisitNorAMistake) {
@@ -323,7 +324,7 @@ TEST_F(VisitObserverTest, PlayingOnAfterTheEndIsNoNewVisitNorAMistake) {
 TEST_F(VisitObserverTest, ASignThatLeadsOnIsDone) {
   begin(1000);
   say(2000, EventKind::step_started, kSign);
-  const VisitSheet s = sheet();
+  const VisitRecord s = record();
   EXPECT_EQ(s.ending, VisitEnding::done);
   EXPECT_EQ(s.went_on_to, "pump");
   observer_->close(VisitEnding::left, "pump");
@@ -334,7 +335,7 @@ TEST_F(VisitObserverTest, WhoIsLedElsewhereHasLeft) {
   begin(1000);
   observer_->look(3000, 0);
   observer_->close(VisitEnding::left, "village");
-  const VisitSheet s = sheet();
+  const VisitRecord s = record();
   EXPECT_EQ(s.ending, VisitEnding::left);
   EXPECT_EQ(s.went_on_to, "village");
   EXPECT_DOUBLE_EQ(s.duration_s, 3);
@@ -345,23 +346,24 @@ TEST_F(VisitObserverTest, AnswersAreCounted) {
   begin(1000);
   say(2000, EventKind::activity_done, 0);
   ASSERT_TRUE(observer_->answer(given("after:use/why=wind")));
-  ASSERT_TRUE(observer_->answer(given("after:use/why=water")));  // thought better of
+  ASSERT_TRUE(observer_->answer(given("after:use/why=water")));  // the visitor changes the answer
   ASSERT_TRUE(observer_->answer(given("after:use/easy=4")));
-  EXPECT_THAT(sheet().answers, ElementsAre(SheetAnswer{"why", AnswerTime::before, "wind", 0, 0, false},
-                                           SheetAnswer{"why", AnswerTime::after, "water", 0, 0, true},
-                                           SheetAnswer{"easy", AnswerTime::after, "", 4, 5, {}}));
-  EXPECT_THAT(observer_->answer(given("after:other/who=me")).error().what, HasSubstr("and use runs"));
+  EXPECT_THAT(record().answers, ElementsAre(RecordedAnswer{"why", AnswerTime::before, "wind", 0, 0, false},
+                                            RecordedAnswer{"why", AnswerTime::after, "water", 0, 0, true},
+                                            RecordedAnswer{"easy", AnswerTime::after, "", 4, 5, {}}));
+  EXPECT_THAT(observer_->answer(given("after:other/who=me")).error(),
+              test::is_error(ErrorCode::conflict, 0, {"activity other", "activity use"}));
   EXPECT_THAT(observer_->take_changed(), IsEmpty());
 }
 
 TEST_F(VisitObserverTest, WhatWasAskedBeforeTheActivityBelongsToItsVisit) {
   ASSERT_TRUE(observer_->answer(given("before:use/why=wind")));
-  const std::string number = sheet().number;
+  const std::string number = record().number;
   start(50'000, 0);
   say(50'000, EventKind::step_started, kTake);
   begin(51'000);
   say(52'000, EventKind::activity_done, 0);
-  const VisitSheet s = sheet();
+  const VisitRecord s = record();
   EXPECT_EQ(s.number, number);
   EXPECT_DOUBLE_EQ(s.duration_s, 2);
   EXPECT_THAT(s.answers, SizeIs(1));
@@ -369,7 +371,8 @@ TEST_F(VisitObserverTest, WhatWasAskedBeforeTheActivityBelongsToItsVisit) {
 }
 
 TEST_F(VisitObserverTest, AnAnswerAfterNoVisitIsRefused) {
-  EXPECT_THAT(observer_->answer(given("after:use/easy=4")).error().what, HasSubstr("nobody was seen"));
+  EXPECT_THAT(observer_->answer(given("after:use/easy=4")).error(),
+              test::is_error(ErrorCode::conflict, 0, {"question easy", "no visitor"}));
 }
 
 TEST_F(VisitObserverTest, AVisitThatAServersStopCutOffGoesOn) {
@@ -378,11 +381,11 @@ TEST_F(VisitObserverTest, AVisitThatAServersStopCutOffGoesOn) {
   say(4500, EventKind::part_refused, 0, kStone);
   observer_->look(6000, 0);
   observer_->close(VisitEnding::cut);
-  const VisitSheet cut = sheet();
+  const VisitRecord cut = record();
   EXPECT_EQ(cut.ending, VisitEnding::cut);
   restart(cut, kTurn, 4800);
   say(9000, EventKind::activity_done, 0);
-  const VisitSheet s = sheet();
+  const VisitRecord s = record();
   EXPECT_EQ(s.number, cut.number);
   EXPECT_EQ(s.ending, VisitEnding::done);
   EXPECT_THAT(s.steps, SizeIs(2));
@@ -394,19 +397,19 @@ TEST_F(VisitObserverTest, AStepThatTheWorldHasNotDoneYetIsTakenBack) {
   begin(1000);
   say(4000, EventKind::step_started, kTurn);
   observer_->close(VisitEnding::cut);
-  restart(sheet(), kTake, 0);  // the snapshot is of before
+  restart(record(), kTake, 0);  // the snapshot is older
   say(5000, EventKind::step_started, kTurn);
   EXPECT_THAT(left().steps, SizeIs(2));
 }
 
 TEST_F(VisitObserverTest, WhatWasLostIsSaid) {
-  observer_->look(500, 3);  // before the visit: not its
+  observer_->look(500, 3);  // before the visit: not counted
   begin(1000);
   observer_->look(1500, 5);
-  EXPECT_EQ(sheet().notes_lost, 2U);
+  EXPECT_EQ(record().notes_lost, 2U);
 }
 
-TEST_F(VisitObserverTest, RulesThatGoInCirclesDoNotFillASheet) {
+TEST_F(VisitObserverTest, RulesThatGoInCirclesDoNotFillARecord) {
   begin(1000);
   for (std::uint64_t i = 0; i < 10'000; ++i)
     say(2000 + i, EventKind::step_started, i % 2 == 0 ? kTurn : kTake);
@@ -422,7 +425,7 @@ TEST(VisitFeed, NotesOfATickComeWithWhatOnlyTheLoopKnows) {
   state.users[0].present = state.users[1].present = true;
   state.users[1].jumped = true;
   state.tick = 7;
-  state.emit(EventKind::turned, 0);  // no sheet needs it
+  state.emit(EventKind::turned, 0);  // no record needs it
   state.emit(EventKind::released, 0, kStone);
   state.emit(EventKind::released, 0, kCrank);
   state.emit(EventKind::released, 1, kStone);

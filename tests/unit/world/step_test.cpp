@@ -217,7 +217,10 @@ TEST(World, AMachineReadsWhatAnAgentSays) {
   world.agents.back().parameters.clear();
   const auto wrong = World::create(std::make_shared<state::WorldDescription>(world), config);
   ASSERT_FALSE(wrong);
-  EXPECT_NE(wrong.error().to_string().find("line 5, machine.steam_sphere STEAM"), std::string::npos);
+  EXPECT_EQ(wrong.error().code, ErrorCode::invalid_value);
+  EXPECT_EQ(wrong.error().line, 5);
+  EXPECT_EQ(wrong.error().where, "line 5, machine.steam_sphere STEAM");
+  EXPECT_FALSE(wrong.error().remedy.empty());
 }
 
 TEST(World, ResumesFromASnapshotWhereItWas) {

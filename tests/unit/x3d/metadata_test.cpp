@@ -14,21 +14,25 @@ namespace mechane::x3d {
 namespace {
 
 TEST(Metadata, CopiesOfCopiesAreBounded) {
-  // Sixty doublings: more metadata than there are atoms in a person, from a file of a few kilobytes.
-  std::string text =
-      "<X3D version='4.0'><Scene>\n<MetadataSet DEF='M0' name='x'><MetadataString name='a' "
-      "value='\"a\"'/></MetadataSet>\n";
-  for (int i = 1; i <= 60; ++i) {
-    const std::string use = "<MetadataSet name='' USE='M" + std::to_string(i - 1) + "'/>";
-    text += "<MetadataSet DEF='M" + std::to_string(i) + "' name='x" + std::to_string(i) + "'>" + use + use +
-            "</MetadataSet>\n";
+  // Twenty doublings: each of two sets holds copies of the two before it, and so does the other.
+  std::string text = "<X3D version='4.0'><Scene>\n";
+  for (int i = 0; i <= 20; ++i) {
+    for (const char* const side : {"A", "B"}) {
+      const std::string name = side + std::to_string(i);
+      text += "<MetadataSet DEF='" + name + "' name='" + name + "'>";
+      for (const char* const of : {"A", "B"}) {
+        if (i > 0) text += "<MetadataSet USE='" + (of + std::to_string(i - 1)) + "'/>";
+      }
+      text += "</MetadataSet>\n";
+    }
   }
-  text += "<WorldInfo DEF='W'><MetadataSet containerField='metadata' USE='M60'/></WorldInfo></Scene></X3D>";
+  text += "<WorldInfo DEF='W'><MetadataSet containerField='metadata' USE='A20'/></WorldInfo></Scene></X3D>";
   Problems problems("test.x3d");
   const auto document = read_document(text, "test.x3d", problems);
   ASSERT_TRUE(document) << document.error().to_string();
-  EXPECT_FALSE(read_metadata(*document, document->find_def("W"), "x60", problems));
-  EXPECT_TRUE(problems.has_errors());
+  EXPECT_FALSE(read_metadata(*document, document->find_def("W"), "A20", problems));
+  ASSERT_TRUE(problems.has_errors());
+  EXPECT_EQ(problems.first_error().code, ErrorCode::too_large);
 }
 
 RC_GTEST_PROP(Values, StringsSurviveQuoting, (const std::vector<std::string>& words)) {

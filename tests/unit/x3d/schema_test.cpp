@@ -1,4 +1,4 @@
-// Our tables of X3D against the standard's own schema.
+// Compares our tables of X3D with the standard's own schema.
 #include "server/x3d/schema.hpp"
 
 #include <filesystem>
@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The value of an attribute in a line of the standard's schema; empty where it is not there.
+/// The value of an attribute in a line of the standard's schema; empty where the line does not have it.
 std::string in_quotes(const std::string& line, const std::string& name) {
   const std::size_t at = line.find(" " + name + "=\"");
   if (at == std::string::npos) return {};
@@ -36,8 +36,8 @@ TEST(Schema, KnowsEveryElementAndAttributeOfTheStandard) {
   const NodeType* type = nullptr;
   int types = 0;
   int fields = 0;
-  bool formal = false;     // past the annotation, which tells of fields in the same words
-  bool commented = false;  // nodes of later versions of X3D stand there
+  bool formal = false;     // past the annotation, which names fields in the same form
+  bool commented = false;  // comments hold nodes of later versions of X3D
   for (const std::string& line : lines_of(test::text_of(file))) {
     if (line.find("<!--") != std::string::npos) commented = true;
     const bool skipped = commented;
@@ -84,7 +84,7 @@ TEST(Schema, EveryDefaultIsAValueOfItsType) {
   }
 }
 
-TEST(Schema, KnowsWhoIsWhose) {
+TEST(Schema, KnowsBasesContainersAndSlots) {
   const Schema& schema = Schema::standard();
   EXPECT_TRUE(schema.is_a("BallJoint", "X3DRigidJointNode"));
   EXPECT_TRUE(schema.is_a("IndexedFaceSet", "X3DGeometryNode"));
@@ -92,7 +92,7 @@ TEST(Schema, KnowsWhoIsWhose) {
   const NodeType* body = schema.find("RigidBody");
   EXPECT_EQ(body->container, "bodies");
   EXPECT_EQ(body->field("mass")->default_value, "1");
-  EXPECT_NE(body->field("visible"), nullptr) << "of an interface";
+  EXPECT_NE(body->field("visible"), nullptr) << "inherited from an interface";
   EXPECT_TRUE(schema.accepts(*body->slot("geometry"), "CollidableShape"));
   EXPECT_FALSE(schema.accepts(*body->slot("geometry"), "Shape"));
   EXPECT_EQ(schema.find("X3DNode"), nullptr) << "abstract types are not elements";

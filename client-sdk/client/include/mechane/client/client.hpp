@@ -1,4 +1,5 @@
-// A client of a Mechane server: joins a kiosk, sends the hand, receives force and scene, comes back by itself after a loss.
+// A client of a Mechane server: joins a kiosk, sends the hand, receives force and scene, comes back by itself after a
+// loss.
 #pragma once
 
 #include <functional>
@@ -21,11 +22,12 @@ struct ClientConfig {
   std::uint32_t user = 0;         ///< which hand of the kiosk, 0..3
   Role role = Role::watcher;
   std::string program = "client";  ///< for logs and status: "mechane-display"
-  std::string scenario{};  ///< what the kiosk gets where it has no world: id of the scenario; empty: the server's first
+  std::string scenario{};    ///< id of the scenario that opens where the kiosk has no world; empty: the server's first
   std::string join_kiosk{};  ///< request: share the world of this kiosk; empty: a world of one's own
-  int fifo_priority = 0;     ///< SCHED_FIFO of the thread that receives forces; 0, or refused: an ordinary thread
+  int fifo_priority =
+      0;  ///< SCHED_FIFO priority of the thread that receives forces; 0, or not permitted: an ordinary thread
   std::uint32_t domain = 0;  ///< DDS domain; the network is set up by CYCLONEDDS_URI
-  std::string display{};     ///< name of the display that this client is, among the kiosk's; empty: it is not a display
+  std::string display{};  ///< for a display: its name among the kiosk's displays; empty: this client is not a display
 };
 
 enum class LinkState {
@@ -35,9 +37,9 @@ enum class LinkState {
   lost,       ///< the server fell silent; joined again by itself when it is back
 };
 
-/// Owns the DDS endpoints and one thread that keeps the link. All functions may be called from any one thread of the caller's at a
-/// time; send(), newest_force() and newest_frame() never block and are meant for a 1 kHz loop (send() writes to the network: about
-/// 30 us). Example (compiled by the suite as client-sdk/examples/):
+/// Owns the DDS endpoints and one thread that keeps the link. The functions may be called from any thread, by one
+/// thread at a time; send(), newest_force() and newest_frame() never block and are meant for a 1 kHz loop (send()
+/// writes to the network: about 30 us). Example (compiled by the suite as client-sdk/examples/):
 ///
 ///   auto client = mechane::client::Client::connect({.kiosk = "kiosk-1", .role = mechane::client::Role::hand});
 ///   (*client)->send(hand);
@@ -51,7 +53,7 @@ class Client {
   [[nodiscard]] virtual LinkState state() const = 0;
   /// Waits until the state is `wanted`, at most `timeout`. True when it is.
   [[nodiscard]] virtual bool wait_for(LinkState wanted, Duration timeout) = 0;
-  /// Why the server refused this hand: what, who owns it, what to do.
+  /// Why the server refused this client, and what to do; empty while it is not refused.
   [[nodiscard]] virtual std::string refusal() const = 0;
   [[nodiscard]] virtual std::uint64_t session() const = 0;
 
@@ -66,8 +68,9 @@ class Client {
 
   /// The newest frame, as it came; false when none has come yet.
   [[nodiscard]] virtual bool newest_frame(Frame& out) = 0;
-  /// The scene at `at - delay`, interpolated between the two frames around it (positions linear, rotations by slerp), extrapolated
-  /// by at most 50 ms. A display calls it with delay of about two frames. False when no frame has come yet.
+  /// The scene at `at - delay`, interpolated between the two frames around it (positions linear, rotations by slerp),
+  /// extrapolated by at most 50 ms. A display calls it with delay of about two frames. False when no frame has come
+  /// yet.
   [[nodiscard]] virtual bool interpolated_frame(TimePoint at, Duration delay, Frame& out) = 0;
 
   [[nodiscard]] virtual std::vector<SceneObject> objects() const = 0;  ///< the manifest as known so far
@@ -78,31 +81,33 @@ class Client {
   /// Events since the last call, oldest first (the last 256 are kept).
   [[nodiscard]] virtual std::vector<WorldEvent> take_events() = 0;
 
-  /// Sends a command to the world; returns its id, which is the value of the command_done or command_refused event that answers it.
-  /// 0, and nothing sent, while there is no world.
+  /// Sends a command to the world; returns its id, which is the value of the command_done or command_refused event that
+  /// answers it. 0, and nothing sent, while there is no world.
   virtual std::uint64_t start_activity(const std::string& activity) = 0;
   virtual std::uint64_t restart_activity() = 0;
   virtual std::uint64_t next_step() = 0;
   /// A click on an object of the manifest: a sign that is touched with a mouse.
   virtual std::uint64_t click(const std::string& object) = 0;
-  /// The kiosks of this world go on to another scenario; empty: home, the server's first. ServerStatus::scenarios has the ids. What
-  /// answers is the new world (see world_status()), or command_refused.
+  /// Lets the kiosks of this world go on to another scenario; empty: home, the server's first. ServerStatus::scenarios
+  /// has the ids. The answer is a new world (see world_status()), or the event command_refused.
   virtual std::uint64_t open_exhibit(const std::string& scenario) = 0;
-  /// Kept with the visit, without anybody's name. command_refused where there is no such question or answer.
+  /// Stored with the visit, anonymously. command_refused where the world has no such question or answer.
   virtual std::uint64_t answer(const VisitAnswer& answer) = 0;
-  /// A display tells in which language it shows this world from now on: one of WorldPresentation::languages. Kept with the visit.
+  /// For a display: says in which language it shows this world from now on, one of WorldPresentation::languages. Stored
+  /// with the visit.
   virtual std::uint64_t tell_language(const std::string& language) = 0;
 
-  // What follows concerns displays; other clients have nothing to say.
+  // The following functions are for displays only.
 
-  /// SceneFrames that came, and that were lost on the way, in this and former worlds.
+  /// SceneFrames that were received and that were lost, in this and former worlds.
   [[nodiscard]] virtual FrameTraffic frame_traffic() const { return {}; }
-  /// Says how this display is; once a second keeps it alive for those who watch. False where the client is not a display
-  /// (ClientConfig::display), or the network did not take it.
+  /// Sends this display's status; once a second, so that watchers know that it is alive. False where the client is not
+  /// a display (ClientConfig::display) or the status could not be sent.
   virtual bool report(const DisplayStatus& /*status*/) { return false; }
-  /// Requests to this display since the last call, oldest first. Each is to be answered in the next status.
+  /// Requests to this display since the last call, oldest first. Answer each in the next status.
   [[nodiscard]] virtual std::vector<DisplayRequest> take_display_requests() { return {}; }
-  /// Where a tracker saw the visitor's head last; empty: no tracker has told yet, or the client is not a display.
+  /// Where a tracker last saw the visitor's head; empty: no tracker has sent anything yet, or the client is not a
+  /// display.
   [[nodiscard]] virtual std::optional<ViewerHead> viewer_head() { return {}; }
 };
 

@@ -1,4 +1,4 @@
-// Displays as whoever looks after a kiosk sees them: how each is, what can be changed of it while it runs.
+// Displays as a technician sees them: the status of each, and what can be changed while it runs.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace mechane::client {
 
-/// One setting by name, as a person writes it: volume=0.5. display_settings() has all of them.
+/// One setting by name, as a person writes it: volume=0.5. display_settings() lists all settings.
 struct DisplaySetting {
   std::string name;
   std::string value;
@@ -21,19 +21,19 @@ struct DisplaySetting {
 
 /// What a museum changes of a display while it runs.
 struct DisplaySettings {
-  double volume = 0.8;           ///< volume: 0 .. 1
-  bool muted = false;            ///< mute: on, off
-  std::string language = "el";   ///< language: el, en; of the start, and what comes back when a visitor has gone
-  bool large_text = false;       ///< large-text: on, off
-  bool high_contrast = false;    ///< high-contrast: on, off
-  std::string ask = "after";     ///< ask: none, after, both; when visitors are asked an activity's questions
-  double home_after_s = 0;       ///< home-after: 0 .. 86400 s without anybody; 0: never
-  bool attract = true;           ///< attract: on, off; a recorded visit while nobody is there, where one was given
-  double attract_after_s = 120;  ///< attract-after: 5 .. 86400 s without anybody
+  double volume = 0.8;          ///< volume: 0 .. 1
+  bool muted = false;           ///< mute: on, off
+  std::string language = "el";  ///< language: el, en; at the start, and again when a visitor has gone
+  bool large_text = false;      ///< large-text: on, off
+  bool high_contrast = false;   ///< high-contrast: on, off
+  std::string ask = "after";    ///< ask: none, after, both; when visitors are asked an activity's questions
+  double home_after_s = 0;      ///< home-after: 0 .. 86400 s without a visitor; 0: never
+  bool attract = true;          ///< attract: on, off; shows the recorded visit, if one was given, while nobody is there
+  double attract_after_s = 120;  ///< attract-after: 5 .. 86400 s without a visitor
   friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
 };
 
-/// A setting's name, and the values that it takes, in words.
+/// A setting's name, and its values in words.
 struct DisplaySettingInfo {
   std::string_view name;
   std::string_view values;
@@ -42,28 +42,28 @@ struct DisplaySettingInfo {
 
 /// Changes one setting. Errors, with nothing changed: no such setting, no such value, out of its range.
 [[nodiscard]] Expected<void> apply(const DisplaySetting& setting, DisplaySettings& settings);
-/// All or none. Errors: of the first that is wrong.
+/// Changes all settings, or none of them. Errors: that of the first wrong setting.
 [[nodiscard]] Expected<void> apply(const std::vector<DisplaySetting>& requested, DisplaySettings& settings);
-/// As they are now, in the order of display_settings().
+/// The current values, in the order of display_settings().
 [[nodiscard]] std::vector<DisplaySetting> settings_of(const DisplaySettings& settings);
 /// Reads "volume=0.5". Errors: no '='.
 [[nodiscard]] Expected<DisplaySetting> read_setting(const std::string& text);
 
-/// A request of somebody who looks after a kiosk.
+/// A technician's request to a display.
 struct DisplayRequest {
   std::uint64_t id = 0;
-  std::vector<DisplaySetting> settings;  ///< as they came: not checked
+  std::vector<DisplaySetting> settings;  ///< as received, not checked
   bool picture = false;
 };
 
-/// What became of a request.
+/// The answer to a request.
 struct RequestAnswer {
   std::uint64_t id = 0;
   std::string refusal;  ///< empty: done
-  std::string picture;  ///< where it asked for one: its file, on the display's machine
+  std::string picture;  ///< if the request was for a picture: its file on the display's machine
 };
 
-/// How one display is.
+/// The status of one display.
 struct DisplayStatus {
   std::string kiosk;
   std::string display;  ///< its name at the kiosk
@@ -76,21 +76,21 @@ struct DisplayStatus {
   std::uint32_t height = 0;
   bool offscreen = false;
   std::uint64_t pictures = 0;  ///< drawn since its start
-  double pictures_per_s = 0;   ///< in the last seconds, as the next two
+  double pictures_per_s = 0;   ///< in the last seconds; the next two likewise
   double picture_ms_median = 0;
   double picture_ms_p99 = 0;
-  double wanted_per_s = 60;  ///< at most so many are drawn
+  double wanted_per_s = 60;  ///< pictures a second at most
   std::uint32_t link = 0;    ///< LinkState's number
   std::string refusal;       ///< why the server refuses
   std::string world;
   std::string scenario;
-  double frames_per_s = 0;  ///< SceneFrames that came, in the last seconds
+  double frames_per_s = 0;  ///< SceneFrames received, in the last seconds
   double frames_lost = 0;   ///< share of those that were sent, 0 .. 1
   std::uint32_t missing_total = 0;
   std::vector<std::string> missing;  ///< the first eight files that it could not load
   std::string renderer;              ///< what draws, in the driver's words
   std::string sound;                 ///< device; empty: nothing is heard
-  std::string sound_problem;         ///< why
+  std::string sound_problem;         ///< why nothing is heard
   std::string showing;               ///< "world", "attract"
   std::uint64_t warnings = 0;        ///< in its log, since its start
   std::string last_warning;
@@ -101,22 +101,26 @@ struct DisplayStatus {
 /// SceneFrames of this client since it was made.
 struct FrameTraffic {
   std::uint64_t received = 0;
-  std::uint64_t lost = 0;  ///< sent, and never come
+  std::uint64_t lost = 0;  ///< sent, but never received
 };
 
-/// All displays of a museum, for a person's tool. Any one thread of the caller's at a time.
+/// All displays of a museum, for a technician's tool. Any thread, one at a time.
 class DisplayWatch {
  public:
+  static constexpr std::size_t kMostDisplays = 1000;  ///< further ones are not listed until one of these ends
+
   /// Errors: a domain over 230, a configuration of the network that cannot be used.
   [[nodiscard]] static Expected<std::unique_ptr<DisplayWatch>> open(std::uint32_t domain);
   virtual ~DisplayWatch() = default;
 
-  /// Waits for news, at most so long.
+  /// Waits until something changes, at most `timeout`.
   virtual void wait(Duration timeout) = 0;
-  /// Those that live, by kiosk, name and session. One that ended or was cut off is soon gone, one that hangs after 15 s.
+  /// The running displays, sorted by kiosk, name and session. One that ended or lost the network disappears soon, one
+  /// that hangs after 15 s.
   [[nodiscard]] virtual std::vector<DisplayStatus> displays() = 0;
-  /// Sends a request to a kiosk's displays; `display` empty: to all of them. Returns the id that they answer with in their status; 0 where
-  /// the network did not take it. Errors: a bad name, a setting that does not exist or is out of its range.
+  /// Sends a request to a kiosk's displays; `display` empty: to all of them. Returns the id with which they answer in
+  /// their status; 0 where the request could not be sent. Errors: a bad name, a setting that does not exist or is out
+  /// of its range.
   [[nodiscard]] virtual Expected<std::uint64_t> request(const std::string& kiosk, const std::string& display,
                                                         const std::vector<DisplaySetting>& settings, bool picture) = 0;
 };

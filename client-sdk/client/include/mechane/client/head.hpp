@@ -1,4 +1,4 @@
-// Where a visitor's head is before a screen: told by a program of the museum's own that has a tracker, heard by displays.
+// The position of a visitor's head in front of a screen: sent by a program with a tracker, received by displays.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,27 @@
 
 namespace mechane::client {
 
-/// Frame S: the middle of the screen, x to the right, y up, z towards the visitor. Frame V: between the eyes, x towards the right one.
+/// Frame S: the middle of the screen, x to the right, y up, z towards the visitor. Frame V: between the eyes, x towards
+/// the right one.
 struct ViewerHead {
   Pose X_SV;           ///< metres
-  bool seen = false;   ///< otherwise nobody is there, and X_SV means nothing
+  bool seen = false;   ///< false: nobody is there, and X_SV means nothing
   TimePoint received;  ///< on this client's clock
 };
 
-/// Tells displays of a head. Any one thread of the caller's at a time.
+/// Sends a head's position to displays. Any thread, one at a time.
 class HeadTracker {
  public:
-  /// `display`: whose screen it is; empty: of all displays of the kiosk. Errors: a bad name, a domain over 230, a configuration of the network
-  /// that cannot be used.
+  /// `display`: whose screen it is; empty: all displays of the kiosk. Errors: a bad name, a domain over 230, an
+  /// unusable network configuration.
   [[nodiscard]] static Expected<std::unique_ptr<HeadTracker>> open(const std::string& kiosk, const std::string& display,
                                                                    std::uint32_t domain);
   virtual ~HeadTracker() = default;
 
-  /// As often as the tracker knows: 30 to 250 times a second. After half a second of silence the picture goes back to where visitors stand as a
-  /// rule. False where the pose is not valid, or the network did not take it.
+  /// Call it at the tracker's own rate, 30 to 250 times a second. After half a second of silence the picture returns to
+  /// the place where visitors usually stand. False where the pose is not valid, or could not be sent.
   virtual bool tell(const Pose& X_SV) = 0;
-  /// Nobody is before the screen any more.
+  /// Nobody is in front of the screen any more.
   virtual bool tell_nobody() = 0;
 };
 

@@ -1,4 +1,5 @@
-// What a client sends and receives, as plain structs. Frames and units: ARCHITECTURE.md (W: right-handed, y up, metres, radians).
+// What a client sends and receives, as plain structs. Frames and units: ARCHITECTURE.md (W: right-handed, y up, metres,
+// radians).
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace mechane::client {
 
-// The hand's own words are declared once, for server and clients (server/hand).
+// The types of a hand are declared once, for server and clients, in server/hand.
 using hand::HandKind;
 using hand::HandSample;
 using hand::kFingers;
@@ -25,10 +26,10 @@ using hand::LocalContact;
 
 /// What the server wants a device to render. The device's own ForceGovernor has the last word.
 struct ForceSample : hand::HapticOutput {
-  std::uint64_t sequence = 0;  ///< rises by one with each force that comes
+  std::uint64_t sequence = 0;  ///< rises by one with each force received
   TimePoint received;          ///< on this client's clock
-  Duration waited{0};          ///< how long the input that it answers waited at the server for this tick to take it
-  /// When the input that it answers was sent, on this client's clock.
+  Duration waited{0};          ///< how long the answered input had waited at the server for this tick
+  /// When the answered input was sent, on this client's clock.
   [[nodiscard]] TimePoint echo_sent() const noexcept {
     return TimePoint(Duration(static_cast<std::int64_t>(echo_sent_ns)));
   }
@@ -44,15 +45,15 @@ struct HandPose {
   std::uint32_t user = 0;
   HandKind kind = HandKind::one_point;
   bool stale = false;
-  std::array<Pose, kHandSegments> X_WS{};  ///< one-point: only the first
+  std::array<Pose, kHandSegments> X_WS{};  ///< of a one-point hand only the first
   Vec3 force_W = Vec3::Zero();             ///< what this hand feels, N
   bool holding = false;
 };
 
-/// A rope's middle as a line, from what is wound on a drum to its end.
+/// A rope's centre line, from the drum on which it is wound to its end.
 struct RopeShape {
   double diameter_m = 0.02;
-  std::vector<Vec3> points_W;  ///< as many in each frame
+  std::vector<Vec3> points_W;  ///< equally many in each frame
 };
 
 /// One frame of a world: every movable pose, every quantity, every hand, every rope.
@@ -78,28 +79,28 @@ struct SceneObject {
   std::string mesh_hash;  ///< hex XXH3-128
   std::string mesh_node;
   std::string parent;
-  Pose X_WB;  ///< at the start; bodies that never move stay here
+  Pose X_WB;  ///< at the start; of bodies that never move, always
   bool movable = false;
-  Texts title;  ///< what visitors call it; empty: `name` is not for them
+  Texts title;  ///< its name for visitors; empty: it has none
 };
 
 struct QuantityInfo {
-  /// What the step waits for.
+  /// The quantity that completes the step when it reaches a value.
   struct Goal {
     double value = 0;
-    bool from_above = false;  ///< the quantity must fall below it; else it must rise above it
+    bool from_above = false;  ///< true: the quantity must fall below the value; false: rise above it
   };
   std::string name;
   std::string unit;
   std::optional<Goal> goal{};
 };
 
-/// Where the visit is.
+/// The state of a world and its visit.
 struct WorldStatus {
   std::string world;
   std::string scenario;  ///< id
   std::string scenario_hash;
-  std::string scenario_folder;  ///< as the server sees it; for clients on the same machine
+  std::string scenario_folder;  ///< on the server's machine; for clients on the same machine
   std::string activity;
   std::string step;
   std::uint32_t steps_done = 0;
@@ -113,8 +114,8 @@ struct WorldStatus {
   Texts hint_text;
   std::vector<std::string> activities;
   Texts narration;     ///< what is read aloud in this step
-  Texts audio;         ///< its recording, by path from the scenario's folder, where the author named one
-  std::string detail;  ///< a view of the presentation: a close-up belongs to this step; empty: none
+  Texts audio;         ///< its recording, as a path from the scenario's folder, where the author named one
+  std::string detail;  ///< the view of this step's close-up; empty: none
 };
 
 /// A question of an activity, for before and after it.
@@ -128,22 +129,22 @@ struct Question {
   Kind kind = Kind::choice;
   Texts text;
   std::vector<Answer> answers;  ///< choice: in the order shown
-  std::uint32_t marks = 0;      ///< scale: how many
-  Texts low;                    ///< scale: what its ends mean
+  std::uint32_t marks = 0;      ///< scale: its number of marks
+  Texts low;                    ///< scale: what its lowest and highest mark mean
   Texts high;
 };
 
 struct Activity {
   std::string name;
   Texts title;
-  Texts goal;  ///< what a visitor shall learn
+  Texts goal;  ///< what a visitor should learn
   std::vector<Question> questions;
 };
 
-/// When a question is answered: what was learnt is the difference.
+/// When a question is answered. The difference between before and after shows what was learnt.
 enum class AnswerTime { before, after };
 
-/// A visitor's answer, by the names of the presentation. The server checks it.
+/// A visitor's answer, with the names of the presentation. The server checks it.
 struct VisitAnswer {
   AnswerTime when = AnswerTime::after;
   std::string activity;
@@ -151,23 +152,23 @@ struct VisitAnswer {
   std::string answer;  ///< choice: the answer's name; scale: the mark, from 1 on
 };
 
-/// From where to look.
+/// A viewpoint.
 struct View {
   std::string name;
   Pose X_WV;                           ///< looks along -z, y up
   double field_of_view_rad = kPi / 4;  ///< of the picture's shorter side
 };
 
-/// Something seen or heard of a machine's working, driven by a quantity of the frames.
+/// Something that is seen or heard while a machine works, driven by a quantity of the frames.
 struct Effect {
   std::string name;
   std::string kind;                     ///< level, flow, stream, jet, spray, steam, smoke, fire, dust, or sound.NAME
-  std::optional<std::uint32_t> object;  ///< that it stays with; none: fixed in W
+  std::optional<std::uint32_t> object;  ///< moves with this object; none: fixed in W
   std::string node;                     ///< level, flow: the node of the mesh file that rises or flows
   Vec3 p_BE = Vec3::Zero();             ///< in the object's frame
   Vec3 direction_B = Vec3::UnitY();     ///< unit
-  std::uint32_t quantity = 0;           ///< into Frame::quantities; of a flow, which nothing drives, none of them
-  double full = 1;                      ///< its value at which the effect is at its strongest
+  std::uint32_t quantity = 0;           ///< into Frame::quantities; beyond its end for a flow, which nothing drives
+  double full = 1;                      ///< the quantity's value at which the effect is strongest
   double size_m = 0;
   double speed_m_per_s = 0;
 };
@@ -178,23 +179,23 @@ struct Affordance {
     taken,    ///< by a hand
     turns,    ///< about z of its joint
     slides,   ///< along x of its joint
-    placed,   ///< where X_BJ comes to X_AJ, it stays
-    brought,  ///< where the point of X_BJ comes to that of X_AJ, something happens
+    placed,   ///< where X_BJ reaches X_AJ, it snaps into place
+    brought,  ///< where the point of X_BJ reaches that of X_AJ, something happens
   };
   Kind kind = Kind::taken;
-  std::string agent;  ///< holds while WorldStatus::enabled_agents has it; empty: always
+  std::string agent;  ///< valid only while WorldStatus::enabled_agents contains this agent; empty: always
   std::uint32_t object = 0;
   std::optional<std::uint32_t> base;  ///< none: W
   Pose X_AJ;
   Pose X_BJ;
 };
 
-/// What a display shows of a world and that never changes.
+/// What a display shows of a world, as far as it never changes.
 struct WorldPresentation {
   std::string world;
   std::vector<std::string> languages;  ///< codes; the first is shown first
   std::vector<Activity> activities;
-  std::vector<View> views;  ///< the first is where a display stands
+  std::vector<View> views;  ///< the first is a display's usual viewpoint
   std::vector<Effect> effects;
   std::vector<Affordance> affordances;
 };
@@ -215,7 +216,7 @@ struct ServerStatus {
   std::uint32_t worlds_limit = 0;
   std::uint32_t users = 0;
   std::uint64_t ticks = 0;
-  std::uint64_t overruns = 0;  ///< own CPU time over 1 ms
+  std::uint64_t overruns = 0;  ///< ticks of more than 1 ms CPU time
   std::uint64_t late_wakeups = 0;
   std::uint64_t preemptions = 0;
   double tick_us_median = 0, tick_us_p99 = 0, tick_us_p999 = 0, tick_us_max = 0;
@@ -223,9 +224,9 @@ struct ServerStatus {
   bool realtime = false;  ///< SCHED_FIFO was granted
   bool records_ok = true;
   std::vector<std::string> scenarios{};  ///< ids of what it can open, home first
-  std::uint64_t input_gaps = 0;          ///< times that a hand which was sending paused for 10 to 100 ms
-  double input_gap_ms = 0;               ///< the longest of them in the last ten seconds
-  std::string overload{};                ///< what is too much for it, and what to do; empty: nothing
+  std::uint64_t input_gaps = 0;          ///< how often a hand that was sending paused for 10 to 100 ms
+  double input_gap_ms = 0;               ///< the longest of these pauses in the last ten seconds
+  std::string overload{};                ///< what overloads the server, and what to do; empty: nothing
 };
 
 }  // namespace mechane::client

@@ -1,0 +1,113 @@
+// Forces and their contacts over the loopback, field by field.
+#include <limits>
+
+#include <rapidcheck.h>
+
+#include "tests/integration/transport/loopback.hpp"
+#include "tests/support/property_draw.hpp"
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::test {
+namespace {
+
+using client::LinkState;
+using client::Role;
+using namespace std::chrono_literals;
+
+/// What a float can hold, so that it comes back the same.
+double float_between(double low, double high) {
+  return static_cast<double>(static_cast<float>(*between(low, high)));
+}
+
+Vec3 vector_within(double most) {
+  return {float_between(-most, most), float_between(-most, most), float_between(-most, most)};
+}
+
+hand::LocalContact any_contact() {
+  return {.p_W = vector_within(100),
+          .n_W = any_unit(),
+          .v_W = vector_within(50),
+          .depth_m = float_between(-0.1, 0.1),
+          .curvature_per_m = float_between(-500, 500),
+          .stiffness_n_per_m = float_between(0, 5000),
+          .damping_ns_per_m = float_between(0, 50),
+          .friction = float_between(0, 2),
+          .validity = std::chrono::microseconds(*rc::gen::inRange(0, 1'000'001))};
+}
+
+bool same(const hand::LocalContact& a, const hand::LocalContact& b) {
+  return a.p_W == b.p_W && (a.n_W - b.n_W).norm() < 1e-6 && a.v_W == b.v_W && a.depth_m == b.depth_m &&
+         a.curvature_per_m == b.curvature_per_m && a.stiffness_n_per_m == b.stiffness_n_per_m &&
+         a.damping_ns_per_m == b.damping_ns_per_m && a.friction == b.friction && a.validity == b.validity;
+}
+
+hand::HapticOutput any_answer() {
+  hand::HapticOutput answer;
+  answer.force_W.t = vector_within(5);
+  for (double& force : answer.finger_force_n)
+    force = float_between(0, 20);
+  answer.reasons = *rc::gen::inRange(0u, 1u << hand::kReasonCount);
+  answer.holding = *rc::gen::arbitrary<bool>();
+  answer.contact_count = *rc::gen::inRange<std::uint32_t>(0, hand::kMaxLocalContacts + 1);
+  std::generate(answer.contacts.begin(), answer.contacts.end(), any_contact);
+  return answer;
+}
+
+/// The force that answers a sample sent now.
+std::optional<client::ForceSample> answer_to(client::Client& client, const Vec3& p) {
+  const std::uint64_t before = client.sent_sequence();
+  std::optional<client::ForceSample> force;
+  (void)eventually([&] {
+    client.send(hand_at(p));
+    force = client.wait_force(50ms);
+    return force && force->echo_sequence > before;
+  });
+  return force;
+}
+
+TEST_F(Loopback, EachFieldOfAForceAndOfItsContactsComesAsTheServerSetIt) {
+  EchoServer server;
+  auto client = connect(Role::hand);
+  ASSERT_TRUE(client->wait_for(LinkState::joined, 10s));
+  EXPECT_TRUE(rc::check([&] {
+    const hand::HapticOutput sent = any_answer();
+    const Vec3 p = vector_within(50);
+    server.change([&](state::WorldState& world) { world.users[0].output = sent; });
+    const auto came = answer_to(*client, p);
+    RC_ASSERT(came.has_value());
+    RC_ASSERT(came->force_W.f == p);
+    RC_ASSERT(came->force_W.t == sent.force_W.t);
+    RC_ASSERT(came->finger_force_n == sent.finger_force_n);
+    RC_ASSERT(came->reasons == sent.reasons);
+    RC_ASSERT(came->holding == sent.holding);
+    RC_ASSERT(came->contact_count == sent.contact_count);
+    for (std::size_t i = 0; i < hand::kMaxLocalContacts; ++i)
+      RC_ASSERT(same(came->contacts[i], i < sent.contact_count ? sent.contacts[i] : hand::LocalContact{}));
+  }));
+}
+
+TEST_F(Loopback, AnAnswerWithAContactThatCannotBeIsSilence) {
+  EchoServer server;
+  auto client = connect(Role::hand);
+  ASSERT_TRUE(client->wait_for(LinkState::joined, 10s));
+  ASSERT_TRUE(feels(*client, Vec3(1, 0, 0)));
+  server.change([](state::WorldState& world) {
+    world.users[0].output.contact_count = 1;
+    world.users[0].output.contacts[0].depth_m = std::numeric_limits<double>::quiet_NaN();
+  });
+  const std::uint64_t before = client->sent_sequence();
+  const std::size_t arrived = server.samples().size();
+  bool heard = false;
+  ASSERT_TRUE(eventually([&] {
+    client->send(hand_at(Vec3(2, 0, 0)));
+    const auto force = client->wait_force(1ms);
+    heard = heard || (force && force->echo_sequence > before);
+    return server.samples().size() > arrived + 20;
+  }));
+  EXPECT_FALSE(heard);
+  server.change([](state::WorldState& world) { world.users[0].output.contact_count = 0; });
+  EXPECT_TRUE(feels(*client, Vec3(3, 0, 0)));
+}
+
+}  // namespace
+}  // namespace mechane::test

@@ -1,0 +1,121 @@
+// What a server says that lies, or that another program wrote in its name.
+#include "client-sdk/client/parse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/support/property_draw.hpp"
+#include <mechane/proto/convert.hpp>
+
+namespace mechane::client {
+namespace {
+
+using test::any_unit;
+using test::between;
+
+proto::HapticOutput honest_force(std::uint32_t contacts = kMaxLocalContacts) {
+  proto::HapticOutput wire{};
+  wire.protocol = proto::kProtocol;
+  wire.contact_count = contacts;
+  for (proto::WireLocalContact& contact : wire.contacts)
+    proto::set_vec3(contact.n_W, any_unit());
+  return wire;
+}
+
+std::vector<float*> numbers_of(proto::WireLocalContact& contact) {
+  std::vector<float*> all{&contact.depth_m, &contact.curvature_per_m, &contact.stiffness_n_per_m,
+                          &contact.damping_ns_per_m, &contact.friction};
+  for (auto* vector : {&contact.p_W, &contact.n_W, &contact.v_W}) {
+    for (float& number : *vector)
+      all.push_back(&number);
+  }
+  return all;
+}
+
+float not_a_number() {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  return *rc::gen::element(std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity);
+}
+
+RC_GTEST_PROP(ParseForce, RefusesWhatIsNotFiniteAnywhere, ()) {
+  proto::HapticOutput wire = honest_force();
+  ForceSample force;
+  RC_ASSERT(parse(wire, force));
+  std::vector<float*> numbers;
+  for (proto::WireLocalContact& contact : wire.contacts) {
+    const std::vector<float*> more = numbers_of(contact);
+    numbers.insert(numbers.end(), more.begin(), more.end());
+  }
+  for (float& number : wire.f_W)
+    numbers.push_back(&number);
+  for (float& number : wire.t_W)
+    numbers.push_back(&number);
+  for (float& number : wire.finger_force_n)
+    numbers.push_back(&number);
+  **rc::gen::elementOf(numbers) = not_a_number();
+  RC_ASSERT(!parse(wire, force));
+}
+
+RC_GTEST_PROP(ParseForce, DoesNotReadContactsBeyondTheirCount, ()) {
+  const auto count = *rc::gen::inRange<std::uint32_t>(0, kMaxLocalContacts);
+  proto::HapticOutput wire = honest_force(count);
+  for (std::size_t i = count; i < kMaxLocalContacts; ++i)
+    *numbers_of(wire.contacts[i])[*rc::gen::inRange<std::size_t>(0, 14)] = not_a_number();
+  ForceSample force;
+  force.contacts.fill({.depth_m = 7});
+  RC_ASSERT(parse(wire, force));
+  RC_ASSERT(force.contact_span().size() == count);
+  for (std::size_t i = count; i < kMaxLocalContacts; ++i)
+    RC_ASSERT(force.contacts[i].depth_m == 0);
+}
+
+RC_GTEST_PROP(ParseForce, RefusesMoreContactsThanThereAre, ()) {
+  proto::HapticOutput wire = honest_force();
+  wire.contact_count = *rc::gen::inRange<std::uint32_t>(kMaxLocalContacts + 1, 0xffffffffu);
+  ForceSample force;
+  RC_ASSERT(!parse(wire, force));
+}
+
+RC_GTEST_PROP(ParseForce, MakesANormalThatIsNearlyUnitAUnitAndRefusesOthers, ()) {
+  proto::HapticOutput wire = honest_force();
+  const Vec3 unit = any_unit();
+  const double length = *rc::gen::oneOf(between(0, 3), between(0.98, 1.02));
+  RC_PRE(std::abs(std::abs(length - 1) - 0.01) > 1e-6);  // the limit itself is rounded
+  const auto contact = *rc::gen::inRange<std::size_t>(0, kMaxLocalContacts);
+  proto::set_vec3(wire.contacts[contact].n_W, length * unit);
+  ForceSample force;
+  RC_ASSERT(parse(wire, force) == (std::abs(length - 1) < 0.01));
+  if (std::abs(length - 1) > 0.01) return;
+  RC_ASSERT(std::abs(force.contacts[contact].n_W.norm() - 1) < 1e-12);
+  RC_ASSERT((force.contacts[contact].n_W - unit).norm() < 1e-6);
+}
+
+RC_GTEST_PROP(ParseForce, LetsNoContactPullOrLastForLong, ()) {
+  proto::HapticOutput wire = honest_force(1);
+  wire.contacts[0].stiffness_n_per_m = static_cast<float>(*between(-1000, 1000));
+  wire.contacts[0].damping_ns_per_m = static_cast<float>(*between(-50, 50));
+  wire.contacts[0].friction = static_cast<float>(*between(-2, 2));
+  wire.contacts[0].valid_us = *rc::gen::inRange(0u, 3'000'000u);
+  ForceSample force;
+  RC_ASSERT(parse(wire, force));
+  const LocalContact& contact = force.contacts[0];
+  RC_ASSERT(contact.stiffness_n_per_m == std::max(0.0f, wire.contacts[0].stiffness_n_per_m));
+  RC_ASSERT(contact.damping_ns_per_m == std::max(0.0f, wire.contacts[0].damping_ns_per_m));
+  RC_ASSERT(contact.friction == std::max(0.0f, wire.contacts[0].friction));
+  RC_ASSERT(contact.validity == std::chrono::microseconds(std::min(wire.contacts[0].valid_us, 1'000'000u)));
+}
+
+TEST(ParseForce, RefusesAnotherProtocol) {
+  proto::HapticOutput wire{};
+  wire.protocol = proto::kProtocol + 1;
+  ForceSample force;
+  EXPECT_FALSE(parse(wire, force));
+}
+
+}  // namespace
+}  // namespace mechane::client
