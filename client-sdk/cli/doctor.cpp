@@ -117,16 +117,16 @@ class ServerListener {
 
 }  // namespace
 
-int run_doctor(bool json, double probe_seconds, std::uint32_t domain) {
-  realtime::MachineCheckOptions options;
-  options.probe_time = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(probe_seconds));
-  if (!json) fmt::print("Looking at this machine; measuring wake-ups for {:.0f} s ...\n\n", probe_seconds);
+int run_doctor(const DoctorOptions& options) {
+  realtime::MachineCheckOptions machine_options;
+  machine_options.probe_time = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.probe_s));
+  if (!options.json) fmt::print("Looking at this machine; measuring wake-ups for {:.0f} s ...\n\n", options.probe_s);
   std::fflush(stdout);
-  ServerListener servers(domain);
-  std::vector<CheckResult> results = realtime::check_machine(options);
+  ServerListener servers(options.domain);
+  std::vector<CheckResult> results = realtime::check_machine(machine_options);
   const CheckStatus machine = realtime::worst_of(results);
   servers.add_to(results);
-  json ? print_json(results) : print_table(results, machine);
+  options.json ? print_json(results) : print_table(results, machine);
   return machine == CheckStatus::bad ? 1 : 0;
 }
 

@@ -17,6 +17,7 @@
 #include "client-sdk/cli/echo.hpp"
 #include "client-sdk/cli/head.hpp"
 #include "client-sdk/cli/open.hpp"
+#include "client-sdk/cli/record.hpp"
 #include "client-sdk/cli/sibling.hpp"
 #include "client-sdk/cli/visits.hpp"
 #include "server/base/suggestion.hpp"
@@ -67,6 +68,24 @@ CLI::App* add_open(CLI::App& app, cli::OpenOptions& open) {
       });
   command->add_option("--domain", open.domain, "DDS domain");
   return command;
+}
+
+CLI::App* add_record(CLI::App& app, cli::RecordOptions& o) {
+  CLI::App* record =
+      app.add_subcommand("record", "record what a kiosk's displays hear, to be shown with mechane display --play");
+  record->add_option("file", o.file, "the recording; an existing file is overwritten")->required();
+  record->add_option("--kiosk", o.kiosk, "name of the kiosk")->capture_default_str();
+  record->add_option("--domain", o.domain, "DDS domain");
+  record->add_option("--seconds", o.seconds, "stop after this time; 0: on Ctrl-C")->check(CLI::NonNegativeNumber);
+  record->add_option("--record-fps", o.recorder.fps, "frames per second to record, at most")
+      ->check(CLI::Range(1.0, 240.0))
+      ->capture_default_str();
+  record
+      ->add_option_function<std::uint64_t>(
+          "--record-mib", [&o](std::uint64_t mib) { o.recorder.limit_bytes = mib << 20U; },
+          "size in MiB at which the recording ends; without: 256")
+      ->check(CLI::Range(1, 1024));
+  return record;
 }
 
 CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
@@ -185,6 +204,13 @@ CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
   return visits;
 }
 
+void add_doctor(CLI::App& app, cli::DoctorOptions& o) {
+  CLI::App* doctor = app.add_subcommand("doctor", "check whether this machine can hold 1 kHz and servers keep up");
+  doctor->add_flag("--json", o.json, "as JSON");
+  doctor->add_option("--domain", o.domain, "DDS domain in which to listen for servers");
+  doctor->add_option("--probe-seconds", o.probe_s, "how long to measure wake-ups");
+}
+
 /// The message for a first word that is not a command; empty: it is a command, or an option.
 std::string unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> known;
@@ -207,6 +233,8 @@ int add_and_parse(int argc, char** argv) {
   auto* echo_command = add_echo(app, echo);
   cli::OpenOptions open;
   auto* open_command = add_open(app, open);
+  cli::RecordOptions record;
+  auto* record_command = add_record(app, record);
   cli::DisplaysOptions displays;
   auto* displays_command = add_displays(app, displays);
   cli::HeadOptions head;
@@ -227,13 +255,8 @@ int add_and_parse(int argc, char** argv) {
   merge_command->add_option("files", merge_files, "X3D files, two or more")->required();
   merge_command->add_option("-o,--output", merged_file, "the file to write")->required();
   auto* reference_command = app.add_subcommand("reference", "print the manual of the scenario format, as Markdown");
-  bool doctor_json = false;
-  double probe_s = 2;
-  auto* doctor_command = app.add_subcommand("doctor", "check whether this machine can hold 1 kHz and servers keep up");
-  doctor_command->add_flag("--json", doctor_json, "as JSON");
-  std::uint32_t doctor_domain = 0;
-  doctor_command->add_option("--domain", doctor_domain, "DDS domain in which to listen for servers");
-  doctor_command->add_option("--probe-seconds", probe_s, "how long to measure wake-ups");
+  cli::DoctorOptions doctor;
+  add_doctor(app, doctor);
   if (const std::string fault = argc > 1 ? unknown_command(app, argv[1]) : std::string(); !fault.empty()) {
     std::cerr << fault;
     return 2;
@@ -245,6 +268,7 @@ int add_and_parse(int argc, char** argv) {
   }
   if (*echo_command) return cli::run_echo(echo);
   if (*open_command) return cli::run_open(open);
+  if (*record_command) return cli::run_record(record, std::cerr);
   if (*displays_command) {
     const auto verbs = displays_command->get_subcommands();
     return cli::run_displays(verbs.empty() ? "" : verbs.front()->get_name(), displays);
@@ -264,7 +288,7 @@ int add_and_parse(int argc, char** argv) {
     std::cout << authoring::reference_page();
     return 0;
   }
-  return cli::run_doctor(doctor_json, probe_s, doctor_domain);
+  return cli::run_doctor(doctor);
 }
 
 }  // namespace

@@ -43,10 +43,7 @@ void News::take_head(TimePoint now) {
 }
 
 void News::record(TimePoint now) {
-  if (!source_.recorder || !world_.known() || client_.state() != client::LinkState::joined) return;
-  client::Frame newest;
-  const bool any = client_.newest_frame(newest);
-  source_.recorder->hear(now, *world_.status(), world_.presentation().get(), world_.objects(), any ? &newest : nullptr);
+  if (source_.recorder && client_.state() == client::LinkState::joined) source_.recorder->hear(now, client_);
 }
 
 std::vector<client::WorldEvent> News::take_events(TimePoint now) {

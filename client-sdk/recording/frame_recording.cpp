@@ -77,9 +77,7 @@ class FrameRecorder::Disk {
     worker_.give([this, bytes = std::move(bytes)] { write_now(bytes); });
     return true;
   }
-  void tell(const std::string& what) const {
-    log::warning(fmt::format("the recording {} {}; the display goes on", path_.string(), what));
-  }
+  void tell(const std::string& what) const { log::warning(fmt::format("the recording {} {}", path_.string(), what)); }
 
  private:
   /// Flushed at once, so that the recording survives when the display is killed.
@@ -103,7 +101,7 @@ Expected<FrameRecorder> FrameRecorder::create(const std::filesystem::path& path,
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   if (!file) {
     return fail(ErrorCode::io_failure, "the recording cannot be written: " + std::generic_category().message(errno),
-                path.string(), "choose another file with --record");
+                path.string(), "choose another file for it");
   }
   return FrameRecorder(std::make_unique<Disk>(path, std::move(file)), settings);
 }
@@ -138,6 +136,14 @@ void FrameRecorder::hear(TimePoint now, const client::WorldStatus& status,
   }
   if (newest != nullptr && objects_ > 0 && newest->sequence > sequence_) add_frame(*newest, at);
   write();
+}
+
+void FrameRecorder::hear(TimePoint now, client::Client& client) {
+  const auto status = client.world_status();
+  if (!status) return;
+  client::Frame newest;
+  const bool any = client.newest_frame(newest);
+  hear(now, *status, client.presentation().get(), client.objects(), any ? &newest : nullptr);
 }
 
 void FrameRecorder::begin_world(const std::string& world) {
@@ -190,7 +196,7 @@ void FrameRecorder::write() {
   goes_on_ = disk_->write(std::move(bytes));
   if (!goes_on_ || written_ < settings_.limit_bytes) return;
   write_end();
-  disk_->tell("ends here: it has reached the size limit (--record-mib)");
+  disk_->tell("ends here: it has reached its size limit");
 }
 
 void FrameRecorder::write_end() {

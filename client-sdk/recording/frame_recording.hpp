@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "server/base/error.hpp"
-#include <mechane/client/types.hpp>
+#include <mechane/client/client.hpp>
 
 namespace mechane::recording {
 
@@ -58,9 +58,8 @@ struct RecorderSettings {
   std::uint64_t limit_bytes = std::uint64_t{256} << 20U;
 };
 
-/// Writes a recording while a display runs. Called on the display's thread, which never waits for the disk: the
-/// recorder has a thread of its own for that. A full or slow disk, or the size limit, ends the recording with a line in
-/// the log; the display is not affected. The file is complete once the recorder is destroyed; before, all but the last
+/// Writes a recording. Called on its owner's thread, which never waits for the disk: the recorder has a thread of its
+/// own for that. A full or slow disk, or the size limit, ends the recording with a line in the log. The file is complete once the recorder is destroyed; before, all but the last
 /// moment is on the disk.
 class FrameRecorder {
  public:
@@ -78,9 +77,13 @@ class FrameRecorder {
   /// null while they are not known.
   void hear(TimePoint now, const client::WorldStatus& status, const client::WorldPresentation* presentation,
             const std::vector<client::SceneObject>& manifest, const client::Frame* newest);
+  /// The same from a client that is joined; nothing before its world's status is known.
+  void hear(TimePoint now, client::Client& client);
   void hear(TimePoint now, std::span<const client::WorldEvent> events);
 
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  /// False once the recording has ended early.
+  [[nodiscard]] bool goes_on() const { return goes_on_; }
 
  private:
   class Disk;

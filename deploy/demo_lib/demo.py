@@ -99,7 +99,7 @@ def start_clients(programs, options, out):
     domain = ["--domain", str(options.domain)]
     for kiosk in KIOSKS:
         if makes_pictures(options):
-            programs.start(f"display-{kiosk}", *recording.record(kiosk, out / f"{kiosk}.frames"), *domain)
+            programs.start(f"record-{kiosk}", *recording.record(kiosk, out / f"{kiosk}.frames"), *domain)
         elif kiosk != "kiosk-2":
             programs.start(f"display-{kiosk}", "display", "--kiosk", kiosk, *domain)
     visitors = []
@@ -281,7 +281,7 @@ def main():
         visitors = start_clients(programs, options, out)
         if not watch_visitors(programs, visitors):
             problems.append(f"the visitors were not done after {VISIT_LIMIT_S} s")
-        for name in [n for n in programs.running if n.startswith("display") or n == "haptic"]:
+        for name in [n for n in programs.running if n.startswith(("display", "record")) or n == "haptic"]:
             if programs.stop(name, 30) != 0:
                 problems.append(f"{name} ended badly: see {out / (name + '.log')}")
         for kiosk in draw_steps(programs, out) if makes_pictures(options) else ():

@@ -57,7 +57,7 @@ def wait_for(condition, limit_s: float, what: str) -> None:
 
 
 def record(programs: Programs, place: Place, out: pathlib.Path) -> None:
-    """A visit, as a display hears it from before its beginning to after its end. The display draws as little as it can."""
+    """A visit, as a display hears it from before its beginning to after its end."""
     scenarios = [place.scenario]
     if place.name == "village":  # its signs lead somewhere
         scenarios += sorted(str(file) for file in pathlib.Path("scenarios").glob("*/*.x3d") if file.stem != place.name)
@@ -65,14 +65,14 @@ def record(programs: Programs, place: Place, out: pathlib.Path) -> None:
     file.unlink(missing_ok=True)
     programs.start("server", "server", "--scenario", *scenarios, "--records", "")
     programs.wait_ready()
-    programs.start("display", *recording.record("film", file))
-    wait_for(lambda: file.exists() and file.stat().st_size > 20_000, 300, f"the display has a world: see {out / 'display.log'}")
+    programs.start("record", *recording.record("film", file))
+    wait_for(lambda: file.exists() and file.stat().st_size > 20_000, 300, f"the kiosk has a world: see {out / 'record.log'}")
     hand = ["--glove"] if place.whole_hand else []
     programs.start("visitor", "visitor", *hand, "--kiosk", "film", "--scenario", place.scenario, "--activity", place.activity, "--linger", "0", "--report",
                    str(out / f"{place.name}.json"))
     if programs.wait("visitor", VISIT_LIMIT_S) != 0:
         fail(f"the visit of {place.name} was not completed: see {out / 'visitor.log'}")
-    for name in ("display", "server"):
+    for name in ("record", "server"):
         if programs.stop(name) != 0:
             fail(f"{name} ended badly: see {out / (name + '.log')}")
     print(f"  recorded {file}, {file.stat().st_size / 1e6:.1f} MB", flush=True)

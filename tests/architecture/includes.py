@@ -45,7 +45,7 @@ ARROWS = {
     "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
     "client-sdk/fit": ["server/content"],
     "client-sdk/authoring": ["server/scenario"],
-    "client-sdk/cli": ["client-sdk/client", "client-sdk/authoring", "server/content", "server/visits"],
+    "client-sdk/cli": ["client-sdk/recording", "client-sdk/authoring", "server/content", "server/visits"],
     "client-sdk/examples": ["client-sdk/client"],
 }
 

@@ -39,13 +39,17 @@ class Film(EndToEnd):
     def test_a_visit_is_recorded_and_shown_again_without_a_server(self):
         server = self.server(records=False)
         file = self.folder / "visit.frames"
-        display = self.display("--every-step", "--record", file, size="32x18")
-        wait_until(lambda: file.exists() and file.stat().st_size > 5000, 30, "the display hears of a world")
+        recorder = self.start("recorder", "record", file, "--kiosk", "wall")
+        wait_until(lambda: file.exists() and file.stat().st_size > 5000, 30, "the recorder hears of a world")
         visitor = self.visitor("wall", "--activity", "use")
         self.assertEqual(visitor.wait(120), 0, visitor.text())
-        self.assertEqual(display.stop(), 0, display.text())
+        self.assertEqual(recorder.stop(), 0, recorder.text())
         server.kill()
         play = ("display", "--offscreen", "--size", "160x90", "--language", "en", "--play")
+        steps = self.run_command(*play, file, "--every-step", "--out", self.folder / "steps")
+        (visit,) = self.report_of(visitor)["activities"]
+        wanted = {f"use-{step['name']}-mono.png" for step in visit["steps"]} | {"use-done-mono.png"}
+        self.assertEqual({path.name for path in (self.folder / "steps").iterdir()}, wanted, steps.stdout + steps.stderr)
         shown = self.run_command(*play, file, "--film-fps", "5", "--play-from", "turn@0.4", "--seconds", "1", "--out", self.folder / "film")
         self.assertEqual(shown.returncode, 0, shown.stdout + shown.stderr)
         summary = json.loads(shown.stdout)
@@ -65,7 +69,7 @@ class Film(EndToEnd):
         damaged = bytearray(file.read_bytes())
         damaged[3000] ^= 1
         (self.folder / "damaged.frames").write_bytes(damaged)
-        for name, told in (("damaged.frames", "is damaged at byte"), ("visitor.frames", "does not exist"), ("display-2.log", "--record")):
+        for name, told in (("damaged.frames", "is damaged at byte"), ("visitor.frames", "does not exist"), ("recorder-2.log", "--record")):
             refused = self.run_command(*play, self.folder / name)
             self.assertEqual(refused.returncode, 1, refused.stdout)
             self.assertIn(told, refused.stderr)

@@ -6,7 +6,7 @@ import sqlite3
 import subprocess
 import unittest
 
-from harness import ROOT, SCENARIO, EndToEnd, marked, repeat_until, wait_until
+from harness import PATIENCE, ROOT, SCENARIO, EndToEnd, marked, repeat_until, wait_until
 
 VILLAGE = ROOT / "scenarios/village/village.x3d"
 
@@ -34,12 +34,12 @@ class Visits(EndToEnd):
         self.assertEqual(set(records), {"assemble", "use"})
         self.assertEqual(self.steps_of(records["assemble"]), [("take", "done"), ("seat", "done")])
         self.assertEqual(self.steps_of(records["use"]), [("grasp", "done"), ("turn", "done"), ("fill", "done")])
-        # The visitor timed each step with its own clock, from news to news.
+        # The visitor timed each step with its own clock, from news to news; news are late where a sanitizer makes all slow.
         for activity in self.report_of(visitor)["activities"]:
             record = records[activity["name"]]
             self.assertEqual([s["step"] for s in record["steps"]], [s["name"] for s in activity["steps"]])
             for step, seen in zip(record["steps"], activity["steps"]):
-                self.assertAlmostEqual(step["duration_s"], seen["seconds"], delta=1, msg=step["step"])
+                self.assertAlmostEqual(step["duration_s"], seen["seconds"], delta=PATIENCE, msg=step["step"])
             self.assertAlmostEqual(sum(step["duration_s"] for step in record["steps"]), record["duration_s"], delta=0.01)
             self.assertEqual((record["kiosk"], record["scenario"], record["hands"]), ("kiosk-1", "archimedes-screw", 1))
             self.assertEqual((record["mistakes"], record["done_alone"], record["notes_lost"]), ([], True, 0))

@@ -283,5 +283,13 @@ class Phases(unittest.TestCase):
             self.assertTrue(ended.exists(), "end() waits for those that take their time")
 
 
+class WithoutRealTime(unittest.TestCase):
+    def test_a_sanitized_program_gets_no_real_time_priority_and_runs(self):
+        self.assertEqual(subprocess.run([*suite.without_real_time(), "true"]).returncode, 0)
+        asked = subprocess.run([*suite.without_real_time(), "chrt", "-f", "1", "true"], capture_output=True, text=True)
+        self.assertNotEqual(asked.returncode, 0)
+        self.assertIn("not permitted", asked.stderr)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)
