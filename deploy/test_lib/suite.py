@@ -215,7 +215,9 @@ def phases(quick: bool) -> list[Phase]:
     return [
         build("release"), programs("release", others=True),
         end_to_end("release", at_once=2 * JOBS),  # most of the time these tests wait
-        build("asan-ubsan"), programs("asan-ubsan", leave_out="not-address"), end_to_end("asan-ubsan", at_once=JOBS, leave_out="not-address"), fuzz(),
+        build("asan-ubsan"), programs("asan-ubsan", leave_out="not-address"),
+        end_to_end("asan-ubsan", at_once=max(1, JOBS // 2), leave_out="not-address"),  # a sanitized server needs a core, and its client another
+        fuzz(),
         build("tsan", "threaded_tests"), programs("tsan", only="threads"),
         tidy(),
     ]
