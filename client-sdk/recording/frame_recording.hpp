@@ -59,8 +59,8 @@ struct RecorderSettings {
 };
 
 /// Writes a recording. Called on its owner's thread, which never waits for the disk: the recorder has a thread of its
-/// own for that. A full or slow disk, or the size limit, ends the recording with a line in the log. The file is complete once the recorder is destroyed; before, all but the last
-/// moment is on the disk.
+/// own for that. A full or slow disk, or the size limit, ends the recording with a line in the log. The file is complete
+/// once the recorder is destroyed; before, all but the last moment is on the disk.
 class FrameRecorder {
  public:
   /// How much may wait for the disk: a minute of most worlds.

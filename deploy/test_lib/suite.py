@@ -216,7 +216,8 @@ def phases(quick: bool) -> list[Phase]:
         build("release"), programs("release", others=True),
         end_to_end("release", at_once=JOBS + 1),  # these tests wait much, but each has loops of 1 kHz
         build("asan-ubsan"), programs("asan-ubsan", leave_out="not-address"),
-        end_to_end("asan-ubsan", at_once=max(1, JOBS // 2), leave_out="not-address"),  # a sanitized server needs a core, and its client another
+        # A sanitized server needs a core, and its client another.
+        end_to_end("asan-ubsan", at_once=max(1, JOBS // 2), leave_out="not-address"),
         fuzz(),
         build("tsan", "threaded_tests"), programs("tsan", only="threads"),
         tidy(),
