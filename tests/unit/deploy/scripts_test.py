@@ -144,7 +144,8 @@ class WhatTheDemoStarts(unittest.TestCase):
         self.addCleanup(signal.pthread_sigmask, signal.SIG_SETMASK, mask)
 
     def demo(self, *arguments, screen, undrawn="none"):
-        """Runs the demo with stand-ins: the displays and recorders that it started, in order, each a list of arguments; and what it complained of."""
+        """Runs the demo with stand-ins: the displays and recorders that it started, in order, each a list of arguments;
+        and what it complained of."""
         started = self.folder / "started"
         started.unlink(missing_ok=True)
         environment = {"STARTED": str(started), "UNDRAWN": undrawn, "DISPLAY": screen, "WAYLAND_DISPLAY": ""}
