@@ -14,9 +14,11 @@ class Device {
   virtual ~Device() = default;
   /// Errors: not connected, no permission, in use by another program.
   [[nodiscard]] virtual Expected<void> open() = 0;
+  /// After open(), once; the last force written was zero. Lets the device go, for other programs too.
+  virtual void close() noexcept = 0;
   /// The hand now. `dt` is the time since the last call.
   [[nodiscard]] virtual client::HandSample read(Duration dt) noexcept = 0;
-  /// The force to render until the next call. Zero at shutdown.
+  /// The force to render until the next call. Zero before close().
   virtual void write(const hand::HandForce& force) noexcept = 0;
   /// What the device can bear; the loop's governor is made from it.
   [[nodiscard]] virtual hand::GovernorConfig limits() const = 0;

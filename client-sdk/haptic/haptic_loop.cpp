@@ -11,20 +11,29 @@ using hand::HandSample;
 Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client, Device& device, RenderMode mode) {
   auto governor = hand::ForceGovernor::make(device.limits());
   if (!governor) return tl::unexpected(governor.error());
+  if (auto opened = device.open(); !opened) return tl::unexpected(opened.error());
   return std::unique_ptr<HapticLoop>(new HapticLoop(client, device, mode, *governor));
+}
+
+HapticLoop::~HapticLoop() {
+  device_.write({});
+  device_.close();
 }
 
 bool HapticLoop::take_answer() noexcept {
   const std::optional<ForceSample> sample = client_.newest_force();
-  if (!sample) return false;
-  if (age_.offer(client_.session(), sample->sequence, sample->received) != hand::SampleOrder::newer) return false;
+  if (!sample || sample->echo_sequence > client_.sent_sequence()) return false;  // nobody can answer what was not sent
+  const hand::SampleOrder order = age_.offer(client_.session(), sample->echo_sequence, sample->received);
+  if (order != hand::SampleOrder::newer && sample->echo_sequence != answer_.echo_sequence) return false;
   answer_ = *sample;
   ++stats_.answers;
-  if (answer_.echo_sequence > 0) round_trip_.record(answer_.received - answer_.echo_sent());
+  if (order == hand::SampleOrder::newer && answer_.echo_sequence > 0) round_trip_.record(answer_.received - answer_.echo_sent());
   return true;
 }
 
 void HapticLoop::set_local_contacts() noexcept {
+  // Of an older sample we no longer know where the hand was.
+  if (client_.sent_sequence() - answer_.echo_sequence >= sent_p_WH_.size()) return local_.clear();
   local_.set(answer_.contact_span(), sent_p_WH_[answer_.echo_sequence % sent_p_WH_.size()]);
 }
 
@@ -42,6 +51,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   wanted.V_WH = input.V_WH;
   wanted.age = age;
   wanted.engaged = engaged;
+  wanted.touching = answer_.contact_count > 0;
   rendered_ = governor_.apply(governed_, wanted, dt);
   device_.write(rendered_);
 }

@@ -35,16 +35,21 @@ struct LoopStats {
 };
 
 /// The haptic client's loop. One thread calls tick() at the device's rate (a PeriodicThread, or a device's own
-/// callback). To stop, call release() until it returns true: the force is then exactly zero.
+/// callback). To stop, call release() until it returns true: the force is then exactly zero. When the loop goes, the
+/// device is given zero whatever it rendered, and closed.
 class HapticLoop {
  public:
-  /// Errors: the device's limits are not valid for a governor.
+  /// Opens the device. Errors: the device's own; its limits are not valid for a governor.
   [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device,
                                                                     RenderMode mode);
+  ~HapticLoop();
+  HapticLoop(const HapticLoop&) = delete;
+  HapticLoop& operator=(const HapticLoop&) = delete;
 
-  /// Reads the device, sends the hand, takes the newest force, limits it, writes it. The governor computes the age of
-  /// the last answer from `now`: whatever fails, the device renders nothing later than 50 ms after the last new answer,
-  /// and the next force is ramped up.
+  /// Reads the device, sends the hand, takes the newest force, limits it, writes it. Whatever fails, the device renders
+  /// nothing later than 50 ms, on our own clock, after the last answer to a sample that had not been answered before:
+  /// forces of a server that no longer hears this hand do not count. The next force is ramped up, once the hand has
+  /// left what it was in contact with.
   void tick(TimePoint now, Duration dt) noexcept;
   /// Ramps the force down and out. True when the device renders exactly zero.
   [[nodiscard]] bool release(TimePoint now, Duration dt) noexcept;

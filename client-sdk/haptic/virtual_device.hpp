@@ -28,6 +28,7 @@ class VirtualDevice final : public Device {
   explicit VirtualDevice(const ArmConfig& arm = {}) : arm_(arm) {}
 
   [[nodiscard]] Expected<void> open() override { return {}; }
+  void close() noexcept override {}
   [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
   void write(const hand::HandForce& force) noexcept override { force_ = force; }
   /// Like a desktop stylus device of the Phantom class.

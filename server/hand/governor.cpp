@@ -56,6 +56,7 @@ HandForce finish(GovernorState& state, HandForce out) noexcept {
   const bool sane = out.force_W.f.allFinite() && out.force_W.t.allFinite();
   if (!sane) {
     out = nothing(out.reasons | kNotFinite);
+    state.ramp = state.gain = 0;
     ++state.counts[std::countr_zero(static_cast<std::uint32_t>(kNotFinite))];
     state.credit_j = std::min(state.credit_j, 0.0);
     if (!std::isfinite(state.credit_j)) state.credit_j = 0;
@@ -121,7 +122,10 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
   std::uint32_t reasons = kNone;
   const double gain_before = state.gain;
   state.gain = next_gain(state, input, dt_s, reasons);
-  if (!all_finite(input)) return finish(state, nothing(reasons | kNotFinite));
+  if (!all_finite(input)) {
+    state.ramp = state.gain = 0;
+    return finish(state, nothing(reasons | kNotFinite));
+  }
   settle_energy(state, input.V_WH, dt_s);
 
   Wrench wanted = input.wanted_W;
@@ -154,7 +158,9 @@ double ForceGovernor::next_gain(GovernorState& state, const GovernorInput& input
   const double ramp_time = input.engaged ? config_.ramp_up_s : config_.ramp_down_s;
   if (state.ramp != target) {
     reasons |= kRamping;
-    if (ramp_time > 0) {
+    if (input.engaged && input.touching) {
+      // It waits.
+    } else if (ramp_time > 0) {
       const double step_s = input.engaged ? std::min(dt_s, to_seconds(kLongestStep)) : dt_s;
       approach(state.ramp, target, step_s / ramp_time);
     } else {
@@ -163,6 +169,7 @@ double ForceGovernor::next_gain(GovernorState& state, const GovernorInput& input
   }
   const double fresh = freshness(input.age, config_.hold, config_.zero_by);
   if (fresh < 1.0) reasons |= kStale;
+  if (fresh <= 0) state.ramp = 0;
   return fresh * state.ramp;
 }
 

@@ -38,6 +38,7 @@ struct GovernorInput {
   Twist V_WH;                                     ///< of the hand where `wanted_W` acts: its mean since the last call
   Duration age{0};                                ///< of the last new sample, on our own clock
   bool engaged = true;                            ///< a visit is on; the governor ramps when this changes
+  bool touching = false;                          ///< the hand is in contact: a ramp up goes on when it no longer is
 };
 
 /// What a governor remembers of one hand between two calls. Plain data, so that its owner can keep it with its other state: a world in
@@ -61,7 +62,9 @@ struct GovernorState {
 ///
 /// The slew limit never delays a safety drop: when the gain falls, what is on the device now falls with it, at once,
 /// and the limit holds for what remains; a fall of the gain to zero is a force of exactly zero. Upwards the limit
-/// always holds, also after a drop.
+/// always holds, also after a drop. A force that was lost, because a sample was too old or a number not finite, is
+/// ramped up again from zero. No ramp goes up while the hand is in contact: a wall that hardens around a hand puts
+/// energy into it that it never gave, and shakes.
 ///
 /// The energy observer is the time-domain passivity control of Hannaford and Ryu (2002), eqs. (3)-(5), with three
 /// departures: the credit is capped (else an hour's friction would pay for any later push); removing the force's own

@@ -163,6 +163,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, stat
       render_patches(description, state, user, config_);
     }
     render_grasp(state, user);
+    if (user.freshness <= 0) user.output.contact_count = 0;  // where the hand is now, nobody here knows
   }
   hand::GovernorState& governor = state.governors[index];
   if (user.jumped) governor_.reset(governor);

@@ -188,7 +188,21 @@ TEST(ForceGovernor, ALateCallDoesNotMakeUpForTheTimeItMissed) {
   EXPECT_LE(pressing.apply(input, 20ms).force_W.f.norm(), 0.5 + 1000 * to_seconds(ForceGovernor::kLongestStep));
 }
 
-TEST(ForceGovernor, ANumberThatIsNotFiniteIsNoForceAtAllAndPassesBy) {
+/// From zero, by no more than the ramp allows, to all of `wanted_n` in x.
+void expect_ramp(OneHand& governor, double wanted_n) {
+  GovernorInput input;
+  input.wanted_W.f.x() = wanted_n;
+  const double ramp_s = governor.governor.config().ramp_up_s;
+  for (int i = 1; i <= 490; ++i) {
+    const double force_n = governor.apply(input).force_W.f.x();
+    ASSERT_LE(force_n, wanted_n * (i + 1) * kDt_s / ramp_s) << i << " ms";
+  }
+  for (int i = 0; i < 12; ++i)
+    (void)governor.apply(input);
+  EXPECT_NEAR(governor.apply(input).force_W.f.x(), wanted_n, 1e-12);
+}
+
+TEST(ForceGovernor, ANumberThatIsNotFiniteIsNoForceAtAllAndTheNextForceIsRampedUp) {
   OneHand governor = settled(2.0);
   GovernorInput input;
   input.wanted_W.f = Vec3(std::nan(""), 0, 0);
@@ -196,8 +210,40 @@ TEST(ForceGovernor, ANumberThatIsNotFiniteIsNoForceAtAllAndPassesBy) {
   EXPECT_TRUE(is_zero(out));
   EXPECT_EQ(out.reasons, kNotFinite);
   EXPECT_EQ(governor.state.count(kNotFinite), 1u);
-  input.wanted_W.f = Vec3(2, 0, 0);
-  EXPECT_NEAR(governor.apply(input).force_W.f.x(), 1.0, 1e-12) << "1000 N/s in a millisecond";
+  expect_ramp(governor, 2.0);
+}
+
+TEST(ForceGovernor, ANumberThatIsNotFiniteAHundredTimesASecondIsNearlyNoForce) {
+  OneHand governor = settled(2.0);
+  for (int ms = 0; ms < 1000; ++ms) {
+    GovernorInput input;
+    input.wanted_W.f.x() = ms % 10 == 0 ? std::nan("") : 2.0;
+    ASSERT_LE(governor.apply(input).force_W.f.x(), 2.0 * 10 * kDt_s / governor.governor.config().ramp_up_s) << ms;
+  }
+}
+
+TEST(ForceGovernor, ARampUpWaitsWhileTheHandIsInContactAndARampDownDoesNot) {
+  OneHand governor;
+  GovernorInput input;
+  input.wanted_W.f.x() = 2.0;
+  input.touching = true;
+  for (int ms = 0; ms < 1000; ++ms)
+    ASSERT_TRUE(is_zero(governor.apply(input))) << ms;
+  expect_ramp(governor, 2.0);
+  EXPECT_NEAR(governor.apply(input).force_W.f.x(), 2.0, 1e-12) << "a contact that is made later";
+  input.engaged = false;
+  for (int ms = 0; ms < 101; ++ms)
+    (void)governor.apply(input);
+  EXPECT_TRUE(is_zero(governor.apply(input)));
+}
+
+TEST(ForceGovernor, AForceThatWasLostToAnOldSampleIsRampedUp) {
+  OneHand governor = settled(2.0);
+  GovernorInput input;
+  input.wanted_W.f.x() = 2.0;
+  input.age = 50ms;
+  EXPECT_TRUE(is_zero(governor.apply(input)));
+  expect_ramp(governor, 2.0);
 }
 
 // A virtual wall whose force comes late: the classic way to make a haptic system put out energy. The hand is a mass that flies against

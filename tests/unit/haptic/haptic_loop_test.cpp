@@ -1,7 +1,11 @@
 // The client's haptic loop against a server of the test's own: what the device renders when answers stop and come back.
 #include "client-sdk/haptic/haptic_loop.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
+
+#include "client-sdk/haptic/virtual_device.hpp"
 
 namespace mechane::haptic {
 namespace {
@@ -15,12 +19,16 @@ constexpr double kPressN = 2;
 class ScriptedClient final : public client::Client {
  public:
   std::optional<client::ForceSample> arrived;
+  client::HandSample hand;  ///< the last that was sent
 
   [[nodiscard]] client::LinkState state() const override { return client::LinkState::joined; }
   [[nodiscard]] bool wait_for(client::LinkState wanted, Duration) override { return wanted == state(); }
   [[nodiscard]] std::string refusal() const override { return {}; }
   [[nodiscard]] std::uint64_t session() const override { return 1; }
-  bool send(const client::HandSample&) noexcept override { return ++sent_ > 0; }
+  bool send(const client::HandSample& sample) noexcept override {
+    hand = sample;
+    return ++sent_ > 0;
+  }
   [[nodiscard]] std::uint64_t sent_sequence() const noexcept override { return sent_; }
   [[nodiscard]] std::optional<client::ForceSample> newest_force() noexcept override {
     return std::exchange(arrived, std::nullopt);
@@ -45,12 +53,20 @@ class ScriptedClient final : public client::Client {
   std::uint64_t sent_ = 0;
 };
 
-/// A device that stands still and bears any force asked for here.
+/// A device that stands still.
 class StillDevice final : public Device {
  public:
   Vec3 force_W = Vec3::Zero();
+  bool there = true;
+  int opened = 0;
+  int closed = 0;
 
-  [[nodiscard]] Expected<void> open() override { return {}; }
+  [[nodiscard]] Expected<void> open() override {
+    if (!there) return fail(ErrorCode::not_found, "no device", "the test", "connect one");
+    ++opened;
+    return {};
+  }
+  void close() noexcept override { ++closed; }
   [[nodiscard]] client::HandSample read(Duration) noexcept override { return {}; }
   void write(const hand::HandForce& force) noexcept override { force_W = force.force_W.f; }
   [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
@@ -58,23 +74,31 @@ class StillDevice final : public Device {
 
 class HapticLoopTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    auto made = HapticLoop::create(client_, device_, RenderMode::server);
+  void SetUp() override { render(RenderMode::server); }
+  void render(RenderMode mode) {
+    loop_.reset();
+    auto made = HapticLoop::create(client_, device_, mode);
     ASSERT_TRUE(made.has_value()) << made.error().to_string();
     loop_ = std::move(*made);
   }
-  /// The next tick, `dt` after the last one; the server answers it with kPressN, or not at all. Returns the rendered
-  /// force, N.
+  /// The next tick, `dt` after the last one; the server answers the sample before it with kPressN, or not at all.
+  /// Returns the rendered force, N.
   double tick(bool answered, Duration dt = kTick) {
+    if (answered) return tick_answered(client_.sent_sequence(), dt);
     now_ += dt;
-    if (answered) {
-      client_.arrived = client::ForceSample{};
-      client_.arrived->sequence = ++sequence_;
-      client_.arrived->received = now_;
-      client_.arrived->force_W.f = Vec3(0, kPressN, 0);
-    }
     loop_->tick(now_, dt);
     return device_.force_W.norm();
+  }
+  /// The same, with an answer to the sample `echo`: as a force, and as a contact.
+  double tick_answered(std::uint64_t echo, Duration dt = kTick) {
+    client::ForceSample& answer = client_.arrived.emplace();
+    answer.sequence = ++sequence_;
+    answer.echo_sequence = echo;
+    answer.received = now_ + dt;
+    answer.force_W.f = Vec3(0, kPressN, 0);
+    answer.contact_count = touching_ ? 1 : 0;
+    answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = 0.001, .stiffness_n_per_m = 1000 * kPressN};
+    return tick(false, dt);
   }
   double tick_for(Duration time, bool answered) {
     double force_n = 0;
@@ -95,6 +119,7 @@ class HapticLoopTest : public ::testing::Test {
   std::unique_ptr<HapticLoop> loop_;
   TimePoint now_{1h};
   std::uint64_t sequence_ = 0;
+  bool touching_ = false;  // what answers say
 };
 
 TEST_F(HapticLoopTest, TheFirstForceIsRampedUpHoweverLongTheHandWaitedForIt) {
@@ -123,12 +148,154 @@ TEST_F(HapticLoopTest, ALoopThatStoodStillBeginsFromZeroThoughAnAnswerIsThereAtO
   expect_ramp();
 }
 
+TEST_F(HapticLoopTest, AServerThatAnswersButHearsNothingIsSilent) {
+  for (const RenderMode mode : {RenderMode::server, RenderMode::local}) {
+    render(mode);
+    touching_ = false;
+    tick_for(1s, true);
+    touching_ = true;
+    ASSERT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+    const std::uint64_t last_heard = client_.sent_sequence();
+    for (int ms = 0; ms <= 9; ++ms)
+      ASSERT_NEAR(tick_answered(last_heard), kPressN, 1e-9) << ms;
+    for (int ms = 10; ms < 50; ++ms)
+      ASSERT_LE(tick_answered(last_heard), kPressN) << ms;
+    for (int ms = 50; ms < 400; ++ms)
+      ASSERT_EQ(tick_answered(last_heard), 0) << ms;
+    for (int ms = 0; ms < 1000; ++ms)
+      ASSERT_EQ(tick(true), 0) << "still in contact, " << ms << " ms after it is heard again";
+    touching_ = false;
+    if (mode == RenderMode::server) expect_ramp();
+    tick_for(1s, true);
+    touching_ = true;
+    EXPECT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+  }
+}
+
+TEST_F(HapticLoopTest, AnAnswerToASampleThatWasNeverSentIsDropped) {
+  ASSERT_NEAR(tick_for(1s, true), kPressN, 1e-9);
+  for (int ms = 0; ms < 60; ++ms)
+    (void)tick_answered(client_.sent_sequence() + 50);
+  EXPECT_EQ(device_.force_W.norm(), 0);
+}
+
+TEST_F(HapticLoopTest, AContactOfASampleTooLongAgoIsNotRendered) {
+  render(RenderMode::local);
+  tick_for(1s, true);
+  touching_ = true;
+  ASSERT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+  for (int ms = 0; ms < 100; ++ms)  // a queue of 300 ms
+    (void)tick_answered(client_.sent_sequence() - 300);
+  EXPECT_EQ(device_.force_W.norm(), 0);
+}
+
+TEST_F(HapticLoopTest, ADeviceIsOpenedAndGivenZeroAndClosed) {
+  ASSERT_NEAR(tick_for(1s, true), kPressN, 1e-9);
+  EXPECT_EQ(device_.opened, 1);
+  EXPECT_EQ(device_.closed, 0);
+  loop_.reset();
+  EXPECT_EQ(device_.force_W, Vec3::Zero()) << "also without a release";
+  EXPECT_EQ(device_.closed, 1);
+}
+
+TEST_F(HapticLoopTest, ADeviceThatIsNotThereIsAnError) {
+  loop_.reset();
+  device_.there = false;
+  const auto made = HapticLoop::create(client_, device_, RenderMode::server);
+  ASSERT_FALSE(made.has_value());
+  EXPECT_EQ(made.error().code, ErrorCode::not_found);
+}
+
 TEST_F(HapticLoopTest, TicksWithoutAForceThatIsNewEnoughAreCounted) {
   tick_for(100ms, false);  // nobody was there yet
   tick_for(100ms, true);
   tick_for(60ms, false);
   tick_for(100ms, true);
   EXPECT_EQ(loop_->stats().silent_ticks, 11u) << "from the 50th millisecond on";
+}
+
+/// An arm that presses against a floor at y = 0, which the server renders.
+class PressTest : public ::testing::Test {
+ protected:
+  static constexpr double kDepth_m = 0.008;  // of where the arm wants to be
+  static constexpr double kFloor_n_per_m = 600;
+
+  void SetUp() override {
+    auto made = HapticLoop::create(client_, arm_, RenderMode::server);
+    ASSERT_TRUE(made.has_value()) << made.error().to_string();
+    loop_ = std::move(*made);
+  }
+  /// Of the force that is felt, N.
+  struct Felt {
+    double low = 1e9, high = 0;
+    double largest_fall = 0;  ///< within a tick
+    [[nodiscard]] double swing() const { return high - low; }
+  };
+  Felt press_for(Duration time, double y_wanted_m, bool answered = true) {
+    Felt felt;
+    for (Duration past{0}; past < time; past += kTick) {
+      const double before_n = arm_.felt_W().f.norm();
+      now_ += kTick;
+      if (answered) answer();
+      intent_.X_WH.p.y() += std::clamp(y_wanted_m - intent_.X_WH.p.y(), -1e-4, 1e-4);
+      arm_.intend(intent_);
+      loop_->tick(now_, kTick);
+      const double force_n = arm_.felt_W().f.norm();
+      felt.low = std::min(felt.low, force_n);
+      felt.high = std::max(felt.high, force_n);
+      felt.largest_fall = std::max(felt.largest_fall, before_n - force_n);
+    }
+    return felt;
+  }
+  void answer() {
+    client::ForceSample& answer = client_.arrived.emplace();
+    answer.sequence = ++sequence_;
+    answer.echo_sequence = client_.sent_sequence();
+    answer.received = now_;
+    const double depth_m = std::max(0.0, -client_.hand.X_WH.p.y());
+    answer.force_W.f.y() = kFloor_n_per_m * depth_m;
+    answer.contact_count = depth_m > 0 ? 1 : 0;
+  }
+  /// Free for long enough, then pressing at rest.
+  void expect_steady_press() {
+    press_for(1s, 0.02);
+    press_for(1s, -kDepth_m);
+    const Felt felt = press_for(1s, -kDepth_m);
+    EXPECT_NEAR(felt.low, 2.4, 0.01) << "arm and floor are equally stiff";
+    EXPECT_LE(felt.swing(), 0.01);
+  }
+
+  ScriptedClient client_;
+  VirtualDevice arm_;
+  HandIntent intent_;
+  std::unique_ptr<HapticLoop> loop_;
+  TimePoint now_{1h};
+  std::uint64_t sequence_ = 0;
+};
+
+TEST_F(PressTest, AContactThatResumesWithTheHandInsideDoesNotShake) {
+  expect_steady_press();
+  press_for(500ms, -kDepth_m, false);
+  const Felt resumed = press_for(3s, -kDepth_m);
+  EXPECT_LE(resumed.swing(), 0.3);
+  EXPECT_LE(resumed.largest_fall, 0.1);
+  expect_steady_press();
+}
+
+TEST_F(PressTest, ALoopThatStartsInsideAThingDoesNotShake) {
+  intent_.X_WH.p.y() = -kDepth_m;
+  const Felt felt = press_for(4s, -kDepth_m);
+  EXPECT_LE(felt.swing(), 0.3);
+  expect_steady_press();
+}
+
+TEST_F(PressTest, AContactMadeWhileTheForceIsRampedUpDoesNotShake) {
+  intent_.X_WH.p.y() = 0.002;
+  const Felt felt = press_for(4s, -kDepth_m);
+  EXPECT_GT(felt.high, 0);
+  EXPECT_LE(felt.largest_fall, 0.1);
+  EXPECT_LE(press_for(1s, -kDepth_m).swing(), 0.01);
+  expect_steady_press();
 }
 
 }  // namespace

@@ -80,6 +80,18 @@ TEST(RenderForces, ATouchIsASpringAndTheBodyGetsTheOpposite) {
   EXPECT_EQ(bench.user().output.contact_count, 1u);
 }
 
+TEST(RenderForces, AHandThatFellSilentHasNoForceAndNoContacts) {
+  const WorldDescription world = one_body(false);
+  Bench bench(world, plain());
+  bench.user().contacts[0] = touch(0.003);
+  bench.user().contact_count = 1;
+  ASSERT_GT(bench.settle().norm(), 1);
+  bench.user().age = hand::kZeroBy;
+  bench.user().freshness = 0;
+  EXPECT_EQ(bench.settle().norm(), 0);
+  EXPECT_EQ(bench.user().output.contact_count, 0u) << "a client must not render them either";
+}
+
 TEST(RenderForces, NeverOverTheLimit) {
   const WorldDescription world = one_body(true);
   Bench bench(world, plain());
