@@ -27,7 +27,8 @@ bool HapticLoop::take_answer() noexcept {
   if (order != hand::SampleOrder::newer && sample->echo_sequence != answer_.echo_sequence) return false;
   answer_ = *sample;
   ++stats_.answers;
-  if (order == hand::SampleOrder::newer && answer_.echo_sequence > 0) round_trip_.record(answer_.received - answer_.echo_sent());
+  if (order == hand::SampleOrder::newer && answer_.echo_sequence > 0)
+    round_trip_.record(answer_.received - answer_.echo_sent());
   return true;
 }
 

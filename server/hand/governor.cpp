@@ -158,14 +158,9 @@ double ForceGovernor::next_gain(GovernorState& state, const GovernorInput& input
   const double ramp_time = input.engaged ? config_.ramp_up_s : config_.ramp_down_s;
   if (state.ramp != target) {
     reasons |= kRamping;
-    if (input.engaged && input.touching) {
-      // It waits.
-    } else if (ramp_time > 0) {
-      const double step_s = input.engaged ? std::min(dt_s, to_seconds(kLongestStep)) : dt_s;
-      approach(state.ramp, target, step_s / ramp_time);
-    } else {
-      state.ramp = target;
-    }
+    const bool waits = input.engaged && input.touching;
+    const double step_s = input.engaged ? std::min(dt_s, to_seconds(kLongestStep)) : dt_s;
+    if (!waits) approach(state.ramp, target, ramp_time > 0 ? step_s / ramp_time : 1.0);
   }
   const double fresh = freshness(input.age, config_.hold, config_.zero_by);
   if (fresh < 1.0) reasons |= kStale;
