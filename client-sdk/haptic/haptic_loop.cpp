@@ -23,19 +23,35 @@ HapticLoop::~HapticLoop() {
 bool HapticLoop::take_answer() noexcept {
   const std::optional<ForceSample> sample = client_.newest_force();
   if (!sample || sample->echo_sequence > client_.sent_sequence()) return false;  // nobody can answer what was not sent
-  const hand::SampleOrder order = age_.offer(client_.session(), sample->echo_sequence, sample->received);
-  if (order != hand::SampleOrder::newer && sample->echo_sequence != answer_.echo_sequence) return false;
+  const std::uint64_t echo = sample->echo_sequence;
+  const Duration delay = echo > 0 ? sample->received - sent(echo).at : Duration{0};
+  if (client_.sent_sequence() - echo >= sent_.size() || delay > kTooLate) {
+    ++stats_.too_late;
+    return false;
+  }
+  const hand::SampleOrder order = age_.offer(client_.session(), echo, sample->received);
+  if (order != hand::SampleOrder::newer && echo != answer_.echo_sequence) return false;
   answer_ = *sample;
   ++stats_.answers;
-  if (order == hand::SampleOrder::newer && answer_.echo_sequence > 0)
-    round_trip_.record(answer_.received - answer_.echo_sent());
+  if (order == hand::SampleOrder::newer && echo > 0) note_delay(delay);
   return true;
 }
 
+void HapticLoop::note_delay(Duration delay) noexcept {
+  round_trip_.record(delay);
+  delay_ = std::max(delay, delay_ - (delay_ - delay) / 256);
+}
+
+/// A spring that is closed over a delay t is stable up to a stiffness of (b + B) / (T / 2 + t), with b and B the damping of hand and
+/// spring (Gil et al. 2009): so it is lowered in that proportion.
+double HapticLoop::stiffness_share() const noexcept {
+  if (mode_ == RenderMode::local) return 1;  // there the spring is closed here
+  constexpr double kHalfTick_s = 0.5 * kTickSeconds;
+  return std::min(1.0, (kHalfTick_s + to_seconds(kFullDelay)) / (kHalfTick_s + to_seconds(delay_)));
+}
+
 void HapticLoop::set_local_contacts() noexcept {
-  // Of an older sample we no longer know where the hand was.
-  if (client_.sent_sequence() - answer_.echo_sequence >= sent_p_WH_.size()) return local_.clear();
-  local_.set(answer_.contact_span(), sent_p_WH_[answer_.echo_sequence % sent_p_WH_.size()]);
+  local_.set(answer_.contact_span(), sent(answer_.echo_sequence).p_WH);
 }
 
 void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept {
@@ -45,7 +61,8 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   const Duration too_long = governor_.config().zero_by;
   if (age >= too_long || dt >= too_long) governor_.reset(governed_);
   hand::GovernorInput wanted;
-  wanted.wanted_W = answer_.force_W;
+  const double share = stiffness_share();
+  wanted.wanted_W = {share * answer_.force_W.f, share * answer_.force_W.t};
   wanted.finger_force_n = answer_.finger_force_n;
   if (mode_ == RenderMode::local && !answer_.holding)
     wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
@@ -61,7 +78,7 @@ void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
   const HandSample input = device_.read(dt);
   if (client_.send(input)) {
     ++stats_.sent;
-    sent_p_WH_[client_.sent_sequence() % sent_p_WH_.size()] = input.X_WH.p;
+    sent_[client_.sent_sequence() % sent_.size()] = {input.X_WH.p, now};
   }
   if (take_answer() && mode_ == RenderMode::local) set_local_contacts();
   render(input, now, dt, client_.state() == client::LinkState::joined);

@@ -26,7 +26,8 @@ enum class RenderMode {
 struct LoopStats {
   std::uint64_t ticks = 0;
   std::uint64_t sent = 0;
-  std::uint64_t answers = 0;       ///< forces received
+  std::uint64_t answers = 0;       ///< forces received and used
+  std::uint64_t too_late = 0;      ///< forces dropped: they answer a sample that was sent too long ago
   std::uint64_t silent_ticks = 0;  ///< ticks since the first force whose newest force was too old to be rendered
   double force_max_n = 0;
   double force_sum_n = 0;  ///< over ticks with force
@@ -39,6 +40,11 @@ struct LoopStats {
 /// device is given zero whatever it rendered, and closed.
 class HapticLoop {
  public:
+  /// An answer that took longer, from sending the hand on, is dropped.
+  static constexpr Duration kTooLate = std::chrono::milliseconds(100);
+  /// The server's force is rendered in full up to this delay, and then with less stiffness.
+  static constexpr Duration kFullDelay = std::chrono::milliseconds(5);
+
   /// Opens the device. Errors: the device's own; its limits are not valid for a governor.
   [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device,
                                                                     RenderMode mode);
@@ -64,6 +70,8 @@ class HapticLoop {
   HapticLoop(client::Client& client, Device& device, RenderMode mode, const hand::ForceGovernor& governor)
       : client_(client), device_(device), mode_(mode), governor_(governor), governed_(governor.start()) {}
   bool take_answer() noexcept;
+  void note_delay(Duration delay) noexcept;
+  [[nodiscard]] double stiffness_share() const noexcept;
   void set_local_contacts() noexcept;
   void render(const client::HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept;
 
@@ -75,7 +83,14 @@ class HapticLoop {
   hand::LocalContactModel local_;
   hand::SampleAge age_;
   client::ForceSample answer_;
-  std::array<Vec3, 256> sent_p_WH_{};  // where the hand was in each sample, by sequence number
+  /// What is known of a sample that was sent.
+  struct Sent {
+    Vec3 p_WH = Vec3::Zero();
+    TimePoint at;
+  };
+  [[nodiscard]] const Sent& sent(std::uint64_t sequence) const noexcept { return sent_[sequence % sent_.size()]; }
+  std::array<Sent, 1024> sent_{};  // by sequence number
+  Duration delay_{0};              // of the answers: rises at once, falls slowly
   hand::HandForce rendered_;
   LoopStats stats_;
   realtime::LatencyHistogram round_trip_;

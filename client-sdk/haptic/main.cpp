@@ -62,6 +62,7 @@ nlohmann::json to_json(const haptic::HapticLoop& loop, const realtime::PeriodicT
   nlohmann::json json = {{"ticks", s.ticks},
                          {"sent", s.sent},
                          {"answers", s.answers},
+                         {"too_late", s.too_late},
                          {"silent_ticks", s.silent_ticks},
                          {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}},
                          {"overruns", r.overruns},

@@ -179,6 +179,36 @@ TEST_F(HapticLoopTest, AnAnswerToASampleThatWasNeverSentIsDropped) {
   EXPECT_EQ(device_.force_W.norm(), 0);
 }
 
+TEST_F(HapticLoopTest, TheForceIsLoweredWithTheDelayOfTheAnswers) {
+  tick_for(1s, true);
+  const auto settled_n = [this](std::uint64_t delay_ticks) {
+    double force_n = 0;
+    for (int ms = 0; ms < 3000; ++ms)
+      force_n = tick_answered(client_.sent_sequence() - delay_ticks);
+    return force_n;
+  };
+  EXPECT_NEAR(settled_n(4), kPressN, 1e-9);
+  // The answer is taken a tick after it is made.
+  EXPECT_NEAR(settled_n(19), kPressN * 5.5 / 20.5, 0.01);
+  EXPECT_NEAR(settled_n(59), kPressN * 5.5 / 60.5, 0.01);
+  EXPECT_NEAR(settled_n(0), kPressN, 0.01) << "and comes back";
+}
+
+TEST_F(HapticLoopTest, AnswersThatCameThroughALongQueueAreDropped) {
+  for (const RenderMode mode : {RenderMode::server, RenderMode::local}) {
+    render(mode);
+    touching_ = false;
+    tick_for(1s, true);
+    touching_ = true;
+    ASSERT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+    const std::uint64_t dropped = loop_->stats().too_late;
+    for (int ms = 0; ms < 1000; ++ms)
+      (void)tick_answered(client_.sent_sequence() - 500);
+    EXPECT_EQ(device_.force_W.norm(), 0);
+    EXPECT_EQ(loop_->stats().too_late, dropped + 1000);
+  }
+}
+
 TEST_F(HapticLoopTest, AContactOfASampleTooLongAgoIsNotRendered) {
   render(RenderMode::local);
   tick_for(1s, true);
