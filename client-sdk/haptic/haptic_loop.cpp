@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace mechane::haptic {
 
@@ -9,7 +10,9 @@ using client::ForceSample;
 using hand::HandSample;
 
 Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client, Device& device, RenderMode mode) {
-  auto governor = hand::ForceGovernor::make(device.limits());
+  hand::GovernorConfig limits = device.limits();
+  limits.forget_credit = true;
+  auto governor = hand::ForceGovernor::make(limits);
   if (!governor) return tl::unexpected(governor.error());
   if (auto opened = device.open(); !opened) return tl::unexpected(opened.error());
   return std::unique_ptr<HapticLoop>(new HapticLoop(client, device, mode, *governor));
@@ -54,6 +57,16 @@ void HapticLoop::set_local_contacts() noexcept {
   local_.set(answer_.contact_span(), sent(answer_.echo_sequence).p_WH);
 }
 
+/// The hand's mean velocity since the last call. The energy that a force gave is found from places: a device's own velocity is noisy.
+Twist HapticLoop::moved(const HandSample& input, Duration dt) noexcept {
+  const Pose before = std::exchange(X_WH_before_, input.X_WH).value_or(input.X_WH);
+  Twist mean;
+  if (dt <= Duration{0}) return mean;
+  mean.v = (input.X_WH.p - before.p) / to_seconds(dt);
+  mean.w = rotation_vector(input.X_WH.R * before.R.conjugate()) / to_seconds(dt);
+  return mean;
+}
+
 void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept {
   const Duration age = age_.age(now);
   // A force that returns is ramped up from zero, as at the start of a visit: after a silence of the server, and after
@@ -66,7 +79,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   wanted.finger_force_n = answer_.finger_force_n;
   if (mode_ == RenderMode::local && !answer_.holding)
     wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
-  wanted.V_WH = input.V_WH;
+  wanted.V_WH = moved(input, dt);
   wanted.age = age;
   wanted.engaged = engaged;
   wanted.touching = answer_.contact_count > 0;

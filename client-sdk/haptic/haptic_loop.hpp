@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "client-sdk/haptic/device.hpp"
 #include "server/hand/freshness.hpp"
@@ -73,6 +74,7 @@ class HapticLoop {
   void note_delay(Duration delay) noexcept;
   [[nodiscard]] double stiffness_share() const noexcept;
   void set_local_contacts() noexcept;
+  [[nodiscard]] Twist moved(const client::HandSample& input, Duration dt) noexcept;
   void render(const client::HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept;
 
   client::Client& client_;
@@ -89,8 +91,9 @@ class HapticLoop {
     TimePoint at;
   };
   [[nodiscard]] const Sent& sent(std::uint64_t sequence) const noexcept { return sent_[sequence % sent_.size()]; }
-  std::array<Sent, 1024> sent_{};  // by sequence number
-  Duration delay_{0};              // of the answers: rises at once, falls slowly
+  std::array<Sent, 1024> sent_{};    // by sequence number
+  std::optional<Pose> X_WH_before_;  // in the last call
+  Duration delay_{0};                // of the answers: rises at once, falls slowly
   hand::HandForce rendered_;
   LoopStats stats_;
   realtime::LatencyHistogram round_trip_;

@@ -43,6 +43,12 @@ bool approach(double& value, double target, double step) {
   return limited;
 }
 
+/// No force is on the hand, and none is wanted.
+bool is_free(const GovernorState& state, const GovernorInput& in) {
+  return !in.touching && in.wanted_W.f.isZero(0) && in.wanted_W.t.isZero(0) && state.last.force_W.f.isZero(0) &&
+         state.last.force_W.t.isZero(0);
+}
+
 bool in_range(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
@@ -127,6 +133,8 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
     return finish(state, nothing(reasons | kNotFinite));
   }
   settle_energy(state, input.V_WH, dt_s);
+  if (config_.forget_credit && is_free(state, input))
+    state.credit_j = std::min(state.credit_j, config_.energy_margin_j);
 
   Wrench wanted = input.wanted_W;
   bool clamped = clamp_norm(wanted.f, config_.max_force_n);

@@ -40,43 +40,79 @@ double share_left(Duration age, Duration validity) {
   return std::max(0.0, 1.0 - to_seconds(age - validity) / to_seconds(LocalContactModel::kFadeTime));
 }
 
-// Normal force, damping of what pushes in, and friction within its cone; continuous where depth goes through 0.
-Vec3 force_of(const LocalContact& c, const Overlap& o, const Vec3& v_rel_W) {
-  const double v_n = v_rel_W.dot(o.n_W);
-  double normal = c.stiffness_n_per_m * o.depth_m;
-  if (v_n < 0) normal -= c.damping_ns_per_m * v_n * std::min(1.0, o.depth_m / LocalContactModel::kDampingOnset_m);
-  const Vec3 v_t = v_rel_W - v_n * o.n_W;
-  const double speed = std::max(v_t.norm(), LocalContactModel::kStickSpeed_m_per_s);
-  return normal * o.n_W - (c.friction * normal / speed) * v_t;
+/// Spring, and damping of what pushes in; continuous where depth goes through 0.
+double normal_force_n(const LocalContact& c, double depth_m, double v_n) {
+  const double onset = std::min(1.0, depth_m / LocalContactModel::kDampingOnset_m);
+  return c.stiffness_n_per_m * depth_m - c.damping_ns_per_m * std::min(v_n, 0.0) * onset;
+}
+
+/// `v` shortened to at most `limit`.
+Vec3 at_most(const Vec3& v, double limit) {
+  const double norm = v.norm();
+  return norm > limit ? Vec3(v * (limit / norm)) : v;
+}
+
+Vec3 along_surface(const Vec3& v, const Vec3& n) {
+  return v - v.dot(n) * n;
 }
 
 }  // namespace
 
-std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const Vec3& p_WH0) noexcept {
-  count_ = 0;
-  if (!p_WH0.allFinite()) return 0;
-  for (const LocalContact& contact : contacts) {
-    if (count_ == kMaxLocalContacts) break;
-    if (!usable(contact)) continue;
-    LocalContact& c = contacts_[count_++];
-    c = contact;
-    c.n_W.normalize();
-    c.p_W = p_WH0 + c.depth_m * c.n_W;
+const LocalContactModel::Touch* LocalContactModel::same_surface(const LocalContact& contact) const noexcept {
+  constexpr double kSameNormal = 0.95;  // cosine: 18 degrees
+  constexpr double kSamePlane_m = 2e-3;
+  const Touch* best = nullptr;
+  double best_cosine = kSameNormal;
+  for (const Touch& touch : std::span(touches_).first(count_)) {
+    const double cosine = touch.contact.n_W.dot(contact.n_W);
+    const double apart_m = (contact.p_W - touch.contact.p_W - touch.travelled_W).dot(contact.n_W);
+    if (cosine <= best_cosine || std::abs(apart_m) > kSamePlane_m) continue;
+    best = &touch;
+    best_cosine = cosine;
   }
+  return best;
+}
+
+std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const Vec3& p_WH0) noexcept {
+  std::array<Touch, kMaxLocalContacts> fresh{};
+  std::size_t count = 0;
+  for (const LocalContact& contact : p_WH0.allFinite() ? contacts : std::span<const LocalContact>()) {
+    if (count == fresh.size()) break;
+    if (!usable(contact)) continue;
+    Touch& touch = fresh[count++];
+    touch.contact = contact;
+    touch.contact.n_W.normalize();
+    touch.contact.p_W = p_WH0 + contact.depth_m * touch.contact.n_W;
+    const Touch* const before = same_surface(touch.contact);
+    touch.p_WA = before == nullptr ? p_WH0 : Vec3(before->p_WA + before->travelled_W);
+  }
+  touches_ = fresh;
+  count_ = count;
   return count_;
 }
 
-Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age) const noexcept {
+Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age) noexcept {
   Vec3 force = Vec3::Zero();
-  for (std::size_t i = 0; i < count_; ++i) {
-    const LocalContact& c = contacts_[i];
+  for (Touch& touch : std::span(touches_).first(count_)) {
+    const LocalContact& c = touch.contact;
     const double share = share_left(age, c.validity);
     if (share <= 0) continue;
     // The surface moves on while the contact is valid; afterwards it rests, and its speed fades with the contact.
-    const Vec3 p_WS = c.p_W + to_seconds(std::clamp(age, Duration{0}, std::max(c.validity, Duration{0}))) * c.v_W;
-    const Overlap overlap = overlap_of(c, p_WS, p_WH);
-    if (overlap.depth_m <= 0) continue;
-    force += share * force_of(c, overlap, v_WH - share * c.v_W);
+    touch.travelled_W = to_seconds(std::clamp(age, Duration{0}, std::max(c.validity, Duration{0}))) * c.v_W;
+    const Overlap overlap = overlap_of(c, c.p_W + touch.travelled_W, p_WH);
+    Vec3 stretch = Vec3::Zero();
+    if (overlap.depth_m > 0) {
+      const Vec3 v_rel_W = v_WH - share * c.v_W;
+      const double normal_n = normal_force_n(c, overlap.depth_m, v_rel_W.dot(overlap.n_W));
+      const double cone_n = c.friction * normal_n;
+      if (c.stiffness_n_per_m > 0) {
+        stretch =
+            at_most(along_surface(p_WH - touch.p_WA - touch.travelled_W, overlap.n_W), cone_n / c.stiffness_n_per_m);
+      }
+      const Vec3 damping = c.damping_ns_per_m * along_surface(v_rel_W, overlap.n_W);
+      force += share * (normal_n * overlap.n_W - at_most(c.stiffness_n_per_m * stretch + damping, cone_n));
+    }
+    touch.p_WA = p_WH - touch.travelled_W - stretch;
   }
   return force;
 }

@@ -18,16 +18,19 @@ namespace mechane::hand {
 /// between two answers. Each contact becomes a plane, or a sphere of radius 1 / |curvature|, that H may not pass:
 /// placed so that H is `depth_m` behind it where H was when the server looked. So the size of the tip, or the way from
 /// wrist to fingertip, needs no further numbers.
+///
+/// Friction is a spring as stiff as the contact, from the place where the hand stuck to where it is now; beyond the cone
+/// that place slides after it (Hayward and Armstrong 2000). A hand at rest does not creep, the force does not depend on
+/// a noisy velocity, and no slope is steeper than that of the contact itself.
 class LocalContactModel {
  public:
   static constexpr Duration kFadeTime =
       std::chrono::milliseconds(20);  ///< a contact past its validity is gone after this
   static constexpr double kDampingOnset_m =
       0.5e-3;  ///< damping grows to its full value over this depth: no jolt at touch
-  static constexpr double kStickSpeed_m_per_s =
-      5e-3;  ///< below this speed friction is viscous, so that it cannot chatter
 
-  /// The server's newest contacts, and where H was (`p_WH0`) in the input that they answer. Contacts beyond the eighth,
+  /// The server's newest contacts, and where H was (`p_WH0`) in the input that they answer. Where one is the plane of
+  /// a contact of before, the hand goes on sticking to it. Contacts beyond the eighth,
   /// and those with a number that is not finite or a normal that is not of unit length, are left out; returns how many
   /// were taken.
   std::size_t set(std::span<const LocalContact> contacts, const Vec3& p_WH0) noexcept;
@@ -36,10 +39,17 @@ class LocalContactModel {
 
   /// The force on the hand, N in W, with H at `p_WH` moving at `v_WH`; `age` is the time since set(), on the caller's
   /// own clock. Not clamped: the governor comes after it.
-  [[nodiscard]] Vec3 render(const Vec3& p_WH, const Vec3& v_WH, Duration age) const noexcept;
+  [[nodiscard]] Vec3 render(const Vec3& p_WH, const Vec3& v_WH, Duration age) noexcept;
 
  private:
-  std::array<LocalContact, kMaxLocalContacts> contacts_{};  // p_W moved to where H may not pass
+  struct Touch {
+    LocalContact contact;             // p_W moved to where H may not pass
+    Vec3 p_WA = Vec3::Zero();         // H would feel no friction here, but for:
+    Vec3 travelled_W = Vec3::Zero();  // how far the surface has moved since set()
+  };
+  [[nodiscard]] const Touch* same_surface(const LocalContact& contact) const noexcept;
+
+  std::array<Touch, kMaxLocalContacts> touches_{};
   std::size_t count_ = 0;
 };
 

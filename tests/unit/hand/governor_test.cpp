@@ -254,14 +254,16 @@ struct Bounce {
   double speed_out;     // over the speed of arrival
 };
 
-Bounce bounce(bool passivity, int delay_ticks, double stiffness, double speed, double mass = 0.3,
-              double slew = 20'000) {
+Bounce bounce(bool passivity, int delay_ticks, double stiffness, double speed, double mass = 0.3, double slew = 20'000,
+              double credit_j = 0, bool forget_credit = false) {
   GovernorConfig config;
   config.passivity = passivity;
+  config.forget_credit = forget_credit;
   config.max_force_n = 20;
   config.max_slew_n_per_s = slew;
   config.ramp_up_s = 0;
   OneHand governor(config);
+  governor.state.credit_j = std::max(governor.state.credit_j, credit_j);
   std::deque<double> late(static_cast<std::size_t>(delay_ticks), 0.0);
   double x = 0.01, v = -speed, force = 0, out_j = 0, peak_j = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -295,6 +297,12 @@ RC_GTEST_PROP(ForceGovernor, TheObserverBoundsTheEnergyOfADelayedWall, ()) {
   // The margin, and what one tick's force does over the change of velocity that the tick could not foresee.
   const double unforeseen_j = 20.0 * (20.0 / 0.3 * kDt_s) * kDt_s;
   RC_ASSERT(b.peak_out_j <= GovernorConfig{}.energy_margin_j + 2 * unforeseen_j);
+}
+
+TEST(ForceGovernor, WhatAHandPutInPaysForNothingOnceItIsFree) {
+  const double credit_j = GovernorConfig{}.energy_credit_j;
+  EXPECT_GT(bounce(true, 10, 1500, 0.2, 0.3, 20'000, credit_j).peak_out_j, 0.005) << "or the next line proves nothing";
+  EXPECT_LE(bounce(true, 10, 1500, 0.2, 0.3, 20'000, credit_j, true).peak_out_j, 0.003);
 }
 
 TEST(ForceGovernor, APassiveWallIsNotDamped) {

@@ -97,14 +97,80 @@ TEST(LocalContactModel, DampsOnlyWhatPushesIn) {
 RC_GTEST_PROP(LocalContactModel, FrictionStaysInItsConeAndOpposesTheSlide, ()) {
   LocalContact c = wall();
   c.depth_m = number(0, 0.01);
+  c.damping_ns_per_m = number(0, 5);
   c.friction = number(0, 1);
   LocalContactModel model;
   model.set(std::span(&c, 1), Vec3::Zero());
   const Vec3 v(number(-0.3, 0.3), number(-0.3, 0.3), 0);
-  const Vec3 force = model.render(Vec3::Zero(), v, 0ms);
-  const Vec3 tangential(force.x(), force.y(), 0);
-  RC_ASSERT(tangential.norm() <= c.friction * force.z() * (1 + 1e-12) + 1e-12);
-  RC_ASSERT(tangential.dot(v) <= 0);
+  for (int ms = 0; ms < 50; ++ms) {
+    const Vec3 force = model.render(1e-3 * ms * v, v, 0ms);
+    const Vec3 tangential(force.x(), force.y(), 0);
+    RC_ASSERT(tangential.norm() <= c.friction * force.z() * (1 + 1e-12) + 1e-12);
+    RC_ASSERT(tangential.dot(v) <= 0);
+  }
+}
+
+/// 1.2 N on a wall with a friction of one half; the hand is new there.
+LocalContactModel pressed(Vec3 v_W = Vec3::Zero()) {
+  LocalContact c = wall();
+  c.depth_m = 0.002;
+  c.friction = 0.5;
+  c.v_W = v_W;
+  LocalContactModel model;
+  model.set(std::span(&c, 1), Vec3::Zero());
+  return model;
+}
+
+TEST(LocalContactModel, AHandThatIsPushedAsideIsHeldAndSlidesBeyondTheCone) {
+  LocalContactModel model = pressed();
+  const auto sideways_n = [&model](double x_m) { return model.render(Vec3(x_m, 0, 0), Vec3::Zero(), 0ms).x(); };
+  EXPECT_NEAR(sideways_n(0.0005), -0.3, 1e-12) << "as stiff as the wall";
+  for (int ms = 0; ms < 60'000; ++ms)
+    ASSERT_NEAR(sideways_n(0.0005), -0.3, 1e-12) << "it crept in " << ms << " ms";
+  EXPECT_NEAR(sideways_n(0.02), -0.6, 1e-12) << "half of 1.2 N";
+  EXPECT_NEAR(sideways_n(0.0195), -0.3, 1e-12) << "on the way back it gives way first";
+  EXPECT_NEAR(sideways_n(0.01), 0.6, 1e-12);
+}
+
+TEST(LocalContactModel, FrictionForgetsWhereAHandStuckThatHasLeft) {
+  LocalContactModel model = pressed();
+  (void)model.render(Vec3(0.0005, 0, 0), Vec3::Zero(), 0ms);
+  (void)model.render(Vec3(0.005, 0, 0.01), Vec3::Zero(), 0ms);
+  EXPECT_NEAR(model.render(Vec3(0.005, 0, 0), Vec3::Zero(), 0ms).x(), 0, 1e-12);
+}
+
+TEST(LocalContactModel, FrictionIsTheSameHoweverNoisyTheVelocity) {
+  LocalContactModel model = pressed();
+  const Vec3 p_WH(0.0005, 0, 0);
+  const Vec3 still = model.render(p_WH, Vec3::Zero(), 0ms);
+  EXPECT_EQ(model.render(p_WH, Vec3(0.055, 0, 0), 0ms), still) << "one count of an encoder in a millisecond";
+}
+
+TEST(LocalContactModel, TheHandGoesOnStickingFromOneAnswerToTheNext) {
+  LocalContactModel model = pressed();
+  LocalContact c = wall();
+  c.depth_m = 0.002;
+  c.friction = 0.5;
+  Vec3 p_WH = Vec3::Zero();
+  for (int answer = 0; answer < 10; ++answer) {
+    p_WH.x() += 0.00005;
+    model.set(std::span(&c, 1), p_WH);
+    EXPECT_NEAR(model.render(p_WH, Vec3::Zero(), 0ms).x(), -600 * p_WH.x(), 1e-12);
+  }
+  c.n_W = Vec3::UnitY();
+  model.set(std::span(&c, 1), p_WH);
+  EXPECT_NEAR(model.render(p_WH, Vec3::Zero(), 0ms).x(), 0, 1e-12) << "another wall";
+}
+
+TEST(LocalContactModel, ASurfaceThatMovesTakesTheHandAlong) {
+  LocalContactModel model = pressed(Vec3(0.05, 0, 0));
+  EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 4ms).x(), 600 * 0.05 * 0.004, 1e-12);
+  LocalContact c = wall();
+  c.depth_m = 0.002;
+  c.friction = 0.5;
+  c.v_W = Vec3(0.05, 0, 0);
+  model.set(std::span(&c, 1), Vec3::Zero());
+  EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 4ms).x(), 600 * 0.05 * 0.008, 1e-12) << "on from there";
 }
 
 // A hand that draws a closed path at 1 kHz through a static wall gets no energy out of it, beyond what sampling a spring makes:

@@ -244,6 +244,43 @@ TEST_F(HapticLoopTest, TicksWithoutAForceThatIsNewEnoughAreCounted) {
   EXPECT_EQ(loop_->stats().silent_ticks, 11u) << "from the 50th millisecond on";
 }
 
+/// Whose velocity is noise: one count of an encoder in a millisecond, to and fro.
+class NoisyDevice final : public Device {
+ public:
+  Vec3 force_W = Vec3::Zero();
+  [[nodiscard]] Expected<void> open() override { return {}; }
+  void close() noexcept override {}
+  [[nodiscard]] client::HandSample read(Duration) noexcept override {
+    noise_ = -noise_;
+    client::HandSample hand;
+    hand.V_WH.v = Vec3(0, noise_ + 0.055, 0);
+    return hand;
+  }
+  void write(const hand::HandForce& force) noexcept override { force_W = force.force_W.f; }
+  [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
+
+ private:
+  double noise_ = 0.055;
+};
+
+TEST(HapticLoopOfANoisyDevice, TakesTheEnergyFromPlaces) {
+  ScriptedClient client;
+  NoisyDevice device;
+  const auto loop = HapticLoop::create(client, device, RenderMode::server);
+  ASSERT_TRUE(loop.has_value());
+  for (int ms = 0; ms < 3000; ++ms) {
+    const TimePoint now{1h + ms * kTick};
+    client::ForceSample& answer = client.arrived.emplace();
+    answer.sequence = static_cast<std::uint64_t>(ms) + 1;
+    answer.echo_sequence = client.sent_sequence();
+    answer.received = now;
+    answer.force_W.f = Vec3(0, kPressN, 0);
+    (*loop)->tick(now, kTick);
+    if (ms < 600) continue;
+    ASSERT_NEAR(device.force_W.y(), kPressN, 1e-9) << "a hand at rest was given no energy, in " << ms << " ms";
+  }
+}
+
 /// An arm that presses against a floor at y = 0, which the server renders.
 class PressTest : public ::testing::Test {
  protected:
