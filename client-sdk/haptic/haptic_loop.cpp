@@ -11,7 +11,8 @@ using hand::HandSample;
 
 Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client, Device& device, RenderMode mode) {
   hand::GovernorConfig limits = device.limits();
-  limits.forget_credit = true;
+  limits.strict_energy = true;
+  limits.energy_margin_j = std::min(limits.energy_margin_j, kEnergyMargin_j);
   auto governor = hand::ForceGovernor::make(limits);
   if (!governor) return tl::unexpected(governor.error());
   if (auto opened = device.open(); !opened) return tl::unexpected(opened.error());

@@ -46,6 +46,9 @@ class HapticLoop {
   /// The server's force is rendered in full up to this delay, and then with less stiffness.
   static constexpr Duration kFullDelay = std::chrono::milliseconds(5);
 
+  /// What a hand may be given before it has put anything in.
+  static constexpr double kEnergyMargin_j = 0.0005;
+
   /// Opens the device. Errors: the device's own; its limits are not valid for a governor.
   [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device,
                                                                     RenderMode mode);

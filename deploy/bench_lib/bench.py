@@ -11,6 +11,7 @@ from pathlib import Path
 
 import collision
 import display
+import haptics
 import machine
 import path
 import worlds
@@ -18,7 +19,7 @@ from peers import Measured
 from plots import number
 
 ROOT = Path(__file__).resolve().parents[2]
-BENCHMARKS = {"path": path, "collision": collision, "worlds": worlds, "display": display}
+BENCHMARKS = {"path": path, "collision": collision, "haptics": haptics, "worlds": worlds, "display": display}
 
 
 @dataclass

@@ -133,7 +133,7 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
     return finish(state, nothing(reasons | kNotFinite));
   }
   settle_energy(state, input.V_WH, dt_s);
-  if (config_.forget_credit && is_free(state, input))
+  if (config_.strict_energy && is_free(state, input))
     state.credit_j = std::min(state.credit_j, config_.energy_margin_j);
 
   Wrench wanted = input.wanted_W;
@@ -187,9 +187,14 @@ void ForceGovernor::settle_energy(GovernorState& state, const Twist& V_WH, doubl
 
 void ForceGovernor::keep_passive(const GovernorState& state, const Twist& V_WH, double dt_s, Wrench& force,
                                  std::uint32_t& reasons) const noexcept {
+  if (dt_s <= 0) return;
+  if (config_.strict_energy && state.credit_j <= 0 && force.f.dot(V_WH.v) + force.t.dot(V_WH.w) >= 0) {
+    bool held_back = clamp_norm(force.f, state.last.force_W.f.norm());
+    held_back |= clamp_norm(force.t, state.last.force_W.t.norm());
+    if (held_back) reasons |= kDamped;
+  }
   const double power_f = force.f.dot(V_WH.v);
   const double power_t = force.t.dot(V_WH.w);
-  if (dt_s <= 0) return;
   const double excess = power_f + power_t - state.credit_j / dt_s;  // watts over what the account can pay in this step
   if (excess <= 0) return;
   reasons |= kDamped;

@@ -28,7 +28,7 @@ struct GovernorConfig {
   bool passivity = true;             ///< the energy observer
   double energy_margin_j = 0.002;    ///< what the hand may be given before it has put anything in
   double energy_credit_j = 0.5;      ///< the energy that it has put in is remembered up to this; above the margin
-  bool forget_credit = false;        ///< what it has put in counts until it is free again
+  bool strict_energy = false;        ///< on a device: see ForceGovernor
   double max_damping_ns_per_m = 10;  ///< the most that the observer adds
 };
 
@@ -68,10 +68,11 @@ struct GovernorState {
 /// energy into it that it never gave, and shakes.
 ///
 /// The energy observer is the time-domain passivity control of Hannaford and Ryu (2002), eqs. (3)-(5), with three
-/// departures: the credit is capped, and on a device forgotten when the hand is free (else an hour's friction would pay
-/// for any later push); removing the force's own
+/// departures: the credit is capped (else an hour's friction would pay for any later push); removing the force's own
 /// part along the motion, which can only shrink it, has no limit, while added damping has one; force and torque share
-/// one account.
+/// one account. With `strict_energy` the credit is forgotten when the hand is free, and while the account is overdrawn
+/// no force rises on a hand that does not move against it: else a force that is cut as soon as the hand yields, and
+/// comes back as soon as it rests, would shake the hand, and give it a little energy each time.
 ///
 /// Any thread, each with states of its own; no allocation; the same inputs give the same bits.
 class ForceGovernor {

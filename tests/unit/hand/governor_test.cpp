@@ -255,10 +255,10 @@ struct Bounce {
 };
 
 Bounce bounce(bool passivity, int delay_ticks, double stiffness, double speed, double mass = 0.3, double slew = 20'000,
-              double credit_j = 0, bool forget_credit = false) {
+              double credit_j = 0, bool strict_energy = false) {
   GovernorConfig config;
   config.passivity = passivity;
-  config.forget_credit = forget_credit;
+  config.strict_energy = strict_energy;
   config.max_force_n = 20;
   config.max_slew_n_per_s = slew;
   config.ramp_up_s = 0;
@@ -303,6 +303,25 @@ TEST(ForceGovernor, WhatAHandPutInPaysForNothingOnceItIsFree) {
   const double credit_j = GovernorConfig{}.energy_credit_j;
   EXPECT_GT(bounce(true, 10, 1500, 0.2, 0.3, 20'000, credit_j).peak_out_j, 0.005) << "or the next line proves nothing";
   EXPECT_LE(bounce(true, 10, 1500, 0.2, 0.3, 20'000, credit_j, true).peak_out_j, 0.003);
+}
+
+TEST(ForceGovernor, AnOverdrawnAccountLetsNoForceRiseOnAHandAtRest) {
+  GovernorConfig config;
+  config.strict_energy = true;
+  OneHand governor = settled(1.0, config);
+  governor.state.credit_j = -0.001;
+  GovernorInput input;
+  input.touching = true;
+  input.wanted_W.f.x() = 2.0;
+  HandForce out;
+  for (int ms = 0; ms < 100; ++ms)
+    out = governor.apply(input);
+  EXPECT_EQ(out.force_W.f.x(), 1.0);
+  EXPECT_NE(out.reasons & kDamped, 0u);
+  input.V_WH.v.x() = -0.01;  // it presses in, and so pays
+  for (int ms = 0; ms < 10; ++ms)
+    out = governor.apply(input);
+  EXPECT_GE(out.force_W.f.x(), 2.0);
 }
 
 TEST(ForceGovernor, APassiveWallIsNotDamped) {

@@ -6,52 +6,15 @@
 #include <gtest/gtest.h>
 
 #include "client-sdk/haptic/virtual_device.hpp"
+#include "tests/support/scripted_client.hpp"
 
 namespace mechane::haptic {
 namespace {
 
 using namespace std::chrono_literals;
+using test::ScriptedClient;
 
-constexpr Duration kTick = 1ms;
 constexpr double kPressN = 2;
-
-/// A joined client whose server's answers are put in by the test.
-class ScriptedClient final : public client::Client {
- public:
-  std::optional<client::ForceSample> arrived;
-  client::HandSample hand;  ///< the last that was sent
-
-  [[nodiscard]] client::LinkState state() const override { return client::LinkState::joined; }
-  [[nodiscard]] bool wait_for(client::LinkState wanted, Duration) override { return wanted == state(); }
-  [[nodiscard]] std::string refusal() const override { return {}; }
-  [[nodiscard]] std::uint64_t session() const override { return 1; }
-  bool send(const client::HandSample& sample) noexcept override {
-    hand = sample;
-    return ++sent_ > 0;
-  }
-  [[nodiscard]] std::uint64_t sent_sequence() const noexcept override { return sent_; }
-  [[nodiscard]] std::optional<client::ForceSample> newest_force() noexcept override {
-    return std::exchange(arrived, std::nullopt);
-  }
-  [[nodiscard]] std::optional<client::ForceSample> wait_force(Duration) override { return newest_force(); }
-  [[nodiscard]] bool newest_frame(client::Frame&) override { return false; }
-  [[nodiscard]] bool interpolated_frame(TimePoint, Duration, client::Frame&) override { return false; }
-  [[nodiscard]] std::vector<client::SceneObject> objects() const override { return {}; }
-  [[nodiscard]] std::optional<client::WorldStatus> world_status() const override { return {}; }
-  [[nodiscard]] std::shared_ptr<const client::WorldPresentation> presentation() const override { return {}; }
-  [[nodiscard]] std::optional<client::ServerStatus> server_status() const override { return {}; }
-  [[nodiscard]] std::vector<client::WorldEvent> take_events() override { return {}; }
-  std::uint64_t start_activity(const std::string&) override { return 0; }
-  std::uint64_t restart_activity() override { return 0; }
-  std::uint64_t next_step() override { return 0; }
-  std::uint64_t click(const std::string&) override { return 0; }
-  std::uint64_t open_exhibit(const std::string&) override { return 0; }
-  std::uint64_t answer(const client::VisitAnswer&) override { return 0; }
-  std::uint64_t tell_language(const std::string&) override { return 0; }
-
- private:
-  std::uint64_t sent_ = 0;
-};
 
 /// A device that stands still.
 class StillDevice final : public Device {
@@ -83,18 +46,16 @@ class HapticLoopTest : public ::testing::Test {
   }
   /// The next tick, `dt` after the last one; the server answers the sample before it with kPressN, or not at all.
   /// Returns the rendered force, N.
-  double tick(bool answered, Duration dt = kTick) {
+  double tick(bool answered, Duration dt = kTickPeriod) {
     if (answered) return tick_answered(client_.sent_sequence(), dt);
     now_ += dt;
     loop_->tick(now_, dt);
     return device_.force_W.norm();
   }
   /// The same, with an answer to the sample `echo`: as a force, and as a contact.
-  double tick_answered(std::uint64_t echo, Duration dt = kTick) {
-    client::ForceSample& answer = client_.arrived.emplace();
-    answer.sequence = ++sequence_;
+  double tick_answered(std::uint64_t echo, Duration dt = kTickPeriod) {
+    client::ForceSample& answer = client_.next_answer(now_ + dt);
     answer.echo_sequence = echo;
-    answer.received = now_ + dt;
     answer.force_W.f = Vec3(0, kPressN, 0);
     answer.contact_count = touching_ ? 1 : 0;
     answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = 0.001, .stiffness_n_per_m = 1000 * kPressN};
@@ -102,15 +63,16 @@ class HapticLoopTest : public ::testing::Test {
   }
   double tick_for(Duration time, bool answered) {
     double force_n = 0;
-    for (Duration past{0}; past < time; past += kTick)
+    for (Duration past{0}; past < time; past += kTickPeriod)
       force_n = tick(answered);
     return force_n;
   }
   /// From zero, by no more than the ramp of a visit's start allows, to all of it.
   void expect_ramp() {
     const double ramp_s = device_.limits().ramp_up_s;
-    for (double t_s = 0; t_s < ramp_s; t_s += to_seconds(kTick))
-      ASSERT_LE(tick(true), kPressN * (t_s + 4 * to_seconds(kTick)) / ramp_s) << t_s << " s after the first answer";
+    for (double t_s = 0; t_s < ramp_s; t_s += to_seconds(kTickPeriod))
+      ASSERT_LE(tick(true), kPressN * (t_s + 4 * to_seconds(kTickPeriod)) / ramp_s)
+          << t_s << " s after the first answer";
     EXPECT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
   }
 
@@ -118,7 +80,6 @@ class HapticLoopTest : public ::testing::Test {
   StillDevice device_;
   std::unique_ptr<HapticLoop> loop_;
   TimePoint now_{1h};
-  std::uint64_t sequence_ = 0;
   bool touching_ = false;  // what answers say
 };
 
@@ -269,13 +230,9 @@ TEST(HapticLoopOfANoisyDevice, TakesTheEnergyFromPlaces) {
   const auto loop = HapticLoop::create(client, device, RenderMode::server);
   ASSERT_TRUE(loop.has_value());
   for (int ms = 0; ms < 3000; ++ms) {
-    const TimePoint now{1h + ms * kTick};
-    client::ForceSample& answer = client.arrived.emplace();
-    answer.sequence = static_cast<std::uint64_t>(ms) + 1;
-    answer.echo_sequence = client.sent_sequence();
-    answer.received = now;
-    answer.force_W.f = Vec3(0, kPressN, 0);
-    (*loop)->tick(now, kTick);
+    const TimePoint now{1h + ms * kTickPeriod};
+    client.next_answer(now).force_W.f = Vec3(0, kPressN, 0);
+    (*loop)->tick(now, kTickPeriod);
     if (ms < 600) continue;
     ASSERT_NEAR(device.force_W.y(), kPressN, 1e-9) << "a hand at rest was given no energy, in " << ms << " ms";
   }
@@ -300,28 +257,19 @@ class PressTest : public ::testing::Test {
   };
   Felt press_for(Duration time, double y_wanted_m, bool answered = true) {
     Felt felt;
-    for (Duration past{0}; past < time; past += kTick) {
+    for (Duration past{0}; past < time; past += kTickPeriod) {
       const double before_n = arm_.felt_W().f.norm();
-      now_ += kTick;
-      if (answered) answer();
+      now_ += kTickPeriod;
+      if (answered) client_.answer_with_floor(kFloor_n_per_m, now_);
       intent_.X_WH.p.y() += std::clamp(y_wanted_m - intent_.X_WH.p.y(), -1e-4, 1e-4);
       arm_.intend(intent_);
-      loop_->tick(now_, kTick);
+      loop_->tick(now_, kTickPeriod);
       const double force_n = arm_.felt_W().f.norm();
       felt.low = std::min(felt.low, force_n);
       felt.high = std::max(felt.high, force_n);
       felt.largest_fall = std::max(felt.largest_fall, before_n - force_n);
     }
     return felt;
-  }
-  void answer() {
-    client::ForceSample& answer = client_.arrived.emplace();
-    answer.sequence = ++sequence_;
-    answer.echo_sequence = client_.sent_sequence();
-    answer.received = now_;
-    const double depth_m = std::max(0.0, -client_.hand.X_WH.p.y());
-    answer.force_W.f.y() = kFloor_n_per_m * depth_m;
-    answer.contact_count = depth_m > 0 ? 1 : 0;
   }
   /// Free for long enough, then pressing at rest.
   void expect_steady_press() {
@@ -337,7 +285,6 @@ class PressTest : public ::testing::Test {
   HandIntent intent_;
   std::unique_ptr<HapticLoop> loop_;
   TimePoint now_{1h};
-  std::uint64_t sequence_ = 0;
 };
 
 TEST_F(PressTest, AContactThatResumesWithTheHandInsideDoesNotShake) {

@@ -1,0 +1,73 @@
+// A stylus on a desktop arm, simulated with what makes real ones shake: little mass and damping, dry friction, encoder
+// steps, a delay. For tests and benchmarks of force.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "client-sdk/haptic/device.hpp"
+#include "client-sdk/haptic/virtual_device.hpp"
+
+namespace mechane::haptic {
+
+/// As felt at the tip. Mass, friction and resolution are those of the Phantom's class (data sheets); its damping is not
+/// published.
+struct StylusConfig {
+  double mass_kg = 0.075;
+  double viscous_ns_per_m = 0.5;
+  double coulomb_n = 0.05;
+  double resolution_m = 5.5e-5;        ///< of each coordinate; 0: exact
+  std::uint32_t delay = 0;             ///< calls of write() after which a force acts; at most 63
+  Vec3 load_W = Vec3::Zero();          ///< N, always: its weight, a finger on it
+  std::optional<ArmConfig> hand = {};  ///< none: nobody holds it
+};
+
+/// The tip moves as a point mass, in steps of 20 us; a force is held from one call of read() to the next. Its rotation
+/// is the intended one. One thread.
+class SimulatedStylus final : public Device {
+ public:
+  /// At rest at `p_WH`.
+  explicit SimulatedStylus(const StylusConfig& config, const Vec3& p_WH = Vec3::Zero())
+      : config_(config), p_WH_(p_WH), intended_(p_WH), told_(rounded(p_WH)) {}
+
+  [[nodiscard]] Expected<void> open() override { return {}; }
+  void close() noexcept override {}
+  /// The place as its encoders tell it, and the velocity that follows from two such places.
+  [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
+  void write(const hand::HandForce& force) noexcept override {
+    written_[++writes_ % written_.size()] = force.force_W.f;
+  }
+  [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
+
+  /// Where the hand that holds it wants to be.
+  void intend(const Vec3& p_WH) noexcept { intended_ = p_WH; }
+  /// A hit.
+  void push(const Vec3& v_WH) noexcept { v_WH_ = v_WH; }
+  /// Where it really is.
+  [[nodiscard]] const Vec3& p_WH() const noexcept { return p_WH_; }
+  /// The force on it now, N.
+  [[nodiscard]] const Vec3& force_W() const noexcept {
+    return written_[(writes_ + written_.size() - config_.delay) % written_.size()];
+  }
+
+ private:
+  [[nodiscard]] Vec3 rounded(const Vec3& p) const noexcept;
+  void move(double dt_s) noexcept;
+
+  StylusConfig config_;
+  Vec3 p_WH_;
+  Vec3 v_WH_ = Vec3::Zero();
+  Vec3 intended_;
+  Vec3 told_;
+  std::array<Vec3, 64> written_ = filled();
+  std::uint64_t writes_ = 0;
+
+  static std::array<Vec3, 64> filled() {
+    std::array<Vec3, 64> none;
+    none.fill(Vec3::Zero());
+    return none;
+  }
+};
+
+}  // namespace mechane::haptic

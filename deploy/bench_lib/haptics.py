@@ -1,0 +1,46 @@
+"""Force on a hand: how stiff a wall may be, what a delay does to a press, what is felt when a contact resumes. All of it on a simulated
+stylus and a simulated clock: the figures do not depend on the machine."""
+
+import operator
+from pathlib import Path
+
+from peers import Measured, Missing, own
+from plots import lines, number
+
+PROGRAM_LIMIT_S = 120
+# Figure: what it is to be. The first two are judged against theory.
+AIMS = {
+    "wall.k_ratio": (("at least", 0.9), ("at most", 1.1)),
+    "wall.limit_cycle_ratio": (("at most", 1),),
+    "resume.swing_n": (("at most", 0.3),),
+    "delay20.local.energy_mj.max": (("at most", 1),),
+    "delay50.local.energy_mj.max": (("at most", 1),),
+    "delay20.local.peak_ratio": (("at most", 1.1),),
+    "delay20.local.force_share.min": (("at least", 0.8),),
+    "delay50.local.force_share.min": (("at least", 0.5),),
+}
+_HOLDS = {"at least": operator.ge, "at most": operator.le}
+
+
+def missed(metrics: dict[str, float]) -> list[str]:
+    return [f"missed: {name} is {number(metrics[name])}, the aim is {word} {number(limit)}"
+            for name, aims in AIMS.items() if name in metrics for word, limit in aims if not _HOLDS[word](metrics[name], limit)]
+
+
+def measure(context) -> tuple[Measured, list[str]]:
+    try:
+        result = own(context.bin, "bench_haptics", [], PROGRAM_LIMIT_S)
+    except Missing as reason:
+        return Measured(), [f"haptics: {reason}"]
+    result.notes += missed(result.metrics)
+    return result, []
+
+
+def plot(result: Measured, out: Path, machine: str) -> list[Path]:
+    series = {"theory": result.curves.get("wall.theory"), "measured": result.curves.get("wall.measured")}
+    if not all(series.values()):
+        return []
+    made = out / "haptics-wall.svg"
+    lines(made, "How stiff a wall may be", f"largest stable stiffness of a bare stylus; theory: b / (T / 2 + t). {result.notes[0]}",
+          series, "delay, ms", "N/m")
+    return [made]

@@ -1,0 +1,259 @@
+// How steep a wall may be, and how still a press is: a simulated stylus (client-sdk/haptic/simulated_stylus.hpp) on a
+// simulated clock, so that the figures are the same on every machine.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <random>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "client-sdk/haptic/haptic_loop.hpp"
+#include "client-sdk/haptic/simulated_stylus.hpp"
+#include "tests/benchmark/bench_stats.hpp"
+#include "tests/support/scripted_client.hpp"
+
+namespace mechane::benchmark {
+namespace {
+
+using namespace std::chrono_literals;
+using haptic::SimulatedStylus;
+using haptic::StylusConfig;
+
+const Vec3 kWeight_W(0, -0.5, 0);
+
+/// The range that a number went through.
+struct Range {
+  double low = 1e9, high = -1e9;
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  [[nodiscard]] double size() const { return high - low; }
+};
+
+/// The wall y < 0 as the local contact model renders it, without damping, friction or governor.
+hand::LocalContactModel wall(double stiffness_n_per_m) {
+  hand::LocalContact contact{.n_W = Vec3::UnitY(), .stiffness_n_per_m = stiffness_n_per_m};
+  contact.validity = 1h;
+  hand::LocalContactModel model;
+  model.set(std::span(&contact, 1), Vec3::Zero());
+  return model;
+}
+
+/// How far the stylus moves to and fro on the wall in this time, m.
+double moves_on(hand::LocalContactModel& wall, SimulatedStylus& stylus, Duration time) {
+  Range y;
+  for (Duration past{0}; past < time; past += kTickPeriod) {
+    const client::HandSample sample = stylus.read(kTickPeriod);
+    hand::HandForce force;
+    force.force_W.f = wall.render(sample.X_WH.p, sample.V_WH.v, 0ms);
+    stylus.write(force);
+    y.add(stylus.p_WH().y());
+  }
+  return y.size();
+}
+
+/// Whether a stylus that lies on the wall with its weight, and is hit so little that it stays there, comes to rest: after ten seconds it
+/// moves less than at first, or within the steps of its encoders.
+bool is_stable(const StylusConfig& config, double stiffness_n_per_m) {
+  SimulatedStylus stylus(config, kWeight_W / stiffness_n_per_m);
+  hand::LocalContactModel model = wall(stiffness_n_per_m);
+  stylus.push(Vec3(0, -0.01, 0));
+  const double early_m = moves_on(model, stylus, 100ms);
+  moves_on(model, stylus, 9s);
+  const double late_m = moves_on(model, stylus, 1s);
+  return late_m < early_m || late_m <= 1.5 * config.resolution_m;
+}
+
+double largest_stable_n_per_m(const StylusConfig& config) {
+  double low = 1, high = 100'000;
+  while (high / low > 1.005) {
+    const double middle = std::sqrt(low * high);
+    (is_stable(config, middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+void measure_walls(Report& report) {
+  constexpr double kTick_s = kTickSeconds;
+  const StylusConfig honest{.load_W = kWeight_W};
+  StylusConfig bare = honest;
+  bare.coulomb_n = 0;
+  bare.resolution_m = 1e-8;
+  report.note(fmt::format("the simulated stylus: {:g} g, {:g} N s/m, {:g} N of dry friction, steps of {:g} um",
+                          1e3 * honest.mass_kg, honest.viscous_ns_per_m, honest.coulomb_n, 1e6 * honest.resolution_m));
+  std::vector<std::array<double, 2>> theory, measured;
+  for (const std::uint32_t delay : {0u, 1u, 2u, 5u, 10u, 20u}) {
+    bare.delay = delay;
+    const double limit = bare.viscous_ns_per_m / (0.5 * kTick_s + delay * kTick_s);
+    const double largest = largest_stable_n_per_m(bare);
+    theory.push_back({static_cast<double>(delay), limit});
+    measured.push_back({static_cast<double>(delay), largest});
+    report.metric(delay == 0 ? "wall.k_ratio" : "wall.delay" + std::to_string(delay) + ".k_ratio", largest / limit);
+  }
+  report.curve("wall.theory", theory);
+  report.curve("wall.measured", measured);
+  const double passive = std::min(2 * honest.viscous_ns_per_m / kTick_s, 2 * honest.coulomb_n / honest.resolution_m);
+  report.metric("wall.with_friction.k_ratio", largest_stable_n_per_m(honest) / passive);
+}
+
+/// What lies between a client and its server, there and back together.
+struct Network {
+  int delay_ms = 0;
+  int jitter_ms = 0;  ///< on top, evenly
+  double loss = 0;
+};
+
+constexpr double kFloor_n_per_m = 600;  // what the exhibits' parts have at most
+
+/// A client's whole loop, and a hand that presses its stylus onto a floor, which a server at the other end of a network renders.
+class Press {
+ public:
+  Press(haptic::RenderMode mode, const StylusConfig& config, const Network& network = {}, unsigned seed = 1)
+      : stylus_(config, Vec3(0, kAbove_m, 0)), network_(network), random_(seed) {
+    auto made = haptic::HapticLoop::create(client_, stylus_, mode);
+    if (!made) throw std::runtime_error(made.error().to_string());
+    loop_ = std::move(*made);
+  }
+
+  static constexpr double kAbove_m = 0.02;
+  static constexpr double kInside_m = -0.008;
+
+  struct Felt {
+    Range force_n;
+    double last_force_n = 0;
+    double last_depth_m = 0;
+  };
+  /// The hand goes to `y_m` and stays there.
+  Felt press(double y_m, Duration time, bool answered = true) {
+    Felt felt;
+    for (Duration past{0}; past < time; past += kTickPeriod) {
+      now_ += kTickPeriod;
+      if (answered) send_answer();
+      deliver();
+      y_m_ += std::clamp(y_m - y_m_, -1e-4, 1e-4);
+      stylus_.intend(Vec3(0, y_m_, 0));
+      const Vec3 force_W = stylus_.force_W();
+      const Vec3 before = stylus_.p_WH();
+      loop_->tick(now_, kTickPeriod);
+      energy_j_ += force_W.dot(stylus_.p_WH() - before);
+      energy_max_j_ = std::max(energy_max_j_, energy_j_);
+      felt.last_force_n = loop_->rendered().force_W.f.norm();
+      felt.force_n.add(felt.last_force_n);
+    }
+    felt.last_depth_m = -stylus_.p_WH().y();
+    return felt;
+  }
+  /// The most that the hand was ever given beyond what it had put in, J.
+  [[nodiscard]] double energy_max_j() const { return energy_max_j_; }
+
+ private:
+  void send_answer() {
+    client_.answer_with_floor(kFloor_n_per_m, now_);
+    const client::ForceSample answer = *std::exchange(client_.arrived, std::nullopt);
+    if (std::uniform_real_distribution<>()(random_) < network_.loss) return;
+    const int late_ms = network_.delay_ms + std::uniform_int_distribution<>(0, network_.jitter_ms)(random_);
+    on_the_way_.emplace(now_ + std::chrono::milliseconds(late_ms), answer);
+  }
+  /// The newest of those that have come.
+  void deliver() {
+    while (!on_the_way_.empty() && on_the_way_.begin()->first <= now_) {
+      client::ForceSample& answer = on_the_way_.begin()->second;
+      if (!client_.arrived || answer.sequence > client_.arrived->sequence) client_.arrived = answer;
+      client_.arrived->received = now_;
+      on_the_way_.erase(on_the_way_.begin());
+    }
+  }
+
+  test::ScriptedClient client_;
+  SimulatedStylus stylus_;
+  Network network_;
+  std::mt19937 random_;
+  std::multimap<TimePoint, client::ForceSample> on_the_way_;
+  std::unique_ptr<haptic::HapticLoop> loop_;
+  TimePoint now_{1h};
+  double y_m_ = kAbove_m;
+  double energy_j_ = 0;
+  double energy_max_j_ = 0;
+};
+
+constexpr std::array<std::pair<haptic::RenderMode, const char*>, 2> kModes{
+    {{haptic::RenderMode::server, "direct"}, {haptic::RenderMode::local, "local"}}};
+
+/// A stylus that lies there by itself; and one whose contact resumes after half a second without answers.
+void measure_presses(Report& report) {
+  const StylusConfig lying{.load_W = kWeight_W};
+  const StylusConfig held{.hand = haptic::ArmConfig{}};
+  double cycle = 0, resumed_n = 0, again_n = 0;
+  for (const auto& [mode, name] : kModes) {
+    Press rest(mode, lying);
+    rest.press(0, 10s);
+    cycle = std::max(cycle, rest.press(0, 1s).force_n.size() / (1.5 * kFloor_n_per_m * lying.resolution_m));
+    Press press(mode, held);
+    press.press(Press::kAbove_m, 1s);
+    press.press(Press::kInside_m, 1s);
+    press.press(Press::kInside_m, 500ms, false);
+    resumed_n = std::max(resumed_n, press.press(Press::kInside_m, 3s).force_n.size());
+    press.press(Press::kAbove_m, 1s);
+    press.press(Press::kInside_m, 1s);
+    again_n = std::max(again_n, press.press(Press::kInside_m, 1s).force_n.size());
+  }
+  report.metric("wall.limit_cycle_ratio", cycle);
+  report.metric("resume.swing_n", resumed_n);
+  report.metric("resume.again_swing_n", again_n);
+}
+
+/// What a network does to a press: energy, peak, and the force of a steady press at the same depth, all against 1 ms.
+struct Pressed {
+  double energy_j = 0, peak_n = 0, stiffness_n_per_m = 0;
+};
+
+Pressed press_over(haptic::RenderMode mode, const Network& network, unsigned seed) {
+  Press press(mode, {.hand = haptic::ArmConfig{}}, network, seed);
+  Pressed found;
+  press.press(Press::kAbove_m, 1s);
+  for (int i = 0; i < 5; ++i) {
+    found.peak_n = std::max(found.peak_n, press.press(Press::kInside_m, 1s).force_n.high);
+    const Press::Felt steady = press.press(Press::kInside_m, 1s);
+    found.stiffness_n_per_m = steady.last_force_n / std::max(steady.last_depth_m, 1e-6);
+    press.press(Press::kAbove_m, 1s);
+  }
+  found.energy_j = press.energy_max_j();
+  return found;
+}
+
+void measure_delays(Report& report) {
+  const Pressed near = press_over(haptic::RenderMode::server, {.delay_ms = 1}, 1);
+  for (const int delay_ms : {20, 50}) {
+    for (const auto& [mode, name] : kModes) {
+      Pressed worst{.stiffness_n_per_m = 1e9};
+      for (unsigned seed = 1; seed <= 20; ++seed) {
+        const Pressed one = press_over(mode, {delay_ms, 5, 0.05}, seed);
+        worst.energy_j = std::max(worst.energy_j, one.energy_j);
+        worst.peak_n = std::max(worst.peak_n, one.peak_n);
+        worst.stiffness_n_per_m = std::min(worst.stiffness_n_per_m, one.stiffness_n_per_m);
+      }
+      const std::string at = "delay" + std::to_string(delay_ms) + "." + name;
+      report.metric(at + ".energy_mj.max", 1000 * worst.energy_j);
+      report.metric(at + ".peak_ratio", worst.peak_n / near.peak_n);
+      report.metric(at + ".force_share.min", worst.stiffness_n_per_m / near.stiffness_n_per_m);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mechane::benchmark
+
+int main(int argc, char** argv) {
+  CLI::App app{"Stability of rendered contacts, on a simulated stylus"};
+  CLI11_PARSE(app, argc, argv);
+  mechane::benchmark::Report report;
+  mechane::benchmark::measure_walls(report);
+  mechane::benchmark::measure_presses(report);
+  mechane::benchmark::measure_delays(report);
+  std::cout << report.text() << "\n";
+  return 0;
+}

@@ -1,0 +1,38 @@
+"""`bench_haptics` runs on a simulated clock, so its figures are the same everywhere: what theory says of them is tested."""
+
+import json
+import os
+import subprocess
+import unittest
+from pathlib import Path
+
+PROGRAM = Path(os.environ["MECHANE_BIN"]) / "bench_haptics"
+
+
+class Haptics(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.text = subprocess.run([PROGRAM], capture_output=True, text=True, check=True).stdout
+        cls.metrics = json.loads(cls.text)["metrics"]
+
+    def test_a_wall_is_stable_up_to_the_stiffness_of_theory(self):
+        for name in ("wall.k_ratio", *(f"wall.delay{ms}.k_ratio" for ms in (1, 2, 5, 10, 20))):
+            self.assertAlmostEqual(self.metrics[name], 1, delta=0.1, msg=name)
+
+    def test_a_press_is_still(self):
+        self.assertLessEqual(self.metrics["wall.limit_cycle_ratio"], 1)
+        self.assertLessEqual(self.metrics["resume.swing_n"], 0.3)
+        self.assertLessEqual(self.metrics["resume.again_swing_n"], 0.3)
+
+    def test_a_delay_of_20_ms_gives_the_hand_no_energy_and_still_pushes(self):
+        for mode in ("direct", "local"):
+            self.assertLessEqual(self.metrics[f"delay20.{mode}.energy_mj.max"], 1, mode)
+        self.assertLessEqual(self.metrics["delay20.local.peak_ratio"], 1.1)
+        self.assertGreaterEqual(self.metrics["delay20.local.force_share.min"], 0.8)
+
+    def test_it_says_the_same_each_time(self):
+        self.assertEqual(subprocess.run([PROGRAM], capture_output=True, text=True, check=True).stdout, self.text)
+
+
+if __name__ == "__main__":
+    unittest.main()
