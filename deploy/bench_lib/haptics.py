@@ -41,6 +41,6 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
     if not all(series.values()):
         return []
     made = out / "haptics-wall.svg"
-    lines(made, "How stiff a wall may be", f"largest stable stiffness of a bare stylus; theory: b / (T / 2 + t). {result.notes[0]}",
+    lines(made, "How stiff a wall may be", "largest stable stiffness of a simulated stylus without friction; theory: b / (T / 2 + t)",
           series, "delay, ms", "N/m")
     return [made]

@@ -179,6 +179,10 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
         parts += [_line(place_x(first), top - 16, place_x(first), height - bottom),
                   _text(place_x((first + last) / 2), top - 8, name, 11, QUIET, "middle"),
                   _text(place_x(first), height - bottom + 18, f"{first:g}", 11, QUIET, "middle")]
+    if not bands and end > begin:
+        step = _round_step(end - begin)
+        marks = [step * i for i in range(math.ceil(begin / step), math.floor(end / step) + 1)]
+        parts += [_text(place_x(mark), height - bottom + 18, f"{mark:g}", 11, QUIET, "middle") for mark in marks]
     parts += [_text(left - 8, top - 10, y_name, 11, QUIET, "end"),
               _text((left + width - right) / 2, height - 14, x_name, 11, QUIET, "middle")]
     middles = [sorted(y for _, y in curve if y) for curve in series.values()]
