@@ -1,4 +1,4 @@
-// How steep a wall may be, and how still a press is: a simulated stylus (client-sdk/haptic/simulated_stylus.hpp) on a
+// How stiff a wall may be, and how still a press is: a simulated stylus (client-sdk/haptic/simulated_stylus.hpp) on a
 // simulated clock, so that the figures are the same on every machine.
 #include <algorithm>
 #include <cmath>

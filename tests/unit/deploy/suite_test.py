@@ -95,7 +95,8 @@ class Report(unittest.TestCase):
         report = self.written({"build-release": Ran(Tally([Case("build", "passed")]), 61.04, 243.26),
                                "fuzz": Ran(Tally([Case("x", "failed", seconds=2), Case("y", "skipped"), Case("z", "passed")]), 9.5)})
         self.assertEqual(report["metrics"], {"seconds": 70.5, "passed": 2, "failed": 1, "skipped": 1, "left_out": 0,
-                                             "phase_s.build-release": 61.0, "phase_s.fuzz": 9.5, "cpu_s.build-release": 243.3, "cpu_s.fuzz": 0})
+                                             "phase_s.build-release": 61.0, "phase_s.fuzz": 9.5,
+                                             "cpu_s.build-release": 243.3, "cpu_s.fuzz": 0})
         self.assertEqual((report["name"], report["seconds"], report["notes"]), ("test", 70.5, ["2.0 s  x  (fuzz)"]))
         for key in ("commit", "cpu", "cores", "simd"):
             self.assertTrue(report[key], key)

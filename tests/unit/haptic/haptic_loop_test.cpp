@@ -67,6 +67,14 @@ class HapticLoopTest : public ::testing::Test {
       force_n = tick(answered);
     return force_n;
   }
+  /// A new loop, whose hand is free until the ramp is over and then in contact.
+  void press(RenderMode mode) {
+    render(mode);
+    touching_ = false;
+    tick_for(1s, true);
+    touching_ = true;
+    ASSERT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+  }
   /// From zero, by no more than the ramp of a visit's start allows, to all of it.
   void expect_ramp() {
     const double ramp_s = device_.limits().ramp_up_s;
@@ -111,11 +119,7 @@ TEST_F(HapticLoopTest, ALoopThatStoodStillBeginsFromZeroThoughAnAnswerIsThereAtO
 
 TEST_F(HapticLoopTest, AServerThatAnswersButHearsNothingIsSilent) {
   for (const RenderMode mode : {RenderMode::server, RenderMode::local}) {
-    render(mode);
-    touching_ = false;
-    tick_for(1s, true);
-    touching_ = true;
-    ASSERT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+    ASSERT_NO_FATAL_FAILURE(press(mode));
     const std::uint64_t last_heard = client_.sent_sequence();
     for (int ms = 0; ms <= 9; ++ms)
       ASSERT_NEAR(tick_answered(last_heard), kPressN, 1e-9) << ms;
@@ -157,11 +161,7 @@ TEST_F(HapticLoopTest, TheForceIsLoweredWithTheDelayOfTheAnswers) {
 
 TEST_F(HapticLoopTest, AnswersThatCameThroughALongQueueAreDropped) {
   for (const RenderMode mode : {RenderMode::server, RenderMode::local}) {
-    render(mode);
-    touching_ = false;
-    tick_for(1s, true);
-    touching_ = true;
-    ASSERT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+    ASSERT_NO_FATAL_FAILURE(press(mode));
     const std::uint64_t dropped = loop_->stats().too_late;
     for (int ms = 0; ms < 1000; ++ms)
       (void)tick_answered(client_.sent_sequence() - 500);
@@ -171,10 +171,7 @@ TEST_F(HapticLoopTest, AnswersThatCameThroughALongQueueAreDropped) {
 }
 
 TEST_F(HapticLoopTest, AContactOfASampleTooLongAgoIsNotRendered) {
-  render(RenderMode::local);
-  tick_for(1s, true);
-  touching_ = true;
-  ASSERT_NEAR(tick_for(20ms, true), kPressN, 1e-9);
+  ASSERT_NO_FATAL_FAILURE(press(RenderMode::local));
   for (int ms = 0; ms < 100; ++ms)  // a queue of 300 ms
     (void)tick_answered(client_.sent_sequence() - 300);
   EXPECT_EQ(device_.force_W.norm(), 0);
