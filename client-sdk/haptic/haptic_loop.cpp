@@ -10,12 +10,16 @@ using client::ForceSample;
 using hand::HandSample;
 
 Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client, Device& device, RenderMode mode) {
+  if (auto opened = device.open(); !opened) return tl::unexpected(opened.error());
   hand::GovernorConfig limits = device.limits();
+  limits.zero_by = kZeroBy;
   limits.strict_energy = true;
   limits.energy_margin_j = std::min(limits.energy_margin_j, kEnergyMargin_j);
   auto governor = hand::ForceGovernor::make(limits);
-  if (!governor) return tl::unexpected(governor.error());
-  if (auto opened = device.open(); !opened) return tl::unexpected(opened.error());
+  if (!governor) {
+    device.close();
+    return tl::unexpected(governor.error());
+  }
   return std::unique_ptr<HapticLoop>(new HapticLoop(client, device, mode, *governor));
 }
 
@@ -73,24 +77,29 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   // A force that returns is ramped up from zero, as at the start of a visit: after a silence of the server, and after
   // this loop itself stood still, when an old answer may still be in its socket and look new.
   const Duration too_long = governor_.config().zero_by;
-  if (age >= too_long || dt >= too_long) governor_.reset(governed_);
+  const bool ready = device_.condition() == DeviceCondition::ready;
+  if (age >= too_long || dt >= too_long || !ready) governor_.reset(governed_);
   hand::GovernorInput wanted;
   const double share = stiffness_share();
   wanted.wanted_W = {share * answer_.force_W.f, share * answer_.force_W.t};
   wanted.finger_force_n = answer_.finger_force_n;
   if (mode_ == RenderMode::local && !answer_.holding)
     wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
+  const bool warm = heat_.limit(wanted.wanted_W.f);
   wanted.V_WH = moved(input, dt);
   wanted.age = age;
-  wanted.engaged = engaged;
+  wanted.engaged = engaged && ready;
   wanted.touching = answer_.contact_count > 0;
   rendered_ = governor_.apply(governed_, wanted, dt);
+  heat_.rendered(rendered_.force_W.f.norm(), dt);
+  if (warm) rendered_.reasons |= kWarm;
+  if (!ready) rendered_.reasons |= kNotReady;
   device_.write(rendered_);
 }
 
 void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
   const HandSample input = device_.read(dt);
-  if (client_.send(input)) {
+  if (device_.condition() != DeviceCondition::lost && client_.send(input)) {
     ++stats_.sent;
     sent_[client_.sent_sequence() % sent_.size()] = {input.X_WH.p, now};
   }
@@ -99,6 +108,7 @@ void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
   ++stats_.ticks;
   if (age_.known() && age_.age(now) >= governor_.config().zero_by) ++stats_.silent_ticks;
   if (answer_.holding) ++stats_.holding_ticks;
+  if ((rendered_.reasons & kWarm) != 0) ++stats_.warm_ticks;
   const double force_n = rendered_.force_W.f.norm();
   if (force_n <= 0) return;
   ++stats_.ticks_with_force;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "client-sdk/haptic/device.hpp"
+#include "client-sdk/haptic/heat_limit.hpp"
 #include "server/hand/freshness.hpp"
 #include "server/hand/governor.hpp"
 #include "server/hand/local_contact_model.hpp"
@@ -34,6 +35,7 @@ struct LoopStats {
   double force_sum_n = 0;  ///< over ticks with force
   std::uint64_t ticks_with_force = 0;
   std::uint64_t holding_ticks = 0;
+  std::uint64_t warm_ticks = 0;  ///< the force was lowered to what the device bears for long
 };
 
 /// The haptic client's loop. One thread calls tick() at the device's rate (a PeriodicThread, or a device's own
@@ -46,6 +48,8 @@ class HapticLoop {
   /// The server's force is rendered in full up to this delay, and then with less stiffness.
   static constexpr Duration kFullDelay = std::chrono::milliseconds(5);
 
+  /// The device's forces are zero from this age on, before the server's own.
+  static constexpr Duration kZeroBy = std::chrono::milliseconds(40);
   /// What a hand may be given before it has put anything in.
   static constexpr double kEnergyMargin_j = 0.0005;
 
@@ -57,8 +61,9 @@ class HapticLoop {
   HapticLoop& operator=(const HapticLoop&) = delete;
 
   /// Reads the device, sends the hand, takes the newest force, limits it, writes it. Whatever fails, the device renders
-  /// nothing later than 50 ms, on our own clock, after the last answer to a sample that had not been answered before:
-  /// forces of a server that no longer hears this hand do not count. The next force is ramped up, once the hand has
+  /// nothing later than 40 ms, on our own clock, after the last answer to a sample that had not been answered before:
+  /// forces of a server that no longer hears this hand do not count. Nor does a device that is not ready render anything, and
+  /// the hand of one that is lost is not sent. The next force is ramped up, once the hand has
   /// left what it was in contact with.
   void tick(TimePoint now, Duration dt) noexcept;
   /// Ramps the force down and out. True when the device renders exactly zero.
@@ -72,7 +77,12 @@ class HapticLoop {
 
  private:
   HapticLoop(client::Client& client, Device& device, RenderMode mode, const hand::ForceGovernor& governor)
-      : client_(client), device_(device), mode_(mode), governor_(governor), governed_(governor.start()) {}
+      : client_(client),
+        device_(device),
+        mode_(mode),
+        governor_(governor),
+        governed_(governor.start()),
+        heat_(device.limits().max_force_n, device.continuous_force_n()) {}
   bool take_answer() noexcept;
   void note_delay(Duration delay) noexcept;
   [[nodiscard]] double stiffness_share() const noexcept;
@@ -85,6 +95,7 @@ class HapticLoop {
   RenderMode mode_;
   hand::ForceGovernor governor_;
   hand::GovernorState governed_;
+  HeatLimit heat_;
   hand::LocalContactModel local_;
   hand::SampleAge age_;
   client::ForceSample answer_;

@@ -1,5 +1,5 @@
-// mechane-haptic: runs a haptic device at a kiosk. `--device virtual` is a simulated hand that strokes a place of the
-// world.
+// mechane-haptic: runs a haptic device at a kiosk, by way of its driver. `--device virtual` is a simulated hand that strokes a place of
+// the world.
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/haptic/device_thread.hpp"
+#include "client-sdk/haptic/driver_process.hpp"
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/virtual_device.hpp"
 #include "server/base/whole_file.hpp"
@@ -32,13 +34,17 @@ struct Arguments {
 };
 
 void add_options(CLI::App& app, Arguments& a) {
-  app.add_option("--device", a.device, "'virtual': a simulated hand that strokes a circle")
-      ->check(CLI::IsMember({"virtual"}));
+  app.add_option("--device", a.device,
+                 "NAME, or NAME:OPTION=VALUE,...: a driver ('mechane devices' lists them), or 'virtual', a simulated "
+                 "hand that strokes a circle");
   app.add_option("--kiosk", a.client.kiosk, "name of the kiosk");
   app.add_option("--user", a.client.user, "which hand of the kiosk, 0..3");
   app.add_option("--join", a.client.join_kiosk, "share the world of this kiosk");
   app.add_option("--domain", a.client.domain, "DDS domain");
-  app.add_option("--center", a.center, "centre of the virtual hand's circle in the world, metres: x y z")->expected(3);
+  app.add_option("--center", a.center,
+                 "where the middle of the device's workspace, or of the virtual hand's circle, lies in the world, "
+                 "metres: x y z")
+      ->expected(3);
   app.add_option("--radius", a.radius_m, "radius of the circle, metres");
   app.add_option("--seconds", a.seconds, "stop after this time; 0: run until stopped");
   a.client.fifo_priority = 70;
@@ -56,68 +62,22 @@ haptic::HandIntent stroke(const Vec3& center, double radius_m, double t_s) {
   return intent;
 }
 
-nlohmann::json to_json(const haptic::HapticLoop& loop, const realtime::PeriodicThread& thread) {
+nlohmann::json to_json(const haptic::HapticLoop& loop) {
   const haptic::LoopStats& s = loop.stats();
-  const realtime::PeriodicReport r = thread.report();
   nlohmann::json json = {{"ticks", s.ticks},
                          {"sent", s.sent},
                          {"answers", s.answers},
                          {"too_late", s.too_late},
                          {"silent_ticks", s.silent_ticks},
-                         {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}},
-                         {"overruns", r.overruns},
-                         {"late_wakeups", r.late_wakeups},
-                         {"skipped", r.skipped}};
+                         {"warm_ticks", s.warm_ticks},
+                         {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}}};
   // Without an answer no round trip was measured.
   if (s.answers > 0) json["rtt_us"] = realtime::quantiles_json(loop.round_trip());
   return json;
 }
 
-/// Runs the loop on a thread of its own, and waits for the end.
-int run(const Arguments& a, client::Client& client) {
-  haptic::VirtualDevice device;
-  auto loop =
-      haptic::HapticLoop::create(client, device, a.local ? haptic::RenderMode::local : haptic::RenderMode::server);
-  if (!loop) {
-    log::error(loop.error());
-    return 2;
-  }
-  SystemClock clock;
-  realtime::PeriodicConfig config;
-  config.name = "haptic-loop";
-  config.fifo_priority = a.client.fifo_priority;
-  realtime::PeriodicThread thread(config, clock);
-  const Vec3 center(a.center[0], a.center[1], a.center[2]);
-  std::atomic<bool> leave{false};
-  std::atomic<bool> released{false};
-  const auto tick = [&](const realtime::TickTiming& timing) {
-    const Duration dt = config.period * static_cast<std::int64_t>(1 + timing.skipped);
-    device.intend(stroke(center, a.radius_m, static_cast<double>(timing.index) * kTickSeconds));
-    if (!leave.load(std::memory_order_relaxed)) {
-      (*loop)->tick(timing.woke, dt);
-    } else if ((*loop)->release(timing.woke, dt)) {
-      released.store(true, std::memory_order_relaxed);
-    }
-  };
-  if (auto started = thread.start(tick); !started) {
-    log::error(started.error());
-    return 2;
-  }
-  SystemClock waiting;
-  const TimePoint end = waiting.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.seconds));
-  std::string told;
-  while (g_stop == 0 && (a.seconds <= 0 || waiting.now() < end)) {
-    std::string refusal = client.state() == client::LinkState::refused ? client.refusal() : std::string();
-    if (!refusal.empty() && refusal != told) log::warning(refusal);
-    told = std::move(refusal);
-    waiting.sleep_until(waiting.now() + std::chrono::milliseconds(200));
-  }
-  // The force is ramped down before the loop ends, so that the hand does not feel the program stop.
-  leave = true;
-  for (int i = 0; i < 100 && !released; ++i)
-    waiting.sleep_until(waiting.now() + std::chrono::milliseconds(10));
-  thread.stop();
-  const std::string json = to_json(**loop, thread).dump(2) + "\n";
+int report(const Arguments& a, const nlohmann::json& found) {
+  const std::string json = found.dump(2) + "\n";
   if (a.report_file.empty()) {
     std::fputs(json.c_str(), stdout);
     return 0;
@@ -126,6 +86,107 @@ int run(const Arguments& a, client::Client& client) {
   if (written) return 0;
   log::error(written.error());
   return 1;
+}
+
+/// The loop as its thread runs it, and as the main thread ends it.
+class Turns {
+ public:
+  explicit Turns(haptic::HapticLoop& loop) : loop_(loop) {}
+  /// The loop's thread.
+  void turn(TimePoint now, Duration dt) noexcept {
+    if (!leave_.load(std::memory_order_relaxed))
+      loop_.tick(now, dt);
+    else if (loop_.release(now, dt))
+      released_.store(true, std::memory_order_relaxed);
+  }
+  /// The main thread: the force is ramped down before the loop ends, so that the hand does not feel the program stop.
+  void end() {
+    leave_ = true;
+    SystemClock clock;
+    for (int i = 0; i < 100 && !released_; ++i)
+      clock.sleep_until(clock.now() + std::chrono::milliseconds(10));
+  }
+
+ private:
+  haptic::HapticLoop& loop_;
+  std::atomic<bool> leave_{false};
+  std::atomic<bool> released_{false};
+};
+
+/// Until it is time to stop, or `look`, which is called five times a second, returns false.
+void wait_for_end(const Arguments& a, client::Client& client, const std::function<bool()>& look) {
+  SystemClock clock;
+  const TimePoint end = clock.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.seconds));
+  std::string told;
+  while (g_stop == 0 && (a.seconds <= 0 || clock.now() < end) && look()) {
+    std::string refusal = client.state() == client::LinkState::refused ? client.refusal() : std::string();
+    if (!refusal.empty() && refusal != told) log::warning(refusal);
+    told = std::move(refusal);
+    clock.sleep_until(clock.now() + std::chrono::milliseconds(200));
+  }
+}
+
+Expected<std::unique_ptr<haptic::HapticLoop>> make_loop(const Arguments& a, client::Client& client,
+                                                        haptic::Device& device) {
+  return haptic::HapticLoop::create(client, device, a.local ? haptic::RenderMode::local : haptic::RenderMode::server);
+}
+
+Vec3 center_of(const Arguments& a) {
+  return {a.center[0], a.center[1], a.center[2]};
+}
+
+/// A virtual device has no clock of its own: its loop runs at 1 kHz.
+int run_virtual(const Arguments& a, client::Client& client) {
+  haptic::VirtualDevice device;
+  auto loop = make_loop(a, client, device);
+  if (!loop) return log::error(loop.error()), 2;
+  SystemClock clock;
+  realtime::PeriodicConfig config;
+  config.name = "haptic-loop";
+  config.fifo_priority = a.client.fifo_priority;
+  realtime::PeriodicThread thread(config, clock);
+  Turns turns(**loop);
+  const auto started = thread.start([&](const realtime::TickTiming& timing) {
+    device.intend(stroke(center_of(a), a.radius_m, static_cast<double>(timing.index) * kTickSeconds));
+    turns.turn(timing.woke, config.period * static_cast<std::int64_t>(1 + timing.skipped));
+  });
+  if (!started) return log::error(started.error()), 2;
+  wait_for_end(a, client, [] { return true; });
+  turns.end();
+  thread.stop();
+  nlohmann::json json = to_json(**loop);
+  const realtime::PeriodicReport r = thread.report();
+  json.update({{"overruns", r.overruns}, {"late_wakeups", r.late_wakeups}, {"skipped", r.skipped}});
+  return report(a, json);
+}
+
+/// The device sets the pace of its loop.
+int run_driver(const Arguments& a, client::Client& client) {
+  const int fifo = a.client.fifo_priority;
+  haptic::DriverProcess device({.device = haptic::parse_device_name(a.device),
+                                .p_WD = center_of(a),
+                                .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99)});
+  auto loop = make_loop(a, client, device);
+  if (!loop) return log::error(loop.error()), 2;
+  log::info(std::string("device: ") + device.info().name);
+  Turns turns(**loop);
+  haptic::DeviceThread thread(device, fifo, [&](TimePoint now, Duration dt) { turns.turn(now, dt); });
+  bool failed = false;
+  wait_for_end(a, client, [&] {
+    const auto news = device.check();
+    if (!news) log::error(news.error());
+    failed = !news;
+    if (news && *news) log::warning(**news);
+    return !failed;
+  });
+  if (!failed) turns.end();
+  thread.stop();
+  nlohmann::json json = to_json(**loop);
+  json.update({{"device", device.info().name},
+               {"interval_us", realtime::quantiles_json(thread.intervals())},
+               {"ticks_without_state", thread.without_state()}});
+  const int reported = report(a, json);
+  return failed ? 1 : reported;
 }
 
 }  // namespace
@@ -149,5 +210,5 @@ int main(int argc, char** argv) {
     log::error(client.error());
     return 2;
   }
-  return run(a, **client);
+  return a.device == "virtual" ? run_virtual(a, **client) : run_driver(a, **client);
 }

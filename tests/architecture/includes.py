@@ -32,7 +32,8 @@ ARROWS = {
     "server/app": ["server/world", "server/scenario", "server/record", "server/visits", "server/transport"],
     "proto": ["server/hand"],
     "client-sdk/client": ["proto", "server/realtime", "server/hand"],
-    "client-sdk/haptic": ["client-sdk/client"],
+    "client-sdk/drivers": [],
+    "client-sdk/haptic": ["client-sdk/client", "client-sdk/drivers"],
     "client-sdk/picture": ["server/base"],
     "client-sdk/recording": ["client-sdk/client"],
     "client-sdk/assets": ["server/content"],
@@ -94,6 +95,8 @@ def room_of_include(name: str) -> str | None:
     """The room that an include names, or None for a header from elsewhere."""
     if name.startswith("mechane/client/"):
         return "client-sdk/client"
+    if name == "mechane/driver.h":
+        return "client-sdk/drivers"
     if name.startswith(("mechane/proto/", "proto/")):
         return "proto"
     if name.startswith(("server/", "client-sdk/")):

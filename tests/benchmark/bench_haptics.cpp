@@ -13,6 +13,7 @@
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/simulated_stylus.hpp"
 #include "tests/benchmark/bench_stats.hpp"
+#include "tests/support/fault_play.hpp"
 #include "tests/support/scripted_client.hpp"
 
 namespace mechane::benchmark {
@@ -244,16 +245,39 @@ void measure_delays(Report& report) {
   }
 }
 
+/// Presses through everything that can fail, at random: what the device was given.
+void measure_faults(Report& report, std::uint64_t ticks) {
+  double zero_ms = 0;
+  std::uint64_t faults = 0, over_limit = 0, over_slew = 0, over_ramp = 0;
+  for (const auto& [mode, name] : kModes) {
+    test::FaultPlay play(mode, 1);
+    const test::FaultFindings& found = play.play(ticks / kModes.size());
+    zero_ms = std::max(zero_ms, found.zero_ms_max);
+    faults += found.pressed;
+    over_limit += found.over_limit;
+    over_slew += found.over_slew;
+    over_ramp += found.over_ramp;
+  }
+  report.note(fmt::format("{} faults while the hand was pressed, in {} ticks", faults, ticks));
+  report.metric("fault.zero_ms.max", zero_ms);
+  report.metric("force.over_limit", static_cast<double>(over_limit));
+  report.metric("force.over_slew", static_cast<double>(over_slew));
+  report.metric("force.over_ramp", static_cast<double>(over_ramp));
+}
+
 }  // namespace
 }  // namespace mechane::benchmark
 
 int main(int argc, char** argv) {
   CLI::App app{"Stability of rendered contacts, on a simulated stylus"};
+  std::uint64_t ticks = 10'000'000;
+  app.add_option("--fault-ticks", ticks, "how long faults are played, milliseconds of the simulated clock");
   CLI11_PARSE(app, argc, argv);
   mechane::benchmark::Report report;
   mechane::benchmark::measure_walls(report);
   mechane::benchmark::measure_presses(report);
   mechane::benchmark::measure_delays(report);
+  mechane::benchmark::measure_faults(report, ticks);
   std::cout << report.text() << "\n";
   return 0;
 }

@@ -21,6 +21,7 @@ class StillDevice final : public Device {
  public:
   Vec3 force_W = Vec3::Zero();
   bool there = true;
+  DeviceCondition now = DeviceCondition::ready;
   int opened = 0;
   int closed = 0;
 
@@ -32,6 +33,7 @@ class StillDevice final : public Device {
   void close() noexcept override { ++closed; }
   [[nodiscard]] client::HandSample read(Duration) noexcept override { return {}; }
   void write(const hand::HandForce& force) noexcept override { force_W = force.force_W.f; }
+  [[nodiscard]] DeviceCondition condition() const noexcept override { return now; }
   [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
 };
 
@@ -194,12 +196,35 @@ TEST_F(HapticLoopTest, ADeviceThatIsNotThereIsAnError) {
   EXPECT_EQ(made.error().code, ErrorCode::not_found);
 }
 
+TEST_F(HapticLoopTest, ADeviceThatIsNotReadyRendersNothingAndBeginsFromZero) {
+  press(RenderMode::server);
+  touching_ = false;
+  for (const DeviceCondition condition : {DeviceCondition::not_ready, DeviceCondition::lost}) {
+    device_.now = condition;
+    EXPECT_EQ(tick(true), 0);
+    EXPECT_EQ(tick(true), 0);
+    device_.now = DeviceCondition::ready;
+    expect_ramp();
+  }
+}
+
+TEST_F(HapticLoopTest, AHandWhoseDeviceIsLostIsNotSent) {
+  tick_for(10ms, true);
+  device_.now = DeviceCondition::lost;
+  const std::uint64_t sent = client_.sent_sequence();
+  tick_for(10ms, false);
+  EXPECT_EQ(client_.sent_sequence(), sent);
+  device_.now = DeviceCondition::not_ready;
+  tick_for(10ms, false);
+  EXPECT_EQ(client_.sent_sequence(), sent + 10) << "it is still seen";
+}
+
 TEST_F(HapticLoopTest, TicksWithoutAForceThatIsNewEnoughAreCounted) {
   tick_for(100ms, false);  // nobody was there yet
   tick_for(100ms, true);
   tick_for(60ms, false);
   tick_for(100ms, true);
-  EXPECT_EQ(loop_->stats().silent_ticks, 11u) << "from the 50th millisecond on";
+  EXPECT_EQ(loop_->stats().silent_ticks, 21u) << "from the 40th millisecond on";
 }
 
 /// Whose velocity is noise: one count of an encoder in a millisecond, to and fro.

@@ -1,0 +1,73 @@
+// DriverProcess: a real device, whose driver runs in a process of its own.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include <sys/types.h>
+
+#include "client-sdk/haptic/device.hpp"
+#include "client-sdk/haptic/driver.hpp"
+#include "client-sdk/haptic/driver_link.hpp"
+
+namespace mechane::haptic {
+
+struct DriverProcessConfig {
+  DeviceName device;
+  Vec3 p_WD = Vec3::Zero();  ///< the middle of the device's workspace in the world; the axes of D and W are the same
+  int fifo_priority = 0;     ///< of the driver's process; above the loop's
+};
+
+/// open(), close(), check() and the description: main thread. wait(), read(), write() and condition(): the loop's thread.
+class DriverProcess final : public Device {
+ public:
+  explicit DriverProcess(DriverProcessConfig config) : config_(std::move(config)) {}
+  ~DriverProcess() override { close(); }
+
+  /// Starts the process and waits until it has opened the device, which may take seconds. Errors: no such driver, what
+  /// the driver says, a process that cannot be started or that died.
+  [[nodiscard]] Expected<void> open() override;
+  /// Lets the process close the device, and ends it by force where that takes over 2 s.
+  void close() noexcept override;
+
+  /// Waits until the device has given a state that read() has not seen. False: none within `limit`.
+  [[nodiscard]] bool wait(Duration limit) noexcept;
+  /// The newest state. A hand without an own velocity gets the mean one since the state before. Button 0 of a one-point
+  /// device grasps.
+  [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
+  void write(const hand::HandForce& force) noexcept override;
+  [[nodiscard]] DeviceCondition condition() const noexcept override { return condition_; }
+  /// What the driver told with the newest state.
+  [[nodiscard]] const mechane_device_state& state() const noexcept { return newest_.value; }
+
+  /// What is new since the last call: the device failed, or is back. Error: its process died or hangs, or another device
+  /// took its place; then it has to be opened anew.
+  [[nodiscard]] Expected<std::optional<std::string>> check();
+
+  [[nodiscard]] hand::GovernorConfig limits() const override;
+  [[nodiscard]] double continuous_force_n() const override { return info_.continuous_force_n; }
+  [[nodiscard]] const mechane_device_info& info() const noexcept { return info_; }
+
+ private:
+  [[nodiscard]] Expected<void> start();
+  [[nodiscard]] std::optional<HostNews> next_news(int wait_ms) const;
+  [[nodiscard]] std::string place() const;
+  /// How the process ended, if it does within this time.
+  [[nodiscard]] std::optional<Error> died(Duration within) const;
+
+  DriverProcessConfig config_;
+  std::optional<SharedLink> link_;
+  pid_t process_ = -1;
+  int news_ = -1;
+  mechane_device_info info_{};
+  Timed<mechane_device_state> newest_;
+  bool came_ = false;  // newest_ came since the last read()
+  DeviceCondition condition_ = DeviceCondition::lost;
+  client::HandSample last_;
+  TimePoint last_at_;
+  std::atomic<TimePoint> newest_at_{TimePoint{}};  // of newest_, for check()
+  bool told_lost_ = false;                         // by the process
+};
+
+}  // namespace mechane::haptic

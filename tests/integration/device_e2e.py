@@ -1,0 +1,99 @@
+"""A real device's path: a driver (tests/support/fake_driver.c) in a process of its own, and the programs that use it. The driver writes each
+force that it is given into a file, so that what the device felt is known whatever died."""
+
+import json
+import signal
+import struct
+import time
+import unittest
+
+from harness import BIN, PATIENCE, EndToEnd, wait_until
+
+DRIVERS = BIN.parent / "test-drivers"
+SILENT_S = 0.02  # without a word from the loop, the driver's process writes zero
+LATE_S = 0.03 * PATIENCE  # what a busy machine may add between the look at the clock and the write
+
+
+class Devices(EndToEnd):
+    def setUp(self):
+        super().setUp()
+        self.environment["MECHANE_DRIVERS"] = str(DRIVERS)
+        self.trace_file = self.folder / "trace"
+
+    def device(self, options=""):
+        return f"fake:trace={self.trace_file},{options}"
+
+    def trace(self):
+        """What the device was given: (time, force upwards), and how often it was closed."""
+        data = self.trace_file.read_bytes() if self.trace_file.exists() else b""
+        written = list(struct.iter_unpack("=qd", data[:len(data) // 16 * 16]))
+        return [(at / 1e9, force) for at, force in written if at > 0], sum(at < 0 for at, _ in written)
+
+    def pressing(self, process, least_n=0.3):
+        wait_until(lambda: self.trace()[0][-1:] and self.trace()[0][-1][1] > least_n, 20, f"{process.name} presses: {process.text()}")
+
+    def expect_zero_soon_after(self, moment):
+        """The device has been given no force from 20 ms after this moment on."""
+        wait_until(lambda: self.trace()[0][-1][1] == 0, 10, "zero is written")
+        last = max(at for at, force in self.trace()[0] if force > 0)
+        self.assertLess(last, moment + SILENT_S + LATE_S)
+
+    def test_a_killed_loop_leaves_no_force_on_the_device(self):
+        wall = self.start("wall", "devices", "--test", self.device())
+        self.pressing(wall)
+        killed = time.monotonic()
+        wall.kill()
+        self.expect_zero_soon_after(killed)
+        wait_until(lambda: self.trace()[1] == 1, 10, "the device is closed")
+
+    def test_a_stopped_loop_leaves_no_force_and_begins_again_from_zero(self):
+        wall = self.start("wall", "devices", "--test", self.device())
+        self.pressing(wall)
+        stopped = time.monotonic()
+        wall.process.send_signal(signal.SIGSTOP)
+        self.expect_zero_soon_after(stopped)
+        self.assertEqual(self.trace()[1], 0, "it waits for its loop")
+        wall.process.send_signal(signal.SIGCONT)
+        self.assertEqual(wall.stop(), 0, wall.text())
+        forces, closed = self.trace()
+        self.assertEqual((forces[-1][1], closed), (0, 1))
+
+    def test_a_hand_on_a_real_device_feels_the_exhibit_and_is_let_go(self):
+        self.server(records=False)
+        report = self.folder / "haptic.json"
+        center = ["--center", "0", "0.72", "0.19"]
+        haptic = self.start("haptic", "haptic", "--kiosk", "kiosk-1", "--device", self.device(), *center, "--report", report)
+        wait_until(lambda: "device: Fake stylus" in haptic.text(), 20, haptic.text())
+        wait_until(lambda: len(self.trace()[0]) > 2000, 30, "two seconds of forces were written")
+        self.assertEqual(haptic.stop(), 0, haptic.text())
+        told = json.loads(report.read_text())
+        self.assertGreater(told["answers"], 100, told)
+        self.assertEqual(told["device"], "Fake stylus")
+        forces, closed = self.trace()
+        self.assertEqual((forces[-1][1], closed), (0, 1))
+        self.assertLessEqual(max(force for _, force in forces), 2 * (1 + 1e-9), "the device's limit")
+
+    def test_a_driver_that_dies_ends_the_haptic_program(self):
+        """systemd starts it again."""
+        haptic = self.start("haptic", "haptic", "--kiosk", "kiosk-1", "--device", self.device("fault=crash,after=300"))
+        self.assertEqual(haptic.wait(20), 1, haptic.text())
+        self.assertIn("by signal 6", haptic.text())
+
+    def test_what_cannot_be_used_says_why(self):
+        for device, words in (("nothing-has-this-name", "no driver of this name"), (self.device("fault=absent"), "plug it in"),
+                              ("old", "another version"), (self.device("fault=limits"), "out of its range")):
+            for command in (["devices", "--test"], ["haptic", "--device"]):
+                process = self.start("refused", *command, device)
+                self.assertEqual(process.wait(20), 2, process.text())
+                self.assertIn(words, process.text())
+
+    def test_drivers_are_listed(self):
+        listed = self.start("list", "devices", "--json")
+        self.assertEqual(listed.wait(20), 0)
+        drivers = {entry["name"]: entry for entry in json.loads(listed.text())}
+        self.assertEqual(drivers["fake"]["fault"], "")
+        self.assertIn("another version", drivers["old"]["fault"])
+
+
+if __name__ == "__main__":
+    unittest.main()
