@@ -1,0 +1,40 @@
+// A vendor's shared library, found at run time: none is linked, shipped or needed to build.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mechane::drivers {
+
+/// Loaded once and never unloaded, for vendors' drivers fail when they are loaded a second time into one process. One
+/// thread.
+class VendorLibrary {
+ public:
+  /// Loads the first of `files` that loads: names for the system's search path, or paths. Returns why none did, with
+  /// the names tried; empty: one did.
+  [[nodiscard]] std::string load(const std::vector<std::string>& files);
+
+  /// Sets `function` to the library's function of that name; a name that it lacks is noted in missing().
+  template <class Function>
+  void need(Function*& function, const char* name) {
+    if (!want(function, name)) missing_ += (missing_.empty() ? "" : ", ") + std::string(name);
+  }
+  /// The same for a function that the driver can do without: null where the library lacks it.
+  template <class Function>
+  bool want(Function*& function, const char* name) {
+    function = reinterpret_cast<Function*>(symbol(name));
+    return function != nullptr;
+  }
+
+  /// What need() asked for in vain, as a fault for a person; empty: nothing.
+  [[nodiscard]] std::string missing() const;
+
+ private:
+  void* symbol(const char* name);
+
+  void* handle_ = nullptr;
+  std::string file_;
+  std::string missing_;
+};
+
+}  // namespace mechane::drivers
