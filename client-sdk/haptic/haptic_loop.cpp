@@ -53,7 +53,7 @@ void HapticLoop::note_delay(Duration delay) noexcept {
 /// A spring that is closed over a delay t is stable up to a stiffness of (b + B) / (T / 2 + t), with b and B the damping of hand and
 /// spring (Gil et al. 2009): so it is lowered in that proportion.
 double HapticLoop::stiffness_share() const noexcept {
-  if (mode_ == RenderMode::local) return 1;  // there the spring is closed here
+  if (renders_here()) return 1;  // the spring is closed here
   constexpr double kHalfTick_s = 0.5 * kTickSeconds;
   return std::min(1.0, (kHalfTick_s + to_seconds(kFullDelay)) / (kHalfTick_s + to_seconds(delay_)));
 }
@@ -83,8 +83,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   const double share = stiffness_share();
   wanted.wanted_W = {share * answer_.force_W.f, share * answer_.force_W.t};
   wanted.finger_force_n = answer_.finger_force_n;
-  if (mode_ == RenderMode::local && !answer_.holding)
-    wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
+  if (renders_here()) wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
   const bool warm = heat_.limit(wanted.wanted_W.f);
   wanted.V_WH = moved(input, dt);
   wanted.age = age;

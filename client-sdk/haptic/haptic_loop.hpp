@@ -85,6 +85,8 @@ class HapticLoop {
         heat_(device.limits().max_force_n, device.continuous_force_n()) {}
   bool take_answer() noexcept;
   void note_delay(Duration delay) noexcept;
+  /// Contacts, not the pull of what is held: that is always the server's.
+  [[nodiscard]] bool renders_here() const noexcept { return mode_ == RenderMode::local && !answer_.holding; }
   [[nodiscard]] double stiffness_share() const noexcept;
   void set_local_contacts() noexcept;
   [[nodiscard]] Twist moved(const client::HandSample& input, Duration dt) noexcept;

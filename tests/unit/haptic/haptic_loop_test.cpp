@@ -59,6 +59,7 @@ class HapticLoopTest : public ::testing::Test {
     client::ForceSample& answer = client_.next_answer(now_ + dt);
     answer.echo_sequence = echo;
     answer.force_W.f = Vec3(0, kPressN, 0);
+    answer.holding = holding_;
     answer.contact_count = touching_ ? 1 : 0;
     answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = 0.001, .stiffness_n_per_m = 1000 * kPressN};
     return tick(false, dt);
@@ -90,6 +91,7 @@ class HapticLoopTest : public ::testing::Test {
   StillDevice device_;
   std::unique_ptr<HapticLoop> loop_;
   TimePoint now_{1h};
+  bool holding_ = false;
   bool touching_ = false;  // what answers say
 };
 
@@ -159,6 +161,16 @@ TEST_F(HapticLoopTest, TheForceIsLoweredWithTheDelayOfTheAnswers) {
   EXPECT_NEAR(settled_n(19), kPressN * 5.5 / 20.5, 0.01);
   EXPECT_NEAR(settled_n(59), kPressN * 5.5 / 60.5, 0.01);
   EXPECT_NEAR(settled_n(0), kPressN, 0.01) << "and comes back";
+}
+
+TEST_F(HapticLoopTest, ThePullOfWhatIsHeldIsLoweredWithTheDelayEvenWhereContactsAreRenderedHere) {
+  render(RenderMode::local);
+  holding_ = true;
+  tick_for(1s, true);
+  double force_n = 0;
+  for (int ms = 0; ms < 3000; ++ms)
+    force_n = tick_answered(client_.sent_sequence() - 19);
+  EXPECT_NEAR(force_n, kPressN * 5.5 / 20.5, 0.01);
 }
 
 TEST_F(HapticLoopTest, AnswersThatCameThroughALongQueueAreDropped) {
