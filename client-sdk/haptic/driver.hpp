@@ -58,7 +58,7 @@ class Driver {
   const mechane_driver_table* driver_;
   void* device_ = nullptr;
   mechane_device_info info_{};
-  std::array<char, 256> why_{};
+  std::array<char, 512> why_{};
 };
 
 struct FoundDriver {
