@@ -67,6 +67,7 @@ std::string SerialPort::open(const std::string& file, int baud) {
   file_ = ::open(file.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file_ < 0) return system_fault("cannot open " + file, errno);
   name_ = file;
+  if (::isatty(file_) == 0) return file + " is not a serial line; is the option port right?";
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0 || ::ioctl(file_, TIOCEXCL) != 0)
     return system_fault("cannot have " + file + " alone", errno == EWOULDBLOCK ? EBUSY : errno);
   if (!set_up(file_, *speed)) return system_fault(file + " is not a serial line", errno);

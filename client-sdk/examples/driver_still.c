@@ -1,6 +1,7 @@
 /* A driver that is as small as a driver can be: a hand that stands still. To be built outside this tree:
- *   cc -std=c11 -shared -fPIC -I /usr/local/include driver_still.c -o mechane_driver_still.so
- * and put into /usr/local/lib/mechane/drivers. Then: mechane devices --test still:height=0.1 */
+ *   cc -std=c11 -shared -fPIC -I /usr/local/include driver_still.c \
+ *     -o /usr/local/lib/mechane/drivers/mechane_driver_still.so
+ * Then: mechane devices --test still:height=0.1 */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

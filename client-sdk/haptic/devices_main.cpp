@@ -12,6 +12,7 @@
 #include "client-sdk/haptic/driver_host.hpp"
 #include "client-sdk/haptic/wall_test.hpp"
 #include "server/log/log.hpp"
+#include "server/log/printable.hpp"
 #include "server/realtime/quantiles_json.hpp"
 
 namespace {
@@ -39,12 +40,14 @@ int list(bool json) {
     fmt::print("{}\n", all.dump(2));
     return 0;
   }
-  fmt::print("virtual        a simulated hand that strokes a circle; needs no device (built in)\n");
   for (const FoundDriver& d : drivers) {
     fmt::print("{:<14} {}\n", d.name, d.fault.empty() ? d.summary : d.fault);
     if (!d.options.empty()) fmt::print("{:<14}   options: {}\n", "", d.options);
   }
-  fmt::print("\nTry one: mechane devices --test NAME, or NAME:OPTION=VALUE,OPTION=VALUE\nDrivers are looked for in:\n");
+  fmt::print(
+      "\nTry one: mechane devices --test NAME, or NAME:OPTION=VALUE,OPTION=VALUE\n"
+      "Without a device: mechane haptic --device virtual, a simulated hand that strokes a circle\n"
+      "Drivers are looked for in these folders; the first one of a name counts:\n");
   for (const std::string& folder : driver_folders())
     fmt::print("  {}\n", folder);
   return 0;
@@ -65,20 +68,24 @@ struct Seen {
 
 void print_device(const mechane_device_info& i) {
   constexpr const char* kOutputs[] = {"no force", "a force", "a pull on each finger", "a brake on each finger"};
-  fmt::print("{}: {}, {}", i.name, i.hand == MECHANE_HAND_GLOVE ? "a glove" : "one point", kOutputs[i.output]);
+  fmt::print("{}: {}, {}", log::printable(i.name), i.hand == MECHANE_HAND_GLOVE ? "a glove" : "one point",
+             kOutputs[i.output]);
   if (i.peak_force_n > 0)
     fmt::print(", {:.2g} N for a moment, {:.2g} N for long", i.peak_force_n, i.continuous_force_n);
   if (i.peak_torque_nm > 0) fmt::print(", {:.2g} N m", i.peak_torque_nm);
   fmt::print(", {:.0f} times a second\n", i.rate_hz);
-  if (i.output == MECHANE_OUTPUT_FORCE) fmt::print("A soft floor lies 1 cm under the hand. ");
+  if (i.output == MECHANE_OUTPUT_FORCE) fmt::print("A soft floor lies 1 cm under where the hand is when it is ready. ");
   if (i.peak_finger_force_n > 0) fmt::print("Fingers are held when they are half closed. ");
-  fmt::print("Ctrl-C ends the test.\n\n");
+  fmt::print(
+      "Ctrl-C ends the test.\n\nEach line: state; samples a second, and how late the latest one came; place of the "
+      "hand; force;\nenergy that the hand was given beyond what it gave, which should stay near 0.\n\n");
 }
 
 void print_line(const Seen& seen, double rate_hz, double worst_us) {
   const WallReport& w = seen.wall;
-  const std::string warmth =
-      seen.state.temperature < 0 ? "" : fmt::format("  {:3.0f} % warm", 100 * seen.state.temperature);
+  const std::string warmth = seen.state.temperature < 0 || w.condition == DeviceCondition::lost
+                                 ? ""
+                                 : fmt::format("  {:3.0f} % warm", 100 * seen.state.temperature);
   fmt::print(
       "{}{:<15} {:5.0f} /s, late by up to {:4.0f} us  at {:6.1f} {:6.1f} {:6.1f} mm  {:4.2f} N  given out {:5.2f} "
       "mJ{}{}",
@@ -103,6 +110,8 @@ void print_report(const Seen& seen, const DeviceThread& thread, double seconds) 
 int test(const Arguments& a) {
   DriverProcess device(
       {.device = parse_device_name(a.test), .fifo_priority = a.fifo_priority == 0 ? 0 : a.fifo_priority + 1});
+  if (!a.json) fmt::print("Opening {}, which may take some seconds ...\n", a.test);
+  std::fflush(stdout);
   if (auto opened = device.open(); !opened) return log::error(opened.error()), 2;
   auto wall = WallTest::make(device, device.info().max_stiffness_n_per_m);
   if (!wall) return log::error(wall.error()), 2;
@@ -117,6 +126,7 @@ int test(const Arguments& a) {
   SystemClock clock;
   std::uint64_t ticks = 0;
   double passed_s = 0;
+  bool failed = false;  // now and then
   for (; g_stop == 0 && (a.seconds <= 0 || passed_s < a.seconds); passed_s = to_seconds(clock.now() - begun)) {
     const TimePoint from = clock.now();
     const realtime::LatencyHistogram before = thread.intervals();
@@ -128,13 +138,15 @@ int test(const Arguments& a) {
     if (!a.json) print_line(seen, rate, std::max(0.0, to_us(now.max()) - 1e6 / device.info().rate_hz));
     const auto news = device.check();
     if (!news) return log::error(news.error()), 1;
-    if (*news) log::warning(**news);
+    if (!*news) continue;
+    failed = true;
+    log::warning(**news);
   }
   thread.stop();
   device.write({});
   device.close();
   a.json ? print_report(seen, thread, passed_s) : fmt::print("\n");
-  return 0;
+  return failed || seen.wall.condition == DeviceCondition::lost ? 1 : 0;
 }
 
 }  // namespace
@@ -142,9 +154,10 @@ int test(const Arguments& a) {
 int main(int argc, char** argv) {
   Arguments a;
   CLI::App app{"Lists the drivers of haptic devices; with --test tries one: a gentle wall, without a server."};
-  app.add_option("--test", a.test, "try this device: NAME, or NAME:OPTION=VALUE,...");
+  app.add_option("--test", a.test,
+                 "try this device: NAME, or NAME:OPTION=VALUE,...; NAME may be a driver's file, with a slash in it");
   app.add_option("--seconds", a.seconds, "end the test after this time; 0: run until stopped")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1e6));
   app.add_flag("--json", a.json, "print JSON");
   app.add_option("--fifo-priority", a.fifo_priority, "SCHED_FIFO priority; 0: ordinary threads")
       ->check(CLI::Range(0, 98));

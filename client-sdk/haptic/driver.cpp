@@ -44,12 +44,30 @@ bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-bool is_sane(const mechane_device_info& info) {
-  return info.hand <= MECHANE_HAND_GLOVE && info.output <= MECHANE_OUTPUT_FINGER_BRAKE &&
-         within(info.peak_force_n, 0, 100) && within(info.continuous_force_n, 0, info.peak_force_n) &&
-         within(info.peak_torque_nm, 0, 10) && within(info.peak_finger_force_n, 0, 40) &&
-         within(info.max_stiffness_n_per_m, 0, 1e6) && within(info.max_damping_ns_per_m, 0, 1e4) &&
-         within(info.rate_hz, 50, 8000) && all_finite(info.workspace_min_m) && all_finite(info.workspace_max_m);
+/// The first number that is out of its range, as in "rate_hz is 0, and not 50 to 8000"; empty: none.
+std::string out_of_range(const mechane_device_info& info) {
+  struct Range {
+    const char* name;
+    double value, least, most;
+  };
+  for (const Range& r :
+       {Range{"hand", double(info.hand), 0, MECHANE_HAND_GLOVE},
+        Range{"output", double(info.output), 0, MECHANE_OUTPUT_FINGER_BRAKE},
+        Range{"peak_force_n", info.peak_force_n, 0, 100},
+        Range{"continuous_force_n", info.continuous_force_n, 0, info.peak_force_n},
+        Range{"peak_torque_nm", info.peak_torque_nm, 0, 10},
+        Range{"peak_finger_force_n", info.peak_finger_force_n, 0, 40},
+        Range{"max_stiffness_n_per_m", info.max_stiffness_n_per_m, 0, 1e6},
+        Range{"max_damping_ns_per_m", info.max_damping_ns_per_m, 0, 1e4}, Range{"rate_hz", info.rate_hz, 50, 8000}}) {
+    if (within(r.value, r.least, r.most)) continue;
+    std::ostringstream text;
+    text << r.name << " is " << r.value << ", and not " << r.least << " to " << r.most;
+    return text.str();
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!within(info.workspace_min_m[i], -10, info.workspace_max_m[i]) || !(info.workspace_max_m[i] <= 10))
+      return "workspace_min_m and workspace_max_m are not corners of a box within 10 m";
+  return {};
 }
 
 /// Limits of kinds of force that the device does not render become zero.
@@ -119,7 +137,7 @@ Expected<Driver> Driver::load(const std::string& name) {
   std::unique_ptr<void, Unload> library(::dlopen(file->c_str(), RTLD_NOW | RTLD_LOCAL));
   if (library == nullptr) {
     return fail(ErrorCode::damaged, std::string("it does not load: ") + ::dlerror(), *file,
-                "install the libraries that it needs (ldd names them)");
+                "is it a driver for this machine? If libraries are missing, install them (ldd names them)");
   }
   const auto entry = reinterpret_cast<decltype(&mechane_driver)>(::dlsym(library.get(), "mechane_driver"));
   if (entry == nullptr)
@@ -139,7 +157,8 @@ Expected<Driver> Driver::load(const std::string& name) {
 Expected<mechane_device_info> Driver::open(const std::string& options) {
   why_.fill(0);
   info_ = {};
-  if (driver_->open(options.c_str(), &device_, why_.data(), why_.size() - 1) != 0) {
+  device_ = nullptr;
+  if (driver_->open(options.c_str(), &device_, why_.data(), why_.size() - 1) != 0 || device_ == nullptr) {
     device_ = nullptr;
     return fail(ErrorCode::io_failure, why(), "device");
   }
@@ -147,9 +166,9 @@ Expected<mechane_device_info> Driver::open(const std::string& options) {
     close();
     return fail(ErrorCode::io_failure, why(), "device");
   }
-  if (!is_sane(info_)) {
+  if (const std::string wrong = out_of_range(info_); !wrong.empty()) {
     close();
-    return fail(ErrorCode::invalid_value, "the driver states a limit that is out of its range", file_,
+    return fail(ErrorCode::invalid_value, "the driver states limits that cannot be: " + wrong, file_,
                 "see mechane_device_info in mechane/driver.h");
   }
   keep_to_output(info_);
@@ -158,9 +177,12 @@ Expected<mechane_device_info> Driver::open(const std::string& options) {
 
 bool Driver::read(mechane_device_state& state) noexcept {
   state = {};
+  why_[0] = 0;
   if (driver_->read(device_, &state, why_.data(), why_.size() - 1) != 0) return false;
   if (is_sane(state)) return true;
-  constexpr std::string_view why = "the driver gave a position, a rotation or an angle that cannot be";
+  constexpr std::string_view why =
+      "the driver gave a number that is not finite, a rotation that is not a unit quaternion, or a grasp outside 0 to "
+      "1";
   *std::copy(why.begin(), why.end(), why_.begin()) = 0;
   return false;
 }
@@ -170,6 +192,7 @@ bool Driver::write(mechane_device_force force) noexcept {
   clamp_norm(force.torque_nm, info_.peak_torque_nm);
   for (double& finger : force.finger_n)
     finger = std::isfinite(finger) ? std::clamp(finger, 0.0, info_.peak_finger_force_n) : 0;
+  why_[0] = 0;
   return driver_->write(device_, &force, why_.data(), why_.size() - 1) == 0;
 }
 

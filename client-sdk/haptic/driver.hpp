@@ -44,7 +44,7 @@ class Driver {
   [[nodiscard]] bool write(mechane_device_force force) noexcept;
   void close() noexcept;
   /// Of the last call that failed.
-  [[nodiscard]] std::string why() const { return why_.data(); }
+  [[nodiscard]] std::string why() const { return why_[0] == 0 ? "the driver gives no reason" : why_.data(); }
 
  private:
   struct Unload {

@@ -57,7 +57,8 @@ int DriverHost::run() {
   info_ = *opened;
   tell(HostNews::Kind::opened);
   while (serve()) {
-    tell(HostNews::Kind::lost, driver_.why());
+    if (!lost_) tell(HostNews::Kind::lost, why_);
+    lost_ = true;
     driver_.close();
     do {
       if (loop_has_gone(kRetryMs)) return 0;
@@ -68,7 +69,6 @@ int DriverHost::run() {
       return 2;
     }
     newest_ = {};
-    tell(HostNews::Kind::back);
   }
   return 0;
 }
@@ -79,11 +79,13 @@ bool DriverHost::serve() {
   TimePoint next = clock.now();
   bool gone = false;
   while (!gone && exchange(period)) {
+    if (std::exchange(lost_, false)) tell(HostNews::Kind::back);
     gone = loop_has_gone();
     if (info_.paces != 0) continue;
     next = std::max(next + period, clock.now());  // after a stall in step from now on: no burst
     clock.sleep_until(next);
   }
+  why_ = driver_.why();
   (void)driver_.write({});
   return !gone;
 }
@@ -109,8 +111,8 @@ void DriverHost::tell(HostNews::Kind kind, const std::string& text) const noexce
 }
 
 int serve_driver(const DeviceName& device, int fifo_priority) {
-  // Ctrl-C goes to all programs of a terminal: the loop's process ramps the force down, and then lets go of this one.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})
+  // systemd's SIGTERM goes to all processes: the loop's ramps the force down, and then lets go of this one.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGPIPE})
     std::signal(signal, SIG_IGN);
   auto link = SharedLink::attach(kLinkFile);
   auto driver = Driver::load(device.driver);

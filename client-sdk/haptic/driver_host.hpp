@@ -32,6 +32,8 @@ class DriverHost {
   SharedLink link_;
   int news_;
   mechane_device_info info_{};
+  std::string why_;    // the device failed
+  bool lost_ = false;  // and has given no state since
   Timed<mechane_device_force> newest_;
 };
 

@@ -25,7 +25,7 @@ constexpr Duration kLostAfter = 50ms;  // without a state
 constexpr Duration kHangsAfter = 2s;
 constexpr Duration kCloseWithin = 2s;
 
-constexpr const char* kAgain = "start 'mechane haptic' again; if it happens again, tell the driver's maker";
+constexpr const char* kAgain = "start it again; if it happens again, tell the driver's maker";
 
 std::string because(const char* what) {
   return std::string(what) + ": " + std::strerror(errno);
@@ -47,10 +47,16 @@ pid_t spawn(const DriverProcessConfig& config, int link_file, int news_file) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);  // for makers' libraries that print
   ::posix_spawn_file_actions_adddup2(&actions, link, kLinkFile);
   ::posix_spawn_file_actions_adddup2(&actions, news, kNewsFile);
+  // A session of its own: a terminal's Ctrl-C, Ctrl-\ and Ctrl-Z are for the loop, and must not stop who writes the zero.
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
   pid_t process = -1;
-  const int error = ::posix_spawn(&process, program.c_str(), &actions, nullptr, argv, environ);
+  const int error = ::posix_spawn(&process, program.c_str(), &actions, &attributes, argv, environ);
+  ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(link);
   ::close(news);
@@ -75,7 +81,9 @@ DeviceCondition condition_of(std::uint32_t flags) {
 
 Expected<void> DriverProcess::open() {
   if (auto started = start(); !started) return started;
+  errno = 0;
   const std::optional<HostNews> first = next_news(kOpenMs);
+  const bool interrupted = errno == EINTR;
   if (first && first->kind == HostNews::Kind::opened) {
     info_ = first->info;
     return {};
@@ -83,6 +91,8 @@ Expected<void> DriverProcess::open() {
   Error error{ErrorCode::timed_out, "it does not open within 30 s", place(), "unplug it, and plug it in again"};
   if (first)
     error = {ErrorCode::io_failure, first->text.data(), place(), {}};
+  else if (interrupted)
+    error = {ErrorCode::cancelled, "stopped while it was opening", place(), {}};
   else if (const auto death = died(kCloseWithin))
     error = *death;
   close();

@@ -166,6 +166,7 @@ int run_driver(const Arguments& a, client::Client& client) {
   haptic::DriverProcess device({.device = haptic::parse_device_name(a.device),
                                 .p_WD = center_of(a),
                                 .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99)});
+  log::info("opening the device, which may take some seconds");
   auto loop = make_loop(a, client, device);
   if (!loop) return log::error(loop.error()), 2;
   log::info(std::string("device: ") + device.info().name);

@@ -2,6 +2,7 @@
 force that it is given into a file, so that what the device felt is known whatever died."""
 
 import json
+import os
 import signal
 import struct
 import time
@@ -46,6 +47,21 @@ class Devices(EndToEnd):
         self.expect_zero_soon_after(killed)
         wait_until(lambda: self.trace()[1] == 1, 10, "the device is closed")
 
+    def test_a_terminals_signals_do_not_reach_the_driver(self):
+        """Ctrl-\\ goes to all processes of the terminal's group."""
+        wall = self.start("wall", "devices", "--test", self.device(), prefix=["setsid"])
+        self.pressing(wall)
+        quitted = time.monotonic()
+        os.killpg(wall.process.pid, signal.SIGQUIT)
+        self.expect_zero_soon_after(quitted)
+        wait_until(lambda: self.trace()[1] == 1, 10, "the device is closed")
+
+    def test_a_device_that_failed_is_told_by_the_tests_status(self):
+        wall = self.start("wall", "devices", "--test", self.device("fault=gone,after=300"), "--seconds", "2")
+        self.assertEqual(wall.wait(20), 1, wall.text())
+        self.assertIn("the fake cable was pulled", wall.text())
+        self.assertIn("the device is back", wall.text())
+
     def test_a_stopped_loop_leaves_no_force_and_begins_again_from_zero(self):
         wall = self.start("wall", "devices", "--test", self.device())
         self.pressing(wall)
@@ -81,7 +97,7 @@ class Devices(EndToEnd):
 
     def test_what_cannot_be_used_says_why(self):
         for device, words in (("nothing-has-this-name", "no driver of this name"), (self.device("fault=absent"), "plug it in"),
-                              ("old", "another version"), (self.device("fault=limits"), "out of its range")):
+                              ("old", "another version"), (self.device("fault=limits"), "peak_force_n is 1000")):
             for command in (["devices", "--test"], ["haptic", "--device"]):
                 process = self.start("refused", *command, device)
                 self.assertEqual(process.wait(20), 2, process.text())

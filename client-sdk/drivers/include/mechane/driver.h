@@ -5,8 +5,9 @@
  * right, y up, z towards the visitor. A driver converts units and axes; nobody else does.
  *
  * A driver runs in a process of its own, on one thread. Its functions are called in this order: open(), describe(), then read() and
- * write() in turn, rate_hz times a second, and close(). After a failed read() or write() the device is closed, and opened again a second
- * later. No function may throw, change the process's signals or locale, or write to its standard output.
+ * write() in turn, rate_hz times a second, and close(). Mechane waits between two rounds, unless the device sets the pace (paces). After a
+ * failed read() or write() the device is closed, and opened again a second later. A crash, or a call of read() or write() that takes two
+ * seconds, ends the whole program; open() may take 30 s, and close() two. No function may throw or change the process's signals or locale.
  *
  * Mechane limits each force to what describe() stated before it reaches write(), writes zero when it has heard nothing from the haptic loop
  * for 20 ms, and writes zero before close(). What happens when the driver's own process is killed is up to the device: one that holds its
@@ -38,7 +39,7 @@ typedef enum mechane_hand_kind {
   MECHANE_HAND_GLOVE = 1  /* a hand with joints */
 } mechane_hand_kind;
 
-/* What the device is and can bear. Does not change while it is open. */
+/* What the device is and can bear. Does not change while it is open. It comes filled with zeros, as the state below does. */
 typedef struct mechane_device_info {
   char name[64];                /* for people: maker and model, UTF-8, ends with a 0 */
   uint32_t hand;                /* mechane_hand_kind */
@@ -81,13 +82,14 @@ typedef struct mechane_device_force {
 } mechane_device_force;
 
 /* A driver. Functions that return a number return 0, or another number when they failed; `why` then says what happened and what to do
- * about it: one line of UTF-8 that ends with a 0. */
+ * about it: one line of UTF-8 that ends with a 0, of at most why_size bytes. */
 typedef struct mechane_driver_table {
   uint32_t version;    /* MECHANE_DRIVER_VERSION */
   const char* summary; /* for people, one line: which devices */
   const char* options; /* for people: what open() understands, as in "port=/dev/ttyUSB0"; "" for nothing */
 
-  /* `options` is what stands behind the name in --device NAME:OPTIONS, or "". No force may flow after it. May take seconds. */
+  /* `options` is what stands behind the name in --device NAME:OPTIONS, or "". The device renders no force
+   * until the first write(). *device must not stay NULL. */
   int (*open)(const char* options, void** device, char* why, size_t why_size);
   int (*describe)(void* device, mechane_device_info* info, char* why, size_t why_size);
   /* Fails when the device is gone or faulty. */
