@@ -8,8 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "client-sdk/haptic/haptic_loop.hpp"
+#include "tests/support/allocation_guard.hpp"
 #include "tests/support/driver_trace.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/scripted_client.hpp"
 
 namespace mechane::haptic {
 namespace {
@@ -62,6 +65,24 @@ TEST_F(DriverProcessTest, GivesTheHandAndTakesTheForce) {
   EXPECT_EQ(hand.X_WH.p.x(), 1);
   EXPECT_LT(hand.V_WH.v.y(), 0) << "it moves down";
   ASSERT_TRUE(tick_until(0.5, [&] { return trace().largest_n() == 0.5; }));
+}
+
+TEST_F(DriverProcessTest, ALoopOnItAllocatesNothing) {
+  DriverProcess device({.device = parse_device_name(test::fake_device(""))});
+  test::ScriptedClient client;
+  auto loop = HapticLoop::create(client, device, RenderMode::local);
+  ASSERT_TRUE(loop) << loop.error().to_string();
+  for (int i = 0; i < 3; ++i) {
+    const test::AllocationGuard guard;
+    for (int tick = 0; tick < 500; ++tick) {
+      (void)device.wait(5ms);
+      const TimePoint now = std::chrono::steady_clock::now();
+      client.answer_with_floor(600, now);
+      (*loop)->tick(now, kTickPeriod);
+    }
+    EXPECT_EQ(guard.allocations() + guard.frees(), 0u);
+  }
+  EXPECT_GT((*loop)->stats().ticks_with_force, 100u);
 }
 
 TEST_F(DriverProcessTest, AtItsEndTheDeviceIsGivenZeroAndClosed) {
