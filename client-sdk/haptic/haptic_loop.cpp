@@ -97,7 +97,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
 }
 
 void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
-  const HandSample input = device_.read(dt);
+  const HandSample& input = hand_ = device_.read(dt);
   if (device_.condition() != DeviceCondition::lost && client_.send(input)) {
     ++stats_.sent;
     sent_[client_.sent_sequence() % sent_.size()] = {input.X_WH.p, now};

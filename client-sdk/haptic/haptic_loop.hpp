@@ -73,6 +73,8 @@ class HapticLoop {
   /// From sending a hand to receiving the force that answers it.
   [[nodiscard]] const realtime::LatencyHistogram& round_trip() const noexcept { return round_trip_; }
   [[nodiscard]] const hand::HandForce& rendered() const noexcept { return rendered_; }
+  /// Where the hand was in the last tick.
+  [[nodiscard]] const client::HandSample& hand() const noexcept { return hand_; }
   [[nodiscard]] bool holding() const noexcept { return answer_.holding; }
 
  private:
@@ -101,6 +103,7 @@ class HapticLoop {
   hand::LocalContactModel local_;
   hand::SampleAge age_;
   client::ForceSample answer_;
+  client::HandSample hand_;
   /// What is known of a sample that was sent.
   struct Sent {
     Vec3 p_WH = Vec3::Zero();

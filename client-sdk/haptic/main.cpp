@@ -6,10 +6,12 @@
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/haptic/device_thread.hpp"
 #include "client-sdk/haptic/driver_process.hpp"
+#include "client-sdk/haptic/hand_recorder.hpp"
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/virtual_device.hpp"
 #include "server/base/whole_file.hpp"
@@ -31,6 +33,7 @@ struct Arguments {
   double seconds = 0;
   bool local = false;
   std::string report_file;
+  std::string record_file;
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -51,6 +54,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--fifo-priority", a.client.fifo_priority,
                  "SCHED_FIFO priority of the loop and of the thread that receives forces; 0: ordinary threads");
   app.add_option("--report", a.report_file, "write a JSON report to this file");
+  app.add_option("--record", a.record_file,
+                 "record the hand to this file, to be played with --device playback:file=FILE");
   app.add_flag("--local", a.local, "render forces from the local contact model");
 }
 
@@ -91,13 +96,15 @@ int report(const Arguments& a, const nlohmann::json& found) {
 /// The loop as its thread runs it, and as the main thread ends it.
 class Turns {
  public:
-  explicit Turns(haptic::HapticLoop& loop) : loop_(loop) {}
+  Turns(haptic::HapticLoop& loop, haptic::HandRecorder* recorder) : loop_(loop), recorder_(recorder) {}
   /// The loop's thread.
   void turn(TimePoint now, Duration dt) noexcept {
-    if (!leave_.load(std::memory_order_relaxed))
+    if (!leave_.load(std::memory_order_relaxed)) {
       loop_.tick(now, dt);
-    else if (loop_.release(now, dt))
+      if (recorder_ != nullptr) recorder_->note(loop_.hand(), now);
+    } else if (loop_.release(now, dt)) {
       released_.store(true, std::memory_order_relaxed);
+    }
   }
   /// The main thread: the force is ramped down before the loop ends, so that the hand does not feel the program stop.
   void end() {
@@ -109,12 +116,21 @@ class Turns {
 
  private:
   haptic::HapticLoop& loop_;
+  haptic::HandRecorder* recorder_;
   std::atomic<bool> leave_{false};
   std::atomic<bool> released_{false};
 };
 
+/// Writes what was recorded. False: no more can be.
+bool keep(haptic::HandRecorder& recorder) {
+  const auto written = recorder.write();
+  if (!written) log::error(written.error());
+  return written.has_value();
+}
+
 /// Until it is time to stop, or `look`, which is called five times a second, returns false.
-void wait_for_end(const Arguments& a, client::Client& client, const std::function<bool()>& look) {
+void wait_for_end(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder,
+                  const std::function<bool()>& look) {
   SystemClock clock;
   const TimePoint end = clock.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.seconds));
   std::string told;
@@ -122,6 +138,7 @@ void wait_for_end(const Arguments& a, client::Client& client, const std::functio
     std::string refusal = client.state() == client::LinkState::refused ? client.refusal() : std::string();
     if (!refusal.empty() && refusal != told) log::warning(refusal);
     told = std::move(refusal);
+    if (recorder != nullptr && !keep(*recorder)) recorder = nullptr;
     clock.sleep_until(clock.now() + std::chrono::milliseconds(200));
   }
 }
@@ -136,7 +153,7 @@ Vec3 center_of(const Arguments& a) {
 }
 
 /// A virtual device has no clock of its own: its loop runs at 1 kHz.
-int run_virtual(const Arguments& a, client::Client& client) {
+int run_virtual(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
   haptic::VirtualDevice device;
   auto loop = make_loop(a, client, device);
   if (!loop) return log::error(loop.error()), 2;
@@ -145,13 +162,13 @@ int run_virtual(const Arguments& a, client::Client& client) {
   config.name = "haptic-loop";
   config.fifo_priority = a.client.fifo_priority;
   realtime::PeriodicThread thread(config, clock);
-  Turns turns(**loop);
+  Turns turns(**loop, recorder);
   const auto started = thread.start([&](const realtime::TickTiming& timing) {
     device.intend(stroke(center_of(a), a.radius_m, static_cast<double>(timing.index) * kTickSeconds));
     turns.turn(timing.woke, config.period * static_cast<std::int64_t>(1 + timing.skipped));
   });
   if (!started) return log::error(started.error()), 2;
-  wait_for_end(a, client, [] { return true; });
+  wait_for_end(a, client, recorder, [] { return true; });
   turns.end();
   thread.stop();
   nlohmann::json json = to_json(**loop);
@@ -161,7 +178,7 @@ int run_virtual(const Arguments& a, client::Client& client) {
 }
 
 /// The device sets the pace of its loop.
-int run_driver(const Arguments& a, client::Client& client) {
+int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
   const int fifo = a.client.fifo_priority;
   haptic::DriverProcess device({.device = haptic::parse_device_name(a.device),
                                 .p_WD = center_of(a),
@@ -170,10 +187,10 @@ int run_driver(const Arguments& a, client::Client& client) {
   auto loop = make_loop(a, client, device);
   if (!loop) return log::error(loop.error()), 2;
   log::info(std::string("device: ") + device.info().name);
-  Turns turns(**loop);
+  Turns turns(**loop, recorder);
   haptic::DeviceThread thread(device, fifo, [&](TimePoint now, Duration dt) { turns.turn(now, dt); });
   bool failed = false;
-  wait_for_end(a, client, [&] {
+  wait_for_end(a, client, recorder, [&] {
     const auto news = device.check();
     if (!news) log::error(news.error());
     failed = !news;
@@ -211,5 +228,19 @@ int main(int argc, char** argv) {
     log::error(client.error());
     return 2;
   }
-  return a.device == "virtual" ? run_virtual(a, **client) : run_driver(a, **client);
+  std::unique_ptr<haptic::HandRecorder> recorder;
+  if (!a.record_file.empty()) {
+    auto opened = haptic::HandRecorder::open(a.record_file);
+    if (!opened) {
+      log::error(opened.error());
+      return 2;
+    }
+    recorder = std::move(*opened);
+  }
+  const int status =
+      a.device == "virtual" ? run_virtual(a, **client, recorder.get()) : run_driver(a, **client, recorder.get());
+  if (recorder && !keep(*recorder)) return 1;
+  if (recorder && recorder->lost() > 0)
+    log::warning(fmt::format("{} samples of the hand were not recorded", recorder->lost()));
+  return status;
 }

@@ -55,6 +55,12 @@ def shadowing(text: str) -> list[tuple[str, int]]:
     return [(match.group(1), line_of(plain, match.start())) for match in _LOCAL.finditer(plain)]
 
 
+def _home(path: Path) -> Path:
+    """What is compiled together: a folder; and of the drivers all but the module of each."""
+    drivers = Path("client-sdk/drivers")
+    return drivers if path.is_relative_to(drivers) and path.name != "driver.cpp" else path.parent
+
+
 def check(root: Path) -> list[Fault]:
     homes: dict[tuple[Path, str], list[tuple[Path, int]]] = defaultdict(list)
     hidden: list[tuple[Path, str, int]] = []
@@ -69,7 +75,7 @@ def check(root: Path) -> list[Fault]:
             names = defined(text)
             hidden += [(path, name, line) for name, line in shadowing(text)]
         for name, line in names:
-            homes[path.parent, name].append((path, line))
+            homes[_home(path), name].append((path, line))
     faults = []
     for (_, name), places in sorted(homes.items()):
         # Headers name the types of a namespace each; a clash needs an anonymous one.
@@ -79,7 +85,7 @@ def check(root: Path) -> list[Fault]:
             others = ", ".join(sorted({str(other) for other, _ in places if other != path}))
             faults.append(Fault("unity-name", str(path), line, f"'{name}' is also defined in {others}: give it a name of its own"))
     for path, name, line in hidden:
-        sources = [other for other, _ in homes.get((path.parent, name), []) if other < path and other.suffix not in HEADER_SUFFIXES]
+        sources = [other for other, _ in homes.get((_home(path), name), []) if other < path and other.suffix not in HEADER_SUFFIXES]
         if sources:
             faults.append(Fault("unity-name", str(path), line, f"'{name}' hides the one of {sources[0]}: give it a name of its own"))
     return faults

@@ -30,6 +30,17 @@ class Devices(EndToEnd):
         written = list(struct.iter_unpack("=qd", data[:len(data) // 16 * 16]))
         return [(at / 1e9, force) for at, force in written if at > 0], sum(at < 0 for at, _ in written)
 
+    def written(self, text):
+        file = self.folder / "text"
+        file.write_text(f"# a hand\n{text}\n")
+        return file
+
+    def refused(self, *arguments):
+        """What a program says that ends with status 2."""
+        process = self.start("refused", *arguments)
+        self.assertEqual(process.wait(20), 2, process.text())
+        return process.text()
+
     def pressing(self, process, least_n=0.3):
         wait_until(lambda: self.trace()[0][-1:] and self.trace()[0][-1][1] > least_n, 20, f"{process.name} presses: {process.text()}")
 
@@ -99,9 +110,19 @@ class Devices(EndToEnd):
         for device, words in (("nothing-has-this-name", "no driver of this name"), (self.device("fault=absent"), "plug it in"),
                               ("old", "another version"), (self.device("fault=limits"), "peak_force_n is 1000")):
             for command in (["devices", "--test"], ["haptic", "--device"]):
-                process = self.start("refused", *command, device)
-                self.assertEqual(process.wait(20), 2, process.text())
-                self.assertIn(words, process.text())
+                self.assertIn(words, self.refused(*command, device))
+
+    def test_a_recorded_hand_is_played_again(self):
+        files = [self.folder / "first", self.folder / "again"]
+        devices = ["virtual", f"playback:file={files[0]},speed=4"]
+        for device, file in zip(devices, files):
+            haptic = self.start("haptic", "haptic", "--kiosk", "kiosk-1", "--device", device, "--center", "0", "0", "0", "--record", file,
+                                "--seconds", "1")
+            self.assertEqual(haptic.wait(30), 0, haptic.text())
+        first, again = ([line.split() for line in file.read_text().splitlines() if line[0] != "#"] for file in files)
+        self.assertGreater(len(first), 100)
+        self.assertEqual(again[-1][1:], first[-1][1:], "it has come to the end, and stands there")
+        self.assertIn("line 2", self.refused("haptic", "--device", f"playback:file={self.written('0 0')}"))
 
     def test_drivers_are_listed(self):
         listed = self.start("list", "devices", "--json")
