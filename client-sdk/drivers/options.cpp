@@ -36,7 +36,7 @@ void Options::note(std::string fault) {
   if (fault_.empty()) fault_ = std::move(fault);
 }
 
-std::string Options::text(const std::string& name, std::string otherwise) {
+std::string Options::text(const std::string& name, const std::string& otherwise) {
   const auto found = values_.find(name);
   return found == values_.end() ? otherwise : found->second;
 }

@@ -15,7 +15,7 @@ class Options {
   /// `known` names what the driver understands, as people read it: "port=FILE hand=left|right|none". Its names count.
   Options(std::string_view text, std::string_view known);
 
-  [[nodiscard]] std::string text(const std::string& name, std::string otherwise);
+  [[nodiscard]] std::string text(const std::string& name, const std::string& otherwise);
   [[nodiscard]] double number(const std::string& name, double otherwise, double least, double most);
   /// One of `choices`, by its index; the first is what holds without the option.
   [[nodiscard]] std::size_t choice(const std::string& name, const std::vector<std::string>& choices);

@@ -124,15 +124,16 @@ int test(const Arguments& a) {
     box.publish({wall->report(), device.state()});
   });
   SystemClock clock;
+  realtime::LatencyHistogram before;
   std::uint64_t ticks = 0;
   double passed_s = 0;
   bool failed = false;  // now and then
   for (; g_stop == 0 && (a.seconds <= 0 || passed_s < a.seconds); passed_s = to_seconds(clock.now() - begun)) {
     const TimePoint from = clock.now();
-    const realtime::LatencyHistogram before = thread.intervals();
     clock.sleep_until(from + std::chrono::milliseconds(100));
     (void)box.take_newest(seen);
     const realtime::LatencyHistogram now = thread.intervals().since(before);
+    before = thread.intervals();
     const double rate =
         static_cast<double>(seen.wall.ticks - std::exchange(ticks, seen.wall.ticks)) / to_seconds(clock.now() - from);
     if (!a.json) print_line(seen, rate, std::max(0.0, to_us(now.max()) - 1e6 / device.info().rate_hz));

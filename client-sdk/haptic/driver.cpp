@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -215,6 +216,7 @@ std::vector<FoundDriver> find_drivers() {
     }
   }
   std::vector<FoundDriver> list;
+  list.reserve(found.size());
   for (auto& [name, driver] : found)
     list.push_back(std::move(driver));
   return list;

@@ -114,7 +114,7 @@ std::string HaplyLink::ask_version(std::string& body) {
     error =
         wire_->await(stream, kConnect, [&](auto done) { http::async_read(stream, buffer, answer, std::move(done)); });
   if (error) return wire_->fault("does not tell its version", error) + "; give the option key=values or key=vector";
-  body = std::move(answer.body());
+  body = answer.body();
   return {};
 }
 

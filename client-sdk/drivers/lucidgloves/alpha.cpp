@@ -15,7 +15,7 @@ constexpr double kAlphaDegree = std::numbers::pi / 180;
 // What a key stands for: the letters A .. Z, five splays, four joints of each finger, and all other keys.
 constexpr std::size_t kSplays = 26;
 constexpr std::size_t kJoints = kSplays + MECHANE_FINGERS;
-constexpr std::size_t kOtherKey = kJoints + 4 * MECHANE_FINGERS;
+constexpr std::size_t kOtherKey = kJoints + std::size_t{4} * MECHANE_FINGERS;
 constexpr std::size_t kButtons = 'H' - 'A';
 constexpr std::size_t kButtonCount = 8;
 constexpr std::size_t kCalibrate = 7;  // the button O
@@ -81,7 +81,8 @@ double joint_share(const Draft& draft, std::size_t finger, std::size_t joint) no
 
 AlphaHand hand_of(const Draft& draft, int full_scale) noexcept {
   AlphaHand hand;
-  const double half = (full_scale / 2) / static_cast<double>(full_scale);
+  const int half_scale = full_scale / 2;  // as the firmware rounds it
+  const double half = half_scale / static_cast<double>(full_scale);
   for (std::size_t f = 0; f < MECHANE_FINGERS; ++f) {
     hand.curl[f] = draft.share[f];
     hand.splay[f] = draft.seen[kSplays + f] ? 2 * draft.share[kSplays + f] - 1 : 0;

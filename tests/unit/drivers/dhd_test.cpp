@@ -31,7 +31,7 @@ class DhdDriver : public ::testing::Test {
     find(reset_, "fake_dhd_reset");
     reset_();
   }
-  ~DhdDriver() override {
+  void TearDown() override {
     driver_.close();
     if (library_ != nullptr) ::dlclose(library_);
   }

@@ -35,7 +35,7 @@ class OpenHapticsDriver : public ::testing::Test {
     find(reset_, "fake_hd_reset");
     reset_();
   }
-  ~OpenHapticsDriver() override {
+  void TearDown() override {
     if (library_ == nullptr) return;
     close();
     reset_();
