@@ -9,7 +9,7 @@ namespace mechane::drivers {
 /// `v`, shortened to a length of at most `most`; zero when it is not finite.
 [[nodiscard]] std::array<double, 3> limited(std::span<const double, 3> v, double most) noexcept;
 
-/// The unit quaternion w x y z of a rotation matrix given by rows. False, with `wxyz` untouched, when the matrix is no
+/// The unit quaternion w x y z of a rotation matrix given by rows. False, with `wxyz` untouched, when the matrix is not a
 /// rotation: not finite, or its columns are not orthonormal to 0.01 and right-handed.
 [[nodiscard]] bool quaternion_of(std::span<const double, 9> by_rows, std::span<double, 4> wxyz) noexcept;
 

@@ -126,7 +126,7 @@ void Driver::Unload::operator()(void* library) const noexcept {
 
 Driver::Driver(Driver&& other) noexcept
     : file_(std::move(other.file_)),
-      library_(std::move(other.library_)),
+      module_(std::move(other.module_)),
       driver_(other.driver_),
       device_(std::exchange(other.device_, nullptr)),
       info_(other.info_),

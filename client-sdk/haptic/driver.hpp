@@ -51,10 +51,10 @@ class Driver {
     void operator()(void* library) const noexcept;
   };
   Driver(std::string file, std::unique_ptr<void, Unload> library, const mechane_driver_table& driver)
-      : file_(std::move(file)), library_(std::move(library)), driver_(&driver) {}
+      : file_(std::move(file)), module_(std::move(library)), driver_(&driver) {}
 
   std::string file_;
-  std::unique_ptr<void, Unload> library_;
+  std::unique_ptr<void, Unload> module_;
   const mechane_driver_table* driver_;
   void* device_ = nullptr;
   mechane_device_info info_{};

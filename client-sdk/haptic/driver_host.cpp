@@ -22,10 +22,6 @@ TimePoint now() noexcept {
   return std::chrono::steady_clock::now();
 }
 
-bool may_render(const mechane_device_state& state) noexcept {
-  return (state.flags & (MECHANE_STATE_READY | MECHANE_STATE_HOT | MECHANE_STATE_DEAD_MAN)) == MECHANE_STATE_READY;
-}
-
 void send_news(int socket, HostNews::Kind kind, const mechane_device_info& info, const std::string& text) noexcept {
   HostNews news;
   news.kind = kind;

@@ -49,6 +49,11 @@ struct HostNews {
 inline constexpr int kLinkFile = 3;
 inline constexpr int kNewsFile = 4;
 
+/// Whether a device in this state may be given a force.
+[[nodiscard]] inline bool may_render(const mechane_device_state& state) noexcept {
+  return (state.flags & (MECHANE_STATE_READY | MECHANE_STATE_HOT | MECHANE_STATE_DEAD_MAN)) == MECHANE_STATE_READY;
+}
+
 /// What may be rendered at `now` of the newest force.
 [[nodiscard]] inline mechane_device_force due(const Timed<mechane_device_force>& newest, TimePoint now) noexcept {
   return now - newest.at <= DriverLink::kSilent ? newest.value : mechane_device_force{};

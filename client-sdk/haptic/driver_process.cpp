@@ -64,19 +64,6 @@ pid_t spawn(const DriverProcessConfig& config, int link_file, int news_file) {
   return error == 0 ? process : -1;
 }
 
-hand::GovernorConfig governor_config(const mechane_device_info& info) {
-  hand::GovernorConfig limits;
-  limits.max_force_n = info.peak_force_n;
-  limits.max_torque_nm = info.peak_torque_nm;
-  limits.max_finger_force_n = info.peak_finger_force_n;
-  return limits;
-}
-
-DeviceCondition condition_of(std::uint32_t flags) {
-  constexpr std::uint32_t kAll = MECHANE_STATE_READY | MECHANE_STATE_HOT | MECHANE_STATE_DEAD_MAN;
-  return (flags & kAll) == MECHANE_STATE_READY ? DeviceCondition::ready : DeviceCondition::not_ready;
-}
-
 }  // namespace
 
 Expected<void> DriverProcess::open() {
@@ -177,7 +164,9 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   const TimePoint now = std::chrono::steady_clock::now();
   came_ = (*link_)->states.take_newest(newest_) || came_;
   newest_at_.store(newest_.at);
-  condition_ = now - newest_.at > kLostAfter ? DeviceCondition::lost : condition_of(newest_.value.flags);
+  condition_ = now - newest_.at > kLostAfter ? DeviceCondition::lost
+               : may_render(newest_.value)   ? DeviceCondition::ready
+                                             : DeviceCondition::not_ready;
   if (!std::exchange(came_, false)) return last_;
   const mechane_device_state& state = newest_.value;
   client::HandSample hand;
@@ -210,7 +199,11 @@ void DriverProcess::write(const hand::HandForce& force) noexcept {
 }
 
 hand::GovernorConfig DriverProcess::limits() const {
-  return governor_config(info_);
+  hand::GovernorConfig limits;
+  limits.max_force_n = info_.peak_force_n;
+  limits.max_torque_nm = info_.peak_torque_nm;
+  limits.max_finger_force_n = info_.peak_finger_force_n;
+  return limits;
 }
 
 }  // namespace mechane::haptic

@@ -32,7 +32,6 @@ class HeatLimit {
     else if (mean_square_n2_ < kCool * kCool * continuous_n_ * continuous_n_)
       limit_n_ = std::min(limit_n_ * (1 + step), peak_n_);
   }
-  [[nodiscard]] double limit_n() const noexcept { return limit_n_; }
 
  private:
   static constexpr double kMean_s = 20;

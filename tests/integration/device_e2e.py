@@ -1,5 +1,5 @@
-"""A real device's path: a driver (tests/support/fake_driver.c) in a process of its own, and the programs that use it. The driver writes each
-force that it is given into a file, so that what the device felt is known whatever died."""
+"""A real device's path: a driver (tests/support/fake_driver.c) in a process of its own, and the programs that use it. The driver
+writes each force that it is given into a file, so that what the device felt is known whatever died."""
 
 import json
 import os

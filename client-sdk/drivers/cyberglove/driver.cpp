@@ -74,7 +74,7 @@ class CyberGlove {
 
  private:
   Fault calibrate(const std::string& file) {
-    std::string text(std::size_t{64} * 1024, '\0');  // more is no calibration
+    std::string text(std::size_t{64} * 1024, '\0');  // a calibration is shorter
     std::ifstream in(file, std::ios::binary);
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (in.gcount() == 0) return "cannot read the calibration " + file + "; is the option calibration right?";

@@ -34,7 +34,7 @@ class GloveRecords {
   [[nodiscard]] bool noise() const noexcept { return noise_; }
 
  private:
-  /// The length of the record at the front; 0: it is not complete yet; the largest number: there is none.
+  /// The length of the record at the front; 0 while it is incomplete; the largest number when the bytes are not a record.
   [[nodiscard]] std::size_t record_length() const noexcept;
   void drop(std::size_t bytes) noexcept;
   void take_record(std::size_t length) noexcept;

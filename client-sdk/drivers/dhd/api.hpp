@@ -60,8 +60,8 @@ struct Model {
   return {v[2], v[0], v[1]};
 }
 
-/// The hand's frame in D from the vendor's rotation matrix: both frames change their axes, so that no turn stays no
-/// turn. False, with `wxyz` untouched, when the matrix is no rotation.
+/// The hand's frame in D from the vendor's rotation matrix: both frames change their axes, so that the identity stays
+/// the identity. False, with `wxyz` unchanged, when the matrix is not a rotation.
 [[nodiscard]] bool orientation_to_d(const double (&by_rows)[3][3], std::span<double, 4> wxyz) noexcept;
 
 }  // namespace mechane::drivers::dhd

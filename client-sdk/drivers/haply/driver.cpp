@@ -2,9 +2,7 @@
 // Facts: docs.haply.co, Inverse SDK: WebSocket Protocol, Simulation Channel, Control Commands, Basis Permutation, Mount
 // & Workspace.
 // Not tried on hardware.
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -14,6 +12,7 @@
 #include "client-sdk/drivers/haply/force_watch.hpp"
 #include "client-sdk/drivers/haply/link.hpp"
 #include "client-sdk/drivers/haply/protocol.hpp"
+#include "client-sdk/drivers/vectors.hpp"
 
 namespace mechane::drivers {
 namespace {
@@ -41,14 +40,6 @@ constexpr double kWorkspaceRadiusM = 0.15;
 // The middle of the workspace from the middle of the base, in Haply's axes, where the service cannot put the origin
 // there (3.1).
 constexpr HaplyVector kWorkspaceMiddleM{0, -0.12, 0.15};
-
-/// Within the peak, in the same direction; no force instead of what is not a number.
-HaplyVector bearable(const double (&force_n)[3]) {
-  if (!std::ranges::all_of(force_n, [](double part) { return std::isfinite(part); })) return {};
-  const double size = std::hypot(force_n[0], force_n[1], force_n[2]);
-  const double share = size > kPeakForceN ? kPeakForceN / size : 1.0;
-  return d_to_haply({force_n[0] * share, force_n[1] * share, force_n[2] * share});
-}
 
 }  // namespace
 
@@ -98,7 +89,7 @@ Fault Haply::open(Options& options) {
   const std::size_t key = options.choice("key", {"auto", "vector", "values"});
   if (!options.fault().empty()) return options.fault();
   if (!wanted.empty() && !is_haply_id(wanted))
-    return "the option device=" + wanted + " is no id of an arm; it looks like 049D";
+    return "the option device=" + wanted + " is not the id of an arm; an id looks like 049D";
   where_ = "the Haply service at " + host + ":" + std::to_string(port);
   command_.reserve(512);
   link_.emplace(host, port);
@@ -203,7 +194,7 @@ Fault Haply::write(const mechane_device_force& force) {
   if (Fault fault = take_answers(milliseconds(0)); !fault.empty()) return fault;
   // The service has not taken the last command yet, and a newer one would wait behind it.
   if (answer_due_) return {};
-  return send(bearable(force.force_n));
+  return send(d_to_haply(limited(force.force_n, kPeakForceN)));
 }
 
 Fault Haply::send(const HaplyVector& force_n) {
@@ -257,12 +248,12 @@ Fault Haply::judge_force() {
   return {};
 }
 
-/// Also before the service would notice that we are gone: the last that it hears is no force.
+/// Sends a last command without force: the service may take a while to notice that this client is gone.
 void Haply::let_go() noexcept {
   if (!started_) return;
   try {
     (void)send({});
-  } catch (const std::exception&) {  // there is no memory for the command; the end of the connection ends the force too
+  } catch (const std::exception&) {  // out of memory: the connection ends now, and the force with it
   }
 }
 

@@ -125,7 +125,7 @@ std::string HaplyLink::open() {
   const std::string host = wire.host + ":" + wire.port;
   const error_code error =
       wire.await(stream, kConnect, [&](auto done) { wire.socket.async_handshake(host, "/", std::move(done)); });
-  if (error) return wire.fault("is no WebSocket", error) + "; is the option port right?";
+  if (error) return wire.fault("does not speak WebSocket", error) + "; is the option port right?";
   wire.socket.read_message_max(kLargestMessage);
   wire.socket.text(true);
   wire.socket.auto_fragment(false);

@@ -9,9 +9,9 @@
 
 namespace mechane::drivers {
 
-/// Whole text messages in order. Every call has a deadline. One thread, which must call for anything to move: nothing
-/// runs in the background. Faults are in words for a person, empty when there is none; after one the link is of no more
-/// use. Asio keeps the memory of its operations and uses it again; Beast may still allocate for a long message.
+/// Sends and receives whole text messages, in order. Every call has a deadline. All calls come from one thread; nothing
+/// runs in the background. A call returns a fault in words for a person, or an empty text; after a fault the link cannot
+/// be used any more. Asio keeps the memory of its operations and uses it again; Beast may allocate for a long message.
 class HaplyLink {
  public:
   /// Up to 5 s for each of the calls that connect.

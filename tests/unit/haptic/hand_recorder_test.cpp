@@ -70,7 +70,6 @@ TEST(HandRecorder, CountsWhatThereIsNoRoomFor) {
 }
 
 TEST(HandRecorder, AFullDiskIsAnError) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   EXPECT_FALSE(HandRecorder::open("/dev/full"));
 }
 
