@@ -51,9 +51,8 @@ void HapticLoop::note_delay(Duration delay) noexcept {
 }
 
 /// A spring that is closed over a delay t is stable up to a stiffness of (b + B) / (T / 2 + t), with b and B the damping of hand and
-/// spring (Gil et al. 2009): so it is lowered in that proportion.
+/// spring (Gil et al. 2009): so what the server computes is lowered in that proportion.
 double HapticLoop::stiffness_share() const noexcept {
-  if (renders_here()) return 1;  // the spring is closed here
   constexpr double kHalfTick_s = 0.5 * kTickSeconds;
   return std::min(1.0, (kHalfTick_s + to_seconds(kFullDelay)) / (kHalfTick_s + to_seconds(delay_)));
 }
@@ -82,13 +81,14 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   hand::GovernorInput wanted;
   const double share = stiffness_share();
   wanted.wanted_W = {share * answer_.force_W.f, share * answer_.force_W.t};
-  wanted.finger_force_n = answer_.finger_force_n;
+  std::transform(answer_.finger_force_n.begin(), answer_.finger_force_n.end(), wanted.finger_force_n.begin(),
+                 [share](double force_n) { return share * force_n; });
   if (renders_here()) wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
   const bool warm = heat_.limit(wanted.wanted_W.f);
   wanted.V_WH = moved(input, dt);
   wanted.age = age;
   wanted.engaged = engaged && ready;
-  wanted.touching = answer_.contact_count > 0;
+  wanted.touching = answer_.touches() || (renders_here() && !wanted.wanted_W.f.isZero(0));
   rendered_ = governor_.apply(governed_, wanted, dt);
   heat_.rendered(rendered_.force_W.f.norm(), dt);
   if (warm) rendered_.reasons |= kWarm;

@@ -20,8 +20,8 @@ namespace mechane::haptic {
 enum class RenderMode {
   /// The server's force; for a LAN, where an answer is a millisecond old.
   server,
-  /// Computed from the server's contacts at the device's own rate, for slower networks; the pull of a held object is
-  /// still the server's force.
+  /// Computed from the server's contacts at the device's own rate, whatever the network; torque, the forces on fingers
+  /// and the pull of a held object are still the server's.
   local,
 };
 

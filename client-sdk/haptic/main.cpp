@@ -31,7 +31,7 @@ struct Arguments {
   std::vector<double> center{0.0, 0.72, 0.19};
   double radius_m = 0.05;
   double seconds = 0;
-  bool local = false;
+  bool direct = false;
   std::string report_file;
   std::string record_file;
 };
@@ -56,7 +56,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_option("--record", a.record_file,
                  "record the hand to this file, to be played with --device playback:file=FILE");
-  app.add_flag("--local", a.local, "render forces from the local contact model");
+  app.add_flag("--direct", a.direct, "render the server's forces, not contacts at the device's own rate");
 }
 
 /// A hand that strokes a circle in the x-y plane around `center`, once in four seconds.
@@ -145,7 +145,7 @@ void wait_for_end(const Arguments& a, client::Client& client, haptic::HandRecord
 
 Expected<std::unique_ptr<haptic::HapticLoop>> make_loop(const Arguments& a, client::Client& client,
                                                         haptic::Device& device) {
-  return haptic::HapticLoop::create(client, device, a.local ? haptic::RenderMode::local : haptic::RenderMode::server);
+  return haptic::HapticLoop::create(client, device, a.direct ? haptic::RenderMode::server : haptic::RenderMode::local);
 }
 
 Vec3 center_of(const Arguments& a) {

@@ -24,7 +24,7 @@ struct Arguments {
   std::string report_file;
   std::vector<double> offset;
   bool glove = false;
-  bool local = false;
+  bool direct = false;
   double patience_s = 60;
   double linger_s = 1;
 };
@@ -56,7 +56,7 @@ void add_options(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(0.0, 600.0));
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_flag("--glove", a.glove, "a whole hand instead of one point");
-  app.add_flag("--local", a.local, "render forces from the local contact model");
+  app.add_flag("--direct", a.direct, "render the server's forces, not contacts at the device's own rate");
   app.add_flag("--endless", a.options.endless, "start again after the last visit");
 }
 
@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
   a.options.linger = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.linger_s));
   if (a.offset.size() == 3) a.options.player.offset_W = Vec3(a.offset[0], a.offset[1], a.offset[2]);
   if (a.glove) a.options.player.kind = client::HandKind::glove;
-  if (a.local) a.options.render = haptic::RenderMode::local;
+  if (a.direct) a.options.render = haptic::RenderMode::server;
   std::signal(SIGINT, [](int) { g_stop = 1; });
   std::signal(SIGTERM, [](int) { g_stop = 1; });
   return a.all ? play_all(a) : play_one(a);

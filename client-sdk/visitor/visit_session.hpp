@@ -21,7 +21,7 @@ struct VisitOptions {
   std::vector<std::string> visits;      ///< names, in order; empty: those of `activities`
   std::vector<std::string> activities;  ///< one visit of each, in order; all visits where this and `visits` are empty
   PlayerConfig player;
-  haptic::RenderMode render = haptic::RenderMode::server;
+  haptic::RenderMode render = haptic::RenderMode::local;
   Duration join_within = std::chrono::seconds(20);
   Duration done_within = std::chrono::seconds(60);  ///< how long to wait after an activity's last move until it is done
   Duration linger = std::chrono::seconds(1);  ///< how long to stay at an exhibit that a sign opened, before going home

@@ -30,9 +30,9 @@ struct ReplayResult {
   }
 };
 
-/// Errors: conflict (the journal was recorded with another form of the scenario), or the snapshot in it cannot be read.
+/// With the physics of the journal's time (state::StateVersion). Errors: conflict (the journal was recorded with another form of the scenario), or the snapshot in it cannot be read.
 [[nodiscard]] Expected<ReplayResult> replay(record::JournalReader& journal,
                                             const std::shared_ptr<const state::WorldDescription>& description,
-                                            const world::WorldConfig& config, const ReplayOptions& options);
+                                            world::WorldConfig config, const ReplayOptions& options);
 
 }  // namespace mechane::app

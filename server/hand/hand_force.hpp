@@ -2,6 +2,7 @@
 // compares the numbers of the wire's contract with these.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -57,6 +58,11 @@ struct HapticOutput : HandForce {
   bool holding = false;  ///< a grasp is on
 
   [[nodiscard]] std::span<const LocalContact> contact_span() const noexcept { return {contacts.data(), contact_count}; }
+  /// Whether hand and body overlap in any of the contacts; the others are about to be made.
+  [[nodiscard]] bool touches() const noexcept {
+    const auto contacts_now = contact_span();
+    return std::any_of(contacts_now.begin(), contacts_now.end(), [](const LocalContact& c) { return c.depth_m > 0; });
+  }
 };
 
 }  // namespace mechane::hand

@@ -20,8 +20,7 @@ struct ContactPatch {
   double depth_m = 0;          ///< |push_m|
 };
 
-/// No hand touches more bodies with more segments than this at once.
-inline constexpr std::size_t kMaxPatches = 64;
+using state::kMaxPatches;
 
 /// Groups contacts by segment and body, in the order of the contacts. Returns how many patches were filled.
 [[nodiscard]] std::size_t gather_patches(std::span<const state::Contact> contacts,

@@ -35,6 +35,11 @@ class HandModel {
 
   /// The segment's shape, of the size nearest to the sample's hand_scale.
   [[nodiscard]] const collision::Object& segment(const hand::HandSample& sample, std::size_t index) const noexcept;
+  /// A ball of near_radius_m(): what is in it, placed around a segment's middle, may soon touch the segment.
+  [[nodiscard]] const collision::Object& near_ball() const noexcept { return near_ball_; }
+  [[nodiscard]] double near_radius_m() const noexcept { return near_ball_.bound_O.radius; }
+  /// Of the largest ball inside the segment.
+  [[nodiscard]] double inner_radius_m(const hand::HandSample& sample, std::size_t index) const noexcept;
   /// Around the whole hand, in H: nothing outside can touch it.
   [[nodiscard]] double reach_m(const hand::HandSample& sample) const noexcept;
   /// n_f of equation 19: unit vector perpendicular to a phalanx, out of its back, in W. A glove that only pulls (CyberGrasp)
@@ -54,6 +59,7 @@ class HandModel {
   HandSize size_;
   Quat thumb_stand_ = Quat::Identity();
   std::array<Sized, kScales.size()> sizes_;
+  collision::Object near_ball_;
 };
 
 }  // namespace mechane::haptics

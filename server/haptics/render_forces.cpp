@@ -5,6 +5,7 @@
 
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/effective_mass.hpp"
+#include "server/haptics/friction.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -15,38 +16,17 @@ using state::BodyState;
 using state::HapticMaterial;
 using state::UserState;
 
-// An explicit spring or damper must stay well below what would reverse the body's motion within one step, or it would oscillate.
-constexpr double kStiffnessBound = 0.1;
-constexpr double kDampingBound = 0.3;
-
 /// What one touch does: the force on the hand, and the spring it was made with.
 struct PatchForce {
   Vec3 f_H_W = Vec3::Zero();
-  double stiffness_n_per_m = 0;
-  double damping_ns_per_m = 0;
+  Spring spring;
 };
 
-Vec3 friction_force(const Vec3& v_tangent, double normal_force_n, const HapticMaterial& material, double speed_limit) {
-  const double speed = v_tangent.norm();
-  if (speed <= 0 || normal_force_n <= 0) return Vec3::Zero();
-  const double mu = speed < speed_limit ? material.static_friction : material.dynamic_friction;
-  return -mu * normal_force_n / std::max(speed, speed_limit) * v_tangent;
-}
-
-/// Spring, damping on the way in, friction. Continuous in depth and speed but for the fall from static to dynamic friction.
-PatchForce touch_force(const ContactPatch& patch, const HapticMaterial& material, const ForceConfig& config,
-                       double m_eff_kg, const Vec3& v_rel_W) {
-  PatchForce out;
-  const double k_bound = kStiffnessBound * m_eff_kg / (kTickSeconds * kTickSeconds);
-  const double b_bound = kDampingBound * m_eff_kg / kTickSeconds;
-  out.stiffness_n_per_m = std::min(material.stiffness_n_per_m, k_bound);
-  out.damping_ns_per_m = std::min(material.damping_ns_per_m, b_bound);
+/// Spring, and damping on the way in. Continuous in depth and speed.
+double normal_force_n(const ContactPatch& patch, const Spring& spring, const ForceConfig& config, const Vec3& v_rel_W) {
   const double approach = std::max(0.0, -v_rel_W.dot(patch.n_BH_W));
   const double onset = std::min(1.0, patch.depth_m / config.damping_depth_m);
-  const double normal_n = out.stiffness_n_per_m * patch.depth_m + onset * out.damping_ns_per_m * approach;
-  const Vec3 v_tangent = v_rel_W - v_rel_W.dot(patch.n_BH_W) * patch.n_BH_W;
-  out.f_H_W = normal_n * patch.n_BH_W + friction_force(v_tangent, normal_n, material, config.friction_speed_m_per_s);
-  return out;
+  return spring.stiffness_n_per_m * patch.depth_m + onset * spring.damping_ns_per_m * approach;
 }
 
 void add_to_hand(UserState& user, const Vec3& f_H_W, const Vec3& p_WC) {
@@ -61,27 +41,39 @@ void add_to_finger(UserState& user, std::size_t segment, const Vec3& f_H_W) {
   user.output.finger_force_n[hand::finger_of(segment)] += std::max(0.0, pull_n);
 }
 
-void add_local_contact(UserState& user, const ContactPatch& patch, const PatchForce& force, const Vec3& v_B_W,
-                       const HapticMaterial& material) {
-  HapticOutput& out = user.output;
-  std::size_t slot = out.contact_count;
-  if (slot == out.contacts.size()) {
-    const auto shallowest = std::min_element(out.contacts.begin(), out.contacts.end(),
-                                             [](const auto& a, const auto& b) { return a.depth_m < b.depth_m; });
-    if (shallowest->depth_m >= patch.depth_m) return;
-    slot = static_cast<std::size_t>(shallowest - out.contacts.begin());
-  } else {
-    ++out.contact_count;
+/// Keeps the deepest.
+void add_local_contact(HapticOutput& out, const hand::LocalContact& contact) {
+  if (out.contact_count < out.contacts.size()) {
+    out.contacts[out.contact_count++] = contact;
+    return;
   }
-  hand::LocalContact& contact = out.contacts[slot];
-  contact.p_W = patch.p_WC;
-  contact.n_W = patch.n_BH_W;
-  contact.v_W = v_B_W;
-  contact.depth_m = patch.depth_m;
-  contact.curvature_per_m = 0;
-  contact.stiffness_n_per_m = force.stiffness_n_per_m;
-  contact.damping_ns_per_m = force.damping_ns_per_m;
-  contact.friction = material.dynamic_friction;
+  const auto shallowest = std::min_element(out.contacts.begin(), out.contacts.end(),
+                                           [](const auto& a, const auto& b) { return a.depth_m < b.depth_m; });
+  if (shallowest->depth_m < contact.depth_m) *shallowest = contact;
+}
+
+/// One touch of the product's mode. Moves its anchor.
+PatchForce touch_force(const state::WorldDescription& description, const state::WorldState& state,
+                       const UserState& user, const ContactPatch& patch, const Vec3& v_B_W, const ForceConfig& config,
+                       FrictionAnchors& anchors) {
+  const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
+  const Pose& X_WB = state[patch.body].X_WB;
+  const auto spring_along = [&](const Vec3& direction_W) {
+    return bounded_spring(material, effective_mass_kg(description, state, patch.body, patch.p_WC, direction_W));
+  };
+  const Vec3 v_rel_W = user.V_WH.at(patch.p_WC - user.X_WH.p) - v_B_W;
+  const Spring spring = spring_along(patch.n_BH_W);
+  const Rubbing rubbing{patch.n_BH_W, normal_force_n(patch, spring, config, v_rel_W), v_rel_W, material};
+  PatchForce force{rubbing.normal_n * patch.n_BH_W, spring};
+  if (config.friction == FrictionKind::damps) {
+    force.f_H_W += damping_friction(rubbing);
+    return force;
+  }
+  Stretch stretch = anchors.stretch_of(patch, X_WB);
+  const Vec3 pull_W = stretch.s_W + kTickSeconds * rubbing.sliding_W();
+  if (!pull_W.isZero(0)) force.f_H_W += sticking_friction(rubbing, spring_along(pull_W.normalized()), stretch);
+  anchors.keep(patch, X_WB, stretch);
+  return force;
 }
 
 /// The product's mode: each touch on its own, summed at the wrist.
@@ -89,27 +81,52 @@ void render_patches(const state::WorldDescription& description, state::WorldStat
                     const ForceConfig& config) {
   std::array<ContactPatch, kMaxPatches> patches;
   const std::size_t count = gather_patches(user.contact_span(), patches);
+  FrictionAnchors anchors(user);
   for (std::size_t i = 0; i < count; ++i) {
     const ContactPatch& patch = patches[i];
     if (patch.depth_m <= 0) continue;
     BodyState& body = state[patch.body];
-    const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
-    const Vec3 v_rel_W = user.V_WH.at(patch.p_WC - user.X_WH.p) - v_B_W;
-    const double m_eff = effective_mass_kg(description, state, patch.body, patch.p_WC, patch.n_BH_W);
-    const PatchForce force = touch_force(patch, material, config, m_eff, v_rel_W);
+    const PatchForce force = touch_force(description, state, user, patch, v_B_W, config, anchors);
     add_to_finger(user, patch.segment, force.f_H_W);
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
     if (user.grasp.active && user.grasp.body == patch.body) continue;
     add_to_hand(user, force.f_H_W, patch.p_WC);
-    add_local_contact(user, patch, force, v_B_W, material);
+    add_local_contact(user.output, {.p_W = patch.p_WC,
+                                    .n_W = patch.n_BH_W,
+                                    .v_W = v_B_W,
+                                    .depth_m = patch.depth_m,
+                                    .stiffness_n_per_m = force.spring.stiffness_n_per_m,
+                                    .damping_ns_per_m = force.spring.damping_ns_per_m,
+                                    .friction = description.bodies[patch.body.index()].haptic.dynamic_friction});
     add_force(body, -user.freshness * force.f_H_W, patch.p_WC);
+  }
+}
+
+/// What a client may render by itself when the hand comes to these surfaces before we see it.
+void announce_near(const state::WorldDescription& description, const state::WorldState& state, UserState& user) {
+  // The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
+  constexpr double kPatchShare = 2.0 / 3.0;
+  for (const state::Contact& near : user.near_span()) {
+    if (user.grasp.active && user.grasp.body == near.body) continue;
+    const BodyState& body = state[near.body];
+    const HapticMaterial& material = description.bodies[near.body.index()].haptic;
+    const Spring spring =
+        bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
+    add_local_contact(user.output, {.p_W = near.p_WC,
+                                    .n_W = near.n_BH_W,
+                                    .v_W = body.V_WB.at(near.p_WC - body.X_WB.p),
+                                    .depth_m = near.depth_m,
+                                    .stiffness_n_per_m = kPatchShare * spring.stiffness_n_per_m,
+                                    .damping_ns_per_m = spring.damping_ns_per_m,
+                                    .friction = material.dynamic_friction});
   }
 }
 
 /// Equation 18 as published. It is kept to show its flaws: a point that enters with no depth halves the
 /// force, and one average over the whole hand cancels a pinch.
 void render_paper(const state::WorldDescription& description, state::WorldState& state, UserState& user) {
+  user.anchor_count = 0;
   if (user.contact_count == 0) return;
   const double n = user.contact_count;
   for (const state::Contact& contact : user.contact_span()) {
@@ -161,6 +178,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, stat
       render_paper(description, state, user);
     } else {
       render_patches(description, state, user, config_);
+      announce_near(description, state, user);
     }
     render_grasp(state, user);
     if (user.freshness <= 0) user.output.contact_count = 0;  // where the hand is now, nobody here knows

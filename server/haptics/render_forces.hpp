@@ -15,10 +15,13 @@ enum class ForceMode {
   paper,
 };
 
+/// What friction does below the speed at which it slides. `damps` is that of journals before StateVersion::with_anchors: it never holds.
+enum class FrictionKind { sticks, damps };
+
 struct ForceConfig {
   ForceMode mode = ForceMode::continuous;
-  double friction_speed_m_per_s = 0.02;  ///< below it, friction falls linearly to zero with the speed
-  double damping_depth_m = 0.001;        ///< damping comes in over this depth, so that a first touch is not a step
+  FrictionKind friction = FrictionKind::sticks;
+  double damping_depth_m = 0.001;  ///< damping comes in over this depth, so that a first touch is not a step
   hand::GovernorConfig
       governor;  ///< the server's own limits; the client's governor comes after it and has the last word
 };

@@ -74,7 +74,7 @@ Expected<void> JournalReader::read_header(const std::string& name) {
   header_.state_version = static_cast<state::StateVersion>(version);
   if (!state::is_known(header_.state_version)) {
     return fail(ErrorCode::wrong_version,
-                fmt::format("is a journal of version {}; this program reads versions 1 to {}", version,
+                fmt::format("is a journal of version {}; this program reads those up to {}", version,
                             static_cast<std::uint32_t>(state::kStateVersion)),
                 name, "use the release that wrote it");
   }

@@ -39,6 +39,9 @@ class StateWalk {
       archive_.bytes(user.age);
     for (auto& governor : state_.governors)
       walk_governor(governor);
+    if (version_ == StateVersion::with_governors) return;
+    for (auto& user : state_.users)
+      walk_anchors(user);
   }
 
  private:
@@ -105,6 +108,19 @@ class StateWalk {
     vector(user.grasp.reaction_W.t);
     vector(user.output.force_W.f);
     vector(user.output.force_W.t);
+  }
+  /// Of a damaged file the count may be any number.
+  template <class U>
+  void walk_anchors(U& user) {
+    archive_.bytes(user.anchor_count);
+    for (std::size_t i = 0; i < user.anchor_count && i < user.anchors.size(); ++i) {
+      auto& anchor = user.anchors[i];
+      archive_.bytes(anchor.body);
+      archive_.bytes(anchor.segment);
+      archive_.bytes(anchor.slides);
+      vector(anchor.p_SA);
+      vector(anchor.p_BA);
+    }
   }
   template <class G>
   void walk_governor(G& governor) {

@@ -91,6 +91,7 @@ bool ids_in_range(const WorldState& state) {
   for (const UserState& user : state.users) {
     if (user.grasp.active && (!user.grasp.body || user.grasp.body.index() >= state.bodies.size())) return false;
     if (!hand::is_hand_kind(static_cast<std::uint8_t>(user.sample.kind))) return false;
+    if (user.anchor_count > user.anchors.size()) return false;
   }
   return true;
 }
@@ -119,7 +120,7 @@ Expected<void> read_snapshot(std::span<const std::byte> bytes, WorldState& state
     return refuse(ErrorCode::damaged, "this is not a snapshot");
   if (!is_known(header.version)) {
     return refuse(ErrorCode::wrong_version,
-                  fmt::format("the snapshot has version {}, but this program reads versions 1 to {}",
+                  fmt::format("the snapshot has version {}, but this program reads those up to {}",
                               static_cast<std::uint32_t>(header.version), static_cast<std::uint32_t>(kStateVersion)));
   }
   if (!same_tables(header, header_of(state, header.version))) {

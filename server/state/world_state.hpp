@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,6 +55,17 @@ struct Contact {
   double depth_m = 0;          ///< > 0: how far they overlap along the normal
 };
 
+/// Where friction holds a segment of a hand on a body. The two points were at the same place when they met; what lies between them along the
+/// surface is the stretch of a spring, and where that is too much for the friction, the body's point slides after the hand's.
+struct FrictionAnchor {
+  BodyId body;
+  std::uint8_t segment = 0;
+  bool slides = false;  ///< dynamic friction holds, not static
+  Vec3 p_SA =
+      Vec3::Zero();  ///< on the hand, in the segment's frame; of a one-point device in W's directions from its tip
+  Vec3 p_BA = Vec3::Zero();  ///< on the body, in its frame
+};
+
 /// A hand holds a body by a force-limited spring that dynamics solves as a constraint.
 struct Grasp {
   bool active = false;
@@ -77,10 +89,16 @@ struct UserState {
   std::array<Pose, hand::kHandSegments> X_WS{};  ///< segments; one-point: only the first
   std::array<Contact, kMaxContacts> contacts{};
   std::uint32_t contact_count = 0;
+  std::array<Contact, hand::kMaxLocalContacts> near{};  ///< surfaces not yet touched, with the gap as a depth <= 0
+  std::uint32_t near_count = 0;
+  std::array<FrictionAnchor, kMaxPatches> anchors{};  ///< of the touches of the last tick
+  std::uint32_t anchor_count = 0;
   Grasp grasp;
   hand::HapticOutput output;
 
   [[nodiscard]] std::span<const Contact> contact_span() const { return {contacts.data(), contact_count}; }
+  [[nodiscard]] std::span<const Contact> near_span() const { return {near.data(), near_count}; }
+  [[nodiscard]] std::span<const FrictionAnchor> anchor_span() const { return {anchors.data(), anchor_count}; }
 };
 
 /// Where the visit is in the scenario.
@@ -153,14 +171,17 @@ class MemoryLayout {
   std::vector<Coupling> couplings_;
 };
 
-/// Which fields are hashed and saved. Journals and snapshots say theirs, and are compared and read over these fields.
+/// Which fields are hashed and saved, and by which physics they were computed. Journals and snapshots say theirs; they are compared and read
+/// over these fields, and journals are replayed with the physics of their time. Powers of two: a flipped bit of a file does not make another
+/// version of one.
 enum class StateVersion : std::uint32_t {
   without_governors = 1,  ///< journals of version 1
   with_governors = 2,     ///< and with the age of each user's last sample
+  with_anchors = 4,       ///< friction has static hold; before, it was a damping
 };
-inline constexpr StateVersion kStateVersion = StateVersion::with_governors;
+inline constexpr StateVersion kStateVersion = StateVersion::with_anchors;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {
-  return version >= StateVersion::without_governors && version <= kStateVersion;
+  return std::has_single_bit(static_cast<std::uint32_t>(version)) && version <= kStateVersion;
 }
 
 /// 64-bit XXH3 over the bits of everything that the next tick depends on, in a fixed order. Equal hashes: equal worlds.

@@ -1,6 +1,7 @@
 #include "server/world/step.hpp"
 
 #include "server/haptics/contacts.hpp"
+#include "server/haptics/near_surfaces.hpp"
 #include "server/world/inputs.hpp"
 
 namespace mechane::world {
@@ -18,6 +19,7 @@ void step(World& world, const state::TickInputs& inputs, Publisher& publisher, P
   timer.ended(Phase::move_hands);
 
   haptics::find_contacts(description, *world.hand, state);
+  haptics::find_near_surfaces(description, *world.hand, state);
   timer.ended(Phase::find_contacts);
 
   world.agents->run(state, commands_of(inputs), kTickSeconds);

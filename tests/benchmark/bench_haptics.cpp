@@ -14,6 +14,7 @@
 #include "client-sdk/haptic/simulated_stylus.hpp"
 #include "tests/benchmark/bench_stats.hpp"
 #include "tests/support/fault_play.hpp"
+#include "tests/support/floor_server.hpp"
 #include "tests/support/scripted_client.hpp"
 
 namespace mechane::benchmark {
@@ -109,6 +110,7 @@ struct Network {
 };
 
 constexpr double kFloor_n_per_m = 600;  // what the exhibits' parts have at most
+constexpr double kTip_m = 0.008;        // radius: the tip touches the floor when its middle is at y = 0
 
 /// A client's whole loop, and a hand that presses its stylus onto a floor, which a server at the other end of a network renders.
 class Press {
@@ -153,8 +155,12 @@ class Press {
 
  private:
   void send_answer() {
-    client_.answer_with_floor(kFloor_n_per_m, now_);
-    const client::ForceSample answer = *std::exchange(client_.arrived, std::nullopt);
+    client::ForceSample answer = client_.next_answer(now_);
+    client_.arrived.reset();
+    const hand::HapticOutput& output = server_.answer(client_.hand);
+    static_cast<hand::HandForce&>(answer) = output;
+    answer.contacts = output.contacts;
+    answer.contact_count = output.contact_count;
     if (std::uniform_real_distribution<>()(random_) < network_.loss) return;
     const int late_ms = network_.delay_ms + std::uniform_int_distribution<>(0, network_.jitter_ms)(random_);
     on_the_way_.emplace(now_ + std::chrono::milliseconds(late_ms), answer);
@@ -170,6 +176,7 @@ class Press {
   }
 
   test::ScriptedClient client_;
+  test::FloorServer server_{-kTip_m, kFloor_n_per_m};
   SimulatedStylus stylus_;
   Network network_;
   std::mt19937 random_;

@@ -13,7 +13,7 @@ class Visit(EndToEnd):
     @marked("not-address")
     def test_two_kiosks_complete_both_activities_and_replay(self):
         server = self.server("--worlds", "2")
-        visitors = [self.visitor("kiosk-1"), self.visitor("kiosk-2", "--local")]
+        visitors = [self.visitor("kiosk-1"), self.visitor("kiosk-2", "--direct")]
         for visitor in visitors:
             self.assertEqual(visitor.wait(150), 0, visitor.text())
             report = self.report_of(visitor)

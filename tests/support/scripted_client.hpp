@@ -16,9 +16,10 @@ class ScriptedClient final : public client::Client {
   /// What a server answers at `now` that renders a floor at y = 0.
   void answer_with_floor(double stiffness_n_per_m, TimePoint now) {
     client::ForceSample& answer = next_answer(now);
-    const double depth_m = std::max(0.0, -hand.X_WH.p.y());
-    answer.force_W.f.y() = stiffness_n_per_m * depth_m;
-    answer.contact_count = depth_m > 0 ? 1 : 0;
+    constexpr double kNear_m = 0.02;  // as a server sees it
+    const double depth_m = -hand.X_WH.p.y();
+    answer.force_W.f.y() = stiffness_n_per_m * std::max(0.0, depth_m);
+    answer.contact_count = depth_m > -kNear_m ? 1 : 0;
     answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = depth_m, .stiffness_n_per_m = stiffness_n_per_m};
   }
   /// An answer to the last sample that was sent; to be filled in.

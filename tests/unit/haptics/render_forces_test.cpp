@@ -132,17 +132,6 @@ TEST(RenderForces, DampingActsOnlyOnTheWayIn) {
   EXPECT_NEAR(leaving, still, 1e-9);
 }
 
-TEST(RenderForces, FrictionOpposesSlidingAndStaysInItsCone) {
-  const WorldDescription world = one_body(true);
-  Bench bench(world, plain());
-  bench.user().contacts[0] = touch(0.003);
-  bench.user().contact_count = 1;
-  bench.user().V_WH.v = Vec3(0.3, 0, 0);
-  const Vec3 f = bench.settle();
-  EXPECT_LT(f.x(), 0);
-  EXPECT_NEAR(-f.x() / f.y(), 0.3, 1e-6);
-}
-
 TEST(RenderForces, AGlovesFingerFeelsOnlyWhatPushesItOpen) {
   const WorldDescription world = one_body(true);
   Bench bench(world, plain());

@@ -1,0 +1,82 @@
+#include "server/haptics/friction.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace mechane::haptics {
+namespace {
+
+constexpr double kStiffnessBound = 0.1;
+constexpr double kDampingBound = 0.3;
+constexpr double kDampsBelow_m_per_s = 0.02;
+constexpr double kSticksAgain =
+    0.9;  // share of the stretch: it went back by so much, and not only by the noise of a sensor
+
+Vec3 at_most(const Vec3& v, double limit) {
+  const double norm = v.norm();
+  return norm > limit ? Vec3(v * (limit / norm)) : v;
+}
+
+}  // namespace
+
+Spring bounded_spring(const state::HapticMaterial& material, double m_eff_kg) noexcept {
+  return {std::min(material.stiffness_n_per_m, kStiffnessBound * m_eff_kg / (kTickSeconds * kTickSeconds)),
+          std::min(material.damping_ns_per_m, kDampingBound * m_eff_kg / kTickSeconds)};
+}
+
+Vec3 sticking_friction(const Rubbing& rubbing, const Spring& spring, Stretch& stretch) noexcept {
+  if (rubbing.normal_n <= 0 || spring.stiffness_n_per_m <= 0) {
+    stretch = {};
+    return Vec3::Zero();
+  }
+  const double dynamic_n = rubbing.material.dynamic_friction * rubbing.normal_n;
+  const double static_n = std::max(rubbing.material.static_friction * rubbing.normal_n, dynamic_n);
+  const double pull_n = spring.stiffness_n_per_m * stretch.s_W.norm();
+  stretch.slides = stretch.slides ? pull_n > kSticksAgain * dynamic_n : pull_n > static_n;
+  const double cone_n = stretch.slides ? dynamic_n : static_n;
+  stretch.s_W = at_most(stretch.s_W, cone_n / spring.stiffness_n_per_m);
+  const Vec3 damping = spring.damping_ns_per_m * rubbing.sliding_W();
+  return -at_most(spring.stiffness_n_per_m * stretch.s_W + damping, cone_n);
+}
+
+Vec3 damping_friction(const Rubbing& rubbing) noexcept {
+  const Vec3 v_tangent = rubbing.sliding_W();
+  const double speed = v_tangent.norm();
+  if (speed <= 0 || rubbing.normal_n <= 0) return Vec3::Zero();
+  const double mu = speed < kDampsBelow_m_per_s ? rubbing.material.static_friction : rubbing.material.dynamic_friction;
+  return -mu * rubbing.normal_n / std::max(speed, kDampsBelow_m_per_s) * v_tangent;
+}
+
+FrictionAnchors::FrictionAnchors(state::UserState& user) noexcept : user_(user), before_count_(user.anchor_count) {
+  std::copy_n(user.anchors.begin(), before_count_, before_.begin());
+  user.anchor_count = 0;
+  if (user.jumped) before_count_ = 0;
+}
+
+/// The tip of a one-point device is a ball that does not roll.
+Pose FrictionAnchors::X_WS(std::size_t segment) const noexcept {
+  Pose X = user_.X_WS[segment];
+  if (user_.sample.kind == hand::HandKind::one_point) X.R = Quat::Identity();
+  return X;
+}
+
+Stretch FrictionAnchors::stretch_of(const ContactPatch& patch, const Pose& X_WB) const noexcept {
+  for (const state::FrictionAnchor& anchor : std::span(before_).first(before_count_)) {
+    if (anchor.body != patch.body || anchor.segment != patch.segment) continue;
+    const Vec3 p_BS_W = X_WS(patch.segment) * anchor.p_SA - X_WB * anchor.p_BA;
+    return {p_BS_W - p_BS_W.dot(patch.n_BH_W) * patch.n_BH_W, anchor.slides};
+  }
+  return {};
+}
+
+// The points are taken anew in each tick, where the touch is now, so that a finger may roll and a touch may wander.
+void FrictionAnchors::keep(const ContactPatch& patch, const Pose& X_WB, const Stretch& stretch) noexcept {
+  state::FrictionAnchor& anchor = user_.anchors[user_.anchor_count++];
+  anchor.body = patch.body;
+  anchor.segment = patch.segment;
+  anchor.slides = stretch.slides;
+  anchor.p_SA = X_WS(patch.segment).inverse() * patch.p_WC;
+  anchor.p_BA = X_WB.inverse() * (patch.p_WC - stretch.s_W);
+}
+
+}  // namespace mechane::haptics

@@ -1,0 +1,90 @@
+#include "server/haptics/near_surfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace mechane::haptics {
+namespace {
+
+using collision::PointContact;
+using state::Contact;
+using state::UserState;
+
+// The deepest in the ball lie around the place that is nearest to its centre.
+constexpr std::size_t kPoints = 32;
+
+bool touches(const UserState& user, std::size_t segment, BodyId body) {
+  const auto contacts = user.contact_span();
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [&](const Contact& c) { return c.body == body && c.segment == segment; });
+}
+
+/// The nearest place of a surface that faces the segment; the ball inside the segment stands for it. The normals of the points around it are
+/// averaged: those of a body's own samples point to the ball's centre.
+std::optional<Contact> nearest(std::span<const PointContact> points, const Vec3& p_WS, double inner_radius_m) {
+  const PointContact* best = nullptr;
+  Vec3 normals_W = Vec3::Zero();
+  for (const PointContact& point : points) {
+    const Vec3 p_CS_W = p_WS - point.p_WC;
+    if (p_CS_W.dot(point.n_BA_W) <= 0) continue;  // the far side of something thin
+    normals_W += point.depth_m * point.depth_m * point.n_BA_W;
+    if (best == nullptr || p_CS_W.squaredNorm() < (p_WS - best->p_WC).squaredNorm()) best = &point;
+  }
+  if (best == nullptr || normals_W.isZero(0)) return std::nullopt;
+  const Vec3 n_BH_W = normals_W.normalized();
+  const double ahead_m = (p_WS - best->p_WC).dot(n_BH_W);
+  if (ahead_m <= 0) return std::nullopt;
+  return Contact{{}, 0, best->p_WC, n_BH_W, std::min(inner_radius_m - ahead_m, 0.0)};
+}
+
+/// Keeps the nearest.
+void keep_near(UserState& user, const Contact& contact) {
+  if (user.near_count < user.near.size()) {
+    user.near[user.near_count++] = contact;
+    return;
+  }
+  const auto farthest = std::min_element(user.near.begin(), user.near.end(),
+                                         [](const Contact& a, const Contact& b) { return a.depth_m < b.depth_m; });
+  if (farthest->depth_m < contact.depth_m) *farthest = contact;
+}
+
+void look_from(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
+               UserState& user, std::size_t segment) {
+  const Pose& X_WS = user.X_WS[segment];
+  for (std::size_t b = 0; b < description.bodies.size(); ++b) {
+    const BodyId body(b);
+    const collision::Object* object = description.bodies[b].object.get();
+    if (object == nullptr || !state[body].visible) continue;
+    const Pose& X_WB = state[body].X_WB;
+    const double reach_m = hand.near_radius_m() + object->bound_O.radius;
+    if ((X_WS.p - X_WB * object->bound_O.center).squaredNorm() > reach_m * reach_m) continue;
+    if (touches(user, segment, body)) continue;
+    std::array<PointContact, kPoints> storage;
+    collision::ContactBuffer buffer(storage);
+    collision::find_contacts(hand.near_ball(), X_WS, *object, X_WB, buffer);
+    std::optional<Contact> found = nearest(buffer.contacts(), X_WS.p, hand.inner_radius_m(user.sample, segment));
+    if (!found) continue;
+    found->body = body;
+    found->segment = static_cast<std::uint8_t>(segment);
+    keep_near(user, *found);
+  }
+}
+
+}  // namespace
+
+void find_near_surfaces(const state::WorldDescription& description, const HandModel& hand,
+                        state::WorldState& state) noexcept {
+  for (UserState& user : state.users) {
+    user.near_count = 0;
+    if (!user.present) continue;
+    if (user.sample.kind == hand::HandKind::one_point) {
+      look_from(description, hand, state, user, 0);
+      continue;
+    }
+    for (std::size_t f = 0; f < hand::kFingers; ++f)
+      look_from(description, hand, state, user, hand::first_segment(f) + hand::kPhalanges - 1);
+  }
+}
+
+}  // namespace mechane::haptics

@@ -1,0 +1,61 @@
+// What a server answers about a block with its top at a given height: the contacts and forces of its tick, without its network.
+#pragma once
+
+#include <memory>
+
+#include "server/collision_build/object_builder.hpp"
+#include "server/haptics/contacts.hpp"
+#include "server/haptics/near_surfaces.hpp"
+#include "server/haptics/render_forces.hpp"
+#include "tests/support/crank_world.hpp"
+#include "tests/support/shapes.hpp"
+
+namespace mechane::test {
+
+class FloorServer {
+ public:
+  FloorServer(double top_m, double stiffness_n_per_m)
+      : world_(block(top_m, stiffness_n_per_m)), state_(world_), renderer_(haptics::ForceRenderer::create({}).value()) {
+    renderer_.start(state_);
+  }
+  /// Of one tick, for a hand that was sent just before it.
+  const hand::HapticOutput& answer(const hand::HandSample& sample) {
+    state::UserState& user = state_.users[0];
+    user.present = true;
+    user.freshness = 1;
+    static_cast<hand::HandSample&>(user.sample) = sample;
+    user.X_WH = sample.X_WH;
+    user.V_WH = sample.V_WH;
+    hand_->place(user.sample, user.X_WH, user.X_WS);
+    haptics::find_contacts(world_, *hand_, state_);
+    haptics::find_near_surfaces(world_, *hand_, state_);
+    state_.bodies[0].load_W = Wrench{};
+    renderer_.run(world_, state_);
+    return user.output;
+  }
+
+ private:
+  static state::WorldDescription block(double top_m, double stiffness_n_per_m) {
+    static const Vec3 half_m(0.1, 0.02, 0.1);
+    static const auto object = [] {
+      const geometry::NamedMesh part{"block", box(half_m)};
+      return std::make_shared<collision::Object>(collision_build::build_object({&part, 1}, {}).value());
+    }();
+    state::BodyDescription body;
+    body.name = "BLOCK";
+    body.fixed = true;
+    body.X_WB.p.y() = top_m - half_m.y();
+    body.haptic.stiffness_n_per_m = stiffness_n_per_m;
+    body.object = object;
+    state::WorldDescription world;
+    world.bodies = {body};
+    return world;
+  }
+
+  state::WorldDescription world_;
+  state::WorldState state_;
+  std::shared_ptr<const haptics::HandModel> hand_ = shared_hand();
+  haptics::ForceRenderer renderer_;
+};
+
+}  // namespace mechane::test
