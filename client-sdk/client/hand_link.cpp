@@ -44,6 +44,8 @@ bool HandLink::send(const HandSample& input) noexcept {
   s.grasp_intent = static_cast<float>(input.grasp_intent);
   s.buttons = input.buttons;
   s.kind = static_cast<std::uint32_t>(input.kind);
+  s.echo_epoch = heard_epoch_.load(std::memory_order_relaxed);
+  s.echo_seq = heard_seq_.load(std::memory_order_relaxed);
   s.sent_ns = to_ns(std::chrono::steady_clock::now());
   sent_.store(s.seq, std::memory_order_relaxed);
   return writer_.write(s);
@@ -60,6 +62,8 @@ void HandLink::take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept
     arriving_.received = std::chrono::steady_clock::now();
     if (order_.offer(wire.epoch, wire.seq, arriving_.received) != hand::SampleOrder::newer) continue;
     arriving_.sequence = ++taken_;
+    heard_seq_.store(wire.seq, std::memory_order_relaxed);
+    heard_epoch_.store(wire.epoch, std::memory_order_relaxed);
     forces_.publish(arriving_);
     arrived_.signal();
   }

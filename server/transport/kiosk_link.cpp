@@ -84,11 +84,19 @@ void KioskLink::take(proto::ReaderView<proto::HapticInput> view) noexcept {
   }
 }
 
+/// What the sender had of another link says nothing of this one's times.
+Reject KioskLink::check_delay(const proto::HapticInput& wire, TimePoint now) const noexcept {
+  const std::optional<Duration> age = hands_[wire.user].sent.age_of(wire.echo_epoch == epoch_ ? wire.echo_seq : 0, now);
+  if (!age) return Reject::bad_value;
+  return *age > kTooLate ? Reject::too_late : Reject::none;
+}
+
 Reject KioskLink::accept(const proto::HapticInput& wire, TimePoint now) noexcept {
   if (const Reject fault = validate(wire, arriving_.sample); fault != Reject::none) return fault;
   if (proto::text_of(wire.kiosk) != kiosk_) return Reject::wrong_kiosk;
   Hand& hand = hands_[wire.user];
   if (hand.owner.load(std::memory_order_relaxed) != wire.session) return Reject::wrong_session;
+  if (const Reject fault = check_delay(wire, now); fault != Reject::none) return fault;
   hand.heard_ns.store(now.time_since_epoch().count(), std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
   if (!hand.channel || hand.channel->session != wire.session) return Reject::none;  // its world is still being made
@@ -106,6 +114,7 @@ bool KioskLink::write(const HandChannel& channel, const OutgoingForce& force) no
   wire_.protocol = proto::kProtocol;
   wire_.session = channel.session;
   wire_.seq = hands_[channel.user].next_sequence++;
+  hands_[channel.user].sent.note(wire_.seq, std::chrono::steady_clock::now());
   wire_.tick = force.tick;
   wire_.waited_us = to_us(force.waited);
   wire_.epoch = epoch_;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "server/transport/hand_channel.hpp"
+#include "server/transport/sent_times.hpp"
 #include "server/transport/validate.hpp"
 #include <mechane/proto/entity.hpp>
 
@@ -16,6 +17,10 @@ namespace mechane::transport {
 /// Made and changed by the main thread. The listener runs on a thread of Cyclone's. write() is for the haptic publisher's thread.
 class KioskLink {
  public:
+  /// A sample that was on its way for longer, with the way of an output before it, is dropped: a network that queues must not move a hand
+  /// as it was long ago. A mouse on a slow line still works.
+  static constexpr Duration kTooLate = std::chrono::milliseconds(250);
+
   /// `rejects` outlives the link. Errors: DDS out of resources.
   [[nodiscard]] static Expected<std::shared_ptr<KioskLink>> create(const proto::Participant& participant,
                                                                    const std::string& kiosk, std::uint64_t epoch,
@@ -45,12 +50,14 @@ class KioskLink {
     std::atomic<std::int64_t> heard_ns{0};
     std::shared_ptr<HandChannel> channel;  // under mutex_
     std::uint64_t next_sequence = 1;       // for the publisher; goes on when the hand moves to another world
+    SentTimes sent;
   };
 
   KioskLink(std::string kiosk, std::uint64_t epoch, RejectCounters& rejects, int fifo_priority)
       : kiosk_(std::move(kiosk)), epoch_(epoch), rejects_(rejects), fifo_priority_(fifo_priority) {}
   void take(proto::ReaderView<proto::HapticInput> view) noexcept;
   [[nodiscard]] Reject accept(const proto::HapticInput& wire, TimePoint now) noexcept;
+  [[nodiscard]] Reject check_delay(const proto::HapticInput& wire, TimePoint now) const noexcept;
 
   std::string kiosk_;
   std::uint64_t epoch_;

@@ -49,6 +49,8 @@ std::string_view to_string(Reject reason) {
       return "repeated or out of order";
     case Reject::high_sequence:
       return "with a sequence number that jumped too far";
+    case Reject::too_late:
+      return "over 250 ms old when they came";
     case Reject::kinds:
       break;
   }

@@ -303,6 +303,16 @@ TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   auto liar = proto::Writer<proto::HapticInput>::create(*participant, proto::kiosk_partition("kiosk-1"));
   ASSERT_TRUE(liar);
   ASSERT_TRUE(eventually([&] { return liar->matched() > 0; }));
+  std::atomic<std::uint64_t> epoch{0};
+  auto outputs = proto::Reader<proto::HapticOutput>::create(*participant, proto::kiosk_partition("kiosk-1"),
+                                                            [&](proto::ReaderView<proto::HapticOutput> view) {
+                                                              proto::HapticOutput output;
+                                                              proto::SampleInfo info;
+                                                              while (view.take_into(output, info))
+                                                                epoch.store(output.epoch);
+                                                            });
+  ASSERT_TRUE(outputs);
+  ASSERT_TRUE(eventually([&] { return feels(*hand, Vec3(1.5, 0, 0)) && epoch.load() != 0; }));
   proto::HapticInput honest{};
   proto::set_text(honest.kiosk, "kiosk-1");
   honest.protocol = proto::kProtocol;
@@ -333,6 +343,14 @@ TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   EXPECT_TRUE(feels(*hand, Vec3(2, 0, 0)));
   lie(Reject::old_sequence, [](auto& s) { s.seq = 1; });
   lie(Reject::high_sequence, [](auto& s) { s.seq = std::numeric_limits<std::uint64_t>::max(); });
+  lie(Reject::bad_value, [&](auto& s) {
+    s.echo_epoch = epoch.load();
+    s.echo_seq = std::numeric_limits<std::uint64_t>::max();
+  });
+  lie(Reject::too_late, [&](auto& s) {
+    s.echo_epoch = epoch.load();
+    s.echo_seq = 1;
+  });
   EXPECT_TRUE(feels(*hand, Vec3(3, 0, 0))) << "one sample with a false number must not block the hand";
   for (const hand::SentSample& sample : server.samples())
     EXPECT_NE(sample.X_WH.p.x(), -7);
