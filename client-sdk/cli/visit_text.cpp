@@ -74,7 +74,7 @@ std::string steps_table(const ActivitySummary& a) {
                fmt::format("{}", step.hints), fmt::format("{}", step.ended[at(StepEnding::timed_out)]),
                fmt::format("{}", step.ended[at(StepEnding::skipped)])});
   }
-  return table.is_empty() ? "" : "\n" + table.text("  ");
+  return table.is_empty() ? "" : fmt::format("\n{}", table.text("  "));
 }
 
 std::string questions_table(const ActivitySummary& a) {
@@ -86,7 +86,7 @@ std::string questions_table(const ActivitySummary& a) {
                scale ? fmt::format("{:.2f}", q.spread) : "-", scale ? percent(q.satisfied, q.answers) : "-",
                percent(q.right, q.judged)});
   }
-  return table.is_empty() ? "" : "\n" + table.text("  ");
+  return table.is_empty() ? "" : fmt::format("\n{}", table.text("  "));
 }
 
 std::string dumped(const Json& json) {
@@ -95,7 +95,8 @@ std::string dumped(const Json& json) {
 
 /// One field of a CSV line.
 std::string field(std::string text) {
-  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos) text.insert(0, "'");
+  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos)
+    text.insert(text.begin(), '\'');
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text)
@@ -153,7 +154,7 @@ std::vector<std::string> fixed_cells(const VisitRecord& record) {
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (const std::string& cell : cells)
-    line += (&cell == cells.data() ? "" : ",") + field(cell);
+    line.append(&cell == cells.data() ? "" : ",").append(field(cell));
   return line + "\r\n";
 }
 
