@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "client-sdk/cli/doctor_devices.hpp"
 #include "client-sdk/client/parse.hpp"
+#include "server/base/program_folder.hpp"
 #include "server/log/printable.hpp"
 #include "server/realtime/machine_check.hpp"
 #include "server/realtime/wakeup.hpp"
@@ -115,6 +117,15 @@ class ServerListener {
   std::map<std::string, CheckResult> heard_;
 };
 
+void add_devices_to(std::vector<CheckResult>& results) {
+  for (CheckResult& r : check_devices({.devices_program = program_folder() / "mechane-devices"})) {
+    r.name = log::printable(r.name);
+    r.found = log::printable(r.found);
+    r.remedy = log::printable(r.remedy);
+    results.push_back(std::move(r));
+  }
+}
+
 }  // namespace
 
 int run_doctor(const DoctorOptions& options) {
@@ -126,8 +137,9 @@ int run_doctor(const DoctorOptions& options) {
   std::vector<CheckResult> results = realtime::check_machine(machine_options);
   const CheckStatus machine = realtime::worst_of(results);
   servers.add_to(results);
+  add_devices_to(results);
   options.json ? print_json(results) : print_table(results, machine);
-  return machine == CheckStatus::bad ? 1 : 0;
+  return realtime::worst_of(results) == CheckStatus::bad ? 1 : 0;
 }
 
 }  // namespace mechane::cli

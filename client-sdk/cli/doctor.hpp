@@ -1,4 +1,4 @@
-// `mechane doctor`: can this machine hold 1 kHz, and do the servers that answer here keep up?
+// `mechane doctor`: can this machine hold 1 kHz, do the servers that answer here keep up, and can the haptic devices be opened?
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,23 @@
+// Why a haptic device is not found or cannot be opened: drivers, makers' libraries, cables, rights, other programs. For `mechane doctor`.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "client-sdk/cli/device_access.hpp"
+#include "server/realtime/machine_check.hpp"
+
+namespace mechane::cli {
+
+struct DeviceCheckOptions {
+  std::filesystem::path root = "/";       ///< where dev, etc, proc and sys are; a test gives a folder of its own
+  std::filesystem::path devices_program;  ///< mechane-devices, which lists the drivers: they are loaded in its process
+  Account account = this_account();       ///< judged for devices that no kiosk of this machine uses
+};
+
+/// Looks at the devices that kiosks of this machine are to have (etc/mechane/haptic-KIOSK), and at those that are plugged in. Each problem
+/// is a result of its own, with its remedy: bad for a kiosk's device, else a warning. A device without one is ok; so is no device at all.
+/// Opens no device. The texts may hold bytes of files and programs that are not printable.
+[[nodiscard]] std::vector<realtime::CheckResult> check_devices(const DeviceCheckOptions& options);
+
+}  // namespace mechane::cli
