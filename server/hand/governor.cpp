@@ -209,10 +209,13 @@ void ForceGovernor::keep_passive(const GovernorState& state, const Twist& V_WH, 
   const double overdrawn = excess - positive;
   const double speed_squared = V_WH.v.squaredNorm();
   if (overdrawn <= 0 || speed_squared <= 0) return;
+  const double step_n = config_.max_slew_n_per_s * std::min(dt_s, to_seconds(kLongestStep));
   Vec3 damping = -std::min(overdrawn / speed_squared, config_.max_damping_ns_per_m) * V_WH.v;
-  clamp_norm(damping, config_.max_slew_n_per_s * std::min(dt_s, to_seconds(kLongestStep)));
+  clamp_norm(damping, step_n);
   force.f += damping;
   clamp_norm(force.f, config_.max_force_n * state.gain);
+  // The force has had its step already. A server's may take another: its journals have it so, and a device's governor comes after it.
+  if (config_.strict_energy) clamp_norm(force.f, state.last.force_W.f.norm() + step_n);
 }
 
 std::uint64_t GovernorState::count(ForceReason reason) const noexcept {

@@ -72,7 +72,8 @@ struct GovernorState {
 /// part along the motion, which can only shrink it, has no limit, while added damping has one; force and torque share
 /// one account. With `strict_energy` the credit is forgotten when the hand is free, and while the account is overdrawn
 /// no force rises on a hand that does not move against it: else a force that is cut as soon as the hand yields, and
-/// comes back as soon as it rests, would shake the hand, and give it a little energy each time.
+/// comes back as soon as it rests, would shake the hand, and give it a little energy each time. Nor does damping then add to the step that
+/// the slew limit allows.
 ///
 /// Any thread, each with states of its own; no allocation; the same inputs give the same bits.
 class ForceGovernor {

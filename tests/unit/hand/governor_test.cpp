@@ -324,6 +324,20 @@ TEST(ForceGovernor, AnOverdrawnAccountLetsNoForceRiseOnAHandAtRest) {
   EXPECT_GE(out.force_W.f.x(), 2.0);
 }
 
+TEST(ForceGovernor, DampingOnADeviceKeepsToTheSlewLimit) {
+  GovernorConfig config;
+  config.strict_energy = true;
+  OneHand governor = settled(0.0, config);
+  governor.state.credit_j = -0.1;
+  GovernorInput input;
+  input.touching = true;
+  input.wanted_W.f.x() = 3.0;
+  input.V_WH.v.x() = -0.3;  // it presses in, and is damped for what it owes
+  const HandForce out = governor.apply(input);
+  EXPECT_NE(out.reasons & kDamped, 0u);
+  EXPECT_NEAR(out.force_W.f.x(), config.max_slew_n_per_s * kDt_s, 1e-9);
+}
+
 TEST(ForceGovernor, APassiveWallIsNotDamped) {
   const Bounce with = bounce(true, 1, 300, 0.1, 1.0);
   EXPECT_NEAR(with.speed_out, 1.0, 0.05);
