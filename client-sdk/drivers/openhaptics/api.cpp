@@ -58,9 +58,10 @@ Errors pop_errors(const Api& api) noexcept {
 std::string in_words(const Api& api, const ErrorInfo& error) {
   if (error.code == 0) return "the library gives no reason";
   const char* text = api.get_error_string(error.code);
-  std::array<char, 64> numbers{};
-  std::snprintf(numbers.data(), numbers.size(), " (error 0x%03x, internal %d)", error.code, error.internal);
-  return "'" + std::string(text == nullptr ? "unknown error" : text) + "'" + numbers.data();
+  std::array<char, 256> words{};
+  std::snprintf(words.data(), words.size(), "'%s' (error 0x%03x, internal %d)",
+                text == nullptr ? "unknown error" : text, error.code, error.internal);
+  return words.data();
 }
 
 }  // namespace mechane::drivers::hd
