@@ -164,22 +164,26 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   const TimePoint now = std::chrono::steady_clock::now();
   came_ = (*link_)->states.take_newest(newest_) || came_;
   newest_at_.store(newest_.at);
-  condition_ = now - newest_.at > kLostAfter ? DeviceCondition::lost
-               : may_render(newest_.value)   ? DeviceCondition::ready
-                                             : DeviceCondition::not_ready;
-  if (!std::exchange(came_, false)) return last_;
   const mechane_device_state& state = newest_.value;
+  const bool is_new = std::exchange(came_, false);
+  if (is_new)
+    clutched_ = workspace_.follow({state.position_m[0], state.position_m[1], state.position_m[2]}, state.buttons);
+  condition_ = now - newest_.at > kLostAfter     ? DeviceCondition::lost
+               : may_render(state) && !clutched_ ? DeviceCondition::ready
+                                                 : DeviceCondition::not_ready;
+  if (!is_new) return last_;
   client::HandSample hand;
   hand.kind = info_.hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point;
-  hand.X_WH.p = config_.p_WD + Vec3(state.position_m[0], state.position_m[1], state.position_m[2]);
+  hand.X_WH.p = workspace_.p_WH();
   const auto& q = state.orientation_wxyz;
-  hand.X_WH.R = Quat(q[0], q[1], q[2], q[3]).normalized();
+  hand.X_WH.R = workspace_.R_WH(Quat(q[0], q[1], q[2], q[3]).normalized());
   const double step_s = to_seconds(newest_.at - last_at_);
   if (step_s > 0 && newest_.at - last_at_ < kLostAfter) {
     hand.V_WH.v = (hand.X_WH.p - last_.X_WH.p) / step_s;
     hand.V_WH.w = rotation_vector(hand.X_WH.R * last_.X_WH.R.conjugate()) / step_s;
   }
   std::copy(std::begin(state.joints_rad), std::end(state.joints_rad), hand.joints.begin());
+  if (config_.glove) hand.joints = config_.glove->apply(hand.joints);
   const bool button = hand.kind == client::HandKind::one_point && (state.buttons & 1u) != 0;
   hand.grasp_intent = button ? 1 : state.grasp;
   hand.buttons = state.buttons;
@@ -190,8 +194,9 @@ client::HandSample DriverProcess::read(Duration) noexcept {
 void DriverProcess::write(const hand::HandForce& force) noexcept {
   if (!link_) return;
   Timed<mechane_device_force> out;
-  std::copy(force.force_W.f.begin(), force.force_W.f.end(), std::begin(out.value.force_n));
-  std::copy(force.force_W.t.begin(), force.force_W.t.end(), std::begin(out.value.torque_nm));
+  const Vec3 force_D = workspace_.to_device(force.force_W.f), torque_D = workspace_.to_device(force.force_W.t);
+  std::copy(force_D.begin(), force_D.end(), std::begin(out.value.force_n));
+  std::copy(torque_D.begin(), torque_D.end(), std::begin(out.value.torque_nm));
   std::copy(force.finger_force_n.begin(), force.finger_force_n.end(), std::begin(out.value.finger_n));
   out.at = std::chrono::steady_clock::now();
   (*link_)->forces.publish(out);

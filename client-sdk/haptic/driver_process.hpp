@@ -10,19 +10,22 @@
 #include "client-sdk/haptic/device.hpp"
 #include "client-sdk/haptic/driver.hpp"
 #include "client-sdk/haptic/driver_link.hpp"
+#include "client-sdk/haptic/hand_calibration.hpp"
+#include "client-sdk/haptic/workspace.hpp"
 
 namespace mechane::haptic {
 
 struct DriverProcessConfig {
   DeviceName device;
-  Vec3 p_WD = Vec3::Zero();  ///< the middle of the device's workspace in the world; the axes of D and W are the same
-  int fifo_priority = 0;     ///< of the driver's process; above the loop's
+  WorkspaceConfig workspace = {};
+  int fifo_priority = 0;                      ///< of the driver's process; above the loop's
+  std::optional<HandCalibration> glove = {};  ///< none: its angles are taken as they come
 };
 
 /// open(), close(), check() and the description: main thread. wait(), read(), write() and condition(): the loop's thread.
 class DriverProcess final : public Device {
  public:
-  explicit DriverProcess(DriverProcessConfig config) : config_(std::move(config)) {}
+  explicit DriverProcess(DriverProcessConfig config) : config_(std::move(config)), workspace_(config_.workspace) {}
   ~DriverProcess() override { close(); }
 
   /// Starts the process and waits until it has opened the device, which may take seconds. Errors: no such driver, what
@@ -34,7 +37,7 @@ class DriverProcess final : public Device {
   /// Waits until the device has given a state that read() has not seen. False: none within `limit`.
   [[nodiscard]] bool wait(Duration limit) noexcept;
   /// The newest state. A hand without an own velocity gets the mean one since the state before. Button 0 of a one-point
-  /// device grasps.
+  /// device grasps. While the clutch is down, the device is not ready.
   [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
   void write(const hand::HandForce& force) noexcept override;
   [[nodiscard]] DeviceCondition condition() const noexcept override { return condition_; }
@@ -57,6 +60,8 @@ class DriverProcess final : public Device {
   [[nodiscard]] std::optional<Error> died(Duration within) const;
 
   DriverProcessConfig config_;
+  Workspace workspace_;
+  bool clutched_ = false;
   std::optional<SharedLink> link_;
   pid_t process_ = -1;
   int news_ = -1;

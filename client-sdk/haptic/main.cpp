@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/haptic/calibration_course.hpp"
 #include "client-sdk/haptic/device_thread.hpp"
 #include "client-sdk/haptic/driver_process.hpp"
 #include "client-sdk/haptic/hand_recorder.hpp"
@@ -29,6 +30,10 @@ struct Arguments {
   client::ClientConfig client;
   std::string device = "virtual";
   std::vector<double> center{0.0, 0.72, 0.19};
+  double turn_deg = 0;
+  double scale = 1;
+  int clutch = 0;
+  bool calibrate = false;
   double radius_m = 0.05;
   double seconds = 0;
   bool direct = false;
@@ -48,6 +53,14 @@ void add_options(CLI::App& app, Arguments& a) {
                  "where the middle of the device's workspace, or of the virtual hand's circle, lies in the world, "
                  "metres: x y z")
       ->expected(3);
+  app.add_option("--turn", a.turn_deg, "how the device is turned at its place, degrees anticlockwise from above");
+  app.add_option("--scale", a.scale, "metres in the world for one of the device's; over 1, forces are divided by it")
+      ->check(CLI::Range(0.1, 100.0));
+  app.add_option("--clutch", a.clutch,
+                 "the device's button, 1 to 32, that holds the hand in its place while the device is moved; 0: none")
+      ->check(CLI::Range(0, 32));
+  app.add_flag("--calibrate", a.calibrate,
+               "begin with three poses that fit a glove to the visitor's hand: flat, fist, pinch");
   app.add_option("--radius", a.radius_m, "radius of the circle, metres");
   app.add_option("--seconds", a.seconds, "stop after this time; 0: run until stopped");
   a.client.fifo_priority = 70;
@@ -177,13 +190,46 @@ int run_virtual(const Arguments& a, client::Client& client, haptic::HandRecorder
   return report(a, json);
 }
 
+haptic::DriverProcessConfig driver_config(const Arguments& a) {
+  const int fifo = a.client.fifo_priority;
+  return {.device = haptic::parse_device_name(a.device),
+          .workspace = {.p_WD = center_of(a),
+                        .turn_rad = a.turn_deg * kPi / 180,
+                        .scale = a.scale,
+                        .clutch_button = a.clutch == 0 ? 0 : 1u << static_cast<unsigned>(a.clutch - 1)},
+          .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99)};
+}
+
+/// Opens the glove for it, and lets it go.
+Expected<haptic::HandCalibration> calibrated(const Arguments& a) {
+  haptic::DriverProcess glove(driver_config(a));
+  if (auto opened = glove.open(); !opened) return tl::unexpected(opened.error());
+  if (glove.info().hand != MECHANE_HAND_GLOVE)
+    return fail(ErrorCode::conflict, "only a glove can be calibrated", a.device, "start it without --calibrate");
+  haptic::CalibrationCourse course;
+  while (!course.result()) {
+    if (g_stop != 0) return fail(ErrorCode::cancelled, "stopped during the calibration", a.device);
+    if (auto news = glove.check(); !news) return tl::unexpected(news.error());
+    (void)glove.wait(std::chrono::milliseconds(20));
+    const client::HandSample hand = glove.read(kTickPeriod);
+    const bool ready = glove.condition() == haptic::DeviceCondition::ready;
+    if (const auto message = course.add(std::chrono::steady_clock::now(), ready ? &hand.joints : nullptr))
+      log::info(*message);
+  }
+  return *course.result();
+}
+
 /// The device sets the pace of its loop.
 int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
   const int fifo = a.client.fifo_priority;
-  haptic::DriverProcess device({.device = haptic::parse_device_name(a.device),
-                                .p_WD = center_of(a),
-                                .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99)});
+  haptic::DriverProcessConfig config = driver_config(a);
   log::info("opening the device, which may take some seconds");
+  if (a.calibrate) {
+    auto calibration = calibrated(a);
+    if (!calibration) return log::error(calibration.error()), 2;
+    config.glove = *calibration;
+  }
+  haptic::DriverProcess device(std::move(config));
   auto loop = make_loop(a, client, device);
   if (!loop) return log::error(loop.error()), 2;
   log::info(std::string("device: ") + device.info().name);

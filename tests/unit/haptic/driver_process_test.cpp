@@ -25,7 +25,7 @@ class DriverProcessTest : public ::testing::Test {
   DriverProcess& open(const std::string& options) {
     device_.emplace(
         DriverProcessConfig{.device = parse_device_name(test::fake_device("trace=" + file_.string() + "," + options)),
-                            .p_WD = Vec3(1, 2, 3)});
+                            .workspace = {.p_WD = Vec3(1, 2, 3), .scale = 2, .clutch_button = 2}});
     const auto opened = device_->open();
     EXPECT_TRUE(opened) << (opened ? "" : opened.error().to_string());
     return *device_;
@@ -64,7 +64,15 @@ TEST_F(DriverProcessTest, GivesTheHandAndTakesTheForce) {
   EXPECT_EQ(device.condition(), DeviceCondition::ready);
   EXPECT_EQ(hand.X_WH.p.x(), 1);
   EXPECT_LT(hand.V_WH.v.y(), 0) << "it moves down";
-  ASSERT_TRUE(tick_until(0.5, [&] { return trace().largest_n() == 0.5; }));
+  ASSERT_TRUE(tick_until(0.5, [&] { return trace().largest_n() == 0.25; })) << "half the force for twice the way";
+}
+
+TEST_F(DriverProcessTest, WithTheClutchDownTheHandStaysAndTheDeviceIsNotReady) {
+  DriverProcess& device = open("fault=clutch,after=750");
+  ASSERT_TRUE(tick_until(0, [&] { return device.condition() == DeviceCondition::not_ready; }));
+  const Vec3 held = tick(0).X_WH.p;
+  ASSERT_TRUE(tick_until(0, [&] { return device.state().position_m[1] < -0.015; })) << "the device is moved on";
+  EXPECT_EQ(tick(0).X_WH.p, held);
 }
 
 TEST_F(DriverProcessTest, ALoopOnItAllocatesNothing) {

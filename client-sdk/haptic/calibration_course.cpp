@@ -1,0 +1,51 @@
+#include "client-sdk/haptic/calibration_course.hpp"
+
+#include <array>
+
+namespace mechane::haptic {
+namespace {
+
+constexpr std::array<const char*, kCalibrationPoses> kAsk{
+    "hold the hand flat, fingers together, the thumb stretched out to the side",
+    "make a fist, the thumb across index and middle finger", "put the tip of the thumb on the tip of the index finger"};
+
+}  // namespace
+
+std::string CalibrationCourse::ask(TimePoint now, const std::string& before) {
+  ++tries_;
+  recording_ = false;
+  asked_ = now;
+  return before + std::to_string(pose_ + 1) + " of " + std::to_string(kCalibrationPoses) + ": " + kAsk[pose_] +
+         ", and keep still";
+}
+
+/// After a pose that was taken.
+std::string CalibrationCourse::next_pose(TimePoint now) {
+  tries_ = 0;
+  if (++pose_ < kCalibrationPoses) return ask(now, "");
+  result_ = calibrator_.result();
+  return result_->has_value() ? "the glove is calibrated" : result_->error().to_string();
+}
+
+std::optional<std::string> CalibrationCourse::add(TimePoint now, const HandAngles* raw) {
+  if (result_) return {};
+  if (!begun_) {
+    begun_ = true;
+    return ask(now, "");
+  }
+  if (now - asked_ < kSettle) return {};
+  if (!recording_) {
+    recording_ = true;
+    calibrator_.begin(static_cast<CalibrationPose>(pose_));
+  }
+  const bool in_time =
+      now - asked_ < kSettle + 3 * HandCalibrator::kPoseLasts;  // a glove that is not ready gives nothing
+  if (in_time && (raw == nullptr || !calibrator_.add(now, *raw))) return {};
+  const auto ended = calibrator_.end();
+  if (ended) return next_pose(now);
+  if (tries_ < kTries) return ask(now, ended.error().what + "; again, ");
+  result_ = tl::unexpected(ended.error());
+  return {};
+}
+
+}  // namespace mechane::haptic

@@ -1,0 +1,37 @@
+// Leads a visitor through the poses of a HandCalibrator, by messages in a terminal.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "client-sdk/haptic/hand_calibration.hpp"
+
+namespace mechane::haptic {
+
+/// Flat, fist, pinch: each announced, held still for kPoseLasts after kSettle, and asked for again where it was refused. Under 30 s where
+/// none is. One thread.
+class CalibrationCourse {
+ public:
+  static constexpr Duration kSettle = std::chrono::seconds(2);
+  static constexpr int kTries = 3;  ///< of one pose; then the course fails
+
+  /// The glove's angles at `now`; null: it is not ready. Returns what to tell the visitor, where there is something new.
+  [[nodiscard]] std::optional<std::string> add(TimePoint now, const HandAngles* raw);
+
+  /// None while the course goes on.
+  [[nodiscard]] const std::optional<Expected<HandCalibration>>& result() const noexcept { return result_; }
+
+ private:
+  [[nodiscard]] std::string ask(TimePoint now, const std::string& before);
+  [[nodiscard]] std::string next_pose(TimePoint now);
+
+  HandCalibrator calibrator_;
+  std::size_t pose_ = 0;
+  int tries_ = 0;
+  bool begun_ = false;
+  bool recording_ = false;
+  TimePoint asked_;
+  std::optional<Expected<HandCalibration>> result_;
+};
+
+}  // namespace mechane::haptic

@@ -1,0 +1,77 @@
+// A visitor's hand in a glove: three poses, of three seconds each, say how the glove's angles become those of Mechane's
+// hand. They are measures of a person's body: they stay in memory, and nothing here writes them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "server/base/clock.hpp"
+#include "server/base/error.hpp"
+#include "server/hand/hand_sample.hpp"
+
+namespace mechane::haptic {
+
+/// Of all joints, radians, in the order of mechane/driver.h.
+using HandAngles = std::array<double, hand::kHandJoints>;
+
+/// What the visitor shows.
+enum class CalibrationPose : std::uint8_t {
+  flat,   ///< the hand flat, its fingers together, the thumb stretched out to the side
+  fist,   ///< a fist, the thumb across index and middle finger
+  pinch,  ///< the tip of the thumb on the tip of the index finger
+};
+inline constexpr std::size_t kCalibrationPoses = 3;
+
+/// The fist of Mechane's hand; its flat hand is all zeros. Ranges of the fingers' joints: American Academy of Orthopaedic
+/// Surgeons. The thumb lies on index and middle finger.
+[[nodiscard]] HandAngles model_fist() noexcept;
+
+/// angle = gain * raw + offset_rad, from least_rad to most_rad.
+struct JointCalibration {
+  double gain = 1;
+  double offset_rad = 0;
+  double least_rad = -kPi;
+  double most_rad = kPi;
+};
+
+struct HandCalibration {
+  std::array<JointCalibration, hand::kHandJoints> joints{};
+
+  /// From a glove's finite angles to those of Mechane's hand. Any thread; allocates nothing.
+  [[nodiscard]] HandAngles apply(const HandAngles& raw) const noexcept;
+};
+
+/// Collects the poses: begin() one, add() samples until it returns true, end() it. A pose that end() refuses is shown
+/// again. result() needs all three, in any order. One thread.
+class HandCalibrator {
+ public:
+  static constexpr Duration kPoseLasts = std::chrono::seconds(3);
+
+  HandCalibrator();
+
+  /// Whatever was shown of this pose before no longer counts.
+  void begin(CalibrationPose pose) noexcept;
+  /// A glove's angles at `at`, from while it is ready. Samples with a number that is not finite are ignored, and so are
+  /// more than 125 a second. True: the pose has lasted long enough. Allocates nothing.
+  bool add(TimePoint at, const HandAngles& raw) noexcept;
+  /// Takes the median of each joint. Errors: too few samples, the hand moved, the pose is too much like another one or
+  /// swapped with it, thumb and index finger of Mechane's hand cannot meet. They say which, and what to do.
+  [[nodiscard]] Expected<void> end();
+
+  /// The flat hand reads as 0, and the fist as model_fist(); then the thumb's offsets are changed by as little as makes
+  /// the tips of thumb and index finger touch in the pinch. No pose spreads the fingers: their abductions keep the
+  /// glove's gain. So do joints of the thumb that the fist does not tell of. Errors: a pose is missing.
+  [[nodiscard]] Expected<HandCalibration> result() const;
+
+ private:
+  using Poses = std::array<std::optional<HandAngles>, kCalibrationPoses>;
+
+  CalibrationPose pose_ = CalibrationPose::flat;
+  std::vector<HandAngles> samples_;  // of pose_
+  TimePoint first_, last_;
+  Poses poses_;
+};
+
+}  // namespace mechane::haptic
