@@ -30,7 +30,8 @@ struct ReplayResult {
   }
 };
 
-/// With the physics of the journal's time (state::StateVersion). Errors: conflict (the journal was recorded with another form of the scenario), or the snapshot in it cannot be read.
+/// With the physics of the journal's time (state::StateVersion). Errors: conflict (the journal was recorded with another form of the
+/// scenario), or the snapshot in it cannot be read.
 [[nodiscard]] Expected<ReplayResult> replay(record::JournalReader& journal,
                                             const std::shared_ptr<const state::WorldDescription>& description,
                                             world::WorldConfig config, const ReplayOptions& options);

@@ -9,8 +9,7 @@ namespace {
 constexpr double kStiffnessBound = 0.1;
 constexpr double kDampingBound = 0.3;
 constexpr double kDampsBelow_m_per_s = 0.02;
-constexpr double kSticksAgain =
-    0.9;  // share of the stretch: it went back by so much, and not only by the noise of a sensor
+constexpr double kSticksAgain = 0.9;  // share of the stretch: the hand went back, and it is not only a sensor's noise
 
 Vec3 at_most(const Vec3& v, double limit) {
   const double norm = v.norm();

@@ -13,8 +13,8 @@ struct Spring {
   double damping_ns_per_m = 0;
 };
 
-/// The material's spring, weakened for a body that feels as light as `m_eff_kg` in the spring's direction: an explicit spring or damper must
-/// stay well below what would reverse the body's motion within one step, or it would oscillate.
+/// The material's spring, weakened for a body that feels as light as `m_eff_kg` in the spring's direction: an explicit spring or damper
+/// must stay well below what would reverse the body's motion within one step, or it would oscillate.
 [[nodiscard]] Spring bounded_spring(const state::HapticMaterial& material, double m_eff_kg) noexcept;
 
 /// One touch, as friction sees it.

@@ -20,8 +20,8 @@ bool touches(const UserState& user, std::size_t segment, BodyId body) {
                      [&](const Contact& c) { return c.body == body && c.segment == segment; });
 }
 
-/// The nearest place of a surface that faces the segment; the ball inside the segment stands for it. The normals of the points around it are
-/// averaged: those of a body's own samples point to the ball's centre.
+/// The nearest place of a surface that faces the segment; the ball inside the segment stands for it. The normals of the points around it
+/// are averaged: those of a body's own samples point to the ball's centre.
 std::optional<Contact> nearest(std::span<const PointContact> points, const Vec3& p_WS, double inner_radius_m) {
   const PointContact* best = nullptr;
   Vec3 normals_W = Vec3::Zero();

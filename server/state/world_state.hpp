@@ -55,14 +55,13 @@ struct Contact {
   double depth_m = 0;          ///< > 0: how far they overlap along the normal
 };
 
-/// Where friction holds a segment of a hand on a body. The two points were at the same place when they met; what lies between them along the
-/// surface is the stretch of a spring, and where that is too much for the friction, the body's point slides after the hand's.
+/// Where friction holds a segment of a hand on a body. The two points were at the same place when they met; what lies between them along
+/// the surface is the stretch of a spring, and where that is too much for the friction, the body's point slides after the hand's.
 struct FrictionAnchor {
   BodyId body;
   std::uint8_t segment = 0;
-  bool slides = false;  ///< dynamic friction holds, not static
-  Vec3 p_SA =
-      Vec3::Zero();  ///< on the hand, in the segment's frame; of a one-point device in W's directions from its tip
+  bool slides = false;       ///< dynamic friction holds, not static
+  Vec3 p_SA = Vec3::Zero();  ///< on the hand, in the segment's frame; that of a one-point device does not turn
   Vec3 p_BA = Vec3::Zero();  ///< on the body, in its frame
 };
 
@@ -171,9 +170,9 @@ class MemoryLayout {
   std::vector<Coupling> couplings_;
 };
 
-/// Which fields are hashed and saved, and by which physics they were computed. Journals and snapshots say theirs; they are compared and read
-/// over these fields, and journals are replayed with the physics of their time. Powers of two: a flipped bit of a file does not make another
-/// version of one.
+/// Which fields are hashed and saved, and by which physics they were computed. Journals and snapshots say theirs; they are compared and
+/// read over these fields, and journals are replayed with the physics of their time. Powers of two: a flipped bit of a file does not make
+/// another version of one.
 enum class StateVersion : std::uint32_t {
   without_governors = 1,  ///< journals of version 1
   with_governors = 2,     ///< and with the age of each user's last sample

@@ -154,8 +154,8 @@ TEST(Friction, OfAFingerThatRollsIsNone) {
   }
 }
 
-/// The most that a palm creeps in a minute which lies on a slope of 17 degrees with 3 N, held by nothing but friction and told to the server
-/// with the steps of a tracker, m.
+/// How far a palm creeps in a minute, m, that is pulled with 0.5 N along the surface, held by nothing but friction, and told to the server
+/// with the steps of a tracker.
 double creep_m(FrictionKind kind) {
   Rub rub(kind, hand::HandKind::glove);
   const double mass_kg = 0.4, pull_n = 0.5;

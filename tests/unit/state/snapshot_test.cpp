@@ -137,6 +137,36 @@ TEST(StateHash, SeesAllThatAGovernorRemembers) {
   EXPECT_TRUE(differs([](hand::GovernorState& g) { g.counts[5] = 1; }));
 }
 
+TEST(StateHash, SeesWhereFrictionHolds) {
+  WorldState base = sample_state(1);
+  base.users[1].anchor_count = 2;
+  const std::uint64_t hash = state_hash(base);
+  const auto differs = [&](auto change) {
+    WorldState changed = base;
+    change(changed.users[1]);
+    return state_hash(changed) != hash;
+  };
+  EXPECT_TRUE(differs([](UserState& user) { user.anchor_count = 1; }));
+  EXPECT_TRUE(differs([](UserState& user) { user.anchors[1].body = BodyId(0); }));
+  EXPECT_TRUE(differs([](UserState& user) { user.anchors[1].segment = 3; }));
+  EXPECT_TRUE(differs([](UserState& user) { user.anchors[1].slides = true; }));
+  EXPECT_TRUE(differs([](UserState& user) { user.anchors[1].p_SA.x() = 1e-300; }));
+  EXPECT_TRUE(differs([](UserState& user) { user.anchors[1].p_BA.z() = 1e-300; }));
+  EXPECT_FALSE(differs([](UserState& user) { user.anchors[2].slides = true; })) << "it is not one of the two";
+  WorldState changed = base;
+  changed.users[1].anchors[1].slides = true;
+  EXPECT_EQ(state_hash(changed, StateVersion::with_governors), state_hash(base, StateVersion::with_governors));
+}
+
+TEST(Snapshot, WithMoreAnchorsThanThereIsRoomForIsRefused) {
+  WorldState state = sample_state(1);
+  state.users[0].anchor_count = kMaxPatches + 1;  // as a damaged file may say, with a checksum that fits
+  std::vector<std::byte> bytes;
+  write_snapshot(state, bytes);
+  WorldState read = sample_state(2);
+  EXPECT_FALSE(read_snapshot(bytes, read).has_value());
+}
+
 TEST(StateHash, OfVersion1KnowsNoGovernor) {
   const WorldState base = sample_state(1);
   WorldState changed = base;
