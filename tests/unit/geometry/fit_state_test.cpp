@@ -1,5 +1,9 @@
 #include "server/geometry/fit_state.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -33,6 +37,15 @@ Vec3 random_point(const FitState& state, Random& random) {
   return state.X_OQ * (between(random, 0.7, 1.3) * surface_point(state.shape(), {eta, omega}));
 }
 
+/// Whether a difference quotient of f at 0 is this slope. With one step alone, a point in some ten thousand lies so near to a plane where a
+/// power has its corner that the step crosses it.
+template <class Function>
+bool has_slope(const Function& f, double slope, double tolerance) {
+  constexpr std::array kSteps{1e-5, 1e-6, 1e-7};
+  return std::any_of(kSteps.begin(), kSteps.end(),
+                     [&](double step) { return std::abs((f(step) - f(-step)) / (2 * step) - slope) < tolerance; });
+}
+
 RC_GTEST_PROP(FitForm, IsTheRadialFormWithItsSlopes, (std::uint64_t seed)) {
   Random random(seed);
   const FitState state = random_state(random);
@@ -42,17 +55,14 @@ RC_GTEST_PROP(FitForm, IsTheRadialFormWithItsSlopes, (std::uint64_t seed)) {
   const FitForm::Value value = FitForm(state).at(p_O);
   RC_ASSERT(std::abs(value.f - f_at(state, p_O)) < 1e-9 * value.f);
 
-  constexpr double kStep = 1e-5;
-  const double scale = 1 + value.by_step.cwiseAbs().maxCoeff();
+  const double tolerance = 1e-5 * (1 + value.by_step.cwiseAbs().maxCoeff());
   for (int i = 0; i < FitState::kAll; ++i) {
-    const FitState::Step step = kStep * FitState::Step::Unit(i);
-    const double slope = (f_at(state.moved(step), p_O) - f_at(state.moved(-step), p_O)) / (2 * kStep);
-    RC_ASSERT(std::abs(slope - value.by_step[i]) < 1e-5 * scale);
+    const auto moved = [&](double s) { return f_at(state.moved(s * FitState::Step::Unit(i)), p_O); };
+    RC_ASSERT(has_slope(moved, value.by_step[i], tolerance));
   }
   for (int i = 0; i < 3; ++i) {
-    const Vec3 step = state.X_OQ.rotate(kStep * Vec3::Unit(i));
-    const double slope = (f_at(state, p_O + step) - f_at(state, p_O - step)) / (2 * kStep);
-    RC_ASSERT(std::abs(slope - value.slope_Q[i]) < 1e-5 * scale);
+    const auto along = [&](double s) { return f_at(state, p_O + state.X_OQ.rotate(s * Vec3::Unit(i))); };
+    RC_ASSERT(has_slope(along, value.slope_Q[i], tolerance));
   }
 }
 
