@@ -11,8 +11,8 @@ bool is_rotation(std::span<const double, 9> m) noexcept {
   constexpr double kTolerance = 0.01;
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = a; b < 3; ++b) {
-      const double dot = m[a] * m[b] + m[3 + a] * m[3 + b] + m[6 + a] * m[6 + b];
-      if (!(std::abs(dot - (a == b ? 1.0 : 0.0)) < kTolerance)) return false;
+      const double product = m[a] * m[b] + m[3 + a] * m[3 + b] + m[6 + a] * m[6 + b];
+      if (!(std::abs(product - (a == b ? 1.0 : 0.0)) < kTolerance)) return false;
     }
   return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]) >
          0;

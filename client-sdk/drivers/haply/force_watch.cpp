@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "client-sdk/drivers/vectors.hpp"
+
 namespace mechane::drivers {
 namespace {
 
@@ -12,10 +14,6 @@ constexpr double kForeignN = 0.5;
 constexpr double kAskedN = 0.5;
 constexpr double kNothingN = 0.02;
 constexpr int kPersists = 250;
-
-double dot(const HaplyVector& a, const HaplyVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// How much of what is rendered no part of the command explains. Less than the command is normal: the service's force
 /// gate and torque scaling weaken it.

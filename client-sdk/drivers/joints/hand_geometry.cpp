@@ -40,9 +40,6 @@ HandPoint minus(const HandPoint& a, const HandPoint& b) noexcept {
 HandPoint plus(const HandPoint& a, const HandPoint& b) noexcept {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
-double dot(const HandPoint& a, const HandPoint& b) noexcept {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 HandPoint cross(const HandPoint& a, const HandPoint& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
