@@ -8,6 +8,11 @@
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::client {
+namespace {
+
+constexpr std::uint64_t kLongestHeld_us = 1'000'000'000;
+
+}  // namespace
 
 HandLink::HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session, int fifo_priority)
     : kiosk_(std::move(kiosk)), user_(user), session_(session), fifo_priority_(fifo_priority) {
@@ -44,9 +49,12 @@ bool HandLink::send(const HandSample& input) noexcept {
   s.grasp_intent = static_cast<float>(input.grasp_intent);
   s.buttons = input.buttons;
   s.kind = static_cast<std::uint32_t>(input.kind);
-  s.echo_epoch = heard_epoch_.load(std::memory_order_relaxed);
+  s.echo_epoch = heard_epoch_.load(std::memory_order_acquire);
   s.echo_seq = heard_seq_.load(std::memory_order_relaxed);
+  const std::uint64_t heard_at_ns = heard_at_ns_.load(std::memory_order_relaxed);
   s.sent_ns = to_ns(std::chrono::steady_clock::now());
+  s.echo_held_us =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>((s.sent_ns - heard_at_ns) / 1000, kLongestHeld_us));
   sent_.store(s.seq, std::memory_order_relaxed);
   return writer_.write(s);
 }
@@ -62,8 +70,9 @@ void HandLink::take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept
     arriving_.received = std::chrono::steady_clock::now();
     if (order_.offer(wire.epoch, wire.seq, arriving_.received) != hand::SampleOrder::newer) continue;
     arriving_.sequence = ++taken_;
+    heard_at_ns_.store(to_ns(arriving_.received), std::memory_order_relaxed);
     heard_seq_.store(wire.seq, std::memory_order_relaxed);
-    heard_epoch_.store(wire.epoch, std::memory_order_relaxed);
+    heard_epoch_.store(wire.epoch, std::memory_order_release);
     forces_.publish(arriving_);
     arrived_.signal();
   }

@@ -44,8 +44,10 @@ class HandLink {
   int fifo_priority_;
   std::atomic<std::uint64_t> epoch_{0};
   std::atomic<std::uint64_t> sent_{0};
-  std::atomic<std::uint64_t> heard_epoch_{0};  // of the newest force, and its number
+  // Of the newest force. The epoch is written last and read first, so that a number is not taken for one of another epoch.
+  std::atomic<std::uint64_t> heard_epoch_{0};
   std::atomic<std::uint64_t> heard_seq_{0};
+  std::atomic<std::uint64_t> heard_at_ns_{0};
   proto::HapticInput sending_{};  // used by the sending thread only
   // Used by the force listener only. The server counts from 1 again in each epoch, but the numbers that are given out
   // must rise with each force.

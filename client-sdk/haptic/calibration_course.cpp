@@ -24,7 +24,7 @@ std::string CalibrationCourse::next_pose(TimePoint now) {
   tries_ = 0;
   if (++pose_ < kCalibrationPoses) return ask(now, "");
   result_ = calibrator_.result();
-  return result_->has_value() ? "the glove is calibrated" : result_->error().to_string();
+  return "the three poses are taken";
 }
 
 std::optional<std::string> CalibrationCourse::add(TimePoint now, const HandAngles* raw) {
@@ -43,6 +43,13 @@ std::optional<std::string> CalibrationCourse::add(TimePoint now, const HandAngle
   if (in_time && (raw == nullptr || !calibrator_.add(now, *raw))) return {};
   const auto ended = calibrator_.end();
   if (ended) return next_pose(now);
+  if (ended.error().code == ErrorCode::conflict &&
+      starts_ < kTries) {  // two poses do not fit: the fault may be the first one's
+    ++starts_;
+    tries_ = 0;
+    pose_ = 0;
+    return ask(now, ended.error().what + "; once more from the beginning, ");
+  }
   if (tries_ < kTries) return ask(now, ended.error().what + "; again, ");
   result_ = tl::unexpected(ended.error());
   return {};

@@ -27,7 +27,8 @@ class CalibrationCourse {
 
   HandCalibrator calibrator_;
   std::size_t pose_ = 0;
-  int tries_ = 0;
+  int tries_ = 0;   // of this pose
+  int starts_ = 1;  // of the course
   bool begun_ = false;
   bool recording_ = false;
   TimePoint asked_;

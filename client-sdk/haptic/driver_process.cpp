@@ -184,9 +184,9 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   }
   std::copy(std::begin(state.joints_rad), std::end(state.joints_rad), hand.joints.begin());
   if (config_.glove) hand.joints = config_.glove->apply(hand.joints);
-  const bool button = hand.kind == client::HandKind::one_point && (state.buttons & 1u) != 0;
+  hand.buttons = state.buttons & ~config_.workspace.clutch_button;
+  const bool button = hand.kind == client::HandKind::one_point && (hand.buttons & 1u) != 0;
   hand.grasp_intent = button ? 1 : state.grasp;
-  hand.buttons = state.buttons;
   last_at_ = newest_.at;
   return last_ = hand;
 }

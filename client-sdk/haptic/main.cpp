@@ -54,8 +54,8 @@ void add_options(CLI::App& app, Arguments& a) {
                  "metres: x y z")
       ->expected(3);
   app.add_option("--turn", a.turn_deg, "how the device is turned at its place, degrees anticlockwise from above");
-  app.add_option("--scale", a.scale, "metres in the world for one of the device's; over 1, forces are divided by it")
-      ->check(CLI::Range(0.1, 100.0));
+  app.add_option("--scale", a.scale, "metres in the world for one of the device's, 1 to 100; forces are divided by it")
+      ->check(CLI::Range(1.0, 100.0));
   app.add_option("--clutch", a.clutch,
                  "the device's button, 1 to 32, that holds the hand in its place while the device is moved; 0: none")
       ->check(CLI::Range(0, 32));

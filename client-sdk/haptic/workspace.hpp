@@ -1,7 +1,6 @@
 // Where a device's workspace lies in the world, and how large it is there.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "server/base/math.hpp"
@@ -11,7 +10,7 @@ namespace mechane::haptic {
 struct WorkspaceConfig {
   Vec3 p_WD = Vec3::Zero();  ///< the middle of the device's workspace
   double turn_rad = 0;       ///< of the device about the world's y axis, anticlockwise from above
-  double scale = 1;          ///< metres in the world for one of the device's; over 0
+  double scale = 1;          ///< metres in the world for one of the device's; at least 1
   std::uint32_t clutch_button =
       0;  ///< bits of mechane_device_state.buttons; while one is down, the hand stays where it is
 };
@@ -37,10 +36,10 @@ class Workspace {
   [[nodiscard]] const Vec3& p_WH() const noexcept { return p_WH_; }
   [[nodiscard]] Quat R_WH(const Quat& R_DH) const noexcept { return R_WD_ * R_DH; }
 
-  /// A force or torque for the device. Where its hand moves in the world farther than it does itself, the force is lowered in that
-  /// proportion: a wall is then no stiffer than without the scale.
+  /// A force or torque for the device. It is lowered by the scale: a wall is then no stiffer than without one, and the device gives the hand
+  /// no more energy than the loop accounts for in the world.
   [[nodiscard]] Vec3 to_device(const Vec3& force_W) const noexcept {
-    return R_WD_.conjugate() * force_W / std::max(config_.scale, 1.0);
+    return R_WD_.conjugate() * force_W / config_.scale;
   }
 
  private:

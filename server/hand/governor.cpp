@@ -212,10 +212,15 @@ void ForceGovernor::keep_passive(const GovernorState& state, const Twist& V_WH, 
   const double step_n = config_.max_slew_n_per_s * std::min(dt_s, to_seconds(kLongestStep));
   Vec3 damping = -std::min(overdrawn / speed_squared, config_.max_damping_ns_per_m) * V_WH.v;
   clamp_norm(damping, step_n);
+  const Vec3 change = force.f - state.last.force_W.f;
   force.f += damping;
+  // On a device the damping has no step of its own. A server's has: its journals were recorded that way.
+  if (config_.strict_energy) {
+    Vec3 damped_change = force.f - state.last.force_W.f;
+    clamp_norm(damped_change, std::max(step_n, change.norm()));
+    force.f = state.last.force_W.f + damped_change;
+  }
   clamp_norm(force.f, config_.max_force_n * state.gain);
-  // The force has had its step already. A server's may take another: its journals have it so, and a device's governor comes after it.
-  if (config_.strict_energy) clamp_norm(force.f, state.last.force_W.f.norm() + step_n);
 }
 
 std::uint64_t GovernorState::count(ForceReason reason) const noexcept {

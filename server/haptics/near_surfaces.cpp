@@ -20,22 +20,26 @@ bool touches(const UserState& user, std::size_t segment, BodyId body) {
                      [&](const Contact& c) { return c.body == body && c.segment == segment; });
 }
 
-/// The nearest place of a surface that faces the segment; the ball inside the segment stands for it. The normals of the points around it
-/// are averaged: those of a body's own samples point to the ball's centre.
+/// The nearest place of a surface that faces the segment; the ball inside the segment stands for it. Around it the normals are averaged, for
+/// those of a body's own samples point to the ball's centre; those of other walls do not count.
 std::optional<Contact> nearest(std::span<const PointContact> points, const Vec3& p_WS, double inner_radius_m) {
-  const PointContact* best = nullptr;
+  constexpr double kSameWall = 0.7;        // cosine: 45 degrees
+  constexpr double kMostOverlap_m = 1e-3;  // of what does not touch: more is a wall that is not there
+  const auto nearer = [&](const PointContact& a, const PointContact& b) {
+    return (p_WS - a.p_WC).squaredNorm() < (p_WS - b.p_WC).squaredNorm();
+  };
+  const auto best = std::min_element(points.begin(), points.end(), nearer);
+  if (best == points.end()) return std::nullopt;
+  const Vec3 way_out_W = (p_WS - best->p_WC).normalized();
   Vec3 normals_W = Vec3::Zero();
   for (const PointContact& point : points) {
-    const Vec3 p_CS_W = p_WS - point.p_WC;
-    if (p_CS_W.dot(point.n_BA_W) <= 0) continue;  // the far side of something thin
-    normals_W += point.depth_m * point.depth_m * point.n_BA_W;
-    if (best == nullptr || p_CS_W.squaredNorm() < (p_WS - best->p_WC).squaredNorm()) best = &point;
+    if (point.n_BA_W.dot(way_out_W) > kSameWall) normals_W += point.depth_m * point.depth_m * point.n_BA_W;
   }
-  if (best == nullptr || normals_W.isZero(0)) return std::nullopt;
+  if (normals_W.isZero(0)) return std::nullopt;
   const Vec3 n_BH_W = normals_W.normalized();
-  const double ahead_m = (p_WS - best->p_WC).dot(n_BH_W);
-  if (ahead_m <= 0) return std::nullopt;
-  return Contact{{}, 0, best->p_WC, n_BH_W, std::min(inner_radius_m - ahead_m, 0.0)};
+  const double overlap_m = inner_radius_m - (p_WS - best->p_WC).dot(n_BH_W);
+  if (overlap_m > kMostOverlap_m) return std::nullopt;
+  return Contact{{}, 0, best->p_WC, n_BH_W, std::min(overlap_m, 0.0)};
 }
 
 /// Keeps the nearest.

@@ -7,8 +7,8 @@
 namespace mechane::haptics {
 
 /// Fills `near` of every present user: for the tip of a one-point device and for the fingertips of a glove, the nearest surface of each
-/// body that the segment does not touch, the nearest of all kept. After find_contacts(); nothing in the world depends on it.
-/// Allocates nothing.
+/// body that the segment does not touch; where there is no room for all, the nearest are kept. After find_contacts(); nothing in the world
+/// depends on it. Allocates nothing.
 void find_near_surfaces(const state::WorldDescription& description, const HandModel& hand,
                         state::WorldState& state) noexcept;
 

@@ -97,7 +97,6 @@ struct UserState {
 
   [[nodiscard]] std::span<const Contact> contact_span() const { return {contacts.data(), contact_count}; }
   [[nodiscard]] std::span<const Contact> near_span() const { return {near.data(), near_count}; }
-  [[nodiscard]] std::span<const FrictionAnchor> anchor_span() const { return {anchors.data(), anchor_count}; }
 };
 
 /// Where the visit is in the scenario.

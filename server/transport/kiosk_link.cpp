@@ -84,11 +84,12 @@ void KioskLink::take(proto::ReaderView<proto::HapticInput> view) noexcept {
   }
 }
 
-/// What the sender had of another link says nothing of this one's times.
+/// An echo of another epoch tells nothing of the delay; it counts as none.
 Reject KioskLink::check_delay(const proto::HapticInput& wire, TimePoint now) const noexcept {
-  const std::optional<Duration> age = hands_[wire.user].sent.age_of(wire.echo_epoch == epoch_ ? wire.echo_seq : 0, now);
-  if (!age) return Reject::bad_value;
-  return *age > kTooLate ? Reject::too_late : Reject::none;
+  const std::optional<Duration> round_trip = hands_[wire.user].sent.round_trip_of(
+      wire.echo_epoch == epoch_ ? wire.echo_seq : 0, std::chrono::microseconds(wire.echo_held_us), now);
+  if (!round_trip) return Reject::bad_value;
+  return *round_trip > kTooLate ? Reject::too_late : Reject::none;
 }
 
 Reject KioskLink::accept(const proto::HapticInput& wire, TimePoint now) noexcept {

@@ -17,8 +17,8 @@ namespace mechane::transport {
 /// Made and changed by the main thread. The listener runs on a thread of Cyclone's. write() is for the haptic publisher's thread.
 class KioskLink {
  public:
-  /// A sample that was on its way for longer, with the way of an output before it, is dropped: a network that queues must not move a hand
-  /// as it was long ago. A mouse on a slow line still works.
+  /// Samples whose round trip took longer are dropped, so that a queue in the network does not replay old motion. A mouse on a slow line
+  /// still works.
   static constexpr Duration kTooLate = std::chrono::milliseconds(250);
 
   /// `rejects` outlives the link. Errors: DDS out of resources.

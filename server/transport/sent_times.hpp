@@ -1,6 +1,7 @@
-// When a link sent its last outputs: how long a sample has been on its way can be told from the output that its sender had.
+// When a link sent its last outputs, from which the delay of its network is measured.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -10,24 +11,29 @@
 
 namespace mechane::transport {
 
-/// note() is for the thread that writes outputs, age_of() for the one that listens to samples. Wait-free.
+/// note() is for the thread that writes outputs, round_trip_of() for the one that listens to samples. Wait-free.
 class SentTimes {
  public:
+  /// A sender that has heard nothing for so long tells nothing of the network.
+  static constexpr Duration kForgets = std::chrono::seconds(1);
+
   /// The output with this sequence number is about to be sent; numbers rise by one, from 1 on.
   void note(std::uint64_t sequence, TimePoint now) noexcept {
     sent_ns_[sequence % sent_ns_.size()].store(now.time_since_epoch().count(), std::memory_order_relaxed);
     newest_.store(sequence, std::memory_order_release);
   }
 
-  /// The most that a sample can have been on its way here, with the way of an output there: the time since the first output that its sender
-  /// had not seen. `echo` is the newest that it had; 0: none, and nothing is known. None where that was never sent.
-  [[nodiscard]] std::optional<Duration> age_of(std::uint64_t echo, TimePoint now) const noexcept {
+  /// How long output `echo` was on its way to a sender, and a sample of that sender on its way here, which arrived `now`. The sender had the
+  /// output for `held` before it sent the sample. Of an output that is no longer in the table, the least that it can be. Zero where nothing
+  /// is known: `echo` is 0, or `held` is over kForgets. Nothing where the output was never sent.
+  [[nodiscard]] std::optional<Duration> round_trip_of(std::uint64_t echo, Duration held, TimePoint now) const noexcept {
     const std::uint64_t newest = newest_.load(std::memory_order_acquire);
     if (echo > newest) return std::nullopt;
-    if (echo == 0 || echo == newest) return Duration{0};
-    if (newest - echo >= sent_ns_.size() / 2) return Duration::max();  // the other half may be written meanwhile
-    const std::int64_t sent_ns = sent_ns_[(echo + 1) % sent_ns_.size()].load(std::memory_order_relaxed);
-    return now.time_since_epoch() - Duration(sent_ns);
+    if (echo == 0 || held > kForgets) return Duration{0};
+    const std::uint64_t kept = std::min(newest, sent_ns_.size() / 2);  // the other half may be written meanwhile
+    const std::uint64_t known = std::max(echo, newest - kept + 1);
+    const std::int64_t sent_ns = sent_ns_[known % sent_ns_.size()].load(std::memory_order_relaxed);
+    return std::max(now.time_since_epoch() - Duration(sent_ns) - held, Duration{0});
   }
 
  private:

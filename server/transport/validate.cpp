@@ -50,7 +50,7 @@ std::string_view to_string(Reject reason) {
     case Reject::high_sequence:
       return "with a sequence number that jumped too far";
     case Reject::too_late:
-      return "over 250 ms old when they came";
+      return "whose round trip took over 250 ms";
     case Reject::kinds:
       break;
   }

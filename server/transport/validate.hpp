@@ -34,7 +34,7 @@ enum class Reject : std::uint8_t {
   wrong_session,   ///< 0, or a session that does not own this hand
   old_sequence,    ///< repeated or older
   high_sequence,   ///< higher than any device can have counted since its last sample
-  too_late,        ///< was on its way for too long: what it shows of the hand is past
+  too_late,        ///< its round trip was too long: what it shows of the hand is past
   kinds
 };
 

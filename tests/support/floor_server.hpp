@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "server/collision_build/object_builder.hpp"
 #include "server/haptics/contacts.hpp"
@@ -14,10 +15,10 @@ namespace mechane::test {
 
 class FloorServer {
  public:
-  FloorServer(double top_m, double stiffness_n_per_m)
-      : world_(block(top_m, stiffness_n_per_m)), state_(world_), renderer_(haptics::ForceRenderer::create({}).value()) {
-    renderer_.start(state_);
-  }
+  FloorServer(double top_m, double stiffness_n_per_m) : FloorServer(block(top_m, stiffness_n_per_m)) {}
+  /// The same of any object, where its frame is the world's.
+  explicit FloorServer(const std::shared_ptr<const collision::Object>& object) : FloorServer(fixed(object)) {}
+
   /// Of one tick, for a hand that was sent just before it.
   const hand::HapticOutput& answer(const hand::HandSample& sample) {
     state::UserState& user = state_.users[0];
@@ -35,20 +36,28 @@ class FloorServer {
   }
 
  private:
+  explicit FloorServer(state::WorldDescription world)
+      : world_(std::move(world)), state_(world_), renderer_(haptics::ForceRenderer::create({}).value()) {
+    renderer_.start(state_);
+  }
+  static state::WorldDescription fixed(const std::shared_ptr<const collision::Object>& object) {
+    state::BodyDescription body;
+    body.name = "BODY";
+    body.fixed = true;
+    body.object = object;
+    state::WorldDescription world;
+    world.bodies = {body};
+    return world;
+  }
   static state::WorldDescription block(double top_m, double stiffness_n_per_m) {
     static const Vec3 half_m(0.1, 0.02, 0.1);
     static const auto object = [] {
       const geometry::NamedMesh part{"block", box(half_m)};
       return std::make_shared<collision::Object>(collision_build::build_object({&part, 1}, {}).value());
     }();
-    state::BodyDescription body;
-    body.name = "BLOCK";
-    body.fixed = true;
-    body.X_WB.p.y() = top_m - half_m.y();
-    body.haptic.stiffness_n_per_m = stiffness_n_per_m;
-    body.object = object;
-    state::WorldDescription world;
-    world.bodies = {body};
+    state::WorldDescription world = fixed(object);
+    world.bodies[0].X_WB.p.y() = top_m - half_m.y();
+    world.bodies[0].haptic.stiffness_n_per_m = stiffness_n_per_m;
     return world;
   }
 

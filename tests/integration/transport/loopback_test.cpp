@@ -350,6 +350,7 @@ TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   lie(Reject::too_late, [&](auto& s) {
     s.echo_epoch = epoch.load();
     s.echo_seq = 1;
+    s.echo_held_us = 0;
   });
   EXPECT_TRUE(feels(*hand, Vec3(3, 0, 0))) << "one sample with a false number must not block the hand";
   for (const hand::SentSample& sample : server.samples())

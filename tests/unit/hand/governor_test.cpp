@@ -336,6 +336,14 @@ TEST(ForceGovernor, DampingOnADeviceKeepsToTheSlewLimit) {
   const HandForce out = governor.apply(input);
   EXPECT_NE(out.reasons & kDamped, 0u);
   EXPECT_NEAR(out.force_W.f.x(), config.max_slew_n_per_s * kDt_s, 1e-9);
+
+  OneHand pressed = settled(2.5, config);
+  pressed.state.credit_j = -0.1;
+  const Vec3 before = pressed.state.last.force_W.f;
+  input.wanted_W.f = before + Vec3(0, 1, 0);
+  input.V_WH.v = Vec3(0, -0.3, 0);
+  const Vec3 after = pressed.apply(input).force_W.f;
+  EXPECT_LE((after - before).norm(), config.max_slew_n_per_s * kDt_s + 1e-9) << "nor across the force";
 }
 
 TEST(ForceGovernor, APassiveWallIsNotDamped) {

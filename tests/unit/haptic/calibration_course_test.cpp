@@ -1,5 +1,9 @@
 #include "client-sdk/haptic/calibration_course.hpp"
 
+#include <cmath>
+#include <functional>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace mechane::haptic {
@@ -57,6 +61,17 @@ TEST(CalibrationCourse, AsksAgainForAHandThatMoved) {
   });
   ASSERT_TRUE(course.result() && course.result()->has_value());
   EXPECT_EQ(told.size(), kCalibrationPoses + 2);
+}
+
+TEST(CalibrationCourse, BeginsAgainWhereTheFirstTwoPosesWereSwapped) {
+  CalibrationCourse course;
+  std::vector<std::string> told;
+  run(course, told, [](std::size_t pose, TimePoint now) {
+    const bool swapped = pose < 2 && now < TimePoint{1h} + 10s;
+    return raw_pose(swapped ? 1 - pose : pose);
+  });
+  ASSERT_TRUE(course.result() && course.result()->has_value());
+  EXPECT_EQ(told.size(), kCalibrationPoses + 3) << "flat, fist, both again, pinch, done";
 }
 
 TEST(CalibrationCourse, FailsWhereAPoseIsNeverShown) {

@@ -24,7 +24,7 @@ TEST(Workspace, IsTurnedWithItsForces) {
 /// A wall of k N/m in the world is one of k N/m at the device, too.
 TEST(Workspace, AWallIsNotStifferForTheScale) {
   constexpr double kWall_n_per_m = 600, kStep_m = 1e-3;
-  for (const double scale : {0.5, 1.0, 3.0}) {
+  for (const double scale : {1.0, 3.0}) {
     Workspace workspace({.scale = scale});
     workspace.follow(Vec3(0, -kStep_m, 0), 0);
     const double force_n = workspace.to_device(Vec3(0, -kWall_n_per_m * workspace.p_WH().y(), 0)).y();

@@ -1,5 +1,8 @@
 #include "server/haptics/near_surfaces.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -51,6 +54,32 @@ TEST(NearSurfaces, PushAsHardAsTheTouchThatFollows) {
     const hand::LocalContact touch = server.answer(tip_at(Vec3(0, kTip_m - depth_m, 0))).contacts[0];
     EXPECT_NEAR(near.stiffness_n_per_m * depth_m / (touch.stiffness_n_per_m * touch.depth_m), 1, 0.15) << depth_m;
   }
+}
+
+/// Two walls of one body with a slot between them, and the tip in it: the nearer wall is announced, as far as it is.
+TEST(NearSurfaces, OfTwoWallsTheNearerIsAnnouncedAndNoneBetweenThem) {
+  constexpr double kHalfSlot_m = 0.012;
+  const Vec3 half_m(0.02, 0.05, 0.05);
+  const std::array walls{geometry::NamedMesh{"left", test::box(half_m, Vec3(-kHalfSlot_m - half_m.x(), 0, 0))},
+                         geometry::NamedMesh{"right", test::box(half_m, Vec3(kHalfSlot_m + half_m.x(), 0, 0))}};
+  test::FloorServer server(std::make_shared<collision::Object>(collision_build::build_object(walls, {}).value()));
+  for (const double x_m : {-0.002, -0.001, 0.0, 0.001, 0.002}) {
+    const auto contacts = server.answer(tip_at(Vec3(x_m, 0, 0))).contact_span();
+    ASSERT_EQ(contacts.size(), 1u) << x_m;
+    EXPECT_NEAR(contacts[0].depth_m, -(kHalfSlot_m - std::abs(x_m) - kTip_m), 0.0007) << x_m;
+    EXPECT_GT(std::abs(contacts[0].n_W.x()), 0.97) << x_m;
+  }
+}
+
+TEST(NearSurfaces, InACornerTheNearerWallIsAnnounced) {
+  const Vec3 half_m(0.05, 0.05, 0.05);
+  const std::array walls{geometry::NamedMesh{"floor", test::box(half_m, Vec3(0, -half_m.y(), 0))},
+                         geometry::NamedMesh{"wall", test::box(half_m, Vec3(-half_m.x(), half_m.y(), 0))}};
+  test::FloorServer server(std::make_shared<collision::Object>(collision_build::build_object(walls, {}).value()));
+  const auto contacts = server.answer(tip_at(Vec3(0.013, kTip_m + 0.002, 0))).contact_span();
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(contacts[0].depth_m, -0.002, 0.001);
+  EXPECT_GT(contacts[0].n_W.y(), 0.9);
 }
 
 TEST(NearSurfaces, AFingertipOfAGloveIsToldOfThem) {
