@@ -206,6 +206,13 @@ TEST_F(Loopback, ASilentHandIsTakenOverByOneThatWaits) {
   ASSERT_TRUE(eager->wait_for(LinkState::joined, 10s));
   EXPECT_TRUE(feels(*eager, Vec3(2, 0, 0)));
   EXPECT_TRUE(silent->wait_for(LinkState::refused, 10s));
+
+  // Back again, though the server has sent hundreds of forces meanwhile that this hand never saw.
+  for (int i = 0; i < 300; ++i)
+    ASSERT_TRUE(feels(*eager, Vec3(2 + 0.01 * i, 0, 0)));
+  eager.reset();
+  ASSERT_TRUE(silent->wait_for(LinkState::joined, 10s));
+  EXPECT_TRUE(feels(*silent, Vec3(3, 0, 0)));
 }
 
 TEST_F(Loopback, AClientComesBackByItselfAfterTheServerDid) {
