@@ -360,7 +360,7 @@ TEST_F(JointsTest, AnOvertakenHandIsDroppedAndANewSendersIsNot) {
     return joints_text(hand, "openxr", ",\"seq\":" + std::to_string(number));
   };
   ASSERT_EQ(open(), "");
-  EXPECT_TRUE(sender_.send(hand_at(0.5, 1000)));
+  ASSERT_EQ(take(hand_at(0.5, 1000)), "");
   EXPECT_TRUE(sender_.send(hand_at(0.4, 999)));
   ASSERT_EQ(take(hand_at(0.3, 1000)), "");
   EXPECT_DOUBLE_EQ(state_.position_m[0], 0.5);
