@@ -212,13 +212,14 @@ void ForceGovernor::keep_passive(const GovernorState& state, const Twist& V_WH, 
   const double step_n = config_.max_slew_n_per_s * std::min(dt_s, to_seconds(kLongestStep));
   Vec3 damping = -std::min(overdrawn / speed_squared, config_.max_damping_ns_per_m) * V_WH.v;
   clamp_norm(damping, step_n);
-  const Vec3 change = force.f - state.last.force_W.f;
-  force.f += damping;
-  // On a device the damping has no step of its own. A server's has: its journals were recorded that way.
-  if (config_.strict_energy) {
-    Vec3 damped_change = force.f - state.last.force_W.f;
-    clamp_norm(damped_change, std::max(step_n, change.norm()));
-    force.f = state.last.force_W.f + damped_change;
+  if (config_.strict_energy) {  // the damping has no step of its own
+    const Vec3& last = state.last.force_W.f;
+    const double most_n = std::max(step_n, (force.f - last).norm());
+    Vec3 change = force.f + damping - last;
+    clamp_norm(change, most_n);
+    force.f = last + change;
+  } else {
+    force.f += damping;  // a server's journals were recorded with a step for the damping
   }
   clamp_norm(force.f, config_.max_force_n * state.gain);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/hand/friction_spring.hpp"
+
 namespace mechane::hand {
 namespace {
 
@@ -44,16 +46,6 @@ double share_left(Duration age, Duration validity) {
 double normal_force_n(const LocalContact& c, double depth_m, double v_n) {
   const double onset = std::min(1.0, depth_m / LocalContactModel::kDampingOnset_m);
   return c.stiffness_n_per_m * depth_m - c.damping_ns_per_m * std::min(v_n, 0.0) * onset;
-}
-
-/// `v` shortened to at most `limit`.
-Vec3 at_most(const Vec3& v, double limit) {
-  const double norm = v.norm();
-  return norm > limit ? Vec3(v * (limit / norm)) : v;
-}
-
-Vec3 along_surface(const Vec3& v, const Vec3& n) {
-  return v - v.dot(n) * n;
 }
 
 }  // namespace
@@ -105,12 +97,10 @@ Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age)
       const Vec3 v_rel_W = v_WH - share * c.v_W;
       const double normal_n = normal_force_n(c, overlap.depth_m, v_rel_W.dot(overlap.n_W));
       const double cone_n = c.friction * normal_n;
-      if (c.stiffness_n_per_m > 0) {
-        stretch =
-            at_most(along_surface(p_WH - touch.p_WA - touch.travelled_W, overlap.n_W), cone_n / c.stiffness_n_per_m);
-      }
-      const Vec3 damping = c.damping_ns_per_m * along_surface(v_rel_W, overlap.n_W);
-      force += share * (normal_n * overlap.n_W - at_most(c.stiffness_n_per_m * stretch + damping, cone_n));
+      stretch = along_surface(p_WH - touch.p_WA - touch.travelled_W, overlap.n_W);
+      const Vec3 damping_n = c.damping_ns_per_m * along_surface(v_rel_W, overlap.n_W);
+      const Vec3 friction = spring_friction(stretch, c.stiffness_n_per_m, damping_n, cone_n);
+      force += share * (normal_n * overlap.n_W + friction);
     }
     touch.p_WA = p_WH - touch.travelled_W - stretch;
   }

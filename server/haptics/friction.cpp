@@ -11,11 +11,6 @@ constexpr double kDampingBound = 0.3;
 constexpr double kDampsBelow_m_per_s = 0.02;
 constexpr double kSticksAgain = 0.9;  // share of the stretch: the hand went back, and it is not only a sensor's noise
 
-Vec3 at_most(const Vec3& v, double limit) {
-  const double norm = v.norm();
-  return norm > limit ? Vec3(v * (limit / norm)) : v;
-}
-
 }  // namespace
 
 Spring bounded_spring(const state::HapticMaterial& material, double m_eff_kg) noexcept {
@@ -33,9 +28,8 @@ Vec3 sticking_friction(const Rubbing& rubbing, const Spring& spring, Stretch& st
   const double pull_n = spring.stiffness_n_per_m * stretch.s_W.norm();
   stretch.slides = stretch.slides ? pull_n > kSticksAgain * dynamic_n : pull_n > static_n;
   const double cone_n = stretch.slides ? dynamic_n : static_n;
-  stretch.s_W = at_most(stretch.s_W, cone_n / spring.stiffness_n_per_m);
-  const Vec3 damping = spring.damping_ns_per_m * rubbing.sliding_W();
-  return -at_most(spring.stiffness_n_per_m * stretch.s_W + damping, cone_n);
+  const Vec3 damping_n = spring.damping_ns_per_m * rubbing.sliding_W();
+  return hand::spring_friction(stretch.s_W, spring.stiffness_n_per_m, damping_n, cone_n);
 }
 
 Vec3 damping_friction(const Rubbing& rubbing) noexcept {
@@ -63,7 +57,7 @@ Stretch FrictionAnchors::stretch_of(const ContactPatch& patch, const Pose& X_WB)
   for (const state::FrictionAnchor& anchor : std::span(before_).first(before_count_)) {
     if (anchor.body != patch.body || anchor.segment != patch.segment) continue;
     const Vec3 p_BS_W = X_WS(patch.segment) * anchor.p_SA - X_WB * anchor.p_BA;
-    return {p_BS_W - p_BS_W.dot(patch.n_BH_W) * patch.n_BH_W, anchor.slides};
+    return {hand::along_surface(p_BS_W, patch.n_BH_W), anchor.slides};
   }
   return {};
 }

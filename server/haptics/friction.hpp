@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "server/hand/friction_spring.hpp"
 #include "server/haptics/contact_patch.hpp"
 #include "server/state/world_state.hpp"
 
@@ -25,7 +26,7 @@ struct Rubbing {
   const state::HapticMaterial& material;
 
   /// The velocity's part along the surface.
-  [[nodiscard]] Vec3 sliding_W() const noexcept { return v_rel_W - v_rel_W.dot(n_BH_W) * n_BH_W; }
+  [[nodiscard]] Vec3 sliding_W() const noexcept { return hand::along_surface(v_rel_W, n_BH_W); }
 };
 
 /// How far the hand has gone along the surface from where it stuck.
@@ -34,9 +35,8 @@ struct Stretch {
   bool slides = false;      ///< dynamic friction holds, not static
 };
 
-/// The force on the hand, N in W, of a spring with the stretch; where that is more than the friction holds, the stretch gives way (Hayward
-/// and Armstrong 2000, with static friction until it slides, and dynamic friction until the hand goes back). A hand at rest does not creep,
-/// and no slope is steeper than the spring's.
+/// The force on the hand, N in W: hand::spring_friction(), with static friction until the hand slides, and dynamic friction until it goes
+/// back. A hand at rest does not creep, and no slope is steeper than the spring's.
 [[nodiscard]] Vec3 sticking_friction(const Rubbing& rubbing, const Spring& spring, Stretch& stretch) noexcept;
 
 /// The friction of journals before StateVersion::with_anchors: it falls linearly to zero with the speed, and so never holds.

@@ -4,6 +4,9 @@
 #include <array>
 #include <optional>
 
+#include "server/haptics/keep_deepest.hpp"
+#include "server/haptics/near_bodies.hpp"
+
 namespace mechane::haptics {
 namespace {
 
@@ -20,8 +23,8 @@ bool touches(const UserState& user, std::size_t segment, BodyId body) {
                      [&](const Contact& c) { return c.body == body && c.segment == segment; });
 }
 
-/// The nearest place of a surface that faces the segment; the ball inside the segment stands for it. Around it the normals are averaged, for
-/// those of a body's own samples point to the ball's centre; those of other walls do not count.
+/// The nearest place of a surface, with the gap between it and the largest ball inside the segment. A single normal is not good enough, because
+/// those of a body's own samples point to the ball's centre: the normals of this wall's points are averaged, without those of other walls.
 std::optional<Contact> nearest(std::span<const PointContact> points, const Vec3& p_WS, double inner_radius_m) {
   constexpr double kSameWall = 0.7;        // cosine: 45 degrees
   constexpr double kMostOverlap_m = 1e-3;  // of what does not touch: more is a wall that is not there
@@ -42,37 +45,22 @@ std::optional<Contact> nearest(std::span<const PointContact> points, const Vec3&
   return Contact{{}, 0, best->p_WC, n_BH_W, std::min(overlap_m, 0.0)};
 }
 
-/// Keeps the nearest.
-void keep_near(UserState& user, const Contact& contact) {
-  if (user.near_count < user.near.size()) {
-    user.near[user.near_count++] = contact;
-    return;
-  }
-  const auto farthest = std::min_element(user.near.begin(), user.near.end(),
-                                         [](const Contact& a, const Contact& b) { return a.depth_m < b.depth_m; });
-  if (farthest->depth_m < contact.depth_m) *farthest = contact;
-}
-
 void look_from(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
                UserState& user, std::size_t segment) {
   const Pose& X_WS = user.X_WS[segment];
-  for (std::size_t b = 0; b < description.bodies.size(); ++b) {
-    const BodyId body(b);
-    const collision::Object* object = description.bodies[b].object.get();
-    if (object == nullptr || !state[body].visible) continue;
-    const Pose& X_WB = state[body].X_WB;
-    const double reach_m = hand.near_radius_m() + object->bound_O.radius;
-    if ((X_WS.p - X_WB * object->bound_O.center).squaredNorm() > reach_m * reach_m) continue;
-    if (touches(user, segment, body)) continue;
+  const double inner_radius_m = hand.inner_radius_m(user.sample, segment);
+  const auto look_at = [&](BodyId body, const collision::Object& object, const Pose& X_WB) {
+    if (touches(user, segment, body)) return;
     std::array<PointContact, kPoints> storage;
     collision::ContactBuffer buffer(storage);
-    collision::find_contacts(hand.near_ball(), X_WS, *object, X_WB, buffer);
-    std::optional<Contact> found = nearest(buffer.contacts(), X_WS.p, hand.inner_radius_m(user.sample, segment));
-    if (!found) continue;
+    collision::find_contacts(hand.near_ball(), X_WS, object, X_WB, buffer);
+    std::optional<Contact> found = nearest(buffer.contacts(), X_WS.p, inner_radius_m);
+    if (!found) return;
     found->body = body;
     found->segment = static_cast<std::uint8_t>(segment);
-    keep_near(user, *found);
-  }
+    keep_deepest(user.near, user.near_count, *found);
+  };
+  for_each_body_near(description, state, X_WS.p, hand.near_radius_m(), look_at);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/effective_mass.hpp"
 #include "server/haptics/friction.hpp"
+#include "server/haptics/keep_deepest.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -41,15 +42,16 @@ void add_to_finger(UserState& user, std::size_t segment, const Vec3& f_H_W) {
   user.output.finger_force_n[hand::finger_of(segment)] += std::max(0.0, pull_n);
 }
 
-/// Keeps the deepest.
-void add_local_contact(HapticOutput& out, const hand::LocalContact& contact) {
-  if (out.contact_count < out.contacts.size()) {
-    out.contacts[out.contact_count++] = contact;
-    return;
-  }
-  const auto shallowest = std::min_element(out.contacts.begin(), out.contacts.end(),
-                                           [](const auto& a, const auto& b) { return a.depth_m < b.depth_m; });
-  if (shallowest->depth_m < contact.depth_m) *shallowest = contact;
+void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& v_B_W, const Spring& spring,
+                       const HapticMaterial& material) {
+  const hand::LocalContact contact{.p_W = at.p_WC,
+                                   .n_W = at.n_BH_W,
+                                   .v_W = v_B_W,
+                                   .depth_m = at.depth_m,
+                                   .stiffness_n_per_m = spring.stiffness_n_per_m,
+                                   .damping_ns_per_m = spring.damping_ns_per_m,
+                                   .friction = material.dynamic_friction};
+  keep_deepest(out.contacts, out.contact_count, contact);
 }
 
 /// One touch of the product's mode. Moves its anchor.
@@ -92,13 +94,8 @@ void render_patches(const state::WorldDescription& description, state::WorldStat
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
     if (user.grasp.active && user.grasp.body == patch.body) continue;
     add_to_hand(user, force.f_H_W, patch.p_WC);
-    add_local_contact(user.output, {.p_W = patch.p_WC,
-                                    .n_W = patch.n_BH_W,
-                                    .v_W = v_B_W,
-                                    .depth_m = patch.depth_m,
-                                    .stiffness_n_per_m = force.spring.stiffness_n_per_m,
-                                    .damping_ns_per_m = force.spring.damping_ns_per_m,
-                                    .friction = description.bodies[patch.body.index()].haptic.dynamic_friction});
+    const state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
+    add_local_contact(user.output, touch, v_B_W, force.spring, description.bodies[patch.body.index()].haptic);
     add_force(body, -user.freshness * force.f_H_W, patch.p_WC);
   }
 }
@@ -111,15 +108,9 @@ void announce_near(const state::WorldDescription& description, const state::Worl
     if (user.grasp.active && user.grasp.body == near.body) continue;
     const BodyState& body = state[near.body];
     const HapticMaterial& material = description.bodies[near.body.index()].haptic;
-    const Spring spring =
-        bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
-    add_local_contact(user.output, {.p_W = near.p_WC,
-                                    .n_W = near.n_BH_W,
-                                    .v_W = body.V_WB.at(near.p_WC - body.X_WB.p),
-                                    .depth_m = near.depth_m,
-                                    .stiffness_n_per_m = kPatchShare * spring.stiffness_n_per_m,
-                                    .damping_ns_per_m = spring.damping_ns_per_m,
-                                    .friction = material.dynamic_friction});
+    Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
+    spring.stiffness_n_per_m *= kPatchShare;
+    add_local_contact(user.output, near, body.V_WB.at(near.p_WC - body.X_WB.p), spring, material);
   }
 }
 

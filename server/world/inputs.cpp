@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/hand/freshness.hpp"
+#include "server/hand/friction_spring.hpp"
 
 namespace mechane::world {
 namespace {
@@ -16,11 +17,6 @@ constexpr double kHandSpeedLimit = 10.0;
 constexpr double kHandTurnLimit = 50.0;
 // Quantisation and jitter of samples that arrive in bursts.
 constexpr double kJumpSlackM = 0.02;
-
-Vec3 limited(const Vec3& v, double limit) {
-  const double size = v.norm();
-  return size > limit ? Vec3(v * (limit / size)) : v;
-}
 
 void let_go(state::WorldState& state, UserState& user, std::uint32_t index) {
   if (!user.grasp.active) return;
@@ -43,8 +39,8 @@ void take_sample(state::WorldState& state, UserState& user, const UserInput& inp
   if (user.jumped) let_go(state, user, index);
   user.sample = input.sample;
   user.X_WH = input.sample.X_WH;
-  user.V_WH.v = limited(input.sample.V_WH.v, kHandSpeedLimit);
-  user.V_WH.w = limited(input.sample.V_WH.w, kHandTurnLimit);
+  user.V_WH.v = hand::at_most(input.sample.V_WH.v, kHandSpeedLimit);
+  user.V_WH.w = hand::at_most(input.sample.V_WH.w, kHandTurnLimit);
 }
 
 void take_user(state::WorldState& state, UserState& user, const UserInput& input, std::uint32_t index) {
