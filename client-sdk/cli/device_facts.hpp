@@ -59,7 +59,8 @@ struct PluggedDevice {
 /// Whether a program of this machine listens at a TCP port.
 [[nodiscard]] bool is_listened_to(const std::filesystem::path& root, int port);
 
-/// Why none of the libraries loads; empty: one does. In a process of its own, which a maker's library may crash or hold up.
+/// Tries to load one of the libraries, in a child process, because a maker's library may crash or hang. Empty when one loads; else the
+/// reason why none does.
 [[nodiscard]] std::string why_not_loaded(const std::vector<std::string>& files);
 
 }  // namespace mechane::cli

@@ -161,7 +161,8 @@ void DeviceCheck::check_driver(const std::string& name, const std::string& remed
   const std::string wanted = "a driver of this version of Mechane";
   if (name.find('/') != std::string::npos) {
     std::error_code unreadable;
-    if (!fs::exists(at(name), unreadable)) problems.add("there is no driver " + name, wanted, "install it" + remedy);
+    if (!fs::exists(at(name), unreadable))
+      problems.add("the driver " + name + " is not installed", wanted, "install it" + remedy);
     return;
   }
   if (!drivers_are_listed_ || name == "virtual") return;
@@ -170,7 +171,8 @@ void DeviceCheck::check_driver(const std::string& name, const std::string& remed
     std::string names = "virtual";
     for (const auto& [other, fault] : drivers_)
       names += ", " + other;
-    problems.add(fmt::format("there is no driver '{}'; there are: {}", name, names), wanted, kInstallDrivers + remedy);
+    problems.add(fmt::format("the driver '{}' is not installed; these are: {}", name, names), wanted,
+                 kInstallDrivers + remedy);
   } else if (!found->second.empty()) {
     problems.add(found->second, wanted, fmt::format("install the drivers of this version: {}", kInstallDrivers));
   }
@@ -311,7 +313,7 @@ void DeviceCheck::check_kiosk(const KioskDevice& kiosk) {
     return problems.report(name, CheckStatus::bad, "", results_);
   }
   if (!group_id(root_, kDeviceGroup))
-    problems.add(fmt::format("there is no group {}: the kiosk's unit does not start", kDeviceGroup),
+    problems.add(fmt::format("the group {} is missing, so the kiosk's unit does not start", kDeviceGroup),
                  "the group that owns haptic devices", fmt::format("as root: groupadd --system {}", kDeviceGroup));
   check_driver(kiosk.driver, "; or correct DEVICE= in " + kiosk.file, problems);
   check_library(kiosk.driver, kiosk.options, problems);
@@ -347,7 +349,7 @@ void DeviceCheck::check_plugged(const PluggedDevice& device) {
                   results_);
 }
 
-/// Nobody says that a glove is behind it: what another program has open is none of ours.
+/// The adapter of a glove, or of something else. Where another program has it open, it is taken to be that program's.
 void DeviceCheck::check_adapter(const PluggedDevice& device) {
   Problems problems;
   std::string fine = device.where + ", perhaps of a LucidGloves board";

@@ -4,20 +4,20 @@
 
 namespace mechane::drivers {
 
-std::string VendorLibrary::load(const std::vector<std::string>& files) {
+std::string VendorLibrary::load(const std::string& file, const std::vector<std::string>& installed) {
   std::string why;
   std::string tried;
-  for (const std::string& file : files) {
-    handle_ = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL);  // global: the vendor's libraries look each other up
+  for (const std::string& one : file.empty() ? installed : std::vector{file}) {
+    handle_ = ::dlopen(one.c_str(), RTLD_LAZY | RTLD_GLOBAL);  // global: the vendor's libraries look each other up
     if (handle_ != nullptr) {
-      file_ = file;
+      file_ = one;
       return {};
     }
     const char* error = ::dlerror();
     // A file that is there and does not load tells more than one that is not there.
-    const bool there = error != nullptr && !std::string(error).starts_with(file + ": cannot open");
+    const bool there = error != nullptr && !std::string(error).starts_with(one + ": cannot open");
     if (error != nullptr && (why.empty() || there)) why = error;
-    tried += (tried.empty() ? "" : ", ") + file;
+    tried += (tried.empty() ? "" : ", ") + one;
   }
   return "the vendor's library does not load: " + why + " (tried: " + tried +
          "). Install the vendor's software, or give the file as library=PATH";

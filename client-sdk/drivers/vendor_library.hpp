@@ -10,9 +10,9 @@ namespace mechane::drivers {
 /// thread.
 class VendorLibrary {
  public:
-  /// Loads the first of `files` that loads: names for the system's search path, or paths. Returns why none did, with
-  /// the names tried; empty: one did.
-  [[nodiscard]] std::string load(const std::vector<std::string>& files);
+  /// Loads `file`, which the technician gave; where it is empty, the first of `installed` that loads. Both are paths, or
+  /// names for the system's search path. Returns why none loads, with the names tried; empty when one does.
+  [[nodiscard]] std::string load(const std::string& file, const std::vector<std::string>& installed);
 
   /// Sets `function` to the library's function of that name; a name that it lacks is noted in missing().
   template <class Function>

@@ -1,22 +1,13 @@
 #include "client-sdk/haptic/calibration_course.hpp"
 
-#include <array>
-
 namespace mechane::haptic {
-namespace {
-
-constexpr std::array<const char*, kCalibrationPoses> kAsk{
-    "hold the hand flat, fingers together, the thumb stretched out to the side",
-    "make a fist, the thumb across index and middle finger", "put the tip of the thumb on the tip of the index finger"};
-
-}  // namespace
 
 std::string CalibrationCourse::ask(TimePoint now, const std::string& before) {
   ++tries_;
   recording_ = false;
   asked_ = now;
-  return before + std::to_string(pose_ + 1) + " of " + std::to_string(kCalibrationPoses) + ": " + kAsk[pose_] +
-         ", and keep still";
+  return before + std::to_string(pose_ + 1) + " of " + std::to_string(kCalibrationPoses) + ": " +
+         how_to_show(static_cast<CalibrationPose>(pose_));
 }
 
 /// After a pose that was taken.

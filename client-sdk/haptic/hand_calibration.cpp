@@ -34,7 +34,7 @@ constexpr const char* kJointNames[] = {"sideways", "at its first joint", "at its
 
 struct PoseName {
   const char* name;
-  const char* again;
+  const char* how;
 };
 constexpr PoseName kPoses[] = {
     {"flat hand", "lay the hand flat, fingers together and thumb stretched out to the side, and hold it still"},
@@ -46,7 +46,7 @@ const PoseName& name_of(CalibrationPose pose) {
 }
 
 tl::unexpected<Error> refused(CalibrationPose pose, std::string what) {
-  return fail(ErrorCode::invalid_value, std::move(what), name_of(pose).name, name_of(pose).again);
+  return fail(ErrorCode::invalid_value, std::move(what), name_of(pose).name, name_of(pose).how);
 }
 
 std::string in_degrees(double angle_rad) {
@@ -189,6 +189,10 @@ Expected<HandCalibration> make(const HandAngles& flat, const HandAngles& fist, c
 
 }  // namespace
 
+const char* how_to_show(CalibrationPose pose) noexcept {
+  return name_of(pose).how;
+}
+
 HandAngles model_fist() noexcept {
   HandAngles fist{-20 * kDegree, 25 * kDegree, 40 * kDegree, 60 * kDegree};
   for (std::size_t f = 1; f < hand::kFingers; ++f) {
@@ -259,7 +263,7 @@ Expected<void> HandCalibrator::end() {
 
 Expected<HandCalibration> HandCalibrator::result() const {
   for (std::size_t p = 0; p < poses_.size(); ++p)
-    if (!poses_[p]) return fail(ErrorCode::missing, "this pose has not been shown", kPoses[p].name, kPoses[p].again);
+    if (!poses_[p]) return fail(ErrorCode::missing, "this pose has not been shown", kPoses[p].name, kPoses[p].how);
   return make(*poses_[0], *poses_[1], *poses_[2]);
 }
 

@@ -24,6 +24,9 @@ enum class CalibrationPose : std::uint8_t {
 };
 inline constexpr std::size_t kCalibrationPoses = 3;
 
+/// What a visitor does to show the pose, as it is said to the visitor.
+[[nodiscard]] const char* how_to_show(CalibrationPose pose) noexcept;
+
 /// The fist of Mechane's hand; its flat hand is all zeros. Ranges of the fingers' joints: American Academy of Orthopaedic
 /// Surgeons. The thumb lies on index and middle finger.
 [[nodiscard]] HandAngles model_fist() noexcept;

@@ -36,8 +36,8 @@ class Workspace {
   [[nodiscard]] const Vec3& p_WH() const noexcept { return p_WH_; }
   [[nodiscard]] Quat R_WH(const Quat& R_DH) const noexcept { return R_WD_ * R_DH; }
 
-  /// A force or torque for the device. It is lowered by the scale: a wall is then no stiffer than without one, and the device gives the hand
-  /// no more energy than the loop accounts for in the world.
+  /// A force or torque for the device, divided by the scale: a wall is then no stiffer than with a scale of 1, and the hand gets no more
+  /// energy from the device than the loop has counted in the world.
   [[nodiscard]] Vec3 to_device(const Vec3& force_W) const noexcept {
     return R_WD_.conjugate() * force_W / config_.scale;
   }

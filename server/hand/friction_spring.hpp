@@ -16,8 +16,8 @@ namespace mechane::hand {
   return v - v.dot(n) * n;
 }
 
-/// The force on the hand, N: a spring from where the hand stuck, and damping, together at most `cone_n`. `stretch_m` is how far the hand has
-/// gone from there along the surface; it gives way where the spring alone would pull harder (Hayward and Armstrong 2000).
+/// The force on the hand, N: a spring from where the hand stuck, and damping, together at most `cone_n`. `stretch_m` is how far the hand
+/// has gone from there along the surface; it is shortened where the spring alone would pull harder (Hayward and Armstrong 2000).
 [[nodiscard]] inline Vec3 spring_friction(Vec3& stretch_m, double stiffness_n_per_m, const Vec3& damping_n,
                                           double cone_n) noexcept {
   stretch_m = stiffness_n_per_m > 0 ? at_most(stretch_m, cone_n / stiffness_n_per_m) : Vec3(Vec3::Zero());

@@ -23,8 +23,8 @@ bool touches(const UserState& user, std::size_t segment, BodyId body) {
                      [&](const Contact& c) { return c.body == body && c.segment == segment; });
 }
 
-/// The nearest place of a surface, with the gap between it and the largest ball inside the segment. A single normal is not good enough, because
-/// those of a body's own samples point to the ball's centre: the normals of this wall's points are averaged, without those of other walls.
+/// The nearest place of a surface, with the gap between it and the largest ball inside the segment. A body's own samples have normals that
+/// point to the ball's centre, so the normals of all points of the same wall are averaged. Points of other walls do not count.
 std::optional<Contact> nearest(std::span<const PointContact> points, const Vec3& p_WS, double inner_radius_m) {
   constexpr double kSameWall = 0.7;        // cosine: 45 degrees
   constexpr double kMostOverlap_m = 1e-3;  // of what does not touch: more is a wall that is not there

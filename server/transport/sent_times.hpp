@@ -14,7 +14,7 @@ namespace mechane::transport {
 /// note() is for the thread that writes outputs, round_trip_of() for the one that listens to samples. Wait-free.
 class SentTimes {
  public:
-  /// A sender that has heard nothing for so long tells nothing of the network.
+  /// When a sender has had no output for longer, its echo says nothing about the network.
   static constexpr Duration kForgets = std::chrono::seconds(1);
 
   /// The output with this sequence number is about to be sent; numbers rise by one, from 1 on.
@@ -23,9 +23,9 @@ class SentTimes {
     newest_.store(sequence, std::memory_order_release);
   }
 
-  /// How long output `echo` was on its way to a sender, and a sample of that sender on its way here, which arrived `now`. The sender had the
-  /// output for `held` before it sent the sample. Of an output that is no longer in the table, the least that it can be. Zero where nothing
-  /// is known: `echo` is 0, or `held` is over kForgets. Nothing where the output was never sent.
+  /// The round trip of a sample that arrived `now`: output `echo` went to its sender, who had it for `held` and then sent the sample. When
+  /// the output is too old for the table, returns the shortest time that it can have been. Returns zero when nothing is known (`echo` is 0,
+  /// or `held` is over kForgets), and nothing when the output was never sent.
   [[nodiscard]] std::optional<Duration> round_trip_of(std::uint64_t echo, Duration held, TimePoint now) const noexcept {
     const std::uint64_t newest = newest_.load(std::memory_order_acquire);
     if (echo > newest) return std::nullopt;

@@ -9,7 +9,7 @@ std::string load(Api& api, const std::string& file) {
     return "the option library is missing. Build the library that Mechane's cybergrasp/shim.h describes with the "
            "maker's VirtualHand SDK, and give it as library=FILE";
   VendorLibrary library;
-  if (std::string fault = library.load({file}); !fault.empty()) return fault;
+  if (std::string fault = library.load(file, {}); !fault.empty()) return fault;
   library.need(api.version, "mechane_grasp_version");
   library.need(api.open, "mechane_grasp_open");
   library.need(api.set_mode, "mechane_grasp_set_mode");

@@ -29,7 +29,7 @@ std::string load(Api& api, const std::string& file) {
   VendorLibrary library;
   const std::vector<std::string> installed = {"libdrd.so.3", "libdrd.so", "/usr/local/lib/libdrd.so.3",
                                               "/usr/local/lib/libdrd.so"};
-  if (std::string fault = library.load(file.empty() ? installed : std::vector{file}); !fault.empty()) return fault;
+  if (std::string fault = library.load(file, installed); !fault.empty()) return fault;
   library.need(api.drd_open, "drdOpenID");
   library.need(api.drd_close, "drdClose");
   library.need(api.drd_is_initialized, "drdIsInitialized");

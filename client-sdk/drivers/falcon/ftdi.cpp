@@ -9,7 +9,7 @@ namespace mechane::drivers::falcon {
 std::string load(Ftdi& ftdi, const std::string& file) {
   VendorLibrary library;
   const std::vector<std::string> installed = {"libftdi1.so.2"};
-  if (std::string fault = library.load(file.empty() ? installed : std::vector{file}); !fault.empty())
+  if (std::string fault = library.load(file, installed); !fault.empty())
     return fault + ". On Debian it is the package libftdi1-2";
   library.need(ftdi.make, "ftdi_new");
   library.need(ftdi.free, "ftdi_free");

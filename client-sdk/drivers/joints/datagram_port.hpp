@@ -11,8 +11,8 @@
 
 namespace mechane::drivers {
 
-/// Open from one of the open functions until it goes. One thread. Faults are in words for a person, empty when there is
-/// none.
+/// Listens from one of the open functions on until its end. One thread. Functions return what went wrong, in words for a
+/// person, or an empty text.
 class DatagramPort {
  public:
   DatagramPort() = default;
@@ -22,14 +22,15 @@ class DatagramPort {
 
   /// UDP on 127.0.0.1. Fault: another program has the port.
   [[nodiscard]] std::string open_udp(std::uint16_t port);
-  /// A new socket, which goes when this does; it replaces one that nobody listens at. Who may send is up to the folder
-  /// and the umask. Faults: no such folder, no right to it, another program listens there, a file that is no socket.
+  /// Makes the socket `file`, and deletes it at the end. A socket that an ended program left there is replaced. Who may
+  /// send is up to the folder and the umask. Faults: the folder is missing or may not be written to, another program
+  /// listens at the socket, or the file exists and is not a socket.
   [[nodiscard]] std::string open_socket(const std::string& file);
 
   /// Until a datagram is there, or `patience` has passed.
   void wait(std::chrono::milliseconds patience) const noexcept;
-  /// The next datagram that has come. `length` is its whole length, also where that is over the size of `into`; below 0:
-  /// there is none. Fault: the socket failed.
+  /// Takes the next datagram. `length` is its whole length, even when it is longer than `into`; it is below 0 when no
+  /// datagram has come. Fault: the socket does not work.
   [[nodiscard]] std::string receive(std::span<char> into, ssize_t& length) const;
 
  private:

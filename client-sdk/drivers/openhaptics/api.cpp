@@ -10,7 +10,7 @@ namespace mechane::drivers::hd {
 std::string load(Api& api, const std::string& file) {
   VendorLibrary library;
   const std::vector<std::string> installed = {"libHD.so", "libHD.so.3.4", "libHD.so.3.0", "/usr/lib64/libHD.so"};
-  if (std::string fault = library.load(file.empty() ? installed : std::vector{file}); !fault.empty()) return fault;
+  if (std::string fault = library.load(file, installed); !fault.empty()) return fault;
   library.need(api.init_device, "hdInitDevice");
   library.need(api.disable_device, "hdDisableDevice");
   library.need(api.begin_frame, "hdBeginFrame");

@@ -10,41 +10,23 @@
 #include <gtest/gtest.h>
 
 #include "client-sdk/drivers/cybergrasp/convert.hpp"
-#include "tests/support/driver_under_test.hpp"
+#include "tests/support/driver_on_fake.hpp"
 
 namespace mechane::test {
 namespace {
 
-constexpr const char* kFakeCyberGrasp = MECHANE_TEST_FAKES "/fake_cybergrasp.so";
 constexpr double kGraspNan = std::numeric_limits<double>::quiet_NaN();
 using GraspPulls = std::array<double, 5>;
 
-class CyberGraspDriver : public ::testing::Test {
+class CyberGraspDriver : public DriverOnFake {
  protected:
-  CyberGraspDriver() : library_(::dlopen(kFakeCyberGrasp, RTLD_LAZY | RTLD_GLOBAL)) {
-    if (library_ == nullptr) {
-      ADD_FAILURE() << ::dlerror();
-      return;
-    }
-    find(set_, "fake_cybergrasp_set");
-    find(get_, "fake_cybergrasp_get");
-    find(reset_, "fake_cybergrasp_reset");
-    reset_();
-  }
+  CyberGraspDriver() : DriverOnFake("cybergrasp", "cybergrasp") {}
   void TearDown() override {
-    driver_.close();
+    DriverOnFake::TearDown();
     EXPECT_EQ(get_("misuse"), 0);
     EXPECT_EQ(get_("open"), 0);
-    if (library_ != nullptr) ::dlclose(library_);
   }
 
-  std::string open(const std::string& more = "") {
-    return driver_.open("library=" + std::string(kFakeCyberGrasp) + more);
-  }
-  std::string read() {
-    state_ = {};
-    return driver_.read(state_);
-  }
   std::string pull(const GraspPulls& finger_n) {
     mechane_device_force force{};
     std::copy(finger_n.begin(), finger_n.end(), force.finger_n);
@@ -60,36 +42,20 @@ class CyberGraspDriver : public ::testing::Test {
     } while (fault.empty() && pulls() == GraspPulls{} && std::chrono::steady_clock::now() < deadline);
     return fault;
   }
-  /// Whether it becomes true within a second while the glove is read and pulled.
+  /// While the glove is read and pulled.
   template <class Condition>
-  bool comes(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-    while (!condition() && std::chrono::steady_clock::now() < deadline) {
+  bool comes(const Condition& condition) {
+    return DriverOnFake::comes(condition, [this] {
       fault_ = read();
       if (fault_.empty()) fault_ = pull({6, 6, 6, 6, 6});
-    }
-    return condition();
+    });
   }
   bool fault_comes() {
     return comes([this] { return !fault_.empty(); });
   }
-  [[nodiscard]] bool ready() const { return (state_.flags & MECHANE_STATE_READY) != 0; }
   [[nodiscard]] GraspPulls pulls() const { return {get_("f0"), get_("f1"), get_("f2"), get_("f3"), get_("f4")}; }
 
-  void (*set_)(const char*, double) = nullptr;
-  double (*get_)(const char*) = nullptr;
-  void (*reset_)() = nullptr;
-  DriverUnderTest driver_{"cybergrasp"};
-  mechane_device_state state_{};
   std::string fault_;
-
- private:
-  template <class Function>
-  void find(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(::dlsym(library_, name));
-  }
-
-  void* library_;
 };
 
 TEST_F(CyberGraspDriver, OpensInModeForceWithoutForce) {

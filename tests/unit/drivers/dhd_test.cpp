@@ -11,36 +11,17 @@
 
 #include "client-sdk/drivers/dhd/api.hpp"
 #include "client-sdk/drivers/vectors.hpp"
-#include "tests/support/driver_under_test.hpp"
+#include "tests/support/driver_on_fake.hpp"
 
 namespace mechane::test {
 namespace {
 
-constexpr const char* kFakeDhd = MECHANE_TEST_FAKES "/fake_dhd.so";
 constexpr double kDhdNan = std::numeric_limits<double>::quiet_NaN();
 
-class DhdDriver : public ::testing::Test {
+class DhdDriver : public DriverOnFake {
  protected:
-  DhdDriver() : library_(::dlopen(kFakeDhd, RTLD_LAZY | RTLD_GLOBAL)) {
-    if (library_ == nullptr) {
-      ADD_FAILURE() << ::dlerror();
-      return;
-    }
-    find(set_, "fake_dhd_set");
-    find(get_, "fake_dhd_get");
-    find(reset_, "fake_dhd_reset");
-    reset_();
-  }
-  void TearDown() override {
-    driver_.close();
-    if (library_ != nullptr) ::dlclose(library_);
-  }
+  DhdDriver() : DriverOnFake("dhd", "dhd") {}
 
-  std::string open(const std::string& more = "") { return driver_.open("library=" + std::string(kFakeDhd) + more); }
-  std::string read() {
-    state_ = {};
-    return driver_.read(state_);
-  }
   /// As many reads as it takes until the driver asks the device for its status.
   std::string look() {
     std::string fault;
@@ -48,40 +29,18 @@ class DhdDriver : public ::testing::Test {
       fault = read();
     return fault;
   }
-  std::string push(double x, double y, double z) {
-    mechane_device_force force{};
-    force.force_n[0] = x, force.force_n[1] = y, force.force_n[2] = z;
-    return driver_.write(force);
-  }
   /// Reads until the driver would switch a force on again that the device has switched off.
   void rest() {
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(250);
     EXPECT_TRUE(comes([until] { return std::chrono::steady_clock::now() > until; }));
   }
-  /// Whether it becomes true within a second while the device is read.
+  /// While the device is read.
   template <class Condition>
-  bool comes(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-    while (!condition() && std::chrono::steady_clock::now() < deadline)
-      last_fault_ = read();
-    return condition();
+  bool comes(const Condition& condition) {
+    return DriverOnFake::comes(condition, [this] { last_fault_ = read(); });
   }
-  [[nodiscard]] bool ready() const { return (state_.flags & MECHANE_STATE_READY) != 0; }
 
-  void (*set_)(const char*, double) = nullptr;
-  double (*get_)(const char*) = nullptr;
-  void (*reset_)() = nullptr;
-  DriverUnderTest driver_{"dhd"};
-  mechane_device_state state_{};
   std::string last_fault_;
-
- private:
-  template <class Function>
-  void find(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(::dlsym(library_, name));
-  }
-
-  void* library_;
 };
 
 TEST_F(DhdDriver, OpensWithoutForceAndInTheVendorsOrder) {

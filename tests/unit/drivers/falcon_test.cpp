@@ -14,7 +14,8 @@
 
 #include "client-sdk/drivers/falcon/frame.hpp"
 #include "client-sdk/drivers/falcon/kinematics.hpp"
-#include "tests/support/driver_under_test.hpp"
+#include "client-sdk/drivers/vectors.hpp"
+#include "tests/support/driver_on_fake.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::test {
@@ -22,12 +23,7 @@ namespace {
 
 using drivers::falcon::Triple;
 
-constexpr const char* kFakeFtdi = MECHANE_TEST_FAKES "/fake_ftdi.so";
 constexpr double kFalconCounts = 400;  // for a newton
-
-double falcon_dot(const Triple& u, const Triple& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
 
 /// Somewhere in the workspace, in the base's frame.
 Triple falcon_place(std::mt19937& random) {
@@ -51,40 +47,20 @@ Triple falcon_turns(const Triple& p, std::size_t axis) {
   return turns;
 }
 
-class FalconDriver : public ::testing::Test {
+class FalconDriver : public DriverOnFake {
  protected:
-  FalconDriver() : library_(::dlopen(kFakeFtdi, RTLD_LAZY | RTLD_GLOBAL)) {
-    if (library_ == nullptr) {
-      ADD_FAILURE() << ::dlerror();
-      return;
-    }
-    find(set_, "fake_ftdi_set");
-    find(get_, "fake_ftdi_get");
-    find(reset_, "fake_ftdi_reset");
-    reset_();
-  }
+  FalconDriver() : DriverOnFake("falcon", "ftdi") {}
   void TearDown() override {
-    driver_.close();
+    DriverOnFake::TearDown();
     EXPECT_EQ(get_("misuse"), 0);
     EXPECT_EQ(get_("open"), 0);
     EXPECT_EQ(get_("contexts"), 0);
-    if (library_ != nullptr) ::dlclose(library_);
   }
 
-  std::string open(const std::string& more) { return driver_.open("library=" + std::string(kFakeFtdi) + more); }
   /// A board that runs, with legs that know their angles.
   std::string open_running(const std::string& more = ",counts_per_newton=400") {
     set_("running", 1);
     return open(more);
-  }
-  std::string read() {
-    state_ = {};
-    return driver_.read(state_);
-  }
-  std::string push(double x, double y, double z) {
-    mechane_device_force force{};
-    force.force_n[0] = x, force.force_n[1] = y, force.force_n[2] = z;
-    return driver_.write(force);
   }
   /// Reads and pushes until the motors do something: on a busy machine a hand may be of a while ago.
   std::string render(const Triple& force_n) {
@@ -106,20 +82,17 @@ class FalconDriver : public ::testing::Test {
     for (const char* encoder : {"e0", "e1", "e2"})
       set_(encoder, std::round((angles[leg++] - zero) / step));
   }
-  /// Whether it becomes true within a second while the device is read and told `force_n`.
+  /// While the device is read and pushes.
   template <class Condition>
-  bool comes(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-    while (!condition() && std::chrono::steady_clock::now() < deadline) {
+  bool comes(const Condition& condition) {
+    return DriverOnFake::comes(condition, [this] {
       fault_ = read();
       if (fault_.empty()) fault_ = push(0, 0, 1);
-    }
-    return condition();
+    });
   }
   bool fault_comes() {
     return comes([this] { return !fault_.empty(); });
   }
-  [[nodiscard]] bool ready() const { return (state_.flags & MECHANE_STATE_READY) != 0; }
   [[nodiscard]] Triple motors() const { return {get_("m0"), get_("m1"), get_("m2")}; }
   /// The force at the grip for these motors, by the work that they do when it moves.
   [[nodiscard]] Triple force_of(const Triple& p_D, const Triple& motors) const {
@@ -127,26 +100,13 @@ class FalconDriver : public ::testing::Test {
     for (std::size_t i = 0; i < 3; ++i)
       p[i] += p_D[i];
     for (std::size_t axis = 0; axis < 3; ++axis)
-      force[axis] = -falcon_dot(motors, falcon_turns(p, axis)) * drivers::falcon::kThigh_m / kFalconCounts;
+      force[axis] = -drivers::dot(motors, falcon_turns(p, axis)) * drivers::falcon::kThigh_m / kFalconCounts;
     return force;
   }
 
-  void (*set_)(const char*, double) = nullptr;
-  double (*get_)(const char*) = nullptr;
-  void (*reset_)() = nullptr;
   ScratchFolder folder_;
   std::string image_ = folder_.write("image.bin", std::string(1000, 'f')).string();
-  DriverUnderTest driver_{"falcon"};
-  mechane_device_state state_{};
   std::string fault_;
-
- private:
-  template <class Function>
-  void find(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(::dlsym(library_, name));
-  }
-
-  void* library_;
 };
 
 TEST_F(FalconDriver, LoadsTheFirmwareOnceAndThenFindsItRunning) {
@@ -300,7 +260,7 @@ TEST_F(FalconDriver, KeepsTheDirectionOfAForceThatIsTooMuch) {
       most = std::max(most, std::abs(motor));
     EXPECT_EQ(most == 4095, counts == std::string_view("1500")) << most;
     const Triple got = force_of(p, motors());
-    const double length = std::sqrt(falcon_dot(got, got)), cosine = falcon_dot(got, wanted) / length / 700;
+    const double length = std::sqrt(drivers::dot(got, got)), cosine = drivers::dot(got, wanted) / length / 700;
     EXPECT_LE(length * kFalconCounts / std::stod(counts), 8.01);
     EXPECT_GT(cosine, 0.9999);
     ASSERT_EQ(read(), "");
@@ -428,7 +388,7 @@ TEST(FalconKinematics, EveryShinKeepsItsLength) {
       const double turn = (105.0 - 120.0 * static_cast<double>(leg)) * M_PI / 180;
       const Triple out = {std::cos(turn), std::sin(turn), 0}, along = {-out[1], out[0], 0};
       const double knee_out = 0.0400 + 0.060 * std::cos(angles[leg]), knee_up = 0.060 * std::sin(angles[leg]);
-      const double u = falcon_dot(p, out) + 0.01443 - knee_out, v = falcon_dot(p, along) + 0.02309 - 0.025;
+      const double u = drivers::dot(p, out) + 0.01443 - knee_out, v = drivers::dot(p, along) + 0.02309 - 0.025;
       const double seen = std::hypot(u, p[2] - knee_up) - 2 * 0.01125;  // along the axle, less the links
       EXPECT_NEAR(std::hypot(seen, v), 0.1025, 1e-9);
     }
@@ -444,7 +404,7 @@ TEST(FalconKinematics, TorquesDoTheWorkOfTheForce) {
     ASSERT_TRUE(drivers::falcon::thigh_angles(p, angles));
     ASSERT_TRUE(drivers::falcon::thigh_torques(angles, p, force, torques));
     for (std::size_t axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(falcon_dot(torques, falcon_turns(p, axis)), force[axis], 1e-5);
+      EXPECT_NEAR(drivers::dot(torques, falcon_turns(p, axis)), force[axis], 1e-5);
   }
 }
 

@@ -13,47 +13,30 @@
 #include "client-sdk/drivers/openhaptics/mailbox.hpp"
 #include "client-sdk/drivers/openhaptics/servo.hpp"
 #include "client-sdk/drivers/vectors.hpp"
-#include "tests/support/driver_under_test.hpp"
+#include "tests/support/driver_on_fake.hpp"
 
 namespace mechane::test {
 namespace {
 
-constexpr const char* kFakeHd = MECHANE_TEST_FAKES "/fake_hd.so";
 constexpr double kHdNan = std::numeric_limits<double>::quiet_NaN();
 
-class OpenHapticsDriver : public ::testing::Test {
+class OpenHapticsDriver : public DriverOnFake {
  protected:
-  OpenHapticsDriver() : library_(::dlopen(kFakeHd, RTLD_LAZY | RTLD_GLOBAL)) {
-    if (library_ == nullptr) {
-      ADD_FAILURE() << ::dlerror();
-      return;
-    }
-    find(set_, "fake_hd_set");
-    find(get_, "fake_hd_get");
+  OpenHapticsDriver() : DriverOnFake("openhaptics", "hd") {
     find(turn_, "fake_hd_turn");
     find(run_, "fake_hd_run");
-    find(reset_, "fake_hd_reset");
-    reset_();
   }
   void TearDown() override {
-    if (library_ == nullptr) return;
+    if (get_ == nullptr) return;
     close();
     reset_();
-    let_go();
-  }
-  void let_go() {
-    ::dlclose(library_);
-    library_ = nullptr;
   }
 
-  std::string open(const std::string& more = "") { return driver_.open("library=" + std::string(kFakeHd) + more); }
   /// One tick by hand, and what the driver says of it.
   std::string tick() {
     turn_(1);
-    state_ = {};
-    return driver_.read(state_);
+    return read();
   }
-  std::string push(double x, double y, double z) { return driver_.write(force_of(x, y, z)); }
   /// A force, and the tick that renders it. On a busy machine the force can be too old by then: then again.
   std::string render(const mechane_device_force& force) {
     for (;;) {
@@ -72,29 +55,12 @@ class OpenHapticsDriver : public ::testing::Test {
     thread_runs_ = true;
     run_();
   }
-  [[nodiscard]] bool ready() const { return (state_.flags & MECHANE_STATE_READY) != 0; }
   [[nodiscard]] bool hot() const { return (state_.flags & MECHANE_STATE_HOT) != 0; }
 
-  void (*set_)(const char*, double) = nullptr;
-  double (*get_)(const char*) = nullptr;
   void (*turn_)(int) = nullptr;
   void (*run_)() = nullptr;
-  void (*reset_)() = nullptr;
-  DriverUnderTest driver_{"openhaptics"};
-  mechane_device_state state_{};
 
  private:
-  static mechane_device_force force_of(double x, double y, double z) {
-    mechane_device_force force{};
-    force.force_n[0] = x, force.force_n[1] = y, force.force_n[2] = z;
-    return force;
-  }
-  template <class Function>
-  void find(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(::dlsym(library_, name));
-  }
-
-  void* library_;
   bool thread_runs_ = false;
 };
 
@@ -448,7 +414,7 @@ TEST_F(OpenHapticsDriver, NeverUnloadsTheVendorsLibrary) {
   ASSERT_EQ(open(), "");
   close();
   let_go();  // the driver alone holds it now
-  void* still_there = ::dlopen(kFakeHd, RTLD_LAZY | RTLD_NOLOAD);
+  void* still_there = ::dlopen(file_.c_str(), RTLD_LAZY | RTLD_NOLOAD);
   ASSERT_NE(still_there, nullptr);
   ::dlclose(still_there);
 }
