@@ -14,6 +14,9 @@ namespace mechane::test {
 /// `fake` is the stand-in's name: "dhd" is the shared object fake_dhd.so with fake_dhd_set(), fake_dhd_get() and fake_dhd_reset(). It is
 /// there, and reset, from before the driver is opened until after it was closed.
 class DriverOnFake : public ::testing::Test {
+ public:
+  ~DriverOnFake() override { let_go(); }
+
  protected:
   DriverOnFake(const std::string& driver, const std::string& fake)
       : driver_(driver),
@@ -28,7 +31,6 @@ class DriverOnFake : public ::testing::Test {
     find(reset_, "fake_" + fake + "_reset");
     reset_();
   }
-  ~DriverOnFake() override { let_go(); }
   void TearDown() override { driver_.close(); }
   void let_go() {
     if (library_ != nullptr) ::dlclose(library_);
