@@ -42,8 +42,10 @@ void compare(const record::JournalTick& tick, const world::World& world, state::
 Expected<ReplayResult> replay(record::JournalReader& journal,
                               const std::shared_ptr<const state::WorldDescription>& description,
                               world::WorldConfig config, const ReplayOptions& options) {
-  if (journal.header().state_version < state::StateVersion::with_anchors)
+  if (journal.header().state_version < state::StateVersion::with_anchors) {
     config.force.friction = haptics::FrictionKind::damps;
+    config.force.normals = haptics::NormalKind::of_contacts;
+  }
   auto world = world_of(journal.header(), description, config);
   if (!world) return tl::unexpected(world.error());
   SystemClock clock;

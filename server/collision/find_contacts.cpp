@@ -21,16 +21,17 @@ bool reaches_box(const BoxView& box, const Vec3f& center_Q, float radius) noexce
   return square <= radius * radius;
 }
 
-/// The samples of one object, tested against the parts of the other, the target (T).
+/// The samples of one object, tested against the parts of the other, the target (T). Each that is inside goes to
+/// sink(inside, part of the source).
+template <class Sink>
 class Direction {
  public:
-  Direction(const Object& source, const Pose& X_TS, const Object& target, const Pose& X_WT, bool target_is_a,
-            ContactBuffer& out)
-      : source_(source), X_TS_(X_TS), target_(target), X_WT_(X_WT), target_is_a_(target_is_a), out_(out) {}
+  Direction(const Object& source, const Pose& X_TS, const Object& target, Sink sink)
+      : source_(source), X_TS_(X_TS), target_(target), sink_(std::move(sink)) {}
 
   void run() noexcept {
     const Vec3 target_center_S = X_TS_.inverse() * target_.bound_O.center;
-    const auto report = [this](const InsidePoint& inside) { add(inside); };
+    const auto report = [this](const InsidePoint& inside) { sink_(inside, source_.clusters[inside.cluster].part); };
     for (std::size_t next = 0; next < target_.parts.size();) {
       const std::size_t count = collect(next);
       if (count == 0) continue;
@@ -76,46 +77,61 @@ class Direction {
     return part.map.empty() || reaches_box(part.map.box(), center_Q, static_cast<float>(target_.bound_O.radius));
   }
 
-  void add(const InsidePoint& inside) noexcept {
-    const Pose X_WQ = X_WT_ * inside.part->part->X_OQ;
-    const Vec3 n_W = X_WQ.rotate(inside.n_Q.cast<double>());  // out of the target
-    const std::uint16_t sample_part = source_.clusters[inside.cluster].part;
+  const Object& source_;
+  Pose X_TS_;
+  const Object& target_;
+  Sink sink_;
+  std::array<PlacedPart, kPartBatch> near_;
+};
+
+/// Makes contacts of the points of one direction.
+class ContactSink {
+ public:
+  ContactSink(const Pose& X_WT, bool target_is_a, ContactBuffer& out)
+      : X_WT_(X_WT), target_is_a_(target_is_a), out_(out) {}
+
+  void operator()(const InsidePoint& inside, std::uint16_t source_part) noexcept {
+    if (!out_.wants(static_cast<double>(inside.depth_m))) return;
+    if (inside.part->part != part_) {  // points of a part come together
+      part_ = inside.part->part;
+      X_WQ_ = X_WT_ * part_->X_OQ;
+    }
+    const Vec3 n_W = X_WQ_.rotate(inside.n_Q.cast<double>());  // out of the target
     PointContact contact;
     contact.depth_m = static_cast<double>(inside.depth_m);
     if (target_is_a_) {
-      contact.p_WC = X_WQ * inside.p_Q.cast<double>();  // the sample itself lies on B's surface
+      contact.p_WC = X_WQ_ * inside.p_Q.cast<double>();  // the sample itself lies on B's surface
       contact.n_BA_W = -n_W;
       contact.part_a = inside.part->index;
-      contact.part_b = sample_part;
+      contact.part_b = source_part;
     } else {
       const Vec3f p_QS = inside.p_Q + inside.depth_m * inside.n_Q;
-      contact.p_WC = X_WQ * p_QS.cast<double>();
+      contact.p_WC = X_WQ_ * p_QS.cast<double>();
       contact.n_BA_W = n_W;
-      contact.part_a = sample_part;
+      contact.part_a = source_part;
       contact.part_b = inside.part->index;
     }
     out_.add(contact);
   }
 
-  const Object& source_;
-  Pose X_TS_;
-  const Object& target_;
-  const Pose& X_WT_;
+ private:
+  Pose X_WT_;
   bool target_is_a_;
   ContactBuffer& out_;
-  std::array<PlacedPart, kPartBatch> near_;
+  const Part* part_ = nullptr;
+  Pose X_WQ_;
 };
 
 }  // namespace
 
 void ContactBuffer::add(const PointContact& contact) noexcept {
-  if (storage_.empty()) return;
+  if (!wants(contact.depth_m)) return;
   // Once the buffer is full it is a heap with the shallowest on top: a new contact must be deeper than that one.
   const auto deeper = [](const PointContact& l, const PointContact& r) { return l.depth_m > r.depth_m; };
   if (count_ < storage_.size()) {
     storage_[count_++] = contact;
     if (count_ == storage_.size()) std::make_heap(storage_.begin(), storage_.end(), deeper);
-  } else if (contact.depth_m > storage_.front().depth_m) {
+  } else {
     std::pop_heap(storage_.begin(), storage_.end(), deeper);
     storage_.back() = contact;
     std::push_heap(storage_.begin(), storage_.end(), deeper);
@@ -125,8 +141,27 @@ void ContactBuffer::add(const PointContact& contact) noexcept {
 void find_contacts(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, ContactBuffer& out) noexcept {
   const Pose X_BA = X_WB.inverse() * X_WA;
   if (!overlap(b.bound_O, X_BA * a.bound_O.center, a.bound_O.radius)) return;
-  Direction(a, X_BA, b, X_WB, false, out).run();
-  Direction(b, X_BA.inverse(), a, X_WA, true, out).run();
+  Direction(a, X_BA, b, ContactSink(X_WB, false, out)).run();
+  Direction(b, X_BA.inverse(), a, ContactSink(X_WA, true, out)).run();
+}
+
+std::size_t find_surface(const Object& points, const Pose& X_TS, const Object& target,
+                         std::span<SurfaceHit> out) noexcept {
+  std::size_t count = 0;
+  const Part* part = nullptr;
+  Eigen::Matrix3f R_TQ;
+  Vec3f p_TQ;
+  Direction(points, X_TS, target, [&](const InsidePoint& inside, std::uint16_t) {
+    if (count == out.size()) return;
+    if (inside.part->part != part) {
+      part = inside.part->part;
+      R_TQ = part->X_OQ.R.toRotationMatrix().cast<float>();
+      p_TQ = part->X_OQ.p.cast<float>();
+    }
+    const Vec3f p_QS = inside.p_Q + inside.depth_m * inside.n_Q;
+    out[count++] = {R_TQ * p_QS + p_TQ, R_TQ * inside.n_Q, inside.depth_m};
+  }).run();
+  return count;
 }
 
 }  // namespace mechane::collision

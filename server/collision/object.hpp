@@ -76,6 +76,10 @@ class ContactBuffer {
  public:
   explicit ContactBuffer(std::span<PointContact> storage) : storage_(storage) {}
   void add(const PointContact& contact) noexcept;
+  /// Whether a contact so deep would be kept.
+  [[nodiscard]] bool wants(double depth_m) const noexcept {
+    return count_ < storage_.size() || (!storage_.empty() && depth_m > storage_.front().depth_m);
+  }
   void clear() noexcept { count_ = 0; }
   [[nodiscard]] std::span<const PointContact> contacts() const { return storage_.first(count_); }
 
@@ -88,5 +92,17 @@ class ContactBuffer {
 /// clusters). Both directions report the same way: the point on B's surface, the normal from B into A. Allocates nothing, throws
 /// nothing; the cost grows with the number of points that the spheres do not exclude. Any thread.
 void find_contacts(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, ContactBuffer& out) noexcept;
+
+/// Where the surface of a target is above a point inside it, in the target's frame.
+struct SurfaceHit {
+  Vec3f p_T;  ///< on the surface
+  Vec3f n_T;  ///< outward unit normal there
+  float depth_m;
+};
+
+/// The samples of `points` that lie inside the target, in no order, as many as `out` has room for; returns how many. As find_contacts, in
+/// one direction.
+[[nodiscard]] std::size_t find_surface(const Object& points, const Pose& X_TS, const Object& target,
+                                       std::span<SurfaceHit> out) noexcept;
 
 }  // namespace mechane::collision

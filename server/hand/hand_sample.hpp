@@ -35,6 +35,9 @@ enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
 [[nodiscard]] constexpr std::size_t finger_of(std::size_t segment) noexcept {
   return (segment - 1) / kPhalanges;
 }
+[[nodiscard]] constexpr bool is_fingertip(std::size_t segment) noexcept {
+  return segment != 0 && segment % kPhalanges == 0;
+}
 
 /// One sample of a device. What comes from the network is checked before it becomes one: all numbers finite, the rotation of unit length.
 struct HandSample {

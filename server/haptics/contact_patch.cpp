@@ -4,7 +4,9 @@ namespace mechane::haptics {
 namespace {
 
 ContactPatch* find_or_add(std::array<ContactPatch, kMaxPatches>& patches, std::size_t& count,
-                          const state::Contact& contact) {
+                          const state::Contact& contact, ContactPatch* last) {
+  // Contacts of a patch mostly follow one another.
+  if (last != nullptr && last->body == contact.body && last->segment == contact.segment) return last;
   for (std::size_t i = 0; i < count; ++i) {
     if (patches[i].body == contact.body && patches[i].segment == contact.segment) return &patches[i];
   }
@@ -22,14 +24,15 @@ std::size_t gather_patches(std::span<const state::Contact> contacts,
                            std::array<ContactPatch, kMaxPatches>& patches) noexcept {
   std::size_t count = 0;
   std::array<double, kMaxPatches> depth_sum{};
+  ContactPatch* touched = nullptr;
   for (const state::Contact& contact : contacts) {
-    ContactPatch* patch = find_or_add(patches, count, contact);
-    if (patch == nullptr) break;
+    touched = find_or_add(patches, count, contact, touched);
+    if (touched == nullptr) break;
     const double S = contact.depth_m;
-    depth_sum[static_cast<std::size_t>(patch - patches.data())] += S;
-    patch->push_m += S * S * contact.n_BH_W;
-    patch->p_WC += S * contact.p_WC;
-    ++patch->points;
+    depth_sum[static_cast<std::size_t>(touched - patches.data())] += S;
+    touched->push_m += S * S * contact.n_BH_W;
+    touched->p_WC += S * contact.p_WC;
+    ++touched->points;
   }
   for (std::size_t i = 0; i < count; ++i) {
     ContactPatch& patch = patches[i];

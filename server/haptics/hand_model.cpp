@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/collision/superquadric_object.hpp"
+#include "server/haptics/smooth_normal.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -89,6 +90,7 @@ Expected<HandModel> HandModel::create(const HandSize& size) {
   }
   // Few points: the surface samples of the bodies in the ball count too.
   model.near_ball_ = ball(size.tip_radius_m + kNear_m, 2 * size.sample_spacing_m);
+  model.pad_ = make_pad();
   return model;
 }
 

@@ -58,7 +58,7 @@ void look_from(const state::WorldDescription& description, const HandModel& hand
     if (!found) return;
     found->body = body;
     found->segment = static_cast<std::uint8_t>(segment);
-    keep_deepest(user.near, user.near_count, *found);
+    KeepDeepest(user.near, user.near_count).add(*found);
   };
   for_each_body_near(description, state, X_WS.p, hand.near_radius_m(), look_at);
 }

@@ -7,6 +7,7 @@
 #include "server/haptics/effective_mass.hpp"
 #include "server/haptics/friction.hpp"
 #include "server/haptics/keep_deepest.hpp"
+#include "server/haptics/smooth_normal.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -51,7 +52,25 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
                                    .stiffness_n_per_m = spring.stiffness_n_per_m,
                                    .damping_ns_per_m = spring.damping_ns_per_m,
                                    .friction = material.dynamic_friction};
-  keep_deepest(out.contacts, out.contact_count, contact);
+  KeepDeepest(out.contacts, out.contact_count).add(contact);
+}
+
+/// The normal of a tip's touch, or of a surface near it, as a soft finger feels it. The other segments are larger, and cover facets by
+/// themselves.
+Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
+                     const UserState& user, const state::Contact& at) {
+  const collision::Object* const object = description.bodies[at.body.index()].object.get();
+  const bool stylus = user.sample.kind == HandKind::one_point;
+  if (object == nullptr || !(stylus || hand::is_fingertip(at.segment))) return at.n_BH_W;
+  const Pose& X_WB = state[at.body].X_WB;
+  const Pose X_BW = X_WB.inverse();
+  Touch touch{.p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W)};
+  if (stylus) {  // under a ball, the surface lies in the direction of its normal
+    touch.p_B = X_BW * user.X_WS[0].p;
+    touch.surface_m = hand.inner_radius_m(user.sample, 0) - at.depth_m;
+    touch.rounds = 2;
+  }
+  return X_WB.rotate(smooth_normal(hand.pad(), *object, touch));
 }
 
 /// One touch of the product's mode. Moves its anchor.
@@ -79,14 +98,17 @@ PatchForce touch_force(const state::WorldDescription& description, const state::
 }
 
 /// The product's mode: each touch on its own, summed at the wrist.
-void render_patches(const state::WorldDescription& description, state::WorldState& state, UserState& user,
-                    const ForceConfig& config) {
+void render_patches(const state::WorldDescription& description, const HandModel& hand, state::WorldState& state,
+                    UserState& user, const ForceConfig& config) {
   std::array<ContactPatch, kMaxPatches> patches;
   const std::size_t count = gather_patches(user.contact_span(), patches);
   FrictionAnchors anchors(user);
   for (std::size_t i = 0; i < count; ++i) {
-    const ContactPatch& patch = patches[i];
+    ContactPatch& patch = patches[i];
     if (patch.depth_m <= 0) continue;
+    state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
+    if (config.normals == NormalKind::smooth) touch.n_BH_W = smooth_normal_W(description, hand, state, user, touch);
+    patch.n_BH_W = touch.n_BH_W;
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const PatchForce force = touch_force(description, state, user, patch, v_B_W, config, anchors);
@@ -94,18 +116,19 @@ void render_patches(const state::WorldDescription& description, state::WorldStat
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
     if (user.grasp.active && user.grasp.body == patch.body) continue;
     add_to_hand(user, force.f_H_W, patch.p_WC);
-    const state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
     add_local_contact(user.output, touch, v_B_W, force.spring, description.bodies[patch.body.index()].haptic);
     add_force(body, -user.freshness * force.f_H_W, patch.p_WC);
   }
 }
 
 /// What a client may render by itself when the hand comes to these surfaces before we see it.
-void announce_near(const state::WorldDescription& description, const state::WorldState& state, UserState& user) {
+void announce_near(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
+                   UserState& user) {
   // The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
   constexpr double kPatchShare = 2.0 / 3.0;
-  for (const state::Contact& near : user.near_span()) {
+  for (state::Contact near : user.near_span()) {
     if (user.grasp.active && user.grasp.body == near.body) continue;
+    near.n_BH_W = smooth_normal_W(description, hand, state, user, near);
     const BodyState& body = state[near.body];
     const HapticMaterial& material = description.bodies[near.body.index()].haptic;
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
@@ -151,13 +174,14 @@ void ForceRenderer::start(state::WorldState& state) const noexcept {
   state.governors.fill(governor_.start());
 }
 
-void ForceRenderer::run(const state::WorldDescription& description, state::WorldState& state) const noexcept {
+void ForceRenderer::run(const state::WorldDescription& description, const HandModel& hand,
+                        state::WorldState& state) const noexcept {
   for (std::size_t i = 0; i < state.users.size(); ++i)
-    render_user(description, state, i);
+    render_user(description, hand, state, i);
 }
 
-void ForceRenderer::render_user(const state::WorldDescription& description, state::WorldState& state,
-                                std::size_t index) const noexcept {
+void ForceRenderer::render_user(const state::WorldDescription& description, const HandModel& hand,
+                                state::WorldState& state, std::size_t index) const noexcept {
   UserState& user = state.users[index];
   const std::uint64_t echo_sequence = user.sample.sequence;
   const std::uint64_t echo_sent_ns = user.sample.sent_ns;
@@ -168,8 +192,8 @@ void ForceRenderer::render_user(const state::WorldDescription& description, stat
     if (config_.mode == ForceMode::paper) {
       render_paper(description, state, user);
     } else {
-      render_patches(description, state, user, config_);
-      announce_near(description, state, user);
+      render_patches(description, hand, state, user, config_);
+      announce_near(description, hand, state, user);
     }
     render_grasp(state, user);
     if (user.freshness <= 0) user.output.contact_count = 0;  // where the hand is now, nobody here knows

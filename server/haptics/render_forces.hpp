@@ -18,9 +18,13 @@ enum class ForceMode {
 /// What friction does below the speed at which it slides. `damps` is that of journals before StateVersion::with_anchors: it never holds.
 enum class FrictionKind { sticks, damps };
 
+/// Whose normals a touch has: smooth_normal(), or those of its contacts, as in journals before StateVersion::with_anchors.
+enum class NormalKind { smooth, of_contacts };
+
 struct ForceConfig {
   ForceMode mode = ForceMode::continuous;
   FrictionKind friction = FrictionKind::sticks;
+  NormalKind normals = NormalKind::smooth;
   double damping_depth_m = 0.001;  ///< damping comes in over this depth, so that a first touch is not a step
   hand::GovernorConfig
       governor;  ///< the server's own limits; the client's governor comes after it and has the last word
@@ -35,12 +39,12 @@ class ForceRenderer {
   /// Puts the governors into the state that they have before anybody comes.
   void start(state::WorldState& state) const noexcept;
   /// Writes every user's HapticOutput and adds the opposite forces to the bodies' loads. Allocates nothing.
-  void run(const state::WorldDescription& description, state::WorldState& state) const noexcept;
+  void run(const state::WorldDescription& description, const HandModel& hand, state::WorldState& state) const noexcept;
 
  private:
   ForceRenderer(const ForceConfig& config, const hand::ForceGovernor& governor)
       : config_(config), governor_(governor) {}
-  void render_user(const state::WorldDescription& description, state::WorldState& state,
+  void render_user(const state::WorldDescription& description, const HandModel& hand, state::WorldState& state,
                    std::size_t index) const noexcept;
 
   ForceConfig config_;

@@ -175,7 +175,7 @@ class MemoryLayout {
 enum class StateVersion : std::uint32_t {
   without_governors = 1,  ///< journals of version 1
   with_governors = 2,     ///< and with the age of each user's last sample
-  with_anchors = 4,       ///< friction has static hold; before, it was a damping
+  with_anchors = 4,       ///< friction has static hold, before it was a damping; the normals of touches are smooth
 };
 inline constexpr StateVersion kStateVersion = StateVersion::with_anchors;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {

@@ -25,7 +25,7 @@ void step(World& world, const state::TickInputs& inputs, Publisher& publisher, P
   world.agents->run(state, commands_of(inputs), kTickSeconds);
   timer.ended(Phase::run_agents);
 
-  world.forces.run(description, state);
+  world.forces.run(description, *world.hand, state);
   publisher.publish_forces(state);
   timer.ended(Phase::render_forces);
 

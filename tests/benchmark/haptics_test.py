@@ -1,4 +1,5 @@
-"""`bench_haptics` runs on a simulated clock, so its figures are the same everywhere: what theory says of them is tested."""
+"""`bench_haptics` runs on a simulated clock, so its figures are the same everywhere: what theory says of them is tested. So is how smooth
+facets feel, which `bench_touch` measures; what it says of time is not."""
 
 import json
 import os
@@ -29,6 +30,14 @@ class Haptics(unittest.TestCase):
             self.assertLessEqual(self.metrics[f"delay20.{mode}.energy_mj.max"], 1, mode)
         self.assertLessEqual(self.metrics["delay20.local.peak_ratio"], 1.1)
         self.assertGreaterEqual(self.metrics["delay20.local.force_share.min"], 0.8)
+
+    def test_facets_are_not_felt(self):
+        program = Path(os.environ["MECHANE_BIN"]) / "bench_touch"
+        metrics = json.loads(subprocess.run(program, capture_output=True, text=True, check=True).stdout)["metrics"]
+        for sphere in ("fig16", "fig16.shipped"):
+            self.assertLessEqual(metrics[f"{sphere}.jump_ratio"], 0.1, sphere)
+            self.assertLessEqual(metrics[f"{sphere}.deviation_ratio"], 0.5, sphere)
+        self.assertGreater(metrics["force_us.grasp.median"], 0)
 
     def test_it_says_the_same_each_time(self):
         self.assertEqual(subprocess.run(PROGRAM, capture_output=True, text=True, check=True).stdout, self.text)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "server/collision_build/object_builder.hpp"
@@ -17,10 +18,16 @@ class FloorServer {
  public:
   FloorServer(double top_m, double stiffness_n_per_m) : FloorServer(block(top_m, stiffness_n_per_m)) {}
   /// The same of any object, where its frame is the world's.
-  explicit FloorServer(const std::shared_ptr<const collision::Object>& object) : FloorServer(fixed(object)) {}
+  explicit FloorServer(const std::shared_ptr<const collision::Object>& object, const haptics::ForceConfig& config = {})
+      : FloorServer(fixed(object), config) {}
 
   /// Of one tick, for a hand that was sent just before it.
   const hand::HapticOutput& answer(const hand::HandSample& sample) {
+    find_contacts(sample);
+    return render();
+  }
+  /// Its two halves.
+  void find_contacts(const hand::HandSample& sample) {
     state::UserState& user = state_.users[0];
     user.present = true;
     user.freshness = 1;
@@ -30,14 +37,22 @@ class FloorServer {
     hand_->place(user.sample, user.X_WH, user.X_WS);
     haptics::find_contacts(world_, *hand_, state_);
     haptics::find_near_surfaces(world_, *hand_, state_);
+  }
+  const hand::HapticOutput& render() {
     state_.bodies[0].load_W = Wrench{};
-    renderer_.run(world_, state_);
-    return user.output;
+    renderer_.run(world_, *hand_, state_);
+    return state_.users[0].output;
+  }
+  [[nodiscard]] std::size_t segments_that_touch() const {
+    std::set<std::uint8_t> segments;
+    for (const state::Contact& contact : state_.users[0].contact_span())
+      segments.insert(contact.segment);
+    return segments.size();
   }
 
  private:
-  explicit FloorServer(state::WorldDescription world)
-      : world_(std::move(world)), state_(world_), renderer_(haptics::ForceRenderer::create({}).value()) {
+  explicit FloorServer(state::WorldDescription world, const haptics::ForceConfig& config = {})
+      : world_(std::move(world)), state_(world_), renderer_(haptics::ForceRenderer::create(config).value()) {
     renderer_.start(state_);
   }
   static state::WorldDescription fixed(const std::shared_ptr<const collision::Object>& object) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "server/haptics/render_forces.hpp"
+#include "tests/support/crank_world.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -31,7 +32,7 @@ class Rub {
     user().contacts[0] = {BodyId(0), 0, user().X_WS[0].p, Vec3::UnitY(), kDepth_m};
     user().contact_count = touches_ ? 1 : 0;
     state_.bodies[0].load_W = Wrench{};
-    renderer_.run(world_, state_);
+    renderer_.run(world_, *test::shared_hand(), state_);
     return user().output.force_W.f;
   }
   /// The force after many such ticks.

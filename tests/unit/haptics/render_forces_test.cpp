@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "server/haptics/effective_mass.hpp"
+#include "tests/support/crank_world.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -45,7 +46,7 @@ class Bench {
   void run() {
     for (auto& body : state_.bodies)
       body.load_W = Wrench{};
-    renderer_.run(world_, state_);
+    renderer_.run(world_, *test::shared_hand(), state_);
   }
   state::UserState& user() { return state_.users[0]; }
   state::WorldState& state() { return state_; }

@@ -1,0 +1,109 @@
+#include "server/haptics/smooth_normal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "server/collision/samples.hpp"
+
+namespace mechane::haptics {
+namespace {
+
+constexpr std::size_t kPadPoints = 48;
+constexpr double kSpread_m = 0.007;  // standard deviation: facets of up to twice this breadth are smoothed
+constexpr double kWithin = 0.95;     // of the distribution; the rest would lie far out
+// A map knows the surface only from inside, and a plane lies outside of a round body but for its middle. A thin wall has no place for
+// points so deep, and gets them nearer.
+constexpr std::array<double, 2> kDeep_m{4e-3, 1.5e-3};
+
+/// A plane through weighted points, by least squares of the distances along z.
+class PlaneFit {
+ public:
+  void add(const Vec3& p, double weight) {
+    weight_ += weight;
+    sum_ += weight * p;
+    squares_ += weight * p * p.transpose();
+  }
+  [[nodiscard]] double weight() const { return weight_; }
+  /// None where the points lie on a line.
+  [[nodiscard]] std::optional<Vec3> normal() const {
+    constexpr double kLine = 1e-3;
+    const Vec3 middle = sum_ / weight_;
+    const Mat3 C = squares_ / weight_ - middle * middle.transpose();
+    const double det = C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1);
+    const double trace = C(0, 0) + C(1, 1);
+    if (!(det > kLine * trace * trace)) return std::nullopt;
+    const double slope_x = (C(1, 1) * C(0, 2) - C(0, 1) * C(1, 2)) / det;
+    const double slope_y = (C(0, 0) * C(1, 2) - C(0, 1) * C(0, 2)) / det;
+    return Vec3(-slope_x, -slope_y, 1).normalized();
+  }
+
+ private:
+  double weight_ = 0;
+  Vec3 sum_ = Vec3::Zero();
+  Mat3 squares_ = Mat3::Zero();
+};
+
+/// Rises evenly from 0 to 1 between two values.
+double ramp(double value, double from, double to) {
+  return std::clamp((value - from) / (to - from), 0.0, 1.0);
+}
+
+/// Weights fall to zero before a point drops out, so that the normal is continuous.
+PlaneFit fit_below(const collision::Object& pad, const collision::Object& body, const Pose& X_BP) {
+  std::array<collision::SurfaceHit, kPadPoints> hits;
+  const std::size_t count = collision::find_surface(pad, X_BP, body, hits);
+  const Mat3 R_PB = X_BP.R.conjugate().toRotationMatrix();
+  PlaneFit fit;
+  for (const collision::SurfaceHit& hit : std::span(hits).first(count)) {
+    const double cosine = R_PB.row(2).dot(hit.n_T.cast<double>());
+    const double weight = ramp(cosine, 0.7, 0.9) * ramp(static_cast<double>(hit.depth_m), 0, 0.3e-3);
+    if (weight > 0) fit.add(R_PB * (hit.p_T.cast<double>() - X_BP.p), weight);
+  }
+  return fit;
+}
+
+}  // namespace
+
+collision::Object make_pad() {
+  const double golden_angle = kPi * (3 - std::sqrt(5.0));
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < kPadPoints / 2; ++i) {
+    const double share = kWithin * (static_cast<double>(i) + 0.5) / (kPadPoints / 2.0);
+    const double radius = kSpread_m * std::sqrt(-2 * std::log1p(-share));
+    const double angle = golden_angle * static_cast<double>(i);
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    points.push_back(-points.back());
+  }
+  collision::Object pad;
+  pad.parts.emplace_back();
+  pad.parts[0].bound_O = collision::bounding_sphere(points);
+  collision::append_samples(pad, 0, std::move(points));
+  collision::close_clusters(pad);
+  return pad;
+}
+
+Vec3 smooth_normal(const collision::Object& pad, const collision::Object& body, const Touch& touch) noexcept {
+  Vec3 smooth_B = touch.n_B;
+  for (int round = 0; round < touch.rounds; ++round) {
+    Pose X_BP;
+    X_BP.R = Quat::FromTwoVectors(Vec3::UnitZ(), smooth_B);
+    PlaneFit best;
+    for (const double deep_m : kDeep_m) {
+      X_BP.p = touch.p_B - (touch.surface_m + deep_m) * smooth_B;
+      const PlaneFit fit = fit_below(pad, body, X_BP);
+      if (fit.weight() > best.weight()) best = fit;
+      if (best.weight() > 0.5 * kPadPoints) break;
+    }
+    const double trust = ramp(best.weight() / kPadPoints, 0.25, 0.5);
+    const std::optional<Vec3> normal_P = trust > 0 ? best.normal() : std::nullopt;
+    if (!normal_P) return touch.n_B;
+    smooth_B = (touch.n_B + trust * (X_BP.rotate(*normal_P) - touch.n_B)).normalized();
+  }
+  return smooth_B;
+}
+
+}  // namespace mechane::haptics

@@ -1,0 +1,29 @@
+// The normal of a surface as a soft fingertip feels it: facets are smoothed away, edges stay.
+#pragma once
+
+#include "server/collision/object.hpp"
+
+namespace mechane::haptics {
+
+/// The points of a fingertip's pad: 48 around z = 0 of its own frame, in pairs on both sides of the middle, as dense as a normal
+/// distribution. An object without a surface of its own. Not in the tick.
+[[nodiscard]] collision::Object make_pad();
+
+/// A touch on a body, in the body's frame.
+struct Touch {
+  Vec3 p_B = Vec3::Zero();
+  double surface_m = 0;      ///< the surface is felt so far from there, against the normal
+  Vec3 n_B = Vec3::UnitZ();  ///< unit, as the contacts gave it
+  int rounds = 1;            ///< each but the last finds a normal that puts the pad nearer to where it belongs
+};
+
+/// Fits a plane to where the pad's points come to lie on the body, around the place where its surface is felt, and returns the plane's
+/// unit normal, in the body's frame. Surface that is turned by more than 45 degrees from the touch's normal belongs to another side of an
+/// edge, and does not count; where little is left, the answer goes over into the normal of the touch. Allocates nothing; any thread.
+///
+/// Compare the smoothed distance map of the paper (Figure 16) and force shading (Morgenbesser and Srinivasan 1996), which interpolates the
+/// normals of a mesh's corners: this needs no mesh.
+[[nodiscard]] Vec3 smooth_normal(const collision::Object& pad, const collision::Object& body,
+                                 const Touch& touch) noexcept;
+
+}  // namespace mechane::haptics
