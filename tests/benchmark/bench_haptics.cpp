@@ -155,12 +155,8 @@ class Press {
 
  private:
   void send_answer() {
-    client::ForceSample answer = client_.next_answer(now_);
+    const client::ForceSample answer = client_.answer_with(server_.answer(client_.hand), now_);
     client_.arrived.reset();
-    const hand::HapticOutput& output = server_.answer(client_.hand);
-    static_cast<hand::HandForce&>(answer) = output;
-    answer.contacts = output.contacts;
-    answer.contact_count = output.contact_count;
     if (std::uniform_real_distribution<>()(random_) < network_.loss) return;
     const int late_ms = network_.delay_ms + std::uniform_int_distribution<>(0, network_.jitter_ms)(random_);
     on_the_way_.emplace(now_ + std::chrono::milliseconds(late_ms), answer);

@@ -22,6 +22,14 @@ class ScriptedClient final : public client::Client {
     answer.contact_count = depth_m > -kNear_m ? 1 : 0;
     answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = depth_m, .stiffness_n_per_m = stiffness_n_per_m};
   }
+  /// What a server computed of the last sample that was sent.
+  client::ForceSample& answer_with(const hand::HapticOutput& output, TimePoint now) {
+    client::ForceSample& answer = next_answer(now);
+    static_cast<hand::HandForce&>(answer) = output;
+    answer.contacts = output.contacts;
+    answer.contact_count = output.contact_count;
+    return answer;
+  }
   /// An answer to the last sample that was sent; to be filled in.
   client::ForceSample& next_answer(TimePoint now) {
     client::ForceSample& answer = arrived.emplace();
