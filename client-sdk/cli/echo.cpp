@@ -75,7 +75,8 @@ Json to_json(const proto::HapticOutput& s) {
                         {"curvature_per_m", c.curvature_per_m},
                         {"stiffness_n_per_m", c.stiffness_n_per_m},
                         {"damping_ns_per_m", c.damping_ns_per_m},
-                        {"friction", c.friction},
+                        {"static_friction", c.static_friction},
+                        {"dynamic_friction", c.dynamic_friction},
                         {"valid_us", c.valid_us}});
   }
   j["contacts"] = contacts;

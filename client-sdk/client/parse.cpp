@@ -25,8 +25,8 @@ bool parse_pose(const proto::WirePose& wire, Pose& out) noexcept {
 
 bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexcept {
   if (!(proto::all_finite(wire.p_W) && proto::all_finite(wire.n_W) && proto::all_finite(wire.v_W))) return false;
-  for (const float v :
-       {wire.depth_m, wire.curvature_per_m, wire.stiffness_n_per_m, wire.damping_ns_per_m, wire.friction}) {
+  for (const float v : {wire.depth_m, wire.curvature_per_m, wire.stiffness_n_per_m, wire.damping_ns_per_m,
+                        wire.static_friction, wire.dynamic_friction}) {
     if (!std::isfinite(v)) return false;
   }
   out.p_W = proto::to_vec3(wire.p_W);
@@ -39,7 +39,8 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
   out.curvature_per_m = wire.curvature_per_m;
   out.stiffness_n_per_m = std::max(0.0f, wire.stiffness_n_per_m);
   out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
-  out.friction = std::max(0.0f, wire.friction);
+  out.static_friction = std::max(0.0f, wire.static_friction);
+  out.dynamic_friction = std::max(0.0f, wire.dynamic_friction);
   out.validity = std::chrono::microseconds(std::min<std::uint32_t>(wire.valid_us, 1'000'000));
   return true;
 }

@@ -45,7 +45,8 @@ struct LocalContact {
   double curvature_per_m = 0;    ///< of the surface: > 0 bulges towards the hand, < 0 is hollow, 0 a plane
   double stiffness_n_per_m = 0;  ///< >= 0
   double damping_ns_per_m = 0;   ///< >= 0; acts only while the hand pushes in
-  double friction = 0;           ///< Coulomb, >= 0
+  double static_friction = 0;    ///< Coulomb, >= 0; at least the dynamic one counts
+  double dynamic_friction = 0;   ///< >= 0
   Duration validity = kHoldFor;  ///< from receipt; afterwards the contact fades out
 };
 

@@ -14,8 +14,9 @@ bool usable(const LocalContact& c) {
   const bool vectors = c.p_W.allFinite() && c.n_W.allFinite() && c.v_W.allFinite();
   const bool scalars = std::isfinite(c.depth_m) && std::isfinite(c.curvature_per_m) &&
                        std::isfinite(c.stiffness_n_per_m) && std::isfinite(c.damping_ns_per_m) &&
-                       std::isfinite(c.friction);
-  const bool signs = c.stiffness_n_per_m >= 0 && c.damping_ns_per_m >= 0 && c.friction >= 0;
+                       std::isfinite(c.static_friction) && std::isfinite(c.dynamic_friction);
+  const bool signs =
+      c.stiffness_n_per_m >= 0 && c.damping_ns_per_m >= 0 && c.static_friction >= 0 && c.dynamic_friction >= 0;
   return vectors && scalars && signs && std::abs(c.n_W.squaredNorm() - 1.0) < 1e-3;
 }
 
@@ -77,6 +78,7 @@ std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const
     touch.contact.p_W = p_WH0 + contact.depth_m * touch.contact.n_W;
     const Touch* const before = same_surface(touch.contact);
     touch.p_WA = before == nullptr ? p_WH0 : Vec3(before->p_WA + before->travelled_W);
+    touch.slides = before != nullptr && before->slides;
   }
   touches_ = fresh;
   count_ = count;
@@ -96,8 +98,9 @@ Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age)
     if (overlap.depth_m > 0) {
       const Vec3 v_rel_W = v_WH - share * c.v_W;
       const double normal_n = normal_force_n(c, overlap.depth_m, v_rel_W.dot(overlap.n_W));
-      const double cone_n = c.friction * normal_n;
       stretch = along_surface(p_WH - touch.p_WA - touch.travelled_W, overlap.n_W);
+      const double cone_n = friction_cone_n(touch.slides, c.stiffness_n_per_m * stretch.norm(),
+                                            c.static_friction * normal_n, c.dynamic_friction * normal_n);
       const Vec3 damping_n = c.damping_ns_per_m * along_surface(v_rel_W, overlap.n_W);
       const Vec3 friction = spring_friction(stretch, c.stiffness_n_per_m, damping_n, cone_n);
       force += share * (normal_n * overlap.n_W + friction);

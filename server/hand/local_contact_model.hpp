@@ -20,7 +20,7 @@ namespace mechane::hand {
 /// wrist to fingertip, needs no further numbers.
 ///
 /// Friction is a spring as stiff as the contact, from the place where the hand stuck to where it is now; beyond the cone
-/// that place slides after it (Hayward and Armstrong 2000). A hand at rest does not creep, the force does not depend on
+/// of static friction that place slides after it, with dynamic friction until the hand goes back (Hayward and Armstrong 2000). A hand at rest does not creep, the force does not depend on
 /// a noisy velocity, and no slope is steeper than that of the contact itself.
 class LocalContactModel {
  public:
@@ -46,6 +46,7 @@ class LocalContactModel {
     LocalContact contact;             // p_W moved to where H may not pass
     Vec3 p_WA = Vec3::Zero();         // H would feel no friction here, but for:
     Vec3 travelled_W = Vec3::Zero();  // how far the surface has moved since set()
+    bool slides = false;              // dynamic friction holds, not static
   };
   [[nodiscard]] const Touch* same_surface(const LocalContact& contact) const noexcept;
 

@@ -9,7 +9,6 @@ namespace {
 constexpr double kStiffnessBound = 0.1;
 constexpr double kDampingBound = 0.3;
 constexpr double kDampsBelow_m_per_s = 0.02;
-constexpr double kSticksAgain = 0.9;  // share of the stretch: the hand went back, and it is not only a sensor's noise
 
 }  // namespace
 
@@ -23,11 +22,9 @@ Vec3 sticking_friction(const Rubbing& rubbing, const Spring& spring, Stretch& st
     stretch = {};
     return Vec3::Zero();
   }
-  const double dynamic_n = rubbing.material.dynamic_friction * rubbing.normal_n;
-  const double static_n = std::max(rubbing.material.static_friction * rubbing.normal_n, dynamic_n);
-  const double pull_n = spring.stiffness_n_per_m * stretch.s_W.norm();
-  stretch.slides = stretch.slides ? pull_n > kSticksAgain * dynamic_n : pull_n > static_n;
-  const double cone_n = stretch.slides ? dynamic_n : static_n;
+  const double cone_n = hand::friction_cone_n(stretch.slides, spring.stiffness_n_per_m * stretch.s_W.norm(),
+                                              rubbing.material.static_friction * rubbing.normal_n,
+                                              rubbing.material.dynamic_friction * rubbing.normal_n);
   const Vec3 damping_n = spring.damping_ns_per_m * rubbing.sliding_W();
   return hand::spring_friction(stretch.s_W, spring.stiffness_n_per_m, damping_n, cone_n);
 }

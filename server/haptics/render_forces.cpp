@@ -51,7 +51,8 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
                                    .depth_m = at.depth_m,
                                    .stiffness_n_per_m = spring.stiffness_n_per_m,
                                    .damping_ns_per_m = spring.damping_ns_per_m,
-                                   .friction = material.dynamic_friction};
+                                   .static_friction = material.static_friction,
+                                   .dynamic_friction = material.dynamic_friction};
   KeepDeepest(out.contacts, out.contact_count).add(contact);
 }
 

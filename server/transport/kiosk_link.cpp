@@ -22,7 +22,8 @@ void set_contact(proto::WireLocalContact& out, const hand::LocalContact& from) n
   out.curvature_per_m = static_cast<float>(from.curvature_per_m);
   out.stiffness_n_per_m = static_cast<float>(from.stiffness_n_per_m);
   out.damping_ns_per_m = static_cast<float>(from.damping_ns_per_m);
-  out.friction = static_cast<float>(from.friction);
+  out.static_friction = static_cast<float>(from.static_friction);
+  out.dynamic_friction = static_cast<float>(from.dynamic_friction);
   out.valid_us = to_us(from.validity);
 }
 

@@ -122,7 +122,7 @@ class FaultPlay {
   void answer() {
     client_.answer_with_floor(kFloor_n_per_m, now_);
     client::ForceSample& sample = *client_.arrived;
-    sample.contacts[0].friction = 0.5;
+    sample.contacts[0].dynamic_friction = 0.5;
     if (!fault_) return;
     switch (*fault_) {
       case Fault::server_dies:

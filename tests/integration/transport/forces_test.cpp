@@ -31,14 +31,16 @@ hand::LocalContact any_contact() {
           .curvature_per_m = float_between(-500, 500),
           .stiffness_n_per_m = float_between(0, 5000),
           .damping_ns_per_m = float_between(0, 50),
-          .friction = float_between(0, 2),
+          .static_friction = float_between(0, 2),
+          .dynamic_friction = float_between(0, 2),
           .validity = std::chrono::microseconds(*rc::gen::inRange(0, 1'000'001))};
 }
 
 bool same(const hand::LocalContact& a, const hand::LocalContact& b) {
   return a.p_W == b.p_W && (a.n_W - b.n_W).norm() < 1e-6 && a.v_W == b.v_W && a.depth_m == b.depth_m &&
          a.curvature_per_m == b.curvature_per_m && a.stiffness_n_per_m == b.stiffness_n_per_m &&
-         a.damping_ns_per_m == b.damping_ns_per_m && a.friction == b.friction && a.validity == b.validity;
+         a.damping_ns_per_m == b.damping_ns_per_m && a.static_friction == b.static_friction &&
+         a.dynamic_friction == b.dynamic_friction && a.validity == b.validity;
 }
 
 hand::HapticOutput any_answer() {

@@ -28,8 +28,8 @@ proto::HapticOutput honest_force(std::uint32_t contacts = kMaxLocalContacts) {
 }
 
 std::vector<float*> numbers_of(proto::WireLocalContact& contact) {
-  std::vector<float*> all{&contact.depth_m, &contact.curvature_per_m, &contact.stiffness_n_per_m,
-                          &contact.damping_ns_per_m, &contact.friction};
+  std::vector<float*> all{&contact.depth_m,          &contact.curvature_per_m, &contact.stiffness_n_per_m,
+                          &contact.damping_ns_per_m, &contact.static_friction, &contact.dynamic_friction};
   for (auto* vector : {&contact.p_W, &contact.n_W, &contact.v_W}) {
     for (float& number : *vector)
       all.push_back(&number);
@@ -99,14 +99,16 @@ RC_GTEST_PROP(ParseForce, LetsNoContactPullOrLastForLong, ()) {
   proto::HapticOutput wire = honest_force(1);
   wire.contacts[0].stiffness_n_per_m = static_cast<float>(*between(-1000, 1000));
   wire.contacts[0].damping_ns_per_m = static_cast<float>(*between(-50, 50));
-  wire.contacts[0].friction = static_cast<float>(*between(-2, 2));
+  wire.contacts[0].static_friction = static_cast<float>(*between(-2, 2));
+  wire.contacts[0].dynamic_friction = static_cast<float>(*between(-2, 2));
   wire.contacts[0].valid_us = *rc::gen::inRange(0u, 3'000'000u);
   ForceSample force;
   RC_ASSERT(parse(wire, force));
   const LocalContact& contact = force.contacts[0];
   RC_ASSERT(contact.stiffness_n_per_m == std::max(0.0f, wire.contacts[0].stiffness_n_per_m));
   RC_ASSERT(contact.damping_ns_per_m == std::max(0.0f, wire.contacts[0].damping_ns_per_m));
-  RC_ASSERT(contact.friction == std::max(0.0f, wire.contacts[0].friction));
+  RC_ASSERT(contact.static_friction == std::max(0.0f, wire.contacts[0].static_friction));
+  RC_ASSERT(contact.dynamic_friction == std::max(0.0f, wire.contacts[0].dynamic_friction));
   RC_ASSERT(contact.validity == std::chrono::microseconds(std::min(wire.contacts[0].valid_us, 1'000'000u)));
 }
 

@@ -66,7 +66,7 @@ TEST(LocalContactModel, ASphereFallsAwayBesideItAndAHollowRises) {
 RC_GTEST_PROP(LocalContactModel, IsContinuous, ()) {
   LocalContact c = wall(number(100, 1500));
   c.damping_ns_per_m = number(0, 5);
-  c.friction = number(0, 1);
+  c.dynamic_friction = number(0, 1);
   c.curvature_per_m = *rc::gen::element(0.0, 10.0, -10.0);
   c.v_W = Vec3(number(-0.2, 0.2), 0, number(-0.2, 0.2));
   LocalContactModel model;
@@ -98,14 +98,14 @@ RC_GTEST_PROP(LocalContactModel, FrictionStaysInItsConeAndOpposesTheSlide, ()) {
   LocalContact c = wall();
   c.depth_m = number(0, 0.01);
   c.damping_ns_per_m = number(0, 5);
-  c.friction = number(0, 1);
+  c.dynamic_friction = number(0, 1);
   LocalContactModel model;
   model.set(std::span(&c, 1), Vec3::Zero());
   const Vec3 v(number(-0.3, 0.3), number(-0.3, 0.3), 0);
   for (int ms = 0; ms < 50; ++ms) {
     const Vec3 force = model.render(1e-3 * ms * v, v, 0ms);
     const Vec3 tangential(force.x(), force.y(), 0);
-    RC_ASSERT(tangential.norm() <= c.friction * force.z() * (1 + 1e-12) + 1e-12);
+    RC_ASSERT(tangential.norm() <= c.dynamic_friction * force.z() * (1 + 1e-12) + 1e-12);
     RC_ASSERT(tangential.dot(v) <= 0);
   }
 }
@@ -114,7 +114,7 @@ RC_GTEST_PROP(LocalContactModel, FrictionStaysInItsConeAndOpposesTheSlide, ()) {
 LocalContactModel pressed(Vec3 v_W = Vec3::Zero()) {
   LocalContact c = wall();
   c.depth_m = 0.002;
-  c.friction = 0.5;
+  c.dynamic_friction = 0.5;
   c.v_W = v_W;
   LocalContactModel model;
   model.set(std::span(&c, 1), Vec3::Zero());
@@ -130,6 +130,24 @@ TEST(LocalContactModel, AHandThatIsPushedAsideIsHeldAndSlidesBeyondTheCone) {
   EXPECT_NEAR(sideways_n(0.02), -0.6, 1e-12) << "half of 1.2 N";
   EXPECT_NEAR(sideways_n(0.0195), -0.3, 1e-12) << "on the way back it gives way first";
   EXPECT_NEAR(sideways_n(0.01), 0.6, 1e-12);
+}
+
+TEST(LocalContactModel, AHandIsHeldByStaticFrictionUntilItSlidesAndByDynamicFrictionUntilItGoesBack) {
+  LocalContact c = wall();
+  c.depth_m = 0.002;
+  c.static_friction = 0.5;
+  c.dynamic_friction = 0.25;
+  LocalContactModel model;
+  const auto sideways_n = [&](double x_m) {
+    model.set(std::span(&c, 1), Vec3(x_m, 0, 0));  // each answer goes on with what is known of the surface
+    return model.render(Vec3(x_m, 0, 0), Vec3::Zero(), 0ms).x();
+  };
+  model.set(std::span(&c, 1), Vec3::Zero());
+  EXPECT_NEAR(sideways_n(0.0009), -0.54, 1e-12) << "more than half of 0.6 N";
+  EXPECT_NEAR(sideways_n(0.0011), -0.3, 1e-12) << "it has come loose";
+  EXPECT_NEAR(sideways_n(0.0030), -0.3, 1e-12);
+  EXPECT_NEAR(sideways_n(0.0028), -0.18, 1e-12) << "it went back, and sticks";
+  EXPECT_NEAR(sideways_n(0.0034), -0.54, 1e-12);
 }
 
 TEST(LocalContactModel, FrictionForgetsWhereAHandStuckThatHasLeft) {
@@ -150,7 +168,7 @@ TEST(LocalContactModel, TheHandGoesOnStickingFromOneAnswerToTheNext) {
   LocalContactModel model = pressed();
   LocalContact c = wall();
   c.depth_m = 0.002;
-  c.friction = 0.5;
+  c.dynamic_friction = 0.5;
   Vec3 p_WH = Vec3::Zero();
   for (int answer = 0; answer < 10; ++answer) {
     p_WH.x() += 0.00005;
@@ -167,7 +185,7 @@ TEST(LocalContactModel, ASurfaceThatMovesTakesTheHandAlong) {
   EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 4ms).x(), 600 * 0.05 * 0.004, 1e-12);
   LocalContact c = wall();
   c.depth_m = 0.002;
-  c.friction = 0.5;
+  c.dynamic_friction = 0.5;
   c.v_W = Vec3(0.05, 0, 0);
   model.set(std::span(&c, 1), Vec3::Zero());
   EXPECT_NEAR(model.render(Vec3::Zero(), Vec3::Zero(), 4ms).x(), 600 * 0.05 * 0.008, 1e-12) << "on from there";
@@ -178,7 +196,8 @@ TEST(LocalContactModel, ASurfaceThatMovesTakesTheHandAlong) {
 RC_GTEST_PROP(LocalContactModel, IsPassiveOnAStaticWall, ()) {
   LocalContact c = wall(number(100, 1500));
   c.damping_ns_per_m = number(0, 5);
-  c.friction = number(0, 1);
+  c.static_friction = number(0, 1.5);
+  c.dynamic_friction = number(0, 1);
   c.curvature_per_m = *rc::gen::element(0.0, 10.0, -5.0);
   c.validity = 1h;
   LocalContactModel model;
