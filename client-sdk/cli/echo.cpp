@@ -277,6 +277,13 @@ Json to_json(const proto::ServerStatus& s) {
   return j;
 }
 
+const char* word_of_device(std::uint32_t state) {
+  constexpr const char* kWords[] = {"none",         "preparing", "ready", "let go", "not ready",
+                                    "uncalibrated", "warm",      "hot",   "lost"};
+  static_assert(std::size(kWords) == mechane_device_lost + 1);
+  return state < std::size(kWords) ? kWords[state] : "unknown";
+}
+
 Json to_json(const proto::KioskStatus& s) {
   Json j = head(s);
   j.update({{"kiosk", text(s.kiosk)},
@@ -285,6 +292,7 @@ Json to_json(const proto::KioskStatus& s) {
             {"role", s.role == mechane_role_hand ? "hand" : "watcher"}});
   j.update({{"program", text(s.program)}, {"host", text(s.host)}, {"process_id", s.process_id}});
   j.update({{"scenario", text(s.scenario)}, {"was_there", s.was_there != 0}, {"join_kiosk", text(s.join_kiosk)}});
+  j.update({{"device", word_of_device(s.device)}, {"device_name", text(s.device_name)}});
   return j;
 }
 

@@ -92,6 +92,8 @@ class ClientImpl final : public Client {
   [[nodiscard]] std::optional<ViewerHead> viewer_head() override {
     return display_ ? display_->viewer_head() : std::nullopt;
   }
+  void tell_device(const DeviceReport& report) override;
+  [[nodiscard]] std::vector<DeviceReport> devices() override;
   [[nodiscard]] std::vector<DisplayRequest> take_display_requests() override {
     return display_ ? display_->take_requests() : std::vector<DisplayRequest>();
   }
@@ -122,6 +124,7 @@ class ClientImpl final : public Client {
   proto::Participant participant_;
   std::atomic<LinkState> state_{LinkState::searching};
   std::atomic<bool> stop_{false};
+  std::atomic<bool> device_changed_{false};
   mutable WorldStore store_;
   std::atomic<std::uint64_t> world_number_{0};
 
@@ -135,6 +138,7 @@ class ClientImpl final : public Client {
   std::optional<Assignment> assignment_;
   std::unique_ptr<WorldLink> world_;
   std::uint64_t commands_ = 0;
+  DeviceReport device_;
 
   // Used by the link thread only.
   bool was_joined_ = false;
@@ -202,7 +206,7 @@ void ClientImpl::run() {
 }
 
 void ClientImpl::report(TimePoint at) {
-  if (at < next_report_) return;
+  if (!device_changed_.exchange(false) && at < next_report_) return;
   next_report_ = at + kReportEvery;
   proto::KioskStatus wire{};
   proto::set_text(wire.kiosk, config_.kiosk);
@@ -223,6 +227,12 @@ void ClientImpl::report(TimePoint at) {
   wire.was_there = was_there_ ? 1 : 0;
   proto::set_text(wire.scenario, scenario_);
   proto::set_text(wire.join_kiosk, config_.join_kiosk);
+  {
+    const std::lock_guard lock(mutex_);
+    wire.device = static_cast<std::uint32_t>(device_.state);
+    wire.device_kind = static_cast<std::uint32_t>(device_.kind);
+    proto::set_text(wire.device_name, device_.name);
+  }
   if (!kiosk_status_.write(wire)) log::warning("client: the status of this process could not be sent");
 }
 
@@ -392,6 +402,29 @@ std::optional<ServerStatus> ClientImpl::server_status() const {
   if (!assignment_) return std::nullopt;
   const auto it = servers_.find(assignment_->server);
   return it == servers_.end() ? std::nullopt : std::optional<ServerStatus>(it->second.status);
+}
+
+void ClientImpl::tell_device(const DeviceReport& report) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (report == device_) return;
+    device_ = report;
+  }
+  device_changed_ = true;
+  news_.signal();
+}
+
+/// A second program of a hand waits until it is free: what it has is not what the visitor touches.
+std::vector<DeviceReport> ClientImpl::devices() {
+  std::vector<DeviceReport> all;
+  if (!display_) return all;
+  for (const auto& [session, report] : display_->devices()) {
+    const std::lock_guard lock(mutex_);
+    const std::uint64_t owner = assignment_ ? assignment_->owners[report.user].session : 0;
+    if (owner == 0 || owner == session) all.push_back(report);
+  }
+  std::ranges::stable_sort(all, {}, &DeviceReport::user);
+  return all;
 }
 
 std::vector<WorldEvent> ClientImpl::take_events() {

@@ -13,6 +13,15 @@ static_assert(mechane_link_searching == static_cast<int>(LinkState::searching));
 static_assert(mechane_link_joined == static_cast<int>(LinkState::joined));
 static_assert(mechane_link_refused == static_cast<int>(LinkState::refused));
 static_assert(mechane_link_lost == static_cast<int>(LinkState::lost));
+static_assert(mechane_device_none == static_cast<int>(DeviceState::none));
+static_assert(mechane_device_preparing == static_cast<int>(DeviceState::preparing));
+static_assert(mechane_device_ready == static_cast<int>(DeviceState::ready));
+static_assert(mechane_device_let_go == static_cast<int>(DeviceState::let_go));
+static_assert(mechane_device_not_ready == static_cast<int>(DeviceState::not_ready));
+static_assert(mechane_device_uncalibrated == static_cast<int>(DeviceState::uncalibrated));
+static_assert(mechane_device_warm == static_cast<int>(DeviceState::warm));
+static_assert(mechane_device_hot == static_cast<int>(DeviceState::hot));
+static_assert(mechane_device_lost == static_cast<int>(DeviceState::lost));
 
 /// Longer texts are cut, because a status is one line on a technician's screen.
 constexpr std::size_t kMostText = 500;
@@ -87,6 +96,17 @@ bool parse(const proto::DisplayStatus& wire, DisplayStatus& out) {
   out.warnings = wire.warnings;
   out.last_warning = one_line(wire.last_warning);
   return parse_lists(wire, out);
+}
+
+bool parse(const proto::KioskStatus& wire, DeviceReport& out) {
+  if (wire.protocol != proto::kProtocol || !proto::is_name(proto::text_of(wire.kiosk))) return false;
+  if (wire.role != mechane_role_hand || wire.user >= hand::kMaxUsers) return false;
+  if (wire.device > mechane_device_lost || !hand::is_hand_kind(wire.device_kind)) return false;
+  out.user = wire.user;
+  out.state = static_cast<DeviceState>(wire.device);
+  out.kind = static_cast<HandKind>(wire.device_kind);
+  out.name = clean(wire.device_name);
+  return true;
 }
 
 bool parse(const proto::ViewerHead& wire, ViewerHead& out) {

@@ -34,6 +34,8 @@ inline constexpr std::size_t kMaxListed = 64;    ///< missing files or answers o
 [[nodiscard]] bool parse(const proto::ServerStatus& wire, ServerStatus& out);
 /// Also checked: display and kiosk have valid names; numbers are not negative, shares at most 1.
 [[nodiscard]] bool parse(const proto::DisplayStatus& wire, DisplayStatus& out);
+/// Only of a session with the role `hand`. Also checked: the kiosk has a valid name; user, state and kind of hand exist.
+[[nodiscard]] bool parse(const proto::KioskStatus& wire, DeviceReport& out);
 /// The requested settings are not checked here, but by apply().
 [[nodiscard]] bool parse(const proto::DisplayRequest& wire, DisplayRequest& out);
 /// Also checked: the kiosk has a valid name. The position is limited where it is used.

@@ -30,6 +30,7 @@ scene::ShownWorld::News News::take(TimePoint now) {
   if (client_.state() == client::LinkState::joined && client_.interpolated_frame(now, kInterpolationDelay, newer))
     frame_ = std::move(newer);
   take_head(now);
+  devices_.hear(client_.devices(), now);
   return news;
 }
 

@@ -9,6 +9,7 @@
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/head_view.hpp"
 #include "client-sdk/scene/shown_world.hpp"
+#include "client-sdk/visit/device_notice.hpp"
 
 namespace mechane::display {
 
@@ -25,7 +26,8 @@ class News {
         world_(std::move(assets), options.language),
         head_(options.screen) {}
 
-  /// Takes the current status, manifest, frame and head; records all but the head. Call it once a picture.
+  /// Takes the current status, manifest, frame and head, and the state of the haptic devices;
+  /// records all but the head and the devices. Call it once a picture.
   [[nodiscard]] scene::ShownWorld::News take(TimePoint now);
   /// What happened since the last call; recorded too.
   [[nodiscard]] std::vector<client::WorldEvent> take_events(TimePoint now);
@@ -38,6 +40,10 @@ class News {
   [[nodiscard]] const client::Frame* frame() const { return frame_ ? &*frame_ : nullptr; }
   /// See HeadView::place().
   [[nodiscard]] const picture::HeadPlace* head() const { return head_.place(); }
+  /// What the visitor is told of the kiosk's haptic device; none: all is well.
+  [[nodiscard]] std::optional<picture::OverlayNotice> device_notice(TimePoint now, const std::string& language) const {
+    return devices_.at(now, language);
+  }
   /// Whether the server is sending this world at the moment.
   [[nodiscard]] bool live() const { return frame_ && client_.state() == client::LinkState::joined; }
   /// Whether the world's last activity is done.
@@ -56,6 +62,7 @@ class News {
   bool knows_screen_;
   scene::ShownWorld world_;
   HeadView head_;
+  visit::DeviceNotice devices_;
   std::optional<client::Frame> frame_;
   // What has been logged.
   bool told_head_ = false;

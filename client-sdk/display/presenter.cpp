@@ -72,8 +72,10 @@ picture::RenderScene Presenter::compose(TimePoint now) const {
   visitor_.write(scene, last_picture(), now);
   name_what_is_meant(scene);
   // Notes about the pointer or the link are more urgent.
-  if (scene.overlay.note.empty() && !scene.overlay.panel && shows_live_world())
-    scene.overlay.note = soundtrack_.in_writing(visitor_.language(), now);
+  if (scene.overlay.note.empty() && !scene.overlay.panel && shows_live_world()) {
+    scene.overlay.notice = news_.device_notice(now, visitor_.language());
+    if (!scene.overlay.notice) scene.overlay.note = soundtrack_.in_writing(visitor_.language(), now);
+  }
   return scene;
 }
 

@@ -7,12 +7,39 @@
 
 namespace mechane::haptic {
 
-/// Whether a device may be given a force.
+/// Whether a device may be given a force: only one that is ready. All but a lost one read the hand.
 enum class DeviceCondition : std::uint8_t {
   ready,
-  not_ready,  ///< it reads the hand, but is not calibrated, too warm, or not held: no force
-  lost,       ///< gone or faulty: what read() gives is old
+  clutched,      ///< the hand is held in its place in the world while the device is moved
+  let_go,        ///< its dead-man's switch is released
+  not_ready,     ///< not held or not powered: the device does not tell which
+  uncalibrated,  ///< somebody has to calibrate it
+  hot,           ///< its motors are too warm for any force
+  lost,          ///< gone or faulty: what read() gives is old
 };
+
+/// What visitors are told. `warm`: the force is lowered, to spare the motors. `renders`: the device can render forces; one that only reads
+/// the hand is not missed while no hand is in it.
+[[nodiscard]] constexpr client::DeviceState state_for_visitors(DeviceCondition condition, bool warm,
+                                                               bool renders) noexcept {
+  using client::DeviceState;
+  switch (condition) {
+    case DeviceCondition::ready:
+    case DeviceCondition::clutched:
+      break;
+    case DeviceCondition::let_go:
+      return renders ? DeviceState::let_go : DeviceState::ready;
+    case DeviceCondition::not_ready:
+      return renders ? DeviceState::not_ready : DeviceState::ready;
+    case DeviceCondition::uncalibrated:
+      return DeviceState::uncalibrated;
+    case DeviceCondition::hot:
+      return DeviceState::hot;
+    case DeviceCondition::lost:
+      return DeviceState::lost;
+  }
+  return warm ? DeviceState::warm : DeviceState::ready;
+}
 
 /// What a client adds to the bits of hand::ForceReason, for its device; never on the wire.
 enum DeviceReason : std::uint32_t {
@@ -39,6 +66,8 @@ class Device {
   [[nodiscard]] virtual hand::GovernorConfig limits() const = 0;
   /// What it can bear all day; at most the largest force of limits().
   [[nodiscard]] virtual double continuous_force_n() const { return limits().max_force_n; }
+  /// After open(). Whether it renders anything at all.
+  [[nodiscard]] virtual bool renders() const { return true; }
 };
 
 }  // namespace mechane::haptic

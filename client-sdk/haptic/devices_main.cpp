@@ -53,11 +53,10 @@ int list(bool json) {
   return 0;
 }
 
-const char* word(const mechane_device_state& state, DeviceCondition condition) {
-  if (condition == DeviceCondition::lost) return "gone";
-  if ((state.flags & MECHANE_STATE_HOT) != 0) return "too warm";
-  if ((state.flags & MECHANE_STATE_DEAD_MAN) != 0) return "switch released";
-  return condition == DeviceCondition::ready ? "ready" : "not ready";
+const char* word(DeviceCondition condition) {
+  constexpr const char* kWords[] = {"ready",    "clutch held", "switch released", "not ready", "not calibrated",
+                                    "too warm", "gone"};
+  return kWords[static_cast<std::size_t>(condition)];
 }
 
 /// What the loop's thread shows to the main thread.
@@ -89,7 +88,7 @@ void print_line(const Seen& seen, double rate_hz, double worst_us) {
   fmt::print(
       "{}{:<15} {:5.0f} /s, late by up to {:4.0f} us  at {:6.1f} {:6.1f} {:6.1f} mm  {:4.2f} N  given out {:5.2f} "
       "mJ{}{}",
-      isatty(STDOUT_FILENO) != 0 ? "\r\033[K" : "", word(seen.state, w.condition), rate_hz, worst_us, 1000 * w.p_WH.x(),
+      isatty(STDOUT_FILENO) != 0 ? "\r\033[K" : "", word(w.condition), rate_hz, worst_us, 1000 * w.p_WH.x(),
       1000 * w.p_WH.y(), 1000 * w.p_WH.z(), w.force_n, 1000 * w.energy_out_j, warmth,
       isatty(STDOUT_FILENO) != 0 ? "" : "\n");
   std::fflush(stdout);
@@ -103,7 +102,7 @@ void print_report(const Seen& seen, const DeviceThread& thread, double seconds) 
                                {"force_max_n", seen.wall.force_max_n},
                                {"finger_force_max_n", seen.wall.finger_force_max_n},
                                {"energy_out_j", seen.wall.energy_out_j},
-                               {"condition", word(seen.state, seen.wall.condition)}};
+                               {"condition", word(seen.wall.condition)}};
   fmt::print("{}\n", json.dump(2));
 }
 

@@ -6,6 +6,7 @@
 
 #include <semaphore.h>
 
+#include "client-sdk/haptic/device.hpp"
 #include "server/base/clock.hpp"
 #include "server/base/error.hpp"
 #include "server/realtime/mailbox.hpp"
@@ -49,9 +50,17 @@ struct HostNews {
 inline constexpr int kLinkFile = 3;
 inline constexpr int kNewsFile = 4;
 
+/// What a driver says of its device. Where it says several things, the one that lasts longest.
+[[nodiscard]] inline DeviceCondition condition_of(const mechane_device_state& state) noexcept {
+  if ((state.flags & MECHANE_STATE_UNCALIBRATED) != 0) return DeviceCondition::uncalibrated;
+  if ((state.flags & MECHANE_STATE_HOT) != 0) return DeviceCondition::hot;
+  if ((state.flags & MECHANE_STATE_DEAD_MAN) != 0) return DeviceCondition::let_go;
+  return (state.flags & MECHANE_STATE_READY) != 0 ? DeviceCondition::ready : DeviceCondition::not_ready;
+}
+
 /// Whether a device in this state may be given a force.
 [[nodiscard]] inline bool may_render(const mechane_device_state& state) noexcept {
-  return (state.flags & (MECHANE_STATE_READY | MECHANE_STATE_HOT | MECHANE_STATE_DEAD_MAN)) == MECHANE_STATE_READY;
+  return condition_of(state) == DeviceCondition::ready;
 }
 
 /// What may be rendered at `now` of the newest force.

@@ -168,9 +168,8 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   const bool is_new = std::exchange(came_, false);
   if (is_new)
     clutched_ = workspace_.follow({state.position_m[0], state.position_m[1], state.position_m[2]}, state.buttons);
-  condition_ = now - newest_.at > kLostAfter     ? DeviceCondition::lost
-               : may_render(state) && !clutched_ ? DeviceCondition::ready
-                                                 : DeviceCondition::not_ready;
+  condition_ = now - newest_.at > kLostAfter ? DeviceCondition::lost : condition_of(state);
+  if (condition_ == DeviceCondition::ready && clutched_) condition_ = DeviceCondition::clutched;
   if (!is_new) return last_;
   client::HandSample hand;
   hand.kind = info_.hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point;

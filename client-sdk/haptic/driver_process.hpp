@@ -50,6 +50,7 @@ class DriverProcess final : public Device {
 
   [[nodiscard]] hand::GovernorConfig limits() const override;
   [[nodiscard]] double continuous_force_n() const override { return info_.continuous_force_n; }
+  [[nodiscard]] bool renders() const override { return info_.output != MECHANE_OUTPUT_NONE; }
   [[nodiscard]] const mechane_device_info& info() const noexcept { return info_; }
 
  private:

@@ -94,6 +94,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   if (warm) rendered_.reasons |= kWarm;
   if (!ready) rendered_.reasons |= kNotReady;
   device_.write(rendered_);
+  state_.store(state_for_visitors(device_.condition(), heat_.lowered(), renders_), std::memory_order_relaxed);
 }
 
 void HapticLoop::tick(TimePoint now, Duration dt) noexcept {

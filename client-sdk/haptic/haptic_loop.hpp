@@ -76,6 +76,8 @@ class HapticLoop {
   /// Where the hand was in the last tick.
   [[nodiscard]] const client::HandSample& hand() const noexcept { return hand_; }
   [[nodiscard]] bool holding() const noexcept { return answer_.holding; }
+  /// The device after the last tick, for visitors. Any thread.
+  [[nodiscard]] client::DeviceState device_state() const noexcept { return state_.load(std::memory_order_relaxed); }
 
  private:
   HapticLoop(client::Client& client, Device& device, RenderMode mode, const hand::ForceGovernor& governor)
@@ -84,7 +86,8 @@ class HapticLoop {
         mode_(mode),
         governor_(governor),
         governed_(governor.start()),
-        heat_(device.limits().max_force_n, device.continuous_force_n()) {}
+        heat_(device.limits().max_force_n, device.continuous_force_n()),
+        renders_(device.renders()) {}
   bool take_answer() noexcept;
   void note_delay(Duration delay) noexcept;
   /// Contacts, not the pull of what is held: that is always the server's.
@@ -100,6 +103,8 @@ class HapticLoop {
   hand::ForceGovernor governor_;
   hand::GovernorState governed_;
   HeatLimit heat_;
+  bool renders_;  // the device
+  std::atomic<client::DeviceState> state_{client::DeviceState::preparing};
   hand::LocalContactModel local_;
   hand::SampleAge age_;
   client::ForceSample answer_;

@@ -22,6 +22,8 @@ class HeatLimit {
     force *= limit_n_ / norm;
     return true;
   }
+  /// Whether the largest force is not allowed now.
+  [[nodiscard]] bool lowered() const noexcept { return limit_n_ < peak_n_; }
   /// The force that acted for `dt`, N.
   void rendered(double force_n, Duration dt) noexcept {
     const double dt_s = std::clamp(to_seconds(dt), 0.0, kMean_s);

@@ -161,6 +161,12 @@ Expected<std::unique_ptr<haptic::HapticLoop>> make_loop(const Arguments& a, clie
   return haptic::HapticLoop::create(client, device, a.direct ? haptic::RenderMode::server : haptic::RenderMode::local);
 }
 
+/// Tells the kiosk's displays of the device. The main thread.
+void tell_state(client::Client& client, client::DeviceReport report, client::DeviceState state) {
+  report.state = state;
+  client.tell_device(report);
+}
+
 Vec3 center_of(const Arguments& a) {
   return {a.center[0], a.center[1], a.center[2]};
 }
@@ -181,7 +187,10 @@ int run_virtual(const Arguments& a, client::Client& client, haptic::HandRecorder
     turns.turn(timing.woke, config.period * static_cast<std::int64_t>(1 + timing.skipped));
   });
   if (!started) return log::error(started.error()), 2;
-  wait_for_end(a, client, recorder, [] { return true; });
+  wait_for_end(a, client, recorder, [&] {
+    tell_state(client, {.name = "virtual"}, (*loop)->device_state());
+    return true;
+  });
   turns.end();
   thread.stop();
   nlohmann::json json = to_json(**loop);
@@ -224,6 +233,7 @@ int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder*
   const int fifo = a.client.fifo_priority;
   haptic::DriverProcessConfig config = driver_config(a);
   log::info("opening the device, which may take some seconds");
+  tell_state(client, {.name = config.device.driver}, client::DeviceState::preparing);
   if (a.calibrate) {
     auto calibration = calibrated(a);
     if (!calibration) return log::error(calibration.error()), 2;
@@ -235,8 +245,12 @@ int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder*
   log::info(std::string("device: ") + device.info().name);
   Turns turns(**loop, recorder);
   haptic::DeviceThread thread(device, fifo, [&](TimePoint now, Duration dt) { turns.turn(now, dt); });
+  const client::DeviceReport told{
+      .kind = device.info().hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point,
+      .name = device.info().name};
   bool failed = false;
   wait_for_end(a, client, recorder, [&] {
+    tell_state(client, told, (*loop)->device_state());
     const auto news = device.check();
     if (!news) log::error(news.error());
     failed = !news;

@@ -37,12 +37,28 @@ struct OverlayLabel {
   bool framed = false;  ///< marks its corners: the whole thing is in the picture
 };
 
+/// A sign and some words about something that a visitor touches; stands where the note would.
+struct OverlayNotice {
+  enum class Sign : std::uint8_t {
+    take,  ///< a fist around a handle
+    wear,  ///< a glove
+    wait,
+    target,  ///< to be calibrated
+    warm,    ///< a thermometer
+    unplugged,
+  };
+  Sign sign = Sign::wait;
+  std::string text;
+  std::string more;  ///< under the text, smaller; empty: none
+};
+
 /// Everything that is written over the picture, in one language, UTF-8.
 struct OverlayContent {
   std::string title;
   std::string caption;
   std::string hint;
-  std::string note;  ///< a calm note about the link, such as "The exhibit is getting ready …"
+  std::string note;                       ///< a calm note about the link, such as "The exhibit is getting ready …"
+  std::optional<OverlayNotice> notice{};  ///< instead of the note
   std::uint32_t steps_done = 0;
   std::uint32_t steps_total = 0;
   std::vector<Readout> readouts;

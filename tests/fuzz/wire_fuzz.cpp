@@ -61,6 +61,9 @@ void fuzz_output(Bytes bytes) {
 void fuzz_kiosk(Bytes bytes) {
   auto wire = bytes.take<proto::KioskStatus>();
   wire.protocol = proto::kProtocol;
+  client::DeviceReport device;
+  if (client::parse(wire, device))
+    must(device.user < hand::kMaxUsers && device.state <= client::DeviceState::lost && device.name.size() < 64);
   transport::Session session;
   if (transport::validate(wire, session) != transport::Reject::none) return;
   must(proto::is_name(session.kiosk) && session.user < hand::kMaxUsers && session.id != 0);

@@ -7,12 +7,35 @@ import signal
 import struct
 import time
 import unittest
+import zlib
 
-from harness import BIN, PATIENCE, EndToEnd, wait_until
+from harness import BIN, PATIENCE, EndToEnd, marked, wait_until
 
 DRIVERS = BIN.parent / "test-drivers"
 SILENT_S = 0.02  # without a word from the loop, the driver's process writes zero
 LATE_S = 0.03 * PATIENCE  # what a busy machine may add between the look at the clock and the write
+GOLD = (237, 196, 117)  # of a notice's tile
+
+
+def pixels(png):
+    """The colours of a picture that a display wrote: 8 bits each of red, green and blue (and of opacity, which is left out)."""
+    width, height, depth, kind = struct.unpack(">IIBB", png[16:26])
+    assert (depth, kind) == (8, 6), (depth, kind)
+    at, packed = 8, b""
+    while at < len(png):
+        size, name = struct.unpack(">I4s", png[at:at + 8])
+        packed += png[at + 8:at + 8 + size] if name == b"IDAT" else b""
+        at += size + 12
+    data, stride = zlib.decompress(packed), 4 * width
+    above = bytearray(stride)
+    for row in range(height):
+        way, line = data[row * (stride + 1)], bytearray(data[row * (stride + 1) + 1:(row + 1) * (stride + 1)])
+        for i in range(stride if way else 0):
+            left, up, corner = (line[i - 4], above[i], above[i - 4]) if i >= 4 else (0, above[i], 0)
+            nearest = min((abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner))[2]
+            line[i] = (line[i] + (0, left, up, (left + up) // 2, nearest)[way]) & 255
+        yield from zip(line[0::4], line[1::4], line[2::4])
+        above = line
 
 
 class Devices(EndToEnd):
@@ -99,6 +122,30 @@ class Devices(EndToEnd):
         forces, closed = self.trace()
         self.assertEqual((forces[-1][1], closed), (0, 1))
         self.assertLessEqual(max(force for _, force in forces), 2 * (1 + 1e-9), "the device's limit")
+
+    def kiosk_status(self, **wanted):
+        """Whether `mechane echo` shows a program of a kiosk like this."""
+        told = self.run_command("echo", "KioskStatus", "--seconds", "2").stdout
+        return any(wanted.items() <= json.loads(line).items() for line in told.splitlines() if line.startswith("{"))
+
+    @marked("draws")
+    def test_the_display_shows_that_the_handle_was_let_go(self):
+        self.server(records=False)
+        display = self.start("display", "display", "--offscreen", "--kiosk", "kiosk-1", "--size", "640x360", "--language", "en", "--fps", "10",
+                             "--out", self.folder / "pictures")
+
+        def sign():
+            """Whether a notice's golden tile is in the picture; titles and dots have some gold, too."""
+            return sum(1 for pixel in pixels(self.picture(display)) if pixel == GOLD) > 700
+        haptic = self.start("ready", "haptic", "--kiosk", "kiosk-1", "--device", self.device())
+        wait_until(lambda: self.kiosk_status(program="mechane-haptic", device="ready", device_name="Fake stylus"), 30, haptic.text())
+        self.assertFalse(sign(), "all is well")
+        self.assertEqual(haptic.stop(), 0, haptic.text())
+        haptic = self.start("let-go", "haptic", "--kiosk", "kiosk-1", "--device", self.device("fault=let_go,after=1"))
+        wait_until(sign, 40, "the display shows a notice")
+        self.assertTrue(self.kiosk_status(program="mechane-haptic", device="let go"))
+        haptic.kill()
+        wait_until(lambda: not sign(), 40, "the notice of a program that died is gone")
 
     def test_a_driver_that_dies_ends_the_haptic_program(self):
         """systemd starts it again."""

@@ -88,7 +88,9 @@ static int fake_read(void* device, mechane_device_state* state, char* why, size_
   if (!fault) return 0;
   if (strcmp(d->fault, "nan") == 0) state->position_m[0] = NAN;
   if (strcmp(d->fault, "hot") == 0) state->flags |= MECHANE_STATE_HOT;
-  if (strcmp(d->fault, "let_go") == 0) state->flags = 0;
+  if (strcmp(d->fault, "let_go") == 0) state->flags |= MECHANE_STATE_DEAD_MAN;
+  if (strcmp(d->fault, "not_ready") == 0) state->flags = 0;
+  if (strcmp(d->fault, "uncalibrated") == 0) state->flags |= MECHANE_STATE_UNCALIBRATED;
   if (strcmp(d->fault, "clutch") == 0) state->buttons = 2; /* no fault */
   if (strcmp(d->fault, "crash") == 0) abort();
   if (strcmp(d->fault, "hang") == 0) pause();

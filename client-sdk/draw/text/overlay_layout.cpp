@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "client-sdk/draw/text/overlay_page.hpp"
+#include "client-sdk/draw/text/overlay_sign.hpp"
 
 namespace mechane::draw {
 namespace {
@@ -16,6 +17,13 @@ constexpr float kCaptionSize = 27;
 constexpr float kHintSize = 20;
 constexpr float kNoteSize = 20;
 constexpr float kLabelSize = 21;
+constexpr float kNoticeSize = 27;
+constexpr float kNoticeLine = 36;
+constexpr float kNoticeMoreSize = 20;
+constexpr float kNoticeMoreLine = 28;
+constexpr float kNoticePadding = 20;
+constexpr float kNoticeWidest = 760;
+constexpr float kSignSize = 84;
 
 /// The content of a caption panel under its title, from top to bottom.
 struct CaptionPart {
@@ -145,24 +153,73 @@ Box add_readouts(Page& page, const picture::OverlayContent& content, const std::
   return box;
 }
 
-/// A note about the link: its lines, measured.
+/// A note about the link, or a notice with its sign: its lines, measured.
 struct Note {
-  std::vector<std::string> lines;
+  std::optional<picture::OverlayNotice::Sign> sign;
+  std::vector<std::string> lines, more;
   float width = 0, height = 0;
+  [[nodiscard]] std::size_t count() const { return lines.size() + more.size(); }
 };
 
-Note measure_note(const Page& page, const std::string& text, float most) {
+float widest(const Page& page, Face face, float size, const std::vector<std::string>& lines) {
+  float most = 0;
+  for (const std::string& line : lines)
+    most = std::max(most, page.measure(face, size, line));
+  return most;
+}
+
+Note measure_notice(const Page& page, const picture::OverlayNotice& notice, float most) {
   Note note;
-  const float padding = page.tx(20);
-  note.lines = page.lines(Face::regular, kNoteSize, text, most - 2 * padding);
-  for (const std::string& line : note.lines)
-    note.width = std::max(note.width, page.measure(Face::regular, kNoteSize, line) + 2 * padding);
-  if (!note.lines.empty()) note.height = page.tx(18) + static_cast<float>(note.lines.size()) * page.tx(28);
+  note.sign = notice.sign;
+  most = std::min(most, page.tx(kNoticeWidest));
+  const float beside = page.tx(kSignSize + 3 * kNoticePadding);
+  note.lines = page.lines(Face::bold, kNoticeSize, notice.text, most - beside);
+  note.more = page.lines(Face::regular, kNoticeMoreSize, notice.more, most - beside);
+  note.width = beside + std::max(widest(page, Face::bold, kNoticeSize, note.lines),
+                                 widest(page, Face::regular, kNoticeMoreSize, note.more));
+  const float words = page.tx(kNoticeLine) * static_cast<float>(note.lines.size()) +
+                      page.tx(kNoticeMoreLine) * static_cast<float>(note.more.size());
+  note.height = std::max(page.tx(kSignSize), words) + 2 * page.tx(kNoticePadding);
   return note;
 }
 
-Box add_note(Page& page, const Note& note, float y) {
-  const Box box{std::round((page.width - note.width) / 2), y, note.width, note.height};
+Note measure_note(const Page& page, const picture::OverlayContent& content, float most) {
+  if (content.notice) return measure_notice(page, *content.notice, most);
+  Note note;
+  const float padding = page.tx(20);
+  note.lines = page.lines(Face::regular, kNoteSize, content.note, most - 2 * padding);
+  if (note.lines.empty()) return note;
+  note.width = widest(page, Face::regular, kNoteSize, note.lines) + 2 * padding;
+  note.height = page.tx(18) + static_cast<float>(note.lines.size()) * page.tx(28);
+  return note;
+}
+
+void add_notice_words(Page& page, const Note& note, const Box& box) {
+  const float padding = page.tx(kNoticePadding);
+  const float side = page.tx(kSignSize);
+  add_sign(page, *note.sign, {box.x + padding, std::round(box.y + (box.height - side) / 2), side, side});
+  const float x = box.x + 2 * padding + side;
+  const float words = page.tx(kNoticeLine) * static_cast<float>(note.lines.size()) +
+                      page.tx(kNoticeMoreLine) * static_cast<float>(note.more.size());
+  float at = box.y + (box.height - words) / 2;
+  for (const std::string& line : note.lines) {
+    page.add_text(x, at + page.tx(0.75F * kNoticeLine), Face::bold, kNoticeSize, page.colours.paper, line);
+    at += page.tx(kNoticeLine);
+  }
+  for (const std::string& line : note.more) {
+    page.add_text(x, at + page.tx(0.75F * kNoticeMoreLine), Face::regular, kNoticeMoreSize, page.colours.paper, line);
+    at += page.tx(kNoticeMoreLine);
+  }
+}
+
+/// A note stands in the middle, a notice begins at `left`.
+Box add_note(Page& page, const Note& note, float left, float y) {
+  const Box box{note.sign ? left : std::round((page.width - note.width) / 2), y, note.width, note.height};
+  if (note.sign) {
+    page.add_panel(box);
+    add_notice_words(page, note, box);
+    return box;
+  }
   page.add_shape(box, std::min(box.height / 2, page.tx(23)), page.colours.ink);
   float at = y + page.tx(30);
   for (const std::string& line : note.lines) {
@@ -251,9 +308,9 @@ Box caption_room(const Page& page, const Box& corner, float top) {
 
 void lay_out_panel(Page& page, const picture::OverlayContent& content, const Box& corner) {
   const float margin = page.margin();
-  const Note note = measure_note(page, content.note, page.width - 2 * margin);
+  const Note note = measure_note(page, content, page.width - 2 * margin);
   float top = margin;
-  if (!note.lines.empty()) top = add_note(page, note, top).below() + page.gap();
+  if (!note.lines.empty()) top = add_note(page, note, margin, top).below() + page.gap();
   const float below = corner.empty() ? page.height - margin : corner.y - page.gap();
   add_question_panel(page, *content.panel, {margin, top, page.width - 2 * margin, below - top});
 }
@@ -263,12 +320,13 @@ void lay_out_captions(Page& page, const picture::OverlayContent& content, const 
   const float margin = page.margin();
   const ReadoutSizes readout = readout_sizes(page);
   const float readouts = page.width - margin - (content.readouts.empty() ? 0 : readout.width + gap);
-  // At the top in the middle, if it needs few lines; otherwise above the caption.
+  // At the top, a note in the middle and a notice over the caption, if it needs few lines; otherwise above the caption.
   const float middle = page.width / 2;
-  const float room = 2 * std::min(readouts - middle, middle - (inset.empty() ? margin : inset.right() + gap));
-  Note note = measure_note(page, content.note, std::max(room, page.tx(240)));
-  const bool note_above = note.width <= room && note.lines.size() <= 3;
-  if (!note_above) note = measure_note(page, content.note, page.width - 2 * margin);
+  const float left = inset.empty() ? margin : inset.right() + gap;
+  const float room = content.notice ? readouts - left : 2 * std::min(readouts - middle, middle - left);
+  Note note = measure_note(page, content, std::max(room, page.tx(240)));
+  const bool note_above = note.width <= room && note.count() <= 3;
+  if (!note_above) note = measure_note(page, content, page.width - 2 * margin);
   float top = inset.empty() ? margin : inset.below() + gap;
   // At least one readout is placed before a long caption.
   if (!content.readouts.empty()) top = std::max(top, margin + 2 * readout.padding + readout.row + gap);
@@ -279,7 +337,8 @@ void lay_out_captions(Page& page, const picture::OverlayContent& content, const 
   for (const Box& box : {caption, corner})
     if (!box.empty()) low = std::min(low, box.y);
   Box said;
-  if (!note.lines.empty()) said = add_note(page, note, note_above ? margin : low - gap - note.height);
+  if (!note.lines.empty())
+    said = note_above ? add_note(page, note, left, margin) : add_note(page, note, margin, low - gap - note.height);
   const Box numbers = add_readouts(page, content, {caption, corner, said});
   if (content.label) add_label(page, *content.label, {caption, corner, said, inset, numbers});
 }

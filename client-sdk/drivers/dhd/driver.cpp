@@ -145,6 +145,7 @@ Fault Dhd::read(mechane_device_state& state) {
     state = last_;
   }
   state.flags = dead_man_ ? MECHANE_STATE_DEAD_MAN : 0;
+  if (!initialised_) state.flags |= MECHANE_STATE_UNCALIBRATED;
   if (sound && ready()) state.flags |= MECHANE_STATE_READY;
   return {};
 }

@@ -134,7 +134,10 @@ Fault Falcon::read(mechane_device_state& state) {
   if (now - sound_ > kFalconSilence) return silence(now);
   if (ready(now)) state.flags = MECHANE_STATE_READY;
   state.buttons = buttons_;
-  if (!posed_) return {};
+  if (!posed_) {
+    state.flags = MECHANE_STATE_UNCALIBRATED;
+    return {};
+  }
   for (std::size_t i = 0; i < 3; ++i)
     state.position_m[i] = position_m_[i] - falcon::kMiddle_m[i];
   return {};

@@ -185,6 +185,7 @@ Fault Haply::read(mechane_device_state& state) {
     state.orientation_wxyz[axis + 1] = turn[axis];
   }
   state.buttons = frame_.grip_buttons;
+  if (!frame_.calibrated) state.flags |= MECHANE_STATE_UNCALIBRATED;
   if (frame_.ready && Clock::now() - last_state_ <= kFresh) state.flags |= MECHANE_STATE_READY;
   return {};
 }

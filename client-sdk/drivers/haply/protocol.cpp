@@ -104,9 +104,10 @@ const char* read_arm(const json& arm, HaplyFrame& frame) {
     return "cursor_position is beyond the arm's reach: its unit is not the metre, or the service scales the workspace";
   if (!read_numbers(member(state, "current_cursor_force"), kXyz, frame.cursor_force_n))
     return "current_cursor_force is missing, or is not three numbers";
-  if (const json* const status = member(&arm, "status"))
-    frame.ready = !is_false(member(status, "calibrated")) && !is_false(member(status, "power_supply")) &&
-                  !is_false(member(status, "ready"));
+  if (const json* const status = member(&arm, "status")) {
+    frame.calibrated = !is_false(member(status, "calibrated"));
+    frame.ready = frame.calibrated && !is_false(member(status, "power_supply")) && !is_false(member(status, "ready"));
+  }
   if (std::string basis = text_of(member(member(member(&arm, "config"), "basis"), "permutation")); !basis.empty())
     frame.basis = std::move(basis);
   return "";

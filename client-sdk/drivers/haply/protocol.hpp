@@ -22,9 +22,10 @@ enum class HaplyKey { values, vector };
 struct HaplyFrame {
   std::string device_id;
   HaplyVector cursor_position_m{};
-  HaplyVector cursor_force_n{};  ///< what the service renders now, of all its clients together
-  bool ready = true;             ///< calibrated, powered and ready; stays as it was where a message has no status
-  bool has_grip = false;         ///< there is a grip, and its data are whole
+  HaplyVector cursor_force_n{};                 ///< what the service renders now, of all its clients together
+  bool calibrated = true;                       ///< this and the next stay as they were where a message has no status
+  bool ready = true;                            ///< calibrated, powered and ready
+  bool has_grip = false;                        ///< there is a grip, and its data are whole
   std::array<double, 4> grip_wxyz{1, 0, 0, 0};  ///< unit quaternion in Haply's axes; stays as it was without a grip
   std::uint32_t grip_buttons = 0;               ///< bit 0: the first (a, button_0 or button)
   std::string basis = "XYZ";                    ///< of the first message: how the service permutes the axes

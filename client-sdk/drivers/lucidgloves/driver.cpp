@@ -72,6 +72,7 @@ class LucidGloves {
     if (Clock::now() - heard_at_ > kLucidSilence) return silence();
     const AlphaHand& hand = stream_.hand();
     if (hand.calibrated && Clock::now() - heard_at_ <= kLucidFresh) state.flags = MECHANE_STATE_READY;
+    if (!hand.calibrated) state.flags = MECHANE_STATE_UNCALIBRATED;
     state.buttons = hand.buttons;
     place_joints(hand, state.joints_rad);
     state.grasp = grasp_of(hand);

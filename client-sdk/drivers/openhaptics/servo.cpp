@@ -58,6 +58,8 @@ bool convert(const Sample& sample, const Traits& traits, std::span<const double,
   state.buttons = static_cast<std::uint32_t>(sample.buttons) & 0xFu;
   state.temperature = std::min(warmest(sample.temperatures), 1.0);
   if (sample.ready) state.flags |= MECHANE_STATE_READY;
+  if (sample.docked) state.flags |= MECHANE_STATE_DEAD_MAN;
+  if (!sample.calibrated) state.flags |= MECHANE_STATE_UNCALIBRATED;
   if (sample.hot) state.flags |= MECHANE_STATE_HOT;
   return true;
 }
@@ -109,14 +111,14 @@ void Servo::get(Sample& sample) noexcept {
   api_.get_double(kCurrentTransform, sample.transform.data());
   sample.temperatures.fill(-1);
   if (traits_.temperature) api_.get_double(kMotorTemperature, sample.temperatures.data());
-  bool docked = false;
   if (traits_.style == kInkwell) {
     unsigned char undocked = 1;
     api_.get_boolean(kCurrentInkwellSwitch, &undocked);
     was_undocked_ = was_undocked_ || undocked != 0;
-    docked = was_undocked_ && undocked == 0;
+    sample.docked = was_undocked_ && undocked == 0;
   }
-  sample.ready = calibrated_ && !docked;
+  sample.calibrated = calibrated_;
+  sample.ready = calibrated_ && !sample.docked;
 }
 
 /// Within a frame. Sets a force in each one: the zero, too.

@@ -30,6 +30,8 @@ struct Sample {
   std::array<double, 16> transform{};    // by columns, mm
   std::array<double, 6> temperatures{};  // below 0: not known
   int buttons = 0;
+  bool calibrated = false;
+  bool docked = false;  // the stylus lies in its inkwell
   bool ready = false;
   bool hot = false;
   ErrorInfo lost{};  // code other than 0: the device is lost and no tick follows

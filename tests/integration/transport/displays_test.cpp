@@ -184,6 +184,33 @@ TEST_F(Displays, ATrackersHeadComesToTheScreensThatItIsBefore) {
   EXPECT_FALSE(client::HeadTracker::open("kiosk 1", "", kServerDomain).has_value());
 }
 
+TEST_F(Displays, AreToldAtOnceWhatTheStateOfTheirKiosksDeviceIsUntilItsProgramEnds) {
+  using client::DeviceReport;
+  using client::DeviceState;
+  Desk wall("wall");
+  const auto hand = [](const std::string& kiosk, std::uint32_t user) {
+    return *client::Client::connect(
+        {.kiosk = kiosk, .user = user, .role = client::Role::hand, .program = "tester", .domain = kServerDomain});
+  };
+  auto haptic = hand("kiosk-1", 1), elsewhere = hand("kiosk-2", 0);
+  elsewhere->tell_device({.state = DeviceState::hot});
+  const auto hears = [&](const DeviceReport& report) {
+    return wall.client->devices() == std::vector<DeviceReport>{report};
+  };
+  haptic->tell_device({.state = DeviceState::preparing, .kind = client::HandKind::glove, .name = "Glove"});
+  ASSERT_TRUE(eventually([&] { return hears({1, DeviceState::preparing, client::HandKind::glove, "Glove"}); }, 10s));
+  Duration fastest = 10s;
+  for (const DeviceState state : {DeviceState::ready, DeviceState::lost, DeviceState::ready, DeviceState::warm}) {
+    const TimePoint told = Desk::now();
+    haptic->tell_device({.state = state});
+    ASSERT_TRUE(eventually([&] { return hears({.user = 1, .state = state}); }, 10s));
+    fastest = std::min(fastest, Desk::now() - told);
+  }
+  EXPECT_LT(fastest, 200ms) << "not only once a second";
+  haptic.reset();
+  EXPECT_TRUE(eventually([&] { return wall.client->devices().empty(); }, 10s));
+}
+
 TEST_F(Displays, AreListedUpToALimit) {
   constexpr std::size_t kMost = client::DisplayWatch::kMostDisplays;
   auto participant = proto::Participant::create(kServerDomain);

@@ -121,5 +121,30 @@ TEST(DisplayRequest, one_that_nobody_can_answer_or_with_too_much_is_no_request) 
   EXPECT_FALSE(parse(wire, out));
 }
 
+TEST(DeviceReport, is_taken_from_a_hands_session_and_from_no_other) {
+  proto::KioskStatus wire{};
+  proto::set_text(wire.kiosk, "kiosk-1");
+  proto::set_text(wire.device_name, "Touch \x1b[31mX");
+  wire.protocol = proto::kProtocol;
+  wire.user = 3;
+  wire.role = mechane_role_hand;
+  wire.device = mechane_device_lost;
+  wire.device_kind = mechane_hand_glove;
+  DeviceReport out;
+  ASSERT_TRUE(parse(wire, out));
+  EXPECT_EQ(out, (DeviceReport{3, DeviceState::lost, HandKind::glove, "Touch [31mX"}));
+  const auto refused = [wire](auto spoil) mutable {
+    spoil(wire);
+    DeviceReport ignored;
+    return !parse(wire, ignored);
+  };
+  EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.protocol += 1; }));
+  EXPECT_TRUE(refused([](proto::KioskStatus& s) { proto::set_text(s.kiosk, "kiosk 1"); }));
+  EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.role = mechane_role_watcher; }));
+  EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.user = hand::kMaxUsers; }));
+  EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.device = mechane_device_lost + 1; }));
+  EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.device_kind = 99; }));
+}
+
 }  // namespace
 }  // namespace mechane::client

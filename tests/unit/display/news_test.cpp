@@ -97,6 +97,19 @@ TEST_F(NewsTest, TheLastFrameStaysWhileTheLinkIsDown) {
   EXPECT_TRUE(news().live());
 }
 
+TEST_F(NewsTest, TheStateOfTheKiosksDeviceIsTold) {
+  client_->enter("world-1");
+  client_->at_hand = {{.state = client::DeviceState::ready}};
+  (void)take(0);
+  client_->at_hand = {{.state = client::DeviceState::hot}};
+  (void)take(500);
+  EXPECT_FALSE(news().device_notice(at(1400), "en"));
+  EXPECT_TRUE(news().device_notice(at(1500), "en"));
+  client_->at_hand.clear();
+  (void)take(1520);
+  EXPECT_FALSE(news().device_notice(at(9000), "en"));
+}
+
 TEST_F(NewsTest, AnotherWorldHasNoFrameOfTheOneBefore) {
   client_->enter("world-1");
   client_->between = frame_at(0);

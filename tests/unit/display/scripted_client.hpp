@@ -23,6 +23,7 @@ class ScriptedClient final : public client::Client {
   std::optional<client::Frame> between;  ///< as it is to be shown
   std::optional<client::ServerStatus> server;
   std::optional<client::ViewerHead> head;
+  std::vector<client::DeviceReport> at_hand;  ///< haptic devices
   std::vector<client::WorldEvent> events;
   bool sends = true;              ///< false: every command is lost
   std::vector<std::string> sent;  ///< commands, oldest first: "click BUCKET"
@@ -60,6 +61,7 @@ class ScriptedClient final : public client::Client {
   [[nodiscard]] std::optional<client::ServerStatus> server_status() const override { return server; }
   [[nodiscard]] std::vector<client::WorldEvent> take_events() override { return std::exchange(events, {}); }
   [[nodiscard]] std::optional<client::ViewerHead> viewer_head() override { return head; }
+  [[nodiscard]] std::vector<client::DeviceReport> devices() override { return at_hand; }
   std::uint64_t start_activity(const std::string& activity) override { return command("start " + activity); }
   std::uint64_t restart_activity() override { return command("restart"); }
   std::uint64_t next_step() override { return command("next"); }

@@ -164,7 +164,7 @@ TEST_F(DhdDriver, DoesNotMoveTheArmUnlessItIsToldTo) {
   EXPECT_EQ(get_("auto_inits"), 0);
   EXPECT_EQ(get_("force_on"), 0);
   ASSERT_EQ(read(), "");
-  EXPECT_FALSE(ready());
+  EXPECT_EQ(state_.flags, MECHANE_STATE_UNCALIBRATED);
   ASSERT_EQ(push(1, 1, 1), "");
   EXPECT_EQ(get_("fx"), 0);
   mechane_device_info info{};

@@ -224,6 +224,11 @@ TEST(HaplyDriver, ReadsTheHandInFrameD) {
   EXPECT_EQ(state.orientation_wxyz[3], -0.5);
   EXPECT_EQ(state.buttons, 2U);
   service.change([](HaplyJson& frame) { frame["inverse3"][0]["status"]["calibrated"] = false; });
+  EXPECT_EQ(haply_read(driver, state, [&] { return state.flags == MECHANE_STATE_UNCALIBRATED; }), "");
+  service.change([](HaplyJson& frame) {
+    frame["inverse3"][0]["status"]["calibrated"] = true;
+    frame["inverse3"][0]["status"]["power_supply"] = false;
+  });
   EXPECT_EQ(haply_read(driver, state, [&] { return state.flags == 0; }), "");
 }
 

@@ -67,9 +67,9 @@ TEST_F(DriverProcessTest, GivesTheHandAndTakesTheForce) {
   ASSERT_TRUE(tick_until(0.5, [&] { return trace().largest_n() == 0.25; })) << "half the force for twice the way";
 }
 
-TEST_F(DriverProcessTest, WithTheClutchDownTheHandStaysAndTheDeviceIsNotReady) {
+TEST_F(DriverProcessTest, WithTheClutchDownTheHandStaysAndNothingIsRendered) {
   DriverProcess& device = open("fault=clutch,after=750");
-  ASSERT_TRUE(tick_until(0, [&] { return device.condition() == DeviceCondition::not_ready; }));
+  ASSERT_TRUE(tick_until(0, [&] { return device.condition() == DeviceCondition::clutched; }));
   const Vec3 held = tick(0).X_WH.p;
   ASSERT_TRUE(tick_until(0, [&] { return device.state().position_m[1] < -0.015; })) << "the device is moved on";
   EXPECT_EQ(tick(0).X_WH.p, held);
@@ -116,11 +116,15 @@ TEST_F(DriverProcessTest, ALoopThatNoLongerTurnsIsFollowedByZero) {
   ASSERT_TRUE(tick_until(1, [&] { return trace().forces.back().force_n > 0; })) << "it is heard again";
 }
 
-TEST_F(DriverProcessTest, ADeviceThatWasLetGoOrIsHotRendersNothing) {
-  for (const char* fault : {"let_go", "hot"}) {
+TEST_F(DriverProcessTest, ADeviceThatIsNotReadyRendersNothingAndTellsWhy) {
+  const std::pair<const char*, DeviceCondition> faults[] = {{"let_go", DeviceCondition::let_go},
+                                                            {"not_ready", DeviceCondition::not_ready},
+                                                            {"uncalibrated", DeviceCondition::uncalibrated},
+                                                            {"hot", DeviceCondition::hot}};
+  for (const auto& [fault, condition] : faults) {
     open(std::string("after=1,fault=") + fault);
     ASSERT_TRUE(tick_until(1, [&] { return trace().forces.size() > 50; }));
-    EXPECT_EQ(device_->condition(), DeviceCondition::not_ready) << fault;
+    EXPECT_EQ(device_->condition(), condition) << fault;
     device_.reset();
     EXPECT_LE(std::ranges::count_if(trace().forces, [](const auto& w) { return w.force_n > 0; }), 1) << fault;
     std::filesystem::remove(file_);

@@ -22,6 +22,8 @@ class StillDevice final : public Device {
   Vec3 force_W = Vec3::Zero();
   bool there = true;
   DeviceCondition now = DeviceCondition::ready;
+  bool has_motors = true;
+  double continuous_n = hand::GovernorConfig{}.max_force_n;
   int opened = 0;
   int closed = 0;
 
@@ -35,6 +37,8 @@ class StillDevice final : public Device {
   void write(const hand::HandForce& force) noexcept override { force_W = force.force_W.f; }
   [[nodiscard]] DeviceCondition condition() const noexcept override { return now; }
   [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
+  [[nodiscard]] double continuous_force_n() const override { return continuous_n; }
+  [[nodiscard]] bool renders() const override { return has_motors; }
 };
 
 class HapticLoopTest : public ::testing::Test {
@@ -218,6 +222,46 @@ TEST_F(HapticLoopTest, ADeviceThatIsNotReadyRendersNothingAndBeginsFromZero) {
     device_.now = DeviceCondition::ready;
     expect_ramp();
   }
+}
+
+TEST_F(HapticLoopTest, VisitorsAreToldTheDevicesState) {
+  using client::DeviceState;
+  EXPECT_EQ(loop_->device_state(), DeviceState::preparing) << "before the first tick";
+  const std::pair<DeviceCondition, DeviceState> states[] = {{DeviceCondition::ready, DeviceState::ready},
+                                                            {DeviceCondition::clutched, DeviceState::ready},
+                                                            {DeviceCondition::let_go, DeviceState::let_go},
+                                                            {DeviceCondition::not_ready, DeviceState::not_ready},
+                                                            {DeviceCondition::uncalibrated, DeviceState::uncalibrated},
+                                                            {DeviceCondition::hot, DeviceState::hot},
+                                                            {DeviceCondition::lost, DeviceState::lost}};
+  for (const auto& [condition, state] : states) {
+    device_.now = condition;
+    tick(true);
+    EXPECT_EQ(loop_->device_state(), state) << static_cast<int>(condition);
+  }
+  device_.has_motors = false;
+  render(RenderMode::server);
+  for (const DeviceCondition condition : {DeviceCondition::let_go, DeviceCondition::not_ready}) {
+    device_.now = condition;
+    tick(true);
+    EXPECT_EQ(loop_->device_state(), DeviceState::ready) << "hand tracking that sees no hand is in order";
+  }
+}
+
+TEST_F(HapticLoopTest, VisitorsAreToldThatTheForceIsLoweredUntilTheMotorsHaveCooled) {
+  device_.continuous_n = kPressN / 4;
+  press(RenderMode::server);
+  EXPECT_EQ(loop_->device_state(), client::DeviceState::ready);
+  tick_for(20s, true);
+  EXPECT_EQ(loop_->device_state(), client::DeviceState::warm);
+  device_.now = DeviceCondition::lost;
+  tick(false);
+  EXPECT_EQ(loop_->device_state(), client::DeviceState::lost);
+  device_.now = DeviceCondition::ready;
+  tick(false);
+  EXPECT_EQ(loop_->device_state(), client::DeviceState::warm);
+  tick_for(60s, false);
+  EXPECT_EQ(loop_->device_state(), client::DeviceState::ready);
 }
 
 TEST_F(HapticLoopTest, AHandWhoseDeviceIsLostIsNotSent) {

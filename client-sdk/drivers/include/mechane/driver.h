@@ -58,9 +58,11 @@ typedef struct mechane_device_info {
 
 /* Bits of mechane_device_state.flags. */
 enum {
-  MECHANE_STATE_READY = 1u,   /* calibrated, powered, and held, where the device can tell: it may render a force */
-  MECHANE_STATE_HOT = 2u,     /* its motors are too warm for any force */
-  MECHANE_STATE_DEAD_MAN = 4u /* its dead-man's switch is released */
+  MECHANE_STATE_READY = 1u,    /* calibrated, powered, and held, where the device can tell: it may render a force */
+  MECHANE_STATE_HOT = 2u,      /* its motors are too warm for any force */
+  MECHANE_STATE_DEAD_MAN = 4u, /* its dead-man's switch is released, or it lies in its holder */
+  MECHANE_STATE_UNCALIBRATED =
+      8u /* somebody has to calibrate it. Renders nothing; this and the two before tell visitors why */
 };
 
 /* The hand now. */

@@ -216,6 +216,8 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, captions_lie_over_nothing_and_within_the_
                                                {"Θερμοκρασία", "100", "°C", 0.5, "100"},
                                                {"Δύναμη", "-31,5", "νιούτον", 1, "50"}};
   content.readouts.assign(readouts.begin(), readouts.begin() + between(0, 4));
+  if (between(0, 1) == 0)
+    content.notice = {picture::OverlayNotice::Sign(between(0, 5)), some_words(1, 8), some_words(0, 12)};
   const picture::PixelSize size = some_size();
   const std::string inset = "Από κοντά";
   const bool close_up = *rc::gen::arbitrary<bool>();
@@ -251,6 +253,24 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, questions_lie_over_nothing_and_within_the
   RC_LOG() << size.width << "x" << size.height << ": " << fault;
   RC_ASSERT(fault.empty());
   RC_ASSERT(layout.targets.size() == content.corner.size() + panel.answers.size() + 1);
+}
+
+TEST(OverlayLayout, a_notice_stands_in_the_notes_place_with_its_sign_beside_its_words) {
+  picture::OverlayContent content;
+  content.note = "a note";
+  for (int sign = 0; sign <= static_cast<int>(picture::OverlayNotice::Sign::unplugged); ++sign) {
+    content.notice = {picture::OverlayNotice::Sign(sign), "Take the handle", "Please."};
+    const OverlayLayout layout = lay_out(content, {1280, 720}, half_square);
+    ASSERT_EQ(layout.texts.size(), 2U) << "no note";
+    EXPECT_EQ(layout.texts[0].text, "Take the handle");
+    EXPECT_GE(layout.texts[0].size_px, 27) << "it is read at 2 m";
+    ASSERT_GT(layout.shapes.size(), 4U);
+    const Extent panel = extent_of(layout.shapes[0]), tile = extent_of(layout.shapes[1]);
+    EXPECT_TRUE(within(tile, panel));
+    EXPECT_GE(layout.texts[0].x, tile.right);
+    for (std::size_t i = 2; i < layout.shapes.size(); ++i)
+      EXPECT_TRUE(within(extent_of(layout.shapes[i]), tile)) << sign << ", stroke " << i;
+  }
 }
 
 TEST(OverlayLayout, a_finger_finds_each_button) {

@@ -97,7 +97,14 @@ class Client {
   /// with the visit.
   virtual std::uint64_t tell_language(const std::string& language) = 0;
 
+  /// For a haptic program (role `hand`): tells the kiosk's displays of its device, at once when it is another report than
+  /// the last. Takes a lock: not for the loop's thread.
+  virtual void tell_device(const DeviceReport& /*report*/) {}
+
   // The following functions are for displays only.
+
+  /// The devices of this kiosk's hands, by user. A program that ended or lost the network disappears within 3 s.
+  [[nodiscard]] virtual std::vector<DeviceReport> devices() { return {}; }
 
   /// SceneFrames that were received and that were lost, in this and former worlds.
   [[nodiscard]] virtual FrameTraffic frame_traffic() const { return {}; }

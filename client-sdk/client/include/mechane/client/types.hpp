@@ -24,6 +24,28 @@ using hand::kHandSegments;
 using hand::kMaxLocalContacts;
 using hand::LocalContact;
 
+/// What a visitor has to know of a haptic device.
+enum class DeviceState : std::uint8_t {
+  none,       ///< there is no device, or its program does not tell
+  preparing,  ///< it is being opened, or fitted to the visitor's hand
+  ready,
+  let_go,        ///< its dead-man's switch is released
+  not_ready,     ///< not held or not powered: its driver does not tell which
+  uncalibrated,  ///< somebody has to calibrate it
+  warm,          ///< its force is lowered, to spare the motors
+  hot,           ///< too warm for any force
+  lost,          ///< gone or faulty
+};
+
+/// The device of one hand of a kiosk.
+struct DeviceReport {
+  std::uint32_t user = 0;  ///< filled in by the client
+  DeviceState state = DeviceState::none;
+  HandKind kind = HandKind::one_point;
+  std::string name{};  ///< maker and model; at most 63 bytes, longer ones are cut
+  friend bool operator==(const DeviceReport&, const DeviceReport&) = default;
+};
+
 /// What the server wants a device to render. The device's own ForceGovernor has the last word.
 struct ForceSample : hand::HapticOutput {
   std::uint64_t sequence = 0;  ///< rises by one with each force received
