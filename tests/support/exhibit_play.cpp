@@ -56,7 +56,7 @@ class Play {
     while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
       const hand::HapticOutput& answer = world_->state.users[0].output;
       if (player_.finished()) ++idle;
-      player_.advance(kTickSeconds, X_WB_, answer.holding, device_.felt_W().f.norm());
+      player_.advance(kTickSeconds, X_WB_, answer.holding, device_.force_W().norm());
       device_.intend(player_.intent());
       tick({});
     }
