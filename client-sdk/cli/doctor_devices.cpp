@@ -165,12 +165,12 @@ void DeviceCheck::check_driver(const std::string& name, const std::string& remed
       problems.add("the driver " + name + " is not installed", wanted, "install it" + remedy);
     return;
   }
-  if (!drivers_are_listed_ || name == "virtual") return;
+  if (!drivers_are_listed_) return;
   const auto found = drivers_.find(name);
   if (found == drivers_.end()) {
-    std::string names = "virtual";
+    std::string names;
     for (const auto& [other, fault] : drivers_)
-      names += ", " + other;
+      names += (names.empty() ? "" : ", ") + other;
     problems.add(fmt::format("the driver '{}' is not installed; these are: {}", name, names), wanted,
                  kInstallDrivers + remedy);
   } else if (!found->second.empty()) {

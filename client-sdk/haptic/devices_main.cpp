@@ -10,6 +10,7 @@
 
 #include "client-sdk/haptic/device_thread.hpp"
 #include "client-sdk/haptic/driver_host.hpp"
+#include "client-sdk/haptic/virtual_hand.hpp"
 #include "client-sdk/haptic/wall_test.hpp"
 #include "server/log/log.hpp"
 #include "server/log/printable.hpp"
@@ -31,7 +32,9 @@ struct Arguments {
 };
 
 int list(bool json) {
-  const std::vector<FoundDriver> drivers = find_drivers();
+  std::vector<FoundDriver> drivers = find_drivers();
+  drivers.insert(drivers.begin(),
+                 {std::string(kVirtualName), "", std::string(kVirtualSummary), std::string(kVirtualOptions), ""});
   if (json) {
     nlohmann::json all = nlohmann::json::array();
     for (const FoundDriver& d : drivers)
@@ -46,8 +49,9 @@ int list(bool json) {
   }
   fmt::print(
       "\nTry one: mechane devices --test NAME, or NAME:OPTION=VALUE,OPTION=VALUE\n"
-      "Without a device: mechane haptic --device virtual, a simulated hand that strokes a circle\n"
-      "Drivers are looked for in these folders; the first one of a name counts:\n");
+      "Without hardware: mechane haptic --device {}, which strokes a circle\n"
+      "Drivers are looked for in these folders; the first one of a name counts:\n",
+      kVirtualName);
   for (const std::string& folder : driver_folders())
     fmt::print("  {}\n", folder);
   return 0;
@@ -107,8 +111,12 @@ void print_report(const Seen& seen, const DeviceThread& thread, double seconds) 
 }
 
 int test(const Arguments& a) {
-  DriverProcess device(
-      {.device = parse_device_name(a.test), .fifo_priority = a.fifo_priority == 0 ? 0 : a.fifo_priority + 1});
+  const DeviceName name = parse_device_name(a.test);
+  if (name.driver == kVirtualName)
+    return log::error(Error{ErrorCode::not_supported, "a virtual device has nothing to test", a.test,
+                            "run it at a kiosk: mechane haptic --device " + a.test}),
+           2;
+  DriverProcess device({.device = name, .fifo_priority = a.fifo_priority == 0 ? 0 : a.fifo_priority + 1});
   if (!a.json) fmt::print("Opening {}, which may take some seconds ...\n", a.test);
   std::fflush(stdout);
   if (auto opened = device.open(); !opened) return log::error(opened.error()), 2;

@@ -1,7 +1,6 @@
-// mechane-haptic: runs a haptic device at a kiosk, by way of its driver. `--device virtual` is a simulated hand that strokes a place of
-// the world.
+// mechane-haptic: runs a haptic device at a kiosk, by way of its driver. `--device virtual` is a simulated one, in a hand that strokes a
+// place of the world.
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 
@@ -14,7 +13,7 @@
 #include "client-sdk/haptic/driver_process.hpp"
 #include "client-sdk/haptic/hand_recorder.hpp"
 #include "client-sdk/haptic/haptic_loop.hpp"
-#include "client-sdk/haptic/virtual_device.hpp"
+#include "client-sdk/haptic/virtual_hand.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/log/log.hpp"
 #include "server/realtime/periodic_thread.hpp"
@@ -43,8 +42,9 @@ struct Arguments {
 
 void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--device", a.device,
-                 "NAME, or NAME:OPTION=VALUE,...: a driver ('mechane devices' lists them), or 'virtual', a simulated "
-                 "hand that strokes a circle");
+                 fmt::format("NAME, or NAME:OPTION=VALUE,...: a driver ('mechane devices' lists them), or '{}', a "
+                             "simulated stylus or glove that strokes a circle (options: {})",
+                             haptic::kVirtualName, haptic::kVirtualOptions));
   app.add_option("--kiosk", a.client.kiosk, "name of the kiosk");
   app.add_option("--user", a.client.user, "which hand of the kiosk, 0..3");
   app.add_option("--join", a.client.join_kiosk, "share the world of this kiosk");
@@ -70,14 +70,6 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--record", a.record_file,
                  "record the hand to this file, to be played with --device playback:file=FILE");
   app.add_flag("--direct", a.direct, "render the server's forces, not contacts at the device's own rate");
-}
-
-/// A hand that strokes a circle in the x-y plane around `center`, once in four seconds.
-haptic::HandIntent stroke(const Vec3& center, double radius_m, double t_s) {
-  haptic::HandIntent intent;
-  const double angle = 2 * kPi * t_s / 4;
-  intent.X_WH.p = center + radius_m * Vec3(std::cos(angle), std::sin(angle), 0);
-  return intent;
 }
 
 nlohmann::json to_json(const haptic::HapticLoop& loop) {
@@ -172,9 +164,13 @@ Vec3 center_of(const Arguments& a) {
 }
 
 /// A virtual device has no clock of its own: its loop runs at 1 kHz.
-int run_virtual(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
-  haptic::VirtualDevice device;
-  auto loop = make_loop(a, client, device);
+int run_virtual(const Arguments& a, const std::string& options, client::Client& client,
+                haptic::HandRecorder* recorder) {
+  const auto choice = haptic::read_virtual_options(options);
+  if (!choice) return log::error(choice.error()), 2;
+  const auto intent = [&](double t_s) { return haptic::stroke(choice->hand, center_of(a), a.radius_m, t_s); };
+  const auto device = haptic::make_virtual_device(*choice, intent(0).X_WH.p);
+  auto loop = make_loop(a, client, *device);
   if (!loop) return log::error(loop.error()), 2;
   SystemClock clock;
   realtime::PeriodicConfig config;
@@ -183,7 +179,7 @@ int run_virtual(const Arguments& a, client::Client& client, haptic::HandRecorder
   realtime::PeriodicThread thread(config, clock);
   Turns turns(**loop, recorder);
   const auto started = thread.start([&](const realtime::TickTiming& timing) {
-    device.intend(stroke(center_of(a), a.radius_m, static_cast<double>(timing.index) * kTickSeconds));
+    device->intend(intent(static_cast<double>(timing.index) * kTickSeconds));
     turns.turn(timing.woke, config.period * static_cast<std::int64_t>(1 + timing.skipped));
   });
   if (!started) return log::error(started.error()), 2;
@@ -297,8 +293,9 @@ int main(int argc, char** argv) {
     }
     recorder = std::move(*opened);
   }
-  const int status =
-      a.device == "virtual" ? run_virtual(a, **client, recorder.get()) : run_driver(a, **client, recorder.get());
+  const haptic::DeviceName name = haptic::parse_device_name(a.device);
+  const int status = name.driver == haptic::kVirtualName ? run_virtual(a, name.options, **client, recorder.get())
+                                                         : run_driver(a, **client, recorder.get());
   if (recorder && !keep(*recorder)) return 1;
   if (recorder && recorder->lost() > 0)
     log::warning(fmt::format("{} samples of the hand were not recorded", recorder->lost()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mechane::haptic {
 namespace {
@@ -22,7 +23,7 @@ void SimulatedStylus::move(double dt_s) noexcept {
     const ArmConfig& arm = *config_.hand;
     mass_kg += arm.mass_kg;
     const double damping = 2 * arm.damping_ratio * std::sqrt(arm.stiffness_n_per_m * arm.mass_kg);
-    force += arm.stiffness_n_per_m * (intended_ - p_WH_) - damping * v_WH_;
+    force += arm.stiffness_n_per_m * (intent_.X_WH.p - p_WH_) - damping * v_WH_;
   }
   v_WH_ += dt_s / mass_kg * force;
   // Dry friction takes away speed, and at rest holds.
@@ -37,11 +38,13 @@ client::HandSample SimulatedStylus::read(Duration dt) noexcept {
   const int steps = static_cast<int>(std::ceil(dt_s / kStep_s));
   for (int i = 0; i < steps; ++i)
     move(dt_s / steps);
-  const Vec3 before = told_;
-  told_ = rounded(p_WH_);
   client::HandSample sample;
-  sample.X_WH.p = told_;
-  if (dt_s > 0) sample.V_WH.v = (told_ - before) / dt_s;
+  sample.X_WH = {rounded(p_WH_), intent_.X_WH.R};
+  sample.grasp_intent = intent_.grasp_intent;
+  const Pose before = std::exchange(told_, sample.X_WH).value_or(sample.X_WH);
+  if (dt_s <= 0) return sample;
+  sample.V_WH.v = (sample.X_WH.p - before.p) / dt_s;
+  sample.V_WH.w = rotation_vector(sample.X_WH.R * before.R.conjugate()) / dt_s;
   return sample;
 }
 

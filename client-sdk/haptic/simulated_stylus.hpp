@@ -1,5 +1,5 @@
 // A stylus on a desktop arm, simulated with what makes real ones shake: little mass and damping, dry friction, encoder
-// steps, a delay. For tests and benchmarks of force.
+// steps, a delay.
 #pragma once
 
 #include <array>
@@ -25,11 +25,12 @@ struct StylusConfig {
 
 /// The tip moves as a point mass, in steps of 20 us; a force is held from one call of read() to the next. Its rotation
 /// is the intended one. One thread.
-class SimulatedStylus final : public Device {
+class SimulatedStylus final : public SimulatedDevice {
  public:
   /// At rest at `p_WH`.
-  explicit SimulatedStylus(const StylusConfig& config, const Vec3& p_WH = Vec3::Zero())
-      : config_(config), p_WH_(p_WH), intended_(p_WH), told_(rounded(p_WH)) {}
+  explicit SimulatedStylus(const StylusConfig& config, const Vec3& p_WH = Vec3::Zero()) : config_(config), p_WH_(p_WH) {
+    intent_.X_WH.p = p_WH;
+  }
 
   [[nodiscard]] Expected<void> open() override { return {}; }
   void close() noexcept override {}
@@ -40,14 +41,14 @@ class SimulatedStylus final : public Device {
   }
   [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
 
-  /// Where the hand that holds it wants to be.
-  void intend(const Vec3& p_WH) noexcept { intended_ = p_WH; }
+  /// Of the intent, place, rotation and grasp count: a stylus is one point.
+  void intend(const HandIntent& intent) noexcept override { intent_ = intent; }
+  void intend(const Vec3& p_WH) noexcept { intent_.X_WH.p = p_WH; }
   /// A hit.
   void push(const Vec3& v_WH) noexcept { v_WH_ = v_WH; }
   /// Where it really is.
   [[nodiscard]] const Vec3& p_WH() const noexcept { return p_WH_; }
-  /// The force on it now, N.
-  [[nodiscard]] const Vec3& force_W() const noexcept {
+  [[nodiscard]] const Vec3& force_W() const noexcept override {
     return written_[(writes_ + written_.size() - config_.delay) % written_.size()];
   }
 
@@ -58,8 +59,8 @@ class SimulatedStylus final : public Device {
   StylusConfig config_;
   Vec3 p_WH_;
   Vec3 v_WH_ = Vec3::Zero();
-  Vec3 intended_;
-  Vec3 told_;
+  HandIntent intent_;
+  std::optional<Pose> told_;  // in the last call of read()
   std::array<Vec3, 64> written_ = filled();
   std::uint64_t writes_ = 0;
 

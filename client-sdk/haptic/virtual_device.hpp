@@ -1,5 +1,4 @@
-// A device without hardware: a simulated hand on which the forces act, so that visits can be played, tested and
-// measured.
+// Devices without hardware: a simulated hand on which the forces act, so that visits can be played, tested and measured.
 #pragma once
 
 #include "client-sdk/haptic/device.hpp"
@@ -14,6 +13,16 @@ struct HandIntent {
   double grasp_intent = 0;
 };
 
+/// A device without hardware, in a hand that a program moves. intend() and the device's functions are called on the loop's
+/// thread.
+class SimulatedDevice : public Device {
+ public:
+  /// Where the hand that holds it wants to be from now on.
+  virtual void intend(const HandIntent& intent) noexcept = 0;
+  /// The force on it now, N.
+  [[nodiscard]] virtual const Vec3& force_W() const noexcept = 0;
+};
+
 /// How a hand yields. A relaxed arm is soft: a force of 3 N moves this one by 5 mm.
 struct ArmConfig {
   double mass_kg = 0.3;
@@ -22,8 +31,8 @@ struct ArmConfig {
 };
 
 /// A hand on a spring: pulled towards the intended position, pushed by the rendered force. Its rotation follows the
-/// intention without lag. intend() and the device's functions are called on the loop's thread.
-class VirtualDevice final : public Device {
+/// intention without lag. It begins where it is first intended to be.
+class VirtualDevice final : public SimulatedDevice {
  public:
   explicit VirtualDevice(const ArmConfig& arm = {}) : arm_(arm) {}
 
@@ -34,9 +43,8 @@ class VirtualDevice final : public Device {
   /// Like a desktop stylus device of the Phantom class.
   [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
 
-  void intend(const HandIntent& intent) noexcept;
-  /// The force that the hand feels now, N.
-  [[nodiscard]] const Wrench& felt_W() const noexcept { return force_.force_W; }
+  void intend(const HandIntent& intent) noexcept override;
+  [[nodiscard]] const Vec3& force_W() const noexcept override { return force_.force_W.f; }
 
  private:
   ArmConfig arm_;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "client-sdk/haptic/driver.hpp"
 #include "client-sdk/visitor/visit_tour.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/log/log.hpp"
@@ -23,6 +24,7 @@ struct Arguments {
   std::size_t at_once = 4;
   std::string report_file;
   std::vector<double> offset;
+  std::string device{haptic::kVirtualName};
   bool glove = false;
   bool direct = false;
   double patience_s = 60;
@@ -55,9 +57,25 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--linger", a.linger_s, "seconds to stay at an exhibit that a sign opened")
       ->check(CLI::Range(0.0, 600.0));
   app.add_option("--report", a.report_file, "write a JSON report to this file");
-  app.add_flag("--glove", a.glove, "a whole hand instead of one point");
+  auto* device = app.add_option(
+      "--device", a.device,
+      fmt::format("the simulated device in the visitor's hand: {0}, or {0}:OPTION=VALUE,... (options: {1})",
+                  haptic::kVirtualName, haptic::kVirtualOptions));
+  app.add_flag("--glove", a.glove, "a whole hand instead of one point: as --device virtual:kind=glove")
+      ->excludes(device);
   app.add_flag("--direct", a.direct, "render the server's forces, not contacts at the device's own rate");
   app.add_flag("--endless", a.options.endless, "start again after the last visit");
+}
+
+Expected<haptic::VirtualChoice> choose_device(const Arguments& a) {
+  const haptic::DeviceName name = haptic::parse_device_name(a.glove ? "virtual:kind=glove" : a.device);
+  if (name.driver != haptic::kVirtualName)
+    return fail(ErrorCode::unknown_name, "a scripted visitor moves no real device", a.device,
+                "name a virtual one, or leave --device out");
+  auto choice = haptic::read_virtual_options(name.options);
+  if (choice && !choice->stylus.hand)
+    return fail(ErrorCode::conflict, "nobody would move the stylus", a.device, "leave hand=off out");
+  return choice;
 }
 
 int report(const std::string& json, bool complete, const std::string& file) {
@@ -117,7 +135,10 @@ int main(int argc, char** argv) {
   a.options.done_within = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.patience_s));
   a.options.linger = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.linger_s));
   if (a.offset.size() == 3) a.options.player.offset_W = Vec3(a.offset[0], a.offset[1], a.offset[2]);
-  if (a.glove) a.options.player.kind = client::HandKind::glove;
+  auto device = choose_device(a);
+  if (!device) return log::error(device.error()), 2;
+  a.options.device = *device;
+  a.options.player.kind = device->hand;
   if (a.direct) a.options.render = haptic::RenderMode::server;
   std::signal(SIGINT, [](int) { g_stop = 1; });
   std::signal(SIGTERM, [](int) { g_stop = 1; });

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "client-sdk/haptic/virtual_device.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/file_finder.hpp"
 
@@ -24,13 +23,18 @@ class Session {
  public:
   Session(const VisitOptions& options, const WorldDescription& world, client::Client& client,
           const volatile std::sig_atomic_t& stop)
-      : options_(options), world_(world), client_(client), stop_(stop), X_WB_(world.bodies.size()) {
+      : options_(options),
+        world_(world),
+        client_(client),
+        stop_(stop),
+        device_(haptic::make_virtual_device(options.device, options.player.X_WH_rest.p)),
+        X_WB_(world.bodies.size()) {
     for (std::size_t i = 0; i < X_WB_.size(); ++i)
       X_WB_[i] = world.bodies[i].X_WB;
   }
 
   Expected<void> start() {
-    auto loop = haptic::HapticLoop::create(client_, device_, options_.render);
+    auto loop = haptic::HapticLoop::create(client_, *device_, options_.render);
     if (!loop) return tl::unexpected(loop.error());
     loop_ = std::move(*loop);
     next_ = clock_.now();
@@ -80,7 +84,7 @@ class Session {
   client::Client& client_;
   const volatile std::sig_atomic_t& stop_;
   SystemClock clock_;
-  haptic::VirtualDevice device_;
+  std::unique_ptr<haptic::SimulatedDevice> device_;
   std::unique_ptr<haptic::HapticLoop> loop_;
   std::vector<Pose> X_WB_;
   client::Frame frame_;
@@ -202,7 +206,7 @@ ActivityReport Session::play(const VisitDescription& visit) {
   const TimePoint began = clock_.now();
   step_began_ = began;
   VisitPlayer player(world_, visit, options_.player);
-  device_.intend(player.intent());
+  device_->intend(player.intent());
   // The hand waits until the world shows the activity's beginning, as a person would.
   while (stop_ == 0 && seconds_since(began) < 5 && !(status_ && status_->activity == report.name && !status_->done))
     tick();
@@ -211,8 +215,8 @@ ActivityReport Session::play(const VisitDescription& visit) {
     tick();
   TimePoint finished{};
   while (stop_ == 0 && !report.done) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
-    device_.intend(player.intent());
+    player.advance(kTickSeconds, X_WB_, loop_->holding(), device_->force_W().norm());
+    device_->intend(player.intent());
     tick();
     note_moves(player, report);
     note_step(report);
@@ -232,8 +236,8 @@ ActivityReport Session::play(const VisitDescription& visit) {
   }
   // The script is played to its end, so that the hand lets go and comes to rest.
   while (stop_ == 0 && report.done && !gone_on() && !player.finished()) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding(), device_.felt_W().f.norm());
-    device_.intend(player.intent());
+    player.advance(kTickSeconds, X_WB_, loop_->holding(), device_->force_W().norm());
+    device_->intend(player.intent());
     tick();
     note_moves(player, report);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client-sdk/haptic/haptic_loop.hpp"
+#include "client-sdk/haptic/virtual_hand.hpp"
 #include "client-sdk/visitor/visit_player.hpp"
 #include "server/state/description.hpp"
 #include <mechane/client/client.hpp>
@@ -21,6 +22,7 @@ struct VisitOptions {
   std::vector<std::string> visits;      ///< names, in order; empty: those of `activities`
   std::vector<std::string> activities;  ///< one visit of each, in order; all visits where this and `visits` are empty
   PlayerConfig player;
+  haptic::VirtualChoice device;  ///< of the kind that `player` moves
   haptic::RenderMode render = haptic::RenderMode::local;
   Duration join_within = std::chrono::seconds(20);
   Duration done_within = std::chrono::seconds(60);  ///< how long to wait after an activity's last move until it is done

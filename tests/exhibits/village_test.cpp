@@ -195,7 +195,7 @@ TEST_P(EachSign, IsNotChosenByAPalm) {
   test::PlayOptions options;
   Mat3 R_WH;
   R_WH << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  options.player.kind = client::HandKind::glove;
+  options.device.hand = client::HandKind::glove;
   options.player.shapes_hand = false;  // the test does
   options.player.X_WH_rest.R = Quat(R_WH);
   double farthest_deg = 0;
@@ -214,7 +214,7 @@ TEST_P(EachSign, IsChosenByTheIndexOfAGlove) {
   test::PlayOptions options;
   Mat3 R_WH;
   R_WH << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-  options.player.kind = client::HandKind::glove;
+  options.device.hand = client::HandKind::glove;
   options.player.shapes_hand = false;  // the test does
   options.player.X_WH_rest.R = Quat(R_WH);
   const Vec3 wrist_W = middle_of(GetParam()) + Vec3(0.031, 0, 0.2);  // the index is 31 mm to the left of the wrist

@@ -159,6 +159,15 @@ class Devices(EndToEnd):
             for command in (["devices", "--test"], ["haptic", "--device"]):
                 self.assertIn(words, self.refused(*command, device))
 
+    def test_a_virtual_device_has_options(self):
+        for device, words in (("virtual:mass=1", "no option 'mass'"), ("virtual:kind=glove,delay=1", "no option 'delay'"),
+                              ("virtual:delay=21", "0 to 20")):
+            for command in (["haptic", "--device"], ["visitor", "--device"]):
+                self.assertIn(words, self.refused(*command, device))
+        self.assertIn("nothing to test", self.refused("devices", "--test", "virtual"))
+        self.assertIn("no real device", self.refused("visitor", "--device", "fake"))
+        self.assertIn("nobody would move", self.refused("visitor", "--device", "virtual:hand=off"))
+
     def test_a_recorded_hand_is_played_again(self):
         files = [self.folder / "first", self.folder / "again"]
         devices = ["virtual", f"playback:file={files[0]},speed=4"]
@@ -175,6 +184,7 @@ class Devices(EndToEnd):
         listed = self.start("list", "devices", "--json")
         self.assertEqual(listed.wait(20), 0)
         drivers = {entry["name"]: entry for entry in json.loads(listed.text())}
+        self.assertIn("kind=phantom|glove", drivers["virtual"]["options"])
         self.assertEqual(drivers["fake"]["fault"], "")
         self.assertIn("another version", drivers["old"]["fault"])
 

@@ -4,11 +4,12 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "client-sdk/haptic/virtual_device.hpp"
+#include "client-sdk/haptic/haptic_loop.hpp"
 #include "server/app/scenario_store.hpp"
 #include "server/realtime/histogram.hpp"
 #include "server/transport/world_port.hpp"
 #include "server/world/step.hpp"
+#include "tests/support/scripted_client.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace mechane::test {
@@ -31,6 +32,12 @@ const state::VisitDescription& find_visit(const state::WorldDescription& world, 
   return *it;
 }
 
+visitor::PlayerConfig config_of(const PlayOptions& options) {
+  visitor::PlayerConfig config = options.player;
+  config.kind = options.device.hand;
+  return config;
+}
+
 /// One visitor in one world.
 class Play {
  public:
@@ -40,12 +47,13 @@ class Play {
         visit_(find_visit(*description_, visit)),
         options_(options),
         world_(value_or_throw(world::World::create(description_, config))),
-        governor_(value_or_throw(hand::ForceGovernor::make(device_.limits()))),
-        player_(*description_, visit_, options.player),
+        player_(*description_, visit_, config_of(options)),
+        device_(haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
+        loop_(value_or_throw(haptic::HapticLoop::create(client_, *device_, haptic::RenderMode::local))),
         X_WB_(description_->bodies.size()) {}
 
   PlayedVisit run() {
-    device_.intend(player_.intent());
+    device_->intend(player_.intent());
     state::TickInputs start;
     start.commands[0] = {1, state::CommandKind::start_activity, static_cast<std::uint32_t>(visit_.activity.index())};
     start.command_count = 1;
@@ -54,10 +62,9 @@ class Play {
       tick({});
     std::uint64_t idle = 0;
     while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
-      const hand::HapticOutput& answer = world_->state.users[0].output;
       if (player_.finished()) ++idle;
-      player_.advance(kTickSeconds, X_WB_, answer.holding, device_.felt_W().f.norm());
-      device_.intend(player_.intent());
+      player_.advance(kTickSeconds, X_WB_, loop_->holding(), device_->force_W().norm());
+      device_->intend(player_.intent());
       tick({});
     }
     return report();
@@ -68,30 +75,23 @@ class Play {
 
   void tick(state::TickInputs inputs) {
     const state::WorldState& state = world_->state;
-    const client::HandSample hand = device_.read(kTickPeriod);
+    now_ += kTickPeriod;
+    loop_->tick(now_, kTickPeriod);
     state::UserInput& user = inputs.users[0];
     user.present = true;
     user.fresh = true;
-    user.sample = {hand, 7, ++sequence_, 0};
+    user.sample = {client_.hand, client_.session(), client_.sent_sequence(), 0};
     if (options_.record) options_.record(inputs);
     const TimePoint began = clock_.now();
     world::step(*world_, inputs, publisher_, timer_);
     took_.record(clock_.now() - began);
-    feel(hand.V_WH, state.users[0].output);
-    if (sequence_ % transport::WorldPort::kTicksPerFrame == 1) {
+    // The loop takes it in the next tick: a network of one millisecond.
+    static_cast<hand::HapticOutput&>(client_.next_answer(now_)) = state.users[0].output;
+    if (client_.sent_sequence() % transport::WorldPort::kTicksPerFrame == 1) {
       std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
     }
     note_steps();
     if (options_.watch) options_.watch(state);
-  }
-
-  /// As the haptic loop does: the device's own governor has the last word.
-  void feel(const Twist& V_WH, const hand::HapticOutput& answer) {
-    hand::GovernorInput wanted;
-    wanted.wanted_W = answer.force_W;
-    wanted.finger_force_n = answer.finger_force_n;
-    wanted.V_WH = V_WH;
-    device_.write(governor_.apply(governed_, wanted, kTickPeriod));
   }
 
   void note_steps() {
@@ -130,16 +130,16 @@ class Play {
   const state::VisitDescription& visit_;
   const PlayOptions& options_;
   std::unique_ptr<world::World> world_;
-  haptic::VirtualDevice device_;
-  hand::ForceGovernor governor_;
-  hand::GovernorState governed_ = governor_.start();
   visitor::VisitPlayer player_;
-  std::vector<Pose> X_WB_;  // as last seen
+  ScriptedClient client_;
+  std::unique_ptr<haptic::SimulatedDevice> device_;
+  std::unique_ptr<haptic::HapticLoop> loop_;
+  TimePoint now_{std::chrono::hours(1)};  // of the loop, whose time is the world's
+  std::vector<Pose> X_WB_;                // as last seen
   SystemClock clock_;
   world::PhaseTimer timer_{clock_};
   world::NoPublisher publisher_;
   realtime::LatencyHistogram took_;
-  std::uint64_t sequence_ = 0;
   std::uint64_t step_tick_ = 0;
   PlayedVisit report_;
 };
@@ -178,7 +178,7 @@ PlayedVisit Exhibit::play_changed(const std::string& visit,
 
 PlayedVisit Exhibit::play_with_glove(const std::string& visit) const {
   PlayOptions options;
-  options.player.kind = client::HandKind::glove;
+  options.device.hand = client::HandKind::glove;
   return play(visit, options);
 }
 

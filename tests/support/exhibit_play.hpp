@@ -1,6 +1,6 @@
-// Plays an exhibit's own scripted visit in process: the visitor's player and virtual device against world::step, no network, as fast
-// as the machine can. The hand has what a networked one has: samples of one user, a command that starts the activity, and looks at
-// the scene at the rate of its frames. It has no other way to move things.
+// Plays an exhibit's own scripted visit in process: the visitor's player, a simulated device and its haptic loop against world::step, no
+// network, as fast as the machine can. The hand has what a networked one has: samples of one user, answers a millisecond later, a command
+// that starts the activity, and looks at the scene at the rate of its frames. It has no other way to move things.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "client-sdk/haptic/virtual_hand.hpp"
 #include "client-sdk/visitor/visit_player.hpp"
 #include "server/state/world_state.hpp"
 #include "server/world/world.hpp"
@@ -25,6 +26,7 @@ struct PlayOptions {
   std::function<void(const state::WorldState&)> watch{};
   double patience_s = 5;  ///< world seconds after the last move in which the activity may still be done
   visitor::PlayerConfig player{};
+  haptic::VirtualChoice device{};  ///< a stylus of the Phantom's class, held by a hand
 };
 
 struct PlayedStep {
@@ -60,7 +62,7 @@ class Exhibit {
   /// The same in a world that was changed: see PlayOptions::change.
   [[nodiscard]] PlayedVisit play_changed(const std::string& visit,
                                          std::function<void(state::WorldDescription&)> change) const;
-  /// The same by a whole hand, where play() has one point.
+  /// The same by a glove, where play() has a stylus.
   [[nodiscard]] PlayedVisit play_with_glove(const std::string& visit) const;
   [[nodiscard]] const state::WorldDescription& description() const { return *description_; }
   /// A quantity's value. Throws std::out_of_range where there is none of this name.

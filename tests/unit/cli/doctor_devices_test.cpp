@@ -73,7 +73,7 @@ class DoctorDevicesTest : public testing::Test {
     write("etc/group", fmt::format("{}:x:{}:\n{}:x:{}:", of_files, ours_, other, ours_ + 1));
   }
   void drivers(const Values& faults) {
-    nlohmann::json list = nlohmann::json::array();
+    nlohmann::json list = {{{"name", "virtual"}, {"fault", ""}}};
     for (const auto& [name, fault] : faults)
       list.push_back({{"name", name}, {"fault", fault}});
     program_ = scratch_.script("mechane-devices", "cat << 'END'\n" + list.dump() + "\nEND");

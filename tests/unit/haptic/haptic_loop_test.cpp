@@ -336,13 +336,13 @@ class PressTest : public ::testing::Test {
   Felt press_for(Duration time, double y_wanted_m, bool answered = true) {
     Felt felt;
     for (Duration past{0}; past < time; past += kTickPeriod) {
-      const double before_n = arm_.felt_W().f.norm();
+      const double before_n = arm_.force_W().norm();
       now_ += kTickPeriod;
       if (answered) client_.answer_with_floor(kFloor_n_per_m, now_);
       intent_.X_WH.p.y() += std::clamp(y_wanted_m - intent_.X_WH.p.y(), -1e-4, 1e-4);
       arm_.intend(intent_);
       loop_->tick(now_, kTickPeriod);
-      const double force_n = arm_.felt_W().f.norm();
+      const double force_n = arm_.force_W().norm();
       felt.low = std::min(felt.low, force_n);
       felt.high = std::max(felt.high, force_n);
       felt.largest_fall = std::max(felt.largest_fall, before_n - force_n);

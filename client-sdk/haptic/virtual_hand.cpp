@@ -1,0 +1,56 @@
+#include "client-sdk/haptic/virtual_hand.hpp"
+
+#include <cmath>
+
+#include "client-sdk/drivers/options.hpp"
+
+namespace mechane::haptic {
+namespace {
+
+constexpr std::string_view kGloveOptions = "kind=phantom|glove";
+constexpr double kMaxDelay_ms = 20;
+constexpr double kMaxResolution_m = 0.001;
+constexpr double kFist_rad = 1.2;  // each joint of a closed finger
+
+}  // namespace
+
+Expected<VirtualChoice> read_virtual_options(const std::string& options) {
+  const bool glove = drivers::Options(options, kVirtualOptions).choice("kind", {"phantom", "glove"}) == 1;
+  drivers::Options given(options, glove ? kGloveOptions : kVirtualOptions);
+  VirtualChoice choice;
+  if (given.choice("kind", {"phantom", "glove"}) == 1) choice.hand = client::HandKind::glove;
+  const double delay_ms = given.number("delay", 0, 0, kMaxDelay_ms);
+  choice.stylus.delay = static_cast<std::uint32_t>(delay_ms);
+  if (given.choice("hand", {"on", "off"}) == 1) choice.stylus.hand.reset();
+  choice.stylus.resolution_m = given.number("resolution", choice.stylus.resolution_m, 0, kMaxResolution_m);
+  std::string fault = given.fault();
+  if (fault.empty() && delay_ms != choice.stylus.delay) fault = "the delay is not in whole milliseconds";
+  if (fault.empty()) return choice;
+  if (glove) fault = "for a glove: " + fault;
+  return fail(ErrorCode::invalid_value, std::move(fault), std::string(kVirtualName) + ":" + options,
+              "'mechane devices' lists the options");
+}
+
+std::unique_ptr<SimulatedDevice> make_virtual_device(const VirtualChoice& choice, const Vec3& p_WH) {
+  if (choice.hand == client::HandKind::one_point) return std::make_unique<SimulatedStylus>(choice.stylus, p_WH);
+  auto glove = std::make_unique<VirtualDevice>();
+  HandIntent begin;
+  begin.kind = choice.hand;
+  begin.X_WH.p = p_WH;
+  glove->intend(begin);
+  return glove;
+}
+
+HandIntent stroke(client::HandKind kind, const Vec3& center, double radius_m, double t_s) {
+  HandIntent intent;
+  intent.kind = kind;
+  const double angle = 2 * kPi * t_s / 4;
+  intent.X_WH.p = center + radius_m * Vec3(std::cos(angle), std::sin(angle), 0);
+  if (kind == client::HandKind::one_point) return intent;
+  intent.grasp_intent = 0.5 - 0.5 * std::cos(angle);
+  for (std::size_t joint = 0; joint < intent.joints.size(); ++joint)
+    if (joint % hand::kFingerJoints != 0) intent.joints[joint] = kFist_rad * intent.grasp_intent;
+  return intent;
+}
+
+}  // namespace mechane::haptic
