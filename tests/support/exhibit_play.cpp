@@ -86,7 +86,7 @@ class Play {
     world::step(*world_, inputs, publisher_, timer_);
     took_.record(clock_.now() - began);
     // The loop takes it in the next tick: a network of one millisecond.
-    static_cast<hand::HapticOutput&>(client_.next_answer(now_)) = state.users[0].output;
+    client_.answer_with(state.users[0].output, now_);
     if (client_.sent_sequence() % transport::WorldPort::kTicksPerFrame == 1) {
       std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
     }

@@ -25,9 +25,8 @@ class ScriptedClient final : public client::Client {
   /// What a server computed of the last sample that was sent.
   client::ForceSample& answer_with(const hand::HapticOutput& output, TimePoint now) {
     client::ForceSample& answer = next_answer(now);
-    static_cast<hand::HandForce&>(answer) = output;
-    answer.contacts = output.contacts;
-    answer.contact_count = output.contact_count;
+    static_cast<hand::HapticOutput&>(answer) = output;
+    answer.echo_sequence = sent_;
     return answer;
   }
   /// An answer to the last sample that was sent; to be filled in.
