@@ -54,7 +54,7 @@ static int fake_open(const char* options, void** device, char* why, size_t why_s
     if (strncmp(word, "after=", 6) == 0) made->after = atol(word + 6);
   }
   ++opened;
-  if (strcmp(made->fault, "absent") == 0) {
+  if (strcmp(made->fault, "absent") == 0 || (strcmp(made->fault, "unplugged") == 0 && opened > 1)) {
     free(made);
     return fails(why, why_size, "the fake device is not there; plug it in");
   }
@@ -95,7 +95,8 @@ static int fake_read(void* device, mechane_device_state* state, char* why, size_
   if (strcmp(d->fault, "crash") == 0) abort();
   if (strcmp(d->fault, "hang") == 0) pause();
   if (strcmp(d->fault, "other") == 0 && opened > 1) return 0;
-  if (strcmp(d->fault, "gone") == 0 || strcmp(d->fault, "other") == 0) return fails(why, why_size, "the fake cable was pulled");
+  const int pulled = strcmp(d->fault, "gone") == 0 || strcmp(d->fault, "unplugged") == 0 || strcmp(d->fault, "other") == 0;
+  if (pulled) return fails(why, why_size, "the fake cable was pulled");
   return 0;
 }
 

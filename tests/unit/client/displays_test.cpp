@@ -133,10 +133,11 @@ TEST(DeviceReport, is_taken_from_a_hands_session_and_from_no_other) {
   DeviceReport out;
   ASSERT_TRUE(parse(wire, out));
   EXPECT_EQ(out, (DeviceReport{3, DeviceState::lost, HandKind::glove, "Touch [31mX"}));
-  const auto refused = [wire](auto spoil) mutable {
-    spoil(wire);
+  const auto refused = [&wire](auto spoil) {
+    proto::KioskStatus spoilt = wire;
+    spoil(spoilt);
     DeviceReport ignored;
-    return !parse(wire, ignored);
+    return !parse(spoilt, ignored);
   };
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.protocol += 1; }));
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { proto::set_text(s.kiosk, "kiosk 1"); }));
