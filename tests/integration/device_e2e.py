@@ -125,7 +125,7 @@ class Devices(EndToEnd):
 
     def kiosk_status(self, **wanted):
         """Whether `mechane echo` shows a program of a kiosk like this."""
-        told = self.run_command("echo", "KioskStatus", "--seconds", "2").stdout
+        told = self.run_command("echo", "KioskStatus", "--json", "--seconds", "2").stdout
         return any(wanted.items() <= json.loads(line).items() for line in told.splitlines() if line.startswith("{"))
 
     @marked("draws")

@@ -216,8 +216,9 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, captions_lie_over_nothing_and_within_the_
                                                {"Θερμοκρασία", "100", "°C", 0.5, "100"},
                                                {"Δύναμη", "-31,5", "νιούτον", 1, "50"}};
   content.readouts.assign(readouts.begin(), readouts.begin() + between(0, 4));
-  if (between(0, 1) == 0)
-    content.notice = {picture::OverlayNotice::Sign(between(0, 5)), some_words(1, 8), some_words(0, 12)};
+  if (between(0, 1) == 0)  // the longest words that there are
+    content.notice = {picture::OverlayNotice::Sign(between(0, 5)), "Το γάντι δεν είναι συνδεδεμένο",
+                      *rc::gen::arbitrary<bool>() ? "Πιάστε την με το χέρι σας ή ενημερώστε το προσωπικό." : ""};
   const picture::PixelSize size = some_size();
   const std::string inset = "Από κοντά";
   const bool close_up = *rc::gen::arbitrary<bool>();
