@@ -275,11 +275,11 @@ TEST_F(LucidTest, AHandThatIsNotCalibratedIsNotReady) {
   LucidFirmware glove({.says = "A2047B2047C2047D2047E2047"});  // no finger has moved yet
   ASSERT_EQ(open(glove), "");
   ASSERT_EQ(driver_.read(state_), "");
-  EXPECT_EQ(state_.flags, 0u);
+  EXPECT_EQ(state_.flags, MECHANE_STATE_UNCALIBRATED);
   glove.says("A2047B2100C2047D2047E2047");
   EXPECT_EQ(serve([&] { return state_.flags == MECHANE_STATE_READY; }), "");
   glove.says("A2047B2100C2047D2047E2047HO");  // it is being calibrated
-  EXPECT_EQ(serve([&] { return state_.flags == 0; }), "");
+  EXPECT_EQ(serve([&] { return state_.flags == MECHANE_STATE_UNCALIBRATED; }), "");
   EXPECT_EQ(state_.buttons, 0x81u);
 }
 
