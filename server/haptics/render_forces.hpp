@@ -18,7 +18,7 @@ enum class ForceMode {
 /// What friction does below the speed at which it slides. `damps` is that of journals before StateVersion::with_anchors: it never holds.
 enum class FrictionKind { sticks, damps };
 
-/// Whose normals a touch has: smooth_normal(), or those of its contacts, as in journals before StateVersion::with_anchors.
+/// The normal of a touch: that of smooth_normal(), or the mean of its contacts, as in journals before StateVersion::with_anchors.
 enum class NormalKind { smooth, of_contacts };
 
 struct ForceConfig {

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kPadPoints = 48;
 constexpr double kSpread_m = 0.007;  // standard deviation: facets of up to twice this breadth are smoothed
 constexpr double kWithin = 0.95;     // of the distribution; the rest would lie far out
-// A map knows the surface only from inside, and a plane lies outside of a round body but for its middle. A thin wall has no place for
-// points so deep, and gets them nearer.
+// How far the pad is pushed in: only a point inside a body is lifted to its surface, and on a round body the pad's rim lies higher than
+// its middle. A thin wall is tried with the second depth.
 constexpr std::array<double, 2> kDeep_m{4e-3, 1.5e-3};
 
 /// A plane through weighted points, by least squares of the distances along z.

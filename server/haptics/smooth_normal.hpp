@@ -12,9 +12,9 @@ namespace mechane::haptics {
 /// A touch on a body, in the body's frame.
 struct Touch {
   Vec3 p_B = Vec3::Zero();
-  double surface_m = 0;      ///< the surface is felt so far from there, against the normal
+  double surface_m = 0;      ///< from p_B to the surface, against the normal
   Vec3 n_B = Vec3::UnitZ();  ///< unit, as the contacts gave it
-  int rounds = 1;            ///< each but the last finds a normal that puts the pad nearer to where it belongs
+  int rounds = 1;            ///< how often a plane is fitted, each time with the normal of the last one
 };
 
 /// Fits a plane to where the pad's points come to lie on the body, around the place where its surface is felt, and returns the plane's
