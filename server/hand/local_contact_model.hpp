@@ -20,8 +20,9 @@ namespace mechane::hand {
 /// wrist to fingertip, needs no further numbers.
 ///
 /// Friction is a spring as stiff as the contact, from the place where the hand stuck to where it is now; beyond the cone
-/// of static friction that place slides after it, with dynamic friction until the hand goes back (Hayward and Armstrong 2000). A hand at rest does not creep, the force does not depend on
-/// a noisy velocity, and no slope is steeper than that of the contact itself.
+/// of static friction that place slides after it, with dynamic friction until the hand goes back (Hayward and Armstrong
+/// 2000). A hand at rest does not creep, the force does not depend on a noisy velocity, and no slope is steeper than
+/// that of the contact itself.
 class LocalContactModel {
  public:
   static constexpr Duration kFadeTime =
