@@ -418,8 +418,9 @@ void ClientImpl::tell_device(const DeviceReport& report) {
 std::vector<DeviceReport> ClientImpl::devices() {
   std::vector<DeviceReport> all;
   if (!display_) return all;
-  for (const auto& [session, report] : display_->devices()) {
-    const std::lock_guard lock(mutex_);
+  const auto told = display_->devices();
+  const std::lock_guard lock(mutex_);
+  for (const auto& [session, report] : told) {
     const std::uint64_t owner = assignment_ ? assignment_->owners[report.user].session : 0;
     if (owner == 0 || owner == session) all.push_back(report);
   }

@@ -59,10 +59,11 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
 /// The normal of a tip's touch, or of a surface near it, as a soft finger feels it. The other segments are larger, and cover facets by
 /// themselves.
 Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
-                     const UserState& user, const state::Contact& at) {
+                     const UserState& user, const state::Contact& at, NormalKind kind) {
   const collision::Object* const object = description.bodies[at.body.index()].object.get();
   const bool stylus = user.sample.kind == HandKind::one_point;
-  if (object == nullptr || !(stylus || hand::is_fingertip(at.segment))) return at.n_BH_W;
+  const bool tip = stylus || hand::is_fingertip(at.segment);
+  if (kind == NormalKind::of_contacts || object == nullptr || !tip) return at.n_BH_W;
   const Pose& X_WB = state[at.body].X_WB;
   const Pose X_BW = X_WB.inverse();
   Touch touch{.p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W)};
@@ -108,8 +109,7 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     ContactPatch& patch = patches[i];
     if (patch.depth_m <= 0) continue;
     state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
-    if (config.normals == NormalKind::smooth) touch.n_BH_W = smooth_normal_W(description, hand, state, user, touch);
-    patch.n_BH_W = touch.n_BH_W;
+    touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config.normals);
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const PatchForce force = touch_force(description, state, user, patch, v_B_W, config, anchors);
@@ -124,12 +124,12 @@ void render_patches(const state::WorldDescription& description, const HandModel&
 
 /// What a client may render by itself when the hand comes to these surfaces before we see it.
 void announce_near(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
-                   UserState& user) {
+                   UserState& user, const ForceConfig& config) {
   // The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
   constexpr double kPatchShare = 2.0 / 3.0;
   for (state::Contact near : user.near_span()) {
     if (user.grasp.active && user.grasp.body == near.body) continue;
-    near.n_BH_W = smooth_normal_W(description, hand, state, user, near);
+    near.n_BH_W = smooth_normal_W(description, hand, state, user, near, config.normals);
     const BodyState& body = state[near.body];
     const HapticMaterial& material = description.bodies[near.body.index()].haptic;
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
@@ -194,7 +194,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, cons
       render_paper(description, state, user);
     } else {
       render_patches(description, hand, state, user, config_);
-      announce_near(description, hand, state, user);
+      announce_near(description, hand, state, user, config_);
     }
     render_grasp(state, user);
     if (user.freshness <= 0) user.output.contact_count = 0;  // where the hand is now, nobody here knows

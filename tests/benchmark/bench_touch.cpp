@@ -17,6 +17,7 @@
 #include "tests/support/floor_server.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/touch.hpp"
 
 namespace mechane::benchmark {
 namespace {
@@ -26,10 +27,6 @@ using test::FloorServer;
 constexpr double kStep_m = 1e-4;
 constexpr double kDepth_m = 1e-3;
 constexpr double kTip_m = 0.008;
-
-double degrees_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kPi;
-}
 
 /// An icosahedron whose triangles are halved twice: 320 facets, their corners on the sphere.
 geometry::Mesh facetted_sphere(double radius_m) {
@@ -106,18 +103,11 @@ Felt go_round(double radius_m, const std::function<Vec3(const Vec3& way_out)>& n
     const double angle = i * kStep_m / radius_m;
     const Vec3 way_out = std::cos(angle) * u + std::sin(angle) * v;
     const Vec3 now = normal(way_out);
-    felt.jump_deg = std::max(felt.jump_deg, degrees_between(before, now));
-    felt.deviation_deg += degrees_between(way_out, now) / steps;
+    felt.jump_deg = std::max(felt.jump_deg, test::degrees_between(before, now));
+    felt.deviation_deg += test::degrees_between(way_out, now) / steps;
     before = now;
   }
   return felt;
-}
-
-std::shared_ptr<const collision::Object> object_of(const geometry::Mesh& mesh) {
-  const geometry::NamedMesh part{"part", mesh};
-  auto built = collision_build::build_object({&part, 1}, {});
-  if (!built) throw std::runtime_error(built.error().to_string());
-  return std::make_shared<const collision::Object>(std::move(*built));
 }
 
 Vec3 felt_by_tip(FloorServer& server, double radius_m, const Vec3& way_out) {
@@ -130,7 +120,7 @@ Vec3 felt_by_tip(FloorServer& server, double radius_m, const Vec3& way_out) {
 
 void measure_smoothness(Report& report, const std::string& name, const geometry::Mesh& mesh, double radius_m) {
   const MeshNormals normals(mesh);
-  const auto object = object_of(mesh);
+  const auto object = test::built(mesh);
   haptics::ForceConfig of_contacts;
   of_contacts.normals = haptics::NormalKind::of_contacts;
   FloorServer as_found(object, of_contacts);
@@ -161,14 +151,12 @@ geometry::Mesh shipped_ball() {
 void measure_grasp(Report& report) {
   constexpr int kTicks = 20'000;
   SystemClock clock;
-  FloorServer server(object_of(test::cylinder(0.018, 0.08, 32)), {});
+  FloorServer server(test::built(test::cylinder(0.018, 0.08, 32)), {});
   hand::HandSample sample;
   sample.kind = hand::HandKind::glove;
   sample.joints.fill(0);
-  for (std::size_t f = 0; f < hand::kFingers; ++f) {
-    for (std::size_t k = 1; k < hand::kFingerJoints; ++k)
-      sample.joints[hand::kFingerJoints * f + k] = f == 0 ? 0.2 : k == 1 ? 0.9 : 1.25;
-  }
+  for (std::size_t f = 0; f < hand::kFingers; ++f)
+    test::close_finger(sample, f, 1);
   Samples all(kTicks), force(kTicks);
   std::size_t touching = 0;
   for (int i = 0; i < kTicks; ++i) {

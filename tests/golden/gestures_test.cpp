@@ -20,15 +20,12 @@
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/touch.hpp"
 
 namespace mechane {
 namespace {
 
 using Object = std::shared_ptr<const collision::Object>;
-
-Object built(std::vector<geometry::NamedMesh> parts) {
-  return std::make_shared<const collision::Object>(collision_build::build_object(parts, {}).value());
-}
 
 /// Boards side by side along x, their top at y = 0, from x = -0.1 to 0.1.
 Object boards(int count) {
@@ -37,14 +34,14 @@ Object boards(int count) {
   for (int i = 0; i < count; ++i)
     parts.push_back(
         {fmt::format("board {}", i), test::box({half_m, 0.01, 0.06}, {-0.1 + half_m * (2 * i + 1), -0.01, 0})});
-  return built(std::move(parts));
+  return test::built(parts);
 }
 
 /// Where the hand wants to be at a moment; between two of them it goes straight.
 struct Key {
   double t_s;
   Vec3 p_WH;
-  double closed = 0;  ///< a glove's fingers: 0 flat, 1 around a bar of 36 mm
+  double closed = 0;  ///< see test::close_finger()
 };
 
 Key at(const std::vector<Key>& path, double t_s) {
@@ -69,10 +66,8 @@ class ScriptedGlove final : public haptic::Device {
     sample.X_WH.p = key_.p_WH;
     sample.V_WH.v = (key_.p_WH - before_) / to_seconds(dt);
     before_ = key_.p_WH;
-    for (const std::size_t f : fingers_) {
-      for (std::size_t k = 1; k < hand::kFingerJoints; ++k)
-        sample.joints[hand::kFingerJoints * f + k] = key_.closed * (f == 0 ? 0.2 : k == 1 ? 0.9 : 1.25);
-    }
+    for (const std::size_t f : fingers_)
+      test::close_finger(sample, f, key_.closed);
     return sample;
   }
   void write(const hand::HandForce& /*force*/) noexcept override {}
@@ -127,10 +122,11 @@ struct Gesture {
 /// The stylus has a tip of 8 mm. A flat hand's palm is 14 mm thick to each side.
 std::vector<Gesture> gestures() {
   const Object board = boards(1);
-  const Object bar = built({{"bar", test::cylinder(0.018, 0.08, 32)}});
-  const Object globe = built({{"ball", test::ball(0.05, 24)}});
-  const Object groove = built({{"floor", test::box({0.1, 0.01, 0.06}, {0, -0.01, 0})},
-                               {"wall", test::box({0.01, 0.05, 0.06}, {0.11, 0.03, 0})}});
+  const Object bar = test::built(test::cylinder(0.018, 0.08, 32));
+  const Object globe = test::built(test::ball(0.05, 24));
+  const Object groove =
+      test::built(std::vector<geometry::NamedMesh>{{"floor", test::box({0.1, 0.01, 0.06}, {0, -0.01, 0})},
+                                                   {"wall", test::box({0.01, 0.05, 0.06}, {0.11, 0.03, 0})}});
   const auto stylus = [](const Object& object, std::vector<Key> path) {
     return [=] { return by_stylus(object, path); };
   };

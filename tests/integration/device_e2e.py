@@ -131,7 +131,8 @@ class Devices(EndToEnd):
     @marked("draws")
     def test_the_display_shows_that_the_handle_was_let_go(self):
         self.server(records=False)
-        display = self.start("display", "display", "--offscreen", "--kiosk", "kiosk-1", "--size", "640x360", "--language", "en", "--fps", "10",
+        display = self.start("display", "display", "--offscreen", "--kiosk", "kiosk-1", "--size", "640x360",
+                             "--language", "en", "--fps", "10",
                              "--out", self.folder / "pictures")
 
         def sign():

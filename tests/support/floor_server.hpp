@@ -5,12 +5,12 @@
 #include <set>
 #include <utility>
 
-#include "server/collision_build/object_builder.hpp"
 #include "server/haptics/contacts.hpp"
 #include "server/haptics/near_surfaces.hpp"
 #include "server/haptics/render_forces.hpp"
 #include "tests/support/crank_world.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/touch.hpp"
 
 namespace mechane::test {
 
@@ -66,10 +66,7 @@ class FloorServer {
   }
   static state::WorldDescription block(double top_m, double stiffness_n_per_m) {
     static const Vec3 half_m(0.1, 0.02, 0.1);
-    static const auto object = [] {
-      const geometry::NamedMesh part{"block", box(half_m)};
-      return std::make_shared<collision::Object>(collision_build::build_object({&part, 1}, {}).value());
-    }();
+    static const auto object = built(box(half_m));
     state::WorldDescription world = fixed(object);
     world.bodies[0].X_WB.p.y() = top_m - half_m.y();
     world.bodies[0].haptic.stiffness_n_per_m = stiffness_n_per_m;

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "server/collision_build/object_builder.hpp"
 #include "tests/support/floor_server.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
+#include "tests/support/touch.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -15,14 +15,8 @@ namespace {
 constexpr double kBall_m = 0.05;
 constexpr double kStylus_m = 0.008;
 
-collision::Object built(const geometry::Mesh& mesh) {
-  const geometry::NamedMesh part{"part", mesh};
-  return collision_build::build_object({&part, 1}, {}).value();
-}
-
-double degrees_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kPi;
-}
+using test::built;
+using test::degrees_between;
 
 /// What the tip of a stylus feels that goes along the equator of a ball of 24 facets around, 1 mm deep (or above it, where below 0).
 struct AlongTheEquator {
@@ -47,7 +41,7 @@ struct AlongTheEquator {
 };
 
 TEST(SmoothNormal, FacetsOfABallAreNotFelt) {
-  const auto ball = std::make_shared<const collision::Object>(built(test::ball(kBall_m, 24)));
+  const auto ball = built(test::ball(kBall_m, 24));
   ForceConfig of_contacts;
   of_contacts.normals = NormalKind::of_contacts;
   const AlongTheEquator found(ball, 1e-3, of_contacts), smooth(ball, 1e-3);
@@ -57,30 +51,30 @@ TEST(SmoothNormal, FacetsOfABallAreNotFelt) {
 }
 
 TEST(SmoothNormal, ASurfaceThatIsNearHasTheSameNormalAsOneThatIsTouched) {
-  const auto ball = std::make_shared<const collision::Object>(built(test::ball(kBall_m, 24)));
+  const auto ball = built(test::ball(kBall_m, 24));
   EXPECT_LT(AlongTheEquator(ball, -5e-3).deviation_deg, 1);
 }
 
 TEST(SmoothNormal, AnEdgeStays) {
-  const collision::Object block = built(test::box(Vec3(0.05, 0.02, 0.05)));
+  const auto block = built(test::box(Vec3(0.05, 0.02, 0.05)));
   const collision::Object pad = make_pad();
   for (const double from_edge_m : {0.02, 0.005, 0.002, 0.0005}) {
     const Vec3 on_top(0.05 - from_edge_m, 0.02, 0), on_side(0.05, 0.02 - from_edge_m, 0);
-    EXPECT_LT(degrees_between(smooth_normal(pad, block, {.p_B = on_top, .n_B = Vec3::UnitY()}), Vec3::UnitY()), 0.5)
+    EXPECT_LT(degrees_between(smooth_normal(pad, *block, {.p_B = on_top, .n_B = Vec3::UnitY()}), Vec3::UnitY()), 0.5)
         << from_edge_m;
-    EXPECT_LT(degrees_between(smooth_normal(pad, block, {.p_B = on_side, .n_B = Vec3::UnitX()}), Vec3::UnitX()), 0.5)
+    EXPECT_LT(degrees_between(smooth_normal(pad, *block, {.p_B = on_side, .n_B = Vec3::UnitX()}), Vec3::UnitX()), 0.5)
         << from_edge_m;
   }
   const Vec3 between = Vec3(1, 1, 0).normalized();
-  EXPECT_LT(degrees_between(smooth_normal(pad, block, {.p_B = Vec3(0.05, 0.02, 0), .n_B = between}), between), 0.5);
+  EXPECT_LT(degrees_between(smooth_normal(pad, *block, {.p_B = Vec3(0.05, 0.02, 0), .n_B = between}), between), 0.5);
 }
 
 TEST(SmoothNormal, AThinWallKeepsItsSide) {
   const collision::Object pad = make_pad();
   for (const double thickness_m : {0.002, 0.004, 0.006, 0.012}) {
-    const collision::Object plate = built(test::box(Vec3(0.05, 0.5 * thickness_m, 0.05)));
+    const auto plate = built(test::box(Vec3(0.05, 0.5 * thickness_m, 0.05)));
     const Touch touch{.p_B = Vec3(0, 0.5 * thickness_m, 0), .n_B = Vec3(0.05, 1, 0).normalized()};
-    const Vec3 n_B = smooth_normal(pad, plate, touch);
+    const Vec3 n_B = smooth_normal(pad, *plate, touch);
     EXPECT_LE(degrees_between(n_B, Vec3::UnitY()), degrees_between(touch.n_B, Vec3::UnitY()) + 1e-9) << thickness_m;
   }
 }

@@ -26,11 +26,11 @@ using hand::LocalContact;
 
 /// What a visitor has to know of a haptic device.
 enum class DeviceState : std::uint8_t {
-  none,       ///< there is no device, or its program does not tell
+  none,       ///< no device, or its program says nothing of it
   preparing,  ///< it is being opened, or fitted to the visitor's hand
   ready,
   let_go,        ///< its dead-man's switch is released
-  not_ready,     ///< not held or not powered: its driver does not tell which
+  not_ready,     ///< not held or not powered: its driver does not say which
   uncalibrated,  ///< somebody has to calibrate it
   warm,          ///< its force is lowered, to spare the motors
   hot,           ///< too warm for any force
