@@ -56,6 +56,7 @@ void fuzz_output(Bytes bytes) {
   client::ForceSample force;
   if (!client::parse(wire, force)) return;
   must(force.contact_count <= hand::kMaxLocalContacts && force.force_W.f.allFinite() && force.force_W.t.allFinite());
+  must(force.held.p_W.allFinite() && std::abs(force.held.axis_W.norm() - 1) < 1e-6 && force.held.limit_n >= 0);
 }
 
 void fuzz_kiosk(Bytes bytes) {
@@ -63,7 +64,8 @@ void fuzz_kiosk(Bytes bytes) {
   wire.protocol = proto::kProtocol;
   client::DeviceReport device;
   if (client::parse(wire, device))
-    must(device.user < hand::kMaxUsers && device.state <= client::DeviceState::lost && device.name.size() < 64);
+    must(device.user < hand::kMaxUsers && device.state <= client::DeviceState::lost &&
+         device.name.size() <= sizeof(wire.device_name));  // one without a closing zero is read to its end, not further
   transport::Session session;
   if (transport::validate(wire, session) != transport::Reject::none) return;
   must(proto::is_name(session.kiosk) && session.user < hand::kMaxUsers && session.id != 0);
