@@ -33,6 +33,7 @@ struct Arguments {
   double scale = 1;
   int clutch = 0;
   bool calibrate = false;
+  bool wait = false;
   double radius_m = 0.05;
   double seconds = 0;
   bool direct = false;
@@ -59,8 +60,13 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--clutch", a.clutch,
                  "the device's button, 1 to 32, that holds the hand in its place while the device is moved; 0: none")
       ->check(CLI::Range(0, 32));
-  app.add_flag("--calibrate", a.calibrate,
-               "begin with three poses that fit a glove to the visitor's hand: flat, fist, pinch");
+  auto* calibrate = app.add_flag("--calibrate", a.calibrate,
+                                 "begin with three poses that fit a glove to the visitor's hand: flat, fist, pinch");
+  app.add_flag(
+         "--wait", a.wait,
+         "where the device cannot be opened, go on trying, each second; the kiosk's displays say meanwhile that it "
+         "is not connected")
+      ->excludes(calibrate);
   app.add_option("--radius", a.radius_m, "radius of the circle, metres");
   app.add_option("--seconds", a.seconds, "stop after this time; 0: run until stopped");
   a.client.fifo_priority = 70;
@@ -224,6 +230,23 @@ Expected<haptic::HandCalibration> calibrated(const Arguments& a) {
   return *course.result();
 }
 
+/// Opens the device: with --wait as often as it takes.
+Expected<std::unique_ptr<haptic::HapticLoop>> open_device(const Arguments& a, client::Client& client,
+                                                          haptic::DriverProcess& device, const std::string& name) {
+  SystemClock clock;
+  std::string told;
+  while (true) {
+    auto loop = make_loop(a, client, device);
+    if (loop || !a.wait || g_stop != 0) return loop;
+    std::string why = loop.error().to_string();
+    if (why != told) log::warning(why + "; trying again each second");
+    told = std::move(why);
+    tell_state(client, {.name = name}, client::DeviceState::lost);
+    for (int i = 0; i < 10 && g_stop == 0; ++i)
+      clock.sleep_until(clock.now() + std::chrono::milliseconds(100));
+  }
+}
+
 /// The device sets the pace of its loop.
 int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
   const int fifo = a.client.fifo_priority;
@@ -235,8 +258,10 @@ int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder*
     if (!calibration) return log::error(calibration.error()), 2;
     config.glove = *calibration;
   }
+  const std::string name = config.device.driver;
   haptic::DriverProcess device(std::move(config));
-  auto loop = make_loop(a, client, device);
+  auto loop = open_device(a, client, device, name);
+  if (!loop && g_stop != 0) return 0;
   if (!loop) return log::error(loop.error()), 2;
   log::info(std::string("device: ") + device.info().name);
   Turns turns(**loop, recorder);

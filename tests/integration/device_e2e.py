@@ -148,6 +148,20 @@ class Devices(EndToEnd):
         haptic.kill()
         wait_until(lambda: not sign(), 40, "the notice of a program that died is gone")
 
+    def test_a_device_that_is_not_there_at_the_start_is_waited_for(self):
+        there = self.folder / "there"
+        haptic = self.start("haptic", "haptic", "--wait", "--kiosk", "kiosk-1", "--device", self.device(f"until={there}"))
+        wait_until(lambda: self.kiosk_status(device="lost", device_name="fake"), 30, haptic.text())
+        self.assertEqual(haptic.text().count("plug it in"), 1, "told once, though it is tried each second")
+        there.touch()
+        wait_until(lambda: self.kiosk_status(device="ready", device_name="Fake stylus"), 30, haptic.text())
+        self.assertEqual(haptic.stop(), 0, haptic.text())
+
+    def test_one_that_is_waited_for_can_be_stopped(self):
+        haptic = self.start("haptic", "haptic", "--wait", "--kiosk", "kiosk-1", "--device", self.device("fault=absent"))
+        wait_until(lambda: "trying again" in haptic.text(), 20, haptic.text())
+        self.assertEqual(haptic.stop(), 0, haptic.text())
+
     def test_a_driver_that_dies_ends_the_haptic_program(self):
         """systemd starts it again."""
         haptic = self.start("haptic", "haptic", "--kiosk", "kiosk-1", "--device", self.device("fault=crash,after=300"))

@@ -41,7 +41,7 @@ static int fails(char* why, size_t why_size, const char* what) {
   return 1;
 }
 
-/* "trace=FILE,fault=WORD,after=READS" */
+/* "trace=FILE,fault=WORD,after=READS,until=FILE": absent until this file is there */
 static int fake_open(const char* options, void** device, char* why, size_t why_size) {
   Device* made = calloc(1, sizeof(Device));
   char text[512];
@@ -52,6 +52,7 @@ static int fake_open(const char* options, void** device, char* why, size_t why_s
     if (strncmp(word, "trace=", 6) == 0) made->trace = open(word + 6, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
     if (strncmp(word, "fault=", 6) == 0) snprintf(made->fault, sizeof(made->fault), "%s", word + 6);
     if (strncmp(word, "after=", 6) == 0) made->after = atol(word + 6);
+    if (strncmp(word, "until=", 6) == 0 && access(word + 6, F_OK) != 0) strcpy(made->fault, "absent");
   }
   ++opened;
   if (strcmp(made->fault, "absent") == 0 || (strcmp(made->fault, "unplugged") == 0 && opened > 1)) {
