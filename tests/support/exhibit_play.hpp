@@ -27,6 +27,8 @@ struct PlayOptions {
   double patience_s = 5;  ///< world seconds after the last move in which the activity may still be done
   visitor::PlayerConfig player{};
   haptic::VirtualChoice device{};  ///< a stylus of the Phantom's class, held by a hand
+  /// Instead of that, another device for a hand of its kind.
+  std::function<std::unique_ptr<haptic::SimulatedDevice>()> make_device{};
 };
 
 struct PlayedStep {
