@@ -65,6 +65,17 @@ Json to_json(const proto::HapticOutput& s) {
   j.update({{"kiosk", text(s.kiosk)}, {"user", s.user}, {"session", s.session}, {"tick", s.tick}, {"epoch", s.epoch}});
   j.update({{"echo_seq", s.echo_seq}, {"echo_sent_ns", s.echo_sent_ns}, {"f_W", list(s.f_W)}, {"t_W", list(s.t_W)}});
   j.update({{"finger_force_n", list(s.finger_force_n)}, {"reasons", s.reasons}, {"holding", s.holding != 0}});
+  const auto& held = s.held;
+  j["held"] = {{"kind", held.kind},
+               {"p_HG", list(held.p_HG)},
+               {"p_W", list(held.p_W)},
+               {"axis_W", list(held.axis_W)},
+               {"radius_m", held.radius_m},
+               {"along_n", held.along_n},
+               {"stiffness_n_per_m", held.stiffness_n_per_m},
+               {"damping_ns_per_m", held.damping_ns_per_m},
+               {"limit_n", held.limit_n},
+               {"valid_us", held.valid_us}};
   Json contacts = Json::array();
   for (std::size_t i = 0; i < s.contact_count && i < hand::kMaxLocalContacts; ++i) {
     const auto& c = s.contacts[i];

@@ -23,6 +23,18 @@ bool parse_pose(const proto::WirePose& wire, Pose& out) noexcept {
   return proto::normalise(out);
 }
 
+/// False where a direction is not nearly of unit length.
+bool make_unit(Vec3& direction) noexcept {
+  const double length = direction.norm();
+  if (!(length > 0.99 && length < 1.01)) return false;
+  direction /= length;
+  return true;
+}
+
+Duration parse_validity(std::uint32_t valid_us) noexcept {
+  return std::chrono::microseconds(std::min<std::uint32_t>(valid_us, 1'000'000));
+}
+
 bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexcept {
   if (!(proto::all_finite(wire.p_W) && proto::all_finite(wire.n_W) && proto::all_finite(wire.v_W))) return false;
   for (const float v : {wire.depth_m, wire.curvature_per_m, wire.stiffness_n_per_m, wire.damping_ns_per_m,
@@ -31,9 +43,7 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
   }
   out.p_W = proto::to_vec3(wire.p_W);
   out.n_W = proto::to_vec3(wire.n_W);
-  const double length = out.n_W.norm();
-  if (!(length > 0.99 && length < 1.01)) return false;
-  out.n_W /= length;
+  if (!make_unit(out.n_W)) return false;
   out.v_W = proto::to_vec3(wire.v_W);
   out.depth_m = wire.depth_m;
   out.curvature_per_m = wire.curvature_per_m;
@@ -41,8 +51,28 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
   out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
   out.static_friction = std::max(0.0f, wire.static_friction);
   out.dynamic_friction = std::max(0.0f, wire.dynamic_friction);
-  out.validity = std::chrono::microseconds(std::min<std::uint32_t>(wire.valid_us, 1'000'000));
+  out.validity = parse_validity(wire.valid_us);
   return true;
+}
+
+bool parse_held(const proto::WireHeldPath& wire, HeldPath& out) noexcept {
+  if (wire.kind == mechane_held_none) return true;
+  if (wire.kind > mechane_held_circle) return false;
+  if (!(proto::all_finite(wire.p_HG) && proto::all_finite(wire.p_W) && proto::all_finite(wire.axis_W))) return false;
+  for (const float v : {wire.radius_m, wire.along_n, wire.stiffness_n_per_m, wire.damping_ns_per_m, wire.limit_n}) {
+    if (!std::isfinite(v)) return false;
+  }
+  out.kind = static_cast<HeldPath::Kind>(wire.kind);
+  out.p_HG = proto::to_vec3(wire.p_HG);
+  out.p_W = proto::to_vec3(wire.p_W);
+  out.axis_W = proto::to_vec3(wire.axis_W);
+  out.radius_m = wire.radius_m;
+  out.along_n = wire.along_n;
+  out.stiffness_n_per_m = std::max(0.0f, wire.stiffness_n_per_m);
+  out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
+  out.limit_n = std::max(0.0f, wire.limit_n);
+  out.validity = parse_validity(wire.valid_us);
+  return make_unit(out.axis_W) && (out.kind != HeldPath::Kind::circle || out.radius_m > 0);
 }
 
 bool parse_hand(const proto::WireHandPose& wire, HandPose& out) {
@@ -182,7 +212,8 @@ bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
   }
   out.reasons = wire.reasons;
   out.holding = wire.holding != 0;
-  return true;
+  out.held = HeldPath{};
+  return !out.holding || parse_held(wire.held, out.held);
 }
 
 bool parse(const proto::SceneFrame& wire, Frame& out) {

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "server/hand/held_path.hpp"
+
 namespace mechane::haptic {
 
 using client::ForceSample;
@@ -83,12 +85,16 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   wanted.wanted_W = {share * answer_.force_W.f, share * answer_.force_W.t};
   std::transform(answer_.finger_force_n.begin(), answer_.finger_force_n.end(), wanted.finger_force_n.begin(),
                  [share](double force_n) { return share * force_n; });
-  if (renders_here()) wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
+  wanted.touching = answer_.touches();
+  if (renders_here()) {
+    wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
+    wanted.touching = wanted.touching || !wanted.wanted_W.f.isZero(0);
+    wanted.wanted_W.f += hand::held_path_force(answer_.held, input.X_WH, input.V_WH, age, share);
+  }
   const bool warm = heat_.limit(wanted.wanted_W.f);
   wanted.V_WH = moved(input, dt);
   wanted.age = age;
   wanted.engaged = engaged && ready;
-  wanted.touching = answer_.touches() || (renders_here() && !wanted.wanted_W.f.isZero(0));
   rendered_ = governor_.apply(governed_, wanted, dt);
   heat_.rendered(rendered_.force_W.f.norm(), dt);
   if (warm) rendered_.reasons |= kWarm;

@@ -20,8 +20,9 @@ namespace mechane::haptic {
 enum class RenderMode {
   /// The server's force; for a LAN, where an answer is a millisecond old.
   server,
-  /// Computed from the server's contacts at the device's own rate, whatever the network; torque, the forces on fingers
-  /// and the pull of a held object are still the server's.
+  /// Computed from the server's contacts, and the path of what is held, at the device's own rate, whatever the network;
+  /// torque, the forces on fingers, and what a held object does along its path, are still the server's, and so is the
+  /// whole pull of one that no hinge or slider holds.
   local,
 };
 
@@ -90,8 +91,9 @@ class HapticLoop {
         renders_(device.renders()) {}
   bool take_answer() noexcept;
   void note_delay(Duration delay) noexcept;
-  /// Contacts, not the pull of what is held: that is always the server's.
-  [[nodiscard]] bool renders_here() const noexcept { return mode_ == RenderMode::local && !answer_.holding; }
+  [[nodiscard]] bool renders_here() const noexcept {
+    return mode_ == RenderMode::local && (!answer_.holding || answer_.held.kind != hand::HeldPath::Kind::none);
+  }
   [[nodiscard]] double stiffness_share() const noexcept;
   void set_local_contacts() noexcept;
   [[nodiscard]] Twist moved(const client::HandSample& input, Duration dt) noexcept;

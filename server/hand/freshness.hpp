@@ -2,6 +2,7 @@
 // sequence number, never from the sender's clock or from events of the transport.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "server/base/clock.hpp"
@@ -19,6 +20,15 @@ inline constexpr Duration kZeroBy = std::chrono::milliseconds(50);   ///< and no
   if (age >= zero_by) return 0.0;
   const double s = static_cast<double>((zero_by - age).count()) / static_cast<double>((zero_by - hold).count());
   return s * s * (3.0 - 2.0 * s);
+}
+
+/// What a client renders by itself is gone this long after its validity.
+inline constexpr Duration kFadeTime = std::chrono::milliseconds(20);
+
+/// The share of what a client renders by itself: 1 while it is valid, then linearly to exactly 0.
+[[nodiscard]] inline double share_left(Duration age, Duration validity) noexcept {
+  if (age <= validity) return 1.0;
+  return std::max(0.0, 1.0 - to_seconds(age - validity) / to_seconds(kFadeTime));
 }
 
 /// How a sample's sequence number stands to those before it.

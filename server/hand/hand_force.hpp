@@ -50,6 +50,22 @@ struct LocalContact {
   Duration validity = kHoldFor;  ///< from receipt; afterwards the contact fades out
 };
 
+/// The path on which the place that a hand holds can move: of a body on a hinge or a slider whose other side stands still. Nothing yields
+/// across it, so that a client can render that at its device's own rate; how the body moves along it, only the server knows.
+struct HeldPath {
+  enum class Kind : std::uint8_t { none, line, circle };
+  Kind kind = Kind::none;
+  Vec3 p_HG = Vec3::Zero();      ///< where the hand holds it, in the hand's frame
+  Vec3 p_W = Vec3::Zero();       ///< a point of the line; the circle's centre
+  Vec3 axis_W = Vec3::UnitX();   ///< unit: the line's direction; the circle's axis
+  double radius_m = 0;           ///< of the circle, over 0
+  double along_n = 0;            ///< force on the hand along the path: along the axis, or counterclockwise about it
+  double stiffness_n_per_m = 0;  ///< across the path, >= 0
+  double damping_ns_per_m = 0;   ///< across the path, >= 0
+  double limit_n = 0;            ///< the most that the grip bears across the path, >= 0
+  Duration validity = kHoldFor;  ///< from receipt; afterwards its force fades out
+};
+
 /// What a server answers a sample with.
 struct HapticOutput : HandForce {
   std::uint64_t echo_sequence = 0;  ///< the sample that this answers
@@ -57,6 +73,7 @@ struct HapticOutput : HandForce {
   std::array<LocalContact, kMaxLocalContacts> contacts{};
   std::uint32_t contact_count = 0;
   bool holding = false;  ///< a grasp is on
+  HeldPath held;         ///< of the grasp; none where a client has to render the server's force
 
   [[nodiscard]] std::span<const LocalContact> contact_span() const noexcept { return {contacts.data(), contact_count}; }
   /// Whether hand and body overlap in any of the contacts; the others are about to be made.

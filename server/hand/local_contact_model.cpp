@@ -37,12 +37,6 @@ Overlap overlap_of(const LocalContact& c, const Vec3& p_WS, const Vec3& p_WH) {
   return {side * (radius - distance), (side / distance) * p_CH};
 }
 
-// 1 while the contact is valid, then linearly to exactly 0.
-double share_left(Duration age, Duration validity) {
-  if (age <= validity) return 1.0;
-  return std::max(0.0, 1.0 - to_seconds(age - validity) / to_seconds(LocalContactModel::kFadeTime));
-}
-
 /// Spring, and damping of what pushes in; continuous where depth goes through 0.
 double normal_force_n(const LocalContact& c, double depth_m, double v_n) {
   const double onset = std::min(1.0, depth_m / LocalContactModel::kDampingOnset_m);

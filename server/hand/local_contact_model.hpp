@@ -25,8 +25,6 @@ namespace mechane::hand {
 /// that of the contact itself.
 class LocalContactModel {
  public:
-  static constexpr Duration kFadeTime =
-      std::chrono::milliseconds(20);  ///< a contact past its validity is gone after this
   static constexpr double kDampingOnset_m =
       0.5e-3;  ///< damping grows to its full value over this depth: no jolt at touch
 
@@ -39,7 +37,7 @@ class LocalContactModel {
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
 
   /// The force on the hand, N in W, with H at `p_WH` moving at `v_WH`; `age` is the time since set(), on the caller's
-  /// own clock. Not clamped: the governor comes after it.
+  /// own clock: a contact past its validity fades out, see share_left(). Not clamped: the governor comes after it.
   [[nodiscard]] Vec3 render(const Vec3& p_WH, const Vec3& v_WH, Duration age) noexcept;
 
  private:

@@ -6,6 +6,7 @@
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/effective_mass.hpp"
 #include "server/haptics/friction.hpp"
+#include "server/haptics/held_path.hpp"
 #include "server/haptics/keep_deepest.hpp"
 #include "server/haptics/smooth_normal.hpp"
 
@@ -155,9 +156,10 @@ void render_paper(const state::WorldDescription& description, state::WorldState&
 }
 
 /// The constraint's reaction, as dynamics found it in the last tick.
-void render_grasp(const state::WorldState& state, UserState& user) {
+void render_grasp(const state::WorldDescription& description, const state::WorldState& state, UserState& user) {
   user.output.holding = user.grasp.active;
   if (!user.grasp.active) return;
+  user.output.held = held_path(description, state, user);
   const Vec3 p_WG = state[user.grasp.body].X_WB * user.grasp.p_BG;
   add_to_hand(user, user.grasp.reaction_W.f, p_WG);
   user.output.force_W.t += user.grasp.reaction_W.t;
@@ -196,8 +198,11 @@ void ForceRenderer::render_user(const state::WorldDescription& description, cons
       render_patches(description, hand, state, user, config_);
       announce_near(description, hand, state, user, config_);
     }
-    render_grasp(state, user);
-    if (user.freshness <= 0) user.output.contact_count = 0;  // where the hand is now, nobody here knows
+    render_grasp(description, state, user);
+    if (user.freshness <= 0) {  // where the hand is now, nobody here knows
+      user.output.contact_count = 0;
+      user.output.held = {};
+    }
   }
   hand::GovernorState& governor = state.governors[index];
   if (user.jumped) governor_.reset(governor);

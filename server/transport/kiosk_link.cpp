@@ -27,6 +27,19 @@ void set_contact(proto::WireLocalContact& out, const hand::LocalContact& from) n
   out.valid_us = to_us(from.validity);
 }
 
+void set_held(proto::WireHeldPath& out, const hand::HeldPath& from) noexcept {
+  out.kind = static_cast<std::uint8_t>(from.kind);
+  proto::set_vec3(out.p_HG, from.p_HG);
+  proto::set_vec3(out.p_W, from.p_W);
+  proto::set_vec3(out.axis_W, from.axis_W);
+  out.radius_m = static_cast<float>(from.radius_m);
+  out.along_n = static_cast<float>(from.along_n);
+  out.stiffness_n_per_m = static_cast<float>(from.stiffness_n_per_m);
+  out.damping_ns_per_m = static_cast<float>(from.damping_ns_per_m);
+  out.limit_n = static_cast<float>(from.limit_n);
+  out.valid_us = to_us(from.validity);
+}
+
 void set_force(proto::HapticOutput& out, const hand::HapticOutput& from) noexcept {
   out.echo_seq = from.echo_sequence;
   out.echo_sent_ns = from.echo_sent_ns;
@@ -37,6 +50,7 @@ void set_force(proto::HapticOutput& out, const hand::HapticOutput& from) noexcep
     out.finger_force_n[i] = static_cast<float>(from.finger_force_n[i]);
   }
   out.holding = from.holding ? 1 : 0;
+  set_held(out.held, from.held);
   out.contact_count = from.contact_count;
   for (std::size_t i = 0; i < hand::kMaxLocalContacts; ++i) {
     set_contact(out.contacts[i], i < out.contact_count ? from.contacts[i] : hand::LocalContact{});

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <map>
-#include <random>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +13,7 @@
 #include "tests/benchmark/bench_stats.hpp"
 #include "tests/support/fault_play.hpp"
 #include "tests/support/floor_server.hpp"
-#include "tests/support/scripted_client.hpp"
+#include "tests/support/held_crank.hpp"
 
 namespace mechane::benchmark {
 namespace {
@@ -23,6 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 using haptic::SimulatedStylus;
 using haptic::StylusConfig;
+using test::Network;
 
 const Vec3 kWeight_W(0, -0.5, 0);
 
@@ -102,13 +101,6 @@ void measure_walls(Report& report) {
   report.metric("wall.with_friction.k_ratio", largest_stable_n_per_m(honest) / passive);
 }
 
-/// What lies between a client and its server, there and back together.
-struct Network {
-  int delay_ms = 0;
-  int jitter_ms = 0;  ///< on top, evenly
-  double loss = 0;
-};
-
 constexpr double kFloor_n_per_m = 600;  // what the exhibits' parts have at most
 constexpr double kTip_m = 0.008;        // radius: the tip touches the floor when its middle is at y = 0
 
@@ -116,7 +108,7 @@ constexpr double kTip_m = 0.008;        // radius: the tip touches the floor whe
 class Press {
  public:
   Press(haptic::RenderMode mode, const StylusConfig& config, const Network& network = {}, unsigned seed = 1)
-      : stylus_(config, Vec3(0, kAbove_m, 0)), network_(network), random_(seed) {
+      : stylus_(config, Vec3(0, kAbove_m, 0)), network_(client_, network, seed) {
     auto made = haptic::HapticLoop::create(client_, stylus_, mode);
     if (!made) throw std::runtime_error(made.error().to_string());
     loop_ = std::move(*made);
@@ -135,8 +127,8 @@ class Press {
     Felt felt;
     for (Duration past{0}; past < time; past += kTickPeriod) {
       now_ += kTickPeriod;
-      if (answered) send_answer();
-      deliver();
+      if (answered) network_.send(server_.answer(client_.hand), now_);
+      network_.deliver(now_);
       y_m_ += std::clamp(y_m - y_m_, -1e-4, 1e-4);
       stylus_.intend(Vec3(0, y_m_, 0));
       const Vec3 force_W = stylus_.force_W();
@@ -154,29 +146,10 @@ class Press {
   [[nodiscard]] double energy_max_j() const { return energy_max_j_; }
 
  private:
-  void send_answer() {
-    const client::ForceSample answer = client_.answer_with(server_.answer(client_.hand), now_);
-    client_.arrived.reset();
-    if (std::uniform_real_distribution<>()(random_) < network_.loss) return;
-    const int late_ms = network_.delay_ms + std::uniform_int_distribution<>(0, network_.jitter_ms)(random_);
-    on_the_way_.emplace(now_ + std::chrono::milliseconds(late_ms), answer);
-  }
-  /// The newest of those that have come.
-  void deliver() {
-    while (!on_the_way_.empty() && on_the_way_.begin()->first <= now_) {
-      client::ForceSample& answer = on_the_way_.begin()->second;
-      if (!client_.arrived || answer.sequence > client_.arrived->sequence) client_.arrived = answer;
-      client_.arrived->received = now_;
-      on_the_way_.erase(on_the_way_.begin());
-    }
-  }
-
   test::ScriptedClient client_;
   test::FloorServer server_{-kTip_m, kFloor_n_per_m};
   SimulatedStylus stylus_;
-  Network network_;
-  std::mt19937 random_;
-  std::multimap<TimePoint, client::ForceSample> on_the_way_;
+  test::SlowNetwork network_;
   std::unique_ptr<haptic::HapticLoop> loop_;
   TimePoint now_{1h};
   double y_m_ = kAbove_m;
@@ -229,21 +202,43 @@ Pressed press_over(haptic::RenderMode mode, const Network& network, unsigned see
   return found;
 }
 
+/// A stylus that holds a crank and pulls its handle outwards, across the way that it turns.
+Pressed pull_over(haptic::RenderMode mode, const Network& network, unsigned seed) {
+  test::HeldCrank crank(mode, network, seed);
+  Pressed found;
+  const Vec3 before = crank.p_WH();
+  crank.go(Vec3(0.008, 0, 0), 2s);
+  found.stiffness_n_per_m = -crank.force_W().x() / (crank.p_WH().x() - before.x());
+  crank.go(Vec3(-0.008, 0, 0), 1s);
+  found.energy_j = crank.energy_max_j();
+  return found;
+}
+
+/// The worst of several networks with the same delay.
+Pressed worst_over(decltype(press_over) play, haptic::RenderMode mode, int delay_ms, unsigned networks) {
+  Pressed worst{.stiffness_n_per_m = 1e9};
+  for (unsigned seed = 1; seed <= networks; ++seed) {
+    const Pressed one = play(mode, {delay_ms, 5, 0.05}, seed);
+    worst.energy_j = std::max(worst.energy_j, one.energy_j);
+    worst.peak_n = std::max(worst.peak_n, one.peak_n);
+    worst.stiffness_n_per_m = std::min(worst.stiffness_n_per_m, one.stiffness_n_per_m);
+  }
+  return worst;
+}
+
 void measure_delays(Report& report) {
   const Pressed near = press_over(haptic::RenderMode::server, {.delay_ms = 1}, 1);
+  const Pressed near_held = pull_over(haptic::RenderMode::server, {.delay_ms = 1}, 1);
   for (const int delay_ms : {20, 50}) {
     for (const auto& [mode, name] : kModes) {
-      Pressed worst{.stiffness_n_per_m = 1e9};
-      for (unsigned seed = 1; seed <= 20; ++seed) {
-        const Pressed one = press_over(mode, {delay_ms, 5, 0.05}, seed);
-        worst.energy_j = std::max(worst.energy_j, one.energy_j);
-        worst.peak_n = std::max(worst.peak_n, one.peak_n);
-        worst.stiffness_n_per_m = std::min(worst.stiffness_n_per_m, one.stiffness_n_per_m);
-      }
+      const Pressed worst = worst_over(press_over, mode, delay_ms, 20);
       const std::string at = "delay" + std::to_string(delay_ms) + "." + name;
       report.metric(at + ".energy_mj.max", 1000 * worst.energy_j);
       report.metric(at + ".peak_ratio", worst.peak_n / near.peak_n);
       report.metric(at + ".force_share.min", worst.stiffness_n_per_m / near.stiffness_n_per_m);
+      const Pressed held = worst_over(pull_over, mode, delay_ms, 5);
+      report.metric(at + ".held.energy_mj.max", 1000 * held.energy_j);
+      report.metric(at + ".held.force_share.min", held.stiffness_n_per_m / near_held.stiffness_n_per_m);
     }
   }
 }

@@ -31,6 +31,12 @@ class Haptics(unittest.TestCase):
         self.assertLessEqual(self.metrics["delay20.local.peak_ratio"], 1.1)
         self.assertGreaterEqual(self.metrics["delay20.local.force_share.min"], 0.8)
 
+    def test_what_holds_a_hand_on_its_path_does_not_wait_for_the_server(self):
+        for ms in (20, 50):
+            self.assertLessEqual(self.metrics[f"delay{ms}.local.held.energy_mj.max"], 1, ms)
+            self.assertGreaterEqual(self.metrics[f"delay{ms}.local.held.force_share.min"], 0.8, ms)
+            self.assertLessEqual(self.metrics[f"delay{ms}.direct.held.force_share.min"], 0.5, "there is something to gain")
+
     def test_facets_are_not_felt(self):
         program = Path(os.environ["MECHANE_BIN"]) / "bench_touch"
         metrics = json.loads(subprocess.run(program, capture_output=True, text=True, check=True).stdout)["metrics"]

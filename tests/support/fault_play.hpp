@@ -109,6 +109,7 @@ class FaultPlay {
     if (--until_turn_ <= 0) {
       until_turn_ = pick(50, 1500);
       aim_m_ = pick(0, 3) == 0 ? 0.01 : -0.001 * pick(0, 20);
+      holds_ = pick(0, 2) == 0;
     }
     y_m_ += std::clamp(aim_m_ - y_m_, -2e-4, 2e-4);
     device_.stylus.intend(Vec3(0, y_m_, 0));
@@ -123,6 +124,16 @@ class FaultPlay {
     client_.answer_with_floor(kFloor_n_per_m, now_);
     client::ForceSample& sample = *client_.arrived;
     sample.contacts[0].dynamic_friction = 0.5;
+    if (holds_) {  // a handle at y = 0 on a slider along z
+      sample.holding = true;
+      sample.contact_count = 0;
+      sample.held = {.kind = hand::HeldPath::Kind::line,
+                     .axis_W = Vec3::UnitZ(),
+                     .along_n = 0.5,
+                     .stiffness_n_per_m = kFloor_n_per_m,
+                     .damping_ns_per_m = 1,
+                     .limit_n = 6};
+    }
     if (!fault_) return;
     switch (*fault_) {
       case Fault::server_dies:
@@ -139,7 +150,8 @@ class FaultPlay {
         break;
       case Fault::not_a_number:
         if (pick(0, 9) == 0)
-          sample.force_W.f.x() = sample.contacts[0].depth_m = std::numeric_limits<double>::quiet_NaN();
+          sample.force_W.f.x() = sample.contacts[0].depth_m = sample.held.along_n =
+              std::numeric_limits<double>::quiet_NaN();
         break;
       case Fault::absurd_sequence:
         sample.echo_sequence =
@@ -185,6 +197,7 @@ class FaultPlay {
   std::uint64_t owed_ = 0;
   int until_turn_ = 0;
   double aim_m_ = 0.01;
+  bool holds_ = false;
   double y_m_ = 0.01;
   FaultFindings found_;
 };

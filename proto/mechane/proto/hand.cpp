@@ -23,6 +23,10 @@ static_assert(std::extent_v<decltype(WorldAssignment::owners)> == hand::kMaxUser
 static_assert(mechane_hand_one_point == static_cast<int>(hand::HandKind::one_point));
 static_assert(mechane_hand_glove == static_cast<int>(hand::HandKind::glove));
 
+static_assert(mechane_held_none == static_cast<int>(hand::HeldPath::Kind::none));
+static_assert(mechane_held_line == static_cast<int>(hand::HeldPath::Kind::line));
+static_assert(mechane_held_circle == static_cast<int>(hand::HeldPath::Kind::circle));
+
 static_assert(mechane_reason_clamped == hand::kClamped);
 static_assert(mechane_reason_slew_limited == hand::kSlewLimited);
 static_assert(mechane_reason_damped == hand::kDamped);

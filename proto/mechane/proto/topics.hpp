@@ -13,7 +13,7 @@ namespace mechane::proto {
 
 /// Version of idl/mechane.idl. Raise it when a message has another field, a field another meaning, or CommandKind another kind. A new
 /// topic needs no new version: programs that do not know it do not subscribe to it. Receivers drop samples of another version.
-inline constexpr std::uint32_t kProtocol = 4;
+inline constexpr std::uint32_t kProtocol = 5;
 
 using HapticInput = ::mechane_HapticInput;
 using HapticOutput = ::mechane_HapticOutput;
@@ -32,6 +32,7 @@ using DisplayRequest = ::mechane_DisplayRequest;
 using ViewerHead = ::mechane_ViewerHead;
 using WirePose = ::mechane_Pose;
 using WireLocalContact = ::mechane_LocalContact;
+using WireHeldPath = ::mechane_HeldPath;
 using WireBodyPose = ::mechane_BodyPose;
 using WireHandPose = ::mechane_HandPose;
 using WireText = ::mechane_Text;

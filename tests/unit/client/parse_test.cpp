@@ -24,6 +24,10 @@ proto::HapticOutput honest_force(std::uint32_t contacts = kMaxLocalContacts) {
   wire.contact_count = contacts;
   for (proto::WireLocalContact& contact : wire.contacts)
     proto::set_vec3(contact.n_W, any_unit());
+  wire.holding = 1;
+  wire.held.kind = mechane_held_circle;
+  wire.held.radius_m = 0.2f;
+  proto::set_vec3(wire.held.axis_W, any_unit());
   return wire;
 }
 
@@ -31,6 +35,16 @@ std::vector<float*> numbers_of(proto::WireLocalContact& contact) {
   std::vector<float*> all{&contact.depth_m,          &contact.curvature_per_m, &contact.stiffness_n_per_m,
                           &contact.damping_ns_per_m, &contact.static_friction, &contact.dynamic_friction};
   for (auto* vector : {&contact.p_W, &contact.n_W, &contact.v_W}) {
+    for (float& number : *vector)
+      all.push_back(&number);
+  }
+  return all;
+}
+
+std::vector<float*> numbers_of(proto::WireHeldPath& held) {
+  std::vector<float*> all{&held.radius_m, &held.along_n, &held.stiffness_n_per_m, &held.damping_ns_per_m,
+                          &held.limit_n};
+  for (auto* vector : {&held.p_HG, &held.p_W, &held.axis_W}) {
     for (float& number : *vector)
       all.push_back(&number);
   }
@@ -46,7 +60,7 @@ RC_GTEST_PROP(ParseForce, RefusesWhatIsNotFiniteAnywhere, ()) {
   proto::HapticOutput wire = honest_force();
   ForceSample force;
   RC_ASSERT(parse(wire, force));
-  std::vector<float*> numbers;
+  std::vector<float*> numbers = numbers_of(wire.held);
   for (proto::WireLocalContact& contact : wire.contacts) {
     const std::vector<float*> more = numbers_of(contact);
     numbers.insert(numbers.end(), more.begin(), more.end());
@@ -93,6 +107,32 @@ RC_GTEST_PROP(ParseForce, MakesANormalThatIsNearlyUnitAUnitAndRefusesOthers, ())
   if (std::abs(length - 1) > 0.01) return;
   RC_ASSERT(std::abs(force.contacts[contact].n_W.norm() - 1) < 1e-12);
   RC_ASSERT((force.contacts[contact].n_W - unit).norm() < 1e-6);
+}
+
+TEST(ParseForce, TakesNoPathWhereNothingIsHeldAndNoneThatCannotBe) {
+  proto::HapticOutput wire{};
+  wire.protocol = proto::kProtocol;
+  wire.held.kind = mechane_held_circle;
+  wire.held.axis_W[2] = 1;
+  wire.held.radius_m = 0.2f;
+  wire.held.limit_n = -1;
+  wire.held.valid_us = 3'000'000;
+  ForceSample force;
+  ASSERT_TRUE(parse(wire, force));
+  EXPECT_EQ(force.held.kind, HeldPath::Kind::none);
+  wire.holding = 1;
+  ASSERT_TRUE(parse(wire, force));
+  EXPECT_EQ(force.held.kind, HeldPath::Kind::circle);
+  EXPECT_EQ(force.held.limit_n, 0);
+  EXPECT_EQ(force.held.validity, std::chrono::seconds(1));
+  wire.held.radius_m = 0;
+  EXPECT_FALSE(parse(wire, force));
+  wire.held.kind = mechane_held_line;
+  EXPECT_TRUE(parse(wire, force));
+  wire.held.axis_W[2] = 2;
+  EXPECT_FALSE(parse(wire, force));
+  wire.held.kind = mechane_held_circle + 1;
+  EXPECT_FALSE(parse(wire, force));
 }
 
 RC_GTEST_PROP(ParseForce, LetsNoContactPullOrLastForLong, ()) {

@@ -18,6 +18,7 @@ namespace mechane::client {
 // The types of a hand are declared once, for server and clients, in server/hand.
 using hand::HandKind;
 using hand::HandSample;
+using hand::HeldPath;
 using hand::kFingers;
 using hand::kHandJoints;
 using hand::kHandSegments;
