@@ -1,7 +1,5 @@
 #include "server/hand/held_path.hpp"
 
-#include <algorithm>
-
 namespace mechane::hand {
 namespace {
 

@@ -1,7 +1,5 @@
 #include "server/haptics/held_path.hpp"
 
-#include <cmath>
-
 namespace mechane::haptics {
 namespace {
 
