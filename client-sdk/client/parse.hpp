@@ -23,9 +23,9 @@ inline constexpr std::size_t kMaxListed = 64;    ///< missing files or answers o
 /// All of these return false, with `out` in an unspecified state, where the sample is of another protocol version, a
 /// number is not finite, a rotation is not a unit quaternion, or a count is beyond its limit. The caller sets times of
 /// receipt and its own sequence numbers.
-/// This one allocates nothing. Of a contact also checked: its normal is of unit length; of a held object's path, which
-/// is read only where one is held: its axis is of unit length, a circle's radius over 0. Stiffness, damping, friction
-/// and limit are 0 where they are negative, and both are valid for a second at most.
+/// This one allocates nothing. Also checked: normals of contacts and the axis of a held object's path are of unit
+/// length, and a circle's radius is over 0. A path is read only where something is held. Stiffness, damping, friction
+/// and limit become 0 where they are negative; contacts and path are valid for a second at most.
 [[nodiscard]] bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept;
 [[nodiscard]] bool parse(const proto::SceneFrame& wire, Frame& out);
 [[nodiscard]] bool parse(const proto::SceneObject& wire, SceneObject& out);

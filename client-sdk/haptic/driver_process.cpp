@@ -67,7 +67,7 @@ pid_t spawn(const DriverProcessConfig& config, int link_file, int news_file) {
 }  // namespace
 
 Expected<void> DriverProcess::open() {
-  if (auto started = start(); !started) return started;
+  if (auto started = start(); !started) return close(), started;
   errno = 0;
   const std::optional<HostNews> first = next_news(kOpenMs);
   const bool interrupted = errno == EINTR;

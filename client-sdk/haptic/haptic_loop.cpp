@@ -7,6 +7,12 @@
 #include "server/hand/held_path.hpp"
 
 namespace mechane::haptic {
+namespace {
+
+// A hand may be off a path already when it first hears of it: the server's force goes over into the path's in this time.
+constexpr double kPathComesInS = 0.1;
+
+}  // namespace
 
 using client::ForceSample;
 using hand::HandSample;
@@ -86,10 +92,15 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   std::transform(answer_.finger_force_n.begin(), answer_.finger_force_n.end(), wanted.finger_force_n.begin(),
                  [share](double force_n) { return share * force_n; });
   wanted.touching = answer_.touches();
-  if (renders_here()) {
-    wanted.wanted_W.f = local_.render(input.X_WH.p, input.V_WH.v, age);
-    wanted.touching = wanted.touching || !wanted.wanted_W.f.isZero(0);
-    wanted.wanted_W.f += hand::held_path_force(answer_.held, input.X_WH, input.V_WH, age, share);
+  const bool on_path = answer_.held.kind != hand::HeldPath::Kind::none;
+  path_share_ = on_path ? std::min(1.0, path_share_ + to_seconds(dt) / kPathComesInS) : 0;
+  if (mode_ == RenderMode::local && (on_path || !answer_.holding)) {
+    const Vec3 touch = local_.render(input.X_WH.p, input.V_WH.v, age);
+    // What is held does not count: else a force that was lost would not come back before the visitor lets go.
+    wanted.touching = wanted.touching || !touch.isZero(0);
+    const Vec3 path = hand::held_path_force(answer_.held, input.X_WH, input.V_WH, age, share);
+    const double here = on_path ? path_share_ : 1;
+    wanted.wanted_W.f = here * (touch + path) + (1 - here) * wanted.wanted_W.f;
   }
   const bool warm = heat_.limit(wanted.wanted_W.f);
   wanted.V_WH = moved(input, dt);

@@ -20,9 +20,9 @@ namespace mechane::haptic {
 enum class RenderMode {
   /// The server's force; for a LAN, where an answer is a millisecond old.
   server,
-  /// Computed from the server's contacts, and the path of what is held, at the device's own rate, whatever the network;
-  /// torque, the forces on fingers, and what a held object does along its path, are still the server's, and so is the
-  /// whole pull of one that no hinge or slider holds.
+  /// Computed from the server's contacts, and the path of what is held, at the device's own rate, whatever the network.
+  /// The server still computes torque, the forces on fingers, the force of a held object along its path, and the whole
+  /// force of one that has no path.
   local,
 };
 
@@ -91,9 +91,6 @@ class HapticLoop {
         renders_(device.renders()) {}
   bool take_answer() noexcept;
   void note_delay(Duration delay) noexcept;
-  [[nodiscard]] bool renders_here() const noexcept {
-    return mode_ == RenderMode::local && (!answer_.holding || answer_.held.kind != hand::HeldPath::Kind::none);
-  }
   [[nodiscard]] double stiffness_share() const noexcept;
   void set_local_contacts() noexcept;
   [[nodiscard]] Twist moved(const client::HandSample& input, Duration dt) noexcept;
@@ -108,6 +105,7 @@ class HapticLoop {
   bool renders_;  // the device
   std::atomic<client::DeviceState> state_{client::DeviceState::preparing};
   hand::LocalContactModel local_;
+  double path_share_ = 0;  // of the held object's path in the force
   hand::SampleAge age_;
   client::ForceSample answer_;
   client::HandSample hand_;

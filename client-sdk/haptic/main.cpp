@@ -60,13 +60,12 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--clutch", a.clutch,
                  "the device's button, 1 to 32, that holds the hand in its place while the device is moved; 0: none")
       ->check(CLI::Range(0, 32));
-  auto* calibrate = app.add_flag("--calibrate", a.calibrate,
-                                 "begin with three poses that fit a glove to the visitor's hand: flat, fist, pinch");
+  app.add_flag("--calibrate", a.calibrate,
+               "begin with three poses that fit a glove to the visitor's hand: flat, fist, pinch");
   app.add_flag(
-         "--wait", a.wait,
-         "where the device cannot be opened, go on trying, each second; the kiosk's displays say meanwhile that it "
-         "is not connected")
-      ->excludes(calibrate);
+      "--wait", a.wait,
+      "where the device cannot be opened, for whatever reason, say why and go on trying, each second; displays "
+      "say meanwhile that it is not connected");
   app.add_option("--radius", a.radius_m, "radius of the circle, metres");
   app.add_option("--seconds", a.seconds, "stop after this time; 0: run until stopped");
   a.client.fifo_priority = 70;
@@ -75,7 +74,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_option("--record", a.record_file,
                  "record the hand to this file, to be played with --device playback:file=FILE");
-  app.add_flag("--direct", a.direct, "render the server's forces, not contacts at the device's own rate");
+  app.add_flag("--direct", a.direct,
+               "render the server's forces, not contacts and held paths at the device's own rate");
 }
 
 nlohmann::json to_json(const haptic::HapticLoop& loop) {
@@ -230,21 +230,25 @@ Expected<haptic::HandCalibration> calibrated(const Arguments& a) {
   return *course.result();
 }
 
-/// Opens the device: with --wait as often as it takes.
-Expected<std::unique_ptr<haptic::HapticLoop>> open_device(const Arguments& a, client::Client& client,
-                                                          haptic::DriverProcess& device, const std::string& name) {
-  SystemClock clock;
+/// What `open` opens: with --wait it is called each second until it does, or until it is time to stop.
+template <class Open>
+auto opened(const Arguments& a, client::Client& client, const std::string& name, const Open& open) {
+  auto result = open();
+  if (result || !a.wait) return result;
   std::string told;
-  while (true) {
-    auto loop = make_loop(a, client, device);
-    if (loop || !a.wait || g_stop != 0) return loop;
-    std::string why = loop.error().to_string();
+  SystemClock clock;
+  TimePoint next = clock.now();
+  wait_for_end(a, client, nullptr, [&] {
+    if (clock.now() < next) return true;
+    next = clock.now() + std::chrono::seconds(1);
+    std::string why = result.error().to_string();
     if (why != told) log::warning(why + "; trying again each second");
     told = std::move(why);
     tell_state(client, {.name = name}, client::DeviceState::lost);
-    for (int i = 0; i < 10 && g_stop == 0; ++i)
-      clock.sleep_until(clock.now() + std::chrono::milliseconds(100));
-  }
+    result = open();
+    return !result;
+  });
+  return result;
 }
 
 /// The device sets the pace of its loop.
@@ -253,16 +257,16 @@ int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder*
   haptic::DriverProcessConfig config = driver_config(a);
   log::info("opening the device, which may take some seconds");
   tell_state(client, {.name = config.device.driver}, client::DeviceState::preparing);
+  const std::string name = config.device.driver;
+  const auto failed_to_open = [&](const Error& error) { return a.wait && g_stop != 0 ? 0 : (log::error(error), 2); };
   if (a.calibrate) {
-    auto calibration = calibrated(a);
-    if (!calibration) return log::error(calibration.error()), 2;
+    auto calibration = opened(a, client, name, [&] { return calibrated(a); });
+    if (!calibration) return failed_to_open(calibration.error());
     config.glove = *calibration;
   }
-  const std::string name = config.device.driver;
   haptic::DriverProcess device(std::move(config));
-  auto loop = open_device(a, client, device, name);
-  if (!loop && g_stop != 0) return 0;
-  if (!loop) return log::error(loop.error()), 2;
+  auto loop = opened(a, client, name, [&] { return make_loop(a, client, device); });
+  if (!loop) return failed_to_open(loop.error());
   log::info(std::string("device: ") + device.info().name);
   Turns turns(**loop, recorder);
   haptic::DeviceThread thread(device, fifo, [&](TimePoint now, Duration dt) { turns.turn(now, dt); });

@@ -63,7 +63,8 @@ void add_options(CLI::App& app, Arguments& a) {
                   haptic::kVirtualName, haptic::kVirtualOptions));
   app.add_flag("--glove", a.glove, "a whole hand instead of one point: as --device virtual:kind=glove")
       ->excludes(device);
-  app.add_flag("--direct", a.direct, "render the server's forces, not contacts at the device's own rate");
+  app.add_flag("--direct", a.direct,
+               "render the server's forces, not contacts and held paths at the device's own rate");
   app.add_flag("--endless", a.options.endless, "start again after the last visit");
 }
 

@@ -26,7 +26,7 @@ AIMS = {
     "delay20.local.held.energy_mj.max": (("at most", 1),),
     "delay50.local.held.energy_mj.max": (("at most", 1),),
     "delay20.local.held.force_share.min": (("at least", 0.8),),
-    "delay50.local.held.force_share.min": (("at least", 0.5),),
+    "delay50.local.held.force_share.min": (("at least", 0.8),),
     "fault.zero_ms.max": (("at most", 45),),
     "force.over_limit": (("at most", 0),),
     "force.over_slew": (("at most", 0),),

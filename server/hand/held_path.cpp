@@ -1,12 +1,15 @@
 #include "server/hand/held_path.hpp"
 
+#include <algorithm>
+
 namespace mechane::hand {
 namespace {
 
 /// How far a point is from the path, and the path's direction where it is nearest.
 struct Nearest {
-  Vec3 off_W = Vec3::Zero();
-  Vec3 along_W = Vec3::Zero();  // unit; zero: nowhere is nearest
+  Vec3 off_W;
+  Vec3 along_W;      // unit
+  double share = 1;  // of the force along it
 };
 
 Nearest nearest(const HeldPath& path, const Vec3& p_WG) {
@@ -14,10 +17,11 @@ Nearest nearest(const HeldPath& path, const Vec3& p_WG) {
   const Vec3 along_axis = from_W.dot(path.axis_W) * path.axis_W;
   const Vec3 flat = from_W - along_axis;
   if (path.kind == HeldPath::Kind::line) return {flat, path.axis_W};
+  // Near the axis a small step leads to the circle's other side: what depends on the side fades out there.
   const double distance = flat.norm();
-  if (distance < 1e-6) return {};
-  const Vec3 out = flat / distance;
-  return {along_axis + (distance - path.radius_m) * out, path.axis_W.cross(out)};
+  const double share = std::min(1.0, distance / (0.5 * path.radius_m));
+  const Vec3 out = distance > 0 ? Vec3(flat / distance) : path.axis_W.unitOrthogonal();
+  return {along_axis + share * (distance - path.radius_m) * out, path.axis_W.cross(out), share};
 }
 
 }  // namespace
@@ -27,13 +31,12 @@ Vec3 held_path_force(const HeldPath& path, const Pose& X_WH, const Twist& V_WH, 
   if (path.kind == HeldPath::Kind::none) return Vec3::Zero();
   const Vec3 p_HG_W = X_WH.rotate(path.p_HG);
   const Nearest at = nearest(path, X_WH.p + p_HG_W);
-  if (at.along_W.isZero(0)) return Vec3::Zero();
   const Vec3 v_W = V_WH.at(p_HG_W);
   const Vec3 v_across_W = v_W - v_W.dot(at.along_W) * at.along_W;
   Vec3 across_n = -path.stiffness_n_per_m * at.off_W - path.damping_ns_per_m * v_across_W;
   const double size_n = across_n.norm();
   if (size_n > path.limit_n) across_n *= path.limit_n / size_n;
-  return share_left(age, path.validity) * (across_n + along_share * path.along_n * at.along_W);
+  return share_left(age, path.validity) * (across_n + along_share * at.share * path.along_n * at.along_W);
 }
 
 }  // namespace mechane::hand

@@ -9,8 +9,8 @@ namespace mechane::hand {
 
 /// The force on the hand at the place where it holds the body, N in W: a spring and damper across the path, up to the grip's limit, and
 /// `along_share` (0 .. 1) of what the server found along it, which turns with the path. `age` is the time since the path was received, on
-/// the caller's own clock; past its validity it fades out, see share_left(). Zero where there is no path, or a place at the circle's
-/// centre, from where no way is the shortest. Any thread; allocates nothing.
+/// the caller's own clock; past its validity it fades out, see share_left(). Within half a circle's radius of its axis, what points to the
+/// circle or along it fades out. Zero where there is no path. Any thread; allocates nothing.
 [[nodiscard]] Vec3 held_path_force(const HeldPath& path, const Pose& X_WH, const Twist& V_WH, Duration age,
                                    double along_share) noexcept;
 

@@ -8,7 +8,7 @@ using state::JointDescription;
 using state::JointKind;
 
 // A grip nearer to its hinge's axis has no path to speak of.
-constexpr double kLeastRadius_m = 0.005;
+constexpr double kLeastRadius_m = 0.02;
 
 /// The enabled joint that moves this body, where there is just one; else the number of joints.
 std::size_t only_joint(const state::WorldDescription& description, const state::WorldState& state, BodyId body) {
@@ -22,10 +22,6 @@ std::size_t only_joint(const state::WorldDescription& description, const state::
   return found;
 }
 
-bool stands_still(const state::WorldDescription& description, const state::WorldState& state, BodyId body) {
-  return !body || description.bodies[body.index()].fixed || !state[body].movable;
-}
-
 }  // namespace
 
 HeldPath held_path(const state::WorldDescription& description, const state::WorldState& state,
@@ -36,7 +32,8 @@ HeldPath held_path(const state::WorldDescription& description, const state::Worl
   if (j == description.joints.size()) return {};
   const JointDescription& joint = description.joints[j];
   if (joint.kind == JointKind::ball || state.joints[j].pitch_m_per_rad != 0) return {};
-  if (!stands_still(description, state, joint.body1)) return {};
+  // Not one that is only held still for now: agents and machines move such bodies themselves.
+  if (joint.body1 && !description.bodies[joint.body1.index()].fixed) return {};
 
   const Pose X_WJ = (joint.body1 ? state[joint.body1].X_WB : Pose{}) * joint.X_B1J;
   const Vec3 p_WG = state[grasp.body].X_WB * grasp.p_BG;

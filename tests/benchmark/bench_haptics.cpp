@@ -202,16 +202,11 @@ Pressed press_over(haptic::RenderMode mode, const Network& network, unsigned see
   return found;
 }
 
-/// A stylus that holds a crank and pulls its handle outwards, across the way that it turns.
+/// A stylus that holds a crank, and pulls its handle across the circle on which it turns.
 Pressed pull_over(haptic::RenderMode mode, const Network& network, unsigned seed) {
   test::HeldCrank crank(mode, network, seed);
-  Pressed found;
-  const Vec3 before = crank.p_WH();
-  crank.go(Vec3(0.008, 0, 0), 2s);
-  found.stiffness_n_per_m = -crank.force_W().x() / (crank.p_WH().x() - before.x());
-  crank.go(Vec3(-0.008, 0, 0), 1s);
-  found.energy_j = crank.energy_max_j();
-  return found;
+  const double stiffness = crank.stiffness_across();
+  return {.energy_j = crank.energy_max_j(), .stiffness_n_per_m = stiffness};
 }
 
 /// The worst of several networks with the same delay.

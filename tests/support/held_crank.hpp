@@ -52,12 +52,21 @@ class HeldCrank {
   }
   void stay(Duration time) { go(Vec3::Zero(), time); }
 
-  [[nodiscard]] const state::WorldState& state() const { return world_->state; }
-  [[nodiscard]] double turned_rad() const { return state().joints[0].position; }
+  [[nodiscard]] state::WorldState& state() { return world_->state; }
+  [[nodiscard]] double turned_rad() const { return world_->state.joints[0].position; }
   [[nodiscard]] const Vec3& p_WH() const { return stylus_.p_WH(); }
   [[nodiscard]] Vec3 force_W() const { return loop_->rendered().force_W.f; }
   /// The most that the hand was ever given beyond what it had put in, J.
   [[nodiscard]] double energy_max_j() const { return energy_max_j_; }
+
+  /// Pulls the handle outwards, across its circle, by a hand that goes 8 mm. Returns the stiffness that it feels, N/m.
+  double stiffness_across() {
+    const Vec3 before = p_WH();
+    go(Vec3(0.008, 0, 0), std::chrono::seconds(2));
+    const double stiffness = -force_W().x() / (p_WH().x() - before.x());
+    go(Vec3(-0.008, 0, 0), std::chrono::seconds(1));
+    return stiffness;
+  }
 
   /// Where the hand began.
   static Vec3 start() { return {kCrankRadiusM + kGripRadiusM + 0.004, 0, 0}; }

@@ -2,7 +2,9 @@
 // joint some tenths of a millimetre off.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <random>
 #include <utility>
 
@@ -26,6 +28,9 @@ class TrackedHand final : public haptic::SimulatedDevice {
     return told_;
   }
   void write(const hand::HandForce& /*force*/) noexcept override {}
+  [[nodiscard]] haptic::DeviceCondition condition() const noexcept override {
+    return was_told_ ? haptic::DeviceCondition::ready : haptic::DeviceCondition::lost;
+  }
   [[nodiscard]] hand::GovernorConfig limits() const override {
     hand::GovernorConfig none;
     none.max_force_n = none.max_torque_nm = none.max_finger_force_n = 0;
@@ -38,8 +43,8 @@ class TrackedHand final : public haptic::SimulatedDevice {
  private:
   void take_picture() {
     drivers::HandDatagram seen;
-    seen.pinch =
-        intent_.grasp_intent;  // a tracker's own measure: the visitor's fingers close only around what they hold
+    // The tracker's own measure: the scripted visitor's fingers close only around what they hold.
+    seen.pinch = intent_.grasp_intent;
     SeenHand hand;
     hand.joints_rad = intent_.joints;
     hand.X_DH = intent_.X_WH;

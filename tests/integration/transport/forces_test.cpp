@@ -43,6 +43,26 @@ bool same(const hand::LocalContact& a, const hand::LocalContact& b) {
          a.dynamic_friction == b.dynamic_friction && a.validity == b.validity;
 }
 
+hand::HeldPath any_path() {
+  return {
+      .kind = *rc::gen::element(hand::HeldPath::Kind::none, hand::HeldPath::Kind::line, hand::HeldPath::Kind::circle),
+      .p_HG = vector_within(1),
+      .p_W = vector_within(100),
+      .axis_W = any_unit(),
+      .radius_m = float_between(0.01, 5),
+      .along_n = float_between(-20, 20),
+      .stiffness_n_per_m = float_between(0, 5000),
+      .damping_ns_per_m = float_between(0, 50),
+      .limit_n = float_between(0, 500),
+      .validity = std::chrono::microseconds(*rc::gen::inRange(0, 1'000'001))};
+}
+
+bool same(const hand::HeldPath& a, const hand::HeldPath& b) {
+  return a.kind == b.kind && a.p_HG == b.p_HG && a.p_W == b.p_W && (a.axis_W - b.axis_W).norm() < 1e-6 &&
+         a.radius_m == b.radius_m && a.along_n == b.along_n && a.stiffness_n_per_m == b.stiffness_n_per_m &&
+         a.damping_ns_per_m == b.damping_ns_per_m && a.limit_n == b.limit_n && a.validity == b.validity;
+}
+
 hand::HapticOutput any_answer() {
   hand::HapticOutput answer;
   answer.force_W.t = vector_within(5);
@@ -50,6 +70,7 @@ hand::HapticOutput any_answer() {
     force = float_between(0, 20);
   answer.reasons = *rc::gen::inRange(0u, 1u << hand::kReasonCount);
   answer.holding = *rc::gen::arbitrary<bool>();
+  answer.held = any_path();
   answer.contact_count = *rc::gen::inRange<std::uint32_t>(0, hand::kMaxLocalContacts + 1);
   std::generate(answer.contacts.begin(), answer.contacts.end(), any_contact);
   return answer;
@@ -82,6 +103,8 @@ TEST_F(Loopback, EachFieldOfAForceAndOfItsContactsComesAsTheServerSetIt) {
     RC_ASSERT(came->finger_force_n == sent.finger_force_n);
     RC_ASSERT(came->reasons == sent.reasons);
     RC_ASSERT(came->holding == sent.holding);
+    const bool on_path = sent.holding && sent.held.kind != hand::HeldPath::Kind::none;
+    RC_ASSERT(same(came->held, on_path ? sent.held : hand::HeldPath{}));
     RC_ASSERT(came->contact_count == sent.contact_count);
     for (std::size_t i = 0; i < hand::kMaxLocalContacts; ++i)
       RC_ASSERT(same(came->contacts[i], i < sent.contact_count ? sent.contacts[i] : hand::LocalContact{}));

@@ -82,11 +82,22 @@ TEST(HeldPath, FadesOutAfterItsValidity) {
   EXPECT_EQ(at(path.validity + kFadeTime), 0);
 }
 
-TEST(HeldPath, IsNoForceWhereThereIsNoneOrNoWayIsTheShortest) {
+TEST(HeldPath, IsNoForceWhereThereIsNone) {
   HeldPath path = circle();
-  EXPECT_EQ(force_at(path, {0, 0, 0.01}), Vec3::Zero());
   path.kind = HeldPath::Kind::none;
   EXPECT_EQ(force_at(path, {0.3, 0, 0}), Vec3::Zero());
+}
+
+TEST(HeldPath, LetsAHandThroughItsAxisWithoutAJump) {
+  HeldPath path = circle();
+  path.along_n = 2;
+  EXPECT_LT((force_at(path, {0, 0, 0.01}) - Vec3(0, 0, -6)).norm(), 1e-9) << "the way along the axis is the same";
+  Vec3 before = force_at(path, {-0.05, 0, 0});
+  for (double x = -0.05; x < 0.05; x += 1e-4) {
+    const Vec3 force = force_at(path, {x, 0, 0});
+    EXPECT_LT((force - before).norm(), 0.2) << x;
+    before = force;
+  }
 }
 
 /// On a closed way a spring gives back what it took.

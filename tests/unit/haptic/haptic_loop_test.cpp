@@ -2,6 +2,7 @@
 #include "client-sdk/haptic/haptic_loop.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,7 @@ class HapticLoopTest : public ::testing::Test {
     answer.echo_sequence = echo;
     answer.force_W.f = Vec3(0, kPressN, 0);
     answer.holding = holding_;
+    if (holding_) answer.held = held_;
     answer.contact_count = touching_ ? 1 : 0;
     answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = 0.001, .stiffness_n_per_m = 1000 * kPressN};
     return tick(false, dt);
@@ -96,6 +98,7 @@ class HapticLoopTest : public ::testing::Test {
   std::unique_ptr<HapticLoop> loop_;
   TimePoint now_{1h};
   bool holding_ = false;
+  hand::HeldPath held_;
   bool touching_ = false;  // what answers say
 };
 
@@ -167,7 +170,7 @@ TEST_F(HapticLoopTest, TheForceIsLoweredWithTheDelayOfTheAnswers) {
   EXPECT_NEAR(settled_n(0), kPressN, 0.01) << "and comes back";
 }
 
-TEST_F(HapticLoopTest, ThePullOfWhatIsHeldIsLoweredWithTheDelayEvenWhereContactsAreRenderedHere) {
+TEST_F(HapticLoopTest, ThePullOfWhatIsHeldWithoutAPathIsLoweredWithTheDelayInEitherMode) {
   render(RenderMode::local);
   holding_ = true;
   tick_for(1s, true);
@@ -175,6 +178,65 @@ TEST_F(HapticLoopTest, ThePullOfWhatIsHeldIsLoweredWithTheDelayEvenWhereContacts
   for (int ms = 0; ms < 3000; ++ms)
     force_n = tick_answered(client_.sent_sequence() - 19);
   EXPECT_NEAR(force_n, kPressN * 5.5 / 20.5, 0.01);
+}
+
+/// The hand is 2 mm above the line, which pushes it along x.
+class HapticLoopOnAPath : public HapticLoopTest {
+ protected:
+  void SetUp() override {
+    render(RenderMode::local);
+    holding_ = true;
+    held_ = {.kind = hand::HeldPath::Kind::line,
+             .p_W = Vec3(0, -0.002, 0),
+             .axis_W = Vec3::UnitX(),
+             .along_n = 1,
+             .stiffness_n_per_m = 500,
+             .limit_n = 6};
+  }
+  Vec3 settled_N(std::uint64_t delay_ticks) {
+    for (int ms = 0; ms < 3000; ++ms)
+      (void)tick_answered(client_.sent_sequence() - delay_ticks);
+    return device_.force_W;
+  }
+};
+
+TEST_F(HapticLoopOnAPath, OnlyTheForceAlongItIsLoweredWithTheDelay) {
+  tick_for(1s, true);
+  EXPECT_LT((settled_N(0) - Vec3(1, -1, 0)).norm(), 1e-6);
+  EXPECT_LT((settled_N(19) - Vec3(5.5 / 20.5, -1, 0)).norm(), 0.01);
+}
+
+TEST_F(HapticLoopOnAPath, ContactsWithOtherThingsAreRenderedWithIt) {
+  tick_for(1s, true);
+  touching_ = true;
+  EXPECT_LT((settled_N(0) - Vec3(1, -1 + kPressN, 0)).norm(), 1e-6);
+}
+
+TEST_F(HapticLoopOnAPath, TheServersForceIsRenderedWhereThatIsChosen) {
+  render(RenderMode::server);
+  tick_for(1s, true);
+  EXPECT_LT((settled_N(0) - Vec3(0, kPressN, 0)).norm(), 1e-6);
+}
+
+TEST_F(HapticLoopOnAPath, APathThatAppearsComesInSlowly) {
+  const hand::HeldPath path = std::exchange(held_, {});
+  tick_for(1s, true);
+  ASSERT_LT((device_.force_W - Vec3(0, kPressN, 0)).norm(), 1e-6);
+  held_ = path;
+  const Vec3 whole = Vec3(1, -1, 0) - device_.force_W;
+  for (int ms = 0; ms < 110; ++ms) {
+    const Vec3 before = device_.force_W;
+    (void)tick(true);
+    ASSERT_LE((device_.force_W - before).norm(), 0.0101 * whole.norm()) << ms;
+  }
+  EXPECT_LT((device_.force_W - Vec3(1, -1, 0)).norm(), 1e-6);
+}
+
+TEST_F(HapticLoopOnAPath, AForceThatWasLostComesBackWhileTheThingIsHeld) {
+  tick_for(1s, true);
+  EXPECT_EQ(tick_for(60ms, false), 0);
+  tick_for(1s, true);
+  EXPECT_LT((device_.force_W - Vec3(1, -1, 0)).norm(), 1e-6);
 }
 
 TEST_F(HapticLoopTest, AnswersThatCameThroughALongQueueAreDropped) {

@@ -93,6 +93,21 @@ TEST(RenderForces, AHandThatFellSilentHasNoForceAndNoContacts) {
   EXPECT_EQ(bench.user().output.contact_count, 0u) << "a client must not render them either";
 }
 
+TEST(RenderForces, AHandThatFellSilentHasNoPathOfWhatItHolds) {
+  const auto crank = test::make_crank_description();
+  Bench bench(*crank, plain());
+  bench.state().joints[0].enabled = true;
+  state::Grasp& grasp = bench.user().grasp;
+  grasp.active = true;
+  grasp.body = BodyId(1);
+  grasp.p_BG = Vec3(test::kCrankRadiusM, 0, 0);
+  bench.run();
+  EXPECT_EQ(bench.user().output.held.kind, hand::HeldPath::Kind::circle);
+  bench.user().freshness = 0;
+  bench.run();
+  EXPECT_EQ(bench.user().output.held.kind, hand::HeldPath::Kind::none);
+}
+
 TEST(RenderForces, NeverOverTheLimit) {
   const WorldDescription world = one_body(true);
   Bench bench(world, plain());

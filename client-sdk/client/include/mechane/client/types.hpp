@@ -47,7 +47,8 @@ struct DeviceReport {
   friend bool operator==(const DeviceReport&, const DeviceReport&) = default;
 };
 
-/// What the server wants a device to render. The device's own ForceGovernor has the last word.
+/// What the server wants a device to render: the force, or, for a client that computes it at its device's own rate, the
+/// contacts and the path of what is held. The device's own ForceGovernor has the last word.
 struct ForceSample : hand::HapticOutput {
   std::uint64_t sequence = 0;  ///< rises by one with each force received
   TimePoint received;          ///< on this client's clock
