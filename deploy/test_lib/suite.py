@@ -51,20 +51,20 @@ class Phase:
         return self.title.split(",")[0].replace(" ", "-")
 
 
-def _build_commands(preset: str, targets: tuple[str, ...]) -> tuple[list[str], list[str]]:
+def _build_commands(preset: str, targets: tuple[str, ...], settings: tuple[str, ...] = ()) -> tuple[list[str], list[str]]:
     only = ["--target", *targets] if targets else []
-    return ["cmake", "--preset", preset], ["cmake", "--build", f"build/{preset}", "-j", str(JOBS), *only]
+    return ["cmake", "--preset", preset, *settings], ["cmake", "--build", f"build/{preset}", "-j", str(JOBS), *only]
 
 
-def build(preset: str, *targets: str) -> Phase:
+def build(preset: str, *targets: str, settings: tuple[str, ...] = ()) -> Phase:
     def run(log: Path) -> Tally:
         name = f"build {preset}"
-        configure, make = _build_commands(preset, targets)
+        configure, make = _build_commands(preset, targets, settings)
         if processes.run(configure, log, limit_s=300) or processes.run(make, log, limit_s=3600):
             return Tally([Case(name, "failed", tail(log))])
         return Tally([Case(name, "passed")])
 
-    configure, make = map(shlex.join, _build_commands(preset, targets))
+    configure, make = map(shlex.join, _build_commands(preset, targets, settings))
     return Phase(f"build {preset}", run, preset, f"{{ test -f build/{preset}/build.ninja || {configure}; }} && {make}")
 
 
@@ -164,7 +164,7 @@ def repeated_end_to_end(preset: str, rounds: int, only: str) -> Phase:
 
 def repeat_phases(rounds: int, seed: int, only: str) -> list[Phase]:
     end_to_end_tests = only.startswith("integration.")
-    planned = [build("release")]
+    planned = [build("release", settings=("-DMECHANE_EVERY_TEST=ON",))]
     if not end_to_end_tests:
         planned.append(repeated_programs("release", rounds, seed, only))
     if not only or end_to_end_tests:

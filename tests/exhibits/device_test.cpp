@@ -51,12 +51,15 @@ double index_bent(const state::UserState& user) {
   return user.sample.joints[hand::kFingerJoints + 1];
 }
 
+/// It does not catch the trumpet, a thin tube, without feeling it, and loses the winch and the stone: see deploy/LIMITS.md.
+bool too_much_for_a_tracked_hand(const std::string& exhibit, const std::string& visit) {
+  return (exhibit == "ktesibios-pump" && visit == "assembling") || (exhibit == "catapult" && visit == "shooting");
+}
+
 class ByDevice : public testing::TestWithParam<std::tuple<std::string, Device>> {};
 
 TEST_P(ByDevice, AVisitThatShouldGoWellDoes) {
   const auto& [name, device] = GetParam();
-  // It does not catch the trumpet, a thin tube, without feeling it: see deploy/LIMITS.md.
-  const bool can = !(device.tracked && name == "ktesibios-pump");
   const test::Exhibit exhibit(name);
   test::PlayOptions options;
   options.device.hand = device.hand;
@@ -73,6 +76,7 @@ TEST_P(ByDevice, AVisitThatShouldGoWellDoes) {
     if (script.name.starts_with("mistakes-")) continue;
     ++played;
     const test::PlayedVisit visit = exhibit.play(script.name, options);
+    const bool can = !device.tracked || !too_much_for_a_tracked_hand(name, script.name);
     EXPECT_EQ(arrived(visit, exhibit.description()), can) << script.name << ": " << visit;
     for (const test::PlayedStep& step : visit.steps)
       EXPECT_LT(step.seconds, 60) << script.name << ": " << visit;
