@@ -97,7 +97,7 @@ class Visits(EndToEnd):
     def database(self):
         return (self.folder / "records/visits.db").exists()
 
-    @marked("alone")  # in a user namespace the server's loop has no real-time rights: what runs beside it would spoil the visits
+    @marked("alone")  # in a user namespace the server's loop may have no real-time rights: what runs beside it would spoil the visits
     def test_a_full_disk_costs_records_and_not_the_visit(self):
         server = self.server(prefix=self.full_disk(self.folder / "records"))
         visitors = [self.visitor("kiosk-1", "--activity", "assemble"), self.visitor("kiosk-2", "--activity", "assemble")]
