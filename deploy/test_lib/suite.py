@@ -163,11 +163,10 @@ def repeated_end_to_end(preset: str, rounds: int, only: str) -> Phase:
 
 
 def repeat_phases(rounds: int, seed: int, only: str) -> list[Phase]:
-    end_to_end_tests = only.startswith("integration.")
-    planned = [build("release", settings=("-DMECHANE_EVERY_TEST=ON",))]
-    if not end_to_end_tests:
-        planned.append(repeated_programs("release", rounds, seed, only))
-    if not only or end_to_end_tests:
+    if only.startswith("integration."):
+        return [build("release"), repeated_end_to_end("release", -(-rounds // RARE), only)]
+    planned = [build("release", settings=("-DMECHANE_EVERY_TEST=ON",)), repeated_programs("release", rounds, seed, only)]
+    if not only:
         planned.append(repeated_end_to_end("release", -(-rounds // RARE), only))
     return planned
 

@@ -190,7 +190,7 @@ class EndToEnd(unittest.TestCase):
             own_disk = [*unshare, "sh", "-c", mount, str(folder)]
             if subprocess.run([*own_disk, "true"], capture_output=True).returncode == 0:
                 return own_disk
-        print("no user namespaces here: a limit on the size of files stands for the full disk")
+        print("no disk can be mounted here: a limit on the size of files stands for the full disk")
         return ["prlimit", "--fsize=65536", "env", "--ignore-signal=XFSZ"]
 
     def hash_in(self, text):
