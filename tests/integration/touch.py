@@ -198,7 +198,7 @@ class TouchVisitor:
             return False
 
     def circle(self, joint):
-        """The way round, as the display's dots show it: circle(angle) in pixels."""
+        """The way round, as the display's dots show it: way(angle) in pixels, and the larger half axis."""
         (node,) = [j for j in self.x3d.iter("SingleAxisHingeJoint") if j.get("DEF") == joint]
         axis, anchor = unit(numbers(node.get("axis"))), numbers(node.get("anchorPoint"))
         hand = self.hand()["X_WS"][0]["p"]
@@ -215,10 +215,11 @@ class TouchVisitor:
         if small < 0.4 * size:
             side = -1 if major[0] * minor[1] - major[1] * minor[0] < 0 else 1
             minor = [-major[1] * 0.4 * side, major[0] * 0.4 * side]
-        return lambda t: tuple(m[i] + major[i] * math.cos(t - t0) + minor[i] * math.sin(t - t0) for i in range(2))
+        way = lambda t: tuple(m[i] + major[i] * math.cos(t - t0) + minor[i] * math.sin(t - t0) for i in range(2))
+        return way, size
 
-    def work(self, move, activity):
-        way = self.circle(move["joint"])
+    def work(self, move, activity, last):
+        way, size = self.circle(move["joint"])
         if move["kind"] == "turn":
             whole = 2 * math.pi * float(move["turns"])
             rate = 2 * math.pi * float(move.get("rpm", 20)) / 60
@@ -228,17 +229,24 @@ class TouchVisitor:
             rate = 2 * math.pi * float(move.get("perMinute", 20)) / 60
             angle = lambda t: float(move["angle"]) * math.sin(rate * t)
             seconds = 2 * math.pi * float(move.get("cycles", 1)) / rate
-        began, step = time.monotonic(), self.status.now()["step"]
-        # A heavy crank comes after the finger: who sees that the step is not over goes on.
-        goes_on = lambda t: t < seconds or (t < 1.3 * seconds and self.status.now()["step"] == step)
-        while goes_on(t := time.monotonic() - began) and not self.done(activity):
+        step = self.status.now()["step"]
+        # A heavy crank comes after the finger, and a screw that is turned in jerks spills: who sees that it is not over goes on.
+        goes_on = lambda t: t < seconds or last or (t < 1.3 * seconds and self.status.now()["step"] == step)
+        # Where pictures come late, the hand is seen far behind the finger: a person waits for it, not for ever.
+        behind = lambda: (hand := self.hand()) and hand["holding"] and math.dist(self.screen.pixel(hand["X_WS"][0]["p"]), self.at) > size
+        t, before, end = 0, time.monotonic(), time.monotonic() + 5 * seconds * PATIENCE
+        while goes_on(t) and not self.done(activity) and before < end:
             self.point(way(angle(t)))
             time.sleep(0.03)  # sleeps: the pace
+            now = time.monotonic()
+            t, before = t if behind() else t + now - before, now
 
     def play(self, activity, patience=60):
         """True when the activity is done."""
         body, grip = None, None
-        for move in self.visit(activity):
+        moves = self.visit(activity)
+        work = [i for i, move in enumerate(moves) if move["kind"] in ("reach", "move_to", "turn", "swing")]
+        for i, move in enumerate(moves):
             if self.done(activity):
                 break
             kind = move["kind"]
@@ -249,7 +257,7 @@ class TouchVisitor:
             elif kind == "move_to" and self.holding():
                 self.carry(body, move)
             elif kind in ("turn", "swing") and self.holding():
-                self.work(move, activity)
+                self.work(move, activity, last=i == work[-1])
                 self.story.append(f"{kind}: still held {self.holding()}, at step {self.status.now()['step']}")
             elif kind == "release":
                 time.sleep(0.3)  # sleeps: as a person, who holds still before letting go

@@ -105,7 +105,9 @@ class Visits(EndToEnd):
             self.assertEqual(visitor.wait(150), 0, visitor.text())
         text = server.text()
         self.assertRegex(text, r"visits are not being recorded: .*visits\.db.*(disk|room)")
-        self.assertEqual(text.count("visits are not being recorded"), 1 + text.count("visits are being recorded again"))
+        # A world that ends gives back the room of its snapshot: then the trouble may be over.
+        troubles, ends = (text.count(f"visits are {what}") for what in ("not being recorded", "being recorded again"))
+        self.assertIn(troubles - ends, (0, 1), "once when it begins, once when it is over")
         self.assertEqual(server.stop(), 0, server.text())
 
     def test_a_damaged_file_is_set_aside_and_a_new_one_begun(self):
