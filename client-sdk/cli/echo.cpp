@@ -65,6 +65,7 @@ Json to_json(const proto::HapticOutput& s) {
   j.update({{"kiosk", text(s.kiosk)}, {"user", s.user}, {"session", s.session}, {"tick", s.tick}, {"epoch", s.epoch}});
   j.update({{"echo_seq", s.echo_seq}, {"echo_sent_ns", s.echo_sent_ns}, {"f_W", list(s.f_W)}, {"t_W", list(s.t_W)}});
   j.update({{"finger_force_n", list(s.finger_force_n)}, {"reasons", s.reasons}, {"holding", s.holding != 0}});
+  j.update({{"clicks", s.clicks}, {"click_n", s.click_n}});
   const auto& held = s.held;
   j["held"] = {{"kind", held.kind},
                {"p_HG", list(held.p_HG)},
@@ -88,6 +89,10 @@ Json to_json(const proto::HapticOutput& s) {
                         {"damping_ns_per_m", c.damping_ns_per_m},
                         {"static_friction", c.static_friction},
                         {"dynamic_friction", c.dynamic_friction},
+                        {"viscosity_ns_per_m", c.viscosity_ns_per_m},
+                        {"groove_depth_m", c.groove_depth_m},
+                        {"groove_wave_W", list(c.groove_wave_W)},
+                        {"groove_phase_rad", c.groove_phase_rad},
                         {"valid_us", c.valid_us}});
   }
   j["contacts"] = contacts;

@@ -36,9 +36,12 @@ Duration parse_validity(std::uint32_t valid_us) noexcept {
 }
 
 bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexcept {
-  if (!(proto::all_finite(wire.p_W) && proto::all_finite(wire.n_W) && proto::all_finite(wire.v_W))) return false;
-  for (const float v : {wire.depth_m, wire.curvature_per_m, wire.stiffness_n_per_m, wire.damping_ns_per_m,
-                        wire.static_friction, wire.dynamic_friction}) {
+  if (!(proto::all_finite(wire.p_W) && proto::all_finite(wire.n_W) && proto::all_finite(wire.v_W) &&
+        proto::all_finite(wire.groove_wave_W)))
+    return false;
+  for (const float v :
+       {wire.depth_m, wire.curvature_per_m, wire.stiffness_n_per_m, wire.damping_ns_per_m, wire.static_friction,
+        wire.dynamic_friction, wire.viscosity_ns_per_m, wire.groove_depth_m, wire.groove_phase_rad}) {
     if (!std::isfinite(v)) return false;
   }
   out.p_W = proto::to_vec3(wire.p_W);
@@ -51,6 +54,9 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
   out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
   out.static_friction = std::max(0.0f, wire.static_friction);
   out.dynamic_friction = std::max(0.0f, wire.dynamic_friction);
+  out.viscosity_ns_per_m = std::clamp<double>(wire.viscosity_ns_per_m, 0, hand::kMaxViscosity_ns_per_m);
+  out.grooves = {wire.groove_depth_m, proto::to_vec3(wire.groove_wave_W), wire.groove_phase_rad};
+  if (!hand::are_renderable(out.grooves.depth_m, out.grooves.wave_W.norm())) out.grooves = {};  // the surface stays
   out.validity = parse_validity(wire.valid_us);
   return true;
 }
@@ -197,7 +203,8 @@ bool parse_affordance(const proto::WireAffordance& wire, Affordance& out) {
 
 bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
   if (wire.protocol != proto::kProtocol || wire.contact_count > kMaxLocalContacts) return false;
-  if (!(proto::all_finite(wire.f_W) && proto::all_finite(wire.t_W) && proto::all_finite(wire.finger_force_n)))
+  if (!(proto::all_finite(wire.f_W) && proto::all_finite(wire.t_W) && proto::all_finite(wire.finger_force_n) &&
+        std::isfinite(wire.click_n)))
     return false;
   out.sequence = wire.seq;
   out.echo_sequence = wire.echo_seq;
@@ -210,6 +217,7 @@ bool parse(const proto::HapticOutput& wire, ForceSample& out) noexcept {
     out.contacts[i] = LocalContact{};
     if (i < wire.contact_count && !parse_contact(wire.contacts[i], out.contacts[i])) return false;
   }
+  out.clicks = {wire.clicks, std::clamp<double>(wire.click_n, 0, hand::kMaxClick_n)};
   out.reasons = wire.reasons;
   out.holding = wire.holding != 0;
   out.held = HeldPath{};

@@ -49,6 +49,7 @@ bool HapticLoop::take_answer() noexcept {
   if (order != hand::SampleOrder::newer && echo != answer_.echo_sequence) return false;
   answer_ = *sample;
   ++stats_.answers;
+  click_.hear(answer_.clicks);
   if (order == hand::SampleOrder::newer && echo > 0) note_delay(delay);
   return true;
 }
@@ -85,7 +86,10 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   // this loop itself stood still, when an old answer may still be in its socket and look new.
   const Duration too_long = governor_.config().zero_by;
   const bool ready = device_.condition() == DeviceCondition::ready;
-  if (age >= too_long || dt >= too_long || !ready) governor_.reset(governed_);
+  if (age >= too_long || dt >= too_long || !ready) {
+    governor_.reset(governed_);
+    click_.forget();
+  }
   hand::GovernorInput wanted;
   const double share = stiffness_share();
   wanted.wanted_W = {share * answer_.force_W.f, share * answer_.force_W.t};
@@ -103,6 +107,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
     wanted.wanted_W.f = here * (touch + path) + (1 - here) * wanted.wanted_W.f;
   }
   const bool warm = heat_.limit(wanted.wanted_W.f);
+  wanted.wanted_W.f += click_.render(dt);
   wanted.V_WH = moved(input, dt);
   wanted.age = age;
   wanted.engaged = engaged && ready;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "client-sdk/haptic/click_pulse.hpp"
 #include "client-sdk/haptic/device.hpp"
 #include "client-sdk/haptic/heat_limit.hpp"
 #include "server/hand/freshness.hpp"
@@ -105,6 +106,7 @@ class HapticLoop {
   bool renders_;  // the device
   std::atomic<client::DeviceState> state_{client::DeviceState::preparing};
   hand::LocalContactModel local_;
+  ClickPulse click_;
   double path_share_ = 0;  // of the held object's path in the force
   hand::SampleAge age_;
   client::ForceSample answer_;

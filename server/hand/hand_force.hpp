@@ -10,6 +10,7 @@
 
 #include "server/base/math.hpp"
 #include "server/hand/freshness.hpp"
+#include "server/hand/grooves.hpp"
 #include "server/hand/hand_sample.hpp"
 
 namespace mechane::hand {
@@ -38,16 +39,18 @@ inline constexpr std::size_t kMaxLocalContacts = 8;
 /// A contact that a client renders at its device's own rate, as the server saw it. The stiffnesses of all contacts add up to what the hand
 /// feels: a server that sends four points of one finger sends a quarter of the stiffness with each.
 struct LocalContact {
-  Vec3 p_W = Vec3::Zero();       ///< a point of the body's surface
-  Vec3 n_W = Vec3::UnitX();      ///< unit normal there, from the body into the hand
-  Vec3 v_W = Vec3::Zero();       ///< velocity of the surface there, m/s
-  double depth_m = 0;            ///< how far hand and body overlap along n_W; <= 0: still apart by that much
-  double curvature_per_m = 0;    ///< of the surface: > 0 bulges towards the hand, < 0 is hollow, 0 a plane
-  double stiffness_n_per_m = 0;  ///< >= 0
-  double damping_ns_per_m = 0;   ///< >= 0; acts only while the hand pushes in
-  double static_friction = 0;    ///< Coulomb, >= 0; at least the dynamic one counts
-  double dynamic_friction = 0;   ///< >= 0
-  Duration validity = kHoldFor;  ///< from receipt; afterwards the contact fades out
+  Vec3 p_W = Vec3::Zero();        ///< a point of the body's surface
+  Vec3 n_W = Vec3::UnitX();       ///< unit normal there, from the body into the hand
+  Vec3 v_W = Vec3::Zero();        ///< velocity of the surface there, m/s
+  double depth_m = 0;             ///< how far hand and body overlap along n_W; <= 0: still apart by that much
+  double curvature_per_m = 0;     ///< of the surface: > 0 bulges towards the hand, < 0 is hollow, 0 a plane
+  double stiffness_n_per_m = 0;   ///< >= 0
+  double damping_ns_per_m = 0;    ///< >= 0; acts only while the hand pushes in
+  double static_friction = 0;     ///< Coulomb, >= 0; at least the dynamic one counts
+  double dynamic_friction = 0;    ///< >= 0
+  double viscosity_ns_per_m = 0;  ///< along the surface, 0 .. kMaxViscosity_ns_per_m
+  Grooves grooves{};              ///< their phase is that of the hand where the server saw it
+  Duration validity = kHoldFor;   ///< from receipt; afterwards the contact fades out
 };
 
 /// The path on which the place that a hand holds can move: of a body on a hinge or a slider whose other side stands still. Nothing yields
@@ -66,6 +69,15 @@ struct HeldPath {
   Duration validity = kHoldFor;  ///< from receipt; afterwards its force fades out
 };
 
+/// The strongest click.
+inline constexpr double kMaxClick_n = 1.5;
+
+/// Short shakes: a ratchet's tooth, a knock on stone. The client renders one when the count has risen.
+struct Clicks {
+  std::uint32_t count = 0;  ///< since the world began
+  double strength_n = 0;    ///< of the newest, 0 .. kMaxClick_n
+};
+
 /// What a server answers a sample with.
 struct HapticOutput : HandForce {
   std::uint64_t echo_sequence = 0;  ///< the sample that this answers
@@ -74,6 +86,7 @@ struct HapticOutput : HandForce {
   std::uint32_t contact_count = 0;
   bool holding = false;  ///< a grasp is on
   HeldPath held;         ///< of the grasp; none where a client has to render the server's force
+  Clicks clicks;         ///< beside force_W
 
   [[nodiscard]] std::span<const LocalContact> contact_span() const noexcept { return {contacts.data(), contact_count}; }
   /// Whether hand and body overlap in any of the contacts; the others are about to be made.

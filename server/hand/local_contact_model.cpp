@@ -14,10 +14,13 @@ bool usable(const LocalContact& c) {
   const bool vectors = c.p_W.allFinite() && c.n_W.allFinite() && c.v_W.allFinite();
   const bool scalars = std::isfinite(c.depth_m) && std::isfinite(c.curvature_per_m) &&
                        std::isfinite(c.stiffness_n_per_m) && std::isfinite(c.damping_ns_per_m) &&
-                       std::isfinite(c.static_friction) && std::isfinite(c.dynamic_friction);
+                       std::isfinite(c.static_friction) && std::isfinite(c.dynamic_friction) &&
+                       std::isfinite(c.grooves.phase_rad);
   const bool signs =
       c.stiffness_n_per_m >= 0 && c.damping_ns_per_m >= 0 && c.static_friction >= 0 && c.dynamic_friction >= 0;
-  return vectors && scalars && signs && std::abs(c.n_W.squaredNorm() - 1.0) < 1e-3;
+  const bool surface = are_renderable(c.grooves.depth_m, c.grooves.wave_W.norm()) && c.viscosity_ns_per_m >= 0 &&
+                       c.viscosity_ns_per_m <= kMaxViscosity_ns_per_m;
+  return vectors && scalars && signs && surface && std::abs(c.n_W.squaredNorm() - 1.0) < 1e-3;
 }
 
 struct Overlap {
@@ -37,10 +40,8 @@ Overlap overlap_of(const LocalContact& c, const Vec3& p_WS, const Vec3& p_WH) {
   return {side * (radius - distance), (side / distance) * p_CH};
 }
 
-/// Spring, and damping of what pushes in; continuous where depth goes through 0.
-double normal_force_n(const LocalContact& c, double depth_m, double v_n) {
-  const double onset = std::min(1.0, depth_m / LocalContactModel::kDampingOnset_m);
-  return c.stiffness_n_per_m * depth_m - c.damping_ns_per_m * std::min(v_n, 0.0) * onset;
+double phase_at(const LocalContact& c, const Vec3& p_W) {
+  return c.grooves.phase_rad + c.grooves.wave_W.dot(p_W);
 }
 
 }  // namespace
@@ -70,6 +71,7 @@ std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const
     touch.contact = contact;
     touch.contact.n_W.normalize();
     touch.contact.p_W = p_WH0 + contact.depth_m * touch.contact.n_W;
+    touch.contact.grooves.phase_rad -= contact.grooves.wave_W.dot(p_WH0);
     const Touch* const before = same_surface(touch.contact);
     touch.p_WA = before == nullptr ? p_WH0 : Vec3(before->p_WA + before->travelled_W);
     touch.slides = before != nullptr && before->slides;
@@ -77,6 +79,20 @@ std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const
   touches_ = fresh;
   count_ = count;
   return count_;
+}
+
+/// The normal's force is a spring, and damping of what pushes in; continuous where depth goes through 0. Shortens the stretch of friction.
+Vec3 LocalContactModel::touch_force(Touch& touch, const GroovedTouch& on_grooves, const Vec3& n_W, const Vec3& v_rel_W,
+                                    Vec3& stretch) noexcept {
+  const LocalContact& c = touch.contact;
+  const double onset = std::min(1.0, on_grooves.depth_m / kDampingOnset_m);
+  const double spring_n = c.stiffness_n_per_m * on_grooves.depth_m;
+  const double normal_n = spring_n - c.damping_ns_per_m * std::min(v_rel_W.dot(n_W), 0.0) * onset;
+  const double cone_n = friction_cone_n(touch.slides, c.stiffness_n_per_m * stretch.norm(),
+                                        c.static_friction * normal_n, c.dynamic_friction * normal_n);
+  const Vec3 sliding_W = along_surface(v_rel_W, n_W);
+  const Vec3 friction = spring_friction(stretch, c.stiffness_n_per_m, c.damping_ns_per_m * sliding_W, cone_n);
+  return normal_n * n_W + spring_n * on_grooves.flank_W + friction - onset * c.viscosity_ns_per_m * sliding_W;
 }
 
 Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age) noexcept {
@@ -89,15 +105,10 @@ Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age)
     touch.travelled_W = to_seconds(std::clamp(age, Duration{0}, std::max(c.validity, Duration{0}))) * c.v_W;
     const Overlap overlap = overlap_of(c, c.p_W + touch.travelled_W, p_WH);
     Vec3 stretch = Vec3::Zero();
-    if (overlap.depth_m > 0) {
-      const Vec3 v_rel_W = v_WH - share * c.v_W;
-      const double normal_n = normal_force_n(c, overlap.depth_m, v_rel_W.dot(overlap.n_W));
+    const GroovedTouch on_grooves = grooved(overlap.depth_m, c.grooves, phase_at(c, p_WH - touch.travelled_W));
+    if (on_grooves.depth_m > 0) {
       stretch = along_surface(p_WH - touch.p_WA - touch.travelled_W, overlap.n_W);
-      const double cone_n = friction_cone_n(touch.slides, c.stiffness_n_per_m * stretch.norm(),
-                                            c.static_friction * normal_n, c.dynamic_friction * normal_n);
-      const Vec3 damping_n = c.damping_ns_per_m * along_surface(v_rel_W, overlap.n_W);
-      const Vec3 friction = spring_friction(stretch, c.stiffness_n_per_m, damping_n, cone_n);
-      force += share * (normal_n * overlap.n_W + friction);
+      force += share * touch_force(touch, on_grooves, overlap.n_W, v_WH - share * c.v_W, stretch);
     }
     touch.p_WA = p_WH - touch.travelled_W - stretch;
   }

@@ -22,7 +22,7 @@ namespace mechane::hand {
 /// Friction is a spring as stiff as the contact, from the place where the hand stuck to where it is now; beyond the cone
 /// of static friction that place slides after it, with dynamic friction until the hand goes back (Hayward and Armstrong
 /// 2000). A hand at rest does not creep, the force does not depend on a noisy velocity, and no slope is steeper than
-/// that of the contact itself.
+/// that of the contact itself. Grooves and viscosity: see grooves.hpp.
 class LocalContactModel {
  public:
   static constexpr double kDampingOnset_m =
@@ -42,11 +42,13 @@ class LocalContactModel {
 
  private:
   struct Touch {
-    LocalContact contact;             // p_W moved to where H may not pass
+    LocalContact contact;             // p_W moved to where H may not pass; the grooves' phase is that of W's origin
     Vec3 p_WA = Vec3::Zero();         // H would feel no friction here, but for:
     Vec3 travelled_W = Vec3::Zero();  // how far the surface has moved since set()
     bool slides = false;              // dynamic friction holds, not static
   };
+  [[nodiscard]] static Vec3 touch_force(Touch& touch, const GroovedTouch& on_grooves, const Vec3& n_W,
+                                        const Vec3& v_rel_W, Vec3& stretch) noexcept;
   [[nodiscard]] const Touch* same_surface(const LocalContact& contact) const noexcept;
 
   std::array<Touch, kMaxLocalContacts> touches_{};

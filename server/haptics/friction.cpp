@@ -50,11 +50,11 @@ Pose FrictionAnchors::X_WS(std::size_t segment) const noexcept {
   return X;
 }
 
-Stretch FrictionAnchors::stretch_of(const ContactPatch& patch, const Pose& X_WB) const noexcept {
+std::optional<Stretch> FrictionAnchors::stretch_of(const ContactPatch& patch, const Pose& X_WB) const noexcept {
   for (const state::FrictionAnchor& anchor : std::span(before_).first(before_count_)) {
     if (anchor.body != patch.body || anchor.segment != patch.segment) continue;
     const Vec3 p_BS_W = X_WS(patch.segment) * anchor.p_SA - X_WB * anchor.p_BA;
-    return {hand::along_surface(p_BS_W, patch.n_BH_W), anchor.slides};
+    return Stretch{hand::along_surface(p_BS_W, patch.n_BH_W), anchor.slides};
   }
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "server/hand/friction_spring.hpp"
 #include "server/haptics/contact_patch.hpp"
@@ -48,8 +49,8 @@ class FrictionAnchors {
   /// The user's anchors are those of the last tick; from now on they are those that are kept.
   explicit FrictionAnchors(state::UserState& user) noexcept;
 
-  /// Zero for a touch that was not there in the last tick.
-  [[nodiscard]] Stretch stretch_of(const ContactPatch& patch, const Pose& X_WB) const noexcept;
+  /// None for a touch that was not there in the last tick.
+  [[nodiscard]] std::optional<Stretch> stretch_of(const ContactPatch& patch, const Pose& X_WB) const noexcept;
   void keep(const ContactPatch& patch, const Pose& X_WB, const Stretch& stretch) noexcept;
 
  private:

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "server/haptics/clicks.hpp"
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/effective_mass.hpp"
 #include "server/haptics/friction.hpp"
@@ -13,6 +15,7 @@
 namespace mechane::haptics {
 namespace {
 
+using hand::GroovedTouch;
 using hand::HandKind;
 using hand::HapticOutput;
 using state::BodyState;
@@ -23,14 +26,8 @@ using state::UserState;
 struct PatchForce {
   Vec3 f_H_W = Vec3::Zero();
   Spring spring;
+  double knock_n = 0;  ///< the click of a first touch
 };
-
-/// Spring, and damping on the way in. Continuous in depth and speed.
-double normal_force_n(const ContactPatch& patch, const Spring& spring, const ForceConfig& config, const Vec3& v_rel_W) {
-  const double approach = std::max(0.0, -v_rel_W.dot(patch.n_BH_W));
-  const double onset = std::min(1.0, patch.depth_m / config.damping_depth_m);
-  return spring.stiffness_n_per_m * patch.depth_m + onset * spring.damping_ns_per_m * approach;
-}
 
 void add_to_hand(UserState& user, const Vec3& f_H_W, const Vec3& p_WC) {
   user.output.force_W.f += f_H_W;
@@ -44,8 +41,16 @@ void add_to_finger(UserState& user, std::size_t segment, const Vec3& f_H_W) {
   user.output.finger_force_n[hand::finger_of(segment)] += std::max(0.0, pull_n);
 }
 
+/// The grooves of a body as a segment of the hand meets them. What counts is where the segment's own frame is: the middle of a touch
+/// jumps from point to point. Smooth, and so the same bits as ever, where the material has none.
+hand::Grooves grooves_at(const HapticMaterial& material, const Pose& X_WB, const Vec3& p_WS) {
+  if (material.groove_depth_m <= 0) return {};
+  return {material.groove_depth_m, X_WB.rotate(material.groove_wave_B),
+          material.groove_wave_B.dot(X_WB.inverse() * p_WS)};
+}
+
 void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& v_B_W, const Spring& spring,
-                       const HapticMaterial& material) {
+                       const HapticMaterial& material, const hand::Grooves& grooves) {
   const hand::LocalContact contact{.p_W = at.p_WC,
                                    .n_W = at.n_BH_W,
                                    .v_W = v_B_W,
@@ -53,7 +58,9 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
                                    .stiffness_n_per_m = spring.stiffness_n_per_m,
                                    .damping_ns_per_m = spring.damping_ns_per_m,
                                    .static_friction = material.static_friction,
-                                   .dynamic_friction = material.dynamic_friction};
+                                   .dynamic_friction = material.dynamic_friction,
+                                   .viscosity_ns_per_m = material.viscosity_ns_per_m,
+                                   .grooves = grooves};
   KeepDeepest(out.contacts, out.contact_count).add(contact);
 }
 
@@ -78,8 +85,8 @@ Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel
 
 /// One touch of the product's mode. Moves its anchor.
 PatchForce touch_force(const state::WorldDescription& description, const state::WorldState& state,
-                       const UserState& user, const ContactPatch& patch, const Vec3& v_B_W, const ForceConfig& config,
-                       FrictionAnchors& anchors) {
+                       const UserState& user, const ContactPatch& patch, const Vec3& v_B_W,
+                       const hand::Grooves& grooves, const ForceConfig& config, FrictionAnchors& anchors) {
   const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
   const Pose& X_WB = state[patch.body].X_WB;
   const auto spring_along = [&](const Vec3& direction_W) {
@@ -87,13 +94,21 @@ PatchForce touch_force(const state::WorldDescription& description, const state::
   };
   const Vec3 v_rel_W = user.V_WH.at(patch.p_WC - user.X_WH.p) - v_B_W;
   const Spring spring = spring_along(patch.n_BH_W);
-  const Rubbing rubbing{patch.n_BH_W, normal_force_n(patch, spring, config, v_rel_W), v_rel_W, material};
-  PatchForce force{rubbing.normal_n * patch.n_BH_W, spring};
+  const GroovedTouch on_grooves = hand::grooved(patch.depth_m, grooves, grooves.phase_rad);
+  const double spring_n = spring.stiffness_n_per_m * on_grooves.depth_m;
+  const double onset = std::min(1.0, on_grooves.depth_m / config.damping_depth_m);
+  const double approach = std::max(0.0, -v_rel_W.dot(patch.n_BH_W));
+  const Rubbing rubbing{patch.n_BH_W, spring_n + onset * spring.damping_ns_per_m * approach, v_rel_W, material};
+  PatchForce force{rubbing.normal_n * patch.n_BH_W + spring_n * on_grooves.flank_W -
+                       onset * material.viscosity_ns_per_m * rubbing.sliding_W(),
+                   spring};
   if (config.friction == FrictionKind::damps) {
     force.f_H_W += damping_friction(rubbing);
     return force;
   }
-  Stretch stretch = anchors.stretch_of(patch, X_WB);
+  const std::optional<Stretch> before = anchors.stretch_of(patch, X_WB);
+  if (!before) force.knock_n = material.knock_ns_per_m * approach;
+  Stretch stretch = before.value_or(Stretch{});
   const Vec3 pull_W = stretch.s_W + kTickSeconds * rubbing.sliding_W();
   if (!pull_W.isZero(0)) force.f_H_W += sticking_friction(rubbing, spring_along(pull_W.normalized()), stretch);
   anchors.keep(patch, X_WB, stretch);
@@ -113,12 +128,15 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config.normals);
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
-    const PatchForce force = touch_force(description, state, user, patch, v_B_W, config, anchors);
+    const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
+    const hand::Grooves grooves = grooves_at(material, body.X_WB, user.X_WS[patch.segment].p);
+    const PatchForce force = touch_force(description, state, user, patch, v_B_W, grooves, config, anchors);
     add_to_finger(user, patch.segment, force.f_H_W);
+    if (force.knock_n > 0) add_click(user, state.tick, force.knock_n);
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
     if (user.grasp.active && user.grasp.body == patch.body) continue;
     add_to_hand(user, force.f_H_W, patch.p_WC);
-    add_local_contact(user.output, touch, v_B_W, force.spring, description.bodies[patch.body.index()].haptic);
+    add_local_contact(user.output, touch, v_B_W, force.spring, material, grooves);
     add_force(body, -user.freshness * force.f_H_W, patch.p_WC);
   }
 }
@@ -135,7 +153,8 @@ void announce_near(const state::WorldDescription& description, const HandModel& 
     const HapticMaterial& material = description.bodies[near.body.index()].haptic;
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
     spring.stiffness_n_per_m *= kPatchShare;
-    add_local_contact(user.output, near, body.V_WB.at(near.p_WC - body.X_WB.p), spring, material);
+    add_local_contact(user.output, near, body.V_WB.at(near.p_WC - body.X_WB.p), spring, material,
+                      grooves_at(material, body.X_WB, user.X_WS[near.segment].p));
   }
 }
 
@@ -181,6 +200,7 @@ void ForceRenderer::run(const state::WorldDescription& description, const HandMo
                         state::WorldState& state) const noexcept {
   for (std::size_t i = 0; i < state.users.size(); ++i)
     render_user(description, hand, state, i);
+  find_clicks(description, state);
 }
 
 void ForceRenderer::render_user(const state::WorldDescription& description, const HandModel& hand,
@@ -188,7 +208,9 @@ void ForceRenderer::render_user(const state::WorldDescription& description, cons
   UserState& user = state.users[index];
   const std::uint64_t echo_sequence = user.sample.sequence;
   const std::uint64_t echo_sent_ns = user.sample.sent_ns;
+  const hand::Clicks clicks = user.output.clicks;
   user.output = HapticOutput{};
+  user.output.clicks = clicks;
   user.output.echo_sequence = echo_sequence;
   user.output.echo_sent_ns = echo_sent_ns;
   if (user.present) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "server/base/suggestion.hpp"
+#include "server/hand/grooves.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -84,11 +85,39 @@ bool read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::B
   return true;
 }
 
+/// 2 pi over the distance of grooves, across them.
+Vec3 groove_wave_B(Compilation& c, const Fields& fields) {
+  const double depth_m = fields.number("grooveDepth");
+  if (depth_m == 0) return Vec3::Zero();
+  const Vec3 direction = fields.vector("grooveDirection");
+  if (direction.isZero()) {
+    c.problems.error(ErrorCode::missing, fields.line("grooveDepth"), fields.where(),
+                     "there are grooves, but not in which direction",
+                     "write grooveDirection: 0 0 1 has one groove after the other along the body's z axis");
+    return Vec3::Zero();
+  }
+  const double wave_rad_per_m = 2 * kPi / fields.number("grooveDistance");
+  if (!hand::are_renderable(depth_m, wave_rad_per_m)) {
+    const double most_m =
+        2 * std::min(hand::kMaxFlank / wave_rad_per_m, hand::kMaxCrest_per_m / (wave_rad_per_m * wave_rad_per_m));
+    c.problems.error(ErrorCode::conflict, fields.line("grooveDepth"), fields.where(),
+                     "the grooves are too steep for a device to render",
+                     fmt::format("write a grooveDepth of at most {:.2g}, or a larger grooveDistance", most_m));
+  }
+  return wave_rad_per_m * direction.normalized();
+}
+
 void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
   const auto set = x3d::read_metadata(c.document, id, "mechane:haptic", c.problems);
   const Fields fields(set ? &*set : nullptr, haptic_table(), "mechane:haptic of " + body.name, c.problems);
-  body.haptic = {fields.number("stiffness"), fields.number("damping"), fields.number("staticFriction"),
-                 fields.number("dynamicFriction")};
+  body.haptic = {.stiffness_n_per_m = fields.number("stiffness"),
+                 .damping_ns_per_m = fields.number("damping"),
+                 .static_friction = fields.number("staticFriction"),
+                 .dynamic_friction = fields.number("dynamicFriction"),
+                 .viscosity_ns_per_m = fields.number("viscosity"),
+                 .knock_ns_per_m = fields.number("knock"),
+                 .groove_depth_m = fields.number("grooveDepth"),
+                 .groove_wave_B = groove_wave_B(c, fields)};
   body.effort_scale = fields.number("effortScale");
   body.graspable = fields.boolean("graspable");
   if (body.haptic.dynamic_friction > body.haptic.static_friction) {

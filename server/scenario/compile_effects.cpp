@@ -87,6 +87,7 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   effect.full = fields.number("full");
   effect.size_m = fields.number("size");
   effect.speed_m_per_s = fields.number("speed");
+  effect.force_n = fields.number("force");
   effect.p_BE = fields.vector("point");
   if (fields.given("direction")) {
     effect.direction_B = fields.vector("direction");
@@ -113,6 +114,11 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
     c.problems.error(ErrorCode::missing, set.line, fields.where(),
                      fmt::format("the {} effect has no quantity to drive it", effect.kind),
                      "name a quantity in the key quantity");
+  }
+  if (effect.is_felt() && !fields.given("body")) {
+    c.problems.error(ErrorCode::missing, set.line, fields.where(),
+                     "the touch.click effect does not say in which body it is felt",
+                     "name what a hand holds or touches in the key body");
   }
   check_unit(c, fields, effect);
   return effect;

@@ -5,6 +5,8 @@
 #include <array>
 
 #include "server/base/assert.hpp"
+#include "server/hand/grooves.hpp"
+#include "server/hand/hand_force.hpp"
 #include "server/state/component_type.hpp"
 #include "server/state/description.hpp"
 
@@ -298,9 +300,11 @@ constexpr Table kVisit{"visit", "a scripted hand", kVisitKeys};
 
 constexpr Key kEffectKeys[] = {
     {.name = "kind",
-     .summary = "what is seen or heard. level: a surface of water that rises; flow: one that flows, as a river does; "
-                "stream: water that runs out; jet: water or steam under pressure, its speed from flow and size; "
-                "sound.NAME: a sound at that place",
+     .summary =
+         "what is seen, heard or felt. level: a surface of water that rises; flow: one that flows, as a river does; "
+         "stream: water that runs out; jet: water or steam under pressure, its speed from flow and size; "
+         "sound.NAME: a sound at that place; touch.click: a short shake in the hands that hold or touch the body, "
+         "each time the quantity has changed by another full",
      .example = "\"stream\"",
      .required = true,
      .choices = state::effect_kinds()},
@@ -349,8 +353,17 @@ constexpr Key kEffectKeys[] = {
      .default_number = 0.5,
      .min = 0,
      .max = 100},
+    {.name = "force",
+     .kind = number,
+     .unit = "N",
+     .summary = "how strong a touch.click is",
+     .example = "0.5",
+     .default_number = 0.5,
+     .min = 0,
+     .max = hand::kMaxClick_n},
 };
-constexpr Table kEffect{"effect", "something seen or heard of a machine's working, driven by a quantity", kEffectKeys};
+constexpr Table kEffect{"effect", "something seen, heard or felt of a machine's working, driven by a quantity",
+                        kEffectKeys};
 
 constexpr Key kScenarioKeys[] = {
     {.name = "format", .kind = number, .summary = "version of these tables", .example = "1", .required = true},
@@ -398,7 +411,7 @@ constexpr Key kScenarioKeys[] = {
      .free_names = true},
     {.name = "effects",
      .kind = set,
-     .summary = "sets named as what is seen and heard beside the bodies: water, steam, fire",
+     .summary = "sets named as what is seen, heard and felt beside the bodies: water, steam, fire, a ratchet's clicks",
      .inner = &kEffect,
      .free_names = true},
 };
@@ -435,6 +448,41 @@ constexpr Key kHapticKeys[] = {
      .default_number = 0.3,
      .min = 0,
      .max = 4},
+    {.name = "viscosity",
+     .kind = number,
+     .unit = "N s/m",
+     .summary = "how syrupy it is to slide over: grease, wet clay",
+     .example = "1",
+     .min = 0,
+     .max = hand::kMaxViscosity_ns_per_m},
+    {.name = "knock",
+     .kind = number,
+     .unit = "N s/m",
+     .summary = "the short shake at the first touch, per speed of approach: stone and metal knock, cloth does not",
+     .example = "5",
+     .min = 0,
+     .max = 50},
+    {.name = "grooveDepth",
+     .kind = number,
+     .unit = "m",
+     .summary = "from ridge to bottom of even grooves in the surface: a grain, staves, a file; 0: smooth",
+     .example = "0.00005",
+     .min = 0,
+     .max = 0.01},
+    {.name = "grooveDistance",
+     .kind = number,
+     .unit = "m",
+     .summary = "from one groove to the next",
+     .example = "0.004",
+     .default_number = 0.004,
+     .min = 0.0005,
+     .max = 1},
+    {.name = "grooveDirection",
+     .kind = vector,
+     .summary = "across the grooves, in the body's frame; any length",
+     .example = "0 0 1",
+     .min = -kLargest,
+     .max = kLargest},
     {.name = "effortScale",
      .kind = number,
      .summary = "share of its weight that the hand lifts",

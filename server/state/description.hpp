@@ -24,6 +24,10 @@ struct HapticMaterial {
   double damping_ns_per_m = 1.5;
   double static_friction = 0.5;
   double dynamic_friction = 0.3;
+  double viscosity_ns_per_m = 0;      ///< along the surface, 0 .. hand::kMaxViscosity_ns_per_m
+  double knock_ns_per_m = 0;          ///< the click of a first touch, per speed of approach
+  double groove_depth_m = 0;          ///< from ridge to bottom; 0: smooth
+  Vec3 groove_wave_B = Vec3::Zero();  ///< across the grooves, in the body's frame: 2 pi over their distance, rad/m
 };
 
 /// Where a body's picture is: a node of a mesh file.
@@ -207,7 +211,7 @@ struct Viewpoint {
   double field_of_view_rad = kPi / 4;
 };
 
-/// What is seen or heard of a working machine besides its bodies: water, steam, fire. It has no part in the physics; a quantity of
+/// What is seen, heard or felt of a working machine besides its bodies: water, steam, fire, a ratchet's teeth. It has no part in the physics; a quantity of
 /// the world drives it, so that it stands still when the world does.
 struct EffectDescription {
   std::string name;
@@ -220,13 +224,17 @@ struct EffectDescription {
   double full = 1;                   ///< value of the quantity at which it is at its strongest
   double size_m = 0.02;
   double speed_m_per_s = 0.5;
+  double force_n = 0.5;  ///< `touch.click`: at its strongest
+
+  /// Felt by hands, and not shown by displays.
+  [[nodiscard]] bool is_felt() const { return kind == "touch.click"; }
 };
 
-/// The kinds of effects that displays know, separated by blanks.
+/// The kinds of effects, separated by blanks.
 [[nodiscard]] constexpr std::string_view effect_kinds() {
   return "level flow stream jet spray steam smoke fire dust sound.water sound.wood sound.rope sound.stone sound.fire "
          "sound.steam "
-         "sound.ratchet sound.bow";
+         "sound.ratchet sound.bow touch.click";
 }
 
 struct WorldDescription {

@@ -1,6 +1,7 @@
 #include "server/state/world_state.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace mechane::state {
 
@@ -8,7 +9,8 @@ WorldState::WorldState(const WorldDescription& description)
     : bodies(description.bodies.size()),
       joints(description.joints.size()),
       quantities(description.quantities.size(), 0.0),
-      agent_enabled(description.agents.size(), 0) {
+      agent_enabled(description.agents.size(), 0),
+      click_steps(description.effects.size(), std::numeric_limits<double>::quiet_NaN()) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const BodyDescription& from = description.bodies[i];
     bodies[i].X_WB = from.X_WB;

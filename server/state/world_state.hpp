@@ -94,6 +94,7 @@ struct UserState {
   std::uint32_t anchor_count = 0;
   Grasp grasp;
   hand::HapticOutput output;
+  std::uint64_t click_tick = 0;  ///< of the newest click
 
   [[nodiscard]] std::span<const Contact> contact_span() const { return {contacts.data(), contact_count}; }
   [[nodiscard]] std::span<const Contact> near_span() const { return {near.data(), near_count}; }
@@ -119,6 +120,7 @@ struct WorldState {
   std::vector<double> quantities;           ///< by QuantityId; written by `update_quantities` in agents
   std::vector<std::uint8_t> agent_enabled;  ///< by AgentId
   std::vector<Coupling> couplings;          ///< of the agents; see MemoryLayout::add_coupling
+  std::vector<double> click_steps;          ///< by effect: the step that its quantity is on; NaN: not yet looked at
   std::vector<double> memory;  ///< what agents and machines remember: slots given out when the world is built
   std::array<UserState, hand::kMaxUsers> users{};
   std::array<hand::GovernorState, hand::kMaxUsers> governors{};  ///< by user; a hand that left still ramps down

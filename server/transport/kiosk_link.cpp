@@ -24,6 +24,10 @@ void set_contact(proto::WireLocalContact& out, const hand::LocalContact& from) n
   out.damping_ns_per_m = static_cast<float>(from.damping_ns_per_m);
   out.static_friction = static_cast<float>(from.static_friction);
   out.dynamic_friction = static_cast<float>(from.dynamic_friction);
+  out.viscosity_ns_per_m = static_cast<float>(from.viscosity_ns_per_m);
+  out.groove_depth_m = static_cast<float>(from.grooves.depth_m);
+  proto::set_vec3(out.groove_wave_W, from.grooves.wave_W);
+  out.groove_phase_rad = static_cast<float>(from.grooves.phase_rad);
   out.valid_us = to_us(from.validity);
 }
 
@@ -50,6 +54,8 @@ void set_force(proto::HapticOutput& out, const hand::HapticOutput& from) noexcep
     out.finger_force_n[i] = static_cast<float>(from.finger_force_n[i]);
   }
   out.holding = from.holding ? 1 : 0;
+  out.clicks = from.clicks.count;
+  out.click_n = static_cast<float>(from.clicks.strength_n);
   set_held(out.held, from.held);
   out.contact_count = from.contact_count;
   for (std::size_t i = 0; i < hand::kMaxLocalContacts; ++i) {

@@ -50,13 +50,19 @@ std::size_t moved_stones(const state::WorldState& state) {
 TEST(CatapultVisits, TheWallFallsAndTwiceTheSame) {
   test::PlayOptions options;
   std::size_t moved = 0;
-  options.watch = [&](const state::WorldState& state) { moved = moved_stones(state); };
+  std::uint32_t clicks = 0;
+  options.watch = [&](const state::WorldState& state) {
+    moved = moved_stones(state);
+    for (const state::UserState& user : state.users)
+      clicks = std::max(clicks, user.output.clicks.count);
+  };
   const test::PlayedVisit visit = catapult().play("shooting", options);
   EXPECT_TRUE(visit.done) << visit;
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
   for (const test::PlayedStep& step : visit.steps)
     EXPECT_LT(step.seconds, 20) << visit;
   EXPECT_GE(moved, 4u) << visit;
+  EXPECT_GE(clicks, visit.quantities.at("teeth")) << "the hand feels each tooth of the ratchet";
   EXPECT_EQ(catapult().play("shooting").state_hash, visit.state_hash);
 }
 

@@ -124,6 +124,10 @@ class FaultPlay {
     client_.answer_with_floor(kFloor_n_per_m, now_);
     client::ForceSample& sample = *client_.arrived;
     sample.contacts[0].dynamic_friction = 0.5;
+    sample.contacts[0].viscosity_ns_per_m = hand::kMaxViscosity_ns_per_m;
+    const Vec3 wave(800, 0, 0);
+    sample.contacts[0].grooves = {.depth_m = 3e-4, .wave_W = wave, .phase_rad = wave.dot(client_.hand.X_WH.p)};
+    sample.clicks = {static_cast<std::uint32_t>(found_.ticks / 97), 0.8};
     if (holds_) {  // a handle at y = 0 on a slider along z
       sample.holding = true;
       sample.contact_count = 0;

@@ -16,7 +16,10 @@ namespace mechane::test {
 
 class FloorServer {
  public:
-  FloorServer(double top_m, double stiffness_n_per_m) : FloorServer(block(top_m, stiffness_n_per_m)) {}
+  FloorServer(double top_m, double stiffness_n_per_m)
+      : FloorServer(block(top_m, {.stiffness_n_per_m = stiffness_n_per_m})) {}
+  /// The same with the top at 0.
+  explicit FloorServer(const state::HapticMaterial& haptic) : FloorServer(block(0, haptic)) {}
   /// The same of any object, where its frame is the world's.
   explicit FloorServer(const std::shared_ptr<const collision::Object>& object, const haptics::ForceConfig& config = {})
       : FloorServer(fixed(object), config) {}
@@ -39,6 +42,7 @@ class FloorServer {
     haptics::find_near_surfaces(world_, *hand_, state_);
   }
   const hand::HapticOutput& render() {
+    ++state_.tick;
     state_.bodies[0].load_W = Wrench{};
     renderer_.run(world_, *hand_, state_);
     return state_.users[0].output;
@@ -64,12 +68,12 @@ class FloorServer {
     world.bodies = {body};
     return world;
   }
-  static state::WorldDescription block(double top_m, double stiffness_n_per_m) {
+  static state::WorldDescription block(double top_m, const state::HapticMaterial& haptic) {
     static const Vec3 half_m(0.1, 0.02, 0.1);
     static const auto object = built(box(half_m));
     state::WorldDescription world = fixed(object);
     world.bodies[0].X_WB.p.y() = top_m - half_m.y();
-    world.bodies[0].haptic.stiffness_n_per_m = stiffness_n_per_m;
+    world.bodies[0].haptic = haptic;
     return world;
   }
 

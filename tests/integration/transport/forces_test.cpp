@@ -33,6 +33,8 @@ hand::LocalContact any_contact() {
           .damping_ns_per_m = float_between(0, 50),
           .static_friction = float_between(0, 2),
           .dynamic_friction = float_between(0, 2),
+          .viscosity_ns_per_m = float_between(0, hand::kMaxViscosity_ns_per_m),
+          .grooves = {float_between(0, 1e-4), vector_within(500), float_between(-1000, 1000)},
           .validity = std::chrono::microseconds(*rc::gen::inRange(0, 1'000'001))};
 }
 
@@ -40,7 +42,9 @@ bool same(const hand::LocalContact& a, const hand::LocalContact& b) {
   return a.p_W == b.p_W && (a.n_W - b.n_W).norm() < 1e-6 && a.v_W == b.v_W && a.depth_m == b.depth_m &&
          a.curvature_per_m == b.curvature_per_m && a.stiffness_n_per_m == b.stiffness_n_per_m &&
          a.damping_ns_per_m == b.damping_ns_per_m && a.static_friction == b.static_friction &&
-         a.dynamic_friction == b.dynamic_friction && a.validity == b.validity;
+         a.dynamic_friction == b.dynamic_friction && a.viscosity_ns_per_m == b.viscosity_ns_per_m &&
+         a.grooves.depth_m == b.grooves.depth_m && a.grooves.wave_W == b.grooves.wave_W &&
+         a.grooves.phase_rad == b.grooves.phase_rad && a.validity == b.validity;
 }
 
 hand::HeldPath any_path() {
@@ -71,6 +75,7 @@ hand::HapticOutput any_answer() {
   answer.reasons = *rc::gen::inRange(0u, 1u << hand::kReasonCount);
   answer.holding = *rc::gen::arbitrary<bool>();
   answer.held = any_path();
+  answer.clicks = {*rc::gen::arbitrary<std::uint32_t>(), float_between(0, hand::kMaxClick_n)};
   answer.contact_count = *rc::gen::inRange<std::uint32_t>(0, hand::kMaxLocalContacts + 1);
   std::generate(answer.contacts.begin(), answer.contacts.end(), any_contact);
   return answer;
@@ -103,6 +108,7 @@ TEST_F(Loopback, EachFieldOfAForceAndOfItsContactsComesAsTheServerSetIt) {
     RC_ASSERT(came->finger_force_n == sent.finger_force_n);
     RC_ASSERT(came->reasons == sent.reasons);
     RC_ASSERT(came->holding == sent.holding);
+    RC_ASSERT(came->clicks.count == sent.clicks.count && came->clicks.strength_n == sent.clicks.strength_n);
     const bool on_path = sent.holding && sent.held.kind != hand::HeldPath::Kind::none;
     RC_ASSERT(same(came->held, on_path ? sent.held : hand::HeldPath{}));
     RC_ASSERT(came->contact_count == sent.contact_count);

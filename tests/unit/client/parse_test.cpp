@@ -32,9 +32,11 @@ proto::HapticOutput honest_force(std::uint32_t contacts = kMaxLocalContacts) {
 }
 
 std::vector<float*> numbers_of(proto::WireLocalContact& contact) {
-  std::vector<float*> all{&contact.depth_m,          &contact.curvature_per_m, &contact.stiffness_n_per_m,
-                          &contact.damping_ns_per_m, &contact.static_friction, &contact.dynamic_friction};
-  for (auto* vector : {&contact.p_W, &contact.n_W, &contact.v_W}) {
+  std::vector<float*> all{
+      &contact.depth_m,         &contact.curvature_per_m,  &contact.stiffness_n_per_m,  &contact.damping_ns_per_m,
+      &contact.static_friction, &contact.dynamic_friction, &contact.viscosity_ns_per_m, &contact.groove_depth_m,
+      &contact.groove_phase_rad};
+  for (auto* vector : {&contact.p_W, &contact.n_W, &contact.v_W, &contact.groove_wave_W}) {
     for (float& number : *vector)
       all.push_back(&number);
   }
@@ -71,6 +73,7 @@ RC_GTEST_PROP(ParseForce, RefusesWhatIsNotFiniteAnywhere, ()) {
     numbers.push_back(&number);
   for (float& number : wire.finger_force_n)
     numbers.push_back(&number);
+  numbers.push_back(&wire.click_n);
   **rc::gen::elementOf(numbers) = not_a_number();
   RC_ASSERT(!parse(wire, force));
 }
@@ -79,7 +82,7 @@ RC_GTEST_PROP(ParseForce, DoesNotReadContactsBeyondTheirCount, ()) {
   const auto count = *rc::gen::inRange<std::uint32_t>(0, kMaxLocalContacts);
   proto::HapticOutput wire = honest_force(count);
   for (std::size_t i = count; i < kMaxLocalContacts; ++i)
-    *numbers_of(wire.contacts[i])[*rc::gen::inRange<std::size_t>(0, 14)] = not_a_number();
+    *numbers_of(wire.contacts[i])[*rc::gen::inRange<std::size_t>(0, 20)] = not_a_number();
   ForceSample force;
   force.contacts.fill({.depth_m = 7});
   RC_ASSERT(parse(wire, force));
@@ -141,7 +144,9 @@ RC_GTEST_PROP(ParseForce, LetsNoContactPullOrLastForLong, ()) {
   wire.contacts[0].damping_ns_per_m = static_cast<float>(*between(-50, 50));
   wire.contacts[0].static_friction = static_cast<float>(*between(-2, 2));
   wire.contacts[0].dynamic_friction = static_cast<float>(*between(-2, 2));
+  wire.contacts[0].viscosity_ns_per_m = static_cast<float>(*between(-1, 4));
   wire.contacts[0].valid_us = *rc::gen::inRange(0u, 3'000'000u);
+  wire.click_n = static_cast<float>(*between(-5, 5));
   ForceSample force;
   RC_ASSERT(parse(wire, force));
   const LocalContact& contact = force.contacts[0];
@@ -149,7 +154,22 @@ RC_GTEST_PROP(ParseForce, LetsNoContactPullOrLastForLong, ()) {
   RC_ASSERT(contact.damping_ns_per_m == std::max(0.0f, wire.contacts[0].damping_ns_per_m));
   RC_ASSERT(contact.static_friction == std::max(0.0f, wire.contacts[0].static_friction));
   RC_ASSERT(contact.dynamic_friction == std::max(0.0f, wire.contacts[0].dynamic_friction));
+  RC_ASSERT(contact.viscosity_ns_per_m ==
+            std::clamp<double>(wire.contacts[0].viscosity_ns_per_m, 0, hand::kMaxViscosity_ns_per_m));
+  RC_ASSERT(force.clicks.strength_n == std::clamp<double>(wire.click_n, 0, hand::kMaxClick_n));
   RC_ASSERT(contact.validity == std::chrono::microseconds(std::min(wire.contacts[0].valid_us, 1'000'000u)));
+}
+
+RC_GTEST_PROP(ParseForce, TakesNoGroovesThatADeviceCannotRender, ()) {
+  proto::HapticOutput wire = honest_force(1);
+  wire.contacts[0].groove_depth_m = static_cast<float>(*between(-0.001, 0.002));
+  proto::set_vec3(wire.contacts[0].groove_wave_W, *between(0, 5000) * any_unit());
+  wire.contacts[0].depth_m = 0.003f;
+  ForceSample force;
+  RC_ASSERT(parse(wire, force));
+  const hand::Grooves& grooves = force.contacts[0].grooves;
+  RC_ASSERT(hand::are_renderable(grooves.depth_m, grooves.wave_W.norm()));
+  RC_ASSERT(force.contacts[0].depth_m > 0);
 }
 
 TEST(ParseForce, RefusesAnotherProtocol) {

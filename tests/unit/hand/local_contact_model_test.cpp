@@ -30,6 +30,14 @@ LocalContact wall(double stiffness = 600) {
   return c;
 }
 
+/// Grooves along x and z, as steep as is allowed or less.
+Grooves any_grooves() {
+  const double wave = 2 * kPi / number(0.001, 0.02);
+  const double most_m = 2 * std::min(kMaxFlank / wave, kMaxCrest_per_m / (wave * wave));
+  const double angle = number(0, 2 * kPi);
+  return {number(0, 1) * most_m, wave * Vec3(std::cos(angle), 0, 0.5 * std::sin(angle)), number(0, 2 * kPi)};
+}
+
 RC_GTEST_PROP(LocalContactModel, PushesWithStiffnessTimesDepthWhereTheServerSawIt, ()) {
   LocalContact c = wall(number(10, 2000));
   c.n_W = unit();
@@ -69,6 +77,8 @@ RC_GTEST_PROP(LocalContactModel, IsContinuous, ()) {
   c.dynamic_friction = number(0, 1);
   c.curvature_per_m = *rc::gen::element(0.0, 10.0, -10.0);
   c.v_W = Vec3(number(-0.2, 0.2), 0, number(-0.2, 0.2));
+  c.viscosity_ns_per_m = number(0, kMaxViscosity_ns_per_m);
+  c.grooves = any_grooves();
   LocalContactModel model;
   model.set(std::span(&c, 1), Vec3::Zero());
   const Vec3 p(number(-0.01, 0.01), number(-0.01, 0.01), number(-0.005, 0.002));
@@ -198,7 +208,9 @@ RC_GTEST_PROP(LocalContactModel, IsPassiveOnAStaticWall, ()) {
   c.damping_ns_per_m = number(0, 5);
   c.static_friction = number(0, 1.5);
   c.dynamic_friction = number(0, 1);
+  c.viscosity_ns_per_m = number(0, kMaxViscosity_ns_per_m);
   c.curvature_per_m = *rc::gen::element(0.0, 10.0, -5.0);
+  if (*rc::gen::arbitrary<bool>()) c.grooves = any_grooves();
   c.validity = 1h;
   LocalContactModel model;
   model.set(std::span(&c, 1), Vec3::Zero());
@@ -208,14 +220,48 @@ RC_GTEST_PROP(LocalContactModel, IsPassiveOnAStaticWall, ()) {
     const double t = 2 * kPi * i / 1000.0;
     return Vec3(ax * std::sin(fx * t), 0, az * std::sin(fz * t + phase));
   };
+  // Where grooves bend most, the slope of the force is that of the spring, of the flank and of the crest.
+  const double steepest = c.grooves.depth_m > 0 ? 1 + kMaxFlank + kMaxCrest_per_m * 0.008 : 1;
   double out_j = 0, sampling_j = 0;
   for (int i = 0; i < 1000; ++i) {
     const Vec3 step = place(i + 1) - place(i);
     const Vec3 v = (place(i) - place(i - 1)) / 1e-3;
     out_j += model.render(place(i), v, 0ms).dot(step);
-    sampling_j += c.stiffness_n_per_m * step.squaredNorm();
+    sampling_j += steepest * c.stiffness_n_per_m * step.squaredNorm();
   }
   RC_ASSERT(out_j <= sampling_j + 1e-9);
+}
+
+TEST(LocalContactModel, AHandIsPushedIntoTheGroovesAndFeelsThemWhereTheyAre) {
+  LocalContact c = wall(1000);
+  c.depth_m = 0.002;
+  const double distance_m = 0.008;
+  c.grooves = {.depth_m = 1e-4, .wave_W = Vec3(2 * kPi / distance_m, 0, 0), .phase_rad = 0};
+  LocalContactModel model;
+  const Vec3 p_WH0(0.3, 0, 0);  // at the bottom of a groove
+  model.set(std::span(&c, 1), p_WH0);
+  const auto force = [&](double x_m) { return model.render(p_WH0 + Vec3(x_m, 0, 0), Vec3::Zero(), 0ms); };
+  EXPECT_NEAR(force(0).z(), 1000 * 0.0019, 1e-9);
+  EXPECT_NEAR(force(distance_m / 2).z(), 1000 * 0.002, 1e-9) << "on the ridge";
+  EXPECT_NEAR(force(distance_m).z(), 1000 * 0.0019, 1e-9) << "in the next groove";
+  EXPECT_LT(force(distance_m / 4).x(), -0.05) << "back to the bottom";
+  EXPECT_GT(force(-distance_m / 4).x(), 0.05);
+  EXPECT_NEAR(force(distance_m / 2).x(), 0, 1e-9);
+  // The next answer, for a hand that has gone on, says the same of the same place.
+  c.grooves.phase_rad = kPi / 2;
+  const Vec3 before = force(distance_m / 4 + 0.001);
+  model.set(std::span(&c, 1), p_WH0 + Vec3(distance_m / 4, 0, 0));
+  EXPECT_LT((force(distance_m / 4 + 0.001) - before).norm(), 1e-9);
+}
+
+TEST(LocalContactModel, ViscosityHoldsBackWhatSlidesAndNothingElse) {
+  LocalContact c = wall();
+  c.depth_m = 0.002;
+  c.viscosity_ns_per_m = 2;
+  LocalContactModel model;
+  model.set(std::span(&c, 1), Vec3::Zero());
+  const Vec3 still = model.render(Vec3::Zero(), Vec3::Zero(), 0ms);
+  EXPECT_LT((model.render(Vec3::Zero(), Vec3(0.1, 0, 0.1), 0ms) - still - Vec3(-0.2, 0, 0)).norm(), 1e-12);
 }
 
 TEST(LocalContactModel, FollowsTheSurfaceWhileValidAndFadesOutAfterwards) {
@@ -233,13 +279,14 @@ TEST(LocalContactModel, FollowsTheSurfaceWhileValidAndFadesOutAfterwards) {
 }
 
 TEST(LocalContactModel, LeavesOutWhatCannotBeAndWhatIsTooMuch) {
-  std::vector<LocalContact> contacts(12, wall());
+  std::vector<LocalContact> contacts(13, wall());
   contacts[0].n_W = Vec3::Zero();
   contacts[1].depth_m = std::numeric_limits<double>::quiet_NaN();
   contacts[2].stiffness_n_per_m = -5;
+  contacts[4].grooves = {.depth_m = 0.001, .wave_W = Vec3(5000, 0, 0), .phase_rad = 0};  // as steep as a saw
   LocalContactModel model;
   EXPECT_EQ(model.set(contacts, Vec3::Zero()), 8u);
-  EXPECT_EQ(model.set(std::span(contacts).first(4), Vec3::Zero()), 1u);
+  EXPECT_EQ(model.set(std::span(contacts).first(5), Vec3::Zero()), 1u);
   EXPECT_EQ(model.set(contacts, Vec3(std::nan(""), 0, 0)), 0u);
   EXPECT_EQ(model.render(Vec3::Zero(), Vec3::Zero(), 0ms), Vec3::Zero());
 }

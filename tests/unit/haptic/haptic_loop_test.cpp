@@ -65,6 +65,7 @@ class HapticLoopTest : public ::testing::Test {
     answer.echo_sequence = echo;
     answer.force_W.f = Vec3(0, kPressN, 0);
     answer.holding = holding_;
+    answer.clicks = clicks_;
     if (holding_) answer.held = held_;
     answer.contact_count = touching_ ? 1 : 0;
     answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = 0.001, .stiffness_n_per_m = 1000 * kPressN};
@@ -99,6 +100,7 @@ class HapticLoopTest : public ::testing::Test {
   TimePoint now_{1h};
   bool holding_ = false;
   hand::HeldPath held_;
+  hand::Clicks clicks_;
   bool touching_ = false;  // what answers say
 };
 
@@ -111,6 +113,19 @@ TEST_F(HapticLoopTest, AForceThatComesBackAfterASilenceBeginsFromZero) {
   ASSERT_NEAR(tick_for(1s, true), kPressN, 1e-9);
   EXPECT_EQ(tick_for(60ms, false), 0);
   expect_ramp();
+}
+
+TEST_F(HapticLoopTest, AClickIsFeltBesideTheForceAndNotTwice) {
+  ASSERT_NEAR(tick_for(1s, true), kPressN, 1e-9);
+  const auto furthest_n = [this] {
+    double most_n = 0;
+    for (int i = 0; i < 50; ++i)
+      most_n = std::max(most_n, std::abs(tick(true) - kPressN));
+    return most_n;
+  };
+  clicks_ = {.count = 1, .strength_n = 0.8};
+  EXPECT_GT(furthest_n(), 0.4);
+  EXPECT_NEAR(furthest_n(), 0, 1e-9);
 }
 
 TEST_F(HapticLoopTest, AnAnswerThatIsMissedNowAndThenIsNoSilence) {

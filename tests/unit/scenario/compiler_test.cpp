@@ -193,6 +193,13 @@ const Fault kFaults[] = {
     {"name='node' value='\"INNER\"'/>",
      "name='node' value='\"INNER\"'/>\n<MetadataDouble containerField='value' name='restitution' value='1.5'/>",
      "name='restitution'", invalid_value, "'restitution': 1.5"},
+    {"name='staticFriction' value='0.6'", "name='grooveDepth' value='0.0001'", "name='grooveDepth'", ErrorCode::missing,
+     "grooveDirection"},
+    {"<MetadataDouble containerField='value' name='staticFriction' value='0.6'/>",
+     "<MetadataDouble containerField='value' name='grooveDepth' value='0.001'/>"
+     "<MetadataDouble containerField='value' name='grooveDirection' value='0 0 1'/>",
+     "name='grooveDepth'", conflict, "at most 8.1e-05"},
+    {"name='staticFriction' value='0.6'", "name='viscosity' value='50'", "name='viscosity'", invalid_value, "0 to 2"},
     {"name='grip' value='0.25 0 1.36'", "name='grip' value='0.25 0'", "value='0.25 0'", invalid_value, "3 numbers"},
 };
 

@@ -62,6 +62,32 @@ TEST(Quantities, AnUnknownUnitIsWarnedOf) {
   EXPECT_EQ(slip.severity, x3d::Severity::warning);
 }
 
+/// The shipped file with a click in front of its effects.
+std::string with_click(const std::string& body) {
+  const std::string begin = "<MetadataSet containerField='value' name='effects'>";
+  return edited(begin, begin +
+                           "<MetadataSet containerField='value' name='TOOTH'>"
+                           "<MetadataString containerField='value' name='kind' value='\"touch.click\"'/>"
+                           "<MetadataString containerField='value' name='quantity' value='\"turns\"'/>"
+                           "<MetadataDouble containerField='value' name='full' value='0.25'/>"
+                           "<MetadataDouble containerField='value' name='force' value='0.8'/>" +
+                           body + "</MetadataSet>");
+}
+
+TEST(Effects, AClickIsFeltInABody) {
+  const auto compiled =
+      compile_text(with_click("<MetadataString containerField='value' name='body' value='\"INNER\"'/>"));
+  ASSERT_TRUE(compiled.world);
+  const state::EffectDescription& click = compiled.world->effects.front();
+  EXPECT_TRUE(click.is_felt());
+  EXPECT_EQ(click.body, compiled.world->find_body("INNER"));
+  EXPECT_DOUBLE_EQ(click.full, 0.25);
+  EXPECT_DOUBLE_EQ(click.force_n, 0.8);
+  const std::string nowhere = with_click("");
+  EXPECT_EQ(compile_text(nowhere).find(ErrorCode::missing, line_of(nowhere, "name='TOOTH'>"), "body").severity,
+            x3d::Severity::error);
+}
+
 TEST(Effects, FaultsHaveCodeLineAndRemedy) {
   const auto expect_error = [](const std::string& text, ErrorCode code, const std::string& at,
                                const std::string& name) {
