@@ -12,18 +12,24 @@
 
 namespace mechane::haptic {
 
-/// A decaying sine for each click that the server tells of, as Okamura, Cutkosky and Dennerlein (2001) render a tap. The hand's skin does
-/// not tell its direction: up and down. One thread; allocates nothing.
+/// A decaying sine for each click that the server tells of: a exp(-t / T) sin(2 pi f t), as for the taps of Okamura, Cutkosky and
+/// Dennerlein ("Reality-based models for vibration feedback in virtual environments", 2001), but with one f and T for all materials. Skin
+/// hardly tells the direction of a shake; it is up and down. One thread; allocates nothing.
 class ClickPulse {
  public:
-  static constexpr double kFrequency_hz = 150;  ///< about where skin feels best; a device of 1 kHz still draws it
+  static constexpr double kFrequency_hz =
+      150;  ///< skin feels up to 250 best, but a device of 1 kHz would draw that badly
   static constexpr double kDecay_s = 0.008;
   static constexpr double kEnd_s = 5 * kDecay_s;
+  static constexpr double kPeak = 0.82;  ///< of exp(-t / T) sin(2 pi f t)
 
-  /// Of each answer. The first that is heard of, and a number that begins anew with another world, are no clicks.
+  /// Of each answer. The first count that is heard is no click, and neither is a lower one, of another world. A click within 20 ms of
+  /// one as strong is left out, whatever a server says.
   void hear(const hand::Clicks& clicks) noexcept {
-    if (known_ && clicks.count > *known_) {
-      strength_n_ = std::clamp(clicks.strength_n, 0.0, hand::kMaxClick_n);
+    constexpr double kApart_s = 0.02;
+    const double strength_n = std::clamp(clicks.strength_n, 0.0, hand::kMaxClick_n);
+    if (known_ && clicks.count > *known_ && (time_s_ >= kApart_s || strength_n > strength_n_)) {
+      strength_n_ = strength_n;
       time_s_ = 0;
     }
     known_ = clicks.count;
@@ -35,7 +41,8 @@ class ClickPulse {
   [[nodiscard]] Vec3 render(Duration dt) noexcept {
     if (time_s_ >= kEnd_s) return Vec3::Zero();
     time_s_ += to_seconds(dt);
-    return strength_n_ * std::exp(-time_s_ / kDecay_s) * std::sin(2 * kPi * kFrequency_hz * time_s_) * Vec3::UnitY();
+    const double shake = std::exp(-time_s_ / kDecay_s) * std::sin(2 * kPi * kFrequency_hz * time_s_);
+    return strength_n_ / kPeak * shake * Vec3::UnitY();
   }
 
  private:

@@ -86,7 +86,8 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   // this loop itself stood still, when an old answer may still be in its socket and look new.
   const Duration too_long = governor_.config().zero_by;
   const bool ready = device_.condition() == DeviceCondition::ready;
-  if (age >= too_long || dt >= too_long || !ready) {
+  const bool stood_still = dt >= too_long;
+  if (age >= too_long || stood_still || !ready) {
     governor_.reset(governed_);
     click_.forget();
   }
@@ -106,12 +107,12 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
     const double here = on_path ? path_share_ : 1;
     wanted.wanted_W.f = here * (touch + path) + (1 - here) * wanted.wanted_W.f;
   }
-  const bool warm = heat_.limit(wanted.wanted_W.f);
   wanted.wanted_W.f += click_.render(dt);
+  const bool warm = heat_.limit(wanted.wanted_W.f);
   wanted.V_WH = moved(input, dt);
   wanted.age = age;
   wanted.engaged = engaged && ready;
-  rendered_ = governor_.apply(governed_, wanted, dt);
+  rendered_ = governor_.apply(governed_, wanted, stood_still ? Duration{0} : dt);
   heat_.rendered(rendered_.force_W.f.norm(), dt);
   if (warm) rendered_.reasons |= kWarm;
   if (!ready) rendered_.reasons |= kNotReady;

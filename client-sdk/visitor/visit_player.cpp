@@ -99,6 +99,10 @@ VisitPlayer::VisitPlayer(const state::WorldDescription& description, const state
 void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n) {
   if (finished()) return;
   if (!begun_) begin_move(X_WB);
+  if (waits(X_WB, holding)) {
+    waited_s_ += dt_s;
+    return;
+  }
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
   note_grip(holding);
@@ -119,6 +123,8 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   held_ = false;
   held_rad_ = 0;
   empty_s_ = 0;
+  waited_s_ = 0;
+  to_grip_m_ = to_grip_m(X_WB);
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   over_m_ = 0;
@@ -140,6 +146,19 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   } else if (move.kind == VisitMove::Kind::release) {
     intent_.grasp_intent = 0;
   }
+}
+
+/// From where the hand has its grip to the grip of what it last reached for; 0 before the first reach.
+double VisitPlayer::to_grip_m(std::span<const Pose> X_WB) const {
+  const VisitMove& reach = visit_.moves[last_reach_];
+  if (reach.kind != VisitMove::Kind::reach) return 0;
+  return (X_WB[reach.body.index()] * p_BG_ - intent_.X_WH * p_HG_).norm();
+}
+
+bool VisitPlayer::waits(std::span<const Pose> X_WB, bool holding) const {
+  constexpr double kPatienceS = 5;
+  if (!config_.waits_for_lag_m || !holding || waited_s_ > kPatienceS) return false;
+  return to_grip_m(X_WB) - to_grip_m_ > *config_.waits_for_lag_m;
 }
 
 /// The hand's pose depends on the move after this reach: a handle to be worked lies across the palm, a sign is touched

@@ -31,7 +31,9 @@ struct PlayerConfig {
   /// A whole hand turns towards its goal and bends its fingers; false: the wrist keeps its rotation.
   bool shapes_hand = true;
   double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit continues without it
-  int fetch_again = 2;          ///< how often the hand goes back for a thing that it lost while carrying or working it
+  /// The hand waits, like one that only sees, for a thing that it holds and that lags by more than this. None: it pulls on.
+  std::optional<double> waits_for_lag_m{};
+  int fetch_again = 2;  ///< how often the hand goes back for a thing that it lost while carrying or working it
 };
 
 /// One visit, from rest to rest. Deterministic for given inputs. One thread; advance() allocates only when a move ends.
@@ -49,9 +51,13 @@ class VisitPlayer {
   [[nodiscard]] const haptic::HandIntent& intent() const { return intent_; }
   [[nodiscard]] bool finished() const { return index_ >= visit_.moves.size(); }
   [[nodiscard]] std::span<const MoveResult> results() const { return results_; }
+  /// What the hand last reached for, or will reach for at first.
+  [[nodiscard]] BodyId reached_for() const { return visit_.moves[last_reach_].body; }
 
  private:
   void begin_move(std::span<const Pose> X_WB);
+  [[nodiscard]] double to_grip_m(std::span<const Pose> X_WB) const;
+  [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding) const;
   void shape_hand();
   void bend_fingers(bool holding);
   /// True when the move is over.
@@ -86,10 +92,12 @@ class VisitPlayer {
   bool ok_ = true;
   double time_s_ = 0;  // in this move
   double last_dt_s_ = 0;
-  bool held_ = false;    // the hand held something at some moment of this move
-  double held_rad_ = 0;  // the angle at which the hand last held something in this move
-  FailedGrasp grasp_;    // this move, as long as it has caught nothing
-  double empty_s_ = 0;   // time since the hand last held something in this move
+  bool held_ = false;     // the hand held something at some moment of this move
+  double held_rad_ = 0;   // the angle at which the hand last held something in this move
+  FailedGrasp grasp_;     // this move, as long as it has caught nothing
+  double waited_s_ = 0;   // for the thing, in this move
+  double to_grip_m_ = 0;  // from the hand to what it holds, when this move began
+  double empty_s_ = 0;    // time since the hand last held something in this move
   Pose X_WH_start_;
   Pose X_WH_goal_;
   double turned_rad_ = 0;      // angle of a turn, or phase of a swing

@@ -10,8 +10,8 @@
 
 #include "server/base/math.hpp"
 #include "server/hand/freshness.hpp"
-#include "server/hand/grooves.hpp"
 #include "server/hand/hand_sample.hpp"
+#include "server/hand/surface.hpp"
 
 namespace mechane::hand {
 
@@ -74,7 +74,7 @@ inline constexpr double kMaxClick_n = 1.5;
 
 /// Short shakes: a ratchet's tooth, a knock on stone. The client renders one when the count has risen.
 struct Clicks {
-  std::uint32_t count = 0;  ///< since the world began
+  std::uint32_t count = 0;  ///< since this hand came
   double strength_n = 0;    ///< of the newest, 0 .. kMaxClick_n
 };
 
@@ -86,7 +86,7 @@ struct HapticOutput : HandForce {
   std::uint32_t contact_count = 0;
   bool holding = false;  ///< a grasp is on
   HeldPath held;         ///< of the grasp; none where a client has to render the server's force
-  Clicks clicks;         ///< beside force_W
+  Clicks clicks;         ///< not part of force_W
 
   [[nodiscard]] std::span<const LocalContact> contact_span() const noexcept { return {contacts.data(), contact_count}; }
   /// Whether hand and body overlap in any of the contacts; the others are about to be made.

@@ -15,12 +15,10 @@ bool usable(const LocalContact& c) {
   const bool scalars = std::isfinite(c.depth_m) && std::isfinite(c.curvature_per_m) &&
                        std::isfinite(c.stiffness_n_per_m) && std::isfinite(c.damping_ns_per_m) &&
                        std::isfinite(c.static_friction) && std::isfinite(c.dynamic_friction) &&
-                       std::isfinite(c.grooves.phase_rad);
+                       std::isfinite(c.viscosity_ns_per_m) && std::isfinite(c.grooves.phase_rad);
   const bool signs =
       c.stiffness_n_per_m >= 0 && c.damping_ns_per_m >= 0 && c.static_friction >= 0 && c.dynamic_friction >= 0;
-  const bool surface = are_renderable(c.grooves.depth_m, c.grooves.wave_W.norm()) && c.viscosity_ns_per_m >= 0 &&
-                       c.viscosity_ns_per_m <= kMaxViscosity_ns_per_m;
-  return vectors && scalars && signs && surface && std::abs(c.n_W.squaredNorm() - 1.0) < 1e-3;
+  return vectors && scalars && signs && std::abs(c.n_W.squaredNorm() - 1.0) < 1e-3;
 }
 
 struct Overlap {
@@ -38,6 +36,10 @@ Overlap overlap_of(const LocalContact& c, const Vec3& p_WS, const Vec3& p_WH) {
   if (distance < 1e-9) return {c.curvature_per_m > 0 ? radius : -radius, c.n_W};
   const double side = c.curvature_per_m > 0 ? 1.0 : -1.0;
   return {side * (radius - distance), (side / distance) * p_CH};
+}
+
+Resistance resistance_of(const LocalContact& c) {
+  return {c.stiffness_n_per_m, c.damping_ns_per_m, c.viscosity_ns_per_m, LocalContactModel::kDampingOnset_m};
 }
 
 double phase_at(const LocalContact& c, const Vec3& p_W) {
@@ -64,6 +66,7 @@ const LocalContactModel::Touch* LocalContactModel::same_surface(const LocalConta
 std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const Vec3& p_WH0) noexcept {
   std::array<Touch, kMaxLocalContacts> fresh{};
   std::size_t count = 0;
+  double viscosity_left = kMaxViscosity_ns_per_m;
   for (const LocalContact& contact : p_WH0.allFinite() ? contacts : std::span<const LocalContact>()) {
     if (count == fresh.size()) break;
     if (!usable(contact)) continue;
@@ -71,7 +74,11 @@ std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const
     touch.contact = contact;
     touch.contact.n_W.normalize();
     touch.contact.p_W = p_WH0 + contact.depth_m * touch.contact.n_W;
-    touch.contact.grooves.phase_rad -= contact.grooves.wave_W.dot(p_WH0);
+    Grooves& grooves = touch.contact.grooves;
+    if (!are_renderable(grooves.depth_m, grooves.wave_W.norm())) grooves = {};
+    grooves.phase_rad -= grooves.wave_W.dot(p_WH0);
+    touch.contact.viscosity_ns_per_m = std::clamp(contact.viscosity_ns_per_m, 0.0, viscosity_left);
+    viscosity_left -= touch.contact.viscosity_ns_per_m;
     const Touch* const before = same_surface(touch.contact);
     touch.p_WA = before == nullptr ? p_WH0 : Vec3(before->p_WA + before->travelled_W);
     touch.slides = before != nullptr && before->slides;
@@ -79,20 +86,6 @@ std::size_t LocalContactModel::set(std::span<const LocalContact> contacts, const
   touches_ = fresh;
   count_ = count;
   return count_;
-}
-
-/// The normal's force is a spring, and damping of what pushes in; continuous where depth goes through 0. Shortens the stretch of friction.
-Vec3 LocalContactModel::touch_force(Touch& touch, const GroovedTouch& on_grooves, const Vec3& n_W, const Vec3& v_rel_W,
-                                    Vec3& stretch) noexcept {
-  const LocalContact& c = touch.contact;
-  const double onset = std::min(1.0, on_grooves.depth_m / kDampingOnset_m);
-  const double spring_n = c.stiffness_n_per_m * on_grooves.depth_m;
-  const double normal_n = spring_n - c.damping_ns_per_m * std::min(v_rel_W.dot(n_W), 0.0) * onset;
-  const double cone_n = friction_cone_n(touch.slides, c.stiffness_n_per_m * stretch.norm(),
-                                        c.static_friction * normal_n, c.dynamic_friction * normal_n);
-  const Vec3 sliding_W = along_surface(v_rel_W, n_W);
-  const Vec3 friction = spring_friction(stretch, c.stiffness_n_per_m, c.damping_ns_per_m * sliding_W, cone_n);
-  return normal_n * n_W + spring_n * on_grooves.flank_W + friction - onset * c.viscosity_ns_per_m * sliding_W;
 }
 
 Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age) noexcept {
@@ -108,7 +101,13 @@ Vec3 LocalContactModel::render(const Vec3& p_WH, const Vec3& v_WH, Duration age)
     const GroovedTouch on_grooves = grooved(overlap.depth_m, c.grooves, phase_at(c, p_WH - touch.travelled_W));
     if (on_grooves.depth_m > 0) {
       stretch = along_surface(p_WH - touch.p_WA - touch.travelled_W, overlap.n_W);
-      force += share * touch_force(touch, on_grooves, overlap.n_W, v_WH - share * c.v_W, stretch);
+      const Vec3 v_rel_W = v_WH - share * c.v_W;
+      const SurfaceForce surface = surface_force(on_grooves, overlap.n_W, v_rel_W, resistance_of(c));
+      const double cone_n =
+          friction_cone_n(touch.slides, c.stiffness_n_per_m * stretch.norm(), c.static_friction * surface.normal_n,
+                          c.dynamic_friction * surface.normal_n);
+      const Vec3 damping_n = c.damping_ns_per_m * along_surface(v_rel_W, overlap.n_W);
+      force += share * (surface.f_W + spring_friction(stretch, c.stiffness_n_per_m, damping_n, cone_n));
     }
     touch.p_WA = p_WH - touch.travelled_W - stretch;
   }

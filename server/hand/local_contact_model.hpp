@@ -22,7 +22,7 @@ namespace mechane::hand {
 /// Friction is a spring as stiff as the contact, from the place where the hand stuck to where it is now; beyond the cone
 /// of static friction that place slides after it, with dynamic friction until the hand goes back (Hayward and Armstrong
 /// 2000). A hand at rest does not creep, the force does not depend on a noisy velocity, and no slope is steeper than
-/// that of the contact itself. Grooves and viscosity: see grooves.hpp.
+/// that of the contact itself. Grooves and viscosity: see surface.hpp.
 class LocalContactModel {
  public:
   static constexpr double kDampingOnset_m =
@@ -31,7 +31,7 @@ class LocalContactModel {
   /// The server's newest contacts, and where H was (`p_WH0`) in the input that they answer. Where one is the plane of
   /// a contact of before, the hand goes on sticking to it. Contacts beyond the eighth,
   /// and those with a number that is not finite or a normal that is not of unit length, are left out; returns how many
-  /// were taken.
+  /// were taken. Grooves that are too steep are smoothed, and all viscosities together are at most the most of one.
   std::size_t set(std::span<const LocalContact> contacts, const Vec3& p_WH0) noexcept;
   void clear() noexcept { count_ = 0; }
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
@@ -47,8 +47,6 @@ class LocalContactModel {
     Vec3 travelled_W = Vec3::Zero();  // how far the surface has moved since set()
     bool slides = false;              // dynamic friction holds, not static
   };
-  [[nodiscard]] static Vec3 touch_force(Touch& touch, const GroovedTouch& on_grooves, const Vec3& n_W,
-                                        const Vec3& v_rel_W, Vec3& stretch) noexcept;
   [[nodiscard]] const Touch* same_surface(const LocalContact& contact) const noexcept;
 
   std::array<Touch, kMaxLocalContacts> touches_{};

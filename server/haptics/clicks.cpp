@@ -13,31 +13,36 @@ bool feels(const state::UserState& user, BodyId body) {
   return std::any_of(contacts.begin(), contacts.end(), [body](const state::Contact& c) { return c.body == body; });
 }
 
-/// Whether a value has left the step that it was on, which then is the new one. A value that trembles at a step's lower end stays on it.
-bool goes_on(double value, double& step) {
-  constexpr double kTrembles = 0.2;
+/// Whether a value is on another step than before; `step` is the new one then. A value that trembles at a step's lower end stays on it. The
+/// first value is no change.
+bool enters_new_step(double value, double& step) {
+  constexpr double kHysteresis = 0.2;
+  constexpr double kReached = 1e-6;  // so close to a step counts as on it, because of rounding
   if (!std::isfinite(value)) return false;
   const bool first = std::isnan(step);
-  if (!first && value >= step - kTrembles && value < step + 1) return false;
-  step = std::floor(value);
+  if (!first && value >= step - kHysteresis && value + kReached < step + 1) return false;
+  step = std::floor(value + kReached);
   return !first;
 }
 
 }  // namespace
 
 void add_click(state::UserState& user, std::uint64_t tick, double strength_n) noexcept {
+  constexpr double kFelt_n = 0.05;
   constexpr std::uint64_t kApartTicks = 20;
-  if (user.output.clicks.count > 0 && tick - user.click_tick < kApartTicks) return;
+  strength_n = std::min(strength_n, hand::kMaxClick_n);
+  const bool masked =
+      user.clicks.count > 0 && tick - user.click_tick < kApartTicks && strength_n <= user.clicks.strength_n;
+  if (strength_n < kFelt_n || masked) return;
   user.click_tick = tick;
-  ++user.output.clicks.count;
-  user.output.clicks.strength_n = std::min(strength_n, hand::kMaxClick_n);
+  user.clicks = {user.clicks.count + 1, strength_n};
 }
 
 void find_clicks(const state::WorldDescription& description, state::WorldState& state) noexcept {
   for (std::size_t i = 0; i < description.effects.size(); ++i) {
     const state::EffectDescription& effect = description.effects[i];
-    if (!effect.is_felt()) continue;
-    if (!goes_on(state.quantities[effect.quantity.index()] / effect.full, state.click_steps[i])) continue;
+    if (!effect.felt) continue;
+    if (!enters_new_step(state.quantities[effect.quantity.index()] / effect.full, state.click_steps[i])) continue;
     for (state::UserState& user : state.users) {
       if (feels(user, effect.body)) add_click(user, state.tick, effect.force_n);
     }

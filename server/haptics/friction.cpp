@@ -14,7 +14,8 @@ constexpr double kDampsBelow_m_per_s = 0.02;
 
 Spring bounded_spring(const state::HapticMaterial& material, double m_eff_kg) noexcept {
   return {std::min(material.stiffness_n_per_m, kStiffnessBound * m_eff_kg / (kTickSeconds * kTickSeconds)),
-          std::min(material.damping_ns_per_m, kDampingBound * m_eff_kg / kTickSeconds)};
+          std::min(material.damping_ns_per_m, kDampingBound * m_eff_kg / kTickSeconds),
+          std::min(material.viscosity_ns_per_m, kDampingBound * m_eff_kg / kTickSeconds)};
 }
 
 Vec3 sticking_friction(const Rubbing& rubbing, const Spring& spring, Stretch& stretch) noexcept {

@@ -13,6 +13,7 @@ namespace mechane::haptics {
 struct Spring {
   double stiffness_n_per_m = 0;
   double damping_ns_per_m = 0;
+  double viscosity_ns_per_m = 0;  ///< bounded as the damping is
 };
 
 /// The material's spring, weakened for a body that feels as light as `m_eff_kg` in the spring's direction: an explicit spring or damper

@@ -15,7 +15,6 @@
 namespace mechane::haptics {
 namespace {
 
-using hand::GroovedTouch;
 using hand::HandKind;
 using hand::HapticOutput;
 using state::BodyState;
@@ -41,12 +40,16 @@ void add_to_finger(UserState& user, std::size_t segment, const Vec3& f_H_W) {
   user.output.finger_force_n[hand::finger_of(segment)] += std::max(0.0, pull_n);
 }
 
-/// The grooves of a body as a segment of the hand meets them. What counts is where the segment's own frame is: the middle of a touch
-/// jumps from point to point. Smooth, and so the same bits as ever, where the material has none.
-hand::Grooves grooves_at(const HapticMaterial& material, const Pose& X_WB, const Vec3& p_WS) {
+// The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
+constexpr double kPatchShare = 2.0 / 3.0;
+
+/// The grooves of a body as a segment of the hand meets them. What counts is where the segment's own frame is, along the surface: the middle
+/// of a touch jumps from point to point.
+hand::Grooves grooves_at(const HapticMaterial& material, const Pose& X_WB, const Vec3& p_WS, const state::Contact& at) {
   if (material.groove_depth_m <= 0) return {};
-  return {material.groove_depth_m, X_WB.rotate(material.groove_wave_B),
-          material.groove_wave_B.dot(X_WB.inverse() * p_WS)};
+  const Vec3 p_BS = X_WB.inverse() * Vec3(p_WS + at.depth_m * at.n_BH_W);
+  return {material.groove_depth_m, hand::along_surface(X_WB.rotate(material.groove_wave_B), at.n_BH_W),
+          material.groove_wave_B.dot(p_BS)};
 }
 
 void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& v_B_W, const Spring& spring,
@@ -59,7 +62,7 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
                                    .damping_ns_per_m = spring.damping_ns_per_m,
                                    .static_friction = material.static_friction,
                                    .dynamic_friction = material.dynamic_friction,
-                                   .viscosity_ns_per_m = material.viscosity_ns_per_m,
+                                   .viscosity_ns_per_m = spring.viscosity_ns_per_m,
                                    .grooves = grooves};
   KeepDeepest(out.contacts, out.contact_count).add(contact);
 }
@@ -83,10 +86,11 @@ Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel
   return X_WB.rotate(smooth_normal(hand.pad(), *object, touch));
 }
 
-/// One touch of the product's mode. Moves its anchor.
+/// One touch of the product's mode, of so many. Moves its anchor.
 PatchForce touch_force(const state::WorldDescription& description, const state::WorldState& state,
                        const UserState& user, const ContactPatch& patch, const Vec3& v_B_W,
-                       const hand::Grooves& grooves, const ForceConfig& config, FrictionAnchors& anchors) {
+                       const hand::Grooves& grooves, double touches, const ForceConfig& config,
+                       FrictionAnchors& anchors) {
   const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
   const Pose& X_WB = state[patch.body].X_WB;
   const auto spring_along = [&](const Vec3& direction_W) {
@@ -94,20 +98,20 @@ PatchForce touch_force(const state::WorldDescription& description, const state::
   };
   const Vec3 v_rel_W = user.V_WH.at(patch.p_WC - user.X_WH.p) - v_B_W;
   const Spring spring = spring_along(patch.n_BH_W);
-  const GroovedTouch on_grooves = hand::grooved(patch.depth_m, grooves, grooves.phase_rad);
-  const double spring_n = spring.stiffness_n_per_m * on_grooves.depth_m;
-  const double onset = std::min(1.0, on_grooves.depth_m / config.damping_depth_m);
-  const double approach = std::max(0.0, -v_rel_W.dot(patch.n_BH_W));
-  const Rubbing rubbing{patch.n_BH_W, spring_n + onset * spring.damping_ns_per_m * approach, v_rel_W, material};
-  PatchForce force{rubbing.normal_n * patch.n_BH_W + spring_n * on_grooves.flank_W -
-                       onset * material.viscosity_ns_per_m * rubbing.sliding_W(),
-                   spring};
+  hand::Resistance resistance{spring.stiffness_n_per_m, spring.damping_ns_per_m, 0, config.damping_depth_m};
+  const Vec3 sliding_W = hand::along_surface(v_rel_W, patch.n_BH_W);
+  if (material.viscosity_ns_per_m > 0 && !sliding_W.isZero(0))
+    resistance.viscosity_ns_per_m = spring_along(sliding_W.normalized()).viscosity_ns_per_m / touches;
+  const hand::GroovedTouch on_grooves = hand::grooved(patch.depth_m, grooves, grooves.phase_rad, kPatchShare);
+  const hand::SurfaceForce surface = hand::surface_force(on_grooves, patch.n_BH_W, v_rel_W, resistance);
+  const Rubbing rubbing{patch.n_BH_W, surface.normal_n, v_rel_W, material};
+  PatchForce force{surface.f_W, spring};
   if (config.friction == FrictionKind::damps) {
     force.f_H_W += damping_friction(rubbing);
     return force;
   }
   const std::optional<Stretch> before = anchors.stretch_of(patch, X_WB);
-  if (!before) force.knock_n = material.knock_ns_per_m * approach;
+  if (!before && !user.jumped) force.knock_n = material.knock_ns_per_m * -v_rel_W.dot(patch.n_BH_W);
   Stretch stretch = before.value_or(Stretch{});
   const Vec3 pull_W = stretch.s_W + kTickSeconds * rubbing.sliding_W();
   if (!pull_W.isZero(0)) force.f_H_W += sticking_friction(rubbing, spring_along(pull_W.normalized()), stretch);
@@ -129,8 +133,9 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
-    const hand::Grooves grooves = grooves_at(material, body.X_WB, user.X_WS[patch.segment].p);
-    const PatchForce force = touch_force(description, state, user, patch, v_B_W, grooves, config, anchors);
+    const hand::Grooves grooves = grooves_at(material, body.X_WB, user.X_WS[patch.segment].p, touch);
+    const PatchForce force =
+        touch_force(description, state, user, patch, v_B_W, grooves, static_cast<double>(count), config, anchors);
     add_to_finger(user, patch.segment, force.f_H_W);
     if (force.knock_n > 0) add_click(user, state.tick, force.knock_n);
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
@@ -144,8 +149,6 @@ void render_patches(const state::WorldDescription& description, const HandModel&
 /// What a client may render by itself when the hand comes to these surfaces before we see it.
 void announce_near(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
                    UserState& user, const ForceConfig& config) {
-  // The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
-  constexpr double kPatchShare = 2.0 / 3.0;
   for (state::Contact near : user.near_span()) {
     if (user.grasp.active && user.grasp.body == near.body) continue;
     near.n_BH_W = smooth_normal_W(description, hand, state, user, near, config.normals);
@@ -154,7 +157,7 @@ void announce_near(const state::WorldDescription& description, const HandModel& 
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
     spring.stiffness_n_per_m *= kPatchShare;
     add_local_contact(user.output, near, body.V_WB.at(near.p_WC - body.X_WB.p), spring, material,
-                      grooves_at(material, body.X_WB, user.X_WS[near.segment].p));
+                      grooves_at(material, body.X_WB, user.X_WS[near.segment].p, near));
   }
 }
 
@@ -201,6 +204,8 @@ void ForceRenderer::run(const state::WorldDescription& description, const HandMo
   for (std::size_t i = 0; i < state.users.size(); ++i)
     render_user(description, hand, state, i);
   find_clicks(description, state);
+  for (UserState& user : state.users)
+    user.output.clicks = user.clicks;
 }
 
 void ForceRenderer::render_user(const state::WorldDescription& description, const HandModel& hand,
@@ -208,9 +213,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, cons
   UserState& user = state.users[index];
   const std::uint64_t echo_sequence = user.sample.sequence;
   const std::uint64_t echo_sent_ns = user.sample.sent_ns;
-  const hand::Clicks clicks = user.output.clicks;
   user.output = HapticOutput{};
-  user.output.clicks = clicks;
   user.output.echo_sequence = echo_sequence;
   user.output.echo_sent_ns = echo_sent_ns;
   if (user.present) {

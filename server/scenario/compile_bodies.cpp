@@ -1,12 +1,13 @@
 // Makes bodies of RigidBody nodes.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "server/base/suggestion.hpp"
-#include "server/hand/grooves.hpp"
+#include "server/hand/surface.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -88,7 +89,14 @@ bool read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::B
 /// 2 pi over the distance of grooves, across them.
 Vec3 groove_wave_B(Compilation& c, const Fields& fields) {
   const double depth_m = fields.number("grooveDepth");
-  if (depth_m == 0) return Vec3::Zero();
+  if (depth_m == 0) {
+    for (const char* key : {"grooveDistance", "grooveDirection"}) {
+      if (fields.given(key))
+        c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
+                           fmt::format("'{}' does nothing without grooves", key), "write a grooveDepth, or remove it");
+    }
+    return Vec3::Zero();
+  }
   const Vec3 direction = fields.vector("grooveDirection");
   if (direction.isZero()) {
     c.problems.error(ErrorCode::missing, fields.line("grooveDepth"), fields.where(),
@@ -98,11 +106,10 @@ Vec3 groove_wave_B(Compilation& c, const Fields& fields) {
   }
   const double wave_rad_per_m = 2 * kPi / fields.number("grooveDistance");
   if (!hand::are_renderable(depth_m, wave_rad_per_m)) {
-    const double most_m =
-        2 * std::min(hand::kMaxFlank / wave_rad_per_m, hand::kMaxCrest_per_m / (wave_rad_per_m * wave_rad_per_m));
+    const double most_um = std::floor(1e6 * hand::max_groove_depth_m(wave_rad_per_m));
     c.problems.error(ErrorCode::conflict, fields.line("grooveDepth"), fields.where(),
                      "the grooves are too steep for a device to render",
-                     fmt::format("write a grooveDepth of at most {:.2g}, or a larger grooveDistance", most_m));
+                     fmt::format("write a grooveDepth of at most {:g}, or a larger grooveDistance", 1e-6 * most_um));
   }
   return wave_rad_per_m * direction.normalized();
 }

@@ -76,6 +76,24 @@ void check_risen_node(Compilation& c, const Fields& fields, const std::string& n
                    fmt::format("name it WATER_{} in the model, and here", node));
 }
 
+/// What is felt is felt in a body, all over.
+void check_felt(Compilation& c, const x3d::Metadata& set, const Fields& fields,
+                const state::EffectDescription& effect) {
+  if (effect.felt && !fields.given("body")) {
+    c.problems.error(ErrorCode::missing, set.line, fields.where(),
+                     "the touch.click effect does not say in which body it is felt",
+                     "name what a hand holds or touches in the key body");
+  }
+  const auto unused = [&](const char* key, const std::string& remedy) {
+    if (fields.given(key))
+      c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
+                         fmt::format("a {} effect does not use '{}'", effect.kind, key), remedy);
+  };
+  if (!effect.felt) return unused("force", "remove it: only a touch.click has a force");
+  for (const char* key : {"point", "direction", "size", "speed"})
+    unused(key, "remove it: a touch.click is felt wherever a hand holds or touches the body");
+}
+
 state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   const Fields fields(&set, effect_table(), "effect " + set.name, c.problems);
   state::EffectDescription effect;
@@ -88,6 +106,7 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   effect.size_m = fields.number("size");
   effect.speed_m_per_s = fields.number("speed");
   effect.force_n = fields.number("force");
+  effect.felt = effect.kind == "touch.click";
   effect.p_BE = fields.vector("point");
   if (fields.given("direction")) {
     effect.direction_B = fields.vector("direction");
@@ -115,11 +134,7 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
                      fmt::format("the {} effect has no quantity to drive it", effect.kind),
                      "name a quantity in the key quantity");
   }
-  if (effect.is_felt() && !fields.given("body")) {
-    c.problems.error(ErrorCode::missing, set.line, fields.where(),
-                     "the touch.click effect does not say in which body it is felt",
-                     "name what a hand holds or touches in the key body");
-  }
+  check_felt(c, set, fields, effect);
   check_unit(c, fields, effect);
   return effect;
 }

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "server/base/assert.hpp"
-#include "server/hand/grooves.hpp"
 #include "server/hand/hand_force.hpp"
 #include "server/state/component_type.hpp"
 #include "server/state/description.hpp"
@@ -315,7 +314,10 @@ constexpr Key kEffectKeys[] = {
      .required = true,
      .unless = "node",
      .names = Names::quantity},
-    {.name = "body", .summary = "what it stays with; none: fixed in W", .example = "\"BARREL\"", .names = Names::body},
+    {.name = "body",
+     .summary = "what it stays with, or is felt in; none: fixed in W",
+     .example = "\"BARREL\"",
+     .names = Names::body},
     {.name = "node", .summary = "level, flow: the mesh file's node that rises or flows", .example = "\"WATER_BASIN\""},
     {.name = "point",
      .kind = vector,
@@ -458,14 +460,14 @@ constexpr Key kHapticKeys[] = {
     {.name = "knock",
      .kind = number,
      .unit = "N s/m",
-     .summary = "the short shake at the first touch, per speed of approach: stone and metal knock, cloth does not",
+     .summary = "the shake at the first touch, per speed of approach: stone and metal knock, cloth does not",
      .example = "5",
      .min = 0,
      .max = 50},
     {.name = "grooveDepth",
      .kind = number,
      .unit = "m",
-     .summary = "from ridge to bottom of even grooves in the surface: a grain, staves, a file; 0: smooth",
+     .summary = "from ridge to bottom of even grooves in the surface: a grain, staves; 0: smooth",
      .example = "0.00005",
      .min = 0,
      .max = 0.01},

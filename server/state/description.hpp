@@ -225,9 +225,7 @@ struct EffectDescription {
   double size_m = 0.02;
   double speed_m_per_s = 0.5;
   double force_n = 0.5;  ///< `touch.click`: at its strongest
-
-  /// Felt by hands, and not shown by displays.
-  [[nodiscard]] bool is_felt() const { return kind == "touch.click"; }
+  bool felt = false;     ///< `touch.click`: by hands, and not shown by displays
 };
 
 /// The kinds of effects, separated by blanks.

@@ -94,7 +94,8 @@ struct UserState {
   std::uint32_t anchor_count = 0;
   Grasp grasp;
   hand::HapticOutput output;
-  std::uint64_t click_tick = 0;  ///< of the newest click
+  hand::Clicks clicks;           ///< that it has felt; part of each output
+  std::uint64_t click_tick = 0;  ///< of the newest
 
   [[nodiscard]] std::span<const Contact> contact_span() const { return {contacts.data(), contact_count}; }
   [[nodiscard]] std::span<const Contact> near_span() const { return {near.data(), near_count}; }

@@ -80,7 +80,7 @@ void Presentation::add_views(const state::WorldDescription& description) {
 
 void Presentation::add_effects(const state::WorldDescription& description) {
   for (const state::EffectDescription& effect : description.effects) {
-    if (effect.is_felt()) continue;
+    if (effect.felt) continue;
     proto::WireEffect& wire = effects_.emplace_back();
     wire.name = proto::look_into(effect.name);
     wire.kind = proto::look_into(effect.kind);

@@ -51,9 +51,9 @@ double index_bent(const state::UserState& user) {
   return user.sample.joints[hand::kFingerJoints + 1];
 }
 
-/// It does not catch the trumpet, a thin tube, without feeling it, and loses the winch and the stone: see deploy/LIMITS.md.
+/// It knocks the trumpet over, a tall tube, before it can close on it: see deploy/LIMITS.md.
 bool too_much_for_a_tracked_hand(const std::string& exhibit, const std::string& visit) {
-  return (exhibit == "ktesibios-pump" && visit == "assembling") || (exhibit == "catapult" && visit == "shooting");
+  return exhibit == "ktesibios-pump" && visit == "assembling";
 }
 
 class ByDevice : public testing::TestWithParam<std::tuple<std::string, Device>> {};
@@ -63,7 +63,10 @@ TEST_P(ByDevice, AVisitThatShouldGoWellDoes) {
   const test::Exhibit exhibit(name);
   test::PlayOptions options;
   options.device.hand = device.hand;
-  if (device.tracked) options.make_device = [] { return std::make_unique<test::TrackedHand>(); };
+  if (device.tracked) {
+    options.make_device = [] { return std::make_unique<test::TrackedHand>(); };
+    options.player.waits_for_lag_m = 0.03;  // it sees what it does not feel
+  }
   bool held = false, closed = false, touched = false;
   options.watch = [&](const state::WorldState& state) {
     const state::UserState& user = state.users[0];

@@ -79,7 +79,9 @@ class Play {
     if (device_->renders()) return device_->force_W().norm();
     const state::WorldState& state = world_->state;
     const auto contacts = state.users[0].contact_span();
-    return std::ranges::any_of(contacts, [&](const state::Contact& at) { return state[at.body].graspable; }) ? 1 : 0;
+    return std::ranges::any_of(contacts, [&](const state::Contact& at) { return at.body == player_.reached_for(); })
+               ? 1
+               : 0;
   }
 
   void tick(state::TickInputs inputs) {

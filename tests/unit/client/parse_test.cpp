@@ -82,7 +82,7 @@ RC_GTEST_PROP(ParseForce, DoesNotReadContactsBeyondTheirCount, ()) {
   const auto count = *rc::gen::inRange<std::uint32_t>(0, kMaxLocalContacts);
   proto::HapticOutput wire = honest_force(count);
   for (std::size_t i = count; i < kMaxLocalContacts; ++i)
-    *numbers_of(wire.contacts[i])[*rc::gen::inRange<std::size_t>(0, 20)] = not_a_number();
+    **rc::gen::elementOf(numbers_of(wire.contacts[i])) = not_a_number();
   ForceSample force;
   force.contacts.fill({.depth_m = 7});
   RC_ASSERT(parse(wire, force));

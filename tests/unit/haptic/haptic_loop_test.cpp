@@ -136,6 +136,12 @@ TEST_F(HapticLoopTest, AnAnswerThatIsMissedNowAndThenIsNoSilence) {
   }
 }
 
+TEST_F(HapticLoopTest, ALoopThatStoodStillForAMomentRendersNothingAtFirstThoughItsAnswerIsInTime) {
+  ASSERT_NEAR(tick_for(1s, true), kPressN, 1e-9);
+  EXPECT_EQ(tick(true, 60ms), 0);
+  EXPECT_LE(tick(true), 0.01 * kPressN) << "and then it is ramped up";
+}
+
 TEST_F(HapticLoopTest, ALoopThatStoodStillBeginsFromZeroThoughAnAnswerIsThereAtOnce) {
   ASSERT_NEAR(tick_for(1s, true), kPressN, 1e-9);
   EXPECT_LE(tick(true, 4s), 0.01 * kPressN)

@@ -45,8 +45,7 @@ TEST(Surface, TheSteepestGroovesAndTheMostViscosityDoNotShakeAStylus) {
     const double wave = 2 * kPi / distance_m;
     for (const double viscosity : {0.0, hand::kMaxViscosity_ns_per_m}) {
       surface.viscosity_ns_per_m = viscosity;
-      surface.grooves = {2 * std::min(hand::kMaxFlank / wave, hand::kMaxCrest_per_m / (wave * wave)), Vec3(wave, 0, 0),
-                         kPi / 2};
+      surface.grooves = {hand::max_groove_depth_m(wave), Vec3(wave, 0, 0), kPi / 2};
       ASSERT_TRUE(hand::are_renderable(surface.grooves.depth_m, wave));
       EXPECT_LE(trembles_m(surface), 1.5 * resolution_m) << distance_m << " m, " << viscosity << " N s/m";
     }

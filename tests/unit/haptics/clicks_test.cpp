@@ -23,6 +23,7 @@ class Wheel : public ::testing::Test {
     effect.force_n = 0.7;
     world.effects = {effect, effect};
     world.effects[1].kind = "touch.click";
+    world.effects[1].felt = true;
     return world;
   }
   void SetUp() override {
@@ -38,7 +39,7 @@ class Wheel : public ::testing::Test {
       ++state_.tick;
       find_clicks(world_, state_);
     }
-    return state_.users[0].output.clicks.count;
+    return state_.users[0].clicks.count;
   }
   state::WorldDescription world_ = described();
   state::WorldState state_{world_};
@@ -51,8 +52,8 @@ TEST_F(Wheel, ClicksAtEachTurnForWhoHoldsIt) {
   EXPECT_EQ(clicks_at(5), 2u);
   EXPECT_EQ(clicks_at(3), 3u) << "backwards, too";
   EXPECT_EQ(clicks_at(0), 4u) << "several at once are one";
-  EXPECT_EQ(state_.users[0].output.clicks.strength_n, 0.7);
-  EXPECT_EQ(state_.users[1].output.clicks.count, 0u) << "this hand holds something else";
+  EXPECT_EQ(state_.users[0].clicks.strength_n, 0.7);
+  EXPECT_EQ(state_.users[1].clicks.count, 0u) << "this hand holds something else";
 }
 
 TEST_F(Wheel, DoesNotClickWhereItTremblesOrHasNoNumber) {
@@ -65,6 +66,24 @@ TEST_F(Wheel, DoesNotClickWhereItTremblesOrHasNoNumber) {
   EXPECT_EQ(clicks_at(4.5), 1u);
 }
 
+TEST_F(Wheel, ClicksAtEachStepThatIsNoWholeNumber) {
+  world_.effects[1].full = 0.1;
+  clicks_at(0);
+  for (std::uint32_t i = 1; i <= 10; ++i)
+    EXPECT_EQ(clicks_at(0.1 * i), i) << "0.3 / 0.1 is a little less than 3";
+}
+
+TEST_F(Wheel, AStrongerClickIsNotMaskedByAWeakerOne) {
+  const auto strength_n = [this] { return state_.users[0].clicks.strength_n; };
+  add_click(state_.users[0], 1, 0.4);
+  add_click(state_.users[0], 3, 0.3);
+  EXPECT_EQ(strength_n(), 0.4);
+  add_click(state_.users[0], 5, 0.9);
+  EXPECT_EQ(strength_n(), 0.9);
+  add_click(state_.users[0], 100, 0.001);
+  EXPECT_EQ(state_.users[0].clicks.count, 2u) << "nobody feels so little";
+}
+
 TEST_F(Wheel, ClicksForAFingerThatLiesOnItAndNotForOneThatIsGone) {
   state_.users[1].grasp.active = false;
   state_.users[1].contacts[0].body = BodyId(0);
@@ -72,7 +91,7 @@ TEST_F(Wheel, ClicksForAFingerThatLiesOnItAndNotForOneThatIsGone) {
   state_.users[0].present = false;
   clicks_at(0);
   EXPECT_EQ(clicks_at(1), 0u);
-  EXPECT_EQ(state_.users[1].output.clicks.count, 1u);
+  EXPECT_EQ(state_.users[1].clicks.count, 1u);
 }
 
 TEST_F(Wheel, ThatSpinsFastClicksFiftyTimesASecondAtMost) {
@@ -81,7 +100,7 @@ TEST_F(Wheel, ThatSpinsFastClicksFiftyTimesASecondAtMost) {
     state_.quantities[0] = i;
     find_clicks(world_, state_);
   }
-  EXPECT_EQ(state_.users[0].output.clicks.count, 50u);
+  EXPECT_EQ(state_.users[0].clicks.count, 50u);
 }
 
 TEST(Knock, IsFeltAtTheFirstTouchAsHardAsTheHandCame) {

@@ -38,7 +38,11 @@ TEST(Grooves, AHandThatLiesOnAFlankIsPushedToTheBottom) {
   EXPECT_LT(right.x(), -0.02);
   EXPECT_NEAR(left.x(), -right.x(), 0.1 * left.x());
   EXPECT_NEAR(settled(server, hand_at(0.010, 0.003)).x(), right.x(), 0.1 * left.x()) << "on the next groove's flank";
-  EXPECT_NEAR(settled(server, hand_at(0, 0.003)).x(), 0, 0.1 * left.x());
+  const Vec3 bottom = settled(server, hand_at(0, 0.003));
+  const Vec3 ridge = settled(server, hand_at(0.004, 0.003));
+  EXPECT_NEAR(bottom.x(), 0, 0.1 * left.x());
+  constexpr double kShare = 2.0 / 3.0;  // of a ball's depth, as its touch has it
+  EXPECT_NEAR(ridge.y() - bottom.y(), 600 * kShare * 1e-4, 0.2 * 600 * kShare * 1e-4);
 }
 
 // What a client renders at the place that the server saw is what the server renders there, and so it is a little further on.
@@ -55,7 +59,7 @@ TEST(Grooves, AClientFeelsTheSameOnesAsTheServer) {
       const Vec3 of_client = model.render(there.X_WH.p, Vec3::Zero(), Duration{0});
       // The depth itself differs by some percent: it is a mean over points of the tip.
       EXPECT_NEAR(of_client.x() / of_client.y(), of_server.x() / of_server.y(), 0.001) << x_m << " " << on_m;
-      EXPECT_NEAR(of_client.y() / of_server.y(), 1, 0.06) << x_m << " " << on_m;
+      EXPECT_NEAR(of_client.y() / of_server.y(), 1, 0.08) << x_m << " " << on_m;
     }
   }
 }

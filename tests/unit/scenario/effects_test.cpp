@@ -79,7 +79,7 @@ TEST(Effects, AClickIsFeltInABody) {
       compile_text(with_click("<MetadataString containerField='value' name='body' value='\"INNER\"'/>"));
   ASSERT_TRUE(compiled.world);
   const state::EffectDescription& click = compiled.world->effects.front();
-  EXPECT_TRUE(click.is_felt());
+  EXPECT_TRUE(click.felt);
   EXPECT_EQ(click.body, compiled.world->find_body("INNER"));
   EXPECT_DOUBLE_EQ(click.full, 0.25);
   EXPECT_DOUBLE_EQ(click.force_n, 0.8);
