@@ -17,14 +17,13 @@ namespace mechane::haptic {
 /// hardly tells the direction of a shake; it is up and down. One thread; allocates nothing.
 class ClickPulse {
  public:
-  static constexpr double kFrequency_hz =
-      150;  ///< skin feels up to 250 best, but a device of 1 kHz would draw that badly
+  static constexpr double kFrequency_hz = 150;  ///< skin feels 250 best, but a device of 1 kHz draws that badly
   static constexpr double kDecay_s = 0.008;
   static constexpr double kEnd_s = 5 * kDecay_s;
   static constexpr double kPeak = 0.82;  ///< of exp(-t / T) sin(2 pi f t)
 
-  /// Of each answer. The first count that is heard is no click, and neither is a lower one, of another world. A click within 20 ms of
-  /// one as strong is left out, whatever a server says.
+  /// Call it with each answer. A count that is higher than the last one starts a shake. The first answer starts none, and a lower count
+  /// (the hand has come to another world) starts none. While a shake is younger than 20 ms, only a stronger one replaces it.
   void hear(const hand::Clicks& clicks) noexcept {
     constexpr double kApart_s = 0.02;
     const double strength_n = std::clamp(clicks.strength_n, 0.0, hand::kMaxClick_n);

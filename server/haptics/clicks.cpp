@@ -13,8 +13,8 @@ bool feels(const state::UserState& user, BodyId body) {
   return std::any_of(contacts.begin(), contacts.end(), [body](const state::Contact& c) { return c.body == body; });
 }
 
-/// Whether a value is on another step than before; `step` is the new one then. A value that trembles at a step's lower end stays on it. The
-/// first value is no change.
+/// Whether a value is on another step than before; if so, `step` becomes the new one. A value that trembles at a step's lower end stays on
+/// it. The first value only sets the step.
 bool enters_new_step(double value, double& step) {
   constexpr double kHysteresis = 0.2;
   constexpr double kReached = 1e-6;  // so close to a step counts as on it, because of rounding

@@ -43,8 +43,8 @@ void add_to_finger(UserState& user, std::size_t segment, const Vec3& f_H_W) {
 // The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
 constexpr double kPatchShare = 2.0 / 3.0;
 
-/// The grooves of a body as a segment of the hand meets them. What counts is where the segment's own frame is, along the surface: the middle
-/// of a touch jumps from point to point.
+/// The grooves of a body as a segment of the hand meets them. The phase is taken where the segment's own frame is, for the middle of a
+/// touch jumps from point to point.
 hand::Grooves grooves_at(const HapticMaterial& material, const Pose& X_WB, const Vec3& p_WS, const state::Contact& at) {
   if (material.groove_depth_m <= 0) return {};
   const Vec3 p_BS = X_WB.inverse() * Vec3(p_WS + at.depth_m * at.n_BH_W);
@@ -113,7 +113,7 @@ PatchForce touch_force(const state::WorldDescription& description, const state::
   const std::optional<Stretch> before = anchors.stretch_of(patch, X_WB);
   if (!before && !user.jumped) force.knock_n = material.knock_ns_per_m * -v_rel_W.dot(patch.n_BH_W);
   Stretch stretch = before.value_or(Stretch{});
-  const Vec3 pull_W = stretch.s_W + kTickSeconds * rubbing.sliding_W();
+  const Vec3 pull_W = stretch.s_W + kTickSeconds * sliding_W;
   if (!pull_W.isZero(0)) force.f_H_W += sticking_friction(rubbing, spring_along(pull_W.normalized()), stretch);
   anchors.keep(patch, X_WB, stretch);
   return force;

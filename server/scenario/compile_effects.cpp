@@ -42,6 +42,14 @@ bool node_is_there(Compilation& c, const Fields& fields, const std::string& node
   return false;
 }
 
+/// Warns of a key that is written and has no meaning for this kind of effect.
+void warn_unused(Compilation& c, const Fields& fields, const state::EffectDescription& effect, const char* key,
+                 const char* remedy) {
+  if (fields.given(key))
+    c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
+                       fmt::format("a {} effect does not use '{}'", effect.kind, key), remedy);
+}
+
 /// A river needs a node that is drawn as water, and a direction along its surface; it has no quantity.
 void check_flow(Compilation& c, const Fields& fields, const state::EffectDescription& effect) {
   if (effect.node.empty()) {
@@ -57,12 +65,8 @@ void check_flow(Compilation& c, const Fields& fields, const state::EffectDescrip
                      fields.where(), "the direction points up or down, not along the water",
                      "write a level direction in W, like 0 0 1");
   }
-  for (const char* key : {"quantity", "body"}) {
-    if (fields.given(key))
-      c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
-                         fmt::format("a flow effect does not use '{}'", key),
-                         "remove it: a river flows steadily, in the world's frame");
-  }
+  for (const char* key : {"quantity", "body"})
+    warn_unused(c, fields, effect, key, "remove it: a river flows steadily, in the world's frame");
 }
 
 /// Displays draw only the nodes that bodies name, SCENE and WATER_*; a level effect needs one of those.
@@ -84,14 +88,9 @@ void check_felt(Compilation& c, const x3d::Metadata& set, const Fields& fields,
                      "the touch.click effect does not say in which body it is felt",
                      "name what a hand holds or touches in the key body");
   }
-  const auto unused = [&](const char* key, const std::string& remedy) {
-    if (fields.given(key))
-      c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
-                         fmt::format("a {} effect does not use '{}'", effect.kind, key), remedy);
-  };
-  if (!effect.felt) return unused("force", "remove it: only a touch.click has a force");
+  if (!effect.felt) return warn_unused(c, fields, effect, "force", "remove it: only a touch.click has a force");
   for (const char* key : {"point", "direction", "size", "speed"})
-    unused(key, "remove it: a touch.click is felt wherever a hand holds or touches the body");
+    warn_unused(c, fields, effect, key, "remove it: a touch.click is felt wherever a hand holds or touches the body");
 }
 
 state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
@@ -124,10 +123,8 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
     check_risen_node(c, fields, effect.node);
   } else if (effect.kind == "flow") {
     check_flow(c, fields, effect);
-  } else if (fields.given("kind") && fields.given("node")) {
-    c.problems.warning(ErrorCode::conflict, fields.line("node"), fields.where(),
-                       fmt::format("a {} effect does not use 'node'", effect.kind),
-                       "remove it: body and point say where the effect is");
+  } else if (fields.given("kind")) {
+    warn_unused(c, fields, effect, "node", "remove it: body and point say where the effect is");
   }
   if (effect.kind != "flow" && fields.given("node") && !fields.given("quantity")) {
     c.problems.error(ErrorCode::missing, set.line, fields.where(),

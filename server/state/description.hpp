@@ -211,8 +211,8 @@ struct Viewpoint {
   double field_of_view_rad = kPi / 4;
 };
 
-/// What is seen, heard or felt of a working machine besides its bodies: water, steam, fire, a ratchet's teeth. It has no part in the physics; a quantity of
-/// the world drives it, so that it stands still when the world does.
+/// What is seen, heard or felt of a working machine besides its bodies: water, steam, fire, a ratchet's teeth. It has no part in the
+/// physics; a quantity of the world drives it, so that it stands still when the world does.
 struct EffectDescription {
   std::string name;
   std::string kind;  ///< one of effect_kinds()

@@ -52,7 +52,7 @@ TEST(CatapultVisits, TheWallFallsAndTwiceTheSame) {
   test::PlayOptions options;
   std::size_t moved = 0;
   const BodyId winch = catapult().description().find_body("WINCH");
-  std::set<std::uint32_t> wound;  // counts of clicks while it is
+  std::set<std::uint32_t> wound;  // the counts of clicks that were seen while the hand held it
   options.watch = [&](const state::WorldState& state) {
     moved = moved_stones(state);
     const state::UserState& user = state.users[0];

@@ -187,13 +187,15 @@ class TouchVisitor:
         if not self.arrives():
             self.story.append(f"{body} lags")
 
+    def behind(self):
+        """How far the hand that holds something is seen from the finger, in pixels; 0 for an empty hand."""
+        hand = self.hand()
+        return math.dist(self.screen.pixel(hand["X_WS"][0]["p"]), self.at) if hand is not None and hand["holding"] else 0
+
     def arrives(self):
         """As a person, looks whether the hand has come to the finger, before going on; what is stuck does not come."""
-        def there():
-            hand = self.screen.pixel(self.hand()["X_WS"][0]["p"])
-            return not self.holding() or math.dist(hand, self.at) < 0.03 * self.screen.height
         try:
-            return wait_until(there, 3, "the hand is under the finger")
+            return wait_until(lambda: self.behind() < 0.03 * self.screen.height, 3, "the hand is under the finger")
         except AssertionError:
             return False
 
@@ -233,13 +235,12 @@ class TouchVisitor:
         # A heavy crank comes after the finger, and a screw that is turned in jerks spills: who sees that it is not over goes on.
         goes_on = lambda t: t < seconds or last or (t < 1.3 * seconds and self.status.now()["step"] == step)
         # Where pictures come late, the hand is seen far behind the finger: a person waits for it, not for ever.
-        behind = lambda: (hand := self.hand()) and hand["holding"] and math.dist(self.screen.pixel(hand["X_WS"][0]["p"]), self.at) > size
         t, before, end = 0, time.monotonic(), time.monotonic() + 5 * seconds * PATIENCE
         while goes_on(t) and not self.done(activity) and before < end:
             self.point(way(angle(t)))
             time.sleep(0.03)  # sleeps: the pace
             now = time.monotonic()
-            t, before = t if behind() else t + now - before, now
+            t, before = t if self.behind() > size else t + now - before, now
 
     def play(self, activity, patience=60):
         """True when the activity is done."""

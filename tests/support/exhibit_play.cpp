@@ -74,7 +74,7 @@ class Play {
  private:
   [[nodiscard]] bool done() const { return world_->state.progress.done; }
 
-  /// A hand that nothing pushes sees that it touches something that can be taken: displays light it up.
+  /// A hand that nothing pushes sees that it touches what it reached for: displays light it up.
   [[nodiscard]] double felt_n() const {
     if (device_->renders()) return device_->force_W().norm();
     const state::WorldState& state = world_->state;

@@ -46,7 +46,7 @@ class Wheel : public ::testing::Test {
 };
 
 TEST_F(Wheel, ClicksAtEachTurnForWhoHoldsIt) {
-  EXPECT_EQ(clicks_at(3.5), 0u) << "where it is when the world begins is no click";
+  EXPECT_EQ(clicks_at(3.5), 0u) << "nothing has turned yet";
   EXPECT_EQ(clicks_at(3.99), 0u);
   EXPECT_EQ(clicks_at(4), 1u);
   EXPECT_EQ(clicks_at(5), 2u);
