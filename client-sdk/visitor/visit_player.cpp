@@ -16,6 +16,8 @@ constexpr double kTouchN = 0.1;
 constexpr double kFollowMPerS = 0.15;
 // How long a person needs to notice that the hand is empty.
 constexpr double kNoticesLossS = 0.3;
+// A hand that feels something farther than this from the grip has met another thing, or another end of it, and goes on.
+constexpr double kNearGripM = 0.2;
 // A thing that is farther than this from where it should have been carried was lost on the way.
 constexpr double kSlippedM = 0.1;
 
@@ -52,6 +54,13 @@ Quat across(const Vec3& axis_W) {
   Mat3 R_WH;
   R_WH << x, Vec3::UnitY(), x.cross(Vec3::UnitY());
   return Quat(R_WH);
+}
+
+/// From a goal to where a hand with stretched fingers does not touch it yet; `back_W` leads back to where the hand comes from.
+Vec3 beside(Vec3 back_W) {
+  constexpr double kBesideM = 0.25;
+  back_W.y() = 0;
+  return std::min(kBesideM, back_W.norm()) * back_W.normalized();
 }
 
 std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
@@ -105,12 +114,12 @@ void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding,
   }
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
-  note_grip(holding);
+  note_grip(X_WB, holding);
   bend_fingers(holding);
   const bool over = continue_move(X_WB, holding, felt_n);
   const bool again = (lost_its_handle() || (over && slipped(X_WB, holding))) && fetched_again_ < config_.fetch_again;
   if (!over && !again) return;
-  end_move(ok_);
+  end_move(again);
   if (again) fetch_again();
 }
 
@@ -128,18 +137,21 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   over_m_ = 0;
+  from_side_ = false;
   if (move.kind == VisitMove::Kind::reach) {
-    if (config_.kind == client::HandKind::glove && config_.shapes_hand) shape_hand();
+    if (config_.kind == client::HandKind::glove && config_.shapes_hand) shape_hand(X_WB);
     if (index_ != last_reach_) fetched_again_ = 0;
     last_reach_ = index_;
     p_BG_ = move.p_BG;
     X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W - X_WH_goal_.R * p_HG_;
+    if (from_side_) X_WH_goal_.p += beside(X_WH_start_.p - X_WH_goal_.p);
   } else if (move.kind == VisitMove::Kind::move_to) {
     // From here on, the hand keeps the pose that it now has relative to the body.
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
     X_WH_goal_ = move.X_WB * X_BH;
-  } else if (move.kind == VisitMove::Kind::swing) {
-    swing_from_rad_ = joint_angle(description_.joints[move.joint.index()], X_WB);
+  } else if (move.joint) {
+    seen_rad_ = 0;
+    swing_from_rad_ = seen_at_rad_ = joint_angle(description_.joints[move.joint.index()], X_WB);
   } else if (move.kind == VisitMove::Kind::grasp) {
     intent_.grasp_intent = 1;
     grasp_ = {move.body, std::numeric_limits<double>::infinity(), false};
@@ -164,7 +176,7 @@ bool VisitPlayer::waits(std::span<const Pose> X_WB, bool holding) const {
 /// The hand's pose depends on the move after this reach: a handle to be worked lies across the palm, a sign is touched
 /// with the index finger. What will be carried is taken at the wrist, without turning the hand: there its weight turns
 /// it least.
-void VisitPlayer::shape_hand() {
+void VisitPlayer::shape_hand(std::span<const Pose> X_WB) {
   const auto move_at = [&](std::size_t i) { return i < visit_.moves.size() ? &visit_.moves[i] : nullptr; };
   const VisitMove* next = move_at(index_ + 1);
   const VisitMove* after = move_at(index_ + 2);
@@ -182,8 +194,20 @@ void VisitPlayer::shape_hand() {
     p_HG_.setZero();
     X_WH_goal_.R.setIdentity();
     joints_goal_ = kOpen;
-    over_m_ = kOverM;
+    from_side_ = stands_over_grip(X_WB);
+    if (!from_side_) over_m_ = kOverM;
   }
+}
+
+/// Whether a part of what the hand reaches for stands over its grip, so that the way from above is barred.
+bool VisitPlayer::stands_over_grip(std::span<const Pose> X_WB) const {
+  const VisitMove& reach = visit_.moves[index_];
+  const collision::Object* const object = description_.bodies[reach.body.index()].object.get();
+  const auto over_grip = [&](const collision::Part& part) {
+    const Vec3 from_grip_W = X_WB[reach.body.index()].rotate(part.bound_O.center - reach.p_BG);
+    return from_grip_W.y() > kOverM && std::hypot(from_grip_W.x(), from_grip_W.z()) < kOverM;
+  };
+  return object != nullptr && std::ranges::any_of(object->parts, over_grip);
 }
 
 /// Fingers close around a held thing without pushing it.
@@ -197,9 +221,10 @@ void VisitPlayer::bend_fingers(bool holding) {
     intent_.joints[i] += share * (goal[i] - intent_.joints[i]);
 }
 
-bool VisitPlayer::touched_what_it_reaches_for(double felt_n) const {
+/// Not before the hand has had time to open: what it has just lost, it may still touch.
+bool VisitPlayer::touched_what_it_reaches_for(std::span<const Pose> X_WB, double felt_n) const {
   const bool grasps_next = index_ + 1 < visit_.moves.size() && visit_.moves[index_ + 1].kind == VisitMove::Kind::grasp;
-  return grasps_next && felt_n > kTouchN;
+  return grasps_next && time_s_ >= kClosesInS && felt_n > kTouchN && to_grip_m(X_WB) < kNearGripM;
 }
 
 /// A loose thing moves when it is touched: the hand follows its grip slowly.
@@ -215,7 +240,7 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double
   switch (move.kind) {
     case VisitMove::Kind::reach:
       move_hand_towards_goal(move.duration_s);
-      return time_s_ >= move.duration_s || touched_what_it_reaches_for(felt_n);
+      return time_s_ >= move.duration_s || touched_what_it_reaches_for(X_WB, felt_n);
     case VisitMove::Kind::move_to:
       move_hand_towards_goal(move.duration_s);
       ok_ = ok_ && (holding || time_s_ > 0.8 * move.duration_s);  // placed early: the snap released it, not the hand
@@ -287,7 +312,13 @@ void VisitPlayer::note_grasp(std::span<const Pose> X_WB, double felt_n) {
   grasp_.touched = grasp_.touched || felt_n > kTouchN;
 }
 
-void VisitPlayer::note_grip(bool holding) {
+void VisitPlayer::note_grip(std::span<const Pose> X_WB, bool holding) {
+  const VisitMove& move = visit_.moves[index_];
+  if (move.joint) {
+    const double angle_rad = joint_angle(description_.joints[move.joint.index()], X_WB);
+    seen_rad_ += std::remainder(angle_rad - seen_at_rad_, 2 * kPi);
+    seen_at_rad_ = angle_rad;
+  }
   held_ = held_ || holding;
   if (holding) held_rad_ = turned_rad_;
   empty_s_ = holding ? 0 : empty_s_ + last_dt_s_;
@@ -315,11 +346,12 @@ void VisitPlayer::fetch_again() {
   intent_.grasp_intent = 0;
 }
 
-void VisitPlayer::end_move(bool ok) {
-  done_rad_[index_] += held_rad_;
+void VisitPlayer::end_move(bool again) {
   const VisitMove& move = visit_.moves[index_];
-  results_.push_back({name_of(description_, move), time_s_, ok});
-  if (!ok && move.kind == VisitMove::Kind::grasp) results_.back().failed_grasp = grasp_;
+  done_rad_[index_] +=
+      again && move.kind == VisitMove::Kind::turn ? std::max(std::copysign(1, move.turns) * seen_rad_, 0.0) : held_rad_;
+  results_.push_back({name_of(description_, move), time_s_, ok_});
+  if (!ok_ && move.kind == VisitMove::Kind::grasp) results_.back().failed_grasp = grasp_;
   ++index_;
   begun_ = false;
 }

@@ -33,7 +33,7 @@ struct PlayerConfig {
   double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit continues without it
   /// The hand waits, like one that only sees, for a thing that it holds and that lags by more than this. None: it pulls on.
   std::optional<double> waits_for_lag_m{};
-  int fetch_again = 2;  ///< how often the hand goes back for a thing that it lost while carrying or working it
+  int fetch_again = 4;  ///< how often the hand goes back for a thing that it lost while carrying or working it
 };
 
 /// One visit, from rest to rest. Deterministic for given inputs. One thread; advance() allocates only when a move ends.
@@ -58,11 +58,12 @@ class VisitPlayer {
   void begin_move(std::span<const Pose> X_WB);
   [[nodiscard]] double to_grip_m(std::span<const Pose> X_WB) const;
   [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding) const;
-  void shape_hand();
+  void shape_hand(std::span<const Pose> X_WB);
+  [[nodiscard]] bool stands_over_grip(std::span<const Pose> X_WB) const;
   void bend_fingers(bool holding);
   /// True when the move is over.
   bool continue_move(std::span<const Pose> X_WB, bool holding, double felt_n);
-  [[nodiscard]] bool touched_what_it_reaches_for(double felt_n) const;
+  [[nodiscard]] bool touched_what_it_reaches_for(std::span<const Pose> X_WB, double felt_n) const;
   void follow_grip(std::span<const Pose> X_WB);
   void move_hand_towards_goal(double duration_s);
   bool turn(const state::VisitMove& move);
@@ -71,10 +72,10 @@ class VisitPlayer {
   /// angle.
   double go_through(double whole_rad, double rate_rad_per_s);
   void go_round(JointId joint, double angle_rad);
-  void end_move(bool ok);
+  void end_move(bool again);
   [[nodiscard]] bool slipped(std::span<const Pose> X_WB, bool holding) const;
   void note_grasp(std::span<const Pose> X_WB, double felt_n);
-  void note_grip(bool holding);
+  void note_grip(std::span<const Pose> X_WB, bool holding);
   [[nodiscard]] bool lost_its_handle() const;
   void fetch_again();
 
@@ -104,6 +105,9 @@ class VisitPlayer {
   double swing_from_rad_ = 0;  // the joint's angle at the start of the swing
   Vec3 p_BG_ = Vec3::Zero();   // the grip of the last reach, in the body
   Vec3 p_HG_ = Vec3::Zero();   // the same in the hand
+  double seen_rad_ = 0;        // how far the joint of this move has turned, by sight
+  double seen_at_rad_ = 0;     // its angle when it was last seen
+  bool from_side_ = false;     // the hand stops beside the thing, and goes the rest of the way slowly, closing
   double over_m_ = 0;          // how far above its goal the hand is before it goes down
   HandJoints joints_goal_{};
 };

@@ -6,9 +6,9 @@
 
 namespace mechane::haptics {
 
-/// Fills contacts of every present user from the bodies that have a collision object, deepest kept when there are too many. Contacts
-/// with a held body are among them: they tell whether the fingers still close on it, though its force comes from the grasp spring alone.
-/// Allocates nothing.
+/// Fills contacts of every present user from the bodies that have a collision object. Of too many, the deepest are kept, and the deepest
+/// few of every touch (one segment on one body). Contacts with a held body are among them: they tell whether the fingers still close on
+/// it, though its force comes from the grasp spring alone. Allocates nothing.
 void find_contacts(const state::WorldDescription& description, const HandModel& hand,
                    state::WorldState& state) noexcept;
 

@@ -1,4 +1,4 @@
-// A table of fixed size that keeps the deepest contacts.
+// A table of fixed size that keeps the deepest contacts, or those that rank first.
 #pragma once
 
 #include <algorithm>
@@ -14,31 +14,37 @@ class KeepDeepest {
  public:
   KeepDeepest(std::array<Item, kSize>& table, std::uint32_t& count) noexcept : table_(table), count_(count) {}
 
-  /// In a full table, the item takes the place of the shallowest one (of the first of those), if it is deeper than that.
-  void add(const Item& item) noexcept {
+  /// Ranks by depth.
+  void add(const Item& item) noexcept { add(item, item.depth_m); }
+
+  /// In a full table, the item takes the place of the one with the lowest rank (of the first of those), if its own is higher.
+  void add(const Item& item, double rank) noexcept {
     if (count_ < kSize) {
+      ranks_[count_] = rank;
       table_[count_++] = item;
       return;
     }
-    const auto deeper = [this](std::uint16_t a, std::uint16_t b) {
-      return table_[a].depth_m != table_[b].depth_m ? table_[a].depth_m > table_[b].depth_m : a > b;
+    const auto higher = [this](std::uint16_t a, std::uint16_t b) {
+      return ranks_[a] != ranks_[b] ? ranks_[a] > ranks_[b] : a > b;
     };
     if (!sorted_) {
-      std::iota(shallowest_.begin(), shallowest_.end(), std::uint16_t{0});
-      std::make_heap(shallowest_.begin(), shallowest_.end(), deeper);
+      std::iota(lowest_.begin(), lowest_.end(), std::uint16_t{0});
+      std::make_heap(lowest_.begin(), lowest_.end(), higher);
       sorted_ = true;
     }
-    if (!(table_[shallowest_.front()].depth_m < item.depth_m)) return;
-    std::pop_heap(shallowest_.begin(), shallowest_.end(), deeper);
-    table_[shallowest_.back()] = item;
-    std::push_heap(shallowest_.begin(), shallowest_.end(), deeper);
+    if (!(ranks_[lowest_.front()] < rank)) return;
+    std::pop_heap(lowest_.begin(), lowest_.end(), higher);
+    ranks_[lowest_.back()] = rank;
+    table_[lowest_.back()] = item;
+    std::push_heap(lowest_.begin(), lowest_.end(), higher);
   }
 
  private:
   static_assert(kSize <= 65'536);
   std::array<Item, kSize>& table_;
   std::uint32_t& count_;
-  std::array<std::uint16_t, kSize> shallowest_;  // a heap of places in the table, made when it is full
+  std::array<double, kSize> ranks_;          // of the items of the table
+  std::array<std::uint16_t, kSize> lowest_;  // a heap of places in the table, made when it is full
   bool sorted_ = false;
 };
 
