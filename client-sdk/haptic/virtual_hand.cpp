@@ -3,11 +3,12 @@
 #include <cmath>
 
 #include "client-sdk/drivers/options.hpp"
+#include "client-sdk/haptic/tracked_hand.hpp"
 
 namespace mechane::haptic {
 namespace {
 
-constexpr std::string_view kGloveOptions = "kind=phantom|glove";
+constexpr std::string_view kWholeHandOptions = "kind=phantom|glove|tracked";
 constexpr double kMaxDelay_ms = 20;
 constexpr double kMaxResolution_m = 0.001;
 constexpr double kFist_rad = 1.2;  // each joint of a closed finger
@@ -15,10 +16,12 @@ constexpr double kFist_rad = 1.2;  // each joint of a closed finger
 }  // namespace
 
 Expected<VirtualChoice> read_virtual_options(const std::string& options) {
-  const bool glove = drivers::Options(options, kVirtualOptions).choice("kind", {"phantom", "glove"}) == 1;
-  drivers::Options given(options, glove ? kGloveOptions : kVirtualOptions);
+  const std::vector<std::string> kinds = {"phantom", "glove", "tracked"};
+  const bool whole = drivers::Options(options, kVirtualOptions).choice("kind", kinds) > 0;
+  drivers::Options given(options, whole ? kWholeHandOptions : kVirtualOptions);
   VirtualChoice choice;
-  if (given.choice("kind", {"phantom", "glove"}) == 1) choice.hand = client::HandKind::glove;
+  if (whole) choice.hand = client::HandKind::glove;
+  choice.tracked = given.choice("kind", kinds) == 2;
   const double delay_ms = given.number("delay", 0, 0, kMaxDelay_ms);
   choice.stylus.delay = static_cast<std::uint32_t>(delay_ms);
   if (given.choice("hand", {"on", "off"}) == 1) choice.stylus.hand.reset();
@@ -26,19 +29,23 @@ Expected<VirtualChoice> read_virtual_options(const std::string& options) {
   std::string fault = given.fault();
   if (fault.empty() && delay_ms != choice.stylus.delay) fault = "the delay is not in whole milliseconds";
   if (fault.empty()) return choice;
-  if (glove) fault = "for a glove: " + fault;
+  if (whole) fault = "for a whole hand: " + fault;
   return fail(ErrorCode::invalid_value, std::move(fault), std::string(kVirtualName) + ":" + options,
               "'mechane devices' lists the options");
 }
 
 std::unique_ptr<SimulatedDevice> make_virtual_device(const VirtualChoice& choice, const Vec3& p_WH) {
   if (choice.hand == client::HandKind::one_point) return std::make_unique<SimulatedStylus>(choice.stylus, p_WH);
-  auto glove = std::make_unique<VirtualDevice>();
+  std::unique_ptr<SimulatedDevice> whole;
+  if (choice.tracked)
+    whole = std::make_unique<TrackedHand>();
+  else
+    whole = std::make_unique<VirtualDevice>();
   HandIntent begin;
   begin.kind = choice.hand;
   begin.X_WH.p = p_WH;
-  glove->intend(begin);
-  return glove;
+  whole->intend(begin);
+  return whole;
 }
 
 HandIntent stroke(client::HandKind kind, const Vec3& center, double radius_m, double t_s) {

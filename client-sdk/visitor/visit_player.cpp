@@ -91,6 +91,11 @@ double joint_angle(const state::JointDescription& joint, std::span<const Pose> X
 
 }  // namespace
 
+double felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop) {
+  if (device.renders()) return device.force_W().norm();
+  return loop.touches() ? 10 * kTouchN : 0;
+}
+
 double minimum_jerk(double s) {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * s * (10 + s * (-15 + 6 * s));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/virtual_device.hpp"
 #include "client-sdk/visitor/grasp_reason.hpp"
 #include "server/state/description.hpp"
@@ -23,6 +24,9 @@ struct MoveResult {
   std::optional<FailedGrasp> failed_grasp{};
   std::string reason{};  ///< why a grasp failed; filled in by code that knows the world's status
 };
+
+/// What a hand that only sees lets the thing that it holds lag.
+inline constexpr double kSeenLag_m = 0.03;
 
 struct PlayerConfig {
   Pose X_WH_rest{Vec3(0, 1.2, 1.5), Quat::Identity()};  ///< where the hand waits
@@ -51,8 +55,6 @@ class VisitPlayer {
   [[nodiscard]] const haptic::HandIntent& intent() const { return intent_; }
   [[nodiscard]] bool finished() const { return index_ >= visit_.moves.size(); }
   [[nodiscard]] std::span<const MoveResult> results() const { return results_; }
-  /// What the hand last reached for, or will reach for at first.
-  [[nodiscard]] BodyId reached_for() const { return visit_.moves[last_reach_].body; }
 
  private:
   void begin_move(std::span<const Pose> X_WB);
@@ -111,6 +113,9 @@ class VisitPlayer {
   double over_m_ = 0;          // how far above its goal the hand is before it goes down
   HandJoints joints_goal_{};
 };
+
+/// What advance() takes as felt: the force on the hand; one that no device renders to sees that it touches, for displays light it up.
+[[nodiscard]] double felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop);
 
 /// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).
 [[nodiscard]] double minimum_jerk(double s);

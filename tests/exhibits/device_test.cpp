@@ -10,7 +10,6 @@
 
 #include "tests/support/exhibit_play.hpp"
 #include "tests/support/source_folder.hpp"
-#include "tests/support/tracked_hand.hpp"
 
 namespace mechane {
 namespace {
@@ -58,10 +57,8 @@ TEST_P(ByDevice, EveryVisitIsCompleted) {
   const test::Exhibit exhibit(name);
   test::PlayOptions options;
   options.device.hand = device.hand;
-  if (device.tracked) {
-    options.make_device = [] { return std::make_unique<test::TrackedHand>(); };
-    options.player.waits_for_lag_m = 0.03;  // it sees what it does not feel
-  }
+  options.device.tracked = device.tracked;
+  if (device.tracked) options.player.waits_for_lag_m = visitor::kSeenLag_m;
   bool held = false, closed = false, touched = false;
   options.watch = [&](const state::WorldState& state) {
     const state::UserState& user = state.users[0];

@@ -200,7 +200,7 @@ class Devices(EndToEnd):
         listed = self.start("list", "devices", "--json")
         self.assertEqual(listed.wait(20), 0)
         drivers = {entry["name"]: entry for entry in json.loads(listed.text())}
-        self.assertIn("kind=phantom|glove", drivers["virtual"]["options"])
+        self.assertIn("kind=phantom|glove|tracked", drivers["virtual"]["options"])
         self.assertEqual(drivers["fake"]["fault"], "")
         self.assertIn("another version", drivers["old"]["fault"])
 

@@ -64,7 +64,7 @@ class Play {
     std::uint64_t idle = 0;
     while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
       if (player_.finished()) ++idle;
-      player_.advance(kTickSeconds, X_WB_, loop_->holding(), felt_n());
+      player_.advance(kTickSeconds, X_WB_, loop_->holding(), visitor::felt_n(*device_, *loop_));
       device_->intend(player_.intent());
       tick({});
     }
@@ -73,16 +73,6 @@ class Play {
 
  private:
   [[nodiscard]] bool done() const { return world_->state.progress.done; }
-
-  /// A hand that nothing pushes sees that it touches what it reached for: displays light it up.
-  [[nodiscard]] double felt_n() const {
-    if (device_->renders()) return device_->force_W().norm();
-    const state::WorldState& state = world_->state;
-    const auto contacts = state.users[0].contact_span();
-    return std::ranges::any_of(contacts, [&](const state::Contact& at) { return at.body == player_.reached_for(); })
-               ? 1
-               : 0;
-  }
 
   void tick(state::TickInputs inputs) {
     const state::WorldState& state = world_->state;

@@ -27,8 +27,8 @@
 #include "tests/support/driver_under_test.hpp"
 #include "tests/support/property_draw.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/support/seen_hand.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/tracker_points.hpp"
 
 namespace mechane::drivers {
 namespace {
@@ -36,7 +36,7 @@ namespace {
 using namespace std::chrono_literals;
 using test::DriverUnderTest;
 using test::ScratchFolder;
-using test::SeenHand;
+using test::tracker_points;
 
 constexpr double kJointsDegree = kPi / 180;
 constexpr const char* kJointsFormatNames[] = {"openxr", "webxr", "mediapipe"};
@@ -53,7 +53,7 @@ std::string joints_list(const std::vector<Vec3>& points) {
 
 std::string joints_text(const SeenHand& hand, const std::string& format = "openxr", const std::string& more = "") {
   return R"({"format":")" + format + R"(","hand":")" + (hand.left ? "left" : "right") + R"(","joints":)" +
-         joints_list(hand.points(format)) + more + "}";
+         joints_list(tracker_points(hand, format)) + more + "}";
 }
 
 std::string joints_without(const std::string& text, const std::string& part, const std::string& instead) {
@@ -142,7 +142,7 @@ std::vector<std::string> joints_wrong(const SeenHand& hand, const std::string& w
   const auto with = [&](const std::string& part, const std::string& instead) {
     return joints_without(whole, part, instead);
   };
-  const auto all = hand.points("openxr");
+  const auto all = tracker_points(hand, "openxr");
   auto no_bone = all, millimetres = all, no_plane = all;
   no_bone[8] = no_bone[7];
   for (Vec3& p : millimetres)

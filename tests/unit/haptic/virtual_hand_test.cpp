@@ -31,11 +31,17 @@ TEST(VirtualHand, TakesItsOptions) {
   const auto glove = read_virtual_options("kind=glove");
   ASSERT_TRUE(glove);
   EXPECT_EQ(glove->hand, HandKind::glove);
+  EXPECT_FALSE(glove->tracked);
+  const auto tracked = read_virtual_options("kind=tracked");
+  ASSERT_TRUE(tracked);
+  EXPECT_EQ(tracked->hand, HandKind::glove);
+  EXPECT_TRUE(tracked->tracked);
 }
 
 TEST(VirtualHand, RefusesWhatItDoesNotKnowAndValuesOutOfRange) {
-  for (const char* options : {"kind=pen", "mass=1", "delay=21", "delay=-1", "delay=0.5", "hand=yes", "resolution=0.1",
-                              "resolution=nan", "kind=glove,delay=1", "phantom", "kind=phantom,kind=phantom"}) {
+  for (const char* options :
+       {"kind=pen", "mass=1", "delay=21", "delay=-1", "delay=0.5", "hand=yes", "resolution=0.1", "resolution=nan",
+        "kind=glove,delay=1", "kind=tracked,hand=off", "phantom", "kind=phantom,kind=phantom"}) {
     const auto choice = read_virtual_options(options);
     ASSERT_FALSE(choice) << options;
     EXPECT_EQ(choice.error().code, ErrorCode::invalid_value) << options;

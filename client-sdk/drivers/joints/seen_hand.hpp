@@ -1,16 +1,14 @@
-// A hand as a tracker sees it: points where its joints are.
+// Where the joints of a hand are, as a tracker sees them: for simulated trackers.
 #pragma once
 
 #include <array>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "server/hand/hand_skeleton.hpp"
 
-namespace mechane::test {
+namespace mechane::drivers {
 
-/// Mechane's hand in a pose, as a tracker sees it: a left hand is the mirror image.
+/// Mechane's hand in a pose: a left hand is the mirror image.
 struct SeenHand {
   std::array<double, hand::kHandJoints> joints_rad{};
   Pose X_DH{Vec3(0.1, 0.2, -0.3), Quat::Identity()};
@@ -32,20 +30,6 @@ struct SeenHand {
     }
     return points;
   }
-  /// In the order of a format, and in its axes.
-  [[nodiscard]] std::vector<Vec3> points(const std::string& format) const {
-    std::vector<Vec3> all{in_D(Vec3::Zero())};
-    if (format == "openxr") all.insert(all.begin(), in_D(Vec3(0.05, 0, 0)));
-    for (std::size_t f = 0; f < hand::kFingers; ++f) {
-      const auto joints = finger(f);
-      if (f > 0 && format != "mediapipe") all.push_back(in_D(0.2 * scale * hand::middle_sized_fingers()[f].p_HF));
-      all.insert(all.end(), joints.begin(), joints.end());
-    }
-    if (format == "mediapipe")
-      for (Vec3& p : all)
-        p = Vec3(p.x(), -p.y(), -p.z());
-    return all;
-  }
 };
 
-}  // namespace mechane::test
+}  // namespace mechane::drivers
