@@ -199,20 +199,17 @@ void VisitPlayer::shape_hand(std::span<const Pose> X_WB) {
     p_HG_.setZero();
     X_WH_goal_.R.setIdentity();
     joints_goal_ = kOpen;
-    from_side_ = stands_over_grip(X_WB);
+    from_side_ = taken_from_side(X_WB);
     if (!from_side_) over_m_ = kOverM;
   }
 }
 
-/// Whether a part of what the hand reaches for stands over its grip, so that the way from above is barred.
-bool VisitPlayer::stands_over_grip(std::span<const Pose> X_WB) const {
+/// Whether the centre of mass of what the hand reaches for is over its grip: a person takes it from the side then.
+bool VisitPlayer::taken_from_side(std::span<const Pose> X_WB) const {
+  constexpr double kOverGripM = 0.05;
   const VisitMove& reach = visit_.moves[index_];
-  const collision::Object* const object = description_.bodies[reach.body.index()].object.get();
-  const auto over_grip = [&](const collision::Part& part) {
-    const Vec3 from_grip_W = X_WB[reach.body.index()].rotate(part.bound_O.center - reach.p_BG);
-    return from_grip_W.y() > kOverM && std::hypot(from_grip_W.x(), from_grip_W.z()) < kOverM;
-  };
-  return object != nullptr && std::ranges::any_of(object->parts, over_grip);
+  const Vec3 p_BCm = description_.bodies[reach.body.index()].p_BCm;
+  return X_WB[reach.body.index()].rotate(p_BCm - reach.p_BG).y() > kOverGripM;
 }
 
 /// Fingers close around a held thing without pushing it.

@@ -61,7 +61,7 @@ class VisitPlayer {
   [[nodiscard]] double to_grip_m(std::span<const Pose> X_WB) const;
   [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding) const;
   void shape_hand(std::span<const Pose> X_WB);
-  [[nodiscard]] bool stands_over_grip(std::span<const Pose> X_WB) const;
+  [[nodiscard]] bool taken_from_side(std::span<const Pose> X_WB) const;
   void bend_fingers(bool holding);
   /// True when the move is over.
   bool continue_move(std::span<const Pose> X_WB, bool holding, double felt_n);

@@ -7,9 +7,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "tests/support/shapes.hpp"
-#include "tests/support/touch.hpp"
-
 namespace mechane::visitor {
 namespace {
 
@@ -192,9 +189,8 @@ TEST(VisitPlayerReach, AHandOpensFirst) {
   EXPECT_NEAR(player.results()[0].seconds, 0.3, 0.01);
 }
 
-TEST(VisitPlayerReach, AWholeHandComesFromTheSideToWhatStandsOverItsGrip) {
+TEST(VisitPlayerReach, AWholeHandComesFromTheSideToWhatItTakesBelowTheMiddle) {
   state::WorldDescription world = lever_world();
-  world.bodies[1].object = test::built(test::box(Vec3(0.02, 0.4, 0.02)));
   state::VisitDescription visit = carrying();
   visit.moves[0].p_BG = Vec3(0, -0.3, 0);
   PlayerConfig config;
