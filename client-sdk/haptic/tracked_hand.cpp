@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "client-sdk/drivers/joints/hand_geometry.hpp"
-#include "client-sdk/drivers/joints/seen_hand.hpp"
+#include "client-sdk/haptic/seen_hand.hpp"
 
 namespace mechane::haptic {
 namespace {
@@ -34,12 +34,12 @@ void TrackedHand::take_picture() {
   drivers::HandDatagram seen;
   // The tracker's own measure: the scripted visitor's fingers close only around what they hold.
   seen.pinch = intent_.grasp_intent;
-  drivers::SeenHand hand;
-  hand.joints_rad = intent_.joints;
-  hand.X_DH = intent_.X_WH;
-  set(seen.points[0], hand.in_D(Vec3::Zero()));
+  SeenHand real;
+  real.joints_rad = intent_.joints;
+  real.X_DH = intent_.X_WH;
+  set(seen.points[0], real.in_D(Vec3::Zero()));
   for (std::size_t f = 0; f < hand::kFingers; ++f) {
-    const auto joints = hand.finger(f);
+    const auto joints = real.finger(f);
     for (std::size_t k = 0; k < joints.size(); ++k)
       set(seen.points[drivers::point_of(f, k)], joints[k]);
   }

@@ -20,6 +20,7 @@ from running import Programs  # noqa: E402
 VILLAGE, SCREW, ODOMETER = (f"scenarios/{name}/{name}.x3d" for name in ("village", "archimedes-screw", "odometer"))
 # Two visitors work the screw; a third goes through the village, whose two visits touch the screw's sign and the odometer's.
 KIOSKS = {"kiosk-1": SCREW, "kiosk-2": SCREW, "village": VILLAGE}
+DEVICES = {"phantom": "a stylus", "glove": "a glove", "tracked": "a hand before a camera"}  # kinds of the device `virtual`
 LINGER_S = 8  # at the exhibit that a sign opened: a display that draws on the processor needs some seconds to load it
 VISIT_LIMIT_S = 240
 TOUR_LIMIT_S = 1200
@@ -158,25 +159,27 @@ def tour_progress(log, visits):
     return words + "".join(f" | {place}" for place in at.values())
 
 
-def tour(programs, options, out):
-    """Every visit of every exhibit, some at a time, telling how far it is; the table that the visitor prints. None where one was not
-    completed."""
-    print("  every visit of every exhibit: some minutes", flush=True)
+def tour(programs, options, out, device):
+    """Every visit of every exhibit by one of DEVICES, some at a time, telling how far it is; the table that the visitor prints. None where
+    one was not completed."""
+    print(f"  every visit of every exhibit, by {DEVICES[device]}: some minutes", flush=True)
     visits = count_visits(sorted(glob.glob("scenarios/*/*.x3d")))
-    programs.start("tour", "visitor", "--all", "--at-once", "2", "--report", str(out / "tour.json"), "--domain", str(options.domain))
+    name = f"tour-{device}"
+    programs.start(name, "visitor", "--all", "--at-once", "3", "--device", f"virtual:kind={device}", "--report", str(out / f"{name}.json"),
+                   "--domain", str(options.domain))
     started = told = time.monotonic()
-    while programs.wait("tour", 0.5) is None and time.monotonic() - started < TOUR_LIMIT_S:
+    while programs.wait(name, 0.5) is None and time.monotonic() - started < TOUR_LIMIT_S:
         if not sys.stdout.isatty() and time.monotonic() - told < TOUR_TOLD_EACH_S:
             continue
         told = time.monotonic()
-        line = f"  {told - started:5.1f} s  {tour_progress((out / 'tour.log').read_text(errors='replace'), visits)}"
+        line = f"  {told - started:5.1f} s  {tour_progress((out / f'{name}.log').read_text(errors='replace'), visits)}"
         if sys.stdout.isatty():
             print(f"\r\033[K{line[:shutil.get_terminal_size().columns - 1]}", end="", flush=True)
         else:
             print(line, flush=True)
-    log = (out / "tour.log").read_text(errors="replace")
+    log = (out / f"{name}.log").read_text(errors="replace")
     print(f"{clear_line()}  {time.monotonic() - started:5.1f} s  {tour_progress(log, visits)}", flush=True)
-    if programs.running["tour"].poll() != 0:
+    if programs.running[name].poll() != 0:
         return None
     return [line for line in log.splitlines() if " steps " in line]
 
@@ -261,7 +264,7 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--headless", action="store_true", help="pictures, no window")
-    parser.add_argument("--all", action="store_true", help="afterwards every visit of every exhibit")
+    parser.add_argument("--all", action="store_true", help="afterwards every visit of every exhibit, by each simulated device")
     parser.add_argument("--domain", type=int, default=42)
     options = parser.parse_args()
     out = options.out.resolve()
@@ -286,9 +289,9 @@ def main():
                 problems.append(f"{name} ended badly: see {out / (name + '.log')}")
         for kiosk in draw_steps(programs, out) if makes_pictures(options) else ():
             problems.append(f"the steps at {kiosk} could not be drawn: see {out / f'draw-{kiosk}.log'}")
-        table = tour(programs, options, out) if options.all else []
-        if table is None:
-            problems.append(f"not every visit of the tour was completed: see {out / 'tour.log'}")
+        tables = {device: tour(programs, options, out, device) for device in DEVICES} if options.all else {}
+        problems += [f"not every visit by {DEVICES[device]} was completed: see {out / f'tour-{device}.log'}"
+                     for device, table in tables.items() if table is None]
         if programs.stop("server", 20) != 0:
             problems.append(f"the server ended badly: see {out / 'server.log'}")
         replays = replay_journals(programs, scenarios, out / "records", 1 if options.all else 2)
@@ -309,8 +312,9 @@ def main():
               "notes": problems}
     (out / "report.json").write_text(json.dumps(report, indent=2) + "\n")
     print_summary(metrics, activities, missed if makes_pictures(options) else [], out)
-    for line in table or []:
-        print(f"  {line}")
+    for device, table in tables.items():
+        for line in table or []:
+            print(f"  {device:<9} {line}")
     for problem in problems:
         print(f"demo: {problem}", file=sys.stderr)
     if not problems:

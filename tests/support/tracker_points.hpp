@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "client-sdk/drivers/joints/seen_hand.hpp"
+#include "client-sdk/haptic/seen_hand.hpp"
 
 namespace mechane::test {
 
 /// In the order of a format, and in its axes.
-inline std::vector<Vec3> tracker_points(const drivers::SeenHand& hand, const std::string& format) {
+inline std::vector<Vec3> tracker_points(const haptic::SeenHand& hand, const std::string& format) {
   std::vector<Vec3> all{hand.in_D(Vec3::Zero())};
   if (format == "openxr") all.insert(all.begin(), hand.in_D(Vec3(0.05, 0, 0)));
   for (std::size_t f = 0; f < hand::kFingers; ++f) {

@@ -34,6 +34,7 @@ namespace mechane::drivers {
 namespace {
 
 using namespace std::chrono_literals;
+using haptic::SeenHand;
 using test::DriverUnderTest;
 using test::ScratchFolder;
 using test::tracker_points;

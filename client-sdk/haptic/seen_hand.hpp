@@ -6,7 +6,7 @@
 
 #include "server/hand/hand_skeleton.hpp"
 
-namespace mechane::drivers {
+namespace mechane::haptic {
 
 /// Mechane's hand in a pose: a left hand is the mirror image.
 struct SeenHand {
@@ -32,4 +32,4 @@ struct SeenHand {
   }
 };
 
-}  // namespace mechane::drivers
+}  // namespace mechane::haptic
