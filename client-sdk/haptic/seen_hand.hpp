@@ -11,13 +11,13 @@ namespace mechane::haptic {
 /// Mechane's hand in a pose: a left hand is the mirror image.
 struct SeenHand {
   std::array<double, hand::kHandJoints> joints_rad{};
-  Pose X_DH{Vec3(0.1, 0.2, -0.3), Quat::Identity()};
+  Pose X_DH{Vec3(0.1, 0.2, -0.3), Quat::Identity()};  ///< somewhere before the tracker
   bool left = false;
   double scale = 1;
 
   [[nodiscard]] Vec3 in_D(const Vec3& p_H) const { return X_DH * Vec3(p_H.x(), p_H.y(), left ? -p_H.z() : p_H.z()); }
   /// From the palm to the tip.
-  [[nodiscard]] std::array<Vec3, 4> finger(std::size_t f) const {
+  [[nodiscard]] std::array<Vec3, 4> finger_D(std::size_t f) const {
     const hand::FingerSize size = hand::middle_sized_fingers()[f];
     std::array<Pose, hand::kPhalanges> X_HS;
     hand::place_finger(size, scale, f == 0 ? hand::thumb_stand() : Quat::Identity(),

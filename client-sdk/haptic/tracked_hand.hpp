@@ -29,13 +29,14 @@ class TrackedHand final : public SimulatedDevice {
 
  private:
   void take_picture();
-  void set(drivers::HandPoint& point, const Vec3& p);
+  void set(drivers::HandPoint& point, const Vec3& p_D);
   void tell(const drivers::HandDatagram& seen);
 
   const Vec3 no_force_ = Vec3::Zero();
   HandIntent intent_;
   std::array<drivers::HandDatagram, 2> on_the_way_;
   std::size_t pictures_ = 0;
+  int since_told_ = 0;  // pictures since the last that showed a hand
   bool was_told_ = false;
   client::HandSample told_;
   Duration until_picture_{0};

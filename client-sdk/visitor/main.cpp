@@ -139,8 +139,7 @@ int main(int argc, char** argv) {
   auto device = choose_device(a);
   if (!device) return log::error(device.error()), 2;
   a.options.device = *device;
-  a.options.player.kind = device->hand;
-  if (device->tracked) a.options.player.waits_for_lag_m = visitor::kSeenLag_m;
+  a.options.player = visitor::fitted(a.options.player, *device);
   if (a.direct) a.options.render = haptic::RenderMode::server;
   std::signal(SIGINT, [](int) { g_stop = 1; });
   std::signal(SIGTERM, [](int) { g_stop = 1; });

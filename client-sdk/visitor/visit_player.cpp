@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "client-sdk/haptic/haptic_loop.hpp"
+
 namespace mechane::visitor {
 namespace {
 
@@ -58,7 +60,7 @@ Quat across(const Vec3& axis_W) {
 
 /// From a goal to where a hand with stretched fingers does not touch it yet; `back_W` leads back to where the hand comes from.
 Vec3 beside(Vec3 back_W) {
-  constexpr double kBesideM = 0.25;
+  constexpr double kBesideM = 0.25;  // less than a closing hand goes in its patience: 2 s at kFollowMPerS
   back_W.y() = 0;
   return std::min(kBesideM, back_W.norm()) * back_W.normalized();
 }
@@ -91,9 +93,17 @@ double joint_angle(const state::JointDescription& joint, std::span<const Pose> X
 
 }  // namespace
 
-double felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop) {
+PlayerConfig fitted(PlayerConfig config, const haptic::VirtualChoice& device) {
+  constexpr double kSeenLag_m = 0.03;
+  config.kind = device.hand;
+  if (device.tracked) config.waits_for_lag_m = kSeenLag_m;
+  return config;
+}
+
+double force_felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop) {
+  constexpr double kSeenTouchN = 1;
   if (device.renders()) return device.force_W().norm();
-  return loop.touches() ? 10 * kTouchN : 0;
+  return loop.touches() ? kSeenTouchN : 0;
 }
 
 double minimum_jerk(double s) {
@@ -142,19 +152,18 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
   X_WH_start_ = intent_.X_WH;
   X_WH_goal_ = X_WH_start_;
   over_m_ = 0;
-  from_side_ = false;
   if (move.kind == VisitMove::Kind::reach) {
-    if (config_.kind == client::HandKind::glove && config_.shapes_hand) shape_hand(X_WB);
+    const bool from_side = config_.kind == client::HandKind::glove && config_.shapes_hand && shape_hand(X_WB);
     if (index_ != last_reach_) fetched_again_ = 0;
     last_reach_ = index_;
     p_BG_ = move.p_BG;
     X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W - X_WH_goal_.R * p_HG_;
-    if (from_side_) X_WH_goal_.p += beside(X_WH_start_.p - X_WH_goal_.p);
+    if (from_side) X_WH_goal_.p += beside(X_WH_start_.p - X_WH_goal_.p);
   } else if (move.kind == VisitMove::Kind::move_to) {
     // From here on, the hand keeps the pose that it now has relative to the body.
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
     X_WH_goal_ = move.X_WB * X_BH;
-  } else if (move.joint) {
+  } else if (move.kind == VisitMove::Kind::turn || move.kind == VisitMove::Kind::swing) {
     seen_rad_ = 0;
     swing_from_rad_ = seen_at_rad_ = joint_angle(description_.joints[move.joint.index()], X_WB);
   } else if (move.kind == VisitMove::Kind::grasp) {
@@ -181,7 +190,7 @@ bool VisitPlayer::waits(std::span<const Pose> X_WB, bool holding) const {
 /// The hand's pose depends on the move after this reach: a handle to be worked lies across the palm, a sign is touched
 /// with the index finger. What will be carried is taken at the wrist, without turning the hand: there its weight turns
 /// it least.
-void VisitPlayer::shape_hand(std::span<const Pose> X_WB) {
+bool VisitPlayer::shape_hand(std::span<const Pose> X_WB) {
   const auto move_at = [&](std::size_t i) { return i < visit_.moves.size() ? &visit_.moves[i] : nullptr; };
   const VisitMove* next = move_at(index_ + 1);
   const VisitMove* after = move_at(index_ + 2);
@@ -199,9 +208,10 @@ void VisitPlayer::shape_hand(std::span<const Pose> X_WB) {
     p_HG_.setZero();
     X_WH_goal_.R.setIdentity();
     joints_goal_ = kOpen;
-    from_side_ = taken_from_side(X_WB);
-    if (!from_side_) over_m_ = kOverM;
+    if (taken_from_side(X_WB)) return true;
+    over_m_ = kOverM;
   }
+  return false;
 }
 
 /// Whether the centre of mass of what the hand reaches for is over its grip: a person takes it from the side then.
@@ -223,7 +233,7 @@ void VisitPlayer::bend_fingers(bool holding) {
     intent_.joints[i] += share * (goal[i] - intent_.joints[i]);
 }
 
-/// Not before the hand has had time to open: what it has just lost, it may still touch.
+/// A hand may still touch what it has just lost, so it gets time to open first.
 bool VisitPlayer::touched_what_it_reaches_for(std::span<const Pose> X_WB, double felt_n) const {
   const bool grasps_next = index_ + 1 < visit_.moves.size() && visit_.moves[index_ + 1].kind == VisitMove::Kind::grasp;
   return grasps_next && time_s_ >= kClosesInS && felt_n > kTouchN && to_grip_m(X_WB) < kNearGripM;

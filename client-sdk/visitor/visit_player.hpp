@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "client-sdk/haptic/haptic_loop.hpp"
-#include "client-sdk/haptic/virtual_device.hpp"
+#include "client-sdk/haptic/virtual_hand.hpp"
 #include "client-sdk/visitor/grasp_reason.hpp"
 #include "server/state/description.hpp"
+
+namespace mechane::haptic {
+class HapticLoop;
+}
 
 namespace mechane::visitor {
 
@@ -24,9 +27,6 @@ struct MoveResult {
   std::optional<FailedGrasp> failed_grasp{};
   std::string reason{};  ///< why a grasp failed; filled in by code that knows the world's status
 };
-
-/// What a hand that only sees lets the thing that it holds lag.
-inline constexpr double kSeenLag_m = 0.03;
 
 struct PlayerConfig {
   Pose X_WH_rest{Vec3(0, 1.2, 1.5), Quat::Identity()};  ///< where the hand waits
@@ -60,7 +60,8 @@ class VisitPlayer {
   void begin_move(std::span<const Pose> X_WB);
   [[nodiscard]] double to_grip_m(std::span<const Pose> X_WB) const;
   [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding) const;
-  void shape_hand(std::span<const Pose> X_WB);
+  /// Returns whether it stops beside the thing, and goes the rest of the way slowly, closing.
+  bool shape_hand(std::span<const Pose> X_WB);
   [[nodiscard]] bool taken_from_side(std::span<const Pose> X_WB) const;
   void bend_fingers(bool holding);
   /// True when the move is over.
@@ -109,13 +110,16 @@ class VisitPlayer {
   Vec3 p_HG_ = Vec3::Zero();   // the same in the hand
   double seen_rad_ = 0;        // how far the joint of this move has turned, by sight
   double seen_at_rad_ = 0;     // its angle when it was last seen
-  bool from_side_ = false;     // the hand stops beside the thing, and goes the rest of the way slowly, closing
   double over_m_ = 0;          // how far above its goal the hand is before it goes down
   HandJoints joints_goal_{};
 };
 
-/// What advance() takes as felt: the force on the hand; one that no device renders to sees that it touches, for displays light it up.
-[[nodiscard]] double felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop);
+/// For a hand with such a device: its kind, and that one before a camera waits.
+[[nodiscard]] PlayerConfig fitted(PlayerConfig config, const haptic::VirtualChoice& device);
+
+/// What advance() takes as felt: the force on the hand, N. A hand without force feedback counts as touching what it overlaps, because
+/// displays highlight that.
+[[nodiscard]] double force_felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop);
 
 /// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).
 [[nodiscard]] double minimum_jerk(double s);

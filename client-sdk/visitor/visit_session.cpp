@@ -215,7 +215,7 @@ ActivityReport Session::play(const VisitDescription& visit) {
     tick();
   TimePoint finished{};
   while (stop_ == 0 && !report.done) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding(), felt_n(*device_, *loop_));
+    player.advance(kTickSeconds, X_WB_, loop_->holding(), force_felt_n(*device_, *loop_));
     device_->intend(player.intent());
     tick();
     note_moves(player, report);
@@ -236,7 +236,7 @@ ActivityReport Session::play(const VisitDescription& visit) {
   }
   // The script is played to its end, so that the hand lets go and comes to rest.
   while (stop_ == 0 && report.done && !gone_on() && !player.finished()) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding(), felt_n(*device_, *loop_));
+    player.advance(kTickSeconds, X_WB_, loop_->holding(), force_felt_n(*device_, *loop_));
     device_->intend(player.intent());
     tick();
     note_moves(player, report);

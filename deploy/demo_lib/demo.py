@@ -179,7 +179,7 @@ def tour(programs, options, out, device):
             print(line, flush=True)
     log = (out / f"{name}.log").read_text(errors="replace")
     print(f"{clear_line()}  {time.monotonic() - started:5.1f} s  {tour_progress(log, visits)}", flush=True)
-    if programs.running[name].poll() != 0:
+    if programs.stop(name, 20) != 0:  # else it would go on beside the next one
         return None
     return [line for line in log.splitlines() if " steps " in line]
 

@@ -14,23 +14,36 @@ namespace {
 using collision::ContactBuffer;
 using collision::PointContact;
 
-// Of one segment against one body. More points than this on one fingertip add nothing to its force.
+// A touch is of one segment with one body. More points than this on one fingertip add nothing to its force.
 constexpr std::size_t kContactsPerTouch = 64;
-// The deepest of each touch stay in a full table: else the many points of a hand on a table would hide the arrow that lies there.
+// The deepest of each touch stay in a full table: otherwise the many points of a hand on a table would hide the arrow that lies there.
 constexpr std::size_t kKeptOfTouch = 8;
 static_assert(kKeptOfTouch * state::kMaxPatches <= state::kMaxContacts);
-constexpr double kStays = 1;  // added to a rank in metres; no hand is as deep in a body
+constexpr double kStays_m = 1;  // added to a depth: more than any hand is deep in a body
 
 using Contacts = KeepDeepest<state::Contact, state::kMaxContacts>;
 
-/// Points so deep are among the deepest of their touch.
-double depth_that_stays(std::span<const PointContact> touch) {
-  if (touch.size() <= kKeptOfTouch) return 0;
+/// Which points of a touch stay in a full table: kKeptOfTouch of them, or all where they are fewer.
+struct Staying {
+  double depth_m = 0;       ///< all that are deeper
+  std::size_t as_deep = 0;  ///< and so many that are as deep, the first of them
+
+  bool take(const PointContact& point) {
+    if (point.depth_m != depth_m || as_deep == 0) return point.depth_m > depth_m;
+    --as_deep;
+    return true;
+  }
+};
+
+Staying staying_of(std::span<const PointContact> touch) {
+  if (touch.size() <= kKeptOfTouch) return {};
   std::array<double, kContactsPerTouch> depths_m;
   const auto end = std::ranges::transform(touch, depths_m.begin(), &PointContact::depth_m).out;
   const auto last = depths_m.begin() + kKeptOfTouch - 1;
   std::nth_element(depths_m.begin(), last, end, std::greater{});
-  return *last;
+  const double least_m = *last;
+  const auto deeper = std::ranges::count_if(touch, [=](const PointContact& at) { return at.depth_m > least_m; });
+  return {least_m, kKeptOfTouch - static_cast<std::size_t>(deeper)};
 }
 
 void touch_body(const collision::Object& object, const Pose& X_WB, BodyId body, const HandModel& hand,
@@ -40,10 +53,10 @@ void touch_body(const collision::Object& object, const Pose& X_WB, BodyId body, 
   for (std::size_t s = 0; s < segments; ++s) {
     ContactBuffer buffer(storage);
     collision::find_contacts(hand.segment(user.sample, s), user.X_WS[s], object, X_WB, buffer);
-    const double stays_m = depth_that_stays(buffer.contacts());
+    Staying staying = staying_of(buffer.contacts());
     for (const PointContact& point : buffer.contacts()) {
       contacts.add({body, static_cast<std::uint8_t>(s), point.p_WC, point.n_BA_W, point.depth_m},
-                   point.depth_m + (point.depth_m >= stays_m ? kStays : 0));
+                   point.depth_m + (staying.take(point) ? kStays_m : 0));
     }
   }
 }

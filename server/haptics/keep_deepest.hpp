@@ -8,11 +8,14 @@
 
 namespace mechane::haptics {
 
-/// Fills a table of the caller's. While this object lives, nobody else may change the table.
+/// Fills a table of the caller's; what is in it already ranks by its depth. While this object lives, nobody else may change the table.
 template <class Item, std::size_t kSize>
 class KeepDeepest {
  public:
-  KeepDeepest(std::array<Item, kSize>& table, std::uint32_t& count) noexcept : table_(table), count_(count) {}
+  KeepDeepest(std::array<Item, kSize>& table, std::uint32_t& count) noexcept : table_(table), count_(count) {
+    for (std::size_t i = 0; i < count_; ++i)
+      ranks_[i] = table_[i].depth_m;
+  }
 
   /// Ranks by depth.
   void add(const Item& item) noexcept { add(item, item.depth_m); }

@@ -32,12 +32,6 @@ const state::VisitDescription& find_visit(const state::WorldDescription& world, 
   return *it;
 }
 
-visitor::PlayerConfig config_of(const PlayOptions& options) {
-  visitor::PlayerConfig config = options.player;
-  config.kind = options.device.hand;
-  return config;
-}
-
 /// One visitor in one world.
 class Play {
  public:
@@ -47,9 +41,8 @@ class Play {
         visit_(find_visit(*description_, visit)),
         options_(options),
         world_(value_or_throw(world::World::create(description_, config))),
-        player_(*description_, visit_, config_of(options)),
-        device_(options.make_device ? options.make_device()
-                                    : haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
+        player_(*description_, visit_, visitor::fitted(options.player, options.device)),
+        device_(haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
         loop_(value_or_throw(haptic::HapticLoop::create(client_, *device_, haptic::RenderMode::local))),
         X_WB_(description_->bodies.size()) {}
 
@@ -64,7 +57,7 @@ class Play {
     std::uint64_t idle = 0;
     while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
       if (player_.finished()) ++idle;
-      player_.advance(kTickSeconds, X_WB_, loop_->holding(), visitor::felt_n(*device_, *loop_));
+      player_.advance(kTickSeconds, X_WB_, loop_->holding(), visitor::force_felt_n(*device_, *loop_));
       device_->intend(player_.intent());
       tick({});
     }

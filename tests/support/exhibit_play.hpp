@@ -27,8 +27,6 @@ struct PlayOptions {
   double patience_s = 5;  ///< world seconds after the last move in which the activity may still be done
   visitor::PlayerConfig player{};
   haptic::VirtualChoice device{};  ///< a stylus of the Phantom's class, held by a hand
-  /// Makes the device to play with, for a hand of that kind. Empty: the one above.
-  std::function<std::unique_ptr<haptic::SimulatedDevice>()> make_device{};
 };
 
 struct PlayedStep {

@@ -217,7 +217,7 @@ class JointsTest : public ::testing::Test {
     RC_ASSERT(found.X_DH.R.angularDistance(hand.X_DH.R) < 1e-5);
     for (std::size_t f = 0; f < MECHANE_FINGERS; ++f) {
       for (std::size_t j = 0; j < 4; ++j)
-        RC_ASSERT((found.finger(f)[j] - hand.finger(f)[j]).norm() < 0.001);
+        RC_ASSERT((found.finger_D(f)[j] - hand.finger_D(f)[j]).norm() < 0.001);
       if (joints_along_palm(hand, f) < 0.02) continue;
       for (std::size_t j = 4 * f; j < 4 * (f + 1); ++j)
         RC_ASSERT(std::abs(found.joints_rad[j] - hand.joints_rad[j]) < 0.02);

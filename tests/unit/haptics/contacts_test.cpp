@@ -1,5 +1,6 @@
 #include "server/haptics/contacts.hpp"
 
+#include <memory>
 #include <set>
 
 #include <gtest/gtest.h>

@@ -32,5 +32,27 @@ RC_GTEST_PROP(KeepDeepest, KeepsWhatASearchOfTheWholeTableWould, ()) {
   RC_ASSERT(table == expected);
 }
 
+/// As where each touch adds what it has, with a table of its own.
+TEST(KeepDeepest, KnowsWhatIsInTheTableAlready) {
+  std::array<Item, 3> table{};
+  std::uint32_t count = 0;
+  int index = 0;
+  for (const int depth : {4, 2, 7, 5, 1, 6})
+    KeepDeepest(table, count).add({depth, index++});
+  std::ranges::sort(table, {}, &Item::depth_m);
+  EXPECT_EQ(table, (std::array<Item, 3>{Item{5, 3}, Item{6, 5}, Item{7, 2}}));
+}
+
+TEST(KeepDeepest, AHigherRankStaysWhateverItsDepth) {
+  std::array<Item, 3> table{};
+  std::uint32_t count = 0;
+  KeepDeepest keep(table, count);
+  keep.add({1, 0}, 101);
+  for (int index = 1; index < 6; ++index)
+    keep.add({10 + index, index});
+  EXPECT_EQ(table[0], (Item{1, 0}));
+  EXPECT_EQ(table[1].depth_m + table[2].depth_m, 14 + 15);
+}
+
 }  // namespace
 }  // namespace mechane::haptics

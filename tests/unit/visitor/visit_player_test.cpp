@@ -178,8 +178,7 @@ TEST(VisitPlayerReach, EndsWhereTheHandFeelsItsGoalButNotAtWhatItMeetsOnTheWay) 
 
 TEST(VisitPlayerReach, AHandOpensFirst) {
   const state::WorldDescription world = lever_world();
-  const state::VisitDescription visit = carrying();
-  state::VisitDescription slow = visit;
+  state::VisitDescription slow = carrying();
   slow.moves[0].duration_s = 1;
   PlayerConfig config;
   config.X_WH_rest.p = Vec3(0.01, 1, 0);  // still at what it has just lost
