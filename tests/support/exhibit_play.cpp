@@ -38,6 +38,61 @@ visitor::PlayerConfig config_of(const PlayOptions& options) {
   return config;
 }
 
+/// One who holds a device.
+class DevicePerson final : public Person {
+ public:
+  DevicePerson(const state::WorldDescription& description, const state::VisitDescription& visit,
+               const PlayOptions& options)
+      : player_(description, visit, config_of(options)),
+        device_(options.make_device ? options.make_device()
+                                    : haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
+        loop_(value_or_throw(haptic::HapticLoop::create(client_, *device_, haptic::RenderMode::local))),
+        X_WB_(description.bodies.size()) {
+    device_->intend(player_.intent());
+  }
+
+  void act(bool sets_out, state::TickInputs& inputs) override {
+    if (sets_out) {
+      player_.advance(kTickSeconds, X_WB_, loop_->holding(), felt_n());
+      device_->intend(player_.intent());
+    }
+    now_ += kTickPeriod;
+    loop_->tick(now_, kTickPeriod);
+    state::UserInput& user = inputs.users[0];
+    user.present = true;
+    user.fresh = true;
+    user.sample = {client_.hand, client_.session(), client_.sent_sequence(), 0};
+  }
+
+  void see(const state::WorldState& state) override {
+    // The loop takes it in the next tick: a network of one millisecond.
+    client_.answer_with(state.users[0].output, now_);
+    if (client_.sent_sequence() % transport::WorldPort::kTicksPerFrame == 1) {
+      std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
+    }
+    const auto contacts = state.users[0].contact_span();
+    touches_goal_ = std::ranges::any_of(contacts, [&](const auto& at) { return at.body == player_.reached_for(); });
+  }
+
+  [[nodiscard]] bool finished() const override { return player_.finished(); }
+  [[nodiscard]] std::span<const visitor::MoveResult> results() const override { return player_.results(); }
+
+ private:
+  /// A hand that nothing pushes sees that it touches what it reached for: displays light it up.
+  [[nodiscard]] double felt_n() const {
+    if (device_->renders()) return device_->force_W().norm();
+    return touches_goal_ ? 1 : 0;
+  }
+
+  visitor::VisitPlayer player_;
+  ScriptedClient client_;
+  std::unique_ptr<haptic::SimulatedDevice> device_;
+  std::unique_ptr<haptic::HapticLoop> loop_;
+  TimePoint now_{std::chrono::hours(1)};  // of the loop, whose time is the world's
+  std::vector<Pose> X_WB_;                // as last seen
+  bool touches_goal_ = false;
+};
+
 /// One visitor in one world.
 class Play {
  public:
@@ -47,26 +102,20 @@ class Play {
         visit_(find_visit(*description_, visit)),
         options_(options),
         world_(value_or_throw(world::World::create(description_, config))),
-        player_(*description_, visit_, config_of(options)),
-        device_(options.make_device ? options.make_device()
-                                    : haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
-        loop_(value_or_throw(haptic::HapticLoop::create(client_, *device_, haptic::RenderMode::local))),
-        X_WB_(description_->bodies.size()) {}
+        person_(options.make_person ? options.make_person(*description_, visit_)
+                                    : std::make_unique<DevicePerson>(*description_, visit_, options)) {}
 
   PlayedVisit run() {
-    device_->intend(player_.intent());
     state::TickInputs start;
     start.commands[0] = {1, state::CommandKind::start_activity, static_cast<std::uint32_t>(visit_.activity.index())};
     start.command_count = 1;
-    tick(start);
+    tick(start, false);
     for (std::uint64_t i = 0; i < kReactionTicks; ++i)
-      tick({});
+      tick({}, false);
     std::uint64_t idle = 0;
-    while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
-      if (player_.finished()) ++idle;
-      player_.advance(kTickSeconds, X_WB_, loop_->holding(), felt_n());
-      device_->intend(player_.intent());
-      tick({});
+    while (!person_->finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
+      if (person_->finished()) ++idle;
+      tick({}, true);
     }
     return report();
   }
@@ -74,35 +123,15 @@ class Play {
  private:
   [[nodiscard]] bool done() const { return world_->state.progress.done; }
 
-  /// A hand that nothing pushes sees that it touches what it reached for: displays light it up.
-  [[nodiscard]] double felt_n() const {
-    if (device_->renders()) return device_->force_W().norm();
-    const state::WorldState& state = world_->state;
-    const auto contacts = state.users[0].contact_span();
-    return std::ranges::any_of(contacts, [&](const state::Contact& at) { return at.body == player_.reached_for(); })
-               ? 1
-               : 0;
-  }
-
-  void tick(state::TickInputs inputs) {
-    const state::WorldState& state = world_->state;
-    now_ += kTickPeriod;
-    loop_->tick(now_, kTickPeriod);
-    state::UserInput& user = inputs.users[0];
-    user.present = true;
-    user.fresh = true;
-    user.sample = {client_.hand, client_.session(), client_.sent_sequence(), 0};
+  void tick(state::TickInputs inputs, bool sets_out) {
+    person_->act(sets_out, inputs);
     if (options_.record) options_.record(inputs);
     const TimePoint began = clock_.now();
     world::step(*world_, inputs, publisher_, timer_);
     took_.record(clock_.now() - began);
-    // The loop takes it in the next tick: a network of one millisecond.
-    client_.answer_with(state.users[0].output, now_);
-    if (client_.sent_sequence() % transport::WorldPort::kTicksPerFrame == 1) {
-      std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
-    }
+    person_->see(world_->state);
     note_steps();
-    if (options_.watch) options_.watch(state);
+    if (options_.watch) options_.watch(world_->state);
   }
 
   void note_steps() {
@@ -128,7 +157,7 @@ class Play {
     report_.done = done();
     if (!report_.done && state.progress.step)
       report_.stopped_at = description_->steps[state.progress.step.index()].name;
-    report_.moves.assign(player_.results().begin(), player_.results().end());
+    report_.moves.assign(person_->results().begin(), person_->results().end());
     for (std::size_t i = 0; i < state.quantities.size(); ++i)
       report_.quantities[description_->quantities[i].name] = state.quantities[i];
     report_.seconds = static_cast<double>(state.tick) * kTickSeconds;
@@ -141,12 +170,7 @@ class Play {
   const state::VisitDescription& visit_;
   const PlayOptions& options_;
   std::unique_ptr<world::World> world_;
-  visitor::VisitPlayer player_;
-  ScriptedClient client_;
-  std::unique_ptr<haptic::SimulatedDevice> device_;
-  std::unique_ptr<haptic::HapticLoop> loop_;
-  TimePoint now_{std::chrono::hours(1)};  // of the loop, whose time is the world's
-  std::vector<Pose> X_WB_;                // as last seen
+  std::unique_ptr<Person> person_;
   SystemClock clock_;
   world::PhaseTimer timer_{clock_};
   world::NoPublisher publisher_;
