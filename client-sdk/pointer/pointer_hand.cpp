@@ -77,6 +77,15 @@ Vec3 leashed(const Vec3& goal_W, const Vec3& held_W) {
 
 }  // namespace
 
+std::optional<PointerSenses> senses_of(const PointerWorld& world, std::uint32_t object, bool holding) {
+  const auto pose = [&](std::uint32_t other) { return pose_in(world.frame, world.objects, other); };
+  const std::optional<Pose> X_WB = pose(object);
+  if (!X_WB || world.presentation == nullptr) return {};
+  const client::SceneObject* known = object_of(world.objects, object);
+  return PointerSenses{*X_WB, leeway_of(world.presentation->affordances, world.enabled, object, pose), holding,
+                       known == nullptr ? std::nullopt : std::optional(known->X_WB.R)};
+}
+
 void PointerHand::press(const picture::Sight& sight, picture::PixelPlace place, const picture::Touched& touched) {
   if (sight.picture.width < 2 || sight.picture.height < 2 || !sane(place, sight) || !touched.p_WT.allFinite()) return;
   const bool here = phase_ != Phase::resting;

@@ -22,6 +22,16 @@ struct PointerSenses {
       R_WB_rest{};  ///< its rotation in the exhibit's initial layout; a knocked thing is turned back to this
 };
 
+/// What a client knows of the world. Borrowed for the call.
+struct PointerWorld {
+  const client::Frame* frame = nullptr;  ///< null until the first one has come
+  std::span<const client::SceneObject> objects;
+  const client::WorldPresentation* presentation = nullptr;
+  std::span<const std::string> enabled;  ///< agents of the present step
+};
+/// What it means for a hand at this object; none: the object or the presentation is not known yet.
+[[nodiscard]] std::optional<PointerSenses> senses_of(const PointerWorld& world, std::uint32_t object, bool holding);
+
 /// For the picture.
 struct PointerView {
   enum class Phase : std::uint8_t { resting, reaching, holding, leaving };

@@ -49,12 +49,7 @@ struct PointerLink::Sensed {
   bool holding = false;
 
   [[nodiscard]] std::optional<PointerSenses> of(std::uint32_t object) const {
-    const auto pose = [this](std::uint32_t other) { return pose_in(&frame, objects, other); };
-    const std::optional<Pose> X_WB = pose(object);
-    if (!X_WB || !presentation) return {};
-    const client::SceneObject* known = object_of(objects, object);
-    return PointerSenses{*X_WB, leeway_of(presentation->affordances, enabled, object, pose), holding,
-                         known == nullptr ? std::nullopt : std::optional(known->X_WB.R)};
+    return senses_of({&frame, objects, presentation.get(), enabled}, object, holding);
   }
 };
 

@@ -65,6 +65,8 @@ Vec3 beside(Vec3 back_W) {
   return std::min(kBesideM, back_W.norm()) * back_W.normalized();
 }
 
+}  // namespace
+
 std::string name_of(const state::WorldDescription& description, const VisitMove& move) {
   switch (move.kind) {
     case VisitMove::Kind::reach:
@@ -85,13 +87,10 @@ std::string name_of(const state::WorldDescription& description, const VisitMove&
   return "wait";
 }
 
-/// A hinge's angle within half a turn, from the poses of its bodies.
 double joint_angle(const state::JointDescription& joint, std::span<const Pose> X_WB) {
   const Pose X_J1J2 = (X_WB[joint.body1.index()] * joint.X_B1J).inverse() * (X_WB[joint.body2.index()] * joint.X_B2J);
   return rotation_vector(X_J1J2.R).z();
 }
-
-}  // namespace
 
 PlayerConfig fitted(PlayerConfig config, const haptic::VirtualChoice& device) {
   constexpr double kSeenLag_m = 0.03;

@@ -121,6 +121,10 @@ class VisitPlayer {
 /// displays highlight that.
 [[nodiscard]] double force_felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop);
 
+/// For reports: "reach INNER".
+[[nodiscard]] std::string name_of(const state::WorldDescription& description, const state::VisitMove& move);
+/// A hinge's angle within half a turn, from the poses of the bodies.
+[[nodiscard]] double joint_angle(const state::JointDescription& joint, std::span<const Pose> X_WB);
 /// The minimum-jerk course of a hand from 0 to 1 over s in 0..1 (Flash and Hogan 1985).
 [[nodiscard]] double minimum_jerk(double s);
 

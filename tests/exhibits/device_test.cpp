@@ -1,36 +1,15 @@
-// Every exhibit, and whatever comes to be shipped, by a stylus of the Phantom's class whose forces come late, by a glove and by a hand before a camera: its visits
-// are completed, those with mistakes too.
-#include <algorithm>
-#include <filesystem>
+// Every exhibit, and whatever comes to be shipped, by a stylus of the Phantom's class whose forces come late, by a glove and by a hand before
+// a camera: its visits are completed, those with mistakes too.
 #include <string>
 #include <tuple>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/exhibit_play.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/shipped_exhibits.hpp"
 
 namespace mechane {
 namespace {
-
-std::vector<std::string> shipped_exhibits() {
-  namespace fs = std::filesystem;
-  std::vector<std::string> names;
-  for (const fs::directory_entry& folder : fs::directory_iterator(mechane::test::source_folder() / "scenarios")) {
-    const std::string name = folder.path().filename().string();
-    if (fs::exists(folder.path() / (name + ".x3d"))) names.push_back(name);
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
-/// Through with its activity, or at a step that sends the visitor on.
-bool arrived(const test::PlayedVisit& visit, const state::WorldDescription& world) {
-  return visit.done || std::ranges::any_of(visit.steps, [&](const test::PlayedStep& step) {
-           return !world.steps[world.find_step(step.name).index()].opens.empty();
-         });
-}
 
 struct Device {
   const char* name;
@@ -67,7 +46,7 @@ TEST_P(ByDevice, EveryVisitIsCompleted) {
   };
   for (const state::VisitDescription& script : exhibit.description().visits) {
     const test::PlayedVisit visit = exhibit.play(script.name, options);
-    EXPECT_TRUE(arrived(visit, exhibit.description())) << script.name << ": " << visit;
+    EXPECT_TRUE(test::arrived(visit, exhibit.description())) << script.name << ": " << visit;
     for (const test::PlayedStep& step : visit.steps)
       EXPECT_LT(step.seconds, 60) << script.name << ": " << visit;
   }
@@ -77,11 +56,9 @@ TEST_P(ByDevice, EveryVisitIsCompleted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ByDevice,
-                         testing::Combine(testing::ValuesIn(shipped_exhibits()), testing::ValuesIn(kDevices)),
-                         [](const auto& test) {
-                           std::string name = std::get<0>(test.param) + "_" + std::get<1>(test.param).name;
-                           std::ranges::replace(name, '-', '_');
-                           return name;
+                         testing::Combine(testing::ValuesIn(test::shipped_exhibits()), testing::ValuesIn(kDevices)),
+                         [](const auto& of) {
+                           return test::test_name(std::get<0>(of.param) + "_" + std::get<1>(of.param).name);
                          });
 
 }  // namespace

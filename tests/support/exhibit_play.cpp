@@ -32,6 +32,51 @@ const state::VisitDescription& find_visit(const state::WorldDescription& world, 
   return *it;
 }
 
+/// One who holds a device.
+class DevicePerson final : public Person {
+ public:
+  DevicePerson(const state::WorldDescription& description, const state::VisitDescription& visit,
+               const PlayOptions& options)
+      : player_(description, visit, visitor::fitted(options.player, options.device)),
+        device_(haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
+        loop_(value_or_throw(haptic::HapticLoop::create(client_, *device_, haptic::RenderMode::local))),
+        X_WB_(description.bodies.size()) {
+    device_->intend(player_.intent());
+  }
+
+  void act(bool sets_out, state::TickInputs& inputs) override {
+    if (sets_out) {
+      player_.advance(kTickSeconds, X_WB_, loop_->holding(), visitor::force_felt_n(*device_, *loop_));
+      device_->intend(player_.intent());
+    }
+    now_ += kTickPeriod;
+    loop_->tick(now_, kTickPeriod);
+    state::UserInput& user = inputs.users[0];
+    user.present = true;
+    user.fresh = true;
+    user.sample = {client_.hand, client_.session(), client_.sent_sequence(), 0};
+  }
+
+  void see(const state::WorldState& state) override {
+    // The loop takes it in the next tick: a network of one millisecond.
+    client_.answer_with(state.users[0].output, now_);
+    if (client_.sent_sequence() % transport::WorldPort::kTicksPerFrame == 1) {
+      std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
+    }
+  }
+
+  [[nodiscard]] bool finished() const override { return player_.finished(); }
+  [[nodiscard]] std::span<const visitor::MoveResult> results() const override { return player_.results(); }
+
+ private:
+  visitor::VisitPlayer player_;
+  ScriptedClient client_;
+  std::unique_ptr<haptic::SimulatedDevice> device_;
+  std::unique_ptr<haptic::HapticLoop> loop_;
+  TimePoint now_{std::chrono::hours(1)};  // of the loop, whose time is the world's
+  std::vector<Pose> X_WB_;                // as last seen
+};
+
 /// One visitor in one world.
 class Play {
  public:
@@ -41,25 +86,20 @@ class Play {
         visit_(find_visit(*description_, visit)),
         options_(options),
         world_(value_or_throw(world::World::create(description_, config))),
-        player_(*description_, visit_, visitor::fitted(options.player, options.device)),
-        device_(haptic::make_virtual_device(options.device, player_.intent().X_WH.p)),
-        loop_(value_or_throw(haptic::HapticLoop::create(client_, *device_, haptic::RenderMode::local))),
-        X_WB_(description_->bodies.size()) {}
+        person_(options.make_person ? options.make_person(*description_, visit_)
+                                    : std::make_unique<DevicePerson>(*description_, visit_, options)) {}
 
   PlayedVisit run() {
-    device_->intend(player_.intent());
     state::TickInputs start;
     start.commands[0] = {1, state::CommandKind::start_activity, static_cast<std::uint32_t>(visit_.activity.index())};
     start.command_count = 1;
-    tick(start);
+    tick(start, false);
     for (std::uint64_t i = 0; i < kReactionTicks; ++i)
-      tick({});
+      tick({}, false);
     std::uint64_t idle = 0;
-    while (!player_.finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
-      if (player_.finished()) ++idle;
-      player_.advance(kTickSeconds, X_WB_, loop_->holding(), visitor::force_felt_n(*device_, *loop_));
-      device_->intend(player_.intent());
-      tick({});
+    while (!person_->finished() || (!done() && static_cast<double>(idle) * kTickSeconds < options_.patience_s)) {
+      if (person_->finished()) ++idle;
+      tick({}, true);
     }
     return report();
   }
@@ -67,25 +107,15 @@ class Play {
  private:
   [[nodiscard]] bool done() const { return world_->state.progress.done; }
 
-  void tick(state::TickInputs inputs) {
-    const state::WorldState& state = world_->state;
-    now_ += kTickPeriod;
-    loop_->tick(now_, kTickPeriod);
-    state::UserInput& user = inputs.users[0];
-    user.present = true;
-    user.fresh = true;
-    user.sample = {client_.hand, client_.session(), client_.sent_sequence(), 0};
+  void tick(state::TickInputs inputs, bool sets_out) {
+    person_->act(sets_out, inputs);
     if (options_.record) options_.record(inputs);
     const TimePoint began = clock_.now();
     world::step(*world_, inputs, publisher_, timer_);
     took_.record(clock_.now() - began);
-    // The loop takes it in the next tick: a network of one millisecond.
-    client_.answer_with(state.users[0].output, now_);
-    if (client_.sent_sequence() % transport::WorldPort::kTicksPerFrame == 1) {
-      std::ranges::transform(state.bodies, X_WB_.begin(), [](const auto& body) { return body.X_WB; });
-    }
+    person_->see(world_->state);
     note_steps();
-    if (options_.watch) options_.watch(state);
+    if (options_.watch) options_.watch(world_->state);
   }
 
   void note_steps() {
@@ -111,7 +141,7 @@ class Play {
     report_.done = done();
     if (!report_.done && state.progress.step)
       report_.stopped_at = description_->steps[state.progress.step.index()].name;
-    report_.moves.assign(player_.results().begin(), player_.results().end());
+    report_.moves.assign(person_->results().begin(), person_->results().end());
     for (std::size_t i = 0; i < state.quantities.size(); ++i)
       report_.quantities[description_->quantities[i].name] = state.quantities[i];
     report_.seconds = static_cast<double>(state.tick) * kTickSeconds;
@@ -124,12 +154,7 @@ class Play {
   const state::VisitDescription& visit_;
   const PlayOptions& options_;
   std::unique_ptr<world::World> world_;
-  visitor::VisitPlayer player_;
-  ScriptedClient client_;
-  std::unique_ptr<haptic::SimulatedDevice> device_;
-  std::unique_ptr<haptic::HapticLoop> loop_;
-  TimePoint now_{std::chrono::hours(1)};  // of the loop, whose time is the world's
-  std::vector<Pose> X_WB_;                // as last seen
+  std::unique_ptr<Person> person_;
   SystemClock clock_;
   world::PhaseTimer timer_{clock_};
   world::NoPublisher publisher_;

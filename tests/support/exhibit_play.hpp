@@ -1,12 +1,14 @@
 // Plays an exhibit's own scripted visit in process: the visitor's player, a simulated device and its haptic loop against world::step, no
 // network, as fast as the machine can. The hand has what a networked one has: samples of one user, answers a millisecond later, a command
-// that starts the activity, and looks at the scene at the rate of its frames. It has no other way to move things.
+// that starts the activity, and looks at the scene at the rate of its frames. It has no other way to move things. Another person may play
+// in its place: one with a pointer, see pointer_play.hpp.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,18 @@
 #include "server/world/world.hpp"
 
 namespace mechane::test {
+
+/// Who plays a visit with the first hand.
+class Person {
+ public:
+  virtual ~Person() = default;
+  /// Puts in what the person gives to this tick. Until `sets_out`, the person has not reacted to the activity's start yet.
+  virtual void act(bool sets_out, state::TickInputs& inputs) = 0;
+  /// What the tick answered.
+  virtual void see(const state::WorldState& state) = 0;
+  [[nodiscard]] virtual bool finished() const = 0;
+  [[nodiscard]] virtual std::span<const visitor::MoveResult> results() const = 0;
+};
 
 struct PlayOptions {
   /// Changes a copy of the description before the world is made: a rope cut, a valve turned round, a gear taken away.
@@ -27,6 +41,8 @@ struct PlayOptions {
   double patience_s = 5;  ///< world seconds after the last move in which the activity may still be done
   visitor::PlayerConfig player{};
   haptic::VirtualChoice device{};  ///< a stylus of the Phantom's class, held by a hand
+  /// Makes another person, who needs no device; what it is given outlives it. Empty: one with the device above.
+  std::function<std::unique_ptr<Person>(const state::WorldDescription&, const state::VisitDescription&)> make_person{};
 };
 
 struct PlayedStep {

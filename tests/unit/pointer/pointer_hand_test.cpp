@@ -351,5 +351,31 @@ TEST(PointerHand, WhatItsPlaceTookOutOfTheHandStaysThere) {
   EXPECT_EQ(hand.view().phase, PointerView::Phase::resting);
 }
 
+TEST(PointerSenses, AnObjectIsWhereTheFrameHasItAndLiesAsItWasLaidOut) {
+  client::SceneObject stone;
+  stone.index = 7;
+  stone.movable = true;
+  stone.X_WB = {{0, 1, 0}, Quat(Eigen::AngleAxisd(0.3, Vec3::UnitX()))};
+  client::Frame frame;
+  client::WorldPresentation presentation;
+  presentation.affordances = {{client::Affordance::Kind::taken, "HOLD", 7, {}, {}, {}}};
+  const std::vector<std::string> enabled{"HOLD"};
+  PointerWorld world{nullptr, {&stone, 1}, &presentation, enabled};
+  const auto laid_out = senses_of(world, 7, false);
+  ASSERT_TRUE(laid_out && laid_out->R_WB_rest);
+  EXPECT_EQ(laid_out->X_WB.p, stone.X_WB.p);
+  EXPECT_TRUE(laid_out->leeway.taken);
+  frame.bodies = {{7, {{2, 1, 0}, Quat::Identity()}}};
+  world.frame = &frame;
+  const auto moved = senses_of(world, 7, true);
+  ASSERT_TRUE(moved && moved->R_WB_rest);
+  EXPECT_TRUE(moved->holding);
+  EXPECT_EQ(moved->X_WB.p, Vec3(2, 1, 0));
+  EXPECT_TRUE(moved->R_WB_rest->isApprox(stone.X_WB.R));
+  EXPECT_FALSE(senses_of(world, 8, false)) << "not in the manifest";
+  world.presentation = nullptr;
+  EXPECT_FALSE(senses_of(world, 7, false)) << "it has not come yet";
+}
+
 }  // namespace
 }  // namespace mechane::pointer
