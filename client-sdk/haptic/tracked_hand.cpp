@@ -32,8 +32,8 @@ hand::GovernorConfig TrackedHand::limits() const {
 
 void TrackedHand::take_picture() {
   drivers::HandDatagram seen;
-  // The tracker's own measure: the scripted visitor's fingers close only around what they hold.
   seen.tracked = true;
+  // The tracker's own measure: the scripted visitor's fingers close only around what they hold.
   seen.pinch = intent_.grasp_intent;
   SeenHand real;
   real.joints_rad = intent_.joints;
