@@ -20,7 +20,7 @@ from running import Programs  # noqa: E402
 VILLAGE, SCREW, ODOMETER = (f"scenarios/{name}/{name}.x3d" for name in ("village", "archimedes-screw", "odometer"))
 # Two visitors work the screw; a third goes through the village, whose two visits touch the screw's sign and the odometer's.
 KIOSKS = {"kiosk-1": SCREW, "kiosk-2": SCREW, "village": VILLAGE}
-DEVICES = {"phantom": "a stylus", "glove": "a glove", "tracked": "a hand before a camera"}  # kinds of the device `virtual`
+DEVICES = {"phantom": "a stylus", "glove": "a glove"}  # kinds of the device `virtual`; for `tracked` see deploy/LIMITS.md
 LINGER_S = 8  # at the exhibit that a sign opened: a display that draws on the processor needs some seconds to load it
 VISIT_LIMIT_S = 240
 TOUR_LIMIT_S = 1200
@@ -179,7 +179,7 @@ def tour(programs, options, out, device):
             print(line, flush=True)
     log = (out / f"{name}.log").read_text(errors="replace")
     print(f"{clear_line()}  {time.monotonic() - started:5.1f} s  {tour_progress(log, visits)}", flush=True)
-    if programs.stop(name, 20) != 0:  # else it would go on beside the next one
+    if programs.stop(name, 20) != 0:  # otherwise it would go on beside the next one
         return None
     return [line for line in log.splitlines() if " steps " in line]
 
