@@ -1,5 +1,5 @@
-// Every exhibit, and whatever comes to be shipped, by a stylus of the Phantom's class whose forces come late, by a glove and by a hand before
-// a camera: its visits are completed, those with mistakes too.
+// Every exhibit, and whatever comes to be shipped, by a stylus of the Phantom's class whose forces come late, by a glove and by a hand
+// before a camera: its visits are completed, those with mistakes too.
 #include <string>
 #include <tuple>
 
@@ -44,6 +44,7 @@ TEST_P(ByDevice, EveryVisitIsCompleted) {
     closed = closed || (user.grasp.active && index_bent(user) > 0.8);
     touched = touched || user.output.touches();
   };
+  EXPECT_FALSE(exhibit.description().visits.empty());
   for (const state::VisitDescription& script : exhibit.description().visits) {
     const test::PlayedVisit visit = exhibit.play(script.name, options);
     EXPECT_TRUE(test::arrived(visit, exhibit.description())) << script.name << ": " << visit;

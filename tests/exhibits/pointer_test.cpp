@@ -24,6 +24,7 @@ TEST_P(ByPointer, EveryVisitIsCompleted) {
   options.make_person = [&](const auto& description, const auto& visit) {
     return test::make_pointer_person(shown, description, visit);
   };
+  EXPECT_FALSE(exhibit.description().visits.empty());
   for (const state::VisitDescription& script : exhibit.description().visits) {
     const test::PlayedVisit visit = exhibit.play(script.name, options);
     EXPECT_TRUE(test::arrived(visit, exhibit.description())) << script.name << ": " << visit;

@@ -188,14 +188,18 @@ TEST(VisitPlayerReach, AHandOpensFirst) {
   EXPECT_NEAR(player.results()[0].seconds, 0.3, 0.01);
 }
 
+PlayerConfig whole_hand_at(const Vec3& p_WH_rest) {
+  PlayerConfig config;
+  config.kind = client::HandKind::glove;
+  config.X_WH_rest.p = p_WH_rest;
+  return config;
+}
+
 TEST(VisitPlayerReach, AWholeHandComesFromTheSideToWhatItTakesBelowTheMiddle) {
   state::WorldDescription world = lever_world();
   state::VisitDescription visit = carrying();
   visit.moves[0].p_BG = Vec3(0, -0.3, 0);
-  PlayerConfig config;
-  config.kind = client::HandKind::glove;
-  config.X_WH_rest.p = Vec3(-0.7, 0.9, 0);
-  VisitPlayer player(world, visit, config);
+  VisitPlayer player(world, visit, whole_hand_at(Vec3(-0.7, 0.9, 0)));
   const std::vector<Pose> X_WB{Pose{}, lever_at(0)};
   const Vec3 grip = X_WB[1] * visit.moves[0].p_BG;
   while (player.results().empty())
@@ -209,9 +213,7 @@ TEST(VisitPlayerReach, AWholeHandComesFromTheSideToWhatItTakesBelowTheMiddle) {
 TEST(VisitPlayerCarry, AWholeHandComesFromAboveOnWhatItTakes) {
   const state::WorldDescription world = lever_world();
   const state::VisitDescription visit = carrying();
-  PlayerConfig config;
-  config.kind = client::HandKind::glove;
-  config.X_WH_rest.p = Vec3(-0.7, 0.9, 0.1);
+  const PlayerConfig config = whole_hand_at(Vec3(-0.7, 0.9, 0.1));
   VisitPlayer player(world, visit, config);
   const std::vector<Pose> X_WB{Pose{}, lever_at(0)};
   const Vec3 goal = X_WB[1] * visit.moves[0].p_BG;
