@@ -220,6 +220,7 @@ std::string kind_of_parameter(const state::ParameterType& parameter) {
 
 std::string parameter_default(const state::ParameterType& parameter) {
   if (parameter.required) return "**required**";
+  if (!parameter.default_text.empty()) return std::string(parameter.default_text);
   switch (parameter.kind) {
     case state::ParameterKind::number:
     case state::ParameterKind::numbers:
@@ -273,8 +274,8 @@ std::string reference_page() {
   page += key_tables_text();
   page += components_text(
       "Agents",
-      "An agent makes things behave (`geometry.*`), or says what a visitor does with them "
-      "(`simulation.*`). It is a set in `agents`,\n"
+      "An agent makes things behave (`geometry.*`), changes how they feel (`touch.*`), or says what a visitor does "
+      "with them\n(`simulation.*`). It is a set in `agents`,\n"
       "named as you like, with its `type` and its parameters; or it stands on a joint or body as "
       "the set `mechane:agent`, is called\n"
       "as that is, and need not name it again.\n\n"

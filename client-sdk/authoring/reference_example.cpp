@@ -173,6 +173,31 @@ constexpr Piece kStepPieces[] = {
 )"},
 };
 
+constexpr Piece kSurfacePieces[] = {
+    {"In `agents`, how the wheel feels then; what is not written is as its `mechane:haptic` has it", "agents",
+     R"(<MetadataSet containerField='value' name='OILED'>
+  <MetadataString containerField='value' name='type' value='"touch.surface"'/>
+  <MetadataString containerField='value' name='object' value='"WHEEL"'/>
+  <MetadataDouble containerField='value' name='dynamicFriction' value='0.05'/>
+  <MetadataDouble containerField='value' name='viscosity' value='1'/>
+</MetadataSet>
+)"},
+    {"In the step `once`, its trigger leads on", "",
+     R"(                  <MetadataString containerField='value' name='next' value='"oil"'/>
+)",
+     R"(                  <MetadataString containerField='value' name='next' value='"end"'/>
+)"},
+    {"In `steps`, the step that switches it on", "steps",
+     R"(<MetadataSet containerField='value' name='oil'>
+  <MetadataString containerField='value' name='enable' value='"OILED"'/>
+  <MetadataSet containerField='value' name='text'>
+    <MetadataString containerField='value' name='caption.en' value='"The rim has been oiled. Let go, and stroke it."'/>
+  </MetadataSet>
+  <MetadataDouble containerField='value' name='timeoutSeconds' value='20'/>
+</MetadataSet>
+)"},
+};
+
 constexpr Piece kQuestionPieces[] = {
     {"In the activity `turn`, beside its `steps`", "activities/turn",
      R"(<MetadataSet containerField='value' name='questionnaire'>
@@ -304,6 +329,10 @@ constexpr Piece kSignPieces[] = {
 
 constexpr Variation kVariations[] = {
     {"More steps", "To the example come two steps, a hint, words that are read aloud, and a close-up.", kStepPieces},
+    {"A surface that changes with the step",
+     "A body feels otherwise while a step has such an agent on. A hand that touches it then goes on feeling what it "
+     "met, until it leaves.",
+     kSurfacePieces},
     {"Questions",
      "They are asked when the activity is done (a display may also ask them before), and counted by `mechane visits`.",
      kQuestionPieces},

@@ -66,6 +66,7 @@ using AgentKind = state::ComponentKind<Agent, Build>;
 [[nodiscard]] const AgentKind& dwell_kind();
 [[nodiscard]] const AgentKind& point_kind();
 [[nodiscard]] const AgentKind& idle_kind();
+[[nodiscard]] const AgentKind& surface_kind();
 
 /// All of them.
 [[nodiscard]] std::span<const AgentKind* const> kinds();

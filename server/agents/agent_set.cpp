@@ -8,6 +8,7 @@
 namespace mechane::agents {
 
 struct AgentSet::Impl {
+  const state::WorldDescription* description = nullptr;
   std::vector<std::unique_ptr<Agent>> agents;
   std::vector<std::size_t> order;  // those that switch others first, then as in the description
   std::vector<state::Coupling> couplings;
@@ -31,6 +32,7 @@ AgentSet::~AgentSet() = default;
 Expected<std::unique_ptr<AgentSet>> AgentSet::create(const state::WorldDescription& description,
                                                      state::MemoryLayout& layout) {
   auto impl = std::make_unique<Impl>();
+  impl->description = &description;
   for (std::size_t i = 0; i < description.agents.size(); ++i) {
     auto agent = state::make_component(kinds(), "agent", description, description.agents, AgentId(i), layout);
     if (!agent) return tl::unexpected(agent.error());
@@ -74,6 +76,8 @@ void AgentSet::run(state::WorldState& state, std::span<const state::Command> com
     for (state::Coupling& coupling : state.couplings)
       coupling.forget_forces();
   }
+  for (std::size_t b = 0; b < state.bodies.size(); ++b)
+    state.bodies[b].haptic = impl_->description->bodies[b].haptic;
   for (const std::size_t i : impl_->order)
     impl_->agents[i]->run(state, state.agent_enabled[i] != 0, dt_s);
   impl_->touches.run(state, dt_s);

@@ -41,7 +41,7 @@ class AgentSet {
   void start(state::WorldState& state) const noexcept;
 
   /// One tick: commands, agents that switch others (breakable, assembled, fired), the other agents in the order of the description,
-  /// `touched` events, quantities, triggers. Reads contacts, samples and poses; writes grasps, joints, body flags, progress,
+  /// `touched` events, quantities, triggers. Reads contacts, samples and poses; writes grasps, joints, body flags, surfaces, progress,
   /// quantities, events. Allocates nothing. Any thread, but one at a time for a state.
   void run(state::WorldState& state, std::span<const state::Command> commands, double dt_s) const noexcept;
 

@@ -1,12 +1,29 @@
 // geometry.snap: a body that comes close to its place goes there and stays.
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "server/agents/pose_slots.hpp"
 
 namespace mechane::agents {
 namespace {
 
 using state::ParameterKind;
+
+/// Draws a point home with a force that grows from 0 at home, is strongest at 0.45 of the reach and falls to 0 at the reach, without a step or
+/// a kink: with s = distance / reach it is 3.49 s (1 - s^2)^2 of the strongest. Such a force has a potential, -0.58 (1 - s^2)^3 strongest
+/// reach, so that no way through it gains energy.
+struct Pull {
+  double strongest_n = 0;
+  double reach_m = 0;
+
+  /// Per metre that the point is away from home, N/m; nowhere more than here, at 0.
+  [[nodiscard]] double stiffness_n_per_m(double distance_m) const noexcept {
+    constexpr double kNormed = 3.4938562148434216;  // 1 over the largest s (1 - s^2)^2, that of s^2 = 1/5
+    const double left = std::max(0.0, 1 - distance_m * distance_m / (reach_m * reach_m));
+    return kNormed * strongest_n / reach_m * left * left;
+  }
+};
 
 class Snap final : public Agent {
  public:
@@ -18,6 +35,7 @@ class Snap final : public Agent {
         reach_m_(build.parameters.numbers("tolerance")[0]),
         reach_rad_(build.parameters.numbers("tolerance")[1]),
         duration_s_(build.parameters.number("duration")),
+        pull_(pull_of(build.parameters)),
         tied_(build.parameters.boolean("tied")),
         placed_(build.slot("placed")),
         distance_(build.slot("distance")),
@@ -34,6 +52,10 @@ class Snap final : public Agent {
     tie_ = build.coupling(tie);
   }
 
+  [[nodiscard]] static Pull pull_of(const state::Parameters& parameters) {
+    return {parameters.number("pull"), parameters.number("pullFrom")};
+  }
+
   void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
     measure(state);
     if (state.memory[moving_] != 0) {
@@ -42,6 +64,8 @@ class Snap final : public Agent {
       if (state[object_].movable && !within(state, 1.5)) state.memory[placed_] = 0;
     } else if (enabled && within(state, 1)) {
       begin(state);
+    } else if (enabled && pull_.strongest_n > 0 && state[object_].movable && is_held(state)) {
+      draw(state);
     }
     if (!tied_) return;
     state::Coupling& tie = state.couplings[tie_];
@@ -70,6 +94,19 @@ class Snap final : public Agent {
 
   [[nodiscard]] bool within(const state::WorldState& state, double share) const noexcept {
     return state.memory[distance_] <= share * reach_m_ && state.memory[angle_] <= share * reach_rad_;
+  }
+
+  [[nodiscard]] bool is_held(const state::WorldState& state) const noexcept {
+    return std::ranges::any_of(
+        state.users, [this](const state::UserState& user) { return user.grasp.active && user.grasp.body == object_; });
+  }
+
+  /// The hand that carries the body feels this through its grasp. A body that nobody holds does not go home by itself.
+  void draw(state::WorldState& state) const noexcept {
+    const Vec3 p_WB = state[object_].X_WB.p;
+    const Vec3 f_W = pull_.stiffness_n_per_m(state.memory[distance_]) * (X_WI(state) * X_IT_.p - p_WB);
+    add_force(state[object_], f_W, p_WB);
+    if (into_) add_force(state[into_], -f_W, p_WB);
   }
 
   /// The hands let go first: the body is led home without pulling anyone's hand along.
@@ -107,6 +144,7 @@ class Snap final : public Agent {
   double reach_m_;
   double reach_rad_;
   double duration_s_;
+  Pull pull_;
   bool tied_;
   std::size_t tie_ = 0;
   std::size_t placed_;
@@ -118,6 +156,35 @@ class Snap final : public Agent {
   PoseSlots X_ITo_;
 };
 
+/// How heavy a body feels at its frame's origin, kg, in the direction in which it is lightest.
+double least_mass_kg(const state::BodyDescription& body) {
+  Mat3 arm;
+  arm << 0, -body.p_BCm.z(), body.p_BCm.y(), body.p_BCm.z(), 0, -body.p_BCm.x(), -body.p_BCm.y(), body.p_BCm.x(), 0;
+  const Mat3 per_kg = Mat3::Identity() / body.mass_kg + arm * body.inertia_kg_m2.inverse() * arm.transpose();
+  return body.effort_scale / per_kg.norm();
+}
+
+/// The pull is an explicit spring, and must stay well below what would reverse the motion of the lighter body within one step.
+Expected<void> check_pull(const Build& build, const Pull& pull) {
+  constexpr double kStiffnessBound = 0.1;  // as that of touches, see haptics::bounded_spring()
+  if (pull.strongest_n > 0 && pull.reach_m <= build.parameters.numbers("tolerance")[0])
+    return fail(ErrorCode::conflict, "the pull begins where the snap takes the body already", build.place("pullFrom"),
+                "write a pullFrom that is larger than the tolerance's distance");
+  for (const char* end : {"object", "into"}) {
+    const BodyId id = build.parameters.body(end);
+    if (!id || build.description.bodies[id.index()].fixed) continue;
+    const double mass_kg = least_mass_kg(build.description.bodies[id.index()]);
+    const double share = pull.stiffness_n_per_m(0) * kTickSeconds * kTickSeconds / (kStiffnessBound * mass_kg);
+    if (share > 1)
+      return fail(
+          ErrorCode::conflict,
+          fmt::format("the pull would shake the body '{}', which is too light for it", build.parameters.text(end)),
+          build.place("pull"),
+          fmt::format("write a pull of at most {:.2g}, or a larger pullFrom", pull.strongest_n / share));
+  }
+  return {};
+}
+
 Expected<std::unique_ptr<Agent>> make_snap(const Build& build) {
   const state::Parameters& p = build.parameters;
   if (build.description.bodies[p.body("object").index()].fixed)
@@ -126,6 +193,7 @@ Expected<std::unique_ptr<Agent>> make_snap(const Build& build) {
   if (p.given("into") && p.body("into") == p.body("object"))
     return fail(ErrorCode::conflict, "'object' and 'into' name the same body", build.place("into"),
                 "name another body in 'into', or none for the world");
+  if (auto checked = check_pull(build, Snap::pull_of(p)); !checked) return tl::unexpected(checked.error());
   const std::vector<double> turn = p.numbers("rotation");
   const Vec3 about(turn[0], turn[1], turn[2]);
   if (about.norm() < 1e-9 && turn[3] != 0)
@@ -171,6 +239,17 @@ constexpr state::ParameterType kSnapParameters[] = {
      .default_value = 0.2,
      .min = 0.001,
      .max = 10},
+    {.name = "pull",
+     .unit = "N",
+     .summary = "how strongly a hand that carries it there feels it drawn to its place, at most; 0: not at all",
+     .min = 0,
+     .max = 5},
+    {.name = "pullFrom",
+     .unit = "m",
+     .summary = "how far from the place the pull begins; it is strongest at 0.45 of this",
+     .default_value = 0.2,
+     .min = 0.02,
+     .max = 2},
     {.name = "tied",
      .kind = ParameterKind::boolean,
      .summary = "held in its place by a tie, which bears forces and can break, instead of standing still"},

@@ -91,7 +91,7 @@ PatchForce touch_force(const state::WorldDescription& description, const state::
                        const UserState& user, const ContactPatch& patch, const Vec3& v_B_W,
                        const hand::Grooves& grooves, double touches, const ForceConfig& config,
                        FrictionAnchors& anchors) {
-  const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
+  const HapticMaterial& material = state[patch.body].haptic;
   const Pose& X_WB = state[patch.body].X_WB;
   const auto spring_along = [&](const Vec3& direction_W) {
     return bounded_spring(material, effective_mass_kg(description, state, patch.body, patch.p_WC, direction_W));
@@ -132,7 +132,7 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config.normals);
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
-    const HapticMaterial& material = description.bodies[patch.body.index()].haptic;
+    const HapticMaterial& material = body.haptic;
     const hand::Grooves grooves = grooves_at(material, body.X_WB, user.X_WS[patch.segment].p, touch);
     const PatchForce force =
         touch_force(description, state, user, patch, v_B_W, grooves, static_cast<double>(count), config, anchors);
@@ -153,7 +153,7 @@ void announce_near(const state::WorldDescription& description, const HandModel& 
     if (user.grasp.active && user.grasp.body == near.body) continue;
     near.n_BH_W = smooth_normal_W(description, hand, state, user, near, config.normals);
     const BodyState& body = state[near.body];
-    const HapticMaterial& material = description.bodies[near.body.index()].haptic;
+    const HapticMaterial& material = body.haptic;
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
     spring.stiffness_n_per_m *= kPatchShare;
     add_local_contact(user.output, near, body.V_WB.at(near.p_WC - body.X_WB.p), spring, material,
@@ -163,13 +163,13 @@ void announce_near(const state::WorldDescription& description, const HandModel& 
 
 /// Equation 18 as published. It is kept to show its flaws: a point that enters with no depth halves the
 /// force, and one average over the whole hand cancels a pinch.
-void render_paper(const state::WorldDescription& description, state::WorldState& state, UserState& user) {
+void render_paper(state::WorldState& state, UserState& user) {
   user.anchor_count = 0;
   if (user.contact_count == 0) return;
   const double n = user.contact_count;
   for (const state::Contact& contact : user.contact_span()) {
     if (user.grasp.active && user.grasp.body == contact.body) continue;
-    const double k = description.bodies[contact.body.index()].haptic.stiffness_n_per_m;
+    const double k = state[contact.body].haptic.stiffness_n_per_m;
     const Vec3 f_H_W = k / n * contact.depth_m * contact.n_BH_W;
     add_to_hand(user, f_H_W, contact.p_WC);
     add_to_finger(user, contact.segment, f_H_W);
@@ -218,7 +218,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, cons
   user.output.echo_sent_ns = echo_sent_ns;
   if (user.present) {
     if (config_.mode == ForceMode::paper) {
-      render_paper(description, state, user);
+      render_paper(state, user);
     } else {
       render_patches(description, hand, state, user, config_);
       announce_near(description, hand, state, user, config_);

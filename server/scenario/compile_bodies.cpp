@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "server/base/suggestion.hpp"
-#include "server/hand/surface.hpp"
 #include "server/scenario/compilation.hpp"
+#include "server/state/surface_keys.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -86,51 +86,21 @@ bool read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::B
   return true;
 }
 
-/// 2 pi over the distance of grooves, across them.
-Vec3 groove_wave_B(Compilation& c, const Fields& fields) {
-  const double depth_m = fields.number("grooveDepth");
-  if (depth_m == 0) {
-    for (const char* key : {"grooveDistance", "grooveDirection"}) {
-      if (fields.given(key))
-        c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
-                           fmt::format("'{}' does nothing without grooves", key), "write a grooveDepth, or remove it");
-    }
-    return Vec3::Zero();
-  }
-  const Vec3 direction = fields.vector("grooveDirection");
-  if (direction.isZero()) {
-    c.problems.error(ErrorCode::missing, fields.line("grooveDepth"), fields.where(),
-                     "there are grooves, but not in which direction",
-                     "write grooveDirection: 0 0 1 has one groove after the other along the body's z axis");
-    return Vec3::Zero();
-  }
-  const double wave_rad_per_m = 2 * kPi / fields.number("grooveDistance");
-  if (!hand::are_renderable(depth_m, wave_rad_per_m)) {
-    const double most_um = std::floor(1e6 * hand::max_groove_depth_m(wave_rad_per_m));
-    c.problems.error(ErrorCode::conflict, fields.line("grooveDepth"), fields.where(),
-                     "the grooves are too steep for a device to render",
-                     fmt::format("write a grooveDepth of at most {:g}, or a larger grooveDistance", 1e-6 * most_um));
-  }
-  return wave_rad_per_m * direction.normalized();
-}
-
 void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
   const auto set = x3d::read_metadata(c.document, id, "mechane:haptic", c.problems);
   const Fields fields(set ? &*set : nullptr, haptic_table(), "mechane:haptic of " + body.name, c.problems);
-  body.haptic = {.stiffness_n_per_m = fields.number("stiffness"),
-                 .damping_ns_per_m = fields.number("damping"),
-                 .static_friction = fields.number("staticFriction"),
-                 .dynamic_friction = fields.number("dynamicFriction"),
-                 .viscosity_ns_per_m = fields.number("viscosity"),
-                 .knock_ns_per_m = fields.number("knock"),
-                 .groove_depth_m = fields.number("grooveDepth"),
-                 .groove_wave_B = groove_wave_B(c, fields)};
+  std::vector<state::SurfaceFault> faults;
+  body.haptic = state::changed_surface(
+      {}, [&](std::string_view key) { return fields.numbers(key); }, faults);
   body.effort_scale = fields.number("effortScale");
   body.graspable = fields.boolean("graspable");
-  if (body.haptic.dynamic_friction > body.haptic.static_friction) {
-    c.problems.error(ErrorCode::conflict, fields.line("dynamicFriction"), fields.where(),
-                     "dynamicFriction is larger than staticFriction",
-                     "write a dynamicFriction that is at most the staticFriction");
+  for (const state::SurfaceFault& fault : faults)
+    c.problems.error(fault.code, fields.line(fault.key), fields.where(), fault.what, fault.remedy);
+  if (body.haptic.groove_depth_m > 0) return;
+  for (const char* key : {"grooveDistance", "grooveDirection"}) {
+    if (fields.given(key))
+      c.problems.warning(ErrorCode::conflict, fields.line(key), fields.where(),
+                         fmt::format("'{}' does nothing without grooves", key), "write a grooveDepth, or remove it");
   }
 }
 

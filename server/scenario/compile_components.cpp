@@ -255,4 +255,13 @@ void check_components(Compilation& c) {
     check_one(c, machine, find_machine_type(machine.type), "machine");
 }
 
+void check_agents(Compilation& c) {
+  for (std::size_t i = 0; i < c.world.agents.size(); ++i) {
+    const auto checked = agents::check(c.world, AgentId(i));
+    if (checked) continue;
+    const Error& error = checked.error();
+    c.problems.error(error.code, error.line, "agent " + c.world.agents[i].name, error.what, error.remedy);
+  }
+}
+
 }  // namespace mechane::scenario

@@ -201,6 +201,7 @@ void compile_all(Compilation& c) {
   check_goals(c);
   compile_visits(c);
   compile_hash(c);
+  if (!c.problems.has_errors()) check_agents(c);
   if (!c.problems.has_errors() && c.scenario) lint(c);
 }
 

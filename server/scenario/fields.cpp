@@ -159,6 +159,11 @@ double Fields::number(std::string_view name) const {
   return found != nullptr ? found->numbers.front() : of.default_number;
 }
 
+std::vector<double> Fields::numbers(std::string_view name) const {
+  const x3d::Metadata* found = value(name);
+  return found != nullptr ? found->numbers : std::vector<double>();
+}
+
 bool Fields::boolean(std::string_view name) const {
   const Key& of = table_.key(name, ValueKind::boolean);
   const x3d::Metadata* found = value(name);

@@ -21,6 +21,8 @@ class Fields {
 
   [[nodiscard]] bool given(std::string_view key) const;
   [[nodiscard]] double number(std::string_view key) const;
+  /// Those of a number or vector, as they are written; none where it is not given.
+  [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
   [[nodiscard]] bool boolean(std::string_view key) const;
   [[nodiscard]] std::string string(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> strings(std::string_view key) const;

@@ -35,6 +35,7 @@ struct ParameterType {
   double max = std::numeric_limits<double>::infinity();
   std::size_t count = 0;                  ///< of `numbers`
   Reference reference = Reference::none;  ///< of a text and of every one of `texts`
+  std::string_view default_text = {};     ///< of numbers without a default of their own: what counts instead, in words
 };
 
 /// A value that quantities can read as "<COMPONENT>.<name>".

@@ -17,6 +17,7 @@ WorldState::WorldState(const WorldDescription& description)
     bodies[i].movable = !from.fixed;
     bodies[i].visible = from.visible;
     bodies[i].graspable = from.graspable;
+    bodies[i].haptic = from.haptic;
   }
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const JointDescription& from = description.joints[i];

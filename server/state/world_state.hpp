@@ -25,6 +25,8 @@ struct BodyState {
   bool movable = true;  ///< false: held still by the step (dynamics gives it infinite mass)
   bool visible = true;
   bool graspable = false;
+  HapticMaterial
+      haptic;  ///< what hands feel in this tick: the body's own, but where agents say otherwise. `run_agents` writes it.
   Wrench
       load_W;  ///< on the body's origin, this tick: contact forces of hands, loads of machines. Cleared by `step_dynamics`.
 };

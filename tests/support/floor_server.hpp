@@ -47,6 +47,8 @@ class FloorServer {
     renderer_.run(world_, *hand_, state_);
     return state_.users[0].output;
   }
+  /// From now on the block feels otherwise.
+  void feel(const state::HapticMaterial& haptic) { state_.bodies[0].haptic = haptic; }
   [[nodiscard]] std::size_t segments_that_touch() const {
     std::set<std::uint8_t> segments;
     for (const state::Contact& contact : state_.users[0].contact_span())

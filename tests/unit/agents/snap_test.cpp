@@ -111,6 +111,79 @@ TEST(Snap, LosesABodyThatIsFreedAndTakenAway) {
   EXPECT_TRUE(part(stage).movable);
 }
 
+constexpr double kPull_n = 2, kPullFrom_m = 0.2;
+
+/// The same with a pull, and PART in a hand. Nothing moves it but the test.
+struct PullStage : Stage {
+  PullStage() : Stage(pulling()) {
+    appear(0, hand::HandKind::one_point);
+    user().grasp.active = true;
+    user().grasp.body = BodyId(1);
+  }
+  static state::WorldDescription pulling() {
+    state::WorldDescription world = with_snap();
+    world.agents[0].parameters["pull"] = number({kPull_n});
+    world.agents[0].parameters["pullFrom"] = number({kPullFrom_m});
+    return world;
+  }
+  /// The force of a tick in which PART is so far from its place, and turned too far for the snap to take it.
+  Vec3 force_W(const Vec3& off_W) {
+    for (state::BodyState& body : state->bodies)
+      body.load_W = {};
+    const Pose X_WT = place_in(*this);
+    part(*this).X_WB = {X_WT.p + off_W, Quat(Eigen::AngleAxisd(0.5, Vec3::UnitX())) * X_WT.R};
+    tick();
+    return part(*this).load_W.f;
+  }
+};
+
+RC_GTEST_PROP(Pull, IsTheGradientOfAPotentialWithinItsReachAndItsLimit, ()) {
+  PullStage stage;
+  const auto potential_j = [](const Vec3& off_W) {
+    const double left = std::max(0.0, 1 - off_W.squaredNorm() / (kPullFrom_m * kPullFrom_m));
+    return -25 * std::sqrt(5.0) / 96 * kPull_n * kPullFrom_m * left * left * left;
+  };
+  const auto part_of_reach = [] { return 0.0015 * *rc::gen::inRange(-100, 101); };
+  const Vec3 off_W(part_of_reach(), part_of_reach(), part_of_reach());
+  const Vec3 f_W = stage.force_W(off_W);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 step_W = 1e-6 * Vec3::Unit(axis);
+    const double slope_n = (potential_j(off_W + step_W) - potential_j(off_W - step_W)) / 2e-6;
+    RC_ASSERT(std::abs(f_W[axis] + slope_n) < 1e-5);
+  }
+  RC_ASSERT(f_W.norm() <= kPull_n);
+  RC_ASSERT((f_W.norm() > 0) == (off_W.norm() > 0 && off_W.norm() < kPullFrom_m));
+  // The other body gets the opposite, and the pair turns nothing.
+  const Wrench& on_crank = stage.state->bodies[2].load_W;
+  const Wrench& on_part = part(stage).load_W;
+  const Vec3 arm_W = part(stage).X_WB.p - stage.state->bodies[2].X_WB.p;
+  RC_ASSERT((on_crank.f + on_part.f).norm() == 0);
+  RC_ASSERT((on_crank.t + on_part.t + arm_W.cross(on_part.f)).norm() < 1e-12);
+}
+
+TEST(Pull, IsAsStrongAsTheAuthorSaysAndActsOnWhatAHandCarriesAlone) {
+  const Vec3 strongest_W(kPullFrom_m / std::sqrt(5.0), 0, 0);
+  PullStage stage;
+  EXPECT_NEAR(stage.force_W(strongest_W).x(), -kPull_n, 1e-9);
+  stage.state->agent_enabled[0] = 0;
+  EXPECT_EQ(stage.force_W(strongest_W).norm(), 0) << "the snap is off";
+  stage.state->agent_enabled[0] = 1;
+  part(stage).movable = false;
+  EXPECT_EQ(stage.force_W(strongest_W).norm(), 0) << "the step holds it still";
+  part(stage).movable = true;
+  stage.user().grasp.active = false;
+  EXPECT_EQ(stage.force_W(strongest_W).norm(), 0) << "nobody holds it";
+}
+
+TEST(Pull, RefusesWhatWouldShakeOrNeverBegin) {
+  state::WorldDescription world = PullStage::pulling();
+  world.bodies[1].effort_scale = 1e-4;
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("pull"), {"'PART'", "too light"}));
+  world = PullStage::pulling();
+  world.agents[0].parameters["pullFrom"] = number({kTolerance_m});
+  EXPECT_THAT(error_of(world), is_error(ErrorCode::conflict, line_of("pullFrom"), {"tolerance"}));
+}
+
 TEST(Snap, RefusesWhatCannotBe) {
   state::WorldDescription world = with_snap();
   world.agents[0].parameters["object"] = text({"FRAME"});

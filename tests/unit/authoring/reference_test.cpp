@@ -73,6 +73,9 @@ TEST(Reference, VariationsSayWhatTheyPromise) {
   EXPECT_EQ(steps.steps[0].triggers[0].next, StepId(1));
   EXPECT_EQ(steps.steps[1].triggers[0].more.size(), 1u);
   EXPECT_EQ(steps.steps[2].bodies.at(0).graspable, false);
+  const auto oiled = read_variation("A surface that changes with the step");
+  ASSERT_EQ(oiled.steps.size(), 2u);
+  EXPECT_EQ(oiled.steps[1].enable, std::vector{oiled.find_agent("OILED")});
   const auto questions = read_variation("Questions");
   ASSERT_EQ(questions.activities.size(), 1u);
   EXPECT_EQ(questions.activities[0].questionnaire.size(), 2u);
