@@ -10,14 +10,13 @@ namespace {
 
 using state::ParameterKind;
 
-/// Draws a point home with a force that grows from 0 at home, is strongest at 0.45 of the reach and falls to 0 at the reach, without a step or
-/// a kink: with s = distance / reach it is 3.49 s (1 - s^2)^2 of the strongest. Such a force has a potential, -0.58 (1 - s^2)^3 strongest
-/// reach, so that no way through it gains energy.
+/// Draws a point home. The force is 0 at home, strongest at 0.45 of the reach, and 0 again from the reach on, without a step or a kink:
+/// with s = distance / reach it is 3.49 s (1 - s^2)^2 of the strongest. It has a potential, whose depth is 0.58 of strongest_n * reach_m.
 struct Pull {
   double strongest_n = 0;
   double reach_m = 0;
 
-  /// Per metre that the point is away from home, N/m; nowhere more than here, at 0.
+  /// The force over the distance from home. Nowhere is it steeper than at 0.
   [[nodiscard]] double stiffness_n_per_m(double distance_m) const noexcept {
     constexpr double kNormed = 3.4938562148434216;  // 1 over the largest s (1 - s^2)^2, that of s^2 = 1/5
     const double left = std::max(0.0, 1 - distance_m * distance_m / (reach_m * reach_m));
@@ -156,7 +155,7 @@ class Snap final : public Agent {
   PoseSlots X_ITo_;
 };
 
-/// How heavy a body feels at its frame's origin, kg, in the direction in which it is lightest.
+/// At its frame's origin a body feels at least so heavy in every direction, kg.
 double least_mass_kg(const state::BodyDescription& body) {
   Mat3 arm;
   arm << 0, -body.p_BCm.z(), body.p_BCm.y(), body.p_BCm.z(), 0, -body.p_BCm.x(), -body.p_BCm.y(), body.p_BCm.x(), 0;
@@ -167,7 +166,8 @@ double least_mass_kg(const state::BodyDescription& body) {
 /// The pull is an explicit spring, and must stay well below what would reverse the motion of the lighter body within one step.
 Expected<void> check_pull(const Build& build, const Pull& pull) {
   constexpr double kStiffnessBound = 0.1;  // as that of touches, see haptics::bounded_spring()
-  if (pull.strongest_n > 0 && pull.reach_m <= build.parameters.numbers("tolerance")[0])
+  if (pull.strongest_n == 0) return {};
+  if (pull.reach_m <= build.parameters.numbers("tolerance")[0])
     return fail(ErrorCode::conflict, "the pull begins where the snap takes the body already", build.place("pullFrom"),
                 "write a pullFrom that is larger than the tolerance's distance");
   for (const char* end : {"object", "into"}) {

@@ -1,6 +1,7 @@
 // One walk over the fields of a world that the next tick depends on, used by the hash, the writer and the reader of snapshots:
 // what is hashed is what is saved. Contacts, loads and events are made anew in each tick and are left out, and so are what bodies feel
-// like and the pitch and cone of joints, which agents write in each tick. Clicks move nothing: a world that goes on begins to count them anew.
+// like and the pitch and cone of joints, which agents write in each tick. Clicks move nothing: a world that goes on begins to count them
+// anew.
 #pragma once
 
 #include <type_traits>

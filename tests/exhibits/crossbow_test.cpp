@@ -34,13 +34,25 @@ std::string failed_at(const test::PlayedVisit& visit) {
 }
 
 TEST(CrossbowVisits, TheArrowSticksInTheTargetAndTwiceTheSame) {
-  const test::PlayedVisit visit = crossbow().play("shooting");
+  const state::WorldDescription& world = crossbow().description();
+  const BodyId arrow = world.find_body("ARROW"), slider = world.find_body("SLIDER");
+  double drawn_ns = 0, near_s = 0;  // by the channel, besides the arrow's weight
+  test::PlayOptions options;
+  options.watch = [&](const state::WorldState& state) {
+    const state::UserState& user = state.users[0];
+    const Vec3 home_W = state[slider].X_WB * Vec3(0, 0, -0.23) - state[arrow].X_WB.p;
+    if (!user.grasp.active || user.grasp.body != arrow || home_W.norm() > 0.15) return;
+    drawn_ns += kTickSeconds * home_W.normalized().dot(user.output.force_W.f - kArrow_kg * world.gravity_W);
+    near_s += kTickSeconds;
+  };
+  const test::PlayedVisit visit = crossbow().play("shooting", options);
   EXPECT_TRUE(visit.done) << visit;
   EXPECT_EQ(visit.steps.size(), 5u) << visit;
   for (const test::PlayedStep& step : visit.steps)
     EXPECT_LT(step.seconds, 20) << visit;
   for (const auto& move : visit.moves)
     EXPECT_TRUE(move.ok) << move.name;
+  EXPECT_GT(drawn_ns / near_s, 0.4) << "the channel draws the arrow in";
   EXPECT_EQ(crossbow().play("shooting").state_hash, visit.state_hash);
 }
 

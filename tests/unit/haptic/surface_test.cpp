@@ -108,7 +108,8 @@ TEST(Surface, OneThatHardensUnderAHandGivesItNoEnergy) {
     EXPECT_GT(floor.most_n, 2) << "it hardened";
     EXPECT_LE(floor.most_n, limits.max_force_n + 1e-9);
     EXPECT_LE(floor.largest_rise_n, limits.max_slew_n_per_s * kTickSeconds + 1e-9);
-    const double not_seen_j = limits.max_force_n * StylusConfig{}.resolution_m;  // by the observer, between two encoder steps
+    const double not_seen_j =
+        limits.max_force_n * StylusConfig{}.resolution_m;  // by the observer, between two encoder steps
     EXPECT_LE(floor.most_given_j, HapticLoop::kEnergyMargin_j + not_seen_j);
   }
 }

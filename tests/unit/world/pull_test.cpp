@@ -40,12 +40,6 @@ std::shared_ptr<state::WorldDescription> ball_and_place(double gravity_m_per_s2)
   return world;
 }
 
-class NobodyListens final : public Publisher {
- public:
-  void publish_forces(const state::WorldState&) noexcept override {}
-  void publish(const state::WorldState&) noexcept override {}
-};
-
 /// A hand takes the ball, and carries it.
 class Carry {
  public:
@@ -88,7 +82,7 @@ class Carry {
   std::unique_ptr<World> world_;
   SystemClock clock_;
   PhaseTimer timer_{clock_};
-  NobodyListens nobody_;
+  NoPublisher nobody_;
   Vec3 p_WH_ = kStart_W;
   std::uint64_t sequence_ = 0;
   double given_j_ = 0;
