@@ -57,6 +57,7 @@ Json to_json(const proto::HapticInput& s) {
   j.update({{"v_WH", list(s.v_WH)}, {"w_WH", list(s.w_WH)}, {"joints", list(s.joints)}, {"hand_scale", s.hand_scale}});
   j.update({{"grasp_intent", s.grasp_intent}, {"buttons", s.buttons}});
   j.update({{"echo_epoch", s.echo_epoch}, {"echo_seq", s.echo_seq}, {"echo_held_us", s.echo_held_us}});
+  j.update({{"deadband", s.deadband}});
   return j;
 }
 

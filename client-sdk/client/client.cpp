@@ -14,6 +14,7 @@
 #include "client-sdk/client/parse.hpp"
 #include "client-sdk/client/world_link.hpp"
 #include "server/base/thread_setup.hpp"
+#include "server/hand/deadband.hpp"
 #include "server/log/log.hpp"
 #include "server/realtime/wakeup.hpp"
 #include <mechane/client/client.hpp>
@@ -164,7 +165,7 @@ Expected<void> ClientImpl::open() {
   if (!writer) return tl::unexpected<Error>(writer.error());
   kiosk_status_ = std::move(*writer);
   if (config_.role == Role::hand) {
-    auto hand = HandLink::create(participant_, config_.kiosk, config_.user, session_, config_.fifo_priority);
+    auto hand = HandLink::create(participant_, config_, session_);
     if (!hand) return tl::unexpected<Error>(hand.error());
     hand_ = std::move(*hand);
   }
@@ -454,6 +455,10 @@ Expected<void> check(const ClientConfig& config) {
   if (config.user >= hand::kMaxUsers) {
     return fail(ErrorCode::invalid_value, fmt::format("a kiosk has no user {}", config.user), "user",
                 "choose one of 0 to 3");
+  }
+  if (!(config.deadband >= 0 && config.deadband <= hand::kMaxDeadband)) {
+    return fail(ErrorCode::invalid_value, fmt::format("no deadband is {}", config.deadband), "deadband",
+                fmt::format("choose a share from 0 to {}", hand::kMaxDeadband));
   }
   constexpr std::size_t kMostProgram = sizeof(proto::KioskStatus::program) - 1;
   constexpr std::size_t kMostScenario = sizeof(proto::KioskStatus::scenario) - 1;

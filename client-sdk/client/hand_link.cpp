@@ -14,18 +14,19 @@ constexpr std::uint64_t kLongestHeld_us = 1'000'000'000;
 
 }  // namespace
 
-HandLink::HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session, int fifo_priority)
-    : kiosk_(std::move(kiosk)), user_(user), session_(session), fifo_priority_(fifo_priority) {
+HandLink::HandLink(const ClientConfig& config, std::uint64_t session)
+    : kiosk_(config.kiosk), user_(config.user), session_(session), fifo_priority_(config.fifo_priority) {
   proto::set_text(sending_.kiosk, kiosk_);
-  sending_.user = user;
+  sending_.user = user_;
   sending_.protocol = proto::kProtocol;
   sending_.session = session;
+  sending_.deadband = static_cast<float>(config.deadband);
 }
 
-Expected<std::unique_ptr<HandLink>> HandLink::create(const proto::Participant& participant, const std::string& kiosk,
-                                                     std::uint32_t user, std::uint64_t session, int fifo_priority) {
-  std::unique_ptr<HandLink> made(new HandLink(kiosk, user, session, fifo_priority));
-  const std::string partition = proto::kiosk_partition(kiosk);
+Expected<std::unique_ptr<HandLink>> HandLink::create(const proto::Participant& participant, const ClientConfig& config,
+                                                     std::uint64_t session) {
+  std::unique_ptr<HandLink> made(new HandLink(config, session));
+  const std::string partition = proto::kiosk_partition(config.kiosk);
   auto writer = proto::Writer<proto::HapticInput>::create(participant, partition);
   if (!writer) return tl::unexpected<Error>(writer.error());
   made->writer_ = std::move(*writer);

@@ -9,7 +9,7 @@
 #include "server/hand/freshness.hpp"
 #include "server/realtime/mailbox.hpp"
 #include "server/realtime/wakeup.hpp"
-#include <mechane/client/types.hpp>
+#include <mechane/client/client.hpp>
 #include <mechane/proto/entity.hpp>
 
 namespace mechane::client {
@@ -18,8 +18,7 @@ namespace mechane::client {
 class HandLink {
  public:
   [[nodiscard]] static Expected<std::unique_ptr<HandLink>> create(const proto::Participant& participant,
-                                                                  const std::string& kiosk, std::uint32_t user,
-                                                                  std::uint64_t session, int fifo_priority);
+                                                                  const ClientConfig& config, std::uint64_t session);
   HandLink(const HandLink&) = delete;
   HandLink& operator=(const HandLink&) = delete;
 
@@ -35,7 +34,7 @@ class HandLink {
   [[nodiscard]] std::optional<ForceSample> wait_force(Duration timeout);
 
  private:
-  HandLink(std::string kiosk, std::uint32_t user, std::uint64_t session, int fifo_priority);
+  HandLink(const ClientConfig& config, std::uint64_t session);
   void take_forces(proto::ReaderView<proto::HapticOutput> view) noexcept;
 
   std::string kiosk_;

@@ -17,7 +17,8 @@ constexpr double kPathComesInS = 0.1;
 using client::ForceSample;
 using hand::HandSample;
 
-Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client, Device& device, RenderMode mode) {
+Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client, Device& device, RenderMode mode,
+                                                         double deadband) {
   if (auto opened = device.open(); !opened) return tl::unexpected(opened.error());
   hand::GovernorConfig limits = device.limits();
   limits.zero_by = kZeroBy;
@@ -28,12 +29,25 @@ Expected<std::unique_ptr<HapticLoop>> HapticLoop::create(client::Client& client,
     device.close();
     return tl::unexpected(governor.error());
   }
-  return std::unique_ptr<HapticLoop>(new HapticLoop(client, device, mode, *governor));
+  return std::unique_ptr<HapticLoop>(new HapticLoop(client, device, mode, *governor, deadband));
 }
 
 HapticLoop::~HapticLoop() {
   device_.write({});
   device_.close();
+}
+
+void HapticLoop::send(const HandSample& input, TimePoint now) noexcept {
+  HandSample told = input;
+  if (deadband_.is_on()) {
+    const double reach_m = hand::reach_m(answer_, sent(answer_.echo_sequence).p_WH, input.X_WH.p);
+    if (!deadband_.is_due(input, reach_m, now)) return;
+    told = deadband_.with_mean_speed(input, now);
+  }
+  if (!client_.send(told)) return;
+  ++stats_.sent;
+  sent_[client_.sent_sequence() % sent_.size()] = {input.X_WH.p, now};
+  if (deadband_.is_on()) deadband_.note_sent(told, now);
 }
 
 bool HapticLoop::take_answer() noexcept {
@@ -50,7 +64,9 @@ bool HapticLoop::take_answer() noexcept {
   answer_ = *sample;
   ++stats_.answers;
   click_.hear(answer_.clicks);
-  if (order == hand::SampleOrder::newer && echo > 0) note_delay(delay);
+  // An answer that a deadband held back was not worth sending before: that is no delay of the network.
+  const Duration held_back = deadband_.is_on() ? std::max(answer_.waited - kTickPeriod, Duration{0}) : Duration{0};
+  if (order == hand::SampleOrder::newer && echo > 0) note_delay(std::max(delay - held_back, Duration{0}));
   return true;
 }
 
@@ -122,10 +138,7 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
 
 void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
   const HandSample& input = hand_ = device_.read(dt);
-  if (device_.condition() != DeviceCondition::lost && client_.send(input)) {
-    ++stats_.sent;
-    sent_[client_.sent_sequence() % sent_.size()] = {input.X_WH.p, now};
-  }
+  if (device_.condition() != DeviceCondition::lost) send(input, now);
   if (take_answer() && mode_ == RenderMode::local) set_local_contacts();
   render(input, now, dt, client_.state() == client::LinkState::joined);
   ++stats_.ticks;

@@ -9,6 +9,7 @@
 #include "client-sdk/haptic/click_pulse.hpp"
 #include "client-sdk/haptic/device.hpp"
 #include "client-sdk/haptic/heat_limit.hpp"
+#include "server/hand/deadband.hpp"
 #include "server/hand/freshness.hpp"
 #include "server/hand/governor.hpp"
 #include "server/hand/local_contact_model.hpp"
@@ -55,9 +56,10 @@ class HapticLoop {
   /// What a hand may be given before it has put anything in.
   static constexpr double kEnergyMargin_j = 0.0005;
 
-  /// Opens the device. Errors: the device's own; its limits are not valid for a governor.
+  /// Opens the device. `deadband`: hands that differ by no more than this share of what is felt are not sent, 0 to
+  /// hand::kMaxDeadband; 0: one is sent each tick. Errors: the device's own; its limits are not valid for a governor.
   [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device,
-                                                                    RenderMode mode);
+                                                                    RenderMode mode, double deadband = 0);
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
@@ -84,14 +86,17 @@ class HapticLoop {
   [[nodiscard]] client::DeviceState device_state() const noexcept { return state_.load(std::memory_order_relaxed); }
 
  private:
-  HapticLoop(client::Client& client, Device& device, RenderMode mode, const hand::ForceGovernor& governor)
+  HapticLoop(client::Client& client, Device& device, RenderMode mode, const hand::ForceGovernor& governor,
+             double deadband)
       : client_(client),
         device_(device),
         mode_(mode),
+        deadband_(deadband),
         governor_(governor),
         governed_(governor.start()),
         heat_(device.limits().max_force_n, device.continuous_force_n()),
         renders_(device.renders()) {}
+  void send(const client::HandSample& input, TimePoint now) noexcept;
   bool take_answer() noexcept;
   void note_delay(Duration delay) noexcept;
   [[nodiscard]] double stiffness_share() const noexcept;
@@ -102,6 +107,7 @@ class HapticLoop {
   client::Client& client_;
   Device& device_;
   RenderMode mode_;
+  hand::InputDeadband deadband_;
   hand::ForceGovernor governor_;
   hand::GovernorState governed_;
   HeatLimit heat_;

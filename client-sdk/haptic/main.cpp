@@ -74,6 +74,11 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   app.add_option("--record", a.record_file,
                  "record the hand to this file, to be played with --device playback:file=FILE");
+  app.add_option(
+         "--deadband", a.client.deadband,
+         "for a weak network: leave out hands and forces that differ by no more than this share of what is felt, "
+         "0 to 0.5; 0: send each")
+      ->check(CLI::Range(0.0, hand::kMaxDeadband));
   app.add_flag("--direct", a.direct,
                "render the server's forces, not contacts and held paths at the device's own rate");
 }
@@ -156,7 +161,8 @@ void wait_for_end(const Arguments& a, client::Client& client, haptic::HandRecord
 
 Expected<std::unique_ptr<haptic::HapticLoop>> make_loop(const Arguments& a, client::Client& client,
                                                         haptic::Device& device) {
-  return haptic::HapticLoop::create(client, device, a.direct ? haptic::RenderMode::server : haptic::RenderMode::local);
+  return haptic::HapticLoop::create(client, device, a.direct ? haptic::RenderMode::server : haptic::RenderMode::local,
+                                    a.client.deadband);
 }
 
 /// Tells the kiosk's displays of the device. The main thread.

@@ -31,6 +31,12 @@ AIMS = {
     "force.over_limit": (("at most", 0),),
     "force.over_slew": (("at most", 0),),
     "force.over_ramp": (("at most", 0),),
+    "deadband.energy_mj.max": (("at most", 1),),
+    "deadband.saved_bytes": (("at least", 0.5),),
+    "deadband.fault.zero_ms.max": (("at most", 45),),
+    "deadband.force.over_limit": (("at most", 0),),
+    "deadband.force.over_slew": (("at most", 0),),
+    "deadband.force.over_ramp": (("at most", 0),),
 }
 _HOLDS = {"at least": operator.ge, "at most": operator.le}
 
@@ -53,10 +59,18 @@ def measure(context) -> tuple[Measured, list[str]]:
 
 
 def plot(result: Measured, out: Path, machine: str) -> list[Path]:
-    series = {"theory": result.curves.get("wall.theory"), "measured": result.curves.get("wall.measured")}
-    if not all(series.values()):
-        return []
-    made = out / "haptics-wall.svg"
-    lines(made, "How stiff a wall may be", "largest stable stiffness of a simulated stylus without friction; theory: b / (T / 2 + t)",
-          series, "delay, ms", "N/m")
-    return [made]
+    plays = ("stroke", "press", "slide", "crank")
+    plots = (("wall", "How stiff a wall may be", "largest stable stiffness of a simulated stylus without friction; theory: b / (T / 2 + t)",
+              {"theory": "wall.theory", "measured": "wall.measured"}, "delay, ms", "N/m"),
+             ("deadband-saved", "What a deadband saves", "messages left out, both directions together",
+              {play: f"deadband.saved.{play}" for play in plays}, "share", "of all messages"),
+             ("deadband-error", "What a deadband costs", "difference of the force to the same play without; 99 % of the milliseconds are below",
+              {play: f"deadband.error.{play}" for play in plays[1:]}, "share", "N"))
+    made = []
+    for name, title, what, curves, x, y in plots:
+        series = {label: result.curves.get(curve) for label, curve in curves.items()}
+        if not all(series.values()):
+            continue
+        made.append(out / f"haptics-{name}.svg")
+        lines(made[-1], title, what, series, x, y)
+    return made

@@ -21,23 +21,6 @@ bool usable(const LocalContact& c) {
   return vectors && scalars && signs && std::abs(c.n_W.squaredNorm() - 1.0) < 1e-3;
 }
 
-struct Overlap {
-  double depth_m;
-  Vec3 n_W;
-};
-
-// How far H is behind the plane or sphere, and the way out.
-Overlap overlap_of(const LocalContact& c, const Vec3& p_WS, const Vec3& p_WH) {
-  if (std::abs(c.curvature_per_m) < kFlat_per_m) return {(p_WS - p_WH).dot(c.n_W), c.n_W};
-  const double radius = 1.0 / std::abs(c.curvature_per_m);
-  const Vec3 p_WC = p_WS - c.n_W / c.curvature_per_m;  // the sphere's centre
-  const Vec3 p_CH = p_WH - p_WC;
-  const double distance = p_CH.norm();
-  if (distance < 1e-9) return {c.curvature_per_m > 0 ? radius : -radius, c.n_W};
-  const double side = c.curvature_per_m > 0 ? 1.0 : -1.0;
-  return {side * (radius - distance), (side / distance) * p_CH};
-}
-
 Resistance resistance_of(const LocalContact& c) {
   return {c.stiffness_n_per_m, c.damping_ns_per_m, c.viscosity_ns_per_m, LocalContactModel::kDampingOnset_m};
 }
@@ -47,6 +30,17 @@ double phase_at(const LocalContact& c, const Vec3& p_W) {
 }
 
 }  // namespace
+
+Overlap overlap_of(const LocalContact& c, const Vec3& p_WS, const Vec3& p_WH) noexcept {
+  if (std::abs(c.curvature_per_m) < kFlat_per_m) return {(p_WS - p_WH).dot(c.n_W), c.n_W};
+  const double radius = 1.0 / std::abs(c.curvature_per_m);
+  const Vec3 p_WC = p_WS - c.n_W / c.curvature_per_m;  // the sphere's centre
+  const Vec3 p_CH = p_WH - p_WC;
+  const double distance = p_CH.norm();
+  if (distance < 1e-9) return {c.curvature_per_m > 0 ? radius : -radius, c.n_W};
+  const double side = c.curvature_per_m > 0 ? 1.0 : -1.0;
+  return {side * (radius - distance), (side / distance) * p_CH};
+}
 
 const LocalContactModel::Touch* LocalContactModel::same_surface(const LocalContact& contact) const noexcept {
   constexpr double kSameNormal = 0.95;  // cosine: 18 degrees

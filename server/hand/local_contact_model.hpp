@@ -12,6 +12,14 @@
 
 namespace mechane::hand {
 
+/// How far a hand is behind the plane or sphere of a contact, and the way out.
+struct Overlap {
+  double depth_m;
+  Vec3 n_W;
+};
+/// Of the hand's point H at `p_WH`. `p_WS`: where H may not pass, along the contact's normal.
+[[nodiscard]] Overlap overlap_of(const LocalContact& c, const Vec3& p_WS, const Vec3& p_WH) noexcept;
+
 /// Renders up to 8 contacts. One thread; render allocates nothing.
 ///
 /// The hand is a point H (its reference point: the tip of a stylus, the wrist of a glove) that moves without turning

@@ -1,9 +1,11 @@
 // HandChannel: carries one hand's samples and forces between the network and a loop, while the hand is bound to one world.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 
+#include "server/hand/deadband.hpp"
 #include "server/hand/freshness.hpp"
 #include "server/realtime/mailbox.hpp"
 #include "server/state/input.hpp"
@@ -22,6 +24,7 @@ struct ArrivedSample {
 /// What a tick gives to one device.
 struct OutgoingForce {
   hand::HapticOutput output;
+  Vec3 p_WH = Vec3::Zero();  ///< of the sample that it answers
   std::uint64_t tick = 0;
   Duration waited{0};  ///< age of the input that it answers, when the tick took that
 };
@@ -33,6 +36,8 @@ struct HandChannel {
   std::uint32_t user = 0;
   std::uint64_t session = 0;
   hand::SampleAge order;                    ///< for the listener only
+  std::atomic<double> deadband_share{0};    ///< as the newest sample asks for; 0: each force is written
+  hand::OutputDeadband deadband;            ///< for the haptic publisher only
   Duration input_age{0};                    ///< at the last force; for the haptic publisher only
   realtime::Mailbox<ArrivedSample> inputs;  ///< DDS listener to loop
   realtime::Mailbox<OutgoingForce> forces;  ///< loop to haptic publisher

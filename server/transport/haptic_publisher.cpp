@@ -93,7 +93,13 @@ bool HapticPublisher::write_all() noexcept {
     any = true;
     note_age(*channel, force->waited);
     const TimePoint begin = std::chrono::steady_clock::now();
-    if (!channel->link->write(*channel, *force)) failed_.fetch_add(1, std::memory_order_relaxed);
+    const double share = channel->deadband_share.load(std::memory_order_relaxed);
+    if (!channel->deadband.is_due(share, force->output, force->p_WH, begin)) continue;
+    if (!channel->link->write(*channel, *force)) {
+      failed_.fetch_add(1, std::memory_order_relaxed);
+    } else if (share > 0) {
+      channel->deadband.note_sent(force->output, force->p_WH, begin);
+    }
     write_time_.record(std::chrono::steady_clock::now() - begin);
   }
   return any;

@@ -125,6 +125,7 @@ Reject KioskLink::accept(const proto::HapticInput& wire, TimePoint now) noexcept
   const hand::SampleOrder order = hand.channel->order.offer(wire.session, wire.seq, now);
   if (order == hand::SampleOrder::older) return Reject::old_sequence;
   if (order == hand::SampleOrder::too_high) return Reject::high_sequence;
+  hand.channel->deadband_share.store(static_cast<double>(wire.deadband), std::memory_order_relaxed);
   arriving_.arrived = now;
   hand.channel->inputs.publish(arriving_);
   return Reject::none;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "server/base/utf8.hpp"
+#include "server/hand/deadband.hpp"
 #include <mechane/proto/convert.hpp>
 
 namespace mechane::transport {
@@ -13,11 +14,13 @@ namespace {
 
 bool finite(const proto::HapticInput& s) {
   return proto::all_finite(s.X_WH) && proto::all_finite(s.v_WH) && proto::all_finite(s.w_WH) &&
-         proto::all_finite(s.joints) && std::isfinite(s.hand_scale) && std::isfinite(s.grasp_intent);
+         proto::all_finite(s.joints) && std::isfinite(s.hand_scale) && std::isfinite(s.grasp_intent) &&
+         std::isfinite(s.deadband);
 }
 
 bool good_values(const proto::HapticInput& s) {
   return s.user < hand::kMaxUsers && hand::is_hand_kind(s.kind) && s.grasp_intent >= 0 && s.grasp_intent <= 1 &&
+         s.deadband >= 0 && s.deadband <= hand::kMaxDeadband &&
          std::all_of(std::begin(s.joints), std::end(s.joints), [](float a) { return std::abs(a) <= kMaxJointRad; });
 }
 

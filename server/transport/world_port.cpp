@@ -166,6 +166,7 @@ void WorldPort::publish_forces(const state::WorldState& state) noexcept {
     if (current_.channels[i] == nullptr || !user.present) continue;
     OutgoingForce& out = current_.channels[i]->forces.writable();
     out.output = user.output;
+    out.p_WH = user.X_WH.p;
     out.tick = state.tick;
     out.waited = user.age;
     current_.channels[i]->forces.commit();

@@ -10,10 +10,12 @@
 
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/simulated_stylus.hpp"
+#include "server/collision/superquadric_object.hpp"
 #include "tests/benchmark/bench_stats.hpp"
 #include "tests/support/fault_play.hpp"
 #include "tests/support/floor_server.hpp"
 #include "tests/support/held_crank.hpp"
+#include <mechane/proto/topics.hpp>
 
 namespace mechane::benchmark {
 namespace {
@@ -104,12 +106,14 @@ void measure_walls(Report& report) {
 constexpr double kFloor_n_per_m = 600;  // what the exhibits' parts have at most
 constexpr double kTip_m = 0.008;        // radius: the tip touches the floor when its middle is at y = 0
 
-/// A client's whole loop, and a hand that presses its stylus onto a floor, which a server at the other end of a network renders.
+/// A client's whole loop, and a hand that presses its stylus onto a floor, or something else, which a server at the other end of a network
+/// renders.
 class Press {
  public:
-  Press(haptic::RenderMode mode, const StylusConfig& config, const Network& network = {}, unsigned seed = 1)
-      : stylus_(config, Vec3(0, kAbove_m, 0)), network_(client_, network, seed) {
-    auto made = haptic::HapticLoop::create(client_, stylus_, mode);
+  Press(haptic::RenderMode mode, const StylusConfig& config, const Network& network = {}, unsigned seed = 1,
+        test::FloorServer server = {-kTip_m, kFloor_n_per_m})
+      : server_(std::move(server)), stylus_(config, Vec3(0, kAbove_m, 0)), network_(client_, network, seed) {
+    auto made = haptic::HapticLoop::create(client_, stylus_, mode, network.deadband);
     if (!made) throw std::runtime_error(made.error().to_string());
     loop_ = std::move(*made);
   }
@@ -126,28 +130,35 @@ class Press {
   Felt press(double y_m, Duration time, bool answered = true) {
     Felt felt;
     for (Duration past{0}; past < time; past += kTickPeriod) {
-      now_ += kTickPeriod;
-      if (answered) network_.send(server_.answer(client_.hand), now_);
-      network_.deliver(now_);
       y_m_ += std::clamp(y_m - y_m_, -1e-4, 1e-4);
-      stylus_.intend(Vec3(0, y_m_, 0));
-      const Vec3 force_W = stylus_.force_W();
-      const Vec3 before = stylus_.p_WH();
-      loop_->tick(now_, kTickPeriod);
-      energy_j_ += force_W.dot(stylus_.p_WH() - before);
-      energy_max_j_ = std::max(energy_max_j_, energy_j_);
+      tick(Vec3(0, y_m_, 0), answered);
       felt.last_force_n = loop_->rendered().force_W.f.norm();
       felt.force_n.add(felt.last_force_n);
     }
     felt.last_depth_m = -stylus_.p_WH().y();
     return felt;
   }
+  /// A millisecond in which the hand wants to be at `p_WH`.
+  void tick(const Vec3& p_WH, bool answered = true) {
+    now_ += kTickPeriod;
+    if (answered) network_.send(server_.answer(client_.hand), now_);
+    network_.deliver(now_);
+    stylus_.intend(p_WH);
+    const Vec3 force_W = stylus_.force_W();
+    const Vec3 before = stylus_.p_WH();
+    loop_->tick(now_, kTickPeriod);
+    energy_j_ += force_W.dot(stylus_.p_WH() - before);
+    energy_max_j_ = std::max(energy_max_j_, energy_j_);
+  }
+  [[nodiscard]] Vec3 force_W() const { return loop_->rendered().force_W.f; }
+  [[nodiscard]] const haptic::LoopStats& stats() const { return loop_->stats(); }
+  [[nodiscard]] const test::SlowNetwork& network() const { return network_; }
   /// The most that the hand was ever given beyond what it had put in, J.
   [[nodiscard]] double energy_max_j() const { return energy_max_j_; }
 
  private:
   test::ScriptedClient client_;
-  test::FloorServer server_{-kTip_m, kFloor_n_per_m};
+  test::FloorServer server_;
   SimulatedStylus stylus_;
   test::SlowNetwork network_;
   std::unique_ptr<haptic::HapticLoop> loop_;
@@ -238,12 +249,161 @@ void measure_delays(Report& report) {
   }
 }
 
-/// Presses through everything that can fail, at random: what the device was given.
-void measure_faults(Report& report, std::uint64_t ticks) {
+/// What a hand felt, millisecond by millisecond, and what went over the network for it.
+struct Trace {
+  std::vector<Vec3> force_W;
+  double energy_j = 0;
+  double sent_up = 0, sent_down = 0;
+};
+
+/// `play` has tick(p_WH): the hand goes along `aim`, a place for each time in seconds.
+template <class Play, class Aim>
+Trace feel(Play& play, const Aim& aim, Duration time) {
+  Trace trace;
+  const double up_before = static_cast<double>(play.stats().sent);
+  const double down_before = static_cast<double>(play.network().sent());
+  for (Duration past{0}; past < time; past += kTickPeriod) {
+    play.tick(aim(to_seconds(past)));
+    trace.force_W.push_back(play.force_W());
+  }
+  trace.sent_up = static_cast<double>(play.stats().sent) - up_before;
+  trace.sent_down = static_cast<double>(play.network().sent()) - down_before;
+  trace.energy_j = play.energy_max_j();
+  return trace;
+}
+
+/// In the air, 10 cm from anything, once round in two seconds.
+Trace stroke(haptic::RenderMode mode, const Network& network) {
+  Press press(mode, {.hand = haptic::ArmConfig{}}, network);
+  return feel(
+      press, [](double t_s) { return Vec3(0.05 * std::sin(kPi * t_s), 0.1, 0.05 * std::cos(kPi * t_s)); }, 10s);
+}
+
+/// Onto the floor, down and up again each four seconds.
+Trace press_and_lift(haptic::RenderMode mode, const Network& network) {
+  Press press(mode, {.hand = haptic::ArmConfig{}}, network);
+  press.press(Press::kAbove_m, 1s);
+  const auto aim = [](double t_s) {
+    return Vec3(0, std::clamp(-0.02 * std::sin(0.5 * kPi * t_s), Press::kInside_m, Press::kAbove_m), 0);
+  };
+  return feel(press, aim, 12s);
+}
+
+/// To and fro over a ball of 50 mm, at up to 0.3 m/s.
+Trace slide(haptic::RenderMode mode, const Network& network) {
+  constexpr double kBall_m = 0.05;
+  geometry::Superquadric ball;
+  ball.a = Vec3::Constant(kBall_m);
+  ball.e1 = ball.e2 = 1;
+  test::FloorServer server(std::make_shared<const collision::Object>(collision::make_superquadric_object(ball, 0.004)));
+  Press press(mode, {.hand = haptic::ArmConfig{}}, network, 1, std::move(server));
+  const auto aim = [](double t_s) {
+    const double angle_rad = 0.8 * std::sin(6 * t_s);
+    const double above_m = std::max(Press::kInside_m, 0.02 - 0.02 * t_s);
+    return Vec3((kBall_m + kTip_m + above_m) * Vec3(std::sin(angle_rad), std::cos(angle_rad), 0));
+  };
+  return feel(press, aim, 12s);
+}
+
+/// A held crank of 250 mm, to and fro at up to 0.25 m/s.
+Trace turn_crank(haptic::RenderMode mode, const Network& network) {
+  test::HeldCrank crank(mode, network);
+  const auto aim = [](double t_s) {
+    const double angle_rad = 1.0 * (1 - std::cos(t_s));
+    return Vec3(test::HeldCrank::start().x() * Vec3(std::cos(angle_rad), std::sin(angle_rad), 0));
+  };
+  return feel(crank, aim, 12s);
+}
+
+/// How far a force is from what it would be: 99 % of the milliseconds are below.
+struct ForceError {
+  double n = 0, ratio = 0;
+};
+
+double p99(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+ForceError error_of(const Trace& trace, const Trace& right) {
+  constexpr double kFirm_n = 0.5;  // of less, a share says nothing
+  std::vector<double> errors_n, ratios;
+  for (std::size_t i = 0; i < trace.force_W.size(); ++i) {
+    errors_n.push_back((trace.force_W[i] - right.force_W[i]).norm());
+    const double force_n = right.force_W[i].norm();
+    if (force_n >= kFirm_n) ratios.push_back(errors_n.back() / force_n);
+  }
+  return {p99(std::move(errors_n)), p99(std::move(ratios))};
+}
+
+/// What a share of 0.1 saves and costs, all plays together.
+struct DeadbandSum {
+  double ticks = 0, up = 0, down = 0;
+  double error_n = 0, energy_j = 0;
+
+  void add(const Trace& trace, const ForceError& error) {
+    ticks += static_cast<double>(trace.force_W.size());
+    up += trace.sent_up;
+    down += trace.sent_down;
+    error_n = std::max(error_n, error.n);
+    energy_j = std::max(energy_j, trace.energy_j);
+  }
+  void write(Report& report) const {
+    constexpr double kUp = sizeof(proto::HapticInput), kDown = sizeof(proto::HapticOutput);
+    report.metric("deadband.saved_up", 1 - up / ticks);
+    report.metric("deadband.saved_down", 1 - down / ticks);
+    report.metric("deadband.saved_bytes", 1 - (kUp * up + kDown * down) / ((kUp + kDown) * ticks));
+    report.metric("deadband.force_error_n.p99", error_n);
+    report.metric("deadband.energy_mj.max", 1000 * energy_j);
+  }
+};
+
+/// Each play with and without a deadband, over a network that needs 2 ms there and back. What 1 ms more would do to the force is given
+/// beside what the deadband does.
+void measure_deadband(Report& report) {
+  using Play = Trace (*)(haptic::RenderMode, const Network&);
+  constexpr std::array<std::pair<Play, const char*>, 4> kPlays{
+      {{stroke, "stroke"}, {press_and_lift, "press"}, {slide, "slide"}, {turn_crank, "crank"}}};
+  constexpr double kShare = 0.1;
+  DeadbandSum sum;
+  for (const auto& [play, play_name] : kPlays) {
+    std::vector<std::array<double, 2>> saved, error;
+    for (const auto& [mode, mode_name] : kModes) {
+      const bool local = mode == haptic::RenderMode::local;
+      const Trace right = play(mode, {.delay_ms = 2});
+      report.metric(fmt::format("deadband0.{}.{}.one_ms_error_n.p99", mode_name, play_name),
+                    error_of(play(mode, {.delay_ms = 3}), right).n);
+      for (const double share : {0.05, kShare, 0.2}) {
+        if (!local && share != kShare) continue;
+        const Trace trace = play(mode, {.delay_ms = 2, .deadband = share});
+        const ForceError off = error_of(trace, right);
+        const auto ticks = static_cast<double>(trace.force_W.size());
+        const std::string name = fmt::format("deadband{:g}.{}.{}", 100 * share, mode_name, play_name);
+        report.metric(name + ".saved_up", 1 - trace.sent_up / ticks);
+        report.metric(name + ".saved_down", 1 - trace.sent_down / ticks);
+        report.metric(name + ".force_error_n.p99", off.n);
+        report.metric(name + ".force_error_ratio.p99", off.ratio);
+        if (!local) continue;
+        saved.push_back({share, 1 - (trace.sent_up + trace.sent_down) / (2 * ticks)});
+        error.push_back({share, off.n});
+        if (share == kShare) sum.add(trace, off);
+      }
+    }
+    report.curve(fmt::format("deadband.saved.{}", play_name), saved);
+    report.curve(fmt::format("deadband.error.{}", play_name), error);
+  }
+  report.metric("deadband.share", kShare);
+  sum.write(report);
+}
+
+/// Presses through everything that can fail, at random: what the device was given. `deadband`: the share, or 0.
+void measure_faults(Report& report, const std::string& prefix, double deadband, std::uint64_t ticks) {
   double zero_ms = 0;
   std::uint64_t faults = 0, over_limit = 0, over_slew = 0, over_ramp = 0;
   for (const auto& [mode, name] : kModes) {
-    test::FaultPlay play(mode, 1);
+    test::FaultPlay play(mode, 1, deadband);
     const test::FaultFindings& found = play.play(ticks / kModes.size());
     zero_ms = std::max(zero_ms, found.zero_ms_max);
     faults += found.pressed;
@@ -251,11 +411,11 @@ void measure_faults(Report& report, std::uint64_t ticks) {
     over_slew += found.over_slew;
     over_ramp += found.over_ramp;
   }
-  report.note(fmt::format("{} faults while the hand was pressed, in {} ticks", faults, ticks));
-  report.metric("fault.zero_ms.max", zero_ms);
-  report.metric("force.over_limit", static_cast<double>(over_limit));
-  report.metric("force.over_slew", static_cast<double>(over_slew));
-  report.metric("force.over_ramp", static_cast<double>(over_ramp));
+  report.note(fmt::format("{}{} faults while the hand was pressed, in {} ticks", prefix, faults, ticks));
+  report.metric(prefix + "fault.zero_ms.max", zero_ms);
+  report.metric(prefix + "force.over_limit", static_cast<double>(over_limit));
+  report.metric(prefix + "force.over_slew", static_cast<double>(over_slew));
+  report.metric(prefix + "force.over_ramp", static_cast<double>(over_ramp));
 }
 
 }  // namespace
@@ -270,7 +430,9 @@ int main(int argc, char** argv) {
   mechane::benchmark::measure_walls(report);
   mechane::benchmark::measure_presses(report);
   mechane::benchmark::measure_delays(report);
-  mechane::benchmark::measure_faults(report, ticks);
+  mechane::benchmark::measure_deadband(report);
+  mechane::benchmark::measure_faults(report, "", 0, ticks);
+  mechane::benchmark::measure_faults(report, "deadband.", 0.1, ticks / 10);
   std::cout << report.text() << "\n";
   return 0;
 }

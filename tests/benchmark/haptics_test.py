@@ -37,6 +37,15 @@ class Haptics(unittest.TestCase):
             self.assertGreaterEqual(self.metrics[f"delay{ms}.local.held.force_share.min"], 0.8, ms)
             self.assertLessEqual(self.metrics[f"delay{ms}.direct.held.force_share.min"], 0.5, "there is something to gain")
 
+    def test_a_deadband_saves_most_messages_and_is_hardly_felt(self):
+        for mode in ("direct", "local"):
+            for play in ("stroke", "press", "slide"):
+                name = f"deadband10.{mode}.{play}"
+                self.assertGreaterEqual(self.metrics[f"{name}.saved_up"], 0.5, name)
+                self.assertGreaterEqual(self.metrics[f"{name}.saved_down"], 0.5, name)
+                self.assertLessEqual(self.metrics[f"{name}.force_error_ratio.p99"], 0.15, name)
+        self.assertLessEqual(self.metrics["deadband.energy_mj.max"], 1)
+
     def test_facets_are_not_felt(self):
         program = Path(os.environ["MECHANE_BIN"]) / "bench_touch"
         metrics = json.loads(subprocess.run(program, capture_output=True, text=True, check=True).stdout)["metrics"]

@@ -9,6 +9,7 @@
 
 #include "client-sdk/client/frame_history.hpp"
 #include "client-sdk/client/parse.hpp"
+#include "server/hand/deadband.hpp"
 #include "server/state/visit_answer.hpp"
 #include "server/transport/validate.hpp"
 #include <mechane/client/types.hpp>
@@ -48,6 +49,7 @@ void fuzz_input(Bytes bytes) {
   if (transport::validate(wire, sample) != transport::Reject::none) return;
   must(sample.X_WH.p.norm() < transport::kMaxDistanceM && sample.session != 0);
   must(std::abs(sample.X_WH.R.norm() - 1) < 1e-9);
+  must(wire.deadband >= 0 && wire.deadband <= hand::kMaxDeadband);
 }
 
 void fuzz_output(Bytes bytes) {

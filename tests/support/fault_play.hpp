@@ -40,6 +40,7 @@ struct FaultFindings {
   std::uint64_t over_ramp = 0;   ///< forces that came back after a fault faster than the ramp of a visit's start
   std::uint64_t faults = 0;
   std::uint64_t pressed = 0;  ///< faults while there was a force
+  std::uint64_t answers = 0;  ///< that the server sent
   double zero_ms_max = 0;     ///< from the fault to a force of zero, for all faults but single numbers
 };
 
@@ -61,8 +62,9 @@ class FaultyStylus final : public haptic::Device {
 
 class FaultPlay {
  public:
-  FaultPlay(haptic::RenderMode mode, unsigned seed) : random_(seed) {
-    auto made = haptic::HapticLoop::create(client_, device_, mode);
+  /// `deadband`: the share by which both sides leave messages out.
+  FaultPlay(haptic::RenderMode mode, unsigned seed, double deadband = 0) : share_(deadband), random_(seed) {
+    auto made = haptic::HapticLoop::create(client_, device_, mode, deadband);
     if (!made) throw std::runtime_error(made.error().to_string());
     loop_ = std::move(*made);
   }
@@ -114,6 +116,7 @@ class FaultPlay {
     y_m_ += std::clamp(aim_m_ - y_m_, -2e-4, 2e-4);
     device_.stylus.intend(Vec3(0, y_m_, 0));
     answer();
+    leave_out();
     const hand::HandForce before = device_.written;
     loop_->tick(now_, dt);
     judge(before, device_.written, dt);
@@ -168,6 +171,14 @@ class FaultPlay {
     }
   }
 
+  /// What a server with a deadband does not send.
+  void leave_out() {
+    if (!client_.arrived) return;
+    if (!deadband_.is_due(share_, *client_.arrived, client_.hand.X_WH.p, now_)) return client_.arrived.reset();
+    deadband_.note_sent(*client_.arrived, client_.hand.X_WH.p, now_);
+    ++found_.answers;
+  }
+
   void judge(const hand::HandForce& before, const hand::HandForce& after, Duration dt) {
     const hand::GovernorConfig limits = device_.limits();
     const double force_n = after.force_W.f.norm(), rise_n = force_n - before.force_W.f.norm();
@@ -188,6 +199,8 @@ class FaultPlay {
   }
 
   static constexpr double kFloor_n_per_m = 600;
+  double share_;
+  hand::OutputDeadband deadband_;
   ScriptedClient client_;
   FaultyStylus device_{{.hand = haptic::ArmConfig{}}};
   std::unique_ptr<haptic::HapticLoop> loop_;

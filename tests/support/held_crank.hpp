@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/simulated_stylus.hpp"
@@ -20,7 +21,7 @@ class HeldCrank {
     world::WorldConfig config;
     config.hand = shared_hand();
     world_ = std::move(world::World::create(make_crank_description(), config).value());
-    loop_ = std::move(haptic::HapticLoop::create(client_, stylus_, mode).value());
+    loop_ = std::move(haptic::HapticLoop::create(client_, stylus_, mode, network.deadband).value());
     stay(std::chrono::seconds(1));
     if (!world_->state.users[0].grasp.active) throw std::runtime_error("the stylus did not grasp the handle");
   }
@@ -56,6 +57,8 @@ class HeldCrank {
   [[nodiscard]] double turned_rad() const { return world_->state.joints[0].position; }
   [[nodiscard]] const Vec3& p_WH() const { return stylus_.p_WH(); }
   [[nodiscard]] Vec3 force_W() const { return loop_->rendered().force_W.f; }
+  [[nodiscard]] const haptic::LoopStats& stats() const { return loop_->stats(); }
+  [[nodiscard]] const SlowNetwork& network() const { return network_; }
   /// The most that the hand was ever given beyond what it had put in, J.
   [[nodiscard]] double energy_max_j() const { return energy_max_j_; }
 
@@ -75,7 +78,9 @@ class HeldCrank {
   void step_world() {
     state::TickInputs inputs;
     inputs.users[0].present = true;
-    inputs.users[0].fresh = true;
+    inputs.users[0].fresh = std::exchange(heard_, client_.sent_sequence()) != client_.sent_sequence();
+    if (inputs.users[0].fresh) heard_at_ = now_;
+    inputs.users[0].age = now_ - heard_at_;
     inputs.users[0].sample = {client_.hand, client_.session(), client_.sent_sequence(), 0};
     world::step(*world_, inputs, publisher_, timer_);
     network_.send(world_->state.users[0].output, now_);
@@ -90,6 +95,8 @@ class HeldCrank {
   world::PhaseTimer timer_{clock_};
   world::NoPublisher publisher_;
   TimePoint now_{std::chrono::hours(1)};
+  std::uint64_t heard_ = 0;  // by the world: the newest sample, and when it came
+  TimePoint heard_at_;
   Vec3 aim_ = start();
   double energy_j_ = 0;
   double energy_max_j_ = 0;

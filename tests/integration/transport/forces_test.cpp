@@ -3,6 +3,7 @@
 
 #include <rapidcheck.h>
 
+#include "server/hand/deadband.hpp"
 #include "tests/integration/transport/loopback.hpp"
 #include "tests/support/property_draw.hpp"
 #include <mechane/proto/convert.hpp>
@@ -138,6 +139,28 @@ TEST_F(Loopback, AnAnswerWithAContactThatCannotBeIsSilence) {
   EXPECT_FALSE(heard);
   server.change([](state::WorldState& world) { world.users[0].output.contact_count = 0; });
   EXPECT_TRUE(feels(*client, Vec3(3, 0, 0)));
+}
+
+TEST_F(Loopback, AHandWithADeadbandIsAnsweredSeldomWhileItRestsAndAtOnceWhenItsForceChanges) {
+  EchoServer server;
+  auto client = connect(Role::hand, "tester", 0, "kiosk-1", 0.1);
+  ASSERT_TRUE(client->wait_for(LinkState::joined, 10s));
+  const Vec3 rest(1, 0, 0);
+  const auto first = answer_to(*client, rest);
+  ASSERT_TRUE(first.has_value());
+  realtime::Wakeup never;
+  std::optional<client::ForceSample> last = first;
+  for (int i = 0; i < 300; ++i) {
+    never.wait(1ms);
+    client->send(hand_at(rest));
+    if (const auto force = client->newest_force()) last = force;
+  }
+  const auto answers = static_cast<std::int64_t>(last->sequence - first->sequence);
+  EXPECT_GT(answers, 0);
+  EXPECT_LE(answers, 1 + (last->received - first->received) / (hand::kKeepAlive - kTickPeriod));
+  const auto moved = answer_to(*client, Vec3(2, 0, 0));
+  ASSERT_TRUE(moved.has_value());
+  EXPECT_EQ(moved->force_W.f, Vec3(2, 0, 0));
 }
 
 }  // namespace

@@ -285,9 +285,10 @@ inline bool eventually(const std::function<bool()>& wanted, Duration timeout = s
 
 [[nodiscard]] inline std::unique_ptr<client::Client> connect(client::Role role, const std::string& program = "tester",
                                                              std::uint32_t user = 0,
-                                                             const std::string& kiosk = "kiosk-1") {
+                                                             const std::string& kiosk = "kiosk-1",
+                                                             double deadband = 0) {
   auto made = client::Client::connect(
-      {.kiosk = kiosk, .user = user, .role = role, .program = program, .domain = kClientDomain});
+      {.kiosk = kiosk, .user = user, .role = role, .program = program, .domain = kClientDomain, .deadband = deadband});
   if (!made) {
     ADD_FAILURE() << made.error().to_string();
     return nullptr;

@@ -1,6 +1,7 @@
 #include "server/transport/validate.hpp"
 
 #include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -37,6 +38,19 @@ RC_GTEST_PROP(Validate, WhatItTakesIsFitForTheLoop, ()) {
   RC_ASSERT(out.hand_scale >= kMinHandScale && out.hand_scale <= kMaxHandScale);
   RC_ASSERT(out.grasp_intent >= 0 && out.grasp_intent <= 1);
   RC_ASSERT(out.session != 0);
+}
+
+TEST(Validate, RefusesADeadbandThatIsNoShare) {
+  hand::SentSample out;
+  const auto refused = [&](float share) {
+    proto::HapticInput s = honest();
+    s.deadband = share;
+    return validate(s, out);
+  };
+  EXPECT_EQ(refused(0.5F), Reject::none);
+  EXPECT_EQ(refused(0.51F), Reject::bad_value);
+  EXPECT_EQ(refused(-0.1F), Reject::bad_value);
+  EXPECT_EQ(refused(std::numeric_limits<float>::quiet_NaN()), Reject::not_finite);
 }
 
 TEST(Validate, ReportsEachReasonOnce) {
