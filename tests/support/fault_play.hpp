@@ -191,8 +191,8 @@ class FaultPlay {
       found_.zero_ms_max = std::max(found_.zero_ms_max, 1e3 * to_seconds(now_ - began_));
     }
     // A fault of some length has ended: from its end on the ramp has to start at zero.
-    if (expected && (*fault_ == Fault::loop_stops ? now_ - began_ < std::chrono::milliseconds(2)
-                                                  : now_ - began_ > haptic::HapticLoop::kZeroBy + kTickPeriod))
+    if (expected &&
+        (*fault_ == Fault::loop_stops ? now_ - began_ < std::chrono::milliseconds(2) : now_ - began_ > silent_after_))
       ramp_from_ = now_;
     const double ramped = to_seconds(now_ - ramp_from_) / limits.ramp_up_s;
     if (ramped < 1 && force_n > limits.max_force_n * (ramped + 0.01)) ++found_.over_ramp;
@@ -201,6 +201,8 @@ class FaultPlay {
   static constexpr double kFloor_n_per_m = 600;
   double share_;
   hand::OutputDeadband deadband_;
+  // With a deadband, the last answer from before a fault may come when the fault has begun.
+  Duration silent_after_ = haptic::HapticLoop::kZeroBy + kTickPeriod + (share_ > 0 ? hand::kKeepAlive : Duration{0});
   ScriptedClient client_;
   FaultyStylus device_{{.hand = haptic::ArmConfig{}}};
   std::unique_ptr<haptic::HapticLoop> loop_;
