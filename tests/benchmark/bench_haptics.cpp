@@ -276,7 +276,7 @@ Trace feel(Play& play, const Aim& aim, Duration time) {
 Trace stroke(haptic::RenderMode mode, const Network& network) {
   Press press(mode, {.hand = haptic::ArmConfig{}}, network);
   return feel(
-      press, [](double t_s) { return Vec3(0.05 * std::sin(kPi * t_s), 0.1, 0.05 * std::cos(kPi * t_s)); }, 10s);
+      press, [](double t_s) { return Vec3(0.05 * std::sin(kPi * t_s), 0.1, 0.05 * std::cos(kPi * t_s)); }, 4s);
 }
 
 /// Onto the floor, down and up again each four seconds.
@@ -286,7 +286,7 @@ Trace press_and_lift(haptic::RenderMode mode, const Network& network) {
   const auto aim = [](double t_s) {
     return Vec3(0, std::clamp(-0.02 * std::sin(0.5 * kPi * t_s), Press::kInside_m, Press::kAbove_m), 0);
   };
-  return feel(press, aim, 12s);
+  return feel(press, aim, 8s);
 }
 
 /// To and fro over a ball of 50 mm, at up to 0.3 m/s.
@@ -302,7 +302,7 @@ Trace slide(haptic::RenderMode mode, const Network& network) {
     const double above_m = std::max(Press::kInside_m, 0.02 - 0.02 * t_s);
     return Vec3((kBall_m + kTip_m + above_m) * Vec3(std::sin(angle_rad), std::cos(angle_rad), 0));
   };
-  return feel(press, aim, 12s);
+  return feel(press, aim, 6s);
 }
 
 /// A held crank of 250 mm, to and fro at up to 0.25 m/s.
@@ -312,7 +312,7 @@ Trace turn_crank(haptic::RenderMode mode, const Network& network) {
     const double angle_rad = 1.0 * (1 - std::cos(t_s));
     return Vec3(test::HeldCrank::start().x() * Vec3(std::cos(angle_rad), std::sin(angle_rad), 0));
   };
-  return feel(crank, aim, 12s);
+  return feel(crank, aim, 6s);
 }
 
 /// How far a force is from what it would be: 99 % of the milliseconds are below.
