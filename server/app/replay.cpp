@@ -42,6 +42,7 @@ void compare(const record::JournalTick& tick, const world::World& world, state::
 Expected<ReplayResult> replay(record::JournalReader& journal,
                               const std::shared_ptr<const state::WorldDescription>& description,
                               world::WorldConfig config, const ReplayOptions& options) {
+  config.force.thin_walls = journal.header().state_version >= state::StateVersion::with_sides;
   if (journal.header().state_version < state::StateVersion::with_anchors) {
     config.force.friction = haptics::FrictionKind::damps;
     config.force.normals = haptics::NormalKind::of_contacts;

@@ -1,5 +1,7 @@
 #include "server/haptics/contact_patch.hpp"
 
+#include <algorithm>
+
 namespace mechane::haptics {
 namespace {
 
@@ -32,6 +34,7 @@ std::size_t gather_patches(std::span<const state::Contact> contacts,
     depth_sum[static_cast<std::size_t>(touched - patches.data())] += S;
     touched->push_m += S * S * contact.n_BH_W;
     touched->p_WC += S * contact.p_WC;
+    touched->deepest_m = std::max(touched->deepest_m, S);
     ++touched->points;
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -18,7 +18,12 @@ struct ContactPatch {
   Vec3 push_m = Vec3::Zero();  ///< sum S_i^2 n_i / sum S_i: the way out; times stiffness it is the force on the hand
   Vec3 n_BH_W = Vec3::Zero();  ///< unit, along push_m
   double depth_m = 0;          ///< |push_m|
+  double deepest_m = 0;        ///< of the points
+  Vec3 out_W = Vec3::Zero();   ///< by what the segment was moved to find this touch; see hold_walls()
 };
+
+/// The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
+inline constexpr double kPatchShare = 2.0 / 3.0;
 
 using state::kMaxPatches;
 

@@ -11,6 +11,7 @@
 #include "server/haptics/held_path.hpp"
 #include "server/haptics/keep_deepest.hpp"
 #include "server/haptics/smooth_normal.hpp"
+#include "server/haptics/wall_sides.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -40,9 +41,6 @@ void add_to_finger(UserState& user, std::size_t segment, const Vec3& f_H_W) {
   user.output.finger_force_n[hand::finger_of(segment)] += std::max(0.0, pull_n);
 }
 
-// The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.
-constexpr double kPatchShare = 2.0 / 3.0;
-
 /// The grooves of a body as a segment of the hand meets them. The phase is taken where the segment's own frame is, for the middle of a
 /// touch jumps from point to point.
 hand::Grooves grooves_at(const HapticMaterial& material, const Pose& X_WB, const Vec3& p_WS, const state::Contact& at) {
@@ -68,19 +66,20 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
 }
 
 /// The normal of a tip's touch, or of a surface near it, as a soft finger feels it. The other segments are larger, and cover facets by
-/// themselves.
+/// themselves. `out_W`: that of the patch.
 Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
-                     const UserState& user, const state::Contact& at, NormalKind kind) {
+                     const UserState& user, const state::Contact& at, const ForceConfig& config,
+                     const Vec3& out_W = Vec3::Zero()) {
   const collision::Object* const object = description.bodies[at.body.index()].object.get();
   const bool stylus = user.sample.kind == HandKind::one_point;
   const bool tip = stylus || hand::is_fingertip(at.segment);
-  if (kind == NormalKind::of_contacts || object == nullptr || !tip) return at.n_BH_W;
+  if (config.normals == NormalKind::of_contacts || object == nullptr || !tip) return at.n_BH_W;
   const Pose& X_WB = state[at.body].X_WB;
   const Pose X_BW = X_WB.inverse();
-  Touch touch{.p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W)};
+  Touch touch{.p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W), .thin_walls = config.thin_walls};
   if (stylus) {  // under a ball, the surface lies in the direction of its normal
-    touch.p_B = X_BW * user.X_WS[0].p;
-    touch.surface_m = hand.inner_radius_m(user.sample, 0) - at.depth_m;
+    touch.p_B = X_BW * (user.X_WS[0].p + out_W);
+    touch.surface_m = hand.inner_radius_m(user.sample, 0) - at.depth_m + kPatchShare * out_W.dot(at.n_BH_W);
     touch.rounds = 2;
   }
   return X_WB.rotate(smooth_normal(hand.pad(), *object, touch));
@@ -123,13 +122,14 @@ PatchForce touch_force(const state::WorldDescription& description, const state::
 void render_patches(const state::WorldDescription& description, const HandModel& hand, state::WorldState& state,
                     UserState& user, const ForceConfig& config) {
   std::array<ContactPatch, kMaxPatches> patches;
-  const std::size_t count = gather_patches(user.contact_span(), patches);
+  std::size_t count = gather_patches(user.contact_span(), patches);
+  if (config.thin_walls) count = hold_walls(description, hand, state, user, patches, count);
   FrictionAnchors anchors(user);
   for (std::size_t i = 0; i < count; ++i) {
     ContactPatch& patch = patches[i];
     if (patch.depth_m <= 0) continue;
     state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
-    touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config.normals);
+    touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config, patch.out_W);
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const HapticMaterial& material = body.haptic;
@@ -151,7 +151,8 @@ void announce_near(const state::WorldDescription& description, const HandModel& 
                    UserState& user, const ForceConfig& config) {
   for (state::Contact near : user.near_span()) {
     if (user.grasp.active && user.grasp.body == near.body) continue;
-    near.n_BH_W = smooth_normal_W(description, hand, state, user, near, config.normals);
+    if (has_side(user, near.segment, near.body)) continue;  // behind a wall, it is the wrong one
+    near.n_BH_W = smooth_normal_W(description, hand, state, user, near, config);
     const BodyState& body = state[near.body];
     const HapticMaterial& material = body.haptic;
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +19,12 @@ constexpr double kWithin = 0.95;     // of the distribution; the rest would lie 
 // How far the pad is pushed in: only a point inside a body is lifted to its surface, and on a round body the pad's rim lies higher than
 // its middle. A thin wall is tried with the second depth.
 constexpr std::array<double, 2> kDeep_m{4e-3, 1.5e-3};
+// In a wall that is thinner still, the pad is pushed in by steps, and of each step those points count that are just below the surface. So
+// a round wall is found under the whole pad, from either side; the weights of a point in all steps add up to 1.
+constexpr double kStep_m = 0.9e-3;
+constexpr std::array<double, 5> kSteps_m{-1.2e-3, -0.3e-3, 0.6e-3, 1.5e-3, 2.4e-3};
+constexpr double kOnset_m = 0.3e-3;
+constexpr double kEnough = 0.5 * kPadPoints;
 
 /// A plane through weighted points, by least squares of the distances along z.
 class PlaneFit {
@@ -52,18 +59,20 @@ double ramp(double value, double from, double to) {
   return std::clamp((value - from) / (to - from), 0.0, 1.0);
 }
 
-/// Weights fall to zero before a point drops out, so that the normal is continuous.
-PlaneFit fit_below(const collision::Object& pad, const collision::Object& body, const Pose& X_BP) {
+/// Adds the places of the body where the pad's points come to lie, seen from `p_BF`. Weights fall to zero before a point drops out, so
+/// that the normal is continuous. `step_m`: points that are deeper do not count.
+void add_below(const collision::Object& pad, const collision::Object& body, const Pose& X_BP, const Vec3& p_BF,
+               double step_m, PlaneFit& fit) {
   std::array<collision::SurfaceHit, kPadPoints> hits;
   const std::size_t count = collision::find_surface(pad, X_BP, body, hits);
   const Mat3 R_PB = X_BP.R.conjugate().toRotationMatrix();
-  PlaneFit fit;
   for (const collision::SurfaceHit& hit : std::span(hits).first(count)) {
     const double cosine = R_PB.row(2).dot(hit.n_T.cast<double>());
-    const double weight = ramp(cosine, 0.7, 0.9) * ramp(static_cast<double>(hit.depth_m), 0, 0.3e-3);
-    if (weight > 0) fit.add(R_PB * (hit.p_T.cast<double>() - X_BP.p), weight);
+    const auto depth_m = static_cast<double>(hit.depth_m);
+    double weight = ramp(cosine, 0.7, 0.9) * ramp(depth_m, 0, kOnset_m);
+    if (depth_m > step_m) weight *= 1 - ramp(depth_m, step_m, step_m + kOnset_m);
+    if (weight > 0) fit.add(R_PB * (hit.p_T.cast<double>() - p_BF), weight);
   }
-  return fit;
 }
 
 }  // namespace
@@ -91,12 +100,22 @@ Vec3 smooth_normal(const collision::Object& pad, const collision::Object& body, 
   for (int round = 0; round < touch.rounds; ++round) {
     Pose X_BP;
     X_BP.R = Quat::FromTwoVectors(Vec3::UnitZ(), smooth_B);
+    const auto push_in = [&](double deep_m) { X_BP.p = touch.p_B - (touch.surface_m + deep_m) * smooth_B; };
     PlaneFit best;
     for (const double deep_m : kDeep_m) {
-      X_BP.p = touch.p_B - (touch.surface_m + deep_m) * smooth_B;
-      const PlaneFit fit = fit_below(pad, body, X_BP);
+      push_in(deep_m);
+      PlaneFit fit;
+      add_below(pad, body, X_BP, X_BP.p, std::numeric_limits<double>::infinity(), fit);
       if (fit.weight() > best.weight()) best = fit;
-      if (best.weight() > 0.5 * kPadPoints) break;
+      if (best.weight() > kEnough) break;
+    }
+    if (touch.thin_walls && best.weight() <= kEnough) {
+      PlaneFit fit;
+      for (const double deep_m : kSteps_m) {
+        push_in(deep_m);
+        add_below(pad, body, X_BP, touch.p_B, kStep_m, fit);
+      }
+      if (fit.weight() > best.weight()) best = fit;
     }
     const double trust = ramp(best.weight() / kPadPoints, 0.25, 0.5);
     const std::optional<Vec3> normal_P = trust > 0 ? best.normal() : std::nullopt;

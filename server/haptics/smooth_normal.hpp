@@ -14,6 +14,7 @@ struct Touch {
   Vec3 p_B = Vec3::Zero();
   double surface_m = 0;      ///< from p_B to the surface, against the normal
   Vec3 n_B = Vec3::UnitZ();  ///< unit, as the contacts gave it
+  bool thin_walls = true;    ///< those under 3 mm are smoothed, too
   int rounds = 1;            ///< how often a plane is fitted, each time with the normal of the last one
 };
 

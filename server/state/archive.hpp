@@ -43,6 +43,9 @@ class StateWalk {
     if (version_ == StateVersion::with_governors) return;
     for (auto& user : state_.users)
       walk_anchors(user);
+    if (version_ == StateVersion::with_anchors) return;
+    for (auto& user : state_.users)
+      walk_sides(user);
   }
 
  private:
@@ -110,7 +113,7 @@ class StateWalk {
     vector(user.output.force_W.f);
     vector(user.output.force_W.t);
   }
-  /// Of a damaged file the count may be any number.
+  /// Of a damaged file the count may be any number, here and below.
   template <class U>
   void walk_anchors(U& user) {
     archive_.bytes(user.anchor_count);
@@ -121,6 +124,17 @@ class StateWalk {
       archive_.bytes(anchor.slides);
       vector(anchor.p_SA);
       vector(anchor.p_BA);
+    }
+  }
+  template <class U>
+  void walk_sides(U& user) {
+    archive_.bytes(user.side_count);
+    for (std::size_t i = 0; i < user.side_count && i < user.sides.size(); ++i) {
+      auto& side = user.sides[i];
+      archive_.bytes(side.body);
+      archive_.bytes(side.segment);
+      vector(side.n_B);
+      archive_.bytes(side.height_m);
     }
   }
   template <class G>

@@ -1,5 +1,6 @@
 #include "server/state/snapshot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -91,7 +92,11 @@ bool ids_in_range(const WorldState& state) {
   for (const UserState& user : state.users) {
     if (user.grasp.active && (!user.grasp.body || user.grasp.body.index() >= state.bodies.size())) return false;
     if (!hand::is_hand_kind(static_cast<std::uint8_t>(user.sample.kind))) return false;
-    if (user.anchor_count > user.anchors.size()) return false;
+    if (user.anchor_count > user.anchors.size() || user.side_count > user.sides.size()) return false;
+    const auto in_hand = [&](const WallSide& side) {
+      return side.body.index() < state.bodies.size() && side.segment < hand::segment_count(user.sample.kind);
+    };
+    if (!std::ranges::all_of(user.side_span(), in_hand)) return false;
   }
   return true;
 }

@@ -67,6 +67,14 @@ struct FrictionAnchor {
   Vec3 p_BA = Vec3::Zero();  ///< on the body, in its frame
 };
 
+/// From which side a tip of a hand came to a body that it touches.
+struct WallSide {
+  BodyId body;
+  std::uint8_t segment = 0;
+  Vec3 n_B = Vec3::Zero();  ///< unit, in the body's frame: the way out
+  double height_m = 0;      ///< the plane across n_B in which the segment's middle was when it met the body
+};
+
 /// A hand holds a body by a force-limited spring that dynamics solves as a constraint.
 struct Grasp {
   bool active = false;
@@ -94,6 +102,8 @@ struct UserState {
   std::uint32_t near_count = 0;
   std::array<FrictionAnchor, kMaxPatches> anchors{};  ///< of the touches of the last tick
   std::uint32_t anchor_count = 0;
+  std::array<WallSide, kMaxSides> sides{};  ///< of the touches of the last tick
+  std::uint32_t side_count = 0;
   Grasp grasp;
   hand::HapticOutput output;
   hand::Clicks clicks;           ///< that it has felt; part of each output
@@ -101,6 +111,7 @@ struct UserState {
 
   [[nodiscard]] std::span<const Contact> contact_span() const { return {contacts.data(), contact_count}; }
   [[nodiscard]] std::span<const Contact> near_span() const { return {near.data(), near_count}; }
+  [[nodiscard]] std::span<const WallSide> side_span() const { return {sides.data(), side_count}; }
 };
 
 /// Where the visit is in the scenario.
@@ -181,8 +192,9 @@ enum class StateVersion : std::uint32_t {
   without_governors = 1,  ///< journals of version 1
   with_governors = 2,     ///< and with the age of each user's last sample
   with_anchors = 4,       ///< friction has static hold, before it was a damping; the normals of touches are smooth
+  with_sides = 8,         ///< thin walls hold tips, and their normals are smooth
 };
-inline constexpr StateVersion kStateVersion = StateVersion::with_anchors;
+inline constexpr StateVersion kStateVersion = StateVersion::with_sides;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {
   return std::has_single_bit(static_cast<std::uint32_t>(version)) && version <= kStateVersion;
 }

@@ -24,6 +24,13 @@ struct AlongTheEquator {
   AlongTheEquator(const std::shared_ptr<const collision::Object>& ball, double depth_m,
                   const ForceConfig& config = {}) {
     test::FloorServer server(ball, config);
+    hand::HandSample above;
+    above.X_WH.p = Vec3(kBall_m + kStylus_m, 0, 0);
+    server.answer(above);
+    for (int i = 1; i < 10; ++i) {
+      above.X_WH.p.x() -= 0.1 * depth_m;
+      server.answer(above);
+    }
     Vec3 before = Vec3::Zero();
     for (int i = 0; i <= 500; ++i) {
       const double angle = 2e-4 * i / kBall_m;
@@ -67,6 +74,13 @@ TEST(SmoothNormal, AnEdgeStays) {
   }
   const Vec3 between = Vec3(1, 1, 0).normalized();
   EXPECT_LT(degrees_between(smooth_normal(pad, *block, {.p_B = Vec3(0.05, 0.02, 0), .n_B = between}), between), 0.5);
+}
+
+/// As of a jar, with the seams of its staves. Facets alone turn by 7.5 degrees to both sides.
+TEST(SmoothNormal, FacetsOfAThinRoundWallAreNotFelt) {
+  const auto jar = std::make_shared<collision::Object>(
+      collision_build::build_object(test::barrel(6, kBall_m - 0.003, kBall_m, 0.05, 4), {}).value());
+  EXPECT_LT(AlongTheEquator(jar, 1e-3).deviation_deg, 3.5);
 }
 
 TEST(SmoothNormal, AThinWallKeepsItsSide) {

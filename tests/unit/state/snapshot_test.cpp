@@ -158,13 +158,48 @@ TEST(StateHash, SeesWhereFrictionHolds) {
   EXPECT_EQ(state_hash(changed, StateVersion::with_governors), state_hash(base, StateVersion::with_governors));
 }
 
-TEST(Snapshot, WithMoreAnchorsThanThereIsRoomForIsRefused) {
-  WorldState state = sample_state(1);
-  state.users[0].anchor_count = kMaxPatches + 1;  // as a damaged file may say, with a checksum that fits
-  std::vector<std::byte> bytes;
-  write_snapshot(state, bytes);
-  WorldState read = sample_state(2);
-  EXPECT_FALSE(read_snapshot(bytes, read).has_value());
+TEST(StateHash, SeesTheSidesOfWalls) {
+  WorldState base = sample_state(1);
+  base.users[1].side_count = 2;
+  const std::uint64_t hash = state_hash(base);
+  const auto differs = [&](auto change) {
+    WorldState changed = base;
+    change(changed.users[1]);
+    return state_hash(changed) != hash;
+  };
+  EXPECT_TRUE(differs([](UserState& user) { user.side_count = 1; }));
+  EXPECT_TRUE(differs([](UserState& user) { user.sides[1].body = BodyId(0); }));
+  EXPECT_TRUE(differs([](UserState& user) { user.sides[1].segment = 3; }));
+  EXPECT_TRUE(differs([](UserState& user) { user.sides[1].n_B.y() = 1e-300; }));
+  EXPECT_TRUE(differs([](UserState& user) { user.sides[1].height_m = 1e-300; }));
+  EXPECT_FALSE(differs([](UserState& user) { user.sides[2].height_m = 1; })) << "it is not one of the two";
+  WorldState changed = base;
+  changed.users[1].sides[1].height_m = 1;
+  EXPECT_EQ(state_hash(changed, StateVersion::with_anchors), state_hash(base, StateVersion::with_anchors));
+}
+
+/// As a damaged file may be, with a checksum that fits.
+TEST(Snapshot, WithTouchesThatCannotBeIsRefused) {
+  const auto is_read = [](auto change) {
+    WorldState state = sample_state(1);
+    change(state.users[0]);
+    std::vector<std::byte> bytes;
+    write_snapshot(state, bytes);
+    WorldState read = sample_state(2);
+    return read_snapshot(bytes, read).has_value();
+  };
+  EXPECT_FALSE(is_read([](UserState& user) { user.anchor_count = kMaxPatches + 1; }));
+  EXPECT_FALSE(is_read([](UserState& user) { user.side_count = kMaxSides + 1; }));
+  const auto with_side = [&](BodyId body, std::uint8_t segment) {
+    return is_read([=](UserState& user) {
+      user.side_count = 1;
+      user.sides[0].body = body;
+      user.sides[0].segment = segment;
+    });
+  };
+  EXPECT_TRUE(with_side(BodyId(0), 0));
+  EXPECT_FALSE(with_side(BodyId(1'000'000), 0));
+  EXPECT_FALSE(with_side(BodyId(0), hand::kHandSegments));
 }
 
 TEST(StateHash, OfVersion1KnowsNoGovernor) {
