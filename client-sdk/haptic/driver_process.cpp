@@ -177,10 +177,7 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   const auto& q = state.orientation_wxyz;
   hand.X_WH.R = workspace_.R_WH(Quat(q[0], q[1], q[2], q[3]).normalized());
   const double step_s = to_seconds(newest_.at - last_at_);
-  if (step_s > 0 && newest_.at - last_at_ < kLostAfter) {
-    hand.V_WH.v = (hand.X_WH.p - last_.X_WH.p) / step_s;
-    hand.V_WH.w = rotation_vector(hand.X_WH.R * last_.X_WH.R.conjugate()) / step_s;
-  }
+  if (step_s > 0 && newest_.at - last_at_ < kLostAfter) hand.V_WH = mean_twist(last_.X_WH, hand.X_WH, step_s);
   std::copy(std::begin(state.joints_rad), std::end(state.joints_rad), hand.joints.begin());
   if (config_.glove) hand.joints = config_.glove->apply(hand.joints);
   hand.buttons = state.buttons & ~config_.workspace.clutch_button;

@@ -89,11 +89,7 @@ void HapticLoop::set_local_contacts() noexcept {
 /// The hand's mean velocity since the last call. The energy that a force gave is found from places: a device's own velocity is noisy.
 Twist HapticLoop::moved(const HandSample& input, Duration dt) noexcept {
   const Pose before = std::exchange(X_WH_before_, input.X_WH).value_or(input.X_WH);
-  Twist mean;
-  if (dt <= Duration{0}) return mean;
-  mean.v = (input.X_WH.p - before.p) / to_seconds(dt);
-  mean.w = rotation_vector(input.X_WH.R * before.R.conjugate()) / to_seconds(dt);
-  return mean;
+  return dt > Duration{0} ? mean_twist(before, input.X_WH, to_seconds(dt)) : Twist{};
 }
 
 void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, bool engaged) noexcept {

@@ -42,9 +42,7 @@ client::HandSample SimulatedStylus::read(Duration dt) noexcept {
   sample.X_WH = {rounded(p_WH_), intent_.X_WH.R};
   sample.grasp_intent = intent_.grasp_intent;
   const Pose before = std::exchange(told_, sample.X_WH).value_or(sample.X_WH);
-  if (dt_s <= 0) return sample;
-  sample.V_WH.v = (sample.X_WH.p - before.p) / dt_s;
-  sample.V_WH.w = rotation_vector(sample.X_WH.R * before.R.conjugate()) / dt_s;
+  if (dt_s > 0) sample.V_WH = mean_twist(before, sample.X_WH, dt_s);
   return sample;
 }
 

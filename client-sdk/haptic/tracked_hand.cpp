@@ -65,8 +65,7 @@ void TrackedHand::tell(const drivers::HandDatagram& seen) {
   told_.grasp_intent = state.grasp;
   const double passed_s = to_seconds(kPicture) * std::exchange(since_told_, 0);
   if (!std::exchange(was_told_, true)) return;
-  told_.V_WH.v = (told_.X_WH.p - before.p) / passed_s;
-  told_.V_WH.w = rotation_vector(told_.X_WH.R * before.R.conjugate()) / passed_s;
+  told_.V_WH = mean_twist(before, told_.X_WH, passed_s);
 }
 
 }  // namespace mechane::haptic

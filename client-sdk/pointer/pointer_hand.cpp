@@ -160,8 +160,7 @@ std::optional<client::HandSample> PointerHand::advance(double dt_s, const Pointe
   client::HandSample input;
   input.kind = client::HandKind::one_point;
   input.X_WH = X_WH_;
-  input.V_WH.v = (X_WH_.p - before.p) / dt;
-  input.V_WH.w = rotation_vector(X_WH_.R * before.R.conjugate()) / dt;
+  input.V_WH = mean_twist(before, X_WH_, dt);
   input.grasp_intent = grasp_;
   return input;
 }

@@ -69,6 +69,11 @@ struct Wrench {
   return (2.0 * std::atan2(sine, s.w()) / sine) * s.vec();
 }
 
+/// The mean velocity, in W, of what went from one pose to another in that time (> 0).
+[[nodiscard]] inline Twist mean_twist(const Pose& from, const Pose& to, double time_s) {
+  return {(to.p - from.p) / time_s, rotation_vector(to.R * from.R.conjugate()) / time_s};
+}
+
 /// The unit quaternion of a rotation vector, radians.
 [[nodiscard]] inline Quat quat_from_rotation_vector(const Vec3& r) {
   const double angle = r.norm();

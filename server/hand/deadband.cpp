@@ -118,8 +118,7 @@ HandSample InputDeadband::with_mean_speed(const HandSample& sample, TimePoint no
   HandSample mean = sample;
   const double time_s = to_seconds(now - sent_at_);
   if (!sent_ || !(time_s > 0) || now - sent_at_ > 2 * kKeepAlive) return mean;
-  mean.V_WH.v = (sample.X_WH.p - sent_->X_WH.p) / time_s;
-  mean.V_WH.w = rotation_vector(sample.X_WH.R * sent_->X_WH.R.conjugate()) / time_s;
+  mean.V_WH = mean_twist(sent_->X_WH, sample.X_WH, time_s);
   return mean;
 }
 
