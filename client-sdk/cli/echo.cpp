@@ -1,10 +1,12 @@
 #include "client-sdk/cli/echo.hpp"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
@@ -294,11 +296,16 @@ Json to_json(const proto::ServerStatus& s) {
   return j;
 }
 
-const char* word_of_device(std::uint32_t state) {
-  constexpr const char* kWords[] = {"none",         "preparing", "ready", "let go", "not ready",
-                                    "uncalibrated", "warm",      "hot",   "lost"};
-  static_assert(std::size(kWords) == mechane_device_lost + 1);
-  return state < std::size(kWords) ? kWords[state] : "unknown";
+constexpr std::array kDeviceWords{"none",         "preparing", "ready", "let go", "not ready",
+                                  "uncalibrated", "warm",      "hot",   "lost"};
+static_assert(kDeviceWords.size() == mechane_device_lost + 1);
+constexpr std::array kCalibrationWords{"none", "flat", "fist", "pinch", "done"};
+static_assert(kCalibrationWords.size() == mechane_calibration_done + 1);
+constexpr std::array kRefusalWords{"none", "moved", "unlike", "swapped", "unseen"};
+static_assert(kRefusalWords.size() == mechane_refusal_unseen + 1);
+
+const char* word_of(std::span<const char* const> words, std::uint32_t number) {
+  return number < words.size() ? words[number] : "unknown";
 }
 
 Json to_json(const proto::KioskStatus& s) {
@@ -309,7 +316,10 @@ Json to_json(const proto::KioskStatus& s) {
             {"role", s.role == mechane_role_hand ? "hand" : "watcher"}});
   j.update({{"program", text(s.program)}, {"host", text(s.host)}, {"process_id", s.process_id}});
   j.update({{"scenario", text(s.scenario)}, {"was_there", s.was_there != 0}, {"join_kiosk", text(s.join_kiosk)}});
-  j.update({{"device", word_of_device(s.device)}, {"device_name", text(s.device_name)}});
+  j.update({{"device", word_of(kDeviceWords, s.device)}, {"device_name", text(s.device_name)}});
+  j.update({{"calibration", word_of(kCalibrationWords, s.calibration)},
+            {"calibration_held", s.calibration_held},
+            {"calibration_refusal", word_of(kRefusalWords, s.calibration_refusal)}});
   return j;
 }
 

@@ -233,6 +233,9 @@ void ClientImpl::report(TimePoint at) {
     wire.device = static_cast<std::uint32_t>(device_.state);
     wire.device_kind = static_cast<std::uint32_t>(device_.kind);
     proto::set_text(wire.device_name, device_.name);
+    wire.calibration = static_cast<std::uint32_t>(device_.calibration.step);
+    wire.calibration_held = device_.calibration.held;
+    wire.calibration_refusal = static_cast<std::uint32_t>(device_.calibration.refusal);
   }
   if (!kiosk_status_.write(wire)) log::warning("client: the status of this process could not be sent");
 }

@@ -22,6 +22,16 @@ static_assert(mechane_device_uncalibrated == static_cast<int>(DeviceState::uncal
 static_assert(mechane_device_warm == static_cast<int>(DeviceState::warm));
 static_assert(mechane_device_hot == static_cast<int>(DeviceState::hot));
 static_assert(mechane_device_lost == static_cast<int>(DeviceState::lost));
+static_assert(mechane_calibration_none == static_cast<int>(CalibrationStep::none));
+static_assert(mechane_calibration_flat == static_cast<int>(CalibrationStep::flat));
+static_assert(mechane_calibration_fist == static_cast<int>(CalibrationStep::fist));
+static_assert(mechane_calibration_pinch == static_cast<int>(CalibrationStep::pinch));
+static_assert(mechane_calibration_done == static_cast<int>(CalibrationStep::done));
+static_assert(mechane_refusal_none == static_cast<int>(PoseRefusal::none));
+static_assert(mechane_refusal_moved == static_cast<int>(PoseRefusal::moved));
+static_assert(mechane_refusal_unlike == static_cast<int>(PoseRefusal::unlike));
+static_assert(mechane_refusal_swapped == static_cast<int>(PoseRefusal::swapped));
+static_assert(mechane_refusal_unseen == static_cast<int>(PoseRefusal::unseen));
 
 /// Longer texts are cut, because a status is one line on a technician's screen.
 constexpr std::size_t kMostText = 500;
@@ -102,10 +112,14 @@ bool parse(const proto::KioskStatus& wire, DeviceReport& out) {
   if (wire.protocol != proto::kProtocol || !proto::is_name(proto::text_of(wire.kiosk))) return false;
   if (wire.role != mechane_role_hand || wire.user >= hand::kMaxUsers) return false;
   if (wire.device > mechane_device_lost || !hand::is_hand_kind(wire.device_kind)) return false;
+  if (wire.calibration > mechane_calibration_done || wire.calibration_refusal > mechane_refusal_unseen) return false;
+  if (!(wire.calibration_held >= 0 && wire.calibration_held <= 1)) return false;
   out.user = wire.user;
   out.state = static_cast<DeviceState>(wire.device);
   out.kind = static_cast<HandKind>(wire.device_kind);
   out.name = clean(wire.device_name);
+  out.calibration = {static_cast<CalibrationStep>(wire.calibration), wire.calibration_held,
+                     static_cast<PoseRefusal>(wire.calibration_refusal)};
   return true;
 }
 

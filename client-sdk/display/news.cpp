@@ -30,7 +30,9 @@ scene::ShownWorld::News News::take(TimePoint now) {
   if (client_.state() == client::LinkState::joined && client_.interpolated_frame(now, kInterpolationDelay, newer))
     frame_ = std::move(newer);
   take_head(now);
-  devices_.hear(client_.devices(), now);
+  const std::vector<client::DeviceReport> devices = client_.devices();
+  devices_.hear(devices, now);
+  calibration_.hear(devices, now);
   return news;
 }
 

@@ -9,6 +9,7 @@
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/head_view.hpp"
 #include "client-sdk/scene/shown_world.hpp"
+#include "client-sdk/visit/calibration_guide.hpp"
 #include "client-sdk/visit/device_notice.hpp"
 
 namespace mechane::display {
@@ -44,6 +45,8 @@ class News {
   [[nodiscard]] std::optional<picture::OverlayNotice> device_notice(TimePoint now, const std::string& language) const {
     return devices_.at(now, language);
   }
+  /// What the visitor is shown while a glove is fitted to the hand.
+  [[nodiscard]] const visit::CalibrationGuide& calibration() const { return calibration_; }
   /// Whether the server is sending this world at the moment.
   [[nodiscard]] bool live() const { return frame_ && client_.state() == client::LinkState::joined; }
   /// Whether the world's last activity is done.
@@ -63,6 +66,7 @@ class News {
   scene::ShownWorld world_;
   HeadView head_;
   visit::DeviceNotice devices_;
+  visit::CalibrationGuide calibration_;
   std::optional<client::Frame> frame_;
   // What has been logged.
   bool told_head_ = false;

@@ -71,8 +71,10 @@ picture::RenderScene Presenter::compose(TimePoint now) const {
   picture::RenderScene scene = world_scene();
   visitor_.write(scene, last_picture(), now);
   name_what_is_meant(scene);
+  if (!scene.overlay.panel && shows_live_world()) scene.overlay.pose = news_.calibration().at(now, visitor_.language());
+  if (scene.overlay.pose) scene.inset.reset();  // it would cover the pose
   // Notes about the pointer or the link are more urgent.
-  if (scene.overlay.note.empty() && !scene.overlay.panel && shows_live_world()) {
+  if (scene.overlay.note.empty() && !scene.overlay.panel && !scene.overlay.pose && shows_live_world()) {
     scene.overlay.notice = news_.device_notice(now, visitor_.language());
     if (!scene.overlay.notice) scene.overlay.note = soundtrack_.in_writing(visitor_.language(), now);
   }
@@ -94,7 +96,7 @@ void Presenter::name_what_is_meant(picture::RenderScene& scene) const {
 /// and not while a pointer drags something, which must stay under it.
 void Presenter::make_room(picture::RenderScene& scene, TimePoint now) {
   if (options_.screen.known()) return;
-  if (!scene.overlay.panel && !visitor_.drags())
+  if (!scene.overlay.panel && !scene.overlay.pose && !visitor_.drags())
     caption_room_.see(renderer_->lay_out(scene, options_.stereo, context_.size()).covered_below, now);
   scene.camera.room_below = caption_room_.room_below();
 }

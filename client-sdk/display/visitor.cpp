@@ -48,6 +48,7 @@ void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now
       take_click(place, last, scene, now);
     take_pointer(last, scene, now);
   }
+  if (news_.calibration().asks()) panel_.touch(now);
   const auto server = client_.server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
   panel_.update({news_.world().status(), news_.world().presentation(), news_.frame(), home}, now);

@@ -1,5 +1,9 @@
 #include "client-sdk/haptic/calibration_course.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace mechane::haptic {
 
 std::string CalibrationCourse::ask(TimePoint now, const std::string& before) {
@@ -13,6 +17,7 @@ std::string CalibrationCourse::ask(TimePoint now, const std::string& before) {
 /// After a pose that was taken.
 std::string CalibrationCourse::next_pose(TimePoint now) {
   tries_ = 0;
+  refusal_ = client::PoseRefusal::none;
   if (++pose_ < kCalibrationPoses) return ask(now, "");
   result_ = calibrator_.result();
   return "the three poses are taken";
@@ -20,8 +25,11 @@ std::string CalibrationCourse::next_pose(TimePoint now) {
 
 std::optional<std::string> CalibrationCourse::add(TimePoint now, const HandAngles* raw) {
   if (result_) return {};
-  if (!begun_) {
-    begun_ = true;
+  if (phase_ != Phase::asks) {
+    const bool begins = std::exchange(phase_, Phase::waits) == Phase::begins;
+    const bool moves = raw != nullptr && motion_.note(now, *raw);
+    if (!moves) return begins ? std::optional<std::string>("put the glove on, and move the fingers") : std::nullopt;
+    phase_ = Phase::asks;
     return ask(now, "");
   }
   if (now - asked_ < kSettle) return {};
@@ -34,6 +42,7 @@ std::optional<std::string> CalibrationCourse::add(TimePoint now, const HandAngle
   if (in_time && (raw == nullptr || !calibrator_.add(now, *raw))) return {};
   const auto ended = calibrator_.end();
   if (ended) return next_pose(now);
+  refusal_ = calibrator_.refusal();
   if (ended.error().code == ErrorCode::conflict &&
       starts_ < kTries) {  // two poses do not fit: the fault may be the first one's
     ++starts_;
@@ -44,6 +53,16 @@ std::optional<std::string> CalibrationCourse::add(TimePoint now, const HandAngle
   if (tries_ < kTries) return ask(now, ended.error().what + "; again, ");
   result_ = tl::unexpected(ended.error());
   return {};
+}
+
+client::CalibrationNews CalibrationCourse::news() const noexcept {
+  using client::CalibrationStep;
+  if (result_) return {.step = *result_ ? CalibrationStep::done : CalibrationStep::none};
+  if (phase_ != Phase::asks) return {};
+  // The tenth that has begun: a display fills its ring meanwhile.
+  const double tenths = recording_ ? std::min(10.0, 1 + std::floor(10 * calibrator_.share())) : 0;
+  static_assert(static_cast<int>(CalibrationStep::flat) == 1 + static_cast<int>(CalibrationPose::flat));
+  return {static_cast<CalibrationStep>(1 + pose_), static_cast<float>(tenths / 10), refusal_};
 }
 
 }  // namespace mechane::haptic

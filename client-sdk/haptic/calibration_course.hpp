@@ -1,15 +1,16 @@
-// Leads a visitor through the poses of a HandCalibrator, by messages in a terminal.
+// Leads a visitor through the poses of a HandCalibrator: what the kiosk's displays show, and messages in a terminal.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "client-sdk/haptic/hand_calibration.hpp"
+#include "client-sdk/haptic/hand_motion.hpp"
 
 namespace mechane::haptic {
 
-/// Flat, fist, pinch: each announced, held still for kPoseLasts after kSettle, and asked for again where it was refused. Under 30 s where
-/// none is. One thread.
+/// Waits until fingers move in the glove. Then flat, fist, pinch: each announced, held still for kPoseLasts after kSettle, and asked for
+/// again where it was refused. Under 30 s where none is. One thread.
 class CalibrationCourse {
  public:
   static constexpr Duration kSettle = std::chrono::seconds(2);
@@ -18,6 +19,8 @@ class CalibrationCourse {
   /// The glove's angles at `now`; null: it is not ready. Returns what to tell the visitor, where there is something new.
   [[nodiscard]] std::optional<std::string> add(TimePoint now, const HandAngles* raw);
 
+  /// For the displays.
+  [[nodiscard]] client::CalibrationNews news() const noexcept;
   /// None while the course goes on.
   [[nodiscard]] const std::optional<Expected<HandCalibration>>& result() const noexcept { return result_; }
 
@@ -26,10 +29,13 @@ class CalibrationCourse {
   [[nodiscard]] std::string next_pose(TimePoint now);
 
   HandCalibrator calibrator_;
+  HandMotion motion_;
   std::size_t pose_ = 0;
-  int tries_ = 0;   // of this pose
-  int starts_ = 1;  // of the course
-  bool begun_ = false;
+  int tries_ = 0;                                           // of this pose
+  int starts_ = 1;                                          // of the course
+  enum class Phase : std::uint8_t { begins, waits, asks };  // waits: for a hand in the glove
+  Phase phase_ = Phase::begins;
+  client::PoseRefusal refusal_ = client::PoseRefusal::none;
   bool recording_ = false;
   TimePoint asked_;
   std::optional<Expected<HandCalibration>> result_;

@@ -93,7 +93,7 @@ Expected<void> compare(const HandAngles& flat, const HandAngles& fist) {
   if (closed < -kSwapped_rad)
     return fail(ErrorCode::conflict, "the fist is more open than the flat hand", "flat hand and fist",
                 "show both again, first the flat hand and then the fist");
-  const HandAngles model = model_fist();
+  const HandAngles model = model_pose(CalibrationPose::fist);
   for (std::size_t j = hand::kFingerJoints; j < hand::kHandJoints; ++j) {
     const double bend = fist[j] - flat[j];
     if (model[j] == 0 || bend >= kLeastBend * model[j]) continue;
@@ -159,7 +159,7 @@ std::optional<FingerAngles> thumb_that_touches(const FingerAngles& index, Finger
 /// Flat hand and fist become the model's.
 JointCalibration joint_between(std::size_t joint, double flat, double fist) {
   JointCalibration calibration = joint_limits(joint);
-  const double wanted = model_fist()[joint];
+  const double wanted = model_pose(CalibrationPose::fist)[joint];
   const double share = wanted != 0 ? (fist - flat) / wanted : 1;
   // A thumb lies in everybody's fist in its own way: where it tells little, the glove knows better.
   const bool tells = joint >= hand::kFingerJoints || (share >= kLeastThumbShare && share <= kMostThumbShare);
@@ -187,20 +187,37 @@ Expected<HandCalibration> make(const HandAngles& flat, const HandAngles& fist, c
   return calibration;
 }
 
+/// The median of each joint.
+Expected<HandAngles> still_pose(CalibrationPose pose, const std::vector<HandAngles>& samples) {
+  HandAngles middle;
+  std::vector<double> values(samples.size());
+  for (std::size_t j = 0; j < middle.size(); ++j) {
+    std::ranges::transform(samples, values.begin(), [&](const HandAngles& sample) { return sample[j]; });
+    const double motion = quantile(values, 0.9) - quantile(values, 0.1);
+    if (motion > kMostMotion_rad)
+      return refused(pose, std::string("the ") + kFingerNames[j / hand::kFingerJoints] + " moved by " +
+                               in_degrees(motion) + " " + kJointNames[j % hand::kFingerJoints]);
+    middle[j] = quantile(values, 0.5);
+  }
+  return middle;
+}
+
+/// Those that were shown.
+Expected<void> fit_together(const std::array<std::optional<HandAngles>, kCalibrationPoses>& poses) {
+  const auto& [flat, fist, pinch] = poses;
+  if (flat && fist)
+    if (auto differ = compare(*flat, *fist); !differ) return differ;
+  if (flat && fist && pinch) {
+    if (auto differ = compare(*flat, *fist, *pinch); !differ) return differ;
+    if (auto made = make(*flat, *fist, *pinch); !made) return tl::unexpected(made.error());
+  }
+  return {};
+}
+
 }  // namespace
 
 const char* how_to_show(CalibrationPose pose) noexcept {
   return name_of(pose).how;
-}
-
-HandAngles model_fist() noexcept {
-  HandAngles fist{-20 * kDegree, 25 * kDegree, 40 * kDegree, 60 * kDegree};
-  for (std::size_t f = 1; f < hand::kFingers; ++f) {
-    fist[hand::kFingerJoints * f + 1] = 90 * kDegree;
-    fist[hand::kFingerJoints * f + 2] = 100 * kDegree;
-    fist[hand::kFingerJoints * f + 3] = 90 * kDegree;
-  }
-  return fist;
 }
 
 HandAngles HandCalibration::apply(const HandAngles& raw) const noexcept {
@@ -232,31 +249,29 @@ bool HandCalibrator::add(TimePoint at, const HandAngles& raw) noexcept {
   return last_ - first_ >= kPoseLasts;
 }
 
+double HandCalibrator::share() const noexcept {
+  if (samples_.empty()) return 0;
+  return std::min(1.0, to_seconds(last_ - first_) / to_seconds(kPoseLasts));
+}
+
 Expected<void> HandCalibrator::end() {
+  using client::PoseRefusal;
   const std::vector<HandAngles> samples = std::exchange(samples_, {});
   samples_.reserve(samples.capacity());
+  refusal_ = PoseRefusal::unseen;
   if (samples.size() < kFewestSamples || last_ - first_ < kPoseLasts)
     return fail(ErrorCode::missing, "it was not shown for three seconds, or the glove gave hardly any angles",
                 name_of(pose_).name, "hold the pose until it is enough, and check that the glove is ready");
-  HandAngles middle;
-  std::vector<double> values(samples.size());
-  for (std::size_t j = 0; j < middle.size(); ++j) {
-    std::ranges::transform(samples, values.begin(), [&](const HandAngles& sample) { return sample[j]; });
-    const double motion = quantile(values, 0.9) - quantile(values, 0.1);
-    if (motion > kMostMotion_rad)
-      return refused(pose_, std::string("the ") + kFingerNames[j / hand::kFingerJoints] + " moved by " +
-                                in_degrees(motion) + " " + kJointNames[j % hand::kFingerJoints]);
-    middle[j] = quantile(values, 0.5);
-  }
+  refusal_ = PoseRefusal::moved;
+  const auto middle = still_pose(pose_, samples);
+  if (!middle) return tl::unexpected(middle.error());
   Poses poses = poses_;
-  poses[static_cast<std::size_t>(pose_)] = middle;
-  const auto& [flat, fist, pinch] = poses;
-  if (flat && fist)
-    if (auto differ = compare(*flat, *fist); !differ) return differ;
-  if (flat && fist && pinch) {
-    if (auto differ = compare(*flat, *fist, *pinch); !differ) return differ;
-    if (auto made = make(*flat, *fist, *pinch); !made) return tl::unexpected(made.error());
+  poses[static_cast<std::size_t>(pose_)] = *middle;
+  if (auto fit = fit_together(poses); !fit) {
+    refusal_ = fit.error().code == ErrorCode::conflict ? PoseRefusal::swapped : PoseRefusal::unlike;
+    return fit;
   }
+  refusal_ = PoseRefusal::none;
   poses_ = poses;
   return {};
 }

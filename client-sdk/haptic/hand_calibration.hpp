@@ -9,27 +9,17 @@
 
 #include "server/base/clock.hpp"
 #include "server/base/error.hpp"
-#include "server/hand/hand_sample.hpp"
+#include "server/hand/calibration_pose.hpp"
+#include <mechane/client/types.hpp>
 
 namespace mechane::haptic {
 
-/// Of all joints, radians, in the order of mechane/driver.h.
-using HandAngles = std::array<double, hand::kHandJoints>;
-
-/// What the visitor shows.
-enum class CalibrationPose : std::uint8_t {
-  flat,   ///< the hand flat, its fingers together, the thumb stretched out to the side
-  fist,   ///< a fist, the thumb across index and middle finger
-  pinch,  ///< the tip of the thumb on the tip of the index finger
-};
-inline constexpr std::size_t kCalibrationPoses = 3;
+using hand::CalibrationPose;
+using hand::HandAngles;
+using hand::kCalibrationPoses;
 
 /// What a visitor does to show the pose, as it is said to the visitor.
 [[nodiscard]] const char* how_to_show(CalibrationPose pose) noexcept;
-
-/// The fist of Mechane's hand; its flat hand is all zeros. Ranges of the fingers' joints: American Academy of Orthopaedic
-/// Surgeons. The thumb lies on index and middle finger.
-[[nodiscard]] HandAngles model_fist() noexcept;
 
 /// angle = gain * raw + offset_rad, from least_rad to most_rad.
 struct JointCalibration {
@@ -62,8 +52,12 @@ class HandCalibrator {
   /// Takes the median of each joint. Errors: too few samples, the hand moved, the pose is too much like another one or
   /// swapped with it, thumb and index finger of Mechane's hand cannot meet. They say which, and what to do.
   [[nodiscard]] Expected<void> end();
+  /// Why the last end() did not take the pose.
+  [[nodiscard]] client::PoseRefusal refusal() const noexcept { return refusal_; }
+  /// How much of kPoseLasts the pose that has begun was shown, 0..1.
+  [[nodiscard]] double share() const noexcept;
 
-  /// The flat hand reads as 0, and the fist as model_fist(); then the thumb's offsets are changed by as little as makes
+  /// The flat hand reads as 0, and the fist as the model's; then the thumb's offsets are changed by as little as makes
   /// the tips of thumb and index finger touch in the pinch. No pose spreads the fingers: their abductions keep the
   /// glove's gain. So do joints of the thumb that the fist does not tell of. Errors: a pose is missing.
   [[nodiscard]] Expected<HandCalibration> result() const;
@@ -72,6 +66,7 @@ class HandCalibrator {
   using Poses = std::array<std::optional<HandAngles>, kCalibrationPoses>;
 
   CalibrationPose pose_ = CalibrationPose::flat;
+  client::PoseRefusal refusal_ = client::PoseRefusal::none;
   std::vector<HandAngles> samples_;  // of pose_
   TimePoint first_, last_;
   Poses poses_;

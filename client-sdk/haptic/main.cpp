@@ -23,7 +23,11 @@ namespace {
 
 using namespace mechane;
 
-volatile std::sig_atomic_t g_stop = 0;  // set by the signal handler
+volatile std::sig_atomic_t g_stop = 0;  // set by signal handlers
+volatile std::sig_atomic_t g_calibrate = 0;
+
+/// A glove whose fingers rest for so long has lost its visitor.
+constexpr Duration kVisitorLeft = std::chrono::minutes(2);
 
 struct Arguments {
   client::ClientConfig client;
@@ -60,8 +64,10 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--clutch", a.clutch,
                  "the device's button, 1 to 32, that holds the hand in its place while the device is moved; 0: none")
       ->check(CLI::Range(0, 32));
-  app.add_flag("--calibrate", a.calibrate,
-               "begin with three poses that fit a glove to the visitor's hand: flat, fist, pinch");
+  app.add_flag(
+      "--calibrate", a.calibrate,
+      "fit a glove to the visitor's hand by three poses (flat, fist, pinch), which the kiosk's displays show: at the "
+      "start, and for each next visitor, when the glove was still for two minutes; the signal USR1 asks for it, too");
   app.add_flag(
       "--wait", a.wait,
       "where the device cannot be opened, for whatever reason, say why and go on trying, each second; displays "
@@ -165,6 +171,30 @@ Expected<std::unique_ptr<haptic::HapticLoop>> make_loop(const Arguments& a, clie
                                     a.client.deadband);
 }
 
+/// Waits for the glove's next angles; null: it is not ready. Told what the visitor is asked to show.
+using LookAtGlove = std::function<Expected<const haptic::HandAngles*>(client::CalibrationStep asked)>;
+
+/// Leads a visitor through the poses. None: they were not shown, and with --wait the visitor goes on without. The main thread.
+Expected<std::optional<haptic::HandCalibration>> lead(const Arguments& a, client::Client& client,
+                                                      client::DeviceReport told, const LookAtGlove& look) {
+  haptic::CalibrationCourse course;
+  while (!course.result()) {
+    if (g_stop != 0) return fail(ErrorCode::cancelled, "stopped during the calibration", a.device);
+    const auto raw = look(course.news().step);
+    if (!raw) return tl::unexpected(raw.error());
+    if (const auto message = course.add(std::chrono::steady_clock::now(), *raw)) log::info(*message);
+    told.calibration = course.news();
+    const bool waits = told.calibration.step == client::CalibrationStep::none;
+    told.state = waits ? client::DeviceState::let_go : client::DeviceState::preparing;
+    client.tell_device(told);
+  }
+  if (*course.result()) return **course.result();
+  const Error& error = course.result()->error();
+  if (!a.wait) return tl::unexpected(error);
+  log::warning(error.to_string() + "; the visitor goes on with the glove's own angles");
+  return std::nullopt;
+}
+
 /// Tells the kiosk's displays of the device. The main thread.
 void tell_state(client::Client& client, client::DeviceReport report, client::DeviceState state) {
   report.state = state;
@@ -175,6 +205,23 @@ Vec3 center_of(const Arguments& a) {
   return {a.center[0], a.center[1], a.center[2]};
 }
 
+/// The simulated hand shows what it is asked for.
+Expected<void> calibrate_virtual(const Arguments& a, client::Client& client, const client::DeviceReport& told,
+                                 haptic::SimulatedDevice& device) {
+  constexpr Duration kPace = std::chrono::milliseconds(20);
+  SystemClock clock;
+  const TimePoint begun = clock.now();
+  client::HandSample hand;
+  return lead(a, client, told,
+              [&](client::CalibrationStep asked) -> Expected<const haptic::HandAngles*> {
+                clock.sleep_until(clock.now() + kPace);
+                device.intend(haptic::show(asked, center_of(a), to_seconds(clock.now() - begun)));
+                hand = device.read(kPace);
+                return &hand.joints;
+              })
+      .map([](const auto& /*fits*/) {});
+}
+
 /// A virtual device has no clock of its own: its loop runs at 1 kHz.
 int run_virtual(const Arguments& a, const std::string& options, client::Client& client,
                 haptic::HandRecorder* recorder) {
@@ -182,6 +229,13 @@ int run_virtual(const Arguments& a, const std::string& options, client::Client& 
   if (!choice) return log::error(choice.error()), 2;
   const auto intent = [&](double t_s) { return haptic::stroke(choice->hand, center_of(a), a.radius_m, t_s); };
   const auto device = haptic::make_virtual_device(*choice, intent(0).X_WH.p);
+  client::DeviceReport told{.kind = choice->hand, .name = std::string(haptic::kVirtualName)};
+  if (a.calibrate && choice->hand == client::HandKind::glove) {
+    // What comes out is not needed: the angles of a simulated hand are those of Mechane's.
+    const auto shown = calibrate_virtual(a, client, told, *device);
+    if (!shown) return log::error(shown.error()), g_stop != 0 ? 0 : 2;
+    told.calibration.step = client::CalibrationStep::done;
+  }
   auto loop = make_loop(a, client, *device);
   if (!loop) return log::error(loop.error()), 2;
   SystemClock clock;
@@ -196,7 +250,7 @@ int run_virtual(const Arguments& a, const std::string& options, client::Client& 
   });
   if (!started) return log::error(started.error()), 2;
   wait_for_end(a, client, recorder, [&] {
-    tell_state(client, {.name = "virtual"}, (*loop)->device_state());
+    tell_state(client, told, (*loop)->device_state());
     return true;
   });
   turns.end();
@@ -217,23 +271,25 @@ haptic::DriverProcessConfig driver_config(const Arguments& a) {
           .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99)};
 }
 
+client::DeviceReport report_of(const mechane_device_info& info) {
+  return {.kind = info.hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point,
+          .name = info.name};
+}
+
 /// Opens the glove for it, and lets it go.
-Expected<haptic::HandCalibration> calibrated(const Arguments& a) {
+Expected<std::optional<haptic::HandCalibration>> calibrated(const Arguments& a, client::Client& client) {
   haptic::DriverProcess glove(driver_config(a));
   if (auto opened = glove.open(); !opened) return tl::unexpected(opened.error());
   if (glove.info().hand != MECHANE_HAND_GLOVE)
     return fail(ErrorCode::conflict, "only a glove can be calibrated", a.device, "start it without --calibrate");
-  haptic::CalibrationCourse course;
-  while (!course.result()) {
-    if (g_stop != 0) return fail(ErrorCode::cancelled, "stopped during the calibration", a.device);
+  client::HandSample hand;
+  const auto look = [&](client::CalibrationStep /*asked*/) -> Expected<const haptic::HandAngles*> {
     if (auto news = glove.check(); !news) return tl::unexpected(news.error());
     (void)glove.wait(std::chrono::milliseconds(20));
-    const client::HandSample hand = glove.read(kTickPeriod);
-    const bool ready = glove.condition() == haptic::DeviceCondition::ready;
-    if (const auto message = course.add(std::chrono::steady_clock::now(), ready ? &hand.joints : nullptr))
-      log::info(*message);
-  }
-  return *course.result();
+    hand = glove.read(kTickPeriod);
+    return glove.condition() == haptic::DeviceCondition::ready ? &hand.joints : nullptr;
+  };
+  return lead(a, client, report_of(glove.info()), look);
 }
 
 /// What `open` opens: with --wait it is called each second until it does, or until it is time to stop.
@@ -257,45 +313,71 @@ auto opened(const Arguments& a, client::Client& client, const std::string& name,
   return result;
 }
 
-/// The device sets the pace of its loop.
-int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
-  const int fifo = a.client.fifo_priority;
-  haptic::DriverProcessConfig config = driver_config(a);
-  log::info("opening the device, which may take some seconds");
-  tell_state(client, {.name = config.device.driver}, client::DeviceState::preparing);
-  const std::string name = config.device.driver;
-  const auto failed_to_open = [&](const Error& error) { return a.wait && g_stop != 0 ? 0 : (log::error(error), 2); };
-  if (a.calibrate) {
-    auto calibration = opened(a, client, name, [&] { return calibrated(a); });
-    if (!calibration) return failed_to_open(calibration.error());
-    config.glove = *calibration;
-  }
-  haptic::DriverProcess device(std::move(config));
-  auto loop = opened(a, client, name, [&] { return make_loop(a, client, device); });
-  if (!loop) return failed_to_open(loop.error());
+int failed_to_open(const Arguments& a, const Error& error) {
+  if (a.wait && g_stop != 0) return 0;
+  log::error(error);
+  return 2;
+}
+
+/// Whether the glove is to be fitted to a hand now: staff asked for it, or the visitor has left.
+bool calibrates_again(const Arguments& a, const haptic::HandMotion& motion) {
+  const bool asked = g_calibrate != 0;
+  g_calibrate = 0;
+  return asked || (a.calibrate && motion.rests_for(std::chrono::steady_clock::now()) > kVisitorLeft);
+}
+
+/// The device sets the pace of its loop. Returns the program's status; none: its glove has to be fitted to a hand first.
+std::optional<int> run_device(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder,
+                              haptic::DriverProcess& device, bool fitted) {
+  const std::string driver = haptic::parse_device_name(a.device).driver;
+  auto loop = opened(a, client, driver, [&] { return make_loop(a, client, device); });
+  if (!loop) return failed_to_open(a, loop.error());
   log::info(std::string("device: ") + device.info().name);
+  client::DeviceReport told = report_of(device.info());
+  if (fitted) told.calibration.step = client::CalibrationStep::done;
   Turns turns(**loop, recorder);
-  haptic::DeviceThread thread(device, fifo, [&](TimePoint now, Duration dt) { turns.turn(now, dt); });
-  const client::DeviceReport told{
-      .kind = device.info().hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point,
-      .name = device.info().name};
-  bool failed = false;
+  haptic::HandMotion motion;
+  haptic::DeviceThread thread(device, a.client.fifo_priority, [&](TimePoint now, Duration dt) {
+    turns.turn(now, dt);
+    motion.note(now, (*loop)->hand().joints);
+  });
+  bool failed = false, again = false;
   wait_for_end(a, client, recorder, [&] {
     tell_state(client, told, (*loop)->device_state());
     const auto news = device.check();
     if (!news) log::error(news.error());
     failed = !news;
     if (news && *news) log::warning(**news);
-    return !failed;
+    again = told.kind == client::HandKind::glove && calibrates_again(a, motion);
+    return !failed && !again;
   });
   if (!failed) turns.end();
   thread.stop();
+  if (again && !failed) return std::nullopt;
   nlohmann::json json = to_json(**loop);
   json.update({{"device", device.info().name},
                {"interval_us", realtime::quantiles_json(thread.intervals())},
                {"ticks_without_state", thread.without_state()}});
   const int reported = report(a, json);
   return failed ? 1 : reported;
+}
+
+int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
+  log::info("opening the device, which may take some seconds");
+  std::optional<int> status;
+  for (bool calibrate = a.calibrate; !status; calibrate = true) {
+    haptic::DriverProcessConfig config = driver_config(a);
+    tell_state(client, {.name = config.device.driver}, client::DeviceState::preparing);
+    if (calibrate) {
+      auto calibration = opened(a, client, config.device.driver, [&] { return calibrated(a, client); });
+      if (!calibration) return failed_to_open(a, calibration.error());
+      config.glove = *calibration;
+    }
+    const bool fitted = config.glove.has_value();
+    haptic::DriverProcess device(std::move(config));
+    status = run_device(a, client, recorder, device, fitted);
+  }
+  return *status;
 }
 
 }  // namespace
@@ -314,6 +396,7 @@ int main(int argc, char** argv) {
   a.client.program = "mechane-haptic";
   std::signal(SIGINT, [](int) { g_stop = 1; });
   std::signal(SIGTERM, [](int) { g_stop = 1; });
+  std::signal(SIGUSR1, [](int) { g_calibrate = 1; });
   auto client = client::Client::connect(a.client);
   if (!client) {
     log::error(client.error());

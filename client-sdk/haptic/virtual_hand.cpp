@@ -4,6 +4,7 @@
 
 #include "client-sdk/drivers/options.hpp"
 #include "client-sdk/haptic/tracked_hand.hpp"
+#include "server/hand/calibration_pose.hpp"
 
 namespace mechane::haptic {
 namespace {
@@ -57,6 +58,14 @@ HandIntent stroke(client::HandKind kind, const Vec3& center, double radius_m, do
   intent.grasp_intent = 0.5 - 0.5 * std::cos(angle);
   for (std::size_t joint = 0; joint < intent.joints.size(); ++joint)
     if (joint % hand::kFingerJoints != 0) intent.joints[joint] = kFist_rad * intent.grasp_intent;
+  return intent;
+}
+
+HandIntent show(client::CalibrationStep asked, const Vec3& p_WH, double t_s) {
+  using client::CalibrationStep;
+  HandIntent intent = stroke(client::HandKind::glove, p_WH, 0, t_s);
+  if (asked != CalibrationStep::none && asked != CalibrationStep::done)
+    intent.joints = hand::model_pose(static_cast<hand::CalibrationPose>(static_cast<int>(asked) - 1));
   return intent;
 }
 

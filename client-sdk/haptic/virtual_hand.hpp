@@ -33,4 +33,7 @@ struct VirtualChoice {
 /// A hand that strokes a circle in the x-y plane around `center`, once in four seconds; a whole hand also closes and opens once.
 [[nodiscard]] HandIntent stroke(client::HandKind kind, const Vec3& center, double radius_m, double t_s);
 
+/// The hand of a visitor who shows at `p_WH` what a calibration asks for; where it asks for nothing, the hand opens and closes.
+[[nodiscard]] HandIntent show(client::CalibrationStep asked, const Vec3& p_WH, double t_s);
+
 }  // namespace mechane::haptic

@@ -52,6 +52,24 @@ struct OverlayNotice {
   std::string more;  ///< under the text, smaller; empty: none
 };
 
+/// A bar with round ends, on a disc of radius 1: x to the right and y down from its middle.
+struct HandStroke {
+  Eigen::Vector2f from = Eigen::Vector2f::Zero();
+  Eigen::Vector2f to = Eigen::Vector2f::Zero();
+  float radius = 0;
+  std::uint32_t part = 0;  ///< strokes of one part, which follow each other, have one outline
+};
+
+/// A pose of the hand that a visitor is asked to show, in the middle of the picture.
+struct OverlayPose {
+  std::vector<HandStroke> drawing{};  ///< what lies behind first
+  std::string text{};
+  std::string more{};                 ///< under the text, smaller; empty: none
+  std::string again{};                ///< why this pose is asked for once more; empty: it is not
+  float held = 0;                     ///< how much of its time it was held, 0..1: a ring around the drawing
+  std::uint32_t done = 0, total = 0;  ///< poses
+};
+
 /// Everything that is written over the picture, in one language, UTF-8.
 struct OverlayContent {
   std::string title;
@@ -65,6 +83,7 @@ struct OverlayContent {
   std::string goal;                   ///< of the activity, at its beginning
   std::vector<OverlayButton> corner;  ///< at the lower right
   std::optional<OverlayPanel> panel;  ///< shown instead of captions and readouts
+  std::optional<OverlayPose> pose{};  ///< likewise, where there is no panel
   OverlayStyle style;
   std::vector<OverlayDot> dots{};        ///< of the display's own hand
   std::optional<OverlayLabel> label{};   ///< of the thing under the pointer

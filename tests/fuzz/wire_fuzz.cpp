@@ -66,7 +66,9 @@ void fuzz_kiosk(Bytes bytes) {
   wire.protocol = proto::kProtocol;
   client::DeviceReport device;
   if (client::parse(wire, device))
-    must(device.user < hand::kMaxUsers && device.state <= client::DeviceState::lost &&
+    must(device.user < hand::kMaxUsers && device.state <= client::DeviceState::lost && device.calibration.held >= 0 &&
+         device.calibration.held <= 1 && device.calibration.step <= client::CalibrationStep::done &&
+         device.calibration.refusal <= client::PoseRefusal::unseen &&
          device.name.size() <= sizeof(wire.device_name));  // one without a closing zero is read to its end, not further
   transport::Session session;
   if (transport::validate(wire, session) != transport::Reject::none) return;

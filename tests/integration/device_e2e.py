@@ -148,6 +148,64 @@ class Devices(EndToEnd):
         haptic.kill()
         wait_until(lambda: not sign(), 40, "the notice of a program that died is gone")
 
+    def statuses(self, echo):
+        """What the haptic program told, in order."""
+        told = [json.loads(line) for line in echo.text().splitlines() if line.startswith("{")]
+        return [status for status in told if status["program"] == "mechane-haptic"]
+
+    def calibrations(self, echo):
+        """The steps, each once."""
+        steps = [status["calibration"] for status in self.statuses(echo)]
+        return [step for step, before in zip(steps, [None, *steps]) if step != before]
+
+    @marked("draws")
+    def test_the_display_leads_a_visitor_through_a_gloves_calibration(self):
+        self.server(records=False)
+        display = self.start("display", "display", "--offscreen", "--kiosk", "kiosk-1", "--size", "640x360", "--language", "en",
+                             "--fps", "10", "--out", self.folder / "pictures")
+
+        def disc():
+            """Gold that no sign has: a quarter of it lies behind the drawn hand."""
+            return sum(1 for pixel in pixels(self.picture(display)) if pixel == GOLD) > 4000
+        echo = self.start("echo", "echo", "KioskStatus", "--json")
+        haptic = self.start("haptic", "haptic", "--kiosk", "kiosk-1", "--device", "virtual:kind=glove", "--calibrate")
+        wait_until(disc, 30, "a pose is shown")
+        wait_until(lambda: self.statuses(echo)[-1]["device"] == "ready", 60, haptic.text())
+        self.assertEqual(self.calibrations(echo), ["none", "flat", "fist", "pinch", "done"])
+        first, done = ([s["sent_ns"] for s in self.statuses(echo) if s["calibration"] == step][0] for step in ("flat", "done"))
+        self.assertLess((done - first) / 1e9, 30 * PATIENCE)
+        asked = [s for s in self.statuses(echo) if s["calibration"] in ("flat", "fist", "pinch")]
+        self.assertLessEqual(len(asked), 5 * (done - first) / 1e9, "a few messages a second")
+        wait_until(lambda: not disc(), 30, "the thanks are over")
+
+    def test_a_glove_is_fitted_to_the_next_visitor_without_a_restart(self):
+        """Staff ask for it by a signal. The stand-in of a glove shows what it is asked for."""
+        flat, fist, pinch = [0] * 20, [-20, 25, 40, 60] + 4 * [0, 90, 100, 90], [-8, 18, 40, 30, 0, 62, 42, 24] + 3 * [0, 10, 10, 10]
+        file, moves = self.folder / "pose", 0
+
+        def shows(degrees):
+            file.write_bytes(struct.pack("20d", *(angle / 57.2957795 for angle in degrees)))
+
+        def is_ready():
+            nonlocal moves
+            told = self.statuses(echo)[-1] if self.statuses(echo) else {"calibration": "none", "device": "none"}
+            moves += 1
+            shows({"flat": flat, "fist": fist, "pinch": pinch}.get(told["calibration"], fist if moves // 20 % 2 else flat))
+            return (told["device"], told["calibration"]) == ("ready", "done")
+        shows(flat)
+        echo = self.start("echo", "echo", "KioskStatus", "--json")
+        haptic = self.start("haptic", "haptic", "--wait", "--calibrate", "--kiosk", "kiosk-1", "--device", self.device(f"pose={file}"))
+        wait_until(is_ready, 60, haptic.text())
+        haptic.process.send_signal(signal.SIGUSR1)
+        wait_until(lambda: self.statuses(echo)[-1]["device"] == "let go", 10, "it waits for a hand")
+        wait_until(is_ready, 60, haptic.text())
+        steps = self.calibrations(echo)
+        self.assertEqual(steps[-9:], ["flat", "fist", "pinch", "done", "none", "flat", "fist", "pinch", "done"], haptic.text())
+        forces, closed = self.trace()
+        self.assertEqual(closed, 3, "after each calibration, and before the second")
+        self.assertEqual(haptic.stop(), 0, haptic.text())
+        self.assertEqual((self.trace()[1], self.trace()[0][-1][1]), (4, 0))
+
     def test_a_device_that_is_not_there_at_the_start_is_waited_for(self):
         there = self.folder / "there"
         haptic = self.start("haptic", "haptic", "--wait", "--kiosk", "kiosk-1", "--device", self.device(f"until={there}"))

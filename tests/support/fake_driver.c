@@ -26,6 +26,8 @@ typedef struct {
   long after; /* reads */
   long reads;
   int trace;
+  char pose[256]; /* of a glove: the file with its angles */
+  double joints[20];
 } Device;
 
 static int opened = 0; /* how often in this process */
@@ -41,7 +43,7 @@ static int fails(char* why, size_t why_size, const char* what) {
   return 1;
 }
 
-/* "trace=FILE,fault=WORD,after=READS,until=FILE": absent until this file is there */
+/* "trace=FILE,fault=WORD,after=READS,until=FILE,pose=FILE": absent until this file is there; a glove with the 20 angles of that file */
 static int fake_open(const char* options, void** device, char* why, size_t why_size) {
   Device* made = calloc(1, sizeof(Device));
   char text[512];
@@ -52,6 +54,7 @@ static int fake_open(const char* options, void** device, char* why, size_t why_s
     if (strncmp(word, "trace=", 6) == 0) made->trace = open(word + 6, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
     if (strncmp(word, "fault=", 6) == 0) snprintf(made->fault, sizeof(made->fault), "%s", word + 6);
     if (strncmp(word, "after=", 6) == 0) made->after = atol(word + 6);
+    if (strncmp(word, "pose=", 5) == 0) snprintf(made->pose, sizeof(made->pose), "%s", word + 5);
     if (strncmp(word, "until=", 6) == 0 && access(word + 6, F_OK) != 0) strcpy(made->fault, "absent");
   }
   ++opened;
@@ -68,13 +71,22 @@ static int fake_describe(void* device, mechane_device_info* info, char* why, siz
   (void)why, (void)why_size;
   memset(info, 0, sizeof(*info));
   snprintf(info->name, sizeof(info->name), "Fake stylus");
-  info->hand = MECHANE_HAND_POINT;
+  info->hand = d->pose[0] != 0 ? MECHANE_HAND_GLOVE : MECHANE_HAND_POINT;
   info->output = MECHANE_OUTPUT_FORCE;
   info->peak_force_n = strcmp(d->fault, "limits") == 0 ? 1000 : 2;
   if (strcmp(d->fault, "other") == 0 && opened > 1) info->peak_force_n = 8;
   info->continuous_force_n = 1;
   info->rate_hz = 1000;
   return 0;
+}
+
+/* A file of another length is just being written. */
+static void read_pose(Device* d) {
+  double joints[21];
+  const int file = open(d->pose, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  if (read(file, joints, sizeof(joints)) == sizeof(d->joints)) memcpy(d->joints, joints, sizeof(d->joints));
+  close(file);
 }
 
 static int fake_read(void* device, mechane_device_state* state, char* why, size_t why_size) {
@@ -86,6 +98,8 @@ static int fake_read(void* device, mechane_device_state* state, char* why, size_
   state->position_m[1] = depth_m < 0.02 ? -depth_m : -0.02; /* 0.1 m/s down to 20 mm */
   state->orientation_wxyz[0] = 1;
   state->temperature = -1;
+  if (d->pose[0] != 0 && d->reads % 20 == 0) read_pose(d);
+  memcpy(state->joints_rad, d->joints, sizeof(d->joints));
   if (!fault) return 0;
   if (strcmp(d->fault, "nan") == 0) state->position_m[0] = NAN;
   if (strcmp(d->fault, "hot") == 0) state->flags |= MECHANE_STATE_HOT;

@@ -315,6 +315,12 @@ void lay_out_panel(Page& page, const picture::OverlayContent& content, const Box
   add_question_panel(page, *content.panel, {margin, top, page.width - 2 * margin, below - top});
 }
 
+void lay_out_pose(Page& page, const picture::OverlayPose& pose, const Box& corner) {
+  const float margin = page.margin();
+  const float below = corner.empty() ? page.height - margin : corner.y - page.gap();
+  add_pose(page, pose, {margin, margin, page.width - 2 * margin, below - margin});
+}
+
 void lay_out_captions(Page& page, const picture::OverlayContent& content, const Box& corner, const Box& inset) {
   const float gap = page.gap();
   const float margin = page.margin();
@@ -383,14 +389,17 @@ OverlayLayout lay_out(const picture::OverlayContent& content, picture::PixelSize
   for (const picture::OverlayDot& dot : content.dots)
     page.add_shape({dot.x - dot.radius, dot.y - dot.radius, 2 * dot.radius, 2 * dot.radius}, dot.radius, dot.colour);
   Box inset;
-  if (inset_caption != nullptr && !content.panel) {
+  const bool in_front = content.panel || content.pose;
+  if (inset_caption != nullptr && !in_front) {
     inset = inset_box(size);
     add_inset_frame(page, inset, *inset_caption);
   }
-  if (content.panel) page.add_shape({0, 0, page.width, page.height}, 0, page.colours.veil);
+  if (in_front) page.add_shape({0, 0, page.width, page.height}, 0, page.colours.veil);
   const Box corner = add_corner(page, content.corner);
   if (content.panel) {
     lay_out_panel(page, content, corner);
+  } else if (content.pose) {
+    lay_out_pose(page, *content.pose, corner);
   } else {
     lay_out_captions(page, content, corner, inset);
   }

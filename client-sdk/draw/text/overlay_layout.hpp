@@ -1,5 +1,5 @@
 // Layout of the overlay: a caption panel at the lower left, buttons at the lower right, readouts at the upper right, a
-// note at the top; or one panel of questions. Nothing overlaps or leaves the picture; too many words become smaller.
+// note at the top; or one panel, of a question or of a pose to show. Nothing overlaps or leaves the picture; too many words become smaller.
 // Pure: content and size in, shapes and lines of text out. Pixels, origin in the upper left corner; colours are sRGB
 // with straight alpha.
 #pragma once
@@ -22,6 +22,7 @@ struct OverlayShape {
   float x = 0, y = 0, width = 0, height = 0;
   float corner_radius = 0;
   Eigen::Vector4f colour = Eigen::Vector4f::Ones();
+  float turn_rad = 0;  ///< about its middle, clockwise
 };
 
 struct OverlayText {

@@ -76,6 +76,9 @@ class Page {
 /// Adds the buttons at the lower right. Returns their block; empty: none.
 Box add_corner(Page& page, const std::vector<picture::OverlayButton>& buttons);
 
+/// Adds the pose that a visitor is asked for, in the middle of `room`.
+void add_pose(Page& page, const picture::OverlayPose& pose, const Box& room);
+
 /// Adds the panel in the middle of `room`.
 void add_question_panel(Page& page, const picture::OverlayPanel& panel, const Box& room);
 

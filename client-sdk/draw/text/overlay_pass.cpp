@@ -20,13 +20,19 @@ struct Quad {
   float u0, v0, u1, v1;
 };
 
-void add_quad(std::vector<Vertex>& out, const Quad& q, const Eigen::Vector4f& colour,
-              const std::array<float, 4>& shape) {
+/// Turned about its middle, clockwise.
+void add_quad(std::vector<Vertex>& out, const Quad& q, const Eigen::Vector4f& colour, const std::array<float, 4>& shape,
+              float turn_rad = 0) {
   const std::array<float, 4> c{colour.x(), colour.y(), colour.z(), colour.w()};
-  const Vertex a{q.x, q.y, q.u0, q.v0, c, shape};
-  const Vertex b{q.x, q.y + q.height, q.u0, q.v1, c, shape};
-  const Vertex d{q.x + q.width, q.y + q.height, q.u1, q.v1, c, shape};
-  const Vertex e{q.x + q.width, q.y, q.u1, q.v0, c, shape};
+  const float cosine = std::cos(turn_rad), sine = std::sin(turn_rad);
+  const float hw = q.width / 2, hh = q.height / 2;
+  const auto corner = [&](float x, float y, float u, float v) {
+    return Vertex{q.x + hw + cosine * x - sine * y, q.y + hh + sine * x + cosine * y, u, v, c, shape};
+  };
+  const Vertex a = corner(-hw, -hh, q.u0, q.v0);
+  const Vertex b = corner(-hw, hh, q.u0, q.v1);
+  const Vertex d = corner(hw, hh, q.u1, q.v1);
+  const Vertex e = corner(hw, -hh, q.u1, q.v0);
   out.insert(out.end(), {a, b, d, a, d, e});
 }
 
@@ -35,7 +41,7 @@ void add_shape(std::vector<Vertex>& out, const OverlayShape& shape) {
   const float hh = shape.height / 2;
   // One pixel larger on all sides, for the soft edge.
   const Quad quad{shape.x - 1, shape.y - 1, shape.width + 2, shape.height + 2, -hw - 1, -hh - 1, hw + 1, hh + 1};
-  add_quad(out, quad, shape.colour, {hw, hh, shape.corner_radius, 1});
+  add_quad(out, quad, shape.colour, {hw, hh, shape.corner_radius, 1}, shape.turn_rad);
 }
 
 }  // namespace

@@ -129,6 +129,7 @@ class Visitor {
     return calibrator_.result();
   }
   [[nodiscard]] Expected<HandCalibration> result() const { return calibrator_.result(); }
+  [[nodiscard]] client::PoseRefusal refusal() const { return calibrator_.refusal(); }
   [[nodiscard]] Duration lasted() const { return now_.time_since_epoch(); }
 
   double tremor_rad = 0.02;
@@ -153,7 +154,7 @@ TEST(HandCalibration, AnyGlovesAnglesBecomeThoseOfTheHand) {
     const WrongGlove glove = any_glove();
     const HandAngles pinch = any_pinch();
     Visitor visitor(glove);
-    const auto calibration = visitor.show_all({}, model_fist(), pinch);
+    const auto calibration = visitor.show_all({}, model_pose(CalibrationPose::fist), pinch);
     RC_ASSERT(calibration.has_value());
     HandAngles truth;
     for (std::size_t j = 0; j < truth.size(); ++j)
@@ -172,7 +173,7 @@ TEST(HandCalibration, ThumbAndIndexFingerMeetInAPinchThatTheGloveSeesApart) {
     visitor.tremor_rad = 0;
     const HandAngles pinch = with_thumb_shifted(pinch_of_mechane(), by);
     ASSERT_GT(std::abs(tips_apart_m(pinch) - kTouching_m), 0.004) << by;
-    const auto calibration = visitor.show_all({}, model_fist(), pinch);
+    const auto calibration = visitor.show_all({}, model_pose(CalibrationPose::fist), pinch);
     ASSERT_TRUE(calibration) << calibration.error().to_string();
     EXPECT_NEAR(tips_apart_m(calibration->apply(pinch)), kTouching_m, 1e-4);
     for (std::size_t j = 0; j < hand::kHandJoints; ++j) {
@@ -183,9 +184,21 @@ TEST(HandCalibration, ThumbAndIndexFingerMeetInAPinchThatTheGloveSeesApart) {
   }
 }
 
+TEST(HandCalibration, MechanesOwnHandFitsARightGloveAsItIs) {
+  Visitor visitor(right_glove());
+  visitor.tremor_rad = 0;
+  const auto calibration = visitor.show_all(model_pose(CalibrationPose::flat), model_pose(CalibrationPose::fist),
+                                            model_pose(CalibrationPose::pinch));
+  ASSERT_TRUE(calibration) << calibration.error().to_string();
+  for (const JointCalibration& joint : calibration->joints) {
+    EXPECT_NEAR(joint.gain, 1, 1e-9);
+    EXPECT_NEAR(joint.offset_rad, 0, 0.002);
+  }
+}
+
 TEST(HandCalibration, AnglesStayWithinWhatJointsCanDo) {
   Visitor visitor(right_glove());
-  const auto calibration = visitor.show_all({}, model_fist(), pinch_of_mechane());
+  const auto calibration = visitor.show_all({}, model_pose(CalibrationPose::fist), pinch_of_mechane());
   ASSERT_TRUE(calibration);
   for (const double far : {-100.0, 100.0}) {
     HandAngles raw;
@@ -198,11 +211,11 @@ TEST(HandCalibration, AnglesStayWithinWhatJointsCanDo) {
 TEST(HandCalibration, SamplesThatAreNoNumbersAreIgnored) {
   Visitor visitor(right_glove());
   visitor.unplugged_each = 3;
-  const auto calibration = visitor.show_all({}, model_fist(), pinch_of_mechane());
+  const auto calibration = visitor.show_all({}, model_pose(CalibrationPose::fist), pinch_of_mechane());
   ASSERT_TRUE(calibration) << calibration.error().to_string();
-  for (const double angle : calibration->apply(model_fist()))
+  for (const double angle : calibration->apply(model_pose(CalibrationPose::fist)))
     EXPECT_TRUE(std::isfinite(angle));
-  EXPECT_NEAR(calibration->apply(model_fist())[5], model_fist()[5], 0.02);
+  EXPECT_NEAR(calibration->apply(model_pose(CalibrationPose::fist))[5], model_pose(CalibrationPose::fist)[5], 0.02);
 }
 
 TEST(HandCalibration, AGloveThatGivesNoNumbersIsRefused) {
@@ -223,8 +236,11 @@ TEST(HandCalibration, APoseIsShownForThreeSeconds) {
   calibrator.begin(CalibrationPose::flat);
   for (auto at = 0ms; at < 2900ms; at += 10ms)
     EXPECT_FALSE(calibrator.add(TimePoint(at), {}));
+  EXPECT_NEAR(calibrator.share(), 2890.0 / 3000, 1e-9);
   EXPECT_FALSE(calibrator.end());
+  EXPECT_EQ(calibrator.refusal(), client::PoseRefusal::unseen);
   calibrator.begin(CalibrationPose::flat);
+  EXPECT_EQ(calibrator.share(), 0);
   EXPECT_FALSE(calibrator.add(TimePoint(0ms), {}));
   EXPECT_TRUE(calibrator.add(TimePoint(4000ms), {}));
   EXPECT_FALSE(calibrator.end()) << "two samples are no three seconds";
@@ -237,13 +253,14 @@ TEST(HandCalibration, AHandThatMovesIsRefusedAndMayTryAgain) {
   ASSERT_FALSE(moved);
   EXPECT_EQ(moved.error().code, ErrorCode::invalid_value);
   EXPECT_EQ(moved.error().where, "flat hand");
+  EXPECT_EQ(visitor.refusal(), client::PoseRefusal::moved);
   EXPECT_FALSE(moved.error().remedy.empty());
   visitor.tremor_rad = 0.02;
-  EXPECT_TRUE(visitor.show_all({}, model_fist(), pinch_of_mechane()));
+  EXPECT_TRUE(visitor.show_all({}, model_pose(CalibrationPose::fist), pinch_of_mechane()));
 }
 
 TEST(HandCalibration, PosesThatAreSwappedOrTooMuchAlikeAreRefused) {
-  const HandAngles flat{}, fist = model_fist(), pinch = pinch_of_mechane();
+  const HandAngles flat{}, fist = model_pose(CalibrationPose::fist), pinch = pinch_of_mechane();
   HandAngles half_fist = fist;
   for (double& angle : half_fist)
     angle *= 0.1;
@@ -265,13 +282,15 @@ TEST(HandCalibration, PosesThatAreSwappedOrTooMuchAlikeAreRefused) {
     const auto calibration = visitor.show_all(c.flat, c.fist, c.pinch);
     ASSERT_FALSE(calibration) << c.what;
     EXPECT_EQ(calibration.error().where, c.where) << c.what;
+    const bool swapped = calibration.error().code == ErrorCode::conflict;
+    EXPECT_EQ(visitor.refusal(), swapped ? client::PoseRefusal::swapped : client::PoseRefusal::unlike) << c.what;
     EXPECT_FALSE(calibration.error().remedy.empty()) << c.what;
     EXPECT_FALSE(visitor.result()) << c.what;
   }
 }
 
 TEST(HandCalibration, AFingerThatDoesNotBendIsNamed) {
-  HandAngles fist = model_fist();
+  HandAngles fist = model_pose(CalibrationPose::fist);
   fist[4 * 3 + 2] = 0.1;
   Visitor visitor(right_glove());
   const auto calibration = visitor.show_all({}, fist, pinch_of_mechane());
@@ -284,7 +303,7 @@ TEST(HandCalibration, APinchThatIsTooFarApartIsRefused) {
   pinch[0] = 1.0;
   pinch[1] = pinch[2] = pinch[3] = -0.6;
   Visitor visitor(right_glove());
-  const auto calibration = visitor.show_all({}, model_fist(), pinch);
+  const auto calibration = visitor.show_all({}, model_pose(CalibrationPose::fist), pinch);
   ASSERT_FALSE(calibration);
   EXPECT_EQ(calibration.error().where, "pinch");
 }
@@ -294,7 +313,7 @@ TEST(HandCalibration, APoseThatIsMissingIsNamed) {
   ASSERT_TRUE(visitor.show(CalibrationPose::flat, {}));
   ASSERT_TRUE(visitor.show(CalibrationPose::pinch, pinch_of_mechane())) << "in any order";
   EXPECT_EQ(visitor.result().error().where, "fist");
-  ASSERT_TRUE(visitor.show(CalibrationPose::fist, model_fist()));
+  ASSERT_TRUE(visitor.show(CalibrationPose::fist, model_pose(CalibrationPose::fist)));
   EXPECT_TRUE(visitor.result());
 }
 

@@ -256,6 +256,63 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, questions_lie_over_nothing_and_within_the
   RC_ASSERT(layout.targets.size() == content.corner.size() + panel.answers.size() + 1);
 }
 
+picture::OverlayPose some_pose() {
+  picture::OverlayPose pose;
+  pose.text = some_words(1, 6);
+  pose.more = some_words(0, 9);
+  pose.again = some_words(0, 9);
+  pose.held = static_cast<float>(between(0, 10)) / 10;
+  pose.total = 3;
+  pose.done = between(0U, 3U);
+  if (pose.done < 3) pose.drawing = {{{-0.4F, 0.3F}, {0.4F, -0.3F}, 0.2F, 0}, {{0, 0}, {0, 0.5F}, 0.1F, 1}};
+  return pose;
+}
+
+RC_GTEST_PROP(OverlayLayoutOfAnything, a_pose_lies_over_nothing_and_within_the_picture, ()) {
+  picture::OverlayContent content;
+  add_some_corner(content);
+  content.title = content.caption = "not shown";
+  content.pose = some_pose();
+  const picture::PixelSize size = some_size();
+  const OverlayLayout layout = lay_out(content, size, real_letters());
+  const std::string fault = fault_of(layout, size, real_letters(), content.style.high_contrast);
+  RC_LOG() << size.width << "x" << size.height << ": " << fault;
+  RC_ASSERT(fault.empty());
+  RC_ASSERT(layout.targets.size() == content.corner.size());
+}
+
+TEST(OverlayLayout, a_pose_has_a_ring_that_fills) {
+  picture::OverlayContent content;
+  content.pose = {.drawing = {{{-0.3F, 0}, {0.3F, 0}, 0.2F, 0}}, .text = "Make a fist", .total = 3};
+  const auto filled = [&content](float held) {
+    content.pose->held = held;
+    const OverlayLayout layout = lay_out(content, {1280, 720}, half_square);
+    const OverlayShape& disc = layout.shapes[2];  // on the veil and the panel
+    return std::ranges::count_if(layout.shapes, [&](const OverlayShape& shape) {
+      const float x = shape.x + shape.width / 2 - disc.x - disc.width / 2;
+      const float y = shape.y + shape.height / 2 - disc.y - disc.height / 2;
+      return std::hypot(x, y) > disc.width / 2 && std::hypot(x, y) < 0.7F * disc.width && shape.colour.w() == 1;
+    });
+  };
+  EXPECT_EQ(filled(0), 0);
+  EXPECT_EQ(filled(0.5F), 30);
+  EXPECT_EQ(filled(1), 60);
+}
+
+TEST(OverlayLayout, a_poses_parts_have_one_outline_each) {
+  picture::OverlayContent content;
+  content.pose = {
+      .drawing = {{{-0.3F, 0}, {0.3F, 0}, 0.2F, 0}, {{0, 0}, {0, 0.4F}, 0.2F, 0}, {{0, 0}, {0, 0}, 0.1F, 1}},
+      .text = "Make a fist"};
+  const OverlayLayout layout = lay_out(content, {1280, 720}, half_square);
+  std::string drawn;
+  for (std::size_t i = 3; i < 9; ++i)
+    drawn += layout.shapes[i].colour.x() < 0.5F ? 'o' : 'f';
+  EXPECT_EQ(drawn, "ooffof");
+  EXPECT_NEAR(layout.shapes[4].turn_rad, kPi / 2, 1e-5) << "downwards";
+  EXPECT_NEAR(layout.shapes[4].width, layout.shapes[3].width * (0.4F + 0.4F) / (0.6F + 0.4F), 2);
+}
+
 TEST(OverlayLayout, a_notice_stands_in_the_notes_place_with_its_sign_beside_its_words) {
   picture::OverlayContent content;
   content.note = "a note";

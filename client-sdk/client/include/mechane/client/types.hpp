@@ -38,12 +38,33 @@ enum class DeviceState : std::uint8_t {
   lost,          ///< gone or faulty
 };
 
+/// What a glove's program asks a visitor to show, so that the glove fits the hand.
+enum class CalibrationStep : std::uint8_t { none, flat, fist, pinch, done };
+
+/// Why a pose is asked for once more.
+enum class PoseRefusal : std::uint8_t {
+  none,
+  moved,    ///< the hand did not keep still
+  unlike,   ///< not this pose, or too much like another one
+  swapped,  ///< the first two poses were shown in the wrong order: all begins again
+  unseen,   ///< not shown for long enough, or the glove was not ready
+};
+
+/// How far a glove's program is with its visitor. Nothing of the hand itself.
+struct CalibrationNews {
+  CalibrationStep step = CalibrationStep::none;
+  float held = 0;  ///< how much of its time the pose was held, 0..1, in tenths that have begun: few messages tell it
+  PoseRefusal refusal = PoseRefusal::none;
+  friend bool operator==(const CalibrationNews&, const CalibrationNews&) = default;
+};
+
 /// The device of one hand of a kiosk.
 struct DeviceReport {
   std::uint32_t user = 0;  ///< filled in by the client
   DeviceState state = DeviceState::none;
   HandKind kind = HandKind::one_point;
   std::string name{};  ///< maker and model; at most 63 bytes, longer ones are cut
+  CalibrationNews calibration{};
   friend bool operator==(const DeviceReport&, const DeviceReport&) = default;
 };
 

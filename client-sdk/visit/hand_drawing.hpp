@@ -1,0 +1,14 @@
+// A hand drawn in a few strokes, for a visitor who is to show the same: Mechane's own hand in that pose, seen from the front.
+#pragma once
+
+#include <vector>
+
+#include "client-sdk/picture/overlay_content.hpp"
+#include "server/hand/calibration_pose.hpp"
+
+namespace mechane::visit {
+
+/// A right hand in its glove, fingers up, turned so that the pose is seen best.
+[[nodiscard]] std::vector<picture::HandStroke> draw_hand(hand::CalibrationPose pose);
+
+}  // namespace mechane::visit

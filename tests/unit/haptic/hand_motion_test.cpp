@@ -1,0 +1,32 @@
+#include "client-sdk/haptic/hand_motion.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mechane::haptic {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(HandMotion, OneJointIsEnoughAndATremorIsNot) {
+  HandMotion motion;
+  hand::HandAngles angles{};
+  EXPECT_EQ(motion.rests_for(TimePoint{1h}), Duration{0}) << "nothing is known";
+  EXPECT_FALSE(motion.note(TimePoint{1h}, angles)) << "the first angles are no motion";
+  angles[7] = 0.9 * HandMotion::kLeast_rad;
+  EXPECT_FALSE(motion.note(TimePoint{1h} + 1s, angles));
+  EXPECT_EQ(motion.rests_for(TimePoint{1h} + 1s), 1s);
+  angles[7] = -1.1 * HandMotion::kLeast_rad;
+  EXPECT_TRUE(motion.note(TimePoint{1h} + 2s, angles));
+  EXPECT_EQ(motion.rests_for(TimePoint{1h} + 5s), 3s);
+}
+
+TEST(HandMotion, ASlowMotionCountsToo) {
+  HandMotion motion;
+  int moved = 0;
+  for (int i = 0; i <= 1000; ++i)
+    moved += motion.note(TimePoint{1h} + i * 1ms, {0.001 * i}) ? 1 : 0;
+  EXPECT_EQ(moved, 6) << "1 rad in steps of more than 0.15";
+}
+
+}  // namespace
+}  // namespace mechane::haptic
