@@ -65,9 +65,9 @@ constexpr std::array<StateWords, 7> kWords{{
     {DeviceState::let_go,
      Sign::take,
      {"Take the handle in your hand", ""},
-     {"Put the glove on", ""},
+     {"Put the glove on", "Then move your fingers."},
      {"Πιάστε τη λαβή με το χέρι σας", ""},
-     {"Φορέστε το γάντι", ""}},
+     {"Φορέστε το γάντι", "Και κουνήστε τα δάχτυλά σας."}},
 }};
 
 /// Its place in the table; the table's end where there is nothing to say.

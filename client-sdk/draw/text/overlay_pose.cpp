@@ -100,7 +100,7 @@ float disc_radius(const Page& page, float width, float words, const Box& room) {
 
 void add_pose(Page& page, const picture::OverlayPose& pose, const Box& room) {
   const float padding = page.px(kPosePadding);
-  const float width = std::min(room.width, page.tx(620));
+  const float width = std::min(room.width, page.tx(680));
   const std::size_t shapes = page.out.shapes.size(), texts = page.out.texts.size();
   const float wanted = page.scale;
   float words = add_words(page, pose, width - 2 * padding);
