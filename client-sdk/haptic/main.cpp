@@ -348,7 +348,8 @@ std::optional<int> run_device(const Arguments& a, client::Client& client, haptic
     if (!news) log::error(news.error());
     failed = !news;
     if (news && *news) log::warning(**news);
-    again = told.kind == client::HandKind::glove && calibrates_again(a, motion);
+    const bool there = told.kind == client::HandKind::glove && (*loop)->device_state() != client::DeviceState::lost;
+    again = there && calibrates_again(a, motion);
     return !failed && !again;
   });
   if (!failed) turns.end();

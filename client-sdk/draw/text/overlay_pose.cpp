@@ -3,24 +3,29 @@
 #include <cmath>
 
 #include "client-sdk/draw/text/overlay_page.hpp"
+#include "server/base/math.hpp"
 
 namespace mechane::draw {
 namespace {
 
-constexpr float kDisc = 150;  // radius
-constexpr float kLeastDisc = 90;
+constexpr float kDisc = 150;        // radius
+constexpr float kLeastDisc = 90;    // words become smaller before the disc is
 constexpr float kRing = 1.11F;      // the radius of the ring's middle, over the disc's
 constexpr float kWithRing = 1.18F;  // to the ring's outer edge
 constexpr float kDots = 28;         // the poses, under the words
 constexpr int kRingDots = 60;
-constexpr float kLine = 3.5F;
+constexpr float kLine = 3.5F;  // an outline, on the largest disc
 constexpr float kPosePadding = 28;
-constexpr float kPi = 3.14159265F;
+constexpr auto kTurn_rad = static_cast<float>(2 * kPi);
 
-/// From its middle; sizes in pixels.
+/// Its middle, pixels of the page.
 struct Disc {
   float x = 0, y = 0, radius = 0;
 };
+
+Eigen::Vector4f opaque_ink(const Page& page) {
+  return {page.colours.ink.x(), page.colours.ink.y(), page.colours.ink.z(), 1};
+}
 
 /// A bar from one place to another, with round ends.
 void add_bar(Page& page, const Eigen::Vector2f& from, const Eigen::Vector2f& to, float radius,
@@ -33,8 +38,7 @@ void add_bar(Page& page, const Eigen::Vector2f& from, const Eigen::Vector2f& to,
 
 void add_drawing(Page& page, const std::vector<picture::HandStroke>& strokes, const Disc& disc) {
   const Eigen::Vector2f middle(disc.x, disc.y);
-  Eigen::Vector4f dark = page.colours.ink;
-  dark.w() = 1;
+  const Eigen::Vector4f dark = opaque_ink(page);
   const float line = std::max(1.5F, kLine / kDisc * disc.radius);
   for (std::size_t begin = 0, end = 0; begin < strokes.size(); begin = end) {
     while (end < strokes.size() && strokes[end].part == strokes[begin].part)
@@ -51,8 +55,7 @@ void add_drawing(Page& page, const std::vector<picture::HandStroke>& strokes, co
 
 /// All is done.
 void add_tick(Page& page, const Disc& disc) {
-  Eigen::Vector4f dark = page.colours.ink;
-  dark.w() = 1;
+  const Eigen::Vector4f dark = opaque_ink(page);
   const auto at = [&disc](float x, float y) {
     return Eigen::Vector2f(disc.x + disc.radius * x, disc.y + disc.radius * y);
   };
@@ -63,10 +66,10 @@ void add_tick(Page& page, const Disc& disc) {
 /// Dots, clockwise from the top.
 void add_ring(Page& page, float held, const Disc& disc) {
   const float radius = kRing * disc.radius;
-  const float dot = 0.42F * 2 * kPi * radius / kRingDots;
+  const float dot = 0.42F * kTurn_rad * radius / kRingDots;
   const auto full = static_cast<int>(std::lround(std::clamp(held, 0.0F, 1.0F) * kRingDots));
   for (int i = 0; i < kRingDots; ++i) {
-    const float angle = 2 * kPi * (static_cast<float>(i) + 0.5F) / kRingDots;
+    const float angle = kTurn_rad * (static_cast<float>(i) + 0.5F) / kRingDots;
     const Eigen::Vector2f at(disc.x + radius * std::sin(angle), disc.y - radius * std::cos(angle));
     add_bar(page, at, at, dot, i < full ? page.colours.water : page.colours.faint);
   }
