@@ -57,7 +57,8 @@ class HapticLoop {
   static constexpr double kEnergyMargin_j = 0.0005;
 
   /// Opens the device. `deadband`: hands that differ by no more than this share of what is felt are not sent, 0 to
-  /// hand::kMaxDeadband; 0: one is sent each tick. Errors: the device's own; its limits are not valid for a governor.
+  /// hand::kMaxDeadband, as in the client's own ClientConfig; 0: one is sent each tick. Errors: the device's own;
+  /// its limits are not valid for a governor.
   [[nodiscard]] static Expected<std::unique_ptr<HapticLoop>> create(client::Client& client, Device& device,
                                                                     RenderMode mode, double deadband = 0);
   ~HapticLoop();

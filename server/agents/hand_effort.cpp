@@ -6,11 +6,6 @@
 namespace mechane::agents {
 namespace {
 
-bool touches(const state::UserState& user, BodyId body) {
-  const auto contacts = user.contact_span();
-  return std::any_of(contacts.begin(), contacts.end(), [&](const state::Contact& c) { return c.body == body; });
-}
-
 Vec3 read_vector(const state::WorldState& state, const std::array<std::size_t, 3>& slots) {
   return {state.memory[slots[0]], state.memory[slots[1]], state.memory[slots[2]]};
 }
@@ -62,7 +57,7 @@ HandEffort::Now HandEffort::measure(const state::WorldState& state) const noexce
   for (const state::UserState& user : state.users) {
     if (!user.present) continue;
     const bool holds = user.grasp.active && user.grasp.body == body_;
-    if (effort_ == Effort::pull ? !holds : holds || !touches(user, body_)) continue;
+    if (effort_ == Effort::pull ? !holds : holds || !user.touches(body_)) continue;
     now.any = true;
     f_B_W -= effort_ == Effort::pull ? user.grasp.reaction_W.f : user.output.force_W.f;
   }

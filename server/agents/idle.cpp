@@ -20,8 +20,8 @@ class Idle final : public Agent {
   void run(state::WorldState& state, bool enabled, double dt_s) const noexcept override {
     const bool busy = std::any_of(state.users.begin(), state.users.end(), [&](const state::UserState& user) {
       if (!user.present || user.stale) return false;
-      return user.contact_count > 0 || user.grasp.active || user.V_WH.v.norm() > speed_m_per_s_ ||
-             user.V_WH.w.norm() > turn_rad_per_s_;
+      return user.contact_count > 0 || user.side_count > 0 || user.grasp.active ||
+             user.V_WH.v.norm() > speed_m_per_s_ || user.V_WH.w.norm() > turn_rad_per_s_;
     });
     state.memory[time_] = enabled && !busy ? state.memory[time_] + dt_s : 0;
     const bool idle = enabled && !busy && state.memory[time_] + 0.5 * dt_s >= time_s_;

@@ -1,5 +1,6 @@
 // geometry.snap: a body that comes close to its place goes there and stays.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -95,9 +96,11 @@ class Snap final : public Agent {
     return state.memory[distance_] <= share * reach_m_ && state.memory[angle_] <= share * reach_rad_;
   }
 
+  [[nodiscard]] bool is_held_by(const state::UserState& user) const noexcept {
+    return user.grasp.active && user.grasp.body == object_;
+  }
   [[nodiscard]] bool is_held(const state::WorldState& state) const noexcept {
-    return std::ranges::any_of(
-        state.users, [this](const state::UserState& user) { return user.grasp.active && user.grasp.body == object_; });
+    return std::ranges::any_of(state.users, [this](const state::UserState& user) { return is_held_by(user); });
   }
 
   /// The hand that carries the body feels this through its grasp. A body that nobody holds does not go home by itself.
@@ -111,7 +114,7 @@ class Snap final : public Agent {
   /// The hands let go first: the body is led home without pulling anyone's hand along.
   void begin(state::WorldState& state) const noexcept {
     for (std::size_t u = 0; u < state.users.size(); ++u) {
-      if (state.users[u].grasp.active && state.users[u].grasp.body == object_) let_go(state, u);
+      if (is_held_by(state.users[u])) let_go(state, u);
     }
     X_IFrom_.write(state, X_WI(state).inverse() * state[object_].X_WB);
     X_ITo_.write(state, place(state));
@@ -155,7 +158,7 @@ class Snap final : public Agent {
   PoseSlots X_ITo_;
 };
 
-/// At its frame's origin a body feels at least so heavy in every direction, kg.
+/// A lower bound, kg, of the mass that is felt at the body's origin, in any direction.
 double least_mass_kg(const state::BodyDescription& body) {
   Mat3 arm;
   arm << 0, -body.p_BCm.z(), body.p_BCm.y(), body.p_BCm.z(), 0, -body.p_BCm.x(), -body.p_BCm.y(), body.p_BCm.x(), 0;
@@ -166,7 +169,11 @@ double least_mass_kg(const state::BodyDescription& body) {
 /// The pull is an explicit spring, and must stay well below what would reverse the motion of the lighter body within one step.
 Expected<void> check_pull(const Build& build, const Pull& pull) {
   constexpr double kStiffnessBound = 0.1;  // as that of touches, see haptics::bounded_spring()
-  if (pull.strongest_n == 0) return {};
+  if (pull.strongest_n == 0) {
+    if (!build.parameters.given("pullFrom")) return {};
+    return fail(ErrorCode::conflict, "'pullFrom' does nothing without a pull", build.place("pullFrom"),
+                "write a pull, or remove it");
+  }
   if (pull.reach_m <= build.parameters.numbers("tolerance")[0])
     return fail(ErrorCode::conflict, "the pull begins where the snap takes the body already", build.place("pullFrom"),
                 "write a pullFrom that is larger than the tolerance's distance");
@@ -180,7 +187,8 @@ Expected<void> check_pull(const Build& build, const Pull& pull) {
           ErrorCode::conflict,
           fmt::format("the pull would shake the body '{}', which is too light for it", build.parameters.text(end)),
           build.place("pull"),
-          fmt::format("write a pull of at most {:.2g}, or a larger pullFrom", pull.strongest_n / share));
+          fmt::format("write a pull of at most {:g}, or a larger pullFrom",
+                      std::floor(100 * pull.strongest_n / share) / 100));
   }
   return {};
 }

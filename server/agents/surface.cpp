@@ -18,17 +18,12 @@ class Surface final : public Agent {
   /// A spring that hardened under a hand would give it energy that the hand never put in. So the surface changes only in a tick in which
   /// no hand touches the body.
   void run(state::WorldState& state, bool enabled, double /*dt_s*/) const noexcept override {
-    if (!is_touched(state)) state.memory[felt_] = enabled ? 1 : 0;
+    const auto touches = [this](const state::UserState& user) { return user.touches(object_); };
+    if (std::ranges::none_of(state.users, touches)) state.memory[felt_] = enabled ? 1 : 0;
     if (state.memory[felt_] != 0) state[object_].haptic = surface_;
   }
 
  private:
-  [[nodiscard]] bool is_touched(const state::WorldState& state) const noexcept {
-    return std::ranges::any_of(state.users, [this](const state::UserState& user) {
-      return std::ranges::any_of(user.contact_span(), [this](const auto& contact) { return contact.body == object_; });
-    });
-  }
-
   BodyId object_;
   state::HapticMaterial surface_;
   std::size_t felt_;
@@ -38,8 +33,10 @@ Expected<std::unique_ptr<Agent>> make_surface(const Build& build) {
   const state::Parameters& p = build.parameters;
   const auto written = [&](std::string_view key) { return p.given(key) ? p.numbers(key) : std::vector<double>(); };
   std::vector<state::SurfaceFault> faults;
-  const state::HapticMaterial surface =
+  state::HapticMaterial surface =
       changed_surface(build.description.bodies[p.body("object").index()].haptic, written, faults);
+  if (p.given("stiffness")) surface.stiffness_n_per_m *= build.description.touch_scale;
+  if (p.given("damping")) surface.damping_ns_per_m *= build.description.touch_scale;
   if (faults.empty()) return std::make_unique<Surface>(build, surface);
   const state::SurfaceFault& fault = faults.front();
   return fail(fault.code, fault.what, build.place(fault.key), fault.remedy);
@@ -69,8 +66,8 @@ constexpr state::ValueType kSurfaceValues[] = {
 const AgentKind& surface_kind() {
   static const AgentKind kKind{
       {"touch.surface",
-       "A body feels otherwise to hands, once no hand touches it; of two such agents that are on, the later in the "
-       "file counts",
+       "A body feels otherwise to hands, once no hand touches it; of two such agents that are on, the later in "
+       "`agents` counts, and one that stands on the body itself comes before those",
        kSurfaceParameters, kSurfaceValues},
       make_surface};
   return kKind;

@@ -23,9 +23,7 @@ void Touches::run(state::WorldState& state, double dt_s) const noexcept {
   for (const Watch& watch : watches_) {
     const state::UserState& user = state.users[watch.user];
     double& since_s = state.memory[watch.since_s];
-    const auto contacts = user.contact_span();
-    const bool touching = user.present && std::any_of(contacts.begin(), contacts.end(),
-                                                      [&](const state::Contact& c) { return c.body == watch.body; });
+    const bool touching = user.present && user.touches(watch.body);
     if (touching && since_s >= kApart_s) {
       state.emit(state::EventKind::touched, static_cast<std::uint32_t>(watch.user),
                  static_cast<std::uint32_t>(watch.body.index()));

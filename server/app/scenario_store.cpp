@@ -36,6 +36,7 @@ void scale_touch(state::WorldDescription& description, double scale) {
     body.haptic.stiffness_n_per_m *= scale;
     body.haptic.damping_ns_per_m *= scale;
   }
+  description.touch_scale = scale;
   description.content_hash += fmt::format("-touch{}", scale);
 }
 

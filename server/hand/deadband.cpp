@@ -100,9 +100,11 @@ double reach_m(const HapticOutput& answer, const Vec3& p_WH0, const Vec3& p_WH) 
   double reach = kFarthest_m;
   for (const LocalContact& c : answer.contact_span())
     reach = std::min(reach, std::abs(overlap_of(c, p_WH0 + c.depth_m * c.n_W, p_WH).depth_m));
-  if (!answer.holding) return reach;
-  const bool on_path = answer.held.kind != HeldPath::Kind::none;
-  return std::min(reach, answer.force_W.f.norm() / (on_path ? answer.held.stiffness_n_per_m : kStiffness_n_per_m));
+  const double force_n = answer.force_W.f.norm();
+  const bool of_no_contact = answer.holding || (answer.contact_count == 0 && force_n > 0);  // as in the mode `paper`
+  if (!of_no_contact) return reach;
+  const bool on_path = answer.holding && answer.held.kind != HeldPath::Kind::none;
+  return std::min(reach, force_n / (on_path ? answer.held.stiffness_n_per_m : kStiffness_n_per_m));
 }
 
 InputDeadband::InputDeadband(double share) noexcept : share_(share) {

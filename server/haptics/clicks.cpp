@@ -7,10 +7,7 @@ namespace mechane::haptics {
 namespace {
 
 bool feels(const state::UserState& user, BodyId body) {
-  if (!user.present) return false;
-  if (user.grasp.active && user.grasp.body == body) return true;
-  const auto contacts = user.contact_span();
-  return std::any_of(contacts.begin(), contacts.end(), [body](const state::Contact& c) { return c.body == body; });
+  return user.present && ((user.grasp.active && user.grasp.body == body) || user.touches(body));
 }
 
 /// Whether a value is on another step than before; if so, `step` becomes the new one. A value that trembles at a step's lower end stays on

@@ -14,8 +14,8 @@ using state::WallSide;
 
 // How deep a tip lies in a surface where its contacts tell the way out of anything that is over twice as thick.
 constexpr double kShallow_m = 0.4e-3;
-// What contacts push along a side's normal, as a share of what the way in asks for: from the first share on they tell the way out, and up to
-// the second they do not. Between, both count, so that no force jumps.
+// How much contacts push along a side's normal, as a share of what the tip's depth below the side's plane would: from kTells on they tell
+// the way out, and up to kMisleads they do not. Between, both count, so that no force jumps.
 constexpr double kTells = 0.8, kMisleads = 0.6;
 // Cosine of 25 degrees: no surface turns faster in a tick, under a tip that goes round an edge at 3 m/s.
 constexpr double kSameWay = 0.9;
@@ -54,7 +54,7 @@ Vec3 of_another_wall(const ContactPatch& touch, const Vec3& n_W) {
   return std::max(0.0, 1 - kPatchShare * kShallow_m / push_m.norm()) * push_m;
 }
 
-/// Makes the touch into one that pushes so, in part.
+/// Blends the patch towards a touch that pushes so, by `share`.
 void push_out(ContactPatch& patch, const ContactPatch& touch, const Vec3& push_m, double share) {
   patch.push_m += share * (push_m - patch.push_m);
   patch.p_WC = patch.points == 0 ? touch.p_WC : Vec3(patch.p_WC + share * (touch.p_WC - patch.p_WC));
@@ -122,6 +122,8 @@ std::size_t hold_walls(const state::WorldDescription& description, const HandMod
   const std::span before(all_before.data(), user.jumped ? 0 : user.side_count);
   for (const WallSide& side : before) {  // a tip may be past all contact
     const auto of_side = [&](const ContactPatch& p) { return p.body == side.body && p.segment == side.segment; };
+    // A client may go on with another kind of hand.
+    if (side.segment >= hand::segment_count(user.sample.kind)) continue;
     if (count == patches.size() || std::ranges::any_of(std::span(patches).first(count), of_side)) continue;
     patches[count] = ContactPatch{};
     patches[count].body = side.body;

@@ -8,10 +8,10 @@ namespace mechane::haptics {
 
 /// Puts right the touches of tips (of a one-point device, of fingers) that are pressed in so deep that their contacts no longer tell the
 /// way out: once a tip's middle has passed a thin wall, they point to the other side, or there are none. Such a tip is moved back to where
-/// it lies in the surface that it came through, and touches there; it is as deep as it was moved, and more. As the tip goes along behind
-/// the wall, its place before it follows the surface, and where the wall ends, the tip is free. This is the god-object of Zilles and
-/// Salisbury (1995), with a tip of its own size (Ruspini et al. 1997), over distance maps. A hand that begins inside a body has no side yet:
-/// its contacts count.
+/// it lies in the surface that it came through, and touches there; its depth is how far it was moved, and how deep it then lies. As the tip
+/// goes along behind the wall, its place before it follows the surface, and where the wall ends, the tip is free. This is the god-object of
+/// Zilles and Salisbury (1995), with a tip of its own size (Ruspini et al. 1997), over distance maps. A hand that begins inside a body has
+/// no side yet: its contacts count.
 ///
 /// `patches`: the touches, `count` of them; returns how many there are now. Moves `user.sides`. Lives in the tick; allocates nothing.
 [[nodiscard]] std::size_t hold_walls(const state::WorldDescription& description, const HandModel& hand,

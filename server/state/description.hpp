@@ -243,6 +243,7 @@ struct WorldDescription {
   Texts title;
   Vec3 gravity_W{0, -9.81, 0};
   double effort_scale = 1;  ///< of the machine's loads at the hand
+  double touch_scale = 1;   ///< the server's own, of every surface's stiffness and damping; `bodies` have it already
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<Mates> mates;

@@ -1,11 +1,14 @@
 // What an author may write of a surface, on a body and for some steps alone, and what of it cannot be.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "server/base/assert.hpp"
 #include "server/hand/surface.hpp"
 #include "server/state/component_type.hpp"
 
@@ -41,11 +44,10 @@ inline constexpr ParameterType kSurfaceKeys[] = {
     direction("grooveDirection", "across the grooves, in the body's frame; any length"),
 };
 
-/// The key of that name, which there is.
+/// The key of that name, which must be one of them.
 [[nodiscard]] constexpr const ParameterType& surface_key(std::string_view name) {
-  const ParameterType* key = kSurfaceKeys;
-  while (key->name != name)
-    ++key;
+  const ParameterType* const key = std::ranges::find(kSurfaceKeys, name, &ParameterType::name);
+  MECHANE_ASSERT(key != std::end(kSurfaceKeys));
   return *key;
 }
 

@@ -35,6 +35,11 @@ void WorldState::emit(EventKind kind, std::uint32_t subject, std::uint32_t objec
   events[event_count++] = {tick, kind, subject, object, value};
 }
 
+bool UserState::touches(BodyId body) const noexcept {
+  const auto is_it = [body](const auto& touch) { return touch.body == body; };
+  return std::ranges::any_of(contact_span(), is_it) || std::ranges::any_of(side_span(), is_it);
+}
+
 void add_force(BodyState& body, const Vec3& f_B_W, const Vec3& p_WQ) noexcept {
   body.load_W.f += f_B_W;
   body.load_W.t += (p_WQ - body.X_WB.p).cross(f_B_W);

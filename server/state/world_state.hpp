@@ -26,7 +26,7 @@ struct BodyState {
   bool visible = true;
   bool graspable = false;
   HapticMaterial
-      haptic;  ///< what hands feel in this tick: the body's own, but where agents say otherwise. `run_agents` writes it.
+      haptic;  ///< what hands feel in this tick: the body's own, or what an agent sets. `run_agents` writes it.
   Wrench
       load_W;  ///< on the body's origin, this tick: contact forces of hands, loads of machines. Cleared by `step_dynamics`.
 };
@@ -72,7 +72,7 @@ struct WallSide {
   BodyId body;
   std::uint8_t segment = 0;
   Vec3 n_B = Vec3::Zero();  ///< unit, in the body's frame: the way out
-  double height_m = 0;      ///< the plane across n_B in which the segment's middle was when it met the body
+  double height_m = 0;      ///< along n_B from the body's origin: where the segment's middle is when it just touches
 };
 
 /// A hand holds a body by a force-limited spring that dynamics solves as a constraint.
@@ -112,6 +112,8 @@ struct UserState {
   [[nodiscard]] std::span<const Contact> contact_span() const { return {contacts.data(), contact_count}; }
   [[nodiscard]] std::span<const Contact> near_span() const { return {near.data(), near_count}; }
   [[nodiscard]] std::span<const WallSide> side_span() const { return {sides.data(), side_count}; }
+  /// Whether the hand touches that body, also where it is pressed through a thin wall and so past all contact.
+  [[nodiscard]] bool touches(BodyId body) const noexcept;
 };
 
 /// Where the visit is in the scenario.

@@ -47,6 +47,9 @@ class FloorServer {
     renderer_.run(world_, *hand_, state_);
     return state_.users[0].output;
   }
+  /// From now on the body is there.
+  void place(const Pose& X_WB) { state_.bodies[0].X_WB = X_WB; }
+  [[nodiscard]] state::UserState& user() { return state_.users[0]; }
   /// From now on the block feels otherwise.
   void feel(const state::HapticMaterial& haptic) { state_.bodies[0].haptic = haptic; }
   [[nodiscard]] std::size_t segments_that_touch() const {

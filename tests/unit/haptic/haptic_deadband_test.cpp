@@ -46,6 +46,7 @@ class DeadbandTest : public ::testing::TestWithParam<RenderMode> {
   SimulatedStylus stylus_{{.hand = ArmConfig{}}, Vec3(0, 0.02, 0)};
   std::unique_ptr<HapticLoop> loop_;
   std::uint64_t answers_ = 0;
+  TimePoint now_{1h};
 
  private:
   void answer() {
@@ -56,7 +57,6 @@ class DeadbandTest : public ::testing::TestWithParam<RenderMode> {
   }
 
   hand::OutputDeadband deadband_;
-  TimePoint now_{1h};
   double y_m_ = 0.02;
 };
 
@@ -72,6 +72,19 @@ TEST_P(DeadbandTest, APressIsSteadyAndMostMessagesAreLeftOut) {
   const std::uint64_t ticks = loop_->stats().ticks;
   EXPECT_LT(loop_->stats().sent, ticks / 2);
   EXPECT_LT(answers_, ticks / 2);
+}
+
+/// A deadband holds back for 4 ms at most: what an answer waited beyond that is delay.
+TEST_P(DeadbandTest, TheDelayOfALateServerCounts) {
+  loop_->tick(now_, kTickPeriod);
+  const std::uint64_t answered = client_.sent_sequence();
+  for (int i = 0; i < 20; ++i)
+    loop_->tick(now_ += kTickPeriod, kTickPeriod);
+  client::ForceSample& answer = client_.next_answer(now_);
+  answer.echo_sequence = answered;
+  answer.waited = 20ms;
+  loop_->tick(now_, kTickPeriod);
+  EXPECT_GT(loop_->round_trip().max(), 15ms);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, DeadbandTest, ::testing::Values(RenderMode::server, RenderMode::local));

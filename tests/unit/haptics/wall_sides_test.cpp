@@ -122,6 +122,41 @@ TEST(WallSides, InACornerBothWallsPush) {
   EXPECT_NEAR(push_m.y(), kPatchShare * 0.005, 1e-3);
 }
 
+/// As the tip sees it, nothing differs from a plate that lies still.
+TEST(WallSides, APlateThatTurnsAndMovesHoldsATip) {
+  test::FloorServer server(plate(0.003));
+  hand::HandSample sample;
+  for (int i = 0; i <= 100; ++i) {
+    const Pose X_WB{Vec3(1, 0.002 * i, 0), Quat(Eigen::AngleAxisd(0.02 * i, Vec3(1, 2, 3).normalized()))};
+    server.place(X_WB);
+    sample.X_WH.p = X_WB * Vec3(0.01, 0.010 - 3e-4 * i, 0);
+    const hand::HapticOutput& output = server.answer(sample);
+    if (i < 15) continue;
+    ASSERT_GT(output.contact_count, 0u) << i;
+    EXPECT_LT(test::degrees_between(output.contacts[0].n_W, X_WB.rotate(Vec3::UnitY())), 1) << i;
+    EXPECT_NEAR(output.contacts[0].depth_m, kPatchShare * (3e-4 * i - 0.002), 1e-3) << i;
+  }
+}
+
+TEST(WallSides, AHandThatJumpedOrIsOfAnotherKindHasNoSide) {
+  for (const bool jumps : {true, false}) {
+    test::FloorServer server(plate(0.003));
+    hand::HandSample sample;
+    for (int i = 0; i <= 100; ++i) {
+      sample.X_WH.p.y() = 0.010 - 3e-4 * i;
+      server.answer(sample);
+    }
+    ASSERT_TRUE(server.user().touches(BodyId(0))) << "wholly behind the plate";
+    if (jumps) {
+      server.user().jumped = true;
+    } else {
+      server.user().sides[0].segment = 9;  // of a glove
+    }
+    EXPECT_EQ(server.answer(sample).force_W.f.y(), 0);
+    EXPECT_FALSE(server.user().touches(BodyId(0)));
+  }
+}
+
 TEST(WallSides, ATipThatIsFarThroughIsLetGo) {
   Led tip(plate(0.003));
   tip.begin({0, 0.012, 0});

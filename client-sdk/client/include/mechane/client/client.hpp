@@ -28,7 +28,7 @@ struct ClientConfig {
       0;  ///< SCHED_FIFO priority of the thread that receives forces; 0, or not permitted: an ordinary thread
   std::uint32_t domain = 0;  ///< DDS domain; the network is set up by CYCLONEDDS_URI
   /// For a weak network: the server may leave out forces while they differ from the last one by no more than this share,
-  /// 0 to 0.5; 0: it sends one each millisecond. See server/hand/deadband.hpp.
+  /// 0 to 0.5; 0: it sends one each millisecond. A HapticLoop on this client needs the same. See server/hand/deadband.hpp.
   double deadband = 0;
   std::string display{};  ///< for a display: its name among the kiosk's displays; empty: this client is not a display
 };
