@@ -36,8 +36,6 @@ HapticOutput any_answer() {
   HapticOutput answer;
   answer.force_W = {2 * any_unit(), 0.1 * any_unit()};
   answer.finger_force_n = {1, 2, 0, 0, 0};
-  answer.force_W.f.x() = 0.6;
-  EXPECT_DOUBLE_EQ(reach_m(answer, Vec3::Zero(), Vec3::Zero()), 0.001) << "contacts are not always told";
   answer.contact_count = 1;
   answer.contacts[0] = {.n_W = any_unit(),
                         .depth_m = *between(-0.02, 0.01),
@@ -208,6 +206,8 @@ TEST(OutputDeadband, EventsAndWhatIsNotANumberNeverWait) {
 TEST(Deadband, AReachIsTheWayToTheNearestSurfaceOrTheStretchOfTheGrip) {
   HapticOutput answer;
   EXPECT_EQ(reach_m(answer, Vec3::Zero(), Vec3::Zero()), 0.02);
+  answer.force_W.f.x() = 0.6;
+  EXPECT_DOUBLE_EQ(reach_m(answer, Vec3::Zero(), Vec3::Zero()), 0.001) << "contacts are not always told";
   answer.contact_count = 1;
   answer.contacts[0] = {.n_W = Vec3::UnitY(), .depth_m = -0.01};
   EXPECT_DOUBLE_EQ(reach_m(answer, Vec3::Zero(), Vec3(0.5, -0.006, 0)), 0.004);
