@@ -14,6 +14,8 @@ using state::WallSide;
 
 // How deep a tip lies in a surface where its contacts tell the way out of anything that is over twice as thick.
 constexpr double kShallow_m = 0.4e-3;
+// A tip that is found deeper than this in its first tick began inside, or was moved there: at 3 m/s none comes so far.
+constexpr double kCameFromOutside_m = 3e-3;
 // How much contacts push along a side's normal, as a share of what the tip's depth below the side's plane would: from kTells on they tell
 // the way out, and up to kMisleads they do not. Between, both count, so that no force jumps.
 constexpr double kTells = 0.8, kMisleads = 0.6;
@@ -70,19 +72,19 @@ class WallHolder {
       : description_(description), hand_(hand), state_(state), user_(user) {}
 
   /// Puts the touch right, where there was a side in the last tick; returns the side for the next one.
-  WallSide hold(ContactPatch& patch, const WallSide* before) const noexcept {
-    if (before == nullptr) return side_of(patch);
+  std::optional<WallSide> hold(ContactPatch& patch, const WallSide* before) const noexcept {
+    if (before == nullptr) return first_side(patch);
     const Pose& X_WB = state_[patch.body].X_WB;
     const Vec3 n_W = X_WB.rotate(before->n_B);
     const double in_m = before->height_m - height_m(patch, before->n_B);
-    if (in_m <= kShallow_m || in_m > kLetsGo_m) return side_of(patch);
+    if (in_m <= kShallow_m || in_m > kLetsGo_m) return first_side(patch);
     const double told = patch.push_m.dot(n_W) / (kPatchShare * in_m);
     if (told >= kTells) return patch.deepest_m > in_m ? side_of(patch) : *before;
     const collision::Object* const object = description_.bodies[patch.body.index()].object.get();
-    if (object == nullptr || !state_[patch.body].visible) return side_of(patch);
+    if (object == nullptr || !state_[patch.body].visible) return first_side(patch);
     const auto touch = touch_at(hand_.segment(user_.sample, patch.segment), user_.X_WS[patch.segment], *object, X_WB,
                                 *before, (in_m - kShallow_m) * n_W);
-    if (!touch) return side_of(patch);
+    if (!touch) return first_side(patch);
     const double share = std::clamp((kTells - told) / (kTells - kMisleads), 0.0, 1.0);
     if (touch->n_BH_W.dot(n_W) > kSameWay) {
       push_out(patch, *touch, kPatchShare * (touch->deepest_m + touch->out_W.dot(touch->n_BH_W)) * touch->n_BH_W,
@@ -94,6 +96,10 @@ class WallHolder {
   }
 
  private:
+  [[nodiscard]] std::optional<WallSide> first_side(const ContactPatch& patch) const noexcept {
+    if (patch.depth_m <= 0 || patch.deepest_m > kCameFromOutside_m) return std::nullopt;
+    return side_of(patch);
+  }
   [[nodiscard]] double height_m(const ContactPatch& patch, const Vec3& n_B) const noexcept {
     return n_B.dot(state_[patch.body].X_WB.inverse() * user_.X_WS[patch.segment].p);
   }
@@ -134,8 +140,8 @@ std::size_t hold_walls(const state::WorldDescription& description, const HandMod
   for (ContactPatch& patch : std::span(patches).first(count)) {
     const bool tip = user.sample.kind == hand::HandKind::one_point || hand::is_fingertip(patch.segment);
     if (!tip || (user.grasp.active && user.grasp.body == patch.body) || sides == user.sides.size()) continue;
-    const WallSide side = holder.hold(patch, find_side(before, patch.segment, patch.body));
-    if (patch.depth_m > 0) user.sides[sides++] = side;
+    const auto side = holder.hold(patch, find_side(before, patch.segment, patch.body));
+    if (side) user.sides[sides++] = *side;
   }
   user.side_count = sides;
   return count;

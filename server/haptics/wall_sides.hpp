@@ -10,8 +10,8 @@ namespace mechane::haptics {
 /// way out: once a tip's middle has passed a thin wall, they point to the other side, or there are none. Such a tip is moved back to where
 /// it lies in the surface that it came through, and touches there; its depth is how far it was moved, and how deep it then lies. As the tip
 /// goes along behind the wall, its place before it follows the surface, and where the wall ends, the tip is free. This is the god-object of
-/// Zilles and Salisbury (1995), with a tip of its own size (Ruspini et al. 1997), over distance maps. A hand that begins inside a body has
-/// no side yet: its contacts count.
+/// Zilles and Salisbury (1995), with a tip of its own size (Ruspini et al. 1997), over distance maps. For a hand that begins inside a
+/// body, contacts count until it has been out of them.
 ///
 /// `patches`: the touches, `count` of them; returns how many there are now. Moves `user.sides`. Lives in the tick; allocates nothing.
 [[nodiscard]] std::size_t hold_walls(const state::WorldDescription& description, const HandModel& hand,

@@ -157,6 +157,17 @@ TEST(WallSides, AHandThatJumpedOrIsOfAnotherKindHasNoSide) {
   }
 }
 
+/// It is led out the nearest way, as ever.
+TEST(WallSides, ATipThatBeginsInsideHasNoSide) {
+  test::FloorServer server(plate(0.02));
+  hand::HandSample sample;
+  for (int i = 0; i < 50; ++i) {
+    sample.X_WH.p.y() = -0.010 - 2e-4 * i;
+    server.answer(sample);
+    EXPECT_EQ(server.user().side_count, 0u) << i;
+  }
+}
+
 TEST(WallSides, ATipThatIsFarThroughIsLetGo) {
   Led tip(plate(0.003));
   tip.begin({0, 0.012, 0});
