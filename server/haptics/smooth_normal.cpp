@@ -35,6 +35,9 @@ class PlaneFit {
     squares_ += weight * p * p.transpose();
   }
   [[nodiscard]] double weight() const { return weight_; }
+  /// How many points lay nearer to the other side of a wall.
+  [[nodiscard]] std::size_t behind() const { return behind_; }
+  void note_behind() { ++behind_; }
   /// None where the points lie on a line.
   [[nodiscard]] std::optional<Vec3> normal() const {
     constexpr double kLine = 1e-3;
@@ -50,6 +53,7 @@ class PlaneFit {
 
  private:
   double weight_ = 0;
+  std::size_t behind_ = 0;
   Vec3 sum_ = Vec3::Zero();
   Mat3 squares_ = Mat3::Zero();
 };
@@ -69,6 +73,7 @@ void add_below(const collision::Object& pad, const collision::Object& body, cons
   for (const collision::SurfaceHit& hit : std::span(hits).first(count)) {
     const double cosine = R_PB.row(2).dot(hit.n_T.cast<double>());
     const auto depth_m = static_cast<double>(hit.depth_m);
+    if (cosine < 0) fit.note_behind();
     double weight = ramp(cosine, 0.7, 0.9) * ramp(depth_m, 0, kOnset_m);
     if (depth_m > step_m) weight *= 1 - ramp(depth_m, step_m, step_m + kOnset_m);
     if (weight > 0) fit.add(R_PB * (hit.p_T.cast<double>() - p_BF), weight);
@@ -102,14 +107,16 @@ Vec3 smooth_normal(const collision::Object& pad, const collision::Object& body, 
     X_BP.R = Quat::FromTwoVectors(Vec3::UnitZ(), smooth_B);
     const auto push_in = [&](double deep_m) { X_BP.p = touch.p_B - (touch.surface_m + deep_m) * smooth_B; };
     PlaneFit best;
+    std::size_t behind = 0;
     for (const double deep_m : kDeep_m) {
       push_in(deep_m);
       PlaneFit fit;
       add_below(pad, body, X_BP, X_BP.p, std::numeric_limits<double>::infinity(), fit);
+      behind = fit.behind();
       if (fit.weight() > best.weight()) best = fit;
       if (best.weight() > kEnough) break;
     }
-    if (touch.thin_walls && best.weight() <= kEnough) {
+    if (touch.thin_walls && best.weight() <= kEnough && behind >= kPadPoints / 4) {
       PlaneFit fit;
       for (const double deep_m : kSteps_m) {
         push_in(deep_m);
