@@ -62,10 +62,8 @@ HandIntent stroke(client::HandKind kind, const Vec3& center, double radius_m, do
 }
 
 HandIntent show(client::CalibrationStep asked, const Vec3& p_WH, double t_s) {
-  using client::CalibrationStep;
   HandIntent intent = stroke(client::HandKind::glove, p_WH, 0, t_s);
-  if (asked != CalibrationStep::none && asked != CalibrationStep::done)
-    intent.joints = hand::model_pose(static_cast<hand::CalibrationPose>(static_cast<int>(asked) - 1));
+  if (const auto pose = client::pose_of(asked)) intent.joints = hand::model_pose(*pose);
   return intent;
 }
 

@@ -41,14 +41,11 @@ constexpr GuideWords kGuideEl{
               "Πάλι από την αρχή, παρακαλούμε.", "Πάλι, παρακαλούμε: ώσπου να κλείσει ο κύκλος."},
     .thanks = {"Ευχαριστούμε!", "Το γάντι ταιριάζει πια στο χέρι σας."}};
 
-bool asks_for_pose(const client::CalibrationNews& news) {
-  return news.step != CalibrationStep::none && news.step != CalibrationStep::done;
-}
-
 }  // namespace
 
 void CalibrationGuide::hear(const std::vector<client::DeviceReport>& devices, TimePoint now) {
-  const auto asking = std::ranges::find_if(devices, asks_for_pose, &client::DeviceReport::calibration);
+  const auto asking = std::ranges::find_if(
+      devices, [](const client::DeviceReport& device) { return client::pose_of(device.calibration.step).has_value(); });
   if (asking == devices.end()) {
     const bool fits = std::ranges::any_of(devices, [this](const client::DeviceReport& device) {
       return device.user == user_ && device.calibration.step == CalibrationStep::done;
@@ -68,7 +65,7 @@ void CalibrationGuide::hear(const std::vector<client::DeviceReport>& devices, Ti
 }
 
 bool CalibrationGuide::asks() const {
-  return asks_for_pose(told_);
+  return client::pose_of(told_.step).has_value();
 }
 
 float CalibrationGuide::ring(TimePoint now) const {
@@ -80,7 +77,8 @@ std::optional<picture::OverlayPose> CalibrationGuide::at(TimePoint now, const st
   const GuideWords& words = language == "el" ? kGuideEl : kGuideEn;
   picture::OverlayPose shown;
   shown.total = hand::kCalibrationPoses;
-  if (!asks()) {
+  const auto pose = client::pose_of(told_.step);
+  if (!pose) {
     if (!thanked_ || now - *thanked_ > kThanks) return {};
     shown.done = shown.total;
     shown.held = 1;
@@ -88,11 +86,10 @@ std::optional<picture::OverlayPose> CalibrationGuide::at(TimePoint now, const st
     shown.more = words.thanks.more;
     return shown;
   }
-  const auto pose = static_cast<hand::CalibrationPose>(static_cast<int>(told_.step) - 1);
-  const PoseWords& said = words.poses[static_cast<std::size_t>(pose)];
-  shown.done = static_cast<std::uint32_t>(pose);
+  const PoseWords& said = words.poses[static_cast<std::size_t>(*pose)];
+  shown.done = static_cast<std::uint32_t>(*pose);
   shown.held = ring(now);
-  shown.drawing = draw_hand(pose);
+  shown.drawing = draw_hand(*pose);
   shown.text = said.text;
   shown.more = shown.held > 0 ? words.hold : said.more;
   if (told_.refusal != PoseRefusal::none) shown.again = words.again[static_cast<std::size_t>(told_.refusal) - 1];

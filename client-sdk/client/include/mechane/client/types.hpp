@@ -11,6 +11,7 @@
 
 #include "server/base/clock.hpp"
 #include "server/base/math.hpp"
+#include "server/hand/calibration_pose.hpp"
 #include "server/hand/hand_force.hpp"
 
 namespace mechane::client {
@@ -40,6 +41,15 @@ enum class DeviceState : std::uint8_t {
 
 /// What a glove's program asks a visitor to show, so that the glove fits the hand.
 enum class CalibrationStep : std::uint8_t { none, flat, fist, pinch, done };
+/// The steps that ask for a pose, by hand::CalibrationPose.
+inline constexpr std::array<CalibrationStep, hand::kCalibrationPoses> kPoseSteps{
+    CalibrationStep::flat, CalibrationStep::fist, CalibrationStep::pinch};
+/// The pose that a step asks for; none: it asks for nothing.
+[[nodiscard]] constexpr std::optional<hand::CalibrationPose> pose_of(CalibrationStep step) noexcept {
+  for (std::size_t pose = 0; pose < kPoseSteps.size(); ++pose)
+    if (kPoseSteps[pose] == step) return static_cast<hand::CalibrationPose>(pose);
+  return std::nullopt;
+}
 
 /// Why a pose is asked for once more.
 enum class PoseRefusal : std::uint8_t {
