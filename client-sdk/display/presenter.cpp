@@ -69,13 +69,11 @@ picture::RenderScene Presenter::compose(TimePoint now) const {
     return scene;
   }
   picture::RenderScene scene = world_scene();
+  if (shows_live_world()) scene.overlay.pose = news_.calibration().at(now, visitor_.language());
   visitor_.write(scene, last_picture(), now);
   name_what_is_meant(scene);
-  if (scene.overlay.panel || !shows_live_world()) return scene;
-  scene.overlay.pose = news_.calibration().at(now, visitor_.language());
-  if (scene.overlay.pose) {
-    scene.inset.reset();                    // it would cover the pose
-  } else if (scene.overlay.note.empty()) {  // notes about the pointer or the link are more urgent
+  if (scene.overlay.panel || scene.overlay.pose || !shows_live_world()) return scene;
+  if (scene.overlay.note.empty()) {  // notes about the pointer or the link are more urgent
     scene.overlay.notice = news_.device_notice(now, visitor_.language());
     if (!scene.overlay.notice) scene.overlay.note = soundtrack_.in_writing(visitor_.language(), now);
   }

@@ -48,7 +48,7 @@ void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now
       take_click(place, last, scene, now);
     take_pointer(last, scene, now);
   }
-  if (news_.calibration().asks()) panel_.touch(now);
+  if (news_.calibration().asks()) panel_.notice_visitor(now);
   const auto server = client_.server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
   panel_.update({news_.world().status(), news_.world().presentation(), news_.frame(), home}, now);
@@ -92,7 +92,8 @@ bool Visitor::invite(const client::DisplaySettings& settings, TimePoint now) {
 
 void Visitor::write(picture::RenderScene& scene, const LastPicture& last, TimePoint now) const {
   panel_.write(scene.overlay, now);
-  if (scene.overlay.panel) scene.inset.reset();  // it would cover the questions
+  if (scene.overlay.pose) scene.overlay.panel.reset();  // the questions would cover the pose
+  if (scene.overlay.panel || scene.overlay.pose) scene.inset.reset();
   if (!pointer_ || !news_.world().known()) return;
   pointer_->write(scene.overlay, under_pointer(scene, last), language_);
   if (const auto button = pointer::go_on_button(news_.world().status(), language_); button && !scene.overlay.panel)

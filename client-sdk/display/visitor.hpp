@@ -37,7 +37,7 @@ class Visitor {
   /// Applies settings that were requested from another machine.
   void change(const visit::VisitorPanelSettings& settings) { panel_.change(settings); }
 
-  /// Adds the visitor's buttons and panels, and the pointer's hints. Not for an invitation.
+  /// Adds the visitor's buttons and panels, and the pointer's hints; no panel beside a pose that is asked for. Not for an invitation.
   void write(picture::RenderScene& scene, const LastPicture& last, TimePoint now) const;
 
   /// The recorded visit, while it is shown; else null.

@@ -65,9 +65,9 @@ constexpr std::array<StateWords, 7> kWords{{
     {DeviceState::let_go,
      Sign::take,
      {"Take the handle in your hand", ""},
-     {"Put the glove on", "Then move your fingers."},
+     {"Put the glove on", ""},
      {"Πιάστε τη λαβή με το χέρι σας", ""},
-     {"Φορέστε το γάντι", "Και κουνήστε τα δάχτυλά σας."}},
+     {"Φορέστε το γάντι", ""}},
 }};
 
 /// Its place in the table; the table's end where there is nothing to say.

@@ -66,6 +66,8 @@ class VisitorPanel {
   void press(const picture::OverlayAction& action, TimePoint now);
   /// A click outside all buttons shows that somebody is there.
   void touch(TimePoint now);
+  /// Somebody is there, but not at the questions: these do not stay longer for it.
+  void notice_visitor(TimePoint now);
   /// Changes to the world's next language.
   void next_language(TimePoint now);
   void toggle_large_text();
@@ -106,7 +108,6 @@ class VisitorPanel {
     bool holding = false;
   };
   void notice_hands(const client::Frame* frame, TimePoint now);
-  void notice_visitor(TimePoint now);
   void follow_run(const client::WorldStatus& status, TimePoint now);
   void ask_or_end(TimePoint now);
   void answer(const std::string& value, TimePoint now);

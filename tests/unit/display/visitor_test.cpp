@@ -228,6 +228,21 @@ TEST_F(VisitorTest, QuestionsAreNotCoveredByACloseUp) {
   }
 }
 
+TEST_F(VisitorTest, QuestionsDoNotCoverAPoseAndEndWhileItIsAskedFor) {
+  client_->status->done = true;
+  client_->at_hand = {{.kind = client::HandKind::glove, .calibration = {client::CalibrationStep::fist}}};
+  picture(0);
+  for (int s = 5; s < 60; ++s) {
+    picture(s);
+    picture::RenderScene drawn = scene();
+    drawn.overlay.pose = news().calibration().at(at(s), "en");
+    drawn.inset.emplace();
+    visitor().write(drawn, last_, at(s));
+    ASSERT_TRUE(drawn.overlay.pose && !drawn.overlay.panel && !drawn.inset);
+    ASSERT_EQ(written(s).overlay.panel.has_value(), s < 50) << s;
+  }
+}
+
 TEST_F(VisitorTest, AClickIsOnTheThingThatIsSeenButNotThroughAButtonOrAPanel) {
   picture(0);
   (void)sent();

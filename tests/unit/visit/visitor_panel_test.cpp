@@ -244,6 +244,18 @@ TEST_F(VisitorPanelTest, questions_go_when_nobody_clicks_or_the_visit_goes_on) {
   }
 }
 
+TEST_F(VisitorPanelTest, questions_do_not_stay_for_a_visitor_who_does_something_else) {
+  VisitorPanel panel({"en", AskWhen::after, {}});
+  (void)finish(panel);
+  ASSERT_TRUE(look(panel).panel);
+  for (Duration waited{0}; waited < VisitorPanel::kQuestionsWait; waited += seconds(1)) {
+    panel.notice_visitor(now);
+    (void)look(panel, seconds(1));
+  }
+  EXPECT_FALSE(look(panel).panel);
+  EXPECT_LT(panel.alone_for(now), seconds(2));
+}
+
 TEST_F(VisitorPanelTest, asks_before_only_where_told_and_when_somebody_is_there) {
   VisitorPanel after({"en", AskWhen::after, {}});
   VisitorPanel both({"en", AskWhen::both, {}});
