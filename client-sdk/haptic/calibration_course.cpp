@@ -61,8 +61,15 @@ client::CalibrationNews CalibrationCourse::news() const noexcept {
   if (phase_ != Phase::asks) return {};
   // The tenth that has begun: a display fills its ring meanwhile.
   const double tenths = recording_ ? std::min(10.0, 1 + std::floor(10 * calibrator_.share())) : 0;
-  static_assert(static_cast<int>(CalibrationStep::flat) == 1 + static_cast<int>(CalibrationPose::flat));
-  return {static_cast<CalibrationStep>(1 + pose_), static_cast<float>(tenths / 10), refusal_};
+  return {client::kPoseSteps[pose_], static_cast<float>(tenths / 10), refusal_};
+}
+
+client::DeviceState CalibrationCourse::device_state(DeviceCondition condition) const noexcept {
+  using client::DeviceState;
+  // A glove that only reads the hand is missed as well: without a hand in it there is nothing to fit.
+  const DeviceState known = state_for_visitors(condition, false, true);
+  if (known != DeviceState::ready) return known;
+  return phase_ == Phase::asks ? DeviceState::preparing : DeviceState::let_go;
 }
 
 }  // namespace mechane::haptic

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "client-sdk/haptic/device.hpp"
 #include "client-sdk/haptic/hand_calibration.hpp"
 #include "client-sdk/haptic/hand_motion.hpp"
 
@@ -21,6 +22,9 @@ class CalibrationCourse {
 
   /// For the displays.
   [[nodiscard]] client::CalibrationNews news() const noexcept;
+  /// What visitors are told of the glove meanwhile: what is the matter with it; that it is let go, while a hand is waited for; or that it
+  /// is being prepared.
+  [[nodiscard]] client::DeviceState device_state(DeviceCondition condition) const noexcept;
   /// None while the course goes on.
   [[nodiscard]] const std::optional<Expected<HandCalibration>>& result() const noexcept { return result_; }
 

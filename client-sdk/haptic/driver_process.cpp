@@ -51,9 +51,13 @@ pid_t spawn(const DriverProcessConfig& config, int link_file, int news_file) {
   ::posix_spawn_file_actions_adddup2(&actions, link, kLinkFile);
   ::posix_spawn_file_actions_adddup2(&actions, news, kNewsFile);
   // A session of its own: a terminal's Ctrl-C, Ctrl-\ and Ctrl-Z are for the loop, and must not stop who writes the zero.
+  // A maker's library may use the signals that the loop's program blocks.
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::posix_spawnattr_setsigmask(&attributes, &none);
   pid_t process = -1;
   const int error = ::posix_spawn(&process, program.c_str(), &actions, &attributes, argv, environ);
   ::posix_spawnattr_destroy(&attributes);

@@ -49,10 +49,6 @@ tl::unexpected<Error> refused(CalibrationPose pose, std::string what) {
   return fail(ErrorCode::invalid_value, std::move(what), name_of(pose).name, name_of(pose).how);
 }
 
-std::string in_degrees(double angle_rad) {
-  return std::to_string(std::lround(angle_rad / kDegree)) + " degrees";
-}
-
 /// What joints of Mechane's hand can do.
 JointCalibration joint_limits(std::size_t joint) {
   struct Range {
@@ -99,7 +95,7 @@ Expected<void> compare(const HandAngles& flat, const HandAngles& fist) {
     if (model[j] == 0 || bend >= kLeastBend * model[j]) continue;
     return refused(
         CalibrationPose::fist,
-        std::string("the ") + kFingerNames[j / hand::kFingerJoints] + " bends by " + in_degrees(bend) + " only " +
+        std::string("the ") + kFingerNames[j / hand::kFingerJoints] + " bends too little " +
             kJointNames[j % hand::kFingerJoints] +
             " from the flat hand to the fist; if it does so again, show the flat hand again, or check the glove");
   }
@@ -195,8 +191,8 @@ Expected<HandAngles> still_pose(CalibrationPose pose, const std::vector<HandAngl
     std::ranges::transform(samples, values.begin(), [&](const HandAngles& sample) { return sample[j]; });
     const double motion = quantile(values, 0.9) - quantile(values, 0.1);
     if (motion > kMostMotion_rad)
-      return refused(pose, std::string("the ") + kFingerNames[j / hand::kFingerJoints] + " moved by " +
-                               in_degrees(motion) + " " + kJointNames[j % hand::kFingerJoints]);
+      return refused(pose, std::string("the ") + kFingerNames[j / hand::kFingerJoints] + " moved " +
+                               kJointNames[j % hand::kFingerJoints]);
     middle[j] = quantile(values, 0.5);
   }
   return middle;

@@ -24,9 +24,8 @@ namespace {
 using namespace mechane;
 
 volatile std::sig_atomic_t g_stop = 0;  // set by signal handlers
-volatile std::sig_atomic_t g_calibrate = 0;
 
-/// A glove whose fingers rest for so long has lost its visitor.
+/// A glove that rests for so long has lost its visitor.
 constexpr Duration kVisitorLeft = std::chrono::minutes(2);
 
 struct Arguments {
@@ -40,6 +39,7 @@ struct Arguments {
   bool wait = false;
   double radius_m = 0.05;
   double seconds = 0;
+  TimePoint end = TimePoint::max();  ///< main() computes it from `seconds`
   bool direct = false;
   std::string report_file;
   std::string record_file;
@@ -67,7 +67,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag(
       "--calibrate", a.calibrate,
       "fit a glove to the visitor's hand by three poses (flat, fist, pinch), which the kiosk's displays show: at the "
-      "start, and for each next visitor, when the glove was still for two minutes; the signal USR1 asks for it, too");
+      "start, and for each next visitor, when the glove was still for two minutes or the signal USR1 came; a virtual "
+      "glove shows the poses once");
   app.add_flag(
       "--wait", a.wait,
       "where the device cannot be opened, for whatever reason, say why and go on trying, each second; displays "
@@ -89,8 +90,51 @@ void add_options(CLI::App& app, Arguments& a) {
                "render the server's forces, not contacts and held paths at the device's own rate");
 }
 
-nlohmann::json to_json(const haptic::HapticLoop& loop) {
+/// By which staff ask for a calibration. It is blocked, so that it interrupts nothing, and waits until it is taken.
+sigset_t calibration_signal() {
+  sigset_t usr1;
+  ::sigemptyset(&usr1);
+  ::sigaddset(&usr1, SIGUSR1);
+  return usr1;
+}
+
+/// Whether staff have asked for a calibration since the last call.
+bool take_calibration_signal() {
+  const sigset_t usr1 = calibration_signal();
+  const timespec at_once{};
+  return ::sigtimedwait(&usr1, nullptr, &at_once) == SIGUSR1;
+}
+
+/// Whether it is time to stop: by a signal, or because --seconds are over.
+bool is_over(const Arguments& a) {
+  return g_stop != 0 || std::chrono::steady_clock::now() >= a.end;
+}
+
+/// What this run's loops did together: each calibration ends one and begins another.
+struct Record {
+  haptic::LoopStats stats;
+  realtime::LatencyHistogram round_trip, intervals;
+  std::uint64_t without_state = 0;
+  std::string device;  // empty: no loop has run
+};
+
+/// The loop's thread has ended.
+void add(Record& record, const haptic::HapticLoop& loop) {
+  haptic::LoopStats& sum = record.stats;
   const haptic::LoopStats& s = loop.stats();
+  sum.ticks += s.ticks;
+  sum.sent += s.sent;
+  sum.answers += s.answers;
+  sum.too_late += s.too_late;
+  sum.silent_ticks += s.silent_ticks;
+  sum.warm_ticks += s.warm_ticks;
+  sum.ticks_with_force += s.ticks_with_force;
+  sum.force_max_n = std::max(sum.force_max_n, s.force_max_n);
+  record.round_trip.merge(loop.round_trip());
+}
+
+nlohmann::json to_json(const Record& record) {
+  const haptic::LoopStats& s = record.stats;
   nlohmann::json json = {{"ticks", s.ticks},
                          {"sent", s.sent},
                          {"answers", s.answers},
@@ -99,7 +143,7 @@ nlohmann::json to_json(const haptic::HapticLoop& loop) {
                          {"warm_ticks", s.warm_ticks},
                          {"force_n", {{"max", s.force_max_n}, {"ticks", s.ticks_with_force}}}};
   // Without an answer no round trip was measured.
-  if (s.answers > 0) json["rtt_us"] = realtime::quantiles_json(loop.round_trip());
+  if (s.answers > 0) json["rtt_us"] = realtime::quantiles_json(record.round_trip);
   return json;
 }
 
@@ -154,9 +198,8 @@ bool keep(haptic::HandRecorder& recorder) {
 void wait_for_end(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder,
                   const std::function<bool()>& look) {
   SystemClock clock;
-  const TimePoint end = clock.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.seconds));
   std::string told;
-  while (g_stop == 0 && (a.seconds <= 0 || clock.now() < end) && look()) {
+  while (!is_over(a) && look()) {
     std::string refusal = client.state() == client::LinkState::refused ? client.refusal() : std::string();
     if (!refusal.empty() && refusal != told) log::warning(refusal);
     told = std::move(refusal);
@@ -171,21 +214,27 @@ Expected<std::unique_ptr<haptic::HapticLoop>> make_loop(const Arguments& a, clie
                                     a.client.deadband);
 }
 
-/// Waits for the glove's next angles; null: it is not ready. Told what the visitor is asked to show.
-using LookAtGlove = std::function<Expected<const haptic::HandAngles*>(client::CalibrationStep asked)>;
+struct GloveNow {
+  haptic::HandAngles angles;
+  haptic::DeviceCondition condition;
+};
+
+/// Waits for the glove's next angles. Told what the visitor is asked to show.
+using LookAtGlove = std::function<Expected<GloveNow>(client::CalibrationStep asked)>;
 
 /// Leads a visitor through the poses. None: they were not shown, and with --wait the visitor goes on without. The main thread.
 Expected<std::optional<haptic::HandCalibration>> lead(const Arguments& a, client::Client& client,
                                                       client::DeviceReport told, const LookAtGlove& look) {
   haptic::CalibrationCourse course;
   while (!course.result()) {
-    if (g_stop != 0) return fail(ErrorCode::cancelled, "stopped during the calibration", a.device);
-    const auto raw = look(course.news().step);
-    if (!raw) return tl::unexpected(raw.error());
-    if (const auto message = course.add(std::chrono::steady_clock::now(), *raw)) log::info(*message);
+    if (is_over(a)) return fail(ErrorCode::cancelled, "stopped during the calibration", a.device);
+    const auto glove = look(course.news().step);
+    if (!glove) return tl::unexpected(glove.error());
+    const bool ready = glove->condition == haptic::DeviceCondition::ready;
+    const auto message = course.add(std::chrono::steady_clock::now(), ready ? &glove->angles : nullptr);
+    if (message) log::info(*message);
     told.calibration = course.news();
-    const bool waits = told.calibration.step == client::CalibrationStep::none;
-    told.state = waits ? client::DeviceState::let_go : client::DeviceState::preparing;
+    told.state = course.device_state(glove->condition);
     client.tell_device(told);
   }
   if (*course.result()) return **course.result();
@@ -211,15 +260,20 @@ Expected<void> calibrate_virtual(const Arguments& a, client::Client& client, con
   constexpr Duration kPace = std::chrono::milliseconds(20);
   SystemClock clock;
   const TimePoint begun = clock.now();
-  client::HandSample hand;
   return lead(a, client, told,
-              [&](client::CalibrationStep asked) -> Expected<const haptic::HandAngles*> {
+              [&](client::CalibrationStep asked) -> Expected<GloveNow> {
                 clock.sleep_until(clock.now() + kPace);
                 device.intend(haptic::show(asked, center_of(a), to_seconds(clock.now() - begun)));
-                hand = device.read(kPace);
-                return &hand.joints;
+                return GloveNow{device.read(kPace).joints, haptic::DeviceCondition::ready};
               })
       .map([](const auto& /*fits*/) {});
+}
+
+/// The program's status where its device was not opened, or its glove not fitted: 0 where it was stopped meanwhile.
+int given_up(const Arguments& a, const Error& error) {
+  if (error.code == ErrorCode::cancelled || (a.wait && is_over(a))) return 0;
+  log::error(error);
+  return 2;
 }
 
 /// A virtual device has no clock of its own: its loop runs at 1 kHz.
@@ -233,7 +287,7 @@ int run_virtual(const Arguments& a, const std::string& options, client::Client& 
   if (a.calibrate && choice->hand == client::HandKind::glove) {
     // What comes out is not needed: the angles of a simulated hand are those of Mechane's.
     const auto shown = calibrate_virtual(a, client, told, *device);
-    if (!shown) return log::error(shown.error()), g_stop != 0 ? 0 : 2;
+    if (!shown) return given_up(a, shown.error());
     told.calibration.step = client::CalibrationStep::done;
   }
   auto loop = make_loop(a, client, *device);
@@ -255,7 +309,9 @@ int run_virtual(const Arguments& a, const std::string& options, client::Client& 
   });
   turns.end();
   thread.stop();
-  nlohmann::json json = to_json(**loop);
+  Record record;
+  add(record, **loop);
+  nlohmann::json json = to_json(record);
   const realtime::PeriodicReport r = thread.report();
   json.update({{"overruns", r.overruns}, {"late_wakeups", r.late_wakeups}, {"skipped", r.skipped}});
   return report(a, json);
@@ -282,12 +338,13 @@ Expected<std::optional<haptic::HandCalibration>> calibrated(const Arguments& a, 
   if (auto opened = glove.open(); !opened) return tl::unexpected(opened.error());
   if (glove.info().hand != MECHANE_HAND_GLOVE)
     return fail(ErrorCode::conflict, "only a glove can be calibrated", a.device, "start it without --calibrate");
-  client::HandSample hand;
-  const auto look = [&](client::CalibrationStep /*asked*/) -> Expected<const haptic::HandAngles*> {
-    if (auto news = glove.check(); !news) return tl::unexpected(news.error());
+  const auto look = [&](client::CalibrationStep /*asked*/) -> Expected<GloveNow> {
+    const auto news = glove.check();
+    if (!news) return tl::unexpected(news.error());
+    if (*news) log::warning(**news);
     (void)glove.wait(std::chrono::milliseconds(20));
-    hand = glove.read(kTickPeriod);
-    return glove.condition() == haptic::DeviceCondition::ready ? &hand.joints : nullptr;
+    const haptic::HandAngles angles = glove.read(kTickPeriod).joints;
+    return GloveNow{angles, glove.condition()};
   };
   return lead(a, client, report_of(glove.info()), look);
 }
@@ -313,33 +370,26 @@ auto opened(const Arguments& a, client::Client& client, const std::string& name,
   return result;
 }
 
-int failed_to_open(const Arguments& a, const Error& error) {
-  if (a.wait && g_stop != 0) return 0;
-  log::error(error);
-  return 2;
-}
-
 /// Whether the glove is to be fitted to a hand now: staff asked for it, or the visitor has left.
 bool calibrates_again(const Arguments& a, const haptic::HandMotion& motion) {
-  const bool asked = g_calibrate != 0;
-  g_calibrate = 0;
-  return asked || (a.calibrate && motion.rests_for(std::chrono::steady_clock::now()) > kVisitorLeft);
+  return take_calibration_signal() ||
+         (a.calibrate && motion.rests_for(std::chrono::steady_clock::now()) > kVisitorLeft);
 }
 
 /// The device sets the pace of its loop. Returns the program's status; none: its glove has to be fitted to a hand first.
 std::optional<int> run_device(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder,
-                              haptic::DriverProcess& device, bool fitted) {
+                              haptic::DriverProcess& device, bool fitted, Record& record) {
   const std::string driver = haptic::parse_device_name(a.device).driver;
   auto loop = opened(a, client, driver, [&] { return make_loop(a, client, device); });
-  if (!loop) return failed_to_open(a, loop.error());
+  if (!loop) return given_up(a, loop.error());
   log::info(std::string("device: ") + device.info().name);
   client::DeviceReport told = report_of(device.info());
   if (fitted) told.calibration.step = client::CalibrationStep::done;
   Turns turns(**loop, recorder);
-  haptic::HandMotion motion;
+  haptic::HandMotion motion(a.scale);
   haptic::DeviceThread thread(device, a.client.fifo_priority, [&](TimePoint now, Duration dt) {
     turns.turn(now, dt);
-    motion.note(now, (*loop)->hand().joints);
+    motion.note(now, (*loop)->hand().joints, (*loop)->hand().X_WH);
   });
   bool failed = false, again = false;
   wait_for_end(a, client, recorder, [&] {
@@ -354,36 +404,50 @@ std::optional<int> run_device(const Arguments& a, client::Client& client, haptic
   });
   if (!failed) turns.end();
   thread.stop();
-  if (again && !failed) return std::nullopt;
-  nlohmann::json json = to_json(**loop);
-  json.update({{"device", device.info().name},
-               {"interval_us", realtime::quantiles_json(thread.intervals())},
-               {"ticks_without_state", thread.without_state()}});
-  const int reported = report(a, json);
-  return failed ? 1 : reported;
+  add(record, **loop);
+  record.device = device.info().name;
+  record.intervals.merge(thread.intervals());
+  record.without_state += thread.without_state();
+  if (failed) return 1;
+  return again ? std::nullopt : std::optional(0);
+}
+
+/// Fits the glove to a hand, where `calibrate`, and runs the device. Returns what run_device() does.
+std::optional<int> run_once(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder, bool calibrate,
+                            Record& record) {
+  haptic::DriverProcessConfig config = driver_config(a);
+  tell_state(client, {.name = config.device.driver}, client::DeviceState::preparing);
+  if (calibrate) {
+    auto calibration = opened(a, client, config.device.driver, [&] { return calibrated(a, client); });
+    if (!calibration) return given_up(a, calibration.error());
+    config.glove = *calibration;
+    (void)take_calibration_signal();  // asked for meanwhile: it is done
+  }
+  const bool fitted = config.glove.has_value();
+  haptic::DriverProcess device(std::move(config));
+  return run_device(a, client, recorder, device, fitted, record);
 }
 
 int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
   log::info("opening the device, which may take some seconds");
-  std::optional<int> status;
-  for (bool calibrate = a.calibrate; !status; calibrate = true) {
-    haptic::DriverProcessConfig config = driver_config(a);
-    tell_state(client, {.name = config.device.driver}, client::DeviceState::preparing);
-    if (calibrate) {
-      auto calibration = opened(a, client, config.device.driver, [&] { return calibrated(a, client); });
-      if (!calibration) return failed_to_open(a, calibration.error());
-      config.glove = *calibration;
-    }
-    const bool fitted = config.glove.has_value();
-    haptic::DriverProcess device(std::move(config));
-    status = run_device(a, client, recorder, device, fitted);
-  }
-  return *status;
+  Record record;
+  std::optional<int> status = run_once(a, client, recorder, a.calibrate, record);
+  while (!status)
+    status = run_once(a, client, recorder, true, record);
+  if (record.device.empty()) return *status;
+  nlohmann::json json = to_json(record);
+  json.update({{"device", record.device},
+               {"interval_us", realtime::quantiles_json(record.intervals)},
+               {"ticks_without_state", record.without_state}});
+  const int reported = report(a, json);
+  return *status != 0 ? *status : reported;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const sigset_t usr1 = calibration_signal();
+  ::pthread_sigmask(SIG_BLOCK, &usr1, nullptr);  // before there are other threads, which inherit it
   Arguments a;
   CLI::App app{"Runs a haptic device at a kiosk: the hand goes to the server, the force comes back."};
   add_options(app, a);
@@ -397,12 +461,14 @@ int main(int argc, char** argv) {
   a.client.program = "mechane-haptic";
   std::signal(SIGINT, [](int) { g_stop = 1; });
   std::signal(SIGTERM, [](int) { g_stop = 1; });
-  std::signal(SIGUSR1, [](int) { g_calibrate = 1; });
   auto client = client::Client::connect(a.client);
   if (!client) {
     log::error(client.error());
     return 2;
   }
+  if (a.seconds > 0)
+    a.end = std::chrono::steady_clock::now() +
+            std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.seconds));
   std::unique_ptr<haptic::HandRecorder> recorder;
   if (!a.record_file.empty()) {
     auto opened = haptic::HandRecorder::open(a.record_file);

@@ -196,8 +196,16 @@ class Devices(EndToEnd):
             return (told["device"], told["calibration"]) == ("ready", "done")
         shows(flat)
         echo = self.start("echo", "echo", "KioskStatus", "--json")
-        haptic = self.start("haptic", "haptic", "--wait", "--calibrate", "--kiosk", "kiosk-1", "--device", self.device(f"pose={file}"))
+        report = self.folder / "haptic.json"
+        haptic = self.start("haptic", "haptic", "--wait", "--calibrate", "--kiosk", "kiosk-1", "--device", self.device(f"pose={file}"),
+                            "--report", report)
+        for step in "none", "flat":
+            wait_until(lambda: is_ready() or self.calibrations(echo)[-1:] == [step], 60, haptic.text())
+            haptic.process.send_signal(signal.SIGUSR1)
         wait_until(is_ready, 60, haptic.text())
+        written = len(self.trace()[0])
+        wait_until(lambda: len(self.trace()[0]) > written + 1000, 20, "a second of forces was written")
+        self.assertEqual(self.trace()[1], 1, "who asks while it calibrates, or before, asks for no second time")
         haptic.process.send_signal(signal.SIGUSR1)
         wait_until(lambda: self.statuses(echo)[-1]["device"] == "let go", 10, "it waits for a hand")
         wait_until(lambda: not is_ready() and self.calibrations(echo)[-1] == "flat", 10, haptic.text())
@@ -206,6 +214,15 @@ class Devices(EndToEnd):
         self.assertEqual(haptic.stop(), 0, haptic.text())
         forces, closed = self.trace()
         self.assertEqual((forces[-1][1], closed), (0, 3))
+        told = json.loads(report.read_text())
+        self.assertGreater(told["ticks"], 500, "what came before the calibration that was stopped")
+
+    def test_a_glove_that_nobody_wears_is_waited_for_as_long_as_was_told(self):
+        (self.folder / "pose").write_bytes(bytes(160))
+        haptic = self.start("haptic", "haptic", "--wait", "--calibrate", "--seconds", "1", "--kiosk", "kiosk-1", "--device",
+                            self.device(f"pose={self.folder / 'pose'}"))
+        self.assertEqual(haptic.wait(20), 0, haptic.text())
+        self.assertIn("put the glove on", haptic.text())
 
     def test_a_device_that_is_not_there_at_the_start_is_waited_for(self):
         there = self.folder / "there"

@@ -98,6 +98,23 @@ TEST(CalibrationCourse, WaitsForAHandInTheGlove) {
   EXPECT_FALSE(course.result().has_value());
 }
 
+TEST(CalibrationCourse, VisitorsAreToldWhatIsTheMatterWithTheGlove) {
+  using client::DeviceState;
+  CalibrationCourse course;
+  for (const bool asks : {false, true}) {
+    EXPECT_EQ(course.news().step != client::CalibrationStep::none, asks);
+    EXPECT_EQ(course.device_state(DeviceCondition::ready), asks ? DeviceState::preparing : DeviceState::let_go);
+    EXPECT_EQ(course.device_state(DeviceCondition::lost), DeviceState::lost);
+    EXPECT_EQ(course.device_state(DeviceCondition::hot), DeviceState::hot);
+    EXPECT_EQ(course.device_state(DeviceCondition::uncalibrated), DeviceState::uncalibrated);
+    EXPECT_EQ(course.device_state(DeviceCondition::not_ready), DeviceState::not_ready);
+    for (const std::size_t pose : {0, 1}) {
+      const HandAngles raw = raw_pose(pose);
+      (void)course.add(TimePoint{1h}, &raw);
+    }
+  }
+}
+
 TEST(CalibrationCourse, FailsWithAGloveThatIsTakenOff) {
   CalibrationCourse course;
   client::CalibrationNews last;
