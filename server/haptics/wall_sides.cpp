@@ -23,6 +23,9 @@ constexpr double kTells = 0.8, kMisleads = 0.6;
 constexpr double kSameWay = 0.9;
 // A hand that has gone so far behind a wall is meant to be there: a device without force cannot hold it back.
 constexpr double kLetsGo_m = 0.05;
+// As a depth, the most that a wall that holds pushes with: 4.8 N of an ordinary surface. Hands whose device cannot stop them would push
+// machines with more than any visitor feels.
+constexpr double kMostPush_m = 8e-3;
 constexpr std::size_t kTouchPoints = 64;
 
 const WallSide* find_side(std::span<const WallSide> sides, std::size_t segment, BodyId body) {
@@ -57,7 +60,8 @@ Vec3 of_another_wall(const ContactPatch& touch, const Vec3& n_W) {
 }
 
 /// Blends the patch towards a touch that pushes so, by `share`.
-void push_out(ContactPatch& patch, const ContactPatch& touch, const Vec3& push_m, double share) {
+void push_out(ContactPatch& patch, const ContactPatch& touch, Vec3 push_m, double share) {
+  push_m *= std::min(1.0, kMostPush_m / push_m.norm());
   patch.push_m += share * (push_m - patch.push_m);
   patch.p_WC = patch.points == 0 ? touch.p_WC : Vec3(patch.p_WC + share * (touch.p_WC - patch.p_WC));
   patch.out_W = share * touch.out_W;

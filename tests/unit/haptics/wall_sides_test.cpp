@@ -82,11 +82,11 @@ TEST(WallSides, ThePressGrowsEvenlyWithTheDepth) {
   double before_m = 0;
   tip.go({0, kLedTip_m - 0.04, 0}, [&](const Vec3&, const hand::LocalContact* contact) {
     if (contact == nullptr) return;
-    EXPECT_GE(contact->depth_m, before_m - 1e-6);
+    EXPECT_GE(contact->depth_m, before_m - 1e-5);
     EXPECT_LT(contact->depth_m, before_m + 3e-4) << "for 0.2 mm of the tip";
     before_m = contact->depth_m;
   });
-  EXPECT_NEAR(before_m, kPatchShare * 0.04, 1.5e-3);
+  EXPECT_NEAR(before_m, 0.008, 1e-5) << "no more than this, however deep";
 }
 
 TEST(WallSides, ATipGoesAlongBehindTheWallAndIsFreeAtItsEnd) {
@@ -133,8 +133,8 @@ TEST(WallSides, APlateThatTurnsAndMovesHoldsATip) {
     const hand::HapticOutput& output = server.answer(sample);
     if (i < 15) continue;
     ASSERT_GT(output.contact_count, 0u) << i;
-    EXPECT_LT(test::degrees_between(output.contacts[0].n_W, X_WB.rotate(Vec3::UnitY())), 1) << i;
-    EXPECT_NEAR(output.contacts[0].depth_m, kPatchShare * (3e-4 * i - 0.002), 1e-3) << i;
+    EXPECT_LT(test::degrees_between(output.contacts[0].n_W, X_WB.rotate(Vec3::UnitY())), 2) << i;
+    EXPECT_NEAR(output.contacts[0].depth_m, std::min(0.008, kPatchShare * (3e-4 * i - 0.002)), 1e-3) << i;
   }
 }
 
@@ -194,7 +194,7 @@ TEST(WallSides, AThinBarrelHoldsATipAllAroundAndAcrossItsSeams) {
       const double angle = 0.02 * i;
       tip.go(at(angle, surface_m - side * 0.012), [&](const Vec3&, const hand::LocalContact* contact) {
         ASSERT_NE(contact, nullptr);
-        EXPECT_GT(contact->depth_m, 0.009);
+        EXPECT_GT(contact->depth_m, 0.0079);
         EXPECT_LT(test::degrees_between(contact->n_W, at(angle, side)), 7.5) << angle << " from side " << side;
       });
     }
