@@ -42,7 +42,7 @@ std::size_t gather_patches(std::span<const state::Contact> contacts,
     if (depth_sum[i] <= 0) continue;
     patch.push_m /= depth_sum[i];
     patch.p_WC /= depth_sum[i];
-    patch.depth_m = patch.push_m.norm();
+    patch.depth_m = patch.found_depth_m = patch.push_m.norm();
     // Points on both sides of a thin segment can cancel: then there is no way out to push along.
     if (patch.depth_m > 0) patch.n_BH_W = patch.push_m / patch.depth_m;
   }

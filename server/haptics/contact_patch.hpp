@@ -20,6 +20,7 @@ struct ContactPatch {
   double depth_m = 0;          ///< |push_m|
   double deepest_m = 0;        ///< of the points
   Vec3 out_W = Vec3::Zero();   ///< by what the segment was moved to find this touch; see hold_walls()
+  double found_depth_m = 0;    ///< the depth there
 };
 
 /// The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.

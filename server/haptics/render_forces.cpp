@@ -66,10 +66,10 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
 }
 
 /// The normal of a tip's touch, or of a surface near it, as a soft finger feels it. The other segments are larger, and cover facets by
-/// themselves. `out_W`: that of the patch.
+/// themselves. `p_WS`, `depth_m`: where the segment's middle was when the touch was found, and how deep it was there.
 Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
-                     const UserState& user, const state::Contact& at, const ForceConfig& config,
-                     const Vec3& out_W = Vec3::Zero()) {
+                     const UserState& user, const state::Contact& at, const ForceConfig& config, const Vec3& p_WS,
+                     double depth_m) {
   const collision::Object* const object = description.bodies[at.body.index()].object.get();
   const bool stylus = user.sample.kind == HandKind::one_point;
   const bool tip = stylus || hand::is_fingertip(at.segment);
@@ -78,8 +78,8 @@ Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel
   const Pose X_BW = X_WB.inverse();
   Touch touch{.p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W), .thin_walls = config.thin_walls};
   if (stylus) {  // under a ball, the surface lies in the direction of its normal
-    touch.p_B = X_BW * (user.X_WS[0].p + out_W);
-    touch.surface_m = hand.inner_radius_m(user.sample, 0) - at.depth_m + kPatchShare * out_W.dot(at.n_BH_W);
+    touch.p_B = X_BW * p_WS;
+    touch.surface_m = hand.inner_radius_m(user.sample, 0) - depth_m;
     touch.rounds = 2;
   }
   return X_WB.rotate(smooth_normal(hand.pad(), *object, touch));
@@ -129,7 +129,8 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     ContactPatch& patch = patches[i];
     if (patch.depth_m <= 0) continue;
     state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
-    touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config, patch.out_W);
+    touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config,
+                                                  user.X_WS[patch.segment].p + patch.out_W, patch.found_depth_m);
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const HapticMaterial& material = body.haptic;
@@ -152,7 +153,8 @@ void announce_near(const state::WorldDescription& description, const HandModel& 
   for (state::Contact near : user.near_span()) {
     if (user.grasp.active && user.grasp.body == near.body) continue;
     if (has_side(user, near.segment, near.body)) continue;  // behind a wall, it is the wrong one
-    near.n_BH_W = smooth_normal_W(description, hand, state, user, near, config);
+    near.n_BH_W =
+        smooth_normal_W(description, hand, state, user, near, config, user.X_WS[near.segment].p, near.depth_m);
     const BodyState& body = state[near.body];
     const HapticMaterial& material = body.haptic;
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));

@@ -65,6 +65,7 @@ void push_out(ContactPatch& patch, const ContactPatch& touch, Vec3 push_m, doubl
   patch.push_m += share * (push_m - patch.push_m);
   patch.p_WC = patch.points == 0 ? touch.p_WC : Vec3(patch.p_WC + share * (touch.p_WC - patch.p_WC));
   patch.out_W = share * touch.out_W;
+  patch.found_depth_m += share * (touch.found_depth_m - patch.found_depth_m);
   patch.depth_m = patch.push_m.norm();
   patch.n_BH_W = patch.push_m / patch.depth_m;
 }
