@@ -178,6 +178,7 @@ constexpr Piece kSurfacePieces[] = {
      R"(<MetadataSet containerField='value' name='OILED'>
   <MetadataString containerField='value' name='type' value='"touch.surface"'/>
   <MetadataString containerField='value' name='object' value='"WHEEL"'/>
+  <MetadataDouble containerField='value' name='staticFriction' value='0.1'/>
   <MetadataDouble containerField='value' name='dynamicFriction' value='0.05'/>
   <MetadataDouble containerField='value' name='viscosity' value='1'/>
 </MetadataSet>
@@ -191,7 +192,7 @@ constexpr Piece kSurfacePieces[] = {
      R"(<MetadataSet containerField='value' name='oil'>
   <MetadataString containerField='value' name='enable' value='"OILED"'/>
   <MetadataSet containerField='value' name='text'>
-    <MetadataString containerField='value' name='caption.en' value='"The rim has been oiled. Let go, and stroke it."'/>
+    <MetadataString containerField='value' name='caption.en' value='"The rim has been oiled. Lift your hand off, and stroke it."'/>
   </MetadataSet>
   <MetadataDouble containerField='value' name='timeoutSeconds' value='20'/>
 </MetadataSet>
@@ -330,7 +331,10 @@ constexpr Piece kSignPieces[] = {
 constexpr Variation kVariations[] = {
     {"More steps", "To the example come two steps, a hint, words that are read aloud, and a close-up.", kStepPieces},
     {"A surface that changes with the step",
-     "A body feels otherwise while a step has such an agent on. A hand that touches it then goes on feeling what it "
+     "From a step that enables such an agent on, a body feels otherwise, until a step disables it or the activity "
+     "begins "
+     "anew; where\nno step enables it, it is on from the beginning. A hand that touches the body goes on feeling what "
+     "it "
      "met, until it leaves.",
      kSurfacePieces},
     {"Questions",

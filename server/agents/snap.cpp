@@ -169,14 +169,14 @@ double least_mass_kg(const state::BodyDescription& body) {
 /// The pull is an explicit spring, and must stay well below what would reverse the motion of the lighter body within one step.
 Expected<void> check_pull(const Build& build, const Pull& pull) {
   constexpr double kStiffnessBound = 0.1;  // as that of touches, see haptics::bounded_spring()
-  if (pull.strongest_n == 0) {
-    if (!build.parameters.given("pullFrom")) return {};
-    return fail(ErrorCode::conflict, "'pullFrom' does nothing without a pull", build.place("pullFrom"),
-                "write a pull, or remove it");
-  }
-  if (pull.reach_m <= build.parameters.numbers("tolerance")[0])
-    return fail(ErrorCode::conflict, "the pull begins where the snap takes the body already", build.place("pullFrom"),
-                "write a pullFrom that is larger than the tolerance's distance");
+  if (pull.strongest_n == 0) return {};
+  const double taken_m = build.parameters.numbers("tolerance")[0];
+  if (pull.reach_m <= taken_m)
+    return fail(
+        ErrorCode::conflict,
+        fmt::format("the pull begins {:g} m from the place, where the snap takes the body already", pull.reach_m),
+        build.place("pullFrom"),
+        fmt::format("write a pullFrom that is larger than the tolerance's distance, {:g}", taken_m));
   for (const char* end : {"object", "into"}) {
     const BodyId id = build.parameters.body(end);
     if (!id || build.description.bodies[id.index()].fixed) continue;
@@ -185,7 +185,9 @@ Expected<void> check_pull(const Build& build, const Pull& pull) {
     if (share > 1)
       return fail(
           ErrorCode::conflict,
-          fmt::format("the pull would shake the body '{}', which is too light for it", build.parameters.text(end)),
+          fmt::format(
+              "the pull would shake the body '{}': it is too light, and feels like {:.2g} kg (mass times effortScale)",
+              build.parameters.text(end), mass_kg),
           build.place("pull"),
           fmt::format("write a pull of at most {:g}, or a larger pullFrom",
                       std::floor(100 * pull.strongest_n / share) / 100));
@@ -249,12 +251,13 @@ constexpr state::ParameterType kSnapParameters[] = {
      .max = 10},
     {.name = "pull",
      .unit = "N",
-     .summary = "how strongly a hand that carries it there feels it drawn to its place, at most; 0: not at all",
+     .summary =
+         "how strongly the place draws the body while a hand carries it, at most; the hand feels it; 0: not at all",
      .min = 0,
      .max = 5},
     {.name = "pullFrom",
      .unit = "m",
-     .summary = "how far from the place the pull begins; it is strongest at 0.45 of this",
+     .summary = "how far from the place the pull begins, more than the tolerance; it is strongest at 0.45 of this",
      .default_value = 0.2,
      .min = 0.02,
      .max = 2},

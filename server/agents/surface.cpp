@@ -66,8 +66,9 @@ constexpr state::ValueType kSurfaceValues[] = {
 const AgentKind& surface_kind() {
   static const AgentKind kKind{
       {"touch.surface",
-       "A body feels otherwise to hands, once no hand touches it; of two such agents that are on, the later in "
-       "`agents` counts, and one that stands on the body itself comes before those",
+       "While it is on, a body feels otherwise to hands; a hand that touches it goes on feeling what it met, until it "
+       "leaves. Of two that are on, the later in `agents` counts, with all its keys; one on the body itself comes "
+       "first",
        kSurfaceParameters, kSurfaceValues},
       make_surface};
   return kKind;

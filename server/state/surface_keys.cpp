@@ -28,8 +28,10 @@ Vec3 groove_wave_B(const HapticMaterial& own, double depth_m, const WrittenKeys&
   const double wave_rad_per_m = 2 * kPi / distance_m;
   if (!hand::are_renderable(depth_m, wave_rad_per_m)) {
     const double most_um = std::floor(1e6 * hand::max_groove_depth_m(wave_rad_per_m));
-    faults.push_back({ErrorCode::conflict, "grooveDepth", "the grooves are too steep for a device to render",
-                      fmt::format("write a grooveDepth of at most {:g}, or a larger grooveDistance", 1e-6 * most_um)});
+    faults.push_back(
+        {ErrorCode::conflict, "grooveDepth", "the grooves are too steep for a device to render",
+         fmt::format("at a grooveDistance of {:g}, write a grooveDepth of at most {:.6f}, or a larger distance",
+                     distance_m, 1e-6 * most_um)});
   }
   return wave_rad_per_m * direction.normalized();
 }
@@ -48,8 +50,10 @@ HapticMaterial changed_surface(const HapticMaterial& own, const WrittenKeys& wri
   change(written, "grooveDepth", surface.groove_depth_m);
   surface.groove_wave_B = groove_wave_B(own, surface.groove_depth_m, written, faults);
   if (surface.dynamic_friction > surface.static_friction) {
-    faults.push_back({ErrorCode::conflict, "dynamicFriction", "dynamicFriction is larger than staticFriction",
-                      "write a dynamicFriction that is at most the staticFriction"});
+    faults.push_back({ErrorCode::conflict, "dynamicFriction",
+                      fmt::format("the dynamicFriction, {:g}, is larger than the staticFriction, {:g}",
+                                  surface.dynamic_friction, surface.static_friction),
+                      "write both, with a dynamicFriction that is at most the staticFriction"});
   }
   return surface;
 }

@@ -198,7 +198,7 @@ const Fault kFaults[] = {
     {"<MetadataDouble containerField='value' name='staticFriction' value='0.6'/>",
      "<MetadataDouble containerField='value' name='grooveDepth' value='0.001'/>"
      "<MetadataDouble containerField='value' name='grooveDirection' value='0 0 1'/>",
-     "name='grooveDepth'", conflict, "at most 8.1e-05"},
+     "name='grooveDepth'", conflict, "at most 0.000081"},
     {"name='staticFriction' value='0.6'", "name='viscosity' value='50'", "name='viscosity'", invalid_value, "0 to 2"},
     {"<MetadataSet containerField='value' name='SEATED'>",
      "<MetadataSet containerField='value' name='WET'>"
@@ -206,7 +206,7 @@ const Fault kFaults[] = {
      "<MetadataString containerField='value' name='object' value='\"INNER\"'/>\n"
      "<MetadataDouble containerField='value' name='dynamicFriction' value='3'/></MetadataSet>"
      "<MetadataSet containerField='value' name='SEATED'>",
-     "name='dynamicFriction' value='3'", conflict, "agent WET: dynamicFriction"},
+     "name='dynamicFriction' value='3'", conflict, "agent WET: the dynamicFriction"},
     {"name='grip' value='0.25 0 1.36'", "name='grip' value='0.25 0'", "value='0.25 0'", invalid_value, "3 numbers"},
 };
 
