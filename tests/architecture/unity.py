@@ -56,8 +56,10 @@ def shadowing(text: str) -> list[tuple[str, int]]:
 
 
 def _home(path: Path) -> Path:
-    """What is compiled together: a folder; and of the drivers all but the module of each."""
-    drivers = Path("client-sdk/drivers")
+    """What is compiled together: a folder; the room `draw` with its folders; and of the drivers all but the module of each."""
+    draw, drivers = Path("client-sdk/draw"), Path("client-sdk/drivers")
+    if path.is_relative_to(draw):
+        return draw
     return drivers if path.is_relative_to(drivers) and path.name != "driver.cpp" else path.parent
 
 

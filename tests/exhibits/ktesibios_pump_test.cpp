@@ -60,9 +60,14 @@ TEST(KtesibiosPumpVisits, MistakesEndWellToo) {
   EXPECT_TRUE(std::ranges::any_of(pumping.moves, test::went_wrong)) << pumping;
 }
 
+/// Only what leaks past the leather lets a hand that leans on the handle move it.
 TEST(KtesibiosPumpVisits, OutletFlapsTheWrongWayRoundLockThePistons) {
   const test::PlayedVisit visit = play_with_valves("outletValves", {"reversed"});
-  EXPECT_EQ(visit.stopped_at, "stroke") << visit;
+  EXPECT_EQ(visit.quantities.at("head"), 0) << visit;
+  EXPECT_TRUE(test::went_wrong(visit.moves.at(2))) << "the first swing: " << visit;
+  const auto stroke = std::ranges::find(visit.steps, "stroke", &test::PlayedStep::name);
+  ASSERT_NE(stroke, visit.steps.end()) << visit;
+  EXPECT_TRUE(visit.stopped_at == "stroke" || stroke->seconds > 20) << "good visits need less: " << visit;
 }
 
 TEST(KtesibiosPumpVisits, InletFlapsTheWrongWayRoundDrawNoWater) {

@@ -16,7 +16,7 @@ constexpr float kDots = 28;         // the poses, under the words
 constexpr int kRingDots = 60;
 constexpr float kLine = 3.5F;  // an outline, on the largest disc
 constexpr float kPosePadding = 28;
-constexpr auto kTurn_rad = static_cast<float>(2 * kPi);
+constexpr auto kWholeTurn_rad = static_cast<float>(2 * kPi);
 
 /// Its middle, pixels of the page.
 struct Disc {
@@ -66,10 +66,10 @@ void add_tick(Page& page, const Disc& disc) {
 /// Dots, clockwise from the top.
 void add_ring(Page& page, float held, const Disc& disc) {
   const float radius = kRing * disc.radius;
-  const float dot = 0.42F * kTurn_rad * radius / kRingDots;
+  const float dot = 0.42F * kWholeTurn_rad * radius / kRingDots;
   const auto full = static_cast<int>(std::lround(std::clamp(held, 0.0F, 1.0F) * kRingDots));
   for (int i = 0; i < kRingDots; ++i) {
-    const float angle = kTurn_rad * (static_cast<float>(i) + 0.5F) / kRingDots;
+    const float angle = kWholeTurn_rad * (static_cast<float>(i) + 0.5F) / kRingDots;
     const Eigen::Vector2f at(disc.x + radius * std::sin(angle), disc.y - radius * std::cos(angle));
     add_bar(page, at, at, dot, i < full ? page.colours.water : page.colours.faint);
   }
