@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "server/base/math.hpp"
+
 namespace mechane::draw {
 namespace {
 
