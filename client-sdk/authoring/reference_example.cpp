@@ -331,11 +331,10 @@ constexpr Piece kSignPieces[] = {
 constexpr Variation kVariations[] = {
     {"More steps", "To the example come two steps, a hint, words that are read aloud, and a close-up.", kStepPieces},
     {"A surface that changes with the step",
-     "From a step that enables such an agent on, a body feels otherwise, until a step disables it or the activity "
-     "begins "
-     "anew; where\nno step enables it, it is on from the beginning. A hand that touches the body goes on feeling what "
-     "it "
-     "met, until it leaves.",
+     "From a step that enables such an agent on, a body feels otherwise, until a step disables it or the activity\n"
+     "begins anew; where no step enables it, it is on from the beginning. A hand that touches the body goes on "
+     "feeling\n"
+     "what it met, until it leaves.",
      kSurfacePieces},
     {"Questions",
      "They are asked when the activity is done (a display may also ask them before), and counted by `mechane visits`.",

@@ -64,7 +64,7 @@ bool HapticLoop::take_answer() noexcept {
   answer_ = *sample;
   ++stats_.answers;
   click_.hear(answer_.clicks);
-  // An answer that a deadband held back was not worth sending before: that is no delay. What is more than it holds back is a late server.
+  // The time for which a deadband held an answer back is no delay of the network. It is kKeepAlive at most: the rest is a late server.
   const Duration most_held_back = deadband_.is_on() ? hand::kKeepAlive : Duration{0};
   const Duration held_back = std::clamp(answer_.waited - kTickPeriod, Duration{0}, most_held_back);
   if (order == hand::SampleOrder::newer && echo > 0) note_delay(std::max(delay - held_back, Duration{0}));

@@ -83,7 +83,7 @@ struct OverlayContent {
   std::string goal;                   ///< of the activity, at its beginning
   std::vector<OverlayButton> corner;  ///< at the lower right
   std::optional<OverlayPanel> panel;  ///< shown instead of captions and readouts
-  std::optional<OverlayPose> pose{};  ///< likewise, where there is no panel
+  std::optional<OverlayPose> pose{};  ///< shown instead of captions and readouts; not beside a panel
   OverlayStyle style;
   std::vector<OverlayDot> dots{};        ///< of the display's own hand
   std::optional<OverlayLabel> label{};   ///< of the thing under the pointer

@@ -64,7 +64,8 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
               {"theory": "wall.theory", "measured": "wall.measured"}, "delay, ms", "N/m"),
              ("deadband-saved", "What a deadband saves", "messages left out, both directions together",
               {play: f"deadband.saved.{play}" for play in plays}, "share", "of all messages"),
-             ("deadband-error", "What a deadband costs", "difference of the force to the same play without; 99 % of the milliseconds are below",
+             ("deadband-error", "What a deadband costs",
+              "difference of the force to the same play without; 99 % of the milliseconds are below",
               {play: f"deadband.error.{play}" for play in plays[1:]}, "share", "N"))
     made = []
     for name, title, what, curves, x, y in plots:

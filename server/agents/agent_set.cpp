@@ -1,5 +1,7 @@
 #include "server/agents/agent_set.hpp"
 
+#include <algorithm>
+
 #include "server/agents/agent.hpp"
 #include "server/agents/progress.hpp"
 #include "server/agents/quantities.hpp"
@@ -9,6 +11,7 @@ namespace mechane::agents {
 
 struct AgentSet::Impl {
   const state::WorldDescription* description = nullptr;
+  bool changes_surfaces = false;  // has agents that write what bodies feel like
   std::vector<std::unique_ptr<Agent>> agents;
   std::vector<std::size_t> order;  // those that switch others first, then as in the description
   std::vector<state::Coupling> couplings;
@@ -33,6 +36,8 @@ Expected<std::unique_ptr<AgentSet>> AgentSet::create(const state::WorldDescripti
                                                      state::MemoryLayout& layout) {
   auto impl = std::make_unique<Impl>();
   impl->description = &description;
+  impl->changes_surfaces =
+      std::ranges::any_of(description.agents, [](const auto& agent) { return agent.type == surface_kind().type.name; });
   for (std::size_t i = 0; i < description.agents.size(); ++i) {
     auto agent = state::make_component(kinds(), "agent", description, description.agents, AgentId(i), layout);
     if (!agent) return tl::unexpected(agent.error());
@@ -76,7 +81,7 @@ void AgentSet::run(state::WorldState& state, std::span<const state::Command> com
     for (state::Coupling& coupling : state.couplings)
       coupling.forget_forces();
   }
-  for (std::size_t b = 0; b < state.bodies.size(); ++b)
+  for (std::size_t b = 0; impl_->changes_surfaces && b < state.bodies.size(); ++b)
     state.bodies[b].haptic = impl_->description->bodies[b].haptic;
   for (const std::size_t i : impl_->order)
     impl_->agents[i]->run(state, state.agent_enabled[i] != 0, dt_s);

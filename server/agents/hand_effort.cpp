@@ -56,7 +56,7 @@ HandEffort::Now HandEffort::measure(const state::WorldState& state) const noexce
   Vec3 f_B_W = Vec3::Zero();
   for (const state::UserState& user : state.users) {
     if (!user.present) continue;
-    const bool holds = user.grasp.active && user.grasp.body == body_;
+    const bool holds = user.holds(body_);
     if (effort_ == Effort::pull ? !holds : holds || !user.touches(body_)) continue;
     now.any = true;
     f_B_W -= effort_ == Effort::pull ? user.grasp.reaction_W.f : user.output.force_W.f;

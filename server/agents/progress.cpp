@@ -151,7 +151,7 @@ void ProgressRules::enter_step(state::WorldState& state, StepId id) const noexce
     if (change.graspable) body.graspable = *change.graspable;
     if (!change.X_WB) continue;
     for (std::size_t u = 0; u < state.users.size(); ++u) {
-      if (state.users[u].grasp.active && state.users[u].grasp.body == change.body) let_go(state, u);
+      if (state.users[u].holds(change.body)) let_go(state, u);
     }
     body.X_WB = *change.X_WB;
     body.V_WB = {};

@@ -96,11 +96,8 @@ class Snap final : public Agent {
     return state.memory[distance_] <= share * reach_m_ && state.memory[angle_] <= share * reach_rad_;
   }
 
-  [[nodiscard]] bool is_held_by(const state::UserState& user) const noexcept {
-    return user.grasp.active && user.grasp.body == object_;
-  }
   [[nodiscard]] bool is_held(const state::WorldState& state) const noexcept {
-    return std::ranges::any_of(state.users, [this](const state::UserState& user) { return is_held_by(user); });
+    return std::ranges::any_of(state.users, [this](const state::UserState& user) { return user.holds(object_); });
   }
 
   /// The hand that carries the body feels this through its grasp. A body that nobody holds does not go home by itself.
@@ -114,7 +111,7 @@ class Snap final : public Agent {
   /// The hands let go first: the body is led home without pulling anyone's hand along.
   void begin(state::WorldState& state) const noexcept {
     for (std::size_t u = 0; u < state.users.size(); ++u) {
-      if (is_held_by(state.users[u])) let_go(state, u);
+      if (state.users[u].holds(object_)) let_go(state, u);
     }
     X_IFrom_.write(state, X_WI(state).inverse() * state[object_].X_WB);
     X_ITo_.write(state, place(state));

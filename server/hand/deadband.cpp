@@ -13,7 +13,7 @@ constexpr double kFarthest_m = 0.02;  // a server tells of surfaces up to this d
 constexpr double kStiffness_n_per_m = kFineForce_n / kFineWay_m;
 // A wrong speed counts like the way in this time: damping over stiffness of the exhibits' parts.
 constexpr double kDampingTime_s = 0.0025;
-// Two encoder steps of a stylus in a tick: its speed is no better known.
+// A stylus reads its speed from encoder steps, and so knows it to two steps a tick.
 constexpr double kFineSpeed_m_per_s = 0.12;
 // A wrong angle counts like the way at this distance: of a wrist to its fingertips, of a tip to the place where it holds something.
 constexpr double kGloveLever_m = 0.2;

@@ -7,7 +7,7 @@ namespace mechane::haptics {
 namespace {
 
 bool feels(const state::UserState& user, BodyId body) {
-  return user.present && ((user.grasp.active && user.grasp.body == body) || user.touches(body));
+  return user.present && (user.holds(body) || user.touches(body));
 }
 
 /// Whether a value is on another step than before; if so, `step` becomes the new one. A value that trembles at a step's lower end stays on

@@ -140,7 +140,7 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     add_to_finger(user, patch.segment, force.f_H_W);
     if (force.knock_n > 0) add_click(user, state.tick, force.knock_n);
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
-    if (user.grasp.active && user.grasp.body == patch.body) continue;
+    if (user.holds(patch.body)) continue;
     add_to_hand(user, force.f_H_W, patch.p_WC);
     add_local_contact(user.output, touch, v_B_W, force.spring, material, grooves);
     add_force(body, -user.freshness * force.f_H_W, patch.p_WC);
@@ -151,7 +151,7 @@ void render_patches(const state::WorldDescription& description, const HandModel&
 void announce_near(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
                    UserState& user, const ForceConfig& config) {
   for (state::Contact near : user.near_span()) {
-    if (user.grasp.active && user.grasp.body == near.body) continue;
+    if (user.holds(near.body)) continue;
     if (has_side(user, near.segment, near.body)) continue;  // behind a wall, it is the wrong one
     near.n_BH_W =
         smooth_normal_W(description, hand, state, user, near, config, user.X_WS[near.segment].p, near.depth_m);
@@ -171,7 +171,7 @@ void render_paper(state::WorldState& state, UserState& user) {
   if (user.contact_count == 0) return;
   const double n = user.contact_count;
   for (const state::Contact& contact : user.contact_span()) {
-    if (user.grasp.active && user.grasp.body == contact.body) continue;
+    if (user.holds(contact.body)) continue;
     const double k = state[contact.body].haptic.stiffness_n_per_m;
     const Vec3 f_H_W = k / n * contact.depth_m * contact.n_BH_W;
     add_to_hand(user, f_H_W, contact.p_WC);

@@ -144,7 +144,7 @@ std::size_t hold_walls(const state::WorldDescription& description, const HandMod
   std::uint32_t sides = 0;
   for (ContactPatch& patch : std::span(patches).first(count)) {
     const bool tip = user.sample.kind == hand::HandKind::one_point || hand::is_fingertip(patch.segment);
-    if (!tip || (user.grasp.active && user.grasp.body == patch.body) || sides == user.sides.size()) continue;
+    if (!tip || user.holds(patch.body) || sides == user.sides.size()) continue;
     const auto side = holder.hold(patch, find_side(before, patch.segment, patch.body));
     if (side) user.sides[sides++] = *side;
   }

@@ -134,7 +134,7 @@ class Projectile final : public Machine {
   [[nodiscard]] bool lies_ready(const state::WorldState& state) const noexcept {
     if (s_.holder && state[s_.holder].enabled) return false;
     for (const state::UserState& user : state.users) {
-      if (user.grasp.active && user.grasp.body == s_.body) return false;
+      if (user.holds(s_.body)) return false;
     }
     return (X_WF(state) * s_.p_FSeat - state[s_.body].X_WB.p).norm() <= s_.tolerance_m;
   }

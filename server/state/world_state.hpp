@@ -114,6 +114,7 @@ struct UserState {
   [[nodiscard]] std::span<const WallSide> side_span() const { return {sides.data(), side_count}; }
   /// Whether the hand touches that body, also where it is pressed through a thin wall and so past all contact.
   [[nodiscard]] bool touches(BodyId body) const noexcept;
+  [[nodiscard]] bool holds(BodyId body) const noexcept { return grasp.active && grasp.body == body; }
 };
 
 /// Where the visit is in the scenario.

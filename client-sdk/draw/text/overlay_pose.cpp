@@ -92,7 +92,7 @@ float add_words(Page& page, const picture::OverlayPose& pose, float most) {
   return add_lines(page, pose.more, Face::regular, 23, page.colours.paper, y, most);
 }
 
-/// The largest disc over `words`, in the panel of this width and at most the room's height; negative: there is no room.
+/// The radius of the largest disc that fits above words of that height, in a panel of this width in the room; negative: none fits.
 float disc_radius(const Page& page, float width, float words, const Box& room) {
   const float padding = page.px(kPosePadding);
   const float most = std::min(width - 2 * padding, room.height - words - page.tx(kDots) - 3 * padding);

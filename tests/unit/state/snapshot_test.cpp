@@ -137,15 +137,18 @@ TEST(StateHash, SeesAllThatAGovernorRemembers) {
   EXPECT_TRUE(differs([](hand::GovernorState& g) { g.counts[5] = 1; }));
 }
 
+/// Whether what `change` does to the second user shows.
+template <class Change>
+bool changes_hash(const WorldState& base, const Change& change) {
+  WorldState changed = base;
+  change(changed.users[1]);
+  return state_hash(changed) != state_hash(base);
+}
+
 TEST(StateHash, SeesWhereFrictionHolds) {
   WorldState base = sample_state(1);
   base.users[1].anchor_count = 2;
-  const std::uint64_t hash = state_hash(base);
-  const auto differs = [&](auto change) {
-    WorldState changed = base;
-    change(changed.users[1]);
-    return state_hash(changed) != hash;
-  };
+  const auto differs = [&](auto change) { return changes_hash(base, change); };
   EXPECT_TRUE(differs([](UserState& user) { user.anchor_count = 1; }));
   EXPECT_TRUE(differs([](UserState& user) { user.anchors[1].body = BodyId(0); }));
   EXPECT_TRUE(differs([](UserState& user) { user.anchors[1].segment = 3; }));
@@ -161,12 +164,7 @@ TEST(StateHash, SeesWhereFrictionHolds) {
 TEST(StateHash, SeesTheSidesOfWalls) {
   WorldState base = sample_state(1);
   base.users[1].side_count = 2;
-  const std::uint64_t hash = state_hash(base);
-  const auto differs = [&](auto change) {
-    WorldState changed = base;
-    change(changed.users[1]);
-    return state_hash(changed) != hash;
-  };
+  const auto differs = [&](auto change) { return changes_hash(base, change); };
   EXPECT_TRUE(differs([](UserState& user) { user.side_count = 1; }));
   EXPECT_TRUE(differs([](UserState& user) { user.sides[1].body = BodyId(0); }));
   EXPECT_TRUE(differs([](UserState& user) { user.sides[1].segment = 3; }));
