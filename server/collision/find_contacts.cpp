@@ -11,6 +11,13 @@ bool overlap(const geometry::Sphere& a, const Vec3& center_b, double radius_b) n
   return (a.center - center_b).squaredNorm() <= reach * reach;
 }
 
+/// Whether two spheres are certainly apart, whatever was rounded on the way to the distance of their centres. Nearly all pairs are.
+bool are_apart(const geometry::Sphere& a, const Vec3& p_ab, const geometry::Sphere& b) noexcept {
+  constexpr double kSurely = 1 + 1e-9;
+  const double reach = kSurely * (a.radius + b.radius);
+  return p_ab.squaredNorm() > reach * reach;
+}
+
 /// Whether a sphere reaches the box: the tight cull for parts that are long and thin.
 bool reaches_box(const BoxView& box, const Vec3f& center_Q, float radius) noexcept {
   float square = 0;
@@ -30,11 +37,11 @@ class Direction {
       : source_(source), X_TS_(X_TS), target_(target), sink_(std::move(sink)) {}
 
   void run() noexcept {
-    const Vec3 target_center_S = X_TS_.inverse() * target_.bound_O.center;
     const auto report = [this](const InsidePoint& inside) { sink_(inside, source_.clusters[inside.cluster].part); };
     for (std::size_t next = 0; next < target_.parts.size();) {
       const std::size_t count = collect(next);
       if (count == 0) continue;
+      const Vec3 target_center_S = X_TS_.inverse() * target_.bound_O.center;
       ClusterQuery query(*this, std::span<const PlacedPart>(near_).first(count), best_kernels(), report);
       const std::uint64_t all = count == kPartBatch ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
       for (std::size_t s = 0; s < source_.parts.size(); ++s) {
@@ -139,6 +146,7 @@ void ContactBuffer::add(const PointContact& contact) noexcept {
 }
 
 void find_contacts(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, ContactBuffer& out) noexcept {
+  if (are_apart(a.bound_O, X_WB * b.bound_O.center - X_WA * a.bound_O.center, b.bound_O)) return;
   const Pose X_BA = X_WB.inverse() * X_WA;
   if (!overlap(b.bound_O, X_BA * a.bound_O.center, a.bound_O.radius)) return;
   Direction(a, X_BA, b, ContactSink(X_WB, false, out)).run();

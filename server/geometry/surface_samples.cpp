@@ -23,8 +23,11 @@ class ApartFilter {
 
   /// Whether a point would lie at least the least distance from all points put in so far.
   [[nodiscard]] bool is_apart(const Vec3& p) const {
+    // Its own cell first, the corners last: nearly all points have one nearby, and are refused at once.
+    static constexpr std::array<int, 27> kNearestFirst{13, 4,  10, 12, 14, 16, 22, 1, 3, 5,  7,  9,  11, 15,
+                                                       17, 19, 21, 23, 25, 0,  2,  6, 8, 18, 20, 24, 26};
     const Cell c = cell(p);
-    for (int n = 0; n < 27; ++n) {
+    for (const int n : kNearestFirst) {
       const auto found = cells_.find(key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1}));
       if (found == cells_.end()) continue;
       for (const Vec3& q : found->second) {
