@@ -52,7 +52,8 @@ const DriverNeeds& needs_of(std::string_view driver) {
   return found == needs.end() ? none : *found;
 }
 
-/// Its serial line, where it begins with '/': somebody else's driver may have such an option too, and Haply's is a number.
+/// The serial line that it is at. Where it does not begin with '/', it is none: Haply's port is a number, and somebody else's driver may
+/// have such an option, too.
 std::string line_of(const KioskDevice& kiosk) {
   const DriverNeeds& needs = needs_of(kiosk.driver);
   return value_or(kiosk.options, "port", needs.which == "port" ? needs.without : "");
@@ -232,9 +233,8 @@ void DeviceCheck::check_is_plugged(const KioskDevice& kiosk, Problems& problems)
           fmt::format("{}{} ({}:{})", names.empty() ? "" : ", ", k.name, k.vendor, k.product.empty() ? "*" : k.product);
   if (names.empty()) return;
   problems.add(
-      fmt::format("{} of the driver {} {} plugged in and on; known by USB: {}",
-                  there == 0 ? "no device" : fmt::format("device {} that is set up", before + 1), driver,
-                  there == 0 ? "is" : "is not", names),
+      fmt::format("no device{} of the driver {} is plugged in and on; known by USB: {}",
+                  there == 0 ? "" : fmt::format(" {}", before + 1), driver, names),
       "a device that is plugged in",
       fmt::format("check its power supply, its switch and its cable until lsusb lists it{}",
                   driver == "openhaptics" ? "; a device at Ethernet or the parallel port is not seen here: use "
@@ -242,7 +242,7 @@ void DeviceCheck::check_is_plugged(const KioskDevice& kiosk, Problems& problems)
                                           : ""));
 }
 
-/// A hand has one device, and a device one owner. The later one of two tells it.
+/// A hand has one device, and a device one owner. Of two that clash, the later one is told of it.
 void DeviceCheck::check_others(const KioskDevice& kiosk, Problems& problems) const {
   const std::string device = device_of(kiosk);
   for (const KioskDevice* other = kiosks_.data(); other != &kiosk; ++other) {

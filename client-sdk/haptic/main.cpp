@@ -223,8 +223,8 @@ struct GloveNow {
 /// Waits for the glove's next angles. Told what the visitor is asked to show.
 using LookAtGlove = std::function<Expected<GloveNow>(client::CalibrationStep asked)>;
 
-/// Whether another glove of the kiosk is being fitted: displays ask for one pose at a time, and each course waits for its turn. Where two
-/// have begun together, the lower hand's goes on.
+/// Whether this glove's course, which is at `step`, has to wait because another glove of the kiosk is being fitted: displays ask for one
+/// pose at a time. Where two have begun together, the one with the lower number goes on.
 bool gives_way(const Arguments& a, client::Client& client, client::CalibrationStep step) {
   using client::CalibrationStep;
   if (step != CalibrationStep::none && step != CalibrationStep::flat) return false;

@@ -6,14 +6,13 @@
 namespace mechane::visit {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kNouns{{{"The handle", "Handle"},
+/// A noun as it stands in the sentences, and as it stands before a number.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNouns{{{"The handle", "Handle"},
                                                                                {"the handle", "handle"},
                                                                                {"The glove", "Glove"},
                                                                                {"the glove", "glove"},
-                                                                               {"Η λαβή", "Η λαβή"},
-                                                                               {"τη λαβή", "τη λαβή"},
-                                                                               {"Το γάντι", "Το γάντι"},
-                                                                               {"το γάντι", "το γάντι"}}};
+                                                                               {"λαβή", "λαβή"},
+                                                                               {"γάντι", "γάντι"}}};
 
 }  // namespace
 
