@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -37,6 +38,16 @@ Values values_of(const std::vector<std::string>& lines) {
     values[name] = value;
   }
   return values;
+}
+
+/// What stands after an option of a command line, as in "--user 1" or "--user=1".
+std::optional<std::string> option_of(const std::string& command_line, const std::string& option) {
+  const std::vector<std::string> words = split(command_line, ' ');
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == option && i + 1 < words.size()) return words[i + 1];
+    if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
+  }
+  return std::nullopt;
 }
 
 /// Whether it is a serial line of a USB device: ttyUSB0, ttyACM1.
@@ -101,7 +112,10 @@ std::vector<KioskDevice> kiosk_devices(const fs::path& root) {
     std::stringstream lines;
     lines << in.rdbuf();
     KioskDevice kiosk{name.substr(kPrefix.size()), "/etc/mechane/" + name, in.is_open(), {}, {}, {}};
-    kiosk.text = value_or(values_of(split(lines.str(), '\n')), "DEVICE", "");
+    const Values values = values_of(split(lines.str(), '\n'));
+    kiosk.text = value_or(values, "DEVICE", "");
+    kiosk.kiosk = value_or(values, "KIOSK", kiosk.name);
+    kiosk.user = option_of(value_or(values, "OPTIONS", ""), "--user").value_or(kiosk.user);
     kiosk.driver = kiosk.text.substr(0, kiosk.text.find(':'));
     if (kiosk.driver != kiosk.text) kiosk.options = values_of(split(kiosk.text.substr(kiosk.driver.size() + 1), ','));
     kiosks.push_back(kiosk);

@@ -21,14 +21,16 @@ using Values = std::map<std::string, std::string>;
 /// Without empty parts.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
-/// The device that a kiosk is to have: etc/mechane/haptic-KIOSK, which mechane-haptic@.service reads.
+/// A device that a kiosk is to have: etc/mechane/haptic-NAME, which mechane-haptic@.service reads.
 struct KioskDevice {
-  std::string kiosk;
+  std::string name;  ///< of the unit's instance: "kiosk-1", or "kiosk-1-left" for a second device
   std::string file;  ///< "/etc/mechane/haptic-kiosk-1"
   bool readable = false;
   std::string text;  ///< "lucidgloves:port=/dev/ttyUSB0"
   std::string driver;
   Values options;
+  std::string kiosk{};     ///< KIOSK=, or else the name
+  std::string user = "0";  ///< which hand of the kiosk
 };
 [[nodiscard]] std::vector<KioskDevice> kiosk_devices(const std::filesystem::path& root);
 

@@ -26,7 +26,8 @@ struct DriverNeeds {
   std::string_view driver;
   std::vector<std::string> libraries;  ///< one of these, tried in this order
   std::string_view software;           ///< that brings the library
-  std::string_view port;               ///< the serial line without an option `port`
+  std::string_view which;              ///< the option that tells one device of it from another
+  std::string_view without;            ///< which one it is without that option
 };
 
 const DriverNeeds& needs_of(std::string_view driver) {
@@ -34,17 +35,28 @@ const DriverNeeds& needs_of(std::string_view driver) {
       {"openhaptics",
        {"libHD.so", "libHD.so.3.4", "libHD.so.3.0", "/usr/lib64/libHD.so"},
        "3D Systems' OpenHaptics and Touch driver",
-       ""},
+       "name",
+       "the default device"},
       {"dhd",
        {"libdrd.so.3", "libdrd.so", "/usr/local/lib/libdrd.so.3", "/usr/local/lib/libdrd.so"},
        "Force Dimension's SDK",
-       ""},
-      {"lucidgloves", {}, "", "/dev/ttyUSB0"},
-      {"cyberglove", {}, "", "/dev/ttyUSB0"},
+       "device",
+       "0"},
+      {"falcon", {}, "", "device", "0"},
+      {"haply", {}, "", "device", "the first arm"},
+      {"lucidgloves", {}, "", "port", "/dev/ttyUSB0"},
+      {"cyberglove", {}, "", "port", "/dev/ttyUSB0"},
   };
   static const DriverNeeds none{};
   const auto found = std::ranges::find(needs, driver, &DriverNeeds::driver);
   return found == needs.end() ? none : *found;
+}
+
+/// The serial line that it is at. Where it does not begin with '/', it is none: Haply's port is a number, and somebody else's driver may
+/// have such an option, too.
+std::string line_of(const KioskDevice& kiosk) {
+  const DriverNeeds& needs = needs_of(kiosk.driver);
+  return value_or(kiosk.options, "port", needs.which == "port" ? needs.without : "");
 }
 
 constexpr const char* kDeviceGroup = "mechane-devices";  // of the udev rules
@@ -90,14 +102,16 @@ class DeviceCheck {
   void list_drivers(const fs::path& program);
   [[nodiscard]] const KioskDevice* kiosk_with(std::string_view driver) const;
   [[nodiscard]] Account account_of(const KioskDevice& kiosk) const;
+  [[nodiscard]] std::string device_of(const KioskDevice& kiosk) const;
   [[nodiscard]] fs::path at(const std::string& path) const { return root_ / fs::path(path).relative_path(); }
 
   void check_kiosk(const KioskDevice& kiosk);
+  void check_others(const KioskDevice& kiosk, Problems& problems) const;
   void check_plugged(const PluggedDevice& device);
   void check_adapter(const PluggedDevice& device);
   void check_driver(const std::string& name, const std::string& remedy, Problems& problems) const;
   void check_library(const std::string& driver, const Values& options, Problems& problems) const;
-  void check_is_plugged(const std::string& driver, Problems& problems) const;
+  void check_is_plugged(const KioskDevice& kiosk, Problems& problems) const;
   void check_haply(const Values& options, Problems& problems) const;
   void check_port(const KioskDevice& kiosk, const std::string& port, Problems& problems) const;
   void check_right(const std::string& node, const Account& who, const std::string& group, Problems& problems) const;
@@ -151,10 +165,19 @@ const KioskDevice* DeviceCheck::kiosk_with(std::string_view driver) const {
 
 /// As in mechane-haptic@.service: a user of its own, with these groups.
 Account DeviceCheck::account_of(const KioskDevice& kiosk) const {
-  Account account{"mechane-haptic@" + kiosk.kiosk, kNoUser, {}};
+  Account account{"mechane-haptic@" + kiosk.name, kNoUser, {}};
   for (const char* group : {kSerialGroup, kDeviceGroup})
     if (const auto id = group_id(root_, group)) account.groups.push_back(*id);
   return account;
+}
+
+/// The same text for two kiosks' devices that are one; empty where that cannot be told.
+std::string DeviceCheck::device_of(const KioskDevice& kiosk) const {
+  const DriverNeeds& needs = needs_of(kiosk.driver);
+  if (needs.which.empty()) return "";
+  const std::string which = value_or(kiosk.options, std::string(needs.which), needs.without);
+  const std::string node = which.starts_with('/') ? real_node(root_, which) : "";
+  return node.empty() ? kiosk.driver + ": " + which : node;
 }
 
 void DeviceCheck::check_driver(const std::string& name, const std::string& remedy, Problems& problems) const {
@@ -197,8 +220,12 @@ void DeviceCheck::check_library(const std::string& driver, const Values& options
                fmt::format("install it and run ldconfig; or name the library's file: {}:library=FILE", driver));
 }
 
-void DeviceCheck::check_is_plugged(const std::string& driver, Problems& problems) const {
-  if (std::ranges::any_of(plugged_, [&](const PluggedDevice& device) { return device.known.driver == driver; })) return;
+/// Of several devices of one driver, the first ones are taken to be those that are plugged in.
+void DeviceCheck::check_is_plugged(const KioskDevice& kiosk, Problems& problems) const {
+  const std::string& driver = kiosk.driver;
+  const auto before = std::count_if(kiosks_.data(), &kiosk, [&](const KioskDevice& k) { return k.driver == driver; });
+  const auto there = std::ranges::count(plugged_, driver, [](const PluggedDevice& d) { return d.known.driver; });
+  if (there > before) return;
   std::string names;
   for (const KnownUsbDevice& k : known_usb_devices())
     if (k.driver == driver && !k.is_adapter)
@@ -206,12 +233,29 @@ void DeviceCheck::check_is_plugged(const std::string& driver, Problems& problems
           fmt::format("{}{} ({}:{})", names.empty() ? "" : ", ", k.name, k.vendor, k.product.empty() ? "*" : k.product);
   if (names.empty()) return;
   problems.add(
-      fmt::format("no device of the driver {} is plugged in and on; known by USB: {}", driver, names),
+      fmt::format("no device{} of the driver {} is plugged in and on; known by USB: {}",
+                  there == 0 ? "" : fmt::format(" {}", before + 1), driver, names),
       "a device that is plugged in",
       fmt::format("check its power supply, its switch and its cable until lsusb lists it{}",
                   driver == "openhaptics" ? "; a device at Ethernet or the parallel port is not seen here: use "
                                             "the maker's test program"
                                           : ""));
+}
+
+/// A hand has one device, and a device one owner. Of two that clash, the later one is told of it.
+void DeviceCheck::check_others(const KioskDevice& kiosk, Problems& problems) const {
+  const std::string device = device_of(kiosk);
+  for (const KioskDevice* other = kiosks_.data(); other != &kiosk; ++other) {
+    if (other->kiosk == kiosk.kiosk && other->user == kiosk.user)
+      problems.add(fmt::format("hand {} of {} has the device of {} already", kiosk.user, kiosk.kiosk, other->file),
+                   "a hand of its own for each device of a kiosk",
+                   fmt::format("add another hand to OPTIONS= in {}: --user 1, 2 or 3", kiosk.file));
+    if (!device.empty() && device_of(*other) == device)
+      problems.add(fmt::format("it is one and the same as the device of {} ({})", other->file, device),
+                   "one owner for each device",
+                   fmt::format("name another one in {}: DEVICE={}:{}=...", kiosk.file, kiosk.driver,
+                               needs_of(kiosk.driver).which));
+  }
 }
 
 /// The arm belongs to Haply's own service, which knows of its cable.
@@ -301,7 +345,7 @@ std::string DeviceCheck::use_of(const std::string& node, const std::string& who)
 }
 
 void DeviceCheck::check_kiosk(const KioskDevice& kiosk) {
-  const std::string name = "device of " + kiosk.kiosk;
+  const std::string name = "device of " + kiosk.name;
   Problems problems;
   if (!kiosk.readable) {
     problems.add(kiosk.file + " cannot be read", "the name of the kiosk's device", "run mechane doctor as root");
@@ -317,10 +361,10 @@ void DeviceCheck::check_kiosk(const KioskDevice& kiosk) {
                  "the group that owns haptic devices", fmt::format("as root: groupadd --system {}", kDeviceGroup));
   check_driver(kiosk.driver, "; or correct DEVICE= in " + kiosk.file, problems);
   check_library(kiosk.driver, kiosk.options, problems);
-  check_is_plugged(kiosk.driver, problems);
+  check_is_plugged(kiosk, problems);
+  check_others(kiosk, problems);
   if (kiosk.driver == "haply") check_haply(kiosk.options, problems);
-  // Somebody else's driver may have such an option too; Haply's is a number.
-  const std::string port = value_or(kiosk.options, "port", needs_of(kiosk.driver).port);
+  const std::string port = line_of(kiosk);
   const bool has_line = port.starts_with('/');
   if (has_line) check_port(kiosk, port, problems);
   problems.report(name, CheckStatus::bad,
@@ -369,7 +413,7 @@ std::vector<CheckResult> DeviceCheck::results() {
   std::set<std::string> lines;  // of kiosks, which tell about them
   for (const KioskDevice& kiosk : kiosks_) {
     check_kiosk(kiosk);
-    lines.insert(real_node(root_, value_or(kiosk.options, "port", needs_of(kiosk.driver).port)));
+    lines.insert(real_node(root_, line_of(kiosk)));
   }
   for (const PluggedDevice& device : plugged_) {
     if (!device.known.is_adapter)
@@ -386,7 +430,7 @@ std::vector<CheckResult> DeviceCheck::results() {
   if (results_.empty())
     Problems().report(
         "haptic devices", CheckStatus::ok,
-        "none is set up for a kiosk (/etc/mechane/haptic-KIOSK), and none that Mechane knows is plugged in and on",
+        "none is set up for a kiosk (/etc/mechane/haptic-NAME), and none that Mechane knows is plugged in and on",
         results_);
   return std::move(results_);
 }

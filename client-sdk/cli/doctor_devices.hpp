@@ -15,7 +15,7 @@ struct DeviceCheckOptions {
   Account account = this_account();       ///< judged for devices that no kiosk of this machine uses
 };
 
-/// Checks the devices that are set up for kiosks of this machine (etc/mechane/haptic-KIOSK), and those that are plugged in, without opening
+/// Checks the devices that are set up for kiosks of this machine (etc/mechane/haptic-NAME), and those that are plugged in, without opening
 /// them. Returns one result per problem, with its remedy: `bad` for a kiosk's device, `warning` for others. A device without problems gives
 /// one `ok` result, and so does a machine without devices. The texts may hold bytes of files and programs that are not printable.
 [[nodiscard]] std::vector<realtime::CheckResult> check_devices(const DeviceCheckOptions& options);

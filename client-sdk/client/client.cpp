@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "client-sdk/client/device_watch.hpp"
 #include "client-sdk/client/display_link.hpp"
 #include "client-sdk/client/hand_link.hpp"
 #include "client-sdk/client/parse.hpp"
@@ -154,6 +155,7 @@ class ClientImpl final : public Client {
   realtime::Wakeup news_;
   std::unique_ptr<HandLink> hand_;
   std::unique_ptr<DisplayLink> display_;
+  std::unique_ptr<DeviceWatch> watch_;  // null: a watcher that is no display
   proto::Reader<proto::ServerStatus> server_reader_;
   proto::Reader<proto::WorldAssignment> assignment_reader_;
   std::thread thread_;  // last
@@ -173,6 +175,11 @@ Expected<void> ClientImpl::open() {
     auto display = DisplayLink::create(participant_, config_.kiosk, config_.display, session_);
     if (!display) return tl::unexpected<Error>(display.error());
     display_ = std::move(*display);
+  }
+  if (hand_ || display_) {
+    auto watch = DeviceWatch::create(participant_, config_.kiosk);
+    if (!watch) return tl::unexpected<Error>(watch.error());
+    watch_ = std::move(*watch);
   }
   auto servers = proto::Reader<proto::ServerStatus>::create(participant_, "", [this](auto) { news_.signal(); });
   if (!servers) return tl::unexpected<Error>(servers.error());
@@ -421,8 +428,8 @@ void ClientImpl::tell_device(const DeviceReport& report) {
 /// A second program of a hand waits until it is free: what it has is not what the visitor touches.
 std::vector<DeviceReport> ClientImpl::devices() {
   std::vector<DeviceReport> all;
-  if (!display_) return all;
-  const auto told = display_->devices();
+  if (!watch_) return all;
+  const auto told = watch_->devices();
   const std::lock_guard lock(mutex_);
   for (const auto& [session, report] : told) {
     const std::uint64_t owner = assignment_ ? assignment_->owners[report.user].session : 0;

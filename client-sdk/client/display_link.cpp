@@ -70,9 +70,6 @@ Expected<std::unique_ptr<DisplayLink>> DisplayLink::create(const proto::Particip
   auto heads = proto::Reader<proto::ViewerHead>::create(participant, "", [raw](auto view) { raw->take(view); });
   if (!heads) return tl::unexpected(heads.error());
   made->head_reader_ = std::move(*heads);
-  auto kiosks = proto::Reader<proto::KioskStatus>::create(participant, "", [raw](auto view) { raw->take(view); });
-  if (!kiosks) return tl::unexpected(kiosks.error());
-  made->kiosk_reader_ = std::move(*kiosks);
   return made;
 }
 
@@ -122,24 +119,6 @@ void DisplayLink::take(proto::ReaderView<proto::ViewerHead> view) {
     const std::lock_guard lock(mutex_);
     head_ = head;
   });
-}
-
-void DisplayLink::take(proto::ReaderView<proto::KioskStatus> view) {
-  view.take_each([this](const proto::KioskStatus& wire, const proto::SampleInfo& info) {
-    if (proto::text_of(wire.kiosk) != kiosk_) return;
-    DeviceReport report;
-    const std::lock_guard lock(mutex_);
-    if (!info.alive) {
-      devices_.erase(wire.session);
-    } else if (info.valid && parse(wire, report) && (devices_.size() < kSessions || devices_.contains(wire.session))) {
-      devices_[wire.session] = std::move(report);
-    }
-  });
-}
-
-std::map<std::uint64_t, DeviceReport> DisplayLink::devices() {
-  const std::lock_guard lock(mutex_);
-  return devices_;
 }
 
 std::optional<ViewerHead> DisplayLink::viewer_head() {

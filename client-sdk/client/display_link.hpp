@@ -1,9 +1,8 @@
-// DisplayLink: a display's endpoints beside its world: sends its status, receives technicians' requests, the position of
-// the visitor's head, and the state of the kiosk's haptic devices.
+// DisplayLink: a display's endpoints beside its world: sends its status, receives technicians' requests and the position of
+// the visitor's head.
 #pragma once
 
 #include <deque>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,7 +19,6 @@ namespace mechane::client {
 class DisplayLink {
  public:
   static constexpr std::size_t kRequests = 32;  ///< kept at most; the oldest are dropped
-  static constexpr std::size_t kSessions = 16;  ///< with a device, at one kiosk; further ones are not heard
 
   [[nodiscard]] static Expected<std::unique_ptr<DisplayLink>> create(const proto::Participant& participant,
                                                                      const std::string& kiosk,
@@ -33,8 +31,6 @@ class DisplayLink {
   [[nodiscard]] std::vector<DisplayRequest> take_requests();
   /// The newest head position that was sent to this display.
   [[nodiscard]] std::optional<ViewerHead> viewer_head();
-  /// By the session that told it.
-  [[nodiscard]] std::map<std::uint64_t, DeviceReport> devices();
 
  private:
   DisplayLink(std::string kiosk, std::string display, std::uint64_t session)
@@ -42,7 +38,6 @@ class DisplayLink {
   [[nodiscard]] bool is_meant(std::string_view kiosk, std::string_view display) const;
   void take(proto::ReaderView<proto::DisplayRequest> view);
   void take(proto::ReaderView<proto::ViewerHead> view);
-  void take(proto::ReaderView<proto::KioskStatus> view);
 
   std::string kiosk_;
   std::string display_;
@@ -51,12 +46,10 @@ class DisplayLink {
   std::mutex mutex_;  // for what follows
   std::deque<DisplayRequest> requests_;
   std::optional<ViewerHead> head_;
-  std::map<std::uint64_t, DeviceReport> devices_;  // by session
   proto::Writer<proto::DisplayStatus> statuses_;
   // Declared last, so that their listeners end before the rest is destroyed.
   proto::Reader<proto::DisplayRequest> request_reader_;
   proto::Reader<proto::ViewerHead> head_reader_;
-  proto::Reader<proto::KioskStatus> kiosk_reader_;
 };
 
 }  // namespace mechane::client

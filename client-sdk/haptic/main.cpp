@@ -3,6 +3,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -222,26 +223,45 @@ struct GloveNow {
 /// Waits for the glove's next angles. Told what the visitor is asked to show.
 using LookAtGlove = std::function<Expected<GloveNow>(client::CalibrationStep asked)>;
 
+/// Whether this glove's course, which is at `step`, has to wait because another glove of the kiosk is being fitted: displays ask for one
+/// pose at a time. Where two have begun together, the one with the lower number goes on.
+bool gives_way(const Arguments& a, client::Client& client, client::CalibrationStep step) {
+  using client::CalibrationStep;
+  if (step != CalibrationStep::none && step != CalibrationStep::flat) return false;
+  return std::ranges::any_of(client.devices(), [&](const client::DeviceReport& other) {
+    const bool asks = other.user != a.client.user && client::pose_of(other.calibration.step);
+    return asks && (step == CalibrationStep::none || other.user < a.client.user);
+  });
+}
+
 /// Leads a visitor through the poses. None: they were not shown, and with --wait the visitor goes on without. The main thread.
 Expected<std::optional<haptic::HandCalibration>> lead(const Arguments& a, client::Client& client,
                                                       client::DeviceReport told, const LookAtGlove& look) {
-  haptic::CalibrationCourse course;
-  while (!course.result()) {
+  std::optional<haptic::CalibrationCourse> course(std::in_place);
+  while (!course->result()) {
     if (is_over(a)) return fail(ErrorCode::cancelled, "stopped during the calibration", a.device);
-    const auto glove = look(course.news().step);
+    const auto glove = look(course->news().step);
     if (!glove) return tl::unexpected(glove.error());
     const bool ready = glove->condition == haptic::DeviceCondition::ready;
-    const auto message = course.add(std::chrono::steady_clock::now(), ready ? &glove->angles : nullptr);
-    if (message) log::info(*message);
-    told.calibration = course.news();
-    told.state = course.device_state(glove->condition);
+    if (gives_way(a, client, course->news().step))
+      course.emplace();
+    else if (const auto message = course->add(std::chrono::steady_clock::now(), ready ? &glove->angles : nullptr))
+      log::info(*message);
+    told.calibration = course->news();
+    told.state = course->device_state(glove->condition);
     client.tell_device(told);
   }
-  if (*course.result()) return **course.result();
-  const Error& error = course.result()->error();
+  if (*course->result()) return **course->result();
+  const Error& error = course->result()->error();
   if (!a.wait) return tl::unexpected(error);
   log::warning(error.to_string() + "; the visitor goes on with the glove's own angles");
   return std::nullopt;
+}
+
+/// Of a device that is not open yet: that it is a glove is known where it is to be fitted to a hand.
+client::DeviceReport unopened(const Arguments& a) {
+  return {.kind = a.calibrate ? client::HandKind::glove : client::HandKind::one_point,
+          .name = haptic::parse_device_name(a.device).driver};
 }
 
 /// Tells the kiosk's displays of the device. The main thread.
@@ -351,7 +371,7 @@ Expected<std::optional<haptic::HandCalibration>> calibrated(const Arguments& a, 
 
 /// What `open` opens: with --wait it is called each second until it does, or until it is time to stop.
 template <class Open>
-auto opened(const Arguments& a, client::Client& client, const std::string& name, const Open& open) {
+auto opened(const Arguments& a, client::Client& client, const Open& open) {
   auto result = open();
   if (result || !a.wait) return result;
   std::string told;
@@ -363,7 +383,7 @@ auto opened(const Arguments& a, client::Client& client, const std::string& name,
     std::string why = result.error().to_string();
     if (why != told) log::warning(why + "; trying again each second");
     told = std::move(why);
-    tell_state(client, {.name = name}, client::DeviceState::lost);
+    tell_state(client, unopened(a), client::DeviceState::lost);
     result = open();
     return !result;
   });
@@ -379,8 +399,7 @@ bool calibrates_again(const Arguments& a, const haptic::HandMotion& motion) {
 /// The device sets the pace of its loop. Returns the program's status; none: its glove has to be fitted to a hand first.
 std::optional<int> run_device(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder,
                               haptic::DriverProcess& device, bool fitted, Record& record) {
-  const std::string driver = haptic::parse_device_name(a.device).driver;
-  auto loop = opened(a, client, driver, [&] { return make_loop(a, client, device); });
+  auto loop = opened(a, client, [&] { return make_loop(a, client, device); });
   if (!loop) return given_up(a, loop.error());
   log::info(std::string("device: ") + device.info().name);
   client::DeviceReport told = report_of(device.info());
@@ -416,9 +435,9 @@ std::optional<int> run_device(const Arguments& a, client::Client& client, haptic
 std::optional<int> run_once(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder, bool calibrate,
                             Record& record) {
   haptic::DriverProcessConfig config = driver_config(a);
-  tell_state(client, {.name = config.device.driver}, client::DeviceState::preparing);
+  tell_state(client, unopened(a), client::DeviceState::preparing);
   if (calibrate) {
-    auto calibration = opened(a, client, config.device.driver, [&] { return calibrated(a, client); });
+    auto calibration = opened(a, client, [&] { return calibrated(a, client); });
     if (!calibration) return given_up(a, calibration.error());
     config.glove = *calibration;
     (void)take_calibration_signal();  // asked for meanwhile: it is done

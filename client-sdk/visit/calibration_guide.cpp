@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "client-sdk/visit/device_number.hpp"
 #include "client-sdk/visit/hand_drawing.hpp"
 
 namespace mechane::visit {
@@ -21,6 +22,7 @@ struct GuideWords {
   std::string_view hold;
   std::array<std::string_view, static_cast<std::size_t>(PoseRefusal::unseen)> again;  ///< from `moved` on
   PoseWords thanks;
+  std::string_view glove;
 };
 
 constexpr GuideWords kGuideEn{
@@ -30,7 +32,8 @@ constexpr GuideWords kGuideEn{
     .hold = "Hold it still …",
     .again = {"Once more, please: your hand moved.", "Once more, please: just as in the picture.",
               "Once more from the beginning, please.", "Once more, please: until the circle is full."},
-    .thanks = {"Thank you!", "The glove fits your hand now."}};
+    .thanks = {"Thank you!", "The glove fits your hand now."},
+    .glove = "The glove"};
 
 constexpr GuideWords kGuideEl{
     .poses = {{{"Ανοίξτε την παλάμη σας", "Τα δάχτυλα ενωμένα, ο αντίχειρας στο πλάι."},
@@ -39,7 +42,8 @@ constexpr GuideWords kGuideEl{
     .hold = "Μείνετε ακίνητοι …",
     .again = {"Πάλι, παρακαλούμε: το χέρι κουνήθηκε.", "Πάλι, παρακαλούμε: ακριβώς όπως στην εικόνα.",
               "Πάλι από την αρχή, παρακαλούμε.", "Πάλι, παρακαλούμε: ώσπου να κλείσει ο κύκλος."},
-    .thanks = {"Ευχαριστούμε!", "Το γάντι ταιριάζει πια στο χέρι σας."}};
+    .thanks = {"Ευχαριστούμε!", "Το γάντι ταιριάζει πια στο χέρι σας."},
+    .glove = "Το γάντι"};
 
 }  // namespace
 
@@ -48,14 +52,16 @@ void CalibrationGuide::hear(const std::vector<client::DeviceReport>& devices, Ti
       devices, [](const client::DeviceReport& device) { return client::pose_of(device.calibration.step).has_value(); });
   if (asking == devices.end()) {
     const bool fits = std::ranges::any_of(devices, [this](const client::DeviceReport& device) {
-      return device.user == user_ && device.calibration.step == CalibrationStep::done;
+      return device.user == glove_.user && device.calibration.step == CalibrationStep::done;
     });
     if (asks() && fits) thanked_ = now;
     told_ = {};
     return;
   }
   thanked_.reset();
-  user_ = asking->user;
+  glove_ = *asking;
+  numbered_ = std::ranges::any_of(
+      devices, [asking](const client::DeviceReport& device) { return is_another_of_its_kind(device, *asking); });
   const client::CalibrationNews& news = asking->calibration;
   if (news == told_) return;
   const bool goes_on = news.step == told_.step && news.held > told_.held;
@@ -83,14 +89,15 @@ std::optional<picture::OverlayPose> CalibrationGuide::at(TimePoint now, const st
     shown.done = shown.total;
     shown.held = 1;
     shown.text = words.thanks.text;
-    shown.more = words.thanks.more;
+    shown.more = numbered_ ? by_number(words.thanks.more, glove_) : words.thanks.more;
     return shown;
   }
   const PoseWords& said = words.poses[static_cast<std::size_t>(*pose)];
   shown.done = static_cast<std::uint32_t>(*pose);
   shown.held = ring(now);
   shown.drawing = draw_hand(*pose);
-  shown.text = said.text;
+  shown.text = numbered_ ? by_number(words.glove, glove_) + ": " : "";
+  shown.text += said.text;
   shown.more = shown.held > 0 ? words.hold : said.more;
   if (told_.refusal != PoseRefusal::none) shown.again = words.again[static_cast<std::size_t>(told_.refusal) - 1];
   return shown;

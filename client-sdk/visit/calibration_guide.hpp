@@ -18,7 +18,8 @@ class CalibrationGuide {
   /// In which the ring fills by what one message tells: a tenth of a pose's time.
   static constexpr Duration kRingStep = std::chrono::milliseconds(300);
 
-  /// Takes the states of the kiosk's devices; call it once a picture. The first hand that is asked for a pose counts.
+  /// Takes the states of the kiosk's devices; call it once a picture. The first hand that is asked for a pose counts; beside
+  /// another glove, words say which one is meant.
   void hear(const std::vector<client::DeviceReport>& devices, TimePoint now);
   /// Whether a visitor is asked for a pose.
   [[nodiscard]] bool asks() const;
@@ -28,7 +29,8 @@ class CalibrationGuide {
  private:
   [[nodiscard]] float ring(TimePoint now) const;
 
-  std::uint32_t user_ = 0;
+  client::DeviceReport glove_;  // the one that is asked, or was
+  bool numbered_ = false;
   client::CalibrationNews told_;
   float ring_before_ = 0;  // when told_ came
   TimePoint since_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "client-sdk/visit/device_number.hpp"
+
 namespace mechane::visit {
 namespace {
 
@@ -95,6 +97,9 @@ void DeviceNotice::hear(const std::vector<client::DeviceReport>& devices, TimePo
   if (worst == nullptr) return told_.reset();
   if (!told_ || *told_ != *worst) since_ = now;
   told_ = *worst;
+  numbered_ = std::ranges::any_of(devices, [worst](const client::DeviceReport& device) {
+    return is_another_of_its_kind(device, *worst) && device.state != worst->state;
+  });
 }
 
 std::optional<picture::OverlayNotice> DeviceNotice::at(TimePoint now, const std::string& language) const {
@@ -104,7 +109,8 @@ std::optional<picture::OverlayNotice> DeviceNotice::at(TimePoint now, const std:
   const DeviceWords& said =
       language == "el" ? (glove ? words.glove_el : words.handle_el) : (glove ? words.glove_en : words.handle_en);
   const Sign sign = glove && words.sign == Sign::take ? Sign::wear : words.sign;
-  return picture::OverlayNotice{sign, std::string(said.text), std::string(said.more)};
+  const auto called = [this](std::string_view text) { return numbered_ ? by_number(text, *told_) : std::string(text); };
+  return picture::OverlayNotice{sign, called(said.text), called(said.more)};
 }
 
 }  // namespace mechane::visit

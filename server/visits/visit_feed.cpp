@@ -32,8 +32,10 @@ bool is_tied(const state::Coupling& coupling, std::uint32_t body) noexcept {
                      [&](const state::RopeNode& node) { return is_it(node.body); });
 }
 
-/// Whether a joint, a tie or a rope holds the body, so that it does not fall when a hand opens.
+/// Whether another hand, a joint, a tie or a rope holds the body, so that it does not fall when a hand opens.
 bool is_held(const state::WorldDescription& description, const state::WorldState& state, std::uint32_t body) noexcept {
+  const auto holds = [body](const state::UserState& user) { return user.present && user.holds(BodyId(body)); };
+  if (std::ranges::any_of(state.users, holds)) return true;
   for (std::size_t j = 0; j < description.joints.size(); ++j) {
     const state::JointDescription& joint = description.joints[j];
     if (!state.joints[j].enabled) continue;

@@ -148,14 +148,14 @@ class Devices(EndToEnd):
         haptic.kill()
         wait_until(lambda: not sign(), 40, "the notice of a program that died is gone")
 
-    def statuses(self, echo):
-        """What the haptic program told, in order."""
-        told = [json.loads(line) for line in echo.text().splitlines() if line.startswith("{")]
-        return [status for status in told if status["program"] == "mechane-haptic"]
+    def statuses(self, echo, user=0):
+        """What the haptic program of a hand told, in order."""
+        told = [json.loads(line) for line in echo.text().split("\n")[:-1] if line.startswith("{")]  # the last line may be half one
+        return [status for status in told if (status["program"], status["user"]) == ("mechane-haptic", user)]
 
-    def calibrations(self, echo):
+    def calibrations(self, echo, user=0):
         """The steps, each once."""
-        steps = [status["calibration"] for status in self.statuses(echo)]
+        steps = [status["calibration"] for status in self.statuses(echo, user)]
         return [step for step, before in zip(steps, [None, *steps]) if step != before]
 
     @marked("draws")
@@ -238,6 +238,37 @@ class Devices(EndToEnd):
         haptic = self.start("haptic", "haptic", "--wait", "--kiosk", "kiosk-1", "--device", self.device("fault=absent"))
         wait_until(lambda: "trying again" in haptic.text(), 20, haptic.text())
         self.assertEqual(haptic.stop(), 0, haptic.text())
+
+    def test_two_devices_of_a_kiosk_work_and_fail_each_on_its_own(self):
+        server = self.server(records=False)
+        at_kiosk = ["haptic", "--kiosk", "kiosk-1", "--center", "0", "0.72", "0.19", "--device"]
+        echo = self.start("echo", "echo", "KioskStatus", "--json")
+        first = self.start("first", *at_kiosk, self.device())
+        second = self.start("second", *at_kiosk, "fake:fault=let_go,after=1", "--user", "1")
+
+        def told(user):
+            return self.statuses(echo, user)[-1]["device"] if self.statuses(echo, user) else ""
+        wait_until(lambda: (told(0), told(1)) == ("ready", "let go"), 30, first.text() + second.text())
+        third = self.start("third", *at_kiosk, "virtual", "--user", "1")
+        wait_until(lambda: "hand 1 of kiosk-1 belongs to mechane-haptic" in third.text(), 20, third.text())
+        second.kill()
+        wait_until(lambda: sum("user 1" in line and "is in world" in line for line in server.text().splitlines()) == 2, 20,
+                   "the third program takes the hand that became free")
+        written = len(self.trace()[0])
+        wait_until(lambda: len(self.trace()[0]) > written + 500, 20, "the first device goes on")
+        self.assertEqual(told(0), "ready")
+        self.assertEqual(first.stop(), 0, first.text())
+
+    def test_two_gloves_of_a_kiosk_are_fitted_one_after_the_other(self):
+        echo = self.start("echo", "echo", "KioskStatus", "--json")
+        glove = ["haptic", "--kiosk", "kiosk-1", "--device", "virtual:kind=glove", "--calibrate"]
+        first = self.start("first", *glove)
+        wait_until(lambda: self.calibrations(echo)[-1:] == ["flat"], 20, first.text())
+        second = self.start("second", *glove, "--user", "1")
+        wait_until(lambda: self.calibrations(echo)[-1] == "fist", 30, first.text())
+        self.assertEqual(self.calibrations(echo, 1)[-1:], ["none"], "it waits for its turn")
+        first.kill()
+        wait_until(lambda: self.calibrations(echo, 1)[-1] == "flat", 20, second.text())
 
     def test_a_driver_that_dies_ends_the_haptic_program(self):
         """systemd starts it again."""

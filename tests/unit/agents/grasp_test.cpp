@@ -197,6 +197,29 @@ TEST(Grasp, TwoHandsHoldTwoBodies) {
   EXPECT_EQ(stage.value("GRASP.active"), 2);
 }
 
+RC_GTEST_PROP(Grasp, TwoHandsOnOneBodyLetGoEachOnItsOwn, ()) {
+  Stage stage = holding_part();
+  stage.appear(1, HandKind::one_point, Vec3(1, 0, -0.02));
+  stage.touch(1, kPart, 0, -Vec3::UnitZ(), Vec3(1, 0, -0.01));
+  stage.tick();
+  stage.user(1).sample.grasp_intent = 1;
+  stage.run(0.03);
+  RC_ASSERT(stage.user(0).holds(kPart) && stage.user(1).holds(kPart));
+  RC_ASSERT(stage.value("GRASP.active") == 2);
+  const std::size_t first = *rc::gen::inRange<std::size_t>(0, 2);
+  const bool takes_back = *rc::gen::arbitrary<bool>();
+  const Vec3 p_BG = stage.user(1 - first).grasp.p_BG;
+  stage.user(first).sample.grasp_intent = 0;
+  stage.run(0.03);
+  RC_ASSERT(!stage.user(first).grasp.active && stage.user(1 - first).holds(kPart));
+  RC_ASSERT(stage.value("GRASP.active") == 1 && stage.value("GRASP.body") == 1);
+  if (takes_back) stage.user(first).sample.grasp_intent = 1;
+  stage.run(0.03);
+  RC_ASSERT(stage.user(first).grasp.active == takes_back);
+  RC_ASSERT(stage.user(1 - first).grasp.p_BG == p_BG);
+  RC_ASSERT(stage.count(EventKind::released) == 1);
+}
+
 TEST(Grasp, RefusesWhenNothingCanBeGrasped) {
   state::WorldDescription world = with_grasp();
   world.agents[0].parameters["bodies"] = text({"FRAME"});

@@ -54,16 +54,18 @@ RC_GTEST_PROP(Snap, TakesTheBodyWithinBothTolerancesAndOnlyThen, ()) {
   RC_ASSERT(rotation_vector(part(stage).X_WB.R * X_WT.R.conjugate()).norm() < 1e-9);
 }
 
-TEST(Snap, LeadsTheBodyHomeSmoothlyAndTakesItOutOfTheHand) {
+TEST(Snap, LeadsTheBodyHomeSmoothlyAndTakesItOutOfBothHands) {
   Stage stage(with_snap());
   const Pose X_WT = place_in(stage);
   part(stage).X_WB = {X_WT.p + Vec3(0.04, 0, 0), X_WT.R};
-  stage.appear(0, hand::HandKind::one_point, part(stage).X_WB.p);
-  stage.user().grasp.active = true;
-  stage.user().grasp.body = BodyId(1);
+  for (const std::size_t u : {0U, 1U}) {
+    stage.appear(u, hand::HandKind::one_point, part(stage).X_WB.p);
+    stage.user(u).grasp.active = true;
+    stage.user(u).grasp.body = BodyId(1);
+  }
   stage.tick();
-  EXPECT_FALSE(stage.user().grasp.active);
-  EXPECT_EQ(stage.count(EventKind::released), 1);
+  EXPECT_FALSE(stage.user(0).grasp.active || stage.user(1).grasp.active);
+  EXPECT_EQ(stage.count(EventKind::released), 2);
   Vec3 last = part(stage).X_WB.p;
   double fastest = 0;
   for (int n = 0; n < 200; ++n) {

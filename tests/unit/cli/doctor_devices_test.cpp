@@ -81,6 +81,10 @@ class DoctorDevicesTest : public testing::Test {
   void kiosk(const std::string& device) {
     write("etc/mechane/haptic-kiosk-1", "# the device\nDEVICE=" + device + "\nOPTIONS=--center 0 0.9 0.3");
   }
+  /// Another device, at the same kiosk where `more` says so.
+  void second(const std::string& device, const std::string& more) {
+    write("etc/mechane/haptic-kiosk-1-left", more + "\nDEVICE=" + device);
+  }
   void node(const std::string& path, mode_t mode) {
     write(path, "");
     ASSERT_EQ(chmod((root_ / path).c_str(), mode), 0);
@@ -279,6 +283,48 @@ TEST_F(DoctorDevicesTest, HaplysServiceMustRun) {
   EXPECT_THAT(results(), ElementsAre(is(CheckStatus::ok)));
 }
 
+TEST_F(DoctorDevicesTest, TwoDevicesOfAKioskHaveAHandEach) {
+  kiosk("virtual");
+  for (const char* options : {"--user 1 --center 0 0 0", "--center 0 0 0 --user=3", "--user 2"}) {
+    second("virtual", fmt::format("KIOSK=kiosk-1\nOPTIONS={}", options));
+    EXPECT_THAT(results(),
+                ElementsAre(is(CheckStatus::ok), AllOf(is(CheckStatus::ok), is_about("device of kiosk-1-left"))));
+  }
+  second("virtual", "KIOSK=kiosk-1");
+  EXPECT_THAT(results(),
+              ElementsAre(is(CheckStatus::ok),
+                          AllOf(is(CheckStatus::bad), is_about("device of kiosk-1-left"), finds("hand 0 of kiosk-1"),
+                                finds("/etc/mechane/haptic-kiosk-1 "), advises("--user 1"))));
+  second("virtual", "");
+  EXPECT_THAT(results(), Each(is(CheckStatus::ok))) << "a kiosk of its own";
+}
+
+TEST_F(DoctorDevicesTest, ADeviceHasOneOwner) {
+  groups("dialout", "mechane-devices");
+  fs::create_directories(root_ / "dev/serial/by-id");
+  fs::create_symlink("../../ttyUSB0", root_ / "dev/serial/by-id/usb-glove");
+  node("dev/ttyUSB0", 0660);
+  node("dev/ttyUSB1", 0660);
+  kiosk("lucidgloves");
+  second("lucidgloves:port=/dev/serial/by-id/usb-glove", "KIOSK=kiosk-1\nOPTIONS=--user 1");
+  EXPECT_THAT(results(), ElementsAre(is(CheckStatus::ok), AllOf(is(CheckStatus::bad), finds("one and the same"),
+                                                                finds("/dev/ttyUSB0"), advises("lucidgloves:port="))));
+  second("lucidgloves:port=/dev/ttyUSB1", "KIOSK=kiosk-1\nOPTIONS=--user 1");
+  EXPECT_THAT(results(), Each(is(CheckStatus::ok)));
+}
+
+TEST_F(DoctorDevicesTest, OfTwoDevicesEachIsPluggedIn) {
+  plug_in("1451", "0402");
+  node("dev/bus/usb/001/004", 0660);
+  kiosk("dhd:library=libc.so.6");
+  second("dhd:library=libc.so.6,device=1", "KIOSK=kiosk-1\nOPTIONS=--user 1");
+  EXPECT_THAT(results(), Contains(AllOf(is(CheckStatus::bad), is_about("device of kiosk-1-left"), finds("device 2"),
+                                        advises("cable"))));
+  EXPECT_THAT(results(), Contains(AllOf(is(CheckStatus::ok), is_about("device of kiosk-1"))));
+  second("dhd:library=libc.so.6,device=0", "KIOSK=kiosk-1\nOPTIONS=--user 1");
+  EXPECT_THAT(results(), Contains(AllOf(is(CheckStatus::bad), finds("one and the same"), advises("dhd:device="))));
+}
+
 TEST_F(DoctorDevicesTest, AnAdapterMayBeAGloveOrAnotherProgramsBusiness) {
   plug_in("1a86", "7523");
   EXPECT_THAT(results(), ElementsAre(AllOf(is(CheckStatus::warning), finds("1a86:7523"), advises("journalctl"))));
@@ -314,7 +360,8 @@ TEST(DoctorDevices, KnowsTheDevicesOfTheUdevRulesAndTheGroupsOfTheUnit) {
   EXPECT_THAT(rules, HasSubstr("GROUP=\"mechane-devices\""));
   EXPECT_THAT(text_of("deploy/systemd/mechane-haptic@.service"),
               AllOf(HasSubstr("SupplementaryGroups=dialout mechane-devices\n"),
-                    HasSubstr("EnvironmentFile=/etc/mechane/haptic-%i\n"), HasSubstr("--device ${DEVICE}")));
+                    HasSubstr("Environment=KIOSK=%i\nEnvironmentFile=/etc/mechane/haptic-%i\n"),
+                    HasSubstr("--kiosk ${KIOSK} --device ${DEVICE} $OPTIONS\n")));
 }
 
 }  // namespace

@@ -100,5 +100,25 @@ TEST_F(CalibrationGuideTest, AnotherHandThatIsDoneDoesNotDisturb) {
   EXPECT_FALSE(at(1s)) << "it is not the one that was asked";
 }
 
+TEST_F(CalibrationGuideTest, BesideAnotherGloveItSaysWhichOneIsMeant) {
+  using client::DeviceState;
+  using client::HandKind;
+  const DeviceReport other{.user = 0, .state = DeviceState::ready, .kind = HandKind::glove};
+  DeviceReport asked{.user = 1, .state = DeviceState::preparing, .kind = HandKind::glove};
+  asked.calibration.step = CalibrationStep::fist;
+  guide_.hear({other, asked}, kStart);
+  EXPECT_EQ(at(0s)->text, "Glove 2: Make a fist");
+  EXPECT_EQ(at(0s, "el")->text, "Το γάντι 2: Κλείστε το χέρι σε γροθιά");
+  asked.calibration.step = CalibrationStep::done;
+  guide_.hear({other, asked}, kStart + 1s);
+  EXPECT_EQ(at(1s)->more, "Glove 2 fits your hand now.");
+  asked.calibration.step = CalibrationStep::fist;
+  for (const DeviceReport& no_glove :
+       {DeviceReport{.state = DeviceState::ready}, DeviceReport{.kind = HandKind::glove}}) {
+    guide_.hear({no_glove, asked}, kStart + 2s);
+    EXPECT_EQ(at(2s)->text, "Make a fist") << "a handle, or a program without a device";
+  }
+}
+
 }  // namespace
 }  // namespace mechane::visit

@@ -86,16 +86,41 @@ TEST_F(DeviceNoticeTest, AGloveIsWornAndAHandleTaken) {
 
 TEST_F(DeviceNoticeTest, OfSeveralDevicesTheMostSeriousStateIsTold) {
   EXPECT_EQ(said({{.state = DeviceState::let_go}, {.user = 1, .state = DeviceState::lost}}),
-            "The handle is not connected");
-  EXPECT_EQ(said({{.state = DeviceState::hot}, {.user = 1, .state = DeviceState::warm}}), "The handle is resting");
-  EXPECT_EQ(said({{.state = DeviceState::ready}, {.user = 1, .state = DeviceState::hot}}), "The handle is resting");
+            "Handle 2 is not connected");
+  EXPECT_EQ(said({{.state = DeviceState::hot}, {.user = 1, .state = DeviceState::warm}}), "Handle 1 is resting");
+  EXPECT_EQ(said({{.state = DeviceState::ready}, {.user = 1, .state = DeviceState::hot}}), "Handle 2 is resting");
+}
+
+TEST_F(DeviceNoticeTest, OneOfTwoOfAKindIsCalledByItsNumber) {
+  for (const DeviceState state : kBad) {
+    if (state == DeviceState::let_go || state == DeviceState::not_ready) continue;  // not told beside one in use
+    for (const HandKind kind : {HandKind::one_point, HandKind::glove}) {
+      const DeviceReport bad{.user = 2, .state = state, .kind = kind};
+      const DeviceReport good{.state = DeviceState::ready, .kind = kind};
+      notice_.hear({good, bad}, at(0));
+      for (const char* language : {"el", "en"}) {
+        const auto shown = notice_.at(at(1000), language);
+        ASSERT_TRUE(shown);
+        EXPECT_NE(shown->text.find(" 3 "), std::string::npos) << shown->text;
+      }
+      const HandKind other = kind == HandKind::glove ? HandKind::one_point : HandKind::glove;
+      for (const DeviceReport& beside : {DeviceReport{.state = DeviceState::ready, .kind = other},
+                                         DeviceReport{.kind = kind}, DeviceReport{.state = state, .kind = kind}}) {
+        notice_.hear({bad, beside}, at(0));
+        EXPECT_EQ(text(1000).find('3'), std::string::npos) << text(1000);
+      }
+      notice_.hear({}, at(0));
+    }
+  }
+  EXPECT_EQ(said({{.state = DeviceState::preparing}, {.user = 1, .state = DeviceState::let_go}}),
+            "Handle 1 is being prepared");
 }
 
 TEST_F(DeviceNoticeTest, AHandleThatNobodyHoldsIsNotMissedWhileAnotherIsInUse) {
   for (const DeviceState free : {DeviceState::let_go, DeviceState::not_ready}) {
     EXPECT_NE(said({{.state = free}, {.user = 1, .state = free}}), "");
     EXPECT_EQ(said({{.state = free}, {.user = 1, .state = DeviceState::ready}}), "");
-    EXPECT_EQ(said({{.state = free}, {.user = 1, .state = DeviceState::warm}}), "The handle is warm");
+    EXPECT_EQ(said({{.state = free}, {.user = 1, .state = DeviceState::warm}}), "Handle 2 is warm");
   }
 }
 

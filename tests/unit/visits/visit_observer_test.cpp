@@ -470,6 +470,23 @@ TEST(VisitFeed, WhatHangsOnARopeIsNotLetGo) {
   }
 }
 
+TEST(VisitFeed, WhatAnotherHandHoldsIsNotLetGo) {
+  const auto world = make_machine();
+  state::WorldState state(*world);
+  state.users[0].present = state.users[1].present = true;
+  VisitFeed feed;
+  VisitNote note;
+  for (const BodyId held : {BodyId(kCrank), BodyId(kStone)}) {
+    state.users[1].grasp.active = true;
+    state.users[1].grasp.body = held;
+    state.event_count = 0;
+    state.emit(EventKind::released, 0, kStone);
+    feed.push(*world, state, {});
+    ASSERT_TRUE(feed.take(note));
+    EXPECT_EQ(note.opened_hand, held != BodyId(kStone));
+  }
+}
+
 TEST(VisitFeed, AFullOneLosesAndCounts) {
   const auto world = make_machine();
   state::WorldState state(*world);

@@ -104,7 +104,7 @@ class Client {
   /// the last. Takes a lock: not for the loop's thread.
   virtual void tell_device(const DeviceReport& /*report*/) {}
 
-  // The following functions are for displays only.
+  // The following functions are for displays only; haptic programs have devices(), too.
 
   /// The devices of this kiosk's hands, by user. A program that ended or lost the network disappears within 3 s.
   [[nodiscard]] virtual std::vector<DeviceReport> devices() { return {}; }
