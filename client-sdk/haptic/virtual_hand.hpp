@@ -20,8 +20,8 @@ inline constexpr std::string_view kVirtualOptions =
 /// Which device without hardware.
 struct VirtualChoice {
   client::HandKind hand = client::HandKind::one_point;
-  bool tracked = false;                      ///< a whole hand is before a camera: a TrackedHand, not a VirtualDevice
-  StylusConfig stylus{.hand = ArmConfig{}};  ///< of one point
+  bool tracked = false;  ///< a whole hand is before a camera: a TrackedHand, not a VirtualDevice
+  StylusConfig stylus{.hand = ArmConfig{}, .continuous_n = 0.88};  ///< of one point; a Touch bears so much for long
 };
 
 /// "kind=phantom,delay=1". Errors: an option that this kind does not have, a value out of its range.
