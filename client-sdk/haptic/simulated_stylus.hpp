@@ -17,11 +17,12 @@ struct StylusConfig {
   double mass_kg = 0.075;
   double viscous_ns_per_m = 0.5;
   double coulomb_n = 0.05;
-  double resolution_m = 5.5e-5;                              ///< of each coordinate; 0: exact
-  std::uint32_t delay = 0;                                   ///< calls of write() after which a force acts; at most 63
-  Vec3 load_W = Vec3::Zero();                                ///< N, always: its weight, a finger on it
-  std::optional<ArmConfig> hand = {};                        ///< none: nobody holds it
-  double continuous_n = hand::GovernorConfig{}.max_force_n;  ///< what its motors bear all day
+  double resolution_m = 5.5e-5;        ///< of each coordinate; 0: exact
+  std::uint32_t delay = 0;             ///< calls of write() after which a force acts; at most 63
+  Vec3 load_W = Vec3::Zero();          ///< N, always: its weight, a finger on it
+  std::optional<ArmConfig> hand = {};  ///< none: nobody holds it
+  /// What its motors bear all day.
+  double continuous_n = hand::GovernorConfig{}.max_force_n;
 };
 
 /// The tip moves as a point mass, in steps of 20 us; a force is held from one call of read() to the next. Its rotation

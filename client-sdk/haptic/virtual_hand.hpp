@@ -15,13 +15,13 @@ inline constexpr std::string_view kVirtualName = "virtual";
 inline constexpr std::string_view kVirtualSummary =
     "no hardware: a simulated stylus of the Phantom's class, a glove, or a hand before a camera";
 inline constexpr std::string_view kVirtualOptions =
-    "kind=phantom|glove|tracked delay=0..20 hand=on|off resolution=METRES";
+    "kind=phantom|glove|tracked delay=0..20 hand=on|off resolution=METRES continuous=NEWTONS";
 
 /// Which device without hardware.
 struct VirtualChoice {
   client::HandKind hand = client::HandKind::one_point;
-  bool tracked = false;  ///< a whole hand is before a camera: a TrackedHand, not a VirtualDevice
-  StylusConfig stylus{.hand = ArmConfig{}, .continuous_n = 0.88};  ///< of one point; a Touch bears so much for long
+  bool tracked = false;                      ///< a whole hand is before a camera: a TrackedHand, not a VirtualDevice
+  StylusConfig stylus{.hand = ArmConfig{}};  ///< of one point
 };
 
 /// "kind=phantom,delay=1". Errors: an option that this kind does not have, a value out of its range.

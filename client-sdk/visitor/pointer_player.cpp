@@ -16,6 +16,7 @@ constexpr double kNotch = 0.03;         // of the wheel: how much farther it tak
 constexpr double kPressPatience_s = 4;  // for a hand that reaches
 constexpr std::size_t kPresses = 5;     // for one grasp
 constexpr int kFetches = 4;             // of what was lost on the way
+constexpr double kLongest_s = 120;      // of a move: where the server is gone, nothing ends one
 constexpr double kArrives_s = 8;        // patience with a thing that comes after the finger
 constexpr double kNotComing_s = 1.5;    // what has not moved for so long will not come to the finger
 constexpr double kMoves_m_per_s = 0.02;
@@ -86,7 +87,9 @@ void PointerPlayer::look(const PointerSight& seen) {
   seen_ = &seen;
   if (!std::exchange(begun_, true)) begin();
   time_s_ += kPicture_s;
-  if (!go_on()) return;
+  const bool stuck = time_s_ > kLongest_s;
+  if (!go_on() && !stuck) return;
+  ok_ = ok_ && !stuck;
   const bool again = lost() && fetched_ < kFetches;
   results_.push_back({name_of(description_, move()), time_s_, ok_ && !again});
   done_rad_[index_] += std::abs(seen_rad_);

@@ -60,10 +60,11 @@ class MouseHand final : public SessionHand {
   void begin(const VisitDescription& visit) override {
     player_.reset();
     visit_ = &visit;
+    ticks_ = 0;
   }
   void act(const SeenWorld& seen) override {
-    if (seen.status == nullptr || (!player_ && !sit_down())) return;
     if (ticks_++ % PointerPlayer::kTicksPerPicture != 0) return;
+    if (seen.status == nullptr || (!player_ && !sit_down())) return;
     const bool holding = std::ranges::any_of(seen.frame.hands, [&](const client::HandPose& hand) {
       return hand.kiosk == options_.client.kiosk && hand.holding;
     });
@@ -74,8 +75,10 @@ class MouseHand final : public SessionHand {
   void note_step() override {
     if (player_) player_->note_step();
   }
-  void try_step_again() override { player_->try_step_again(); }
-  [[nodiscard]] bool finished() const override { return player_ && player_->finished(); }
+  void try_step_again() override {
+    if (player_) player_->try_step_again();
+  }
+  [[nodiscard]] bool finished() const override { return player_ ? player_->finished() : ticks_ > kManifestComes; }
   [[nodiscard]] std::span<const MoveResult> results() const override {
     return player_ ? player_->results() : std::span<const MoveResult>();
   }
@@ -85,6 +88,8 @@ class MouseHand final : public SessionHand {
   }
 
  private:
+  static constexpr int kManifestComes = 10'000;  // ticks; a server with another version of the scenario has another one
+
   /// False while the manifest is still arriving.
   bool sit_down() {
     if (!shown_) {
@@ -107,7 +112,7 @@ class MouseHand final : public SessionHand {
   const VisitDescription* visit_ = nullptr;
   std::unique_ptr<ShownExhibit> shown_;  // once for all visits
   std::unique_ptr<PointerPlayer> player_;
-  int ticks_ = 0;
+  int ticks_ = 0;  // of the visit
 };
 
 }  // namespace

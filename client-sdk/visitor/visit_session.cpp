@@ -17,7 +17,7 @@ using state::VisitDescription;
 using state::WorldDescription;
 
 constexpr Duration kTick = std::chrono::milliseconds(1);
-// A visitor who sees that a step is not done although all was done for it waits so long, and then tries again so often.
+// Where a step is not done although all its moves were made, a visitor waits so long, and tries again so often.
 constexpr Duration kTriesAgainAfter = std::chrono::seconds(5);
 constexpr int kTries = 3;
 constexpr Duration kLookAgain = std::chrono::milliseconds(100);
