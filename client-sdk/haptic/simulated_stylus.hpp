@@ -21,6 +21,8 @@ struct StylusConfig {
   std::uint32_t delay = 0;             ///< calls of write() after which a force acts; at most 63
   Vec3 load_W = Vec3::Zero();          ///< N, always: its weight, a finger on it
   std::optional<ArmConfig> hand = {};  ///< none: nobody holds it
+  /// What its motors bear all day.
+  double continuous_n = hand::GovernorConfig{}.max_force_n;
 };
 
 /// The tip moves as a point mass, in steps of 20 us; a force is held from one call of read() to the next. Its rotation
@@ -40,6 +42,7 @@ class SimulatedStylus final : public SimulatedDevice {
     written_[++writes_ % written_.size()] = force.force_W.f;
   }
   [[nodiscard]] hand::GovernorConfig limits() const override { return {}; }
+  [[nodiscard]] double continuous_force_n() const override { return config_.continuous_n; }
 
   /// Of the intent, place, rotation and grasp count: a stylus is one point.
   void intend(const HandIntent& intent) noexcept override { intent_ = intent; }

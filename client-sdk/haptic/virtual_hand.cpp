@@ -12,6 +12,7 @@ namespace {
 constexpr std::string_view kWholeHandOptions = "kind=phantom|glove|tracked";
 constexpr double kMaxDelay_ms = 20;
 constexpr double kMaxResolution_m = 0.001;
+constexpr double kLeastContinuous_n = 0.1;
 constexpr double kFist_rad = 1.2;  // each joint of a closed finger
 
 }  // namespace
@@ -27,6 +28,8 @@ Expected<VirtualChoice> read_virtual_options(const std::string& options) {
   choice.stylus.delay = static_cast<std::uint32_t>(delay_ms);
   if (given.choice("hand", {"on", "off"}) == 1) choice.stylus.hand.reset();
   choice.stylus.resolution_m = given.number("resolution", choice.stylus.resolution_m, 0, kMaxResolution_m);
+  choice.stylus.continuous_n =
+      given.number("continuous", choice.stylus.continuous_n, kLeastContinuous_n, choice.stylus.continuous_n);
   std::string fault = given.fault();
   if (fault.empty() && delay_ms != choice.stylus.delay) fault = "the delay is not in whole milliseconds";
   if (fault.empty()) return choice;

@@ -15,7 +15,7 @@ inline constexpr std::string_view kVirtualName = "virtual";
 inline constexpr std::string_view kVirtualSummary =
     "no hardware: a simulated stylus of the Phantom's class, a glove, or a hand before a camera";
 inline constexpr std::string_view kVirtualOptions =
-    "kind=phantom|glove|tracked delay=0..20 hand=on|off resolution=METRES";
+    "kind=phantom|glove|tracked delay=0..20 hand=on|off resolution=METRES continuous=NEWTONS";
 
 /// Which device without hardware.
 struct VirtualChoice {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,6 +15,8 @@
 namespace {
 
 using namespace mechane;
+
+constexpr std::string_view kPointerName = "pointer";
 
 volatile std::sig_atomic_t g_stop = 0;  // set by the signal handler
 
@@ -59,8 +62,9 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--report", a.report_file, "write a JSON report to this file");
   auto* device = app.add_option(
       "--device", a.device,
-      fmt::format("the simulated device in the visitor's hand: {0}, or {0}:OPTION=VALUE,... (options: {1})",
-                  haptic::kVirtualName, haptic::kVirtualOptions));
+      fmt::format("the simulated device in the visitor's hand: {0}, or {0}:OPTION=VALUE,... (options: {1}); or {2}: a "
+                  "mouse before a display's picture",
+                  haptic::kVirtualName, haptic::kVirtualOptions, kPointerName));
   app.add_flag("--glove", a.glove, "a whole hand instead of one point: as --device virtual:kind=glove")
       ->excludes(device);
   app.add_flag("--direct", a.direct,
@@ -68,15 +72,23 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag("--endless", a.options.endless, "start again after the last visit");
 }
 
-Expected<haptic::VirtualChoice> choose_device(const Arguments& a) {
+Expected<void> choose_device(Arguments& a) {
+  if (a.device == kPointerName) {
+    a.options.pointer = true;
+    a.options.client.role = client::Role::watcher;  // the mouse moves the hand of a display
+    return {};
+  }
   const haptic::DeviceName name = haptic::parse_device_name(a.glove ? "virtual:kind=glove" : a.device);
   if (name.driver != haptic::kVirtualName)
     return fail(ErrorCode::unknown_name, "a scripted visitor moves no real device", a.device,
-                "name a virtual one, or leave --device out");
+                fmt::format("name a virtual one or '{}', or leave --device out", kPointerName));
   auto choice = haptic::read_virtual_options(name.options);
-  if (choice && !choice->stylus.hand)
+  if (!choice) return tl::unexpected(choice.error());
+  if (!choice->stylus.hand)
     return fail(ErrorCode::conflict, "nobody would move the stylus", a.device, "leave hand=off out");
-  return choice;
+  a.options.device = *choice;
+  a.options.player = visitor::fitted(a.options.player, *choice);
+  return {};
 }
 
 int report(const std::string& json, bool complete, const std::string& file) {
@@ -136,10 +148,7 @@ int main(int argc, char** argv) {
   a.options.done_within = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.patience_s));
   a.options.linger = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(a.linger_s));
   if (a.offset.size() == 3) a.options.player.offset_W = Vec3(a.offset[0], a.offset[1], a.offset[2]);
-  auto device = choose_device(a);
-  if (!device) return log::error(device.error()), 2;
-  a.options.device = *device;
-  a.options.player = visitor::fitted(a.options.player, *device);
+  if (auto device = choose_device(a); !device) return log::error(device.error()), 2;
   if (a.direct) a.options.render = haptic::RenderMode::server;
   std::signal(SIGINT, [](int) { g_stop = 1; });
   std::signal(SIGTERM, [](int) { g_stop = 1; });

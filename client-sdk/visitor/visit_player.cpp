@@ -87,6 +87,13 @@ std::string name_of(const state::WorldDescription& description, const VisitMove&
   return "wait";
 }
 
+std::size_t reach_before(const state::VisitDescription& visit, std::size_t from) {
+  std::size_t i = std::min(from, visit.moves.size() - 1);
+  while (i > 0 && visit.moves[i].kind != VisitMove::Kind::reach)
+    --i;
+  return i;
+}
+
 double joint_angle(const state::JointDescription& joint, std::span<const Pose> X_WB) {
   const Pose X_J1J2 = (X_WB[joint.body1.index()] * joint.X_B1J).inverse() * (X_WB[joint.body2.index()] * joint.X_B2J);
   return rotation_vector(X_J1J2.R).z();
@@ -122,10 +129,7 @@ VisitPlayer::VisitPlayer(const state::WorldDescription& description, const state
 void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n) {
   if (finished()) return;
   if (!begun_) begin_move(X_WB);
-  if (waits(X_WB, holding)) {
-    waited_s_ += dt_s;
-    return;
-  }
+  if (waits(X_WB, holding, dt_s)) return;
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
   note_grip(X_WB, holding);
@@ -180,10 +184,13 @@ double VisitPlayer::to_grip_m(std::span<const Pose> X_WB) const {
   return (X_WB[reach.body.index()] * p_BG_ - intent_.X_WH * p_HG_).norm();
 }
 
-bool VisitPlayer::waits(std::span<const Pose> X_WB, bool holding) const {
+/// A thing that comes after the hand is waited for each time; one that does not come at all is pulled in the end.
+bool VisitPlayer::waits(std::span<const Pose> X_WB, bool holding, double dt_s) {
   constexpr double kPatienceS = 5;
-  if (!config_.waits_for_lag_m || !holding || waited_s_ > kPatienceS) return false;
-  return to_grip_m(X_WB) - to_grip_m_ > *config_.waits_for_lag_m;
+  if (!config_.waits_for_lag_m || !holding) return false;
+  const bool lags = to_grip_m(X_WB) - to_grip_m_ > *config_.waits_for_lag_m;
+  waited_s_ = lags ? waited_s_ + dt_s : 0;
+  return lags && waited_s_ <= kPatienceS;
 }
 
 /// The hand's pose depends on the move after this reach: a handle to be worked lies across the palm, a sign is touched
@@ -354,6 +361,14 @@ bool VisitPlayer::slipped(std::span<const Pose> X_WB, bool holding) const {
 void VisitPlayer::fetch_again() {
   ++fetched_again_;
   index_ = last_reach_;
+  intent_.grasp_intent = 0;
+}
+
+void VisitPlayer::try_step_again() {
+  index_ = reach_before(visit_, step_move_);
+  std::fill(done_rad_.begin() + static_cast<std::ptrdiff_t>(index_), done_rad_.end(), 0.0);
+  fetched_again_ = 0;
+  begun_ = false;
   intent_.grasp_intent = 0;
 }
 

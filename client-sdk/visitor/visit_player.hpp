@@ -52,6 +52,11 @@ class VisitPlayer {
   /// as soon as it feels its goal, and follows the goal by sight until it has caught it.
   void advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n);
 
+  /// The visitor is shown another step of the activity: what is to be tried again begins with the present move.
+  void note_step() { step_move_ = index_; }
+  /// After the last move, where the step is still not done: the hand opens, and makes the step's moves again from the reach before them.
+  void try_step_again();
+
   [[nodiscard]] const haptic::HandIntent& intent() const { return intent_; }
   [[nodiscard]] bool finished() const { return index_ >= visit_.moves.size(); }
   [[nodiscard]] std::span<const MoveResult> results() const { return results_; }
@@ -59,7 +64,7 @@ class VisitPlayer {
  private:
   void begin_move(std::span<const Pose> X_WB);
   [[nodiscard]] double to_grip_m(std::span<const Pose> X_WB) const;
-  [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding) const;
+  [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding, double dt_s);
   /// Returns whether it stops beside the thing, and goes the rest of the way slowly, closing.
   bool shape_hand(std::span<const Pose> X_WB);
   [[nodiscard]] bool taken_from_side(std::span<const Pose> X_WB) const;
@@ -91,6 +96,7 @@ class VisitPlayer {
   std::vector<double> done_rad_;
   std::size_t index_ = 0;
   std::size_t last_reach_ = 0;  // the move in which the hand reached for what it carries
+  std::size_t step_move_ = 0;   // the move in which the present step began
   int fetched_again_ = 0;       // since the visit first made that reach
   bool begun_ = false;
   bool ok_ = true;
@@ -99,7 +105,7 @@ class VisitPlayer {
   bool held_ = false;     // the hand held something at some moment of this move
   double held_rad_ = 0;   // the angle at which the hand last held something in this move
   FailedGrasp grasp_;     // this move, as long as it has caught nothing
-  double waited_s_ = 0;   // for the thing, in this move
+  double waited_s_ = 0;   // for the thing, since it last did not lag
   double to_grip_m_ = 0;  // from the hand to what it holds, when this move began
   double empty_s_ = 0;    // time since the hand last held something in this move
   Pose X_WH_start_;
@@ -121,6 +127,8 @@ class VisitPlayer {
 /// displays highlight that.
 [[nodiscard]] double force_felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop);
 
+/// The reach with which a visitor begins who tries to do move `from` again, and what follows it: the last one up to there.
+[[nodiscard]] std::size_t reach_before(const state::VisitDescription& visit, std::size_t from);
 /// For reports: "reach INNER".
 [[nodiscard]] std::string name_of(const state::WorldDescription& description, const state::VisitMove& move);
 /// A hinge's angle within half a turn, from the poses of the bodies.

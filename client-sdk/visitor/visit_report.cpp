@@ -20,6 +20,7 @@ nlohmann::json activity_json(const ActivityReport& activity, const std::string& 
           {"done", activity.done},
           {"reason", activity.reason},
           {"seconds", activity.seconds},
+          {"warm_share", activity.warm_share},
           {"steps", std::move(steps)},
           {"moves", std::move(moves)},
           {"gone_on_to", activity.gone_on_to}};

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "client-sdk/visitor/session_hand.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/file_finder.hpp"
 
@@ -16,27 +17,25 @@ using state::VisitDescription;
 using state::WorldDescription;
 
 constexpr Duration kTick = std::chrono::milliseconds(1);
+// Where a step is not done although all its moves were made, a visitor waits so long, and tries again so often.
+constexpr Duration kTriesAgainAfter = std::chrono::seconds(5);
+constexpr int kTries = 3;
 constexpr Duration kLookAgain = std::chrono::milliseconds(100);
 
-/// Plays visits one after another with one client and one device.
+/// Plays visits one after another with one client and one hand.
 class Session {
  public:
   Session(const VisitOptions& options, const WorldDescription& world, client::Client& client,
           const volatile std::sig_atomic_t& stop)
-      : options_(options),
-        world_(world),
-        client_(client),
-        stop_(stop),
-        device_(haptic::make_virtual_device(options.device, options.player.X_WH_rest.p)),
-        X_WB_(world.bodies.size()) {
+      : options_(options), world_(world), client_(client), stop_(stop), X_WB_(world.bodies.size()) {
     for (std::size_t i = 0; i < X_WB_.size(); ++i)
       X_WB_[i] = world.bodies[i].X_WB;
   }
 
   Expected<void> start() {
-    auto loop = haptic::HapticLoop::create(client_, *device_, options_.render);
-    if (!loop) return tl::unexpected(loop.error());
-    loop_ = std::move(*loop);
+    auto hand = make_session_hand(options_, world_, client_);
+    if (!hand) return tl::unexpected(hand.error());
+    hand_ = std::move(*hand);
     next_ = clock_.now();
     return {};
   }
@@ -45,7 +44,7 @@ class Session {
   void release() {
     for (int i = 0; i < 1000; ++i) {
       wait_for_tick();
-      if (loop_->release(clock_.now(), kTick)) return;
+      if (hand_->release(clock_.now())) return;
     }
   }
   void fill(VisitReport& report) const;
@@ -59,11 +58,12 @@ class Session {
   }
   void tick() {
     wait_for_tick();
-    loop_->tick(clock_.now(), kTick);
+    hand_->tick(clock_.now());
     if (++ticks_ % 8 == 0) look();
   }
   void look();
-  void note_moves(const VisitPlayer& player, ActivityReport& report) const;
+  void act(ActivityReport& report);
+  void note_moves(ActivityReport& report) const;
   void note_step(ActivityReport& report);
   /// Whether a step's sign has sent the kiosk on to another scenario.
   [[nodiscard]] bool gone_on() const { return status_ && status_->scenario != world_.id; }
@@ -84,14 +84,14 @@ class Session {
   client::Client& client_;
   const volatile std::sig_atomic_t& stop_;
   SystemClock clock_;
-  std::unique_ptr<haptic::SimulatedDevice> device_;
-  std::unique_ptr<haptic::HapticLoop> loop_;
+  std::unique_ptr<SessionHand> hand_;
   std::vector<Pose> X_WB_;
   client::Frame frame_;
   std::optional<client::WorldStatus> status_;
   TimePoint next_{};
   TimePoint step_began_{};
   std::string step_;
+  int tries_ = 0;  // of the step, after the first
   std::uint64_t ticks_ = 0;
 };
 
@@ -121,13 +121,22 @@ void Session::note_step(ActivityReport& report) {
   if (!status_->done) report.steps.push_back({status_->step, 0, false});
   step_ = status_->done ? std::string() : status_->step;
   step_began_ = clock_.now();
+  tries_ = 0;
+  hand_->note_step();
   say(report.name, status_->done ? "done" : status_->step);
   note_dead_end(report);
 }
 
+/// A millisecond of the visit.
+void Session::act(ActivityReport& report) {
+  hand_->act({frame_, status_ ? &*status_ : nullptr, X_WB_});
+  tick();
+  note_moves(report);
+}
+
 /// A failed grasp is reported at once, because the following moves usually fail too.
-void Session::note_moves(const VisitPlayer& player, ActivityReport& report) const {
-  for (const MoveResult& result : player.results().subspan(report.moves.size())) {
+void Session::note_moves(ActivityReport& report) const {
+  for (const MoveResult& result : hand_->results().subspan(report.moves.size())) {
     MoveResult& move = report.moves.emplace_back(result);
     if (!move.failed_grasp) continue;
     const std::vector<std::string> none;
@@ -205,8 +214,8 @@ ActivityReport Session::play(const VisitDescription& visit) {
   status_.reset();
   const TimePoint began = clock_.now();
   step_began_ = began;
-  VisitPlayer player(world_, visit, options_.player);
-  device_->intend(player.intent());
+  hand_->begin(visit);
+  const haptic::LoopStats before = hand_->stats();
   // The hand waits until the world shows the activity's beginning, as a person would.
   while (stop_ == 0 && seconds_since(began) < 5 && !(status_ && status_->activity == report.name && !status_->done))
     tick();
@@ -215,19 +224,22 @@ ActivityReport Session::play(const VisitDescription& visit) {
     tick();
   TimePoint finished{};
   while (stop_ == 0 && !report.done) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding(), force_felt_n(*device_, *loop_));
-    device_->intend(player.intent());
-    tick();
-    note_moves(player, report);
+    act(report);
     note_step(report);
     if (gone_on() || !report.reason.empty()) break;
     report.done = status_ && status_->activity == report.name && status_->done;
-    if (report.done || !player.finished()) continue;
+    if (report.done || !hand_->finished()) continue;
     if (finished == TimePoint{}) {
       finished = clock_.now();
       say_what_it_waits_for(report);
     }
-    if (clock_.now() - finished > options_.done_within) break;
+    const Duration waited = clock_.now() - finished;
+    if (waited > options_.done_within) break;
+    if (waited < kTriesAgainAfter || tries_ >= kTries) continue;
+    ++tries_;
+    finished = {};
+    say(report.name, place(report) + ": trying it again");
+    hand_->try_step_again();
   }
   if (!report.done && report.reason.empty()) {
     report.reason = place(report) + (gone_on()    ? ": somebody else opened " + status_->scenario
@@ -235,21 +247,22 @@ ActivityReport Session::play(const VisitDescription& visit) {
                                                   : ": it was not done in time after its last move");
   }
   // The script is played to its end, so that the hand lets go and comes to rest.
-  while (stop_ == 0 && report.done && !gone_on() && !player.finished()) {
-    player.advance(kTickSeconds, X_WB_, loop_->holding(), force_felt_n(*device_, *loop_));
-    device_->intend(player.intent());
-    tick();
-    note_moves(player, report);
-  }
+  while (stop_ == 0 && report.done && !gone_on() && !hand_->finished())
+    act(report);
   report.seconds = seconds_since(began);
+  const haptic::LoopStats after = hand_->stats();
+  if (after.ticks > before.ticks) {
+    report.warm_share =
+        static_cast<double>(after.warm_ticks - before.warm_ticks) / static_cast<double>(after.ticks - before.ticks);
+  }
   say(report.name,
       fmt::format("visit {}: {}, {:.1f} s", visit.name, report.done ? "done" : "not done", report.seconds));
   return report;
 }
 
 void Session::fill(VisitReport& report) const {
-  report.loop = loop_->stats();
-  report.round_trip = loop_->round_trip();
+  report.loop = hand_->stats();
+  report.round_trip = hand_->round_trip();
   const auto status = client_.world_status();
   if (!status) return;
   report.world = status->world;

@@ -23,6 +23,7 @@ struct VisitOptions {
   std::vector<std::string> activities;  ///< one visit of each, in order; all visits where this and `visits` are empty
   PlayerConfig player;
   haptic::VirtualChoice device;  ///< of the kind that `player` moves
+  bool pointer = false;          ///< by a mouse before a display's picture, without any device
   haptic::RenderMode render = haptic::RenderMode::local;
   Duration join_within = std::chrono::seconds(20);
   Duration done_within = std::chrono::seconds(60);  ///< how long to wait after an activity's last move until it is done
@@ -42,6 +43,7 @@ struct ActivityReport {
   std::string visit;  ///< which of its visits
   bool done = false;
   double seconds = 0;
+  double warm_share = 0;   ///< of the time, in which the force was lowered to spare the device's motors
   std::string reason;      ///< why it is not done, with visit and step; empty where it is done
   std::string gone_on_to;  ///< the scenario that a sign of the visit opened; empty: none
   std::vector<StepTime> steps;
@@ -67,7 +69,7 @@ struct VisitReport {
 [[nodiscard]] Expected<std::vector<const state::VisitDescription*>> choose_visits(const VisitOptions& options,
                                                                                   const state::WorldDescription& world);
 
-/// Plays the visits with a virtual device at 1 kHz, on the calling thread, and reports its progress on stdout. `stop`
+/// Plays the visits with a virtual device at 1 kHz or with a mouse, on the calling thread, and reports its progress on stdout. `stop`
 /// is checked in each tick. Errors: the scenario cannot be read, it has no visit for an activity, the kiosk could not
 /// be joined or was refused.
 [[nodiscard]] Expected<VisitReport> run_visit(const VisitOptions& options, const volatile std::sig_atomic_t& stop);

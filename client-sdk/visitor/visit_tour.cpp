@@ -33,7 +33,10 @@ std::string steps_of(const ActivityReport& activity) {
 }
 
 std::string outcome_of(const ActivityReport& activity) {
-  if (activity.done) return "done";
+  if (activity.done) {
+    return activity.warm_share > 0 ? fmt::format("done, motors spared {:.1f} % of the time", 100 * activity.warm_share)
+                                   : "done";
+  }
   if (!activity.reason.empty()) return activity.reason;
   return activity.steps.empty() ? "not begun" : "stopped at " + activity.steps.back().name;
 }

@@ -43,7 +43,7 @@ ARROWS = {
     "client-sdk/scene": ["client-sdk/visit", "client-sdk/assets"],
     "client-sdk/draw": ["client-sdk/picture"],
     "client-sdk/display": ["client-sdk/draw", "client-sdk/scene", "client-sdk/sound", "client-sdk/pointer", "client-sdk/recording"],
-    "client-sdk/visitor": ["client-sdk/client", "client-sdk/haptic", "server/scenario"],  # a person at the virtual device
+    "client-sdk/visitor": ["client-sdk/haptic", "client-sdk/pointer", "client-sdk/scene", "server/scenario"],  # a person at a device
     "client-sdk/fit": ["server/content"],
     "client-sdk/authoring": ["server/scenario"],
     "client-sdk/cli": ["client-sdk/recording", "client-sdk/authoring", "server/content", "server/visits"],

@@ -19,10 +19,10 @@ class ByPointer : public testing::TestWithParam<std::string> {};
 
 TEST_P(ByPointer, EveryVisitIsCompleted) {
   const test::Exhibit exhibit(GetParam());
-  test::ShownExhibit shown(exhibit.description());
+  const auto shown = test::show_exhibit(exhibit.description());
   test::PlayOptions options;
   options.make_person = [&](const auto& description, const auto& visit) {
-    return test::make_pointer_person(shown, description, visit);
+    return test::make_pointer_person(*shown, description, visit);
   };
   EXPECT_FALSE(exhibit.description().visits.empty());
   for (const state::VisitDescription& script : exhibit.description().visits) {

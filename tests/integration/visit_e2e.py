@@ -196,6 +196,13 @@ class Visit(EndToEnd):
         report = self.use_only(visitor_arguments=("--glove",))
         self.assertTrue(report["activities"][0]["done"], report)
 
+    @marked("not-address")
+    def test_a_mouse_before_a_picture_assembles_the_screw(self):
+        self.server()
+        visitor = self.visitor("kiosk-1", "--activity", "assemble", "--device", "pointer")
+        self.assertEqual(visitor.wait(120), 0, visitor.text())
+        self.assertTrue(self.report_of(visitor)["activities"][0]["done"])
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -1,37 +1,18 @@
-// A person with a mouse before a display's picture, for PlayOptions::make_person: presses on what a visit reaches for, drags it, rolls the
-// wheel, goes round what turns. What is under a pixel, what can be taken and how the hand then moves are the display's own code; only the
-// network, the window and the drawing are missing.
+// The visitor's player with a mouse, for PlayOptions::make_person: it moves the hand of a display without threads, network and window.
 #pragma once
 
 #include <memory>
-#include <vector>
 
-#include "client-sdk/scene/scene_builder.hpp"
+#include "client-sdk/visitor/shown_exhibit.hpp"
 #include "tests/support/exhibit_play.hpp"
 
 namespace mechane::test {
 
-/// An exhibit's picture as a display makes it, without images: read once for all visits.
-class ShownExhibit {
- public:
-  explicit ShownExhibit(const state::WorldDescription& description);
-  ShownExhibit(const ShownExhibit&) = delete;
-  ShownExhibit& operator=(const ShownExhibit&) = delete;
-
-  [[nodiscard]] picture::RenderScene scene(const client::Frame& frame);
-  [[nodiscard]] const picture::SceneAssets& assets() const { return library_.assets(); }
-  [[nodiscard]] const std::vector<client::SceneObject>& objects() const { return objects_; }
-  [[nodiscard]] const client::WorldPresentation& presentation() const { return *presentation_; }
-
- private:
-  std::vector<client::SceneObject> objects_;
-  std::shared_ptr<const client::WorldPresentation> presentation_;
-  scene::AssetLibrary library_;
-  scene::SceneBuilder builder_;
-};
+/// The picture of an exhibit; to be shared by its visits.
+[[nodiscard]] std::unique_ptr<visitor::ShownExhibit> show_exhibit(const state::WorldDescription& description);
 
 /// Both outlive the person.
-[[nodiscard]] std::unique_ptr<Person> make_pointer_person(ShownExhibit& shown,
+[[nodiscard]] std::unique_ptr<Person> make_pointer_person(visitor::ShownExhibit& shown,
                                                           const state::WorldDescription& description,
                                                           const state::VisitDescription& visit);
 

@@ -22,12 +22,13 @@ TEST(VirtualHand, WithoutOptionsIsAPhantomInAHand) {
 }
 
 TEST(VirtualHand, TakesItsOptions) {
-  const auto stylus = read_virtual_options("kind=phantom,delay=20,hand=off,resolution=0.0005");
+  const auto stylus = read_virtual_options("kind=phantom,delay=20,hand=off,resolution=0.0005,continuous=0.88");
   ASSERT_TRUE(stylus);
   EXPECT_EQ(stylus->hand, HandKind::one_point);
   EXPECT_EQ(stylus->stylus.delay, 20u);
   EXPECT_FALSE(stylus->stylus.hand);
   EXPECT_EQ(stylus->stylus.resolution_m, 0.0005);
+  EXPECT_EQ(make_virtual_device(*stylus, Vec3::Zero())->continuous_force_n(), 0.88);
   const auto glove = read_virtual_options("kind=glove");
   ASSERT_TRUE(glove);
   EXPECT_EQ(glove->hand, HandKind::glove);
@@ -40,8 +41,8 @@ TEST(VirtualHand, TakesItsOptions) {
 
 TEST(VirtualHand, RefusesWhatItDoesNotKnowAndValuesOutOfRange) {
   for (const char* options :
-       {"kind=pen", "mass=1", "delay=21", "delay=-1", "delay=0.5", "hand=yes", "resolution=0.1", "resolution=nan",
-        "kind=glove,delay=1", "kind=tracked,hand=off", "phantom", "kind=phantom,kind=phantom"}) {
+       {"kind=pen", "mass=1", "delay=21", "delay=-1", "delay=0.5", "hand=yes", "resolution=0.1", "continuous=4",
+        "resolution=nan", "kind=glove,delay=1", "kind=tracked,hand=off", "phantom", "kind=phantom,kind=phantom"}) {
     const auto choice = read_virtual_options(options);
     ASSERT_FALSE(choice) << options;
     EXPECT_EQ(choice.error().code, ErrorCode::invalid_value) << options;

@@ -232,19 +232,99 @@ TEST(VisitPlayerCarry, AWholeHandComesFromAboveOnWhatItTakes) {
   EXPECT_LT((player.intent().X_WH.p - goal).norm(), 1e-9);
 }
 
-TEST(VisitPlayerTurn, AHandleThatIsLostIsCaughtAgainAndTurnedForTheRest) {
-  VisitMove reach, grasp, turn;
+/// A visit that takes the lever by its grip, turns it and lets go.
+state::VisitDescription turning(double turns) {
+  VisitMove reach, grasp, turn, release;
   reach.kind = VisitMove::Kind::reach;
   grasp.kind = VisitMove::Kind::grasp;
+  release.kind = VisitMove::Kind::release;
   reach.body = grasp.body = BodyId(1);
   reach.p_BG = Vec3(kArmM, 0, 0);
-  reach.duration_s = grasp.duration_s = 0.2;
+  reach.duration_s = grasp.duration_s = release.duration_s = 0.2;
   turn.kind = VisitMove::Kind::turn;
   turn.joint = JointId(0);
-  turn.turns = -3;
+  turn.turns = turns;
   turn.rate_rpm = 60;
+  return {"", {}, {reach, grasp, turn, release}};
+}
+
+/// A lever that follows the hand once it is grasped, at most so far in a millisecond.
+class FollowingLever {
+ public:
+  explicit FollowingLever(double most_rad_per_ms) : most_rad_(most_rad_per_ms) {}
+  /// One millisecond of the player.
+  void advance(VisitPlayer& player, bool held) {
+    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(angle_rad)}, held, 0);
+    const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
+    const double ahead_rad = std::remainder(std::atan2(arm.y(), arm.x()) - angle_rad, 2 * kPi);
+    if (held) angle_rad += std::clamp(ahead_rad, -most_rad_, most_rad_);
+  }
+  double angle_rad = 0;
+
+ private:
+  double most_rad_;
+};
+
+TEST(VisitPlayerTurn, AHandThatSeesStaysWithWhatComesSlowly) {
   const state::WorldDescription world = lever_world();
-  const state::VisitDescription visit{"", {}, {reach, grasp, turn}};
+  PlayerConfig config;
+  config.waits_for_lag_m = 0.03;
+  for (const double turns : {1.0, -1.0}) {
+    const state::VisitDescription visit = turning(turns);
+    VisitPlayer player(world, visit, config);
+    FollowingLever lever(0.0005);  // for twelve seconds
+    while (player.results().size() < 3) {
+      const bool held = player.results().size() == 2;
+      lever.advance(player, held);
+      const Vec3 grip = lever_at(lever.angle_rad) * Vec3(kArmM, 0, 0);
+      ASSERT_TRUE(!held || (player.intent().X_WH.p - grip).norm() < 0.04);
+    }
+    EXPECT_TRUE(player.results()[2].ok);
+    EXPECT_NEAR(lever.angle_rad, turns * 2 * kPi, 0.04 / kArmM);
+  }
+}
+
+TEST(VisitPlayerTurn, AHandThatSeesDoesNotWaitForEverForWhatIsStuck) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = turning(1);
+  PlayerConfig config;
+  config.waits_for_lag_m = 0.03;
+  VisitPlayer player(world, visit, config);
+  FollowingLever stuck(0);
+  double seconds = 0;
+  for (; player.results().size() < 3 && seconds < 60; seconds += 0.001)
+    stuck.advance(player, player.results().size() == 2);
+  EXPECT_LT(seconds, 10);
+}
+
+TEST(VisitPlayerStep, IsTriedAgainFromTheReachBeforeIt) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = turning(2);
+  VisitPlayer player(world, visit, PlayerConfig{});
+  FollowingLever lever(1);
+  const auto play = [&](std::size_t moves_before) {
+    for (int t = 0; t < 20'000 && !player.finished(); ++t) {
+      const std::size_t moves = player.results().size() - moves_before;
+      if (moves == 2) player.note_step();  // it begins while the lever turns
+      lever.advance(player, moves == 2);
+    }
+  };
+  play(0);
+  ASSERT_EQ(player.results().size(), 4u);
+  EXPECT_NEAR(lever.angle_rad, 2 * 2 * kPi, 0.05);
+  player.try_step_again();
+  EXPECT_FALSE(player.finished());
+  EXPECT_EQ(player.intent().grasp_intent, 0);
+  play(4);
+  ASSERT_EQ(player.results().size(), 8u);
+  EXPECT_EQ(player.results()[4].name, "reach LEVER");
+  EXPECT_NEAR(lever.angle_rad, 4 * 2 * kPi, 0.1) << "all its turns once more";
+}
+
+TEST(VisitPlayerTurn, AHandleThatIsLostIsCaughtAgainAndTurnedForTheRest) {
+  const state::WorldDescription world = lever_world();
+  state::VisitDescription visit = turning(-3);
+  visit.moves.pop_back();
   VisitPlayer player(world, visit, PlayerConfig{});
   double lever_rad = 0, last = 0;
   bool was_held = false;

@@ -26,5 +26,11 @@ TEST(VisitReport, holds_no_figure_that_was_not_measured) {
   EXPECT_EQ(Json::parse(to_json(report))["force_n"]["mean"], 1.5);
 }
 
+TEST(VisitReport, tells_how_long_the_motors_were_spared) {
+  VisitReport report;
+  report.activities.emplace_back().warm_share = 0.25;
+  EXPECT_EQ(Json::parse(to_json(report))["activities"][0]["warm_share"], 0.25);
+}
+
 }  // namespace
 }  // namespace mechane::visitor
