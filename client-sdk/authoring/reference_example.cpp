@@ -199,6 +199,71 @@ constexpr Piece kSurfacePieces[] = {
 )"},
 };
 
+constexpr Piece kPullPieces[] = {
+    {"In the RigidBodyCollection, in place of the post: the post, on whose foot things can lie, and the pin", "",
+     R"(      <RigidBody DEF='POST' fixed='true'>
+        <MetadataSet containerField='metadata' name='mechane:body'>
+          <MetadataString containerField='value' name='model' value='"MODEL"'/>
+          <MetadataBoolean containerField='value' name='collides' value='true'/>
+        </MetadataSet>
+      </RigidBody>
+      <RigidBody DEF='PIN' mass='0.1' inertia='1e-5 0 0 0 1e-5 0 0 0 1e-5' position='0.2 0.05 0.1'>
+        <MetadataSet containerField='metadata' name='mechane'>
+          <MetadataSet containerField='value' name='mechane:body'>
+            <MetadataString containerField='value' name='model' value='"MODEL"'/>
+            <MetadataBoolean containerField='value' name='collides' value='true'/>
+          </MetadataSet>
+          <MetadataSet containerField='value' name='mechane:haptic'>
+            <MetadataBoolean containerField='value' name='graspable' value='true'/>
+          </MetadataSet>
+        </MetadataSet>
+      </RigidBody>
+)",
+     R"(      <RigidBody DEF='POST' fixed='true'>
+        <MetadataSet containerField='metadata' name='mechane:body'>
+          <MetadataString containerField='value' name='model' value='"MODEL"'/>
+        </MetadataSet>
+      </RigidBody>
+)"},
+    {"In `agents`, what HOLD takes", "",
+     R"(            <MetadataString containerField='value' name='bodies' value='"WHEEL" "PIN"'/>
+)",
+     R"(            <MetadataString containerField='value' name='bodies' value='"WHEEL"'/>
+)"},
+    {"And the place: before the hub, the pin's z axis straight out, however it is turned about it", "agents",
+     R"(<MetadataSet containerField='value' name='BEFORE_HUB'>
+  <MetadataString containerField='value' name='type' value='"geometry.snap"'/>
+  <MetadataString containerField='value' name='object' value='"PIN"'/>
+  <MetadataString containerField='value' name='into' value='"POST"'/>
+  <MetadataDouble containerField='value' name='position' value='0 1 0.15'/>
+  <MetadataDouble containerField='value' name='tolerance' value='0.02 0.5'/>
+  <MetadataDouble containerField='value' name='axis' value='0 0 1'/>
+  <MetadataDouble containerField='value' name='pull' value='0.8'/>
+  <MetadataDouble containerField='value' name='pullFrom' value='0.2'/>
+</MetadataSet>
+)"},
+    {"In `quantities`, whether it is there", "quantities",
+     R"(<MetadataString containerField='value' name='secured' value='"BEFORE_HUB.placed"'/>
+)"},
+    {"In the step `once`, its trigger leads on", "",
+     R"(                  <MetadataString containerField='value' name='next' value='"secure"'/>
+)",
+     R"(                  <MetadataString containerField='value' name='next' value='"end"'/>
+)"},
+    {"In `steps`, the step that waits for it", "steps",
+     R"(<MetadataSet containerField='value' name='secure'>
+  <MetadataSet containerField='value' name='text'>
+    <MetadataString containerField='value' name='caption.en' value='"Take the pin to the hub. You feel how it is drawn there."'/>
+  </MetadataSet>
+  <MetadataSet containerField='value' name='trigger:1'>
+    <MetadataString containerField='value' name='quantity' value='"secured"'/>
+    <MetadataString containerField='value' name='op' value='">"'/>
+    <MetadataDouble containerField='value' name='value' value='0.5'/>
+  </MetadataSet>
+</MetadataSet>
+)"},
+};
+
 constexpr Piece kQuestionPieces[] = {
     {"In the activity `turn`, beside its `steps`", "activities/turn",
      R"(<MetadataSet containerField='value' name='questionnaire'>
@@ -334,8 +399,19 @@ constexpr Variation kVariations[] = {
      "From a step that enables such an agent on, a body feels otherwise, until a step disables it or the activity\n"
      "begins anew; where no step enables it, it is on from the beginning. A hand that touches the body goes on "
      "feeling\n"
-     "what it met, until it leaves.",
+     "what it met, until it leaves: let the caption ask for that. Every key of `mechane:haptic` that makes a surface\n"
+     "can change: how hard it is, its friction, its grooves, its knock. The wet end of a rope and the dry one are two\n"
+     "bodies: a surface is that of a whole body.",
      kSurfacePieces},
+    {"A place that pulls",
+     "A snap takes a body once it is close. With `pull` its place draws the body from further away, and the hand that\n"
+     "carries it feels where it belongs: softly at `pullFrom`, most at 0.45 of that, not at all in the place. Some\n"
+     "0.5 to 2 N are felt well. More than the `forceLimit` of the grasp (12 N where it is not written) would tear the\n"
+     "body away, and what feels very light (mass times `effortScale`) bears less: `mechane check` says how much. A\n"
+     "hand feels the pull on its way in only as far as it has lifted the body. Only a step in which a hand can carry\n"
+     "the body while the snap is on has a pull. In the example, a pin lies on the foot of the post. The mesh file has\n"
+     "one node more, `PIN`.",
+     kPullPieces},
     {"Questions",
      "They are asked when the activity is done (a display may also ask them before), and counted by `mechane visits`.",
      kQuestionPieces},

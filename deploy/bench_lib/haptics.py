@@ -27,6 +27,9 @@ AIMS = {
     "delay50.local.held.energy_mj.max": (("at most", 1),),
     "delay20.local.held.force_share.min": (("at least", 0.8),),
     "delay50.local.held.force_share.min": (("at least", 0.8),),
+    "groove4.delay20.local.distance_ratio": (("at least", 0.98), ("at most", 1.02)),
+    "groove4.delay20.local.flank_ratio": (("at least", 0.9), ("at most", 1.1)),
+    "click.delay20.local.length_ratio": (("at least", 0.9), ("at most", 1.1)),
     "fault.zero_ms.max": (("at most", 45),),
     "force.over_limit": (("at most", 0),),
     "force.over_slew": (("at most", 0),),
@@ -61,17 +64,17 @@ def measure(context) -> tuple[Measured, list[str]]:
 def plot(result: Measured, out: Path, machine: str) -> list[Path]:
     plays = ("stroke", "press", "slide", "crank")
     plots = (("wall", "How stiff a wall may be", "largest stable stiffness of a simulated stylus without friction; theory: b / (T / 2 + t)",
-              {"theory": "wall.theory", "measured": "wall.measured"}, "delay, ms", "N/m"),
+              {"theory": "wall.theory", "measured": "wall.measured"}, "delay, ms", "N/m", True),
              ("deadband-saved", "What a deadband saves", "messages left out, both directions together",
-              {play: f"deadband.saved.{play}" for play in plays}, "share", "of all messages"),
+              {play: f"deadband.saved.{play}" for play in plays}, "the deadband's share", "of all messages", False),
              ("deadband-error", "What a deadband costs",
               "difference of the force to the same play without; 99 % of the milliseconds are below",
-              {play: f"deadband.error.{play}" for play in plays[1:]}, "share", "N"))
+              {play: f"deadband.error.{play}" for play in plays[1:]}, "the deadband's share", "N", True))
     made = []
-    for name, title, what, curves, x, y in plots:
+    for name, title, what, curves, x, y, logarithmic in plots:
         series = {label: result.curves.get(curve) for label, curve in curves.items()}
         if not all(series.values()):
             continue
         made.append(out / f"haptics-{name}.svg")
-        lines(made[-1], title, what, series, x, y)
+        lines(made[-1], title, what, series, x, y, logarithmic=logarithmic)
     return made

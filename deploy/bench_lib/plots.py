@@ -153,13 +153,13 @@ def _pieces(curve: list[list[float | None]]) -> list[list[tuple[float, float]]]:
 
 
 def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[float | None]]], x_name: str, y_name: str,
-          bands: list[tuple[float, float, str]] = ()) -> None:
-    """One line each over a plain x axis, y logarithmic. `series`: name -> pairs (x, y), y None where the line breaks; `bands`:
-    stretches of x with a name."""
+          bands: list[tuple[float, float, str]] = (), *, logarithmic: bool = True) -> None:
+    """One line each over a plain x axis, y logarithmic or from zero. `series`: name -> pairs (x, y), y None where the line breaks;
+    `bands`: stretches of x with a name. Few points are marked, smaller from line to line, so that equal ones are all seen."""
     right = max(150, *(round(8.6 * len(name)) + 20 for name in series))  # room for the longest label
     width, height, left, top, bottom = 610 + right, 420, 64, 96, 56
     every = [y for curve in series.values() for _, y in curve if y]
-    low, high = min(every) / 1.15, max(every) * 1.15
+    low, high = min(every) / 1.15 if logarithmic else 0, max(every) * 1.15
     begin = min(x for curve in series.values() for x, _ in curve)
     end = max(x for curve in series.values() for x, _ in curve)
 
@@ -167,11 +167,12 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
         return left + (width - left - right) * (x - begin) / ((end - begin) or 1)
 
     def place_y(y: float) -> float:
-        return top + (height - top - bottom) * (1 - math.log(y / low) / math.log(high / low))
+        return top + (height - top - bottom) * (1 - (math.log(y / low) / math.log(high / low) if logarithmic else y / high))
 
     parts = []
-    wide = high / low > 300
-    for mark in _marks(low, high):
+    wide = logarithmic and high / low > 300
+    step = _round_step(high - low)
+    for mark in _marks(low, high) if logarithmic else [step * i for i in range(math.floor(high / step) + 1)]:
         if not wide or math.log10(mark) % 1 == 0:
             parts += [_line(left, place_y(mark), width - right, place_y(mark)),
                       _text(left - 8, place_y(mark) + 4, f"{mark:g}", 11, QUIET, "end")]
@@ -183,15 +184,16 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
         step = _round_step(end - begin)
         marks = [step * i for i in range(math.ceil(begin / step), math.floor(end / step) + 1)]
         parts += [_text(place_x(mark), height - bottom + 18, f"{mark:g}", 11, QUIET, "middle") for mark in marks]
-    parts += [_text(left - 8, top - 10, y_name, 11, QUIET, "end"),
-              _text((left + width - right) / 2, height - 14, x_name, 11, QUIET, "middle")]
-    middles = [sorted(y for _, y in curve if y) for curve in series.values()]
-    label_y = _apart([place_y(ys[len(ys) // 2]) + 4 for ys in middles], 18)
+    parts += [_text(24, top - 10, y_name, 11, QUIET), _text((left + width - right) / 2, height - 14, x_name, 11, QUIET, "middle")]
+    label_y = _apart([place_y([y for _, y in curve if y][-1]) + 4 for curve in series.values()], 18)
     for index, (name, curve) in enumerate(series.items()):
         colour = COLOURS[index % len(COLOURS)]
         for piece in _pieces(curve):
             points = " ".join(f"{place_x(x):.1f},{place_y(y):.1f}" for x, y in piece)
             parts.append(f"<polyline points='{points}' fill='none' stroke='{colour}' stroke-width='1.8' stroke-linejoin='round'/>")
+        if len(curve) <= 8:
+            parts += [f"<circle cx='{place_x(x):.1f}' cy='{place_y(y):.1f}' r='{1 + 1.5 * (len(series) - index):g}' fill='{colour}'/>"
+                      for x, y in curve if y]
         parts.append(_text(width - right + 10, label_y[index], name, 12, colour, weight="bold"))
     _page(path, width, height, title, subtitle, parts)
 

@@ -23,19 +23,6 @@ const state::ValueType* find_value(const state::ComponentType& type, std::string
   return it == type.values.end() ? nullptr : &*it;
 }
 
-/// A parameter's written number, or the type's default; infinity where neither is known.
-double parameter_of(const state::ComponentDescription& component, const state::ComponentType& type,
-                    std::string_view name) {
-  const auto it = component.parameters.find(std::string(name));
-  if (it != component.parameters.end()) {
-    const auto* numbers = std::get_if<std::vector<double>>(&it->second);
-    return numbers != nullptr && numbers->size() == 1 ? numbers->front() : kInfinity;
-  }
-  const auto known = std::find_if(type.parameters.begin(), type.parameters.end(),
-                                  [&](const state::ParameterType& p) { return p.name == name; });
-  return known == type.parameters.end() || known->required ? kInfinity : known->default_value;
-}
-
 void narrow(const std::vector<state::ComponentDescription>& table,
             const state::ComponentType* (*find)(std::string_view), const std::string& name, const std::string& value,
             const std::string& unit, Range& range) {
@@ -95,6 +82,18 @@ std::string in_words(const Range& range, const std::string& unit) {
 }
 
 }  // namespace
+
+double parameter_of(const state::ComponentDescription& component, const state::ComponentType& type,
+                    std::string_view name) {
+  const auto it = component.parameters.find(std::string(name));
+  if (it != component.parameters.end()) {
+    const auto* numbers = std::get_if<std::vector<double>>(&it->second);
+    return numbers != nullptr && numbers->size() == 1 ? numbers->front() : kInfinity;
+  }
+  const auto known = std::find_if(type.parameters.begin(), type.parameters.end(),
+                                  [&](const state::ParameterType& p) { return p.name == name; });
+  return known == type.parameters.end() || known->required ? kInfinity : known->default_value;
+}
 
 void check_goals(Compilation& c) {
   for (const WrittenRule& written : c.rules) {

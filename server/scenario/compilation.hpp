@@ -44,7 +44,7 @@ struct Compilation {
   std::set<std::string>
       foreign_languages;           ///< of texts in languages that the scenario does not have: each is reported once
   std::vector<WrittenRule> rules;  ///< of all triggers, without faulty ones
-  /// Names of agents and machines, each with a parameter that it has misspelt or malformed, in its right spelling.
+  /// Names of agents, machines and quantities, each with a parameter that it has misspelt or malformed, in its right spelling.
   std::set<std::pair<std::string, std::string>> misspelt_parameters;
   std::vector<bool> touchable;  ///< by BodyId: whether hands can touch it
 };
@@ -70,12 +70,21 @@ void check_agents(Compilation& c);  // what their makers refuse; only of a world
 void lint(Compilation& c);
 /// Warns of bodies that fall, drift away, or stay immovable or tied. Part of lint().
 void lint_bodies(Compilation& c);
+/// Warns of surfaces and pulls that no hand can feel, or not as meant. Part of lint().
+void lint_touch(Compilation& c);
 
 /// Whether a text can be an id: small letters, digits and '-', 64 at most.
 [[nodiscard]] bool is_id(const std::string& text);
 
 /// Whether a list of agents has this one.
 [[nodiscard]] bool names(const std::vector<AgentId>& list, AgentId agent);
+
+/// What a step changes of a body; null where it changes nothing.
+[[nodiscard]] const state::BodyOverride* override_of(const state::StepDescription& step, BodyId body);
+
+/// All agents are on at the start, except those that a step enables.
+[[nodiscard]] bool on_at_start(const state::WorldDescription& world, AgentId agent);
+[[nodiscard]] bool on_after(const state::StepDescription& step, AgentId agent, bool before);
 
 /// The steps that its triggers and its time-out lead to.
 [[nodiscard]] std::vector<StepId> next_steps(const state::StepDescription& step);
@@ -106,6 +115,10 @@ void report_unknown(Compilation& c, const Place& at, std::string_view word, cons
 
 /// The questions of an activity; their lines go to Compilation::question_lines.
 [[nodiscard]] std::vector<state::QuestionDescription> read_questionnaire(Compilation& c, const Fields& activity);
+
+/// A parameter's written number, or the type's default; infinity where neither is known.
+[[nodiscard]] double parameter_of(const state::ComponentDescription& component, const state::ComponentType& type,
+                                  std::string_view name);
 
 /// The type of an agent or machine; null where there is no type of that name.
 [[nodiscard]] const state::ComponentType* find_agent_type(std::string_view name);

@@ -94,6 +94,7 @@ void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
       {}, [&](std::string_view key) { return fields.numbers(key); }, faults);
   body.effort_scale = fields.number("effortScale");
   body.graspable = fields.boolean("graspable");
+  if (fields.has_faults()) return;
   for (const state::SurfaceFault& fault : faults)
     c.problems.error(fault.code, fields.line(fault.key), fields.where(), fault.what, fault.remedy);
   if (body.haptic.groove_depth_m > 0) return;

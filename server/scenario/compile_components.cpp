@@ -57,6 +57,8 @@ void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentT
     c.problems.unknown(value.line, where, fmt::format("{} has no parameter '{}'", out.type, value.name), value.name,
                        names);
     c.misspelt_parameters.emplace(out.name, nearest(value.name, names));
+  } else if (value.kind == x3d::MetadataKind::unreadable) {
+    c.misspelt_parameters.emplace(out.name, value.name);
   } else if (value.kind == x3d::MetadataKind::set ||
              (value.kind == x3d::MetadataKind::booleans && value.booleans.size() != 1)) {
     c.problems.error(ErrorCode::invalid_value, value.line, where,
@@ -78,6 +80,7 @@ void read_component(Compilation& c, const x3d::Metadata& set, const Registry& re
   const std::string where = fmt::format("{} {}", registry.word, out.name);
   out.line = set.line;
   const x3d::Metadata* type_name = set.find("type");
+  if (type_name != nullptr && type_name->kind == x3d::MetadataKind::unreadable) return;
   if (type_name == nullptr || type_name->kind != x3d::MetadataKind::strings || type_name->strings.size() != 1) {
     c.problems.error(ErrorCode::missing, set.line, where, "the key 'type' is missing",
                      fmt::format("write one of: {}", fmt::join(names_of_all(registry.types), ", ")));

@@ -15,12 +15,13 @@ void check_unit(Compilation& c, const Fields& fields, const state::EffectDescrip
   const bool flow = effect.kind == "stream" || effect.kind == "jet";
   const bool height = effect.kind == "level";
   if (!effect.quantity || !(flow || height)) return;
-  const std::string& unit = c.world.quantities[effect.quantity.index()].unit;
+  const state::QuantityDescription& quantity = c.world.quantities[effect.quantity.index()];
+  const std::string& unit = quantity.unit;
   const bool fits = flow ? unit == "l/s" || unit == "l/min" || unit == "m3/s" || unit == "kg/s" : unit == "m";
-  if (fits) return;
+  if (fits || c.misspelt_parameters.contains({quantity.name, "unit"})) return;
   c.problems.error(ErrorCode::conflict, fields.line("quantity"), fields.where(),
                    fmt::format("a {} is driven by a {}, but '{}' has the unit '{}'", effect.kind,
-                               flow ? "flow" : "height", fields.string("quantity"), unit),
+                               flow ? "flow" : "height", quantity.name, unit),
                    flow ? "name a quantity with the unit l/s, l/min, m3/s or kg/s" : "name a quantity with the unit m");
 }
 
@@ -93,6 +94,28 @@ void check_felt(Compilation& c, const x3d::Metadata& set, const Fields& fields,
     warn_unused(c, fields, effect, key, "remove it: a touch.click is felt wherever a hand holds or touches the body");
 }
 
+/// What is wrong between the keys of an effect.
+void check_effect(Compilation& c, const x3d::Metadata& set, const Fields& fields,
+                  const state::EffectDescription& effect) {
+  if (effect.kind == "level" && effect.node.empty()) {
+    c.problems.error(ErrorCode::missing, set.line, fields.where(), "the level effect does not say which node rises",
+                     "name the node of the mesh file in the key node");
+  } else if (effect.kind == "level") {
+    check_risen_node(c, fields, effect.node);
+  } else if (effect.kind == "flow") {
+    check_flow(c, fields, effect);
+  } else {
+    warn_unused(c, fields, effect, "node", "remove it: body and point say where the effect is");
+  }
+  if (effect.kind != "flow" && fields.given("node") && !fields.given("quantity")) {
+    c.problems.error(ErrorCode::missing, set.line, fields.where(),
+                     fmt::format("the {} effect has no quantity to drive it", effect.kind),
+                     "name a quantity in the key quantity");
+  }
+  check_felt(c, set, fields, effect);
+  check_unit(c, fields, effect);
+}
+
 state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   const Fields fields(&set, effect_table(), "effect " + set.name, c.problems);
   state::EffectDescription effect;
@@ -116,23 +139,7 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
       effect.direction_B.normalize();
     }
   }
-  if (effect.kind == "level" && effect.node.empty()) {
-    c.problems.error(ErrorCode::missing, set.line, fields.where(), "the level effect does not say which node rises",
-                     "name the node of the mesh file in the key node");
-  } else if (effect.kind == "level") {
-    check_risen_node(c, fields, effect.node);
-  } else if (effect.kind == "flow") {
-    check_flow(c, fields, effect);
-  } else if (fields.given("kind")) {
-    warn_unused(c, fields, effect, "node", "remove it: body and point say where the effect is");
-  }
-  if (effect.kind != "flow" && fields.given("node") && !fields.given("quantity")) {
-    c.problems.error(ErrorCode::missing, set.line, fields.where(),
-                     fmt::format("the {} effect has no quantity to drive it", effect.kind),
-                     "name a quantity in the key quantity");
-  }
-  check_felt(c, set, fields, effect);
-  check_unit(c, fields, effect);
+  if (!fields.has_faults()) check_effect(c, set, fields, effect);
   return effect;
 }
 

@@ -142,13 +142,13 @@ void compile_quantities(Compilation& c) {
       const Fields fields(&item, quantity_table(), where, c.problems);
       quantity.source = fields.string("source");
       quantity.unit = fields.string("unit");
+      if (fields.has_faults()) c.misspelt_parameters.emplace(quantity.name, "unit");
       check_unit(c, quantity.unit, fields.line("unit"), where);
       check_unit_fits(c, quantity, fields.line("unit"), where);
       line = fields.line("source");
-    } else {
+    } else if (item.kind != x3d::MetadataKind::unreadable) {
       c.problems.error(ErrorCode::invalid_value, item.line, where, "this quantity is neither a source nor a set",
                        "write a MetadataString like \"PUMP.basin_l\"");
-      continue;
     }
     if (!quantity.source.empty()) check_source(c, quantity.source, line, where);
     c.world.quantities.push_back(std::move(quantity));

@@ -41,8 +41,8 @@ Question read_question(Compilation& c, const x3d::Metadata& set, const std::stri
   const Fields fields(&set, question_table(), fmt::format("{}, question {}", activity, set.name), c.problems);
   Question out;
   out.name = set.name;
-  // An unknown kind has been reported; the other keys depend on it.
-  if (!fields.given("kind")) return out;
+  if (!fields.given("kind") || fields.has_faults())
+    return out;  // the other keys depend on the kind, the texts on the answers
   out.kind = fields.string("kind") == "scale" ? Question::Kind::scale : Question::Kind::choice;
   if (out.kind == Question::Kind::choice && fields.strings("answers").size() < 2) {
     c.problems.error(ErrorCode::missing, fields.line("answers"), fields.where(), "a choice needs two answers or more",

@@ -25,7 +25,7 @@ Kind kind_of(const std::string& word) {
 }
 
 void need(Compilation& c, const Fields& fields, std::string_view kind, std::string_view key) {
-  if (fields.given(key)) return;
+  if (fields.given(key) || fields.has_faults()) return;
   c.problems.error(ErrorCode::missing, fields.line(key), fields.where(),
                    fmt::format("a {} needs the key '{}'", kind, key), "add it");
 }

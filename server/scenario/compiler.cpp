@@ -140,12 +140,11 @@ std::map<std::string, state::Texts> read_texts(Compilation& c, const x3d::Metada
                              ? fmt::format("name it <what>.<language>, where <what> is one of: {}", allowed)
                              : fmt::format("did you mean '{}.{}'?", near, language));
     } else if (std::find(known.begin(), known.end(), language) == known.end()) {
-      if (!c.foreign_languages.insert(language).second) continue;
+      // Without any, the key languages is missing or faulty, which has been reported.
+      if (known.empty() || !c.foreign_languages.insert(language).second) continue;
       c.problems.warning(ErrorCode::unknown_name, child.line, where,
                          fmt::format("'{}' is not among the scenario's languages: its texts are not shown", language),
-                         known.empty()
-                             ? std::string("add it to the key languages")
-                             : fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
+                         fmt::format("add it to the key languages, or use one of: {}", fmt::join(known, ", ")));
     } else {
       texts[what][language] = child.strings.front();
     }

@@ -26,6 +26,7 @@ std::string value_in_words(const x3d::Metadata& m) {
       return count(m.booleans.size(), "boolean");
     case x3d::MetadataKind::numbers:
     case x3d::MetadataKind::integers:
+    case x3d::MetadataKind::unreadable:
       break;
   }
   return count(m.numbers.size(), "number");
@@ -101,14 +102,18 @@ void Fields::check(x3d::Problems& problems) {
       problems.unknown(child.line, where_, fmt::format("the key '{}' is not known here and does nothing", child.name),
                        word, known);
       meant.push_back(nearest(word, known));
+      has_faults_ = has_faults_ || !meant.back().empty();
     } else if (check_value(*key, child, problems)) {
       good_[child.name] = &child;
+    } else {
+      has_faults_ = true;
     }
   }
   for (const Key& key : table_.keys) {
     if (!key.required || set_->find(key.name) != nullptr || has_like(key.unless)) continue;
     // It is given, but misspelt, which has been reported.
     if (std::find(meant.begin(), meant.end(), key.name) != meant.end()) continue;
+    has_faults_ = true;
     problems.error(
         ErrorCode::missing, set_->line, where_, fmt::format("the key '{}' is missing", key.name),
         fmt::format("add it: {}{}", key.summary, key.example.empty() ? "" : fmt::format(", like {}", key.example)));
@@ -121,6 +126,7 @@ bool Fields::has_like(std::string_view pattern) const {
 }
 
 bool Fields::check_value(const Key& key, const x3d::Metadata& value, x3d::Problems& problems) const {
+  if (value.kind == x3d::MetadataKind::unreadable) return false;  // reported as it was read
   if (!is_of_kind(key.kind, value)) {
     const auto comma =
         is_number(value) ? x3d::comma_fault(value.commas, value.numbers.size(), count_of(key.kind)) : std::nullopt;

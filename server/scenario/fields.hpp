@@ -21,6 +21,8 @@ class Fields {
 
   [[nodiscard]] bool given(std::string_view key) const;
   [[nodiscard]] double number(std::string_view key) const;
+  /// Whether some key is missing, misspelt or wrong, which has been reported. What seems to be wrong between keys may follow from it.
+  [[nodiscard]] bool has_faults() const { return has_faults_; }
   /// Those of a number or vector, as they are written; none where it is not given.
   [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
   [[nodiscard]] bool boolean(std::string_view key) const;
@@ -47,6 +49,7 @@ class Fields {
   const Table& table_;
   std::string where_;
   std::map<std::string, const x3d::Metadata*, std::less<>> good_;
+  bool has_faults_ = false;
 };
 
 }  // namespace mechane::scenario

@@ -168,6 +168,19 @@ bool names(const std::vector<AgentId>& list, AgentId agent) {
   return std::find(list.begin(), list.end(), agent) != list.end();
 }
 
+const state::BodyOverride* override_of(const StepDescription& step, BodyId body) {
+  const auto it = std::ranges::find(step.bodies, body, &state::BodyOverride::body);
+  return it == step.bodies.end() ? nullptr : &*it;
+}
+
+bool on_at_start(const state::WorldDescription& world, AgentId agent) {
+  return std::ranges::none_of(world.steps, [&](const StepDescription& step) { return names(step.enable, agent); });
+}
+
+bool on_after(const StepDescription& step, AgentId agent, bool before) {
+  return (before || names(step.enable, agent)) && !names(step.disable, agent);
+}
+
 std::vector<StepId> next_steps(const StepDescription& step) {
   std::vector<StepId> next;
   for (const state::TriggerDescription& trigger : step.triggers) {
@@ -198,6 +211,7 @@ void lint(Compilation& c) {
   check_reach(c);
   check_triggers(c);
   lint_bodies(c);
+  lint_touch(c);
   check_sounds(c);
   check_visits(c);
   check_world(c);

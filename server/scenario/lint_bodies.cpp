@@ -52,23 +52,9 @@ bool moved_by_machine(const state::WorldDescription& world, const std::string& b
   return std::ranges::any_of(world.machines, [&](const auto& machine) { return names_body(machine, body); });
 }
 
-const state::BodyOverride* override_of(const StepDescription& step, BodyId body) {
-  const auto it = std::ranges::find(step.bodies, body, &state::BodyOverride::body);
-  return it == step.bodies.end() ? nullptr : &*it;
-}
-
 bool says_movable(const StepDescription& step, BodyId body) {
   const state::BodyOverride* change = override_of(step, body);
   return change != nullptr && change->movable.has_value();
-}
-
-/// All agents are on at the start, except those that a step enables.
-bool on_at_start(const state::WorldDescription& world, AgentId agent) {
-  return std::ranges::none_of(world.steps, [&](const StepDescription& step) { return names(step.enable, agent); });
-}
-
-bool on_after(const StepDescription& step, AgentId agent, bool before) {
-  return (before || names(step.enable, agent)) && !names(step.disable, agent);
 }
 
 bool has_weight(const state::WorldDescription& world, const state::BodyDescription& body) {

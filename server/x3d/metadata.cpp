@@ -17,11 +17,12 @@ std::string attribute_or(const Node& node, std::string_view name, const std::str
   return value != nullptr ? *value : otherwise;
 }
 
-/// Reads one tree of metadata. Each method returns false once it has added a problem.
+/// Reads one tree of metadata.
 class MetadataReader {
  public:
   MetadataReader(const Document& document, Problems& problems) : document_(document), problems_(problems) {}
 
+  /// False where the tree is too large.
   bool read(NodeId id, std::size_t depth, Metadata& out) {
     const Node& node = document_[document_.resolve(id)];
     out.line = document_[id].line;
@@ -29,58 +30,57 @@ class MetadataReader {
     const std::string* value = node.attribute("value");
     bytes_ += value != nullptr ? value->size() : 0;
     if (++nodes_ > kMostNodes || bytes_ > kMostBytes || depth > kDeepest) {
-      return refuse(ErrorCode::too_large, out, "the metadata is too large or too deep, counting every USE as a copy",
-                    "shorten it, or use USE less often");
+      report(ErrorCode::too_large, out, "the metadata is too large or too deep, counting every USE as a copy",
+             "shorten it, or use USE less often");
+      return false;
     }
     if (node.name == "MetadataSet") return read_children(document_.resolve(id), depth, out);
-    return read_value(node.name, value != nullptr ? *value : std::string(), out);
+    read_value(node.name, value != nullptr ? *value : std::string(), out);
+    return true;
   }
 
  private:
-  bool refuse(ErrorCode code, const Metadata& at, std::string what, std::string remedy) {
+  void report(ErrorCode code, const Metadata& at, std::string what, std::string remedy) {
     problems_.error(code, at.line, fmt::format("metadata '{}'", at.name), std::move(what), std::move(remedy));
-    return false;
   }
 
   bool read_children(NodeId set, std::size_t depth, Metadata& out) {
-    bool good = true;
     for (const NodeId child : document_.child_elements(set)) {
       if (!document_[child].name.starts_with("Metadata") || document_.container_field(child, "value") != "value")
         continue;
       Metadata metadata;
-      if (!read(child, depth + 1, metadata)) {
-        if (problems_.full() || nodes_ > kMostNodes || bytes_ > kMostBytes) return false;
-        good = false;
-      } else if (const Metadata* before = out.find(metadata.name)) {
-        good = refuse(ErrorCode::duplicate, metadata,
-                      fmt::format("'{}' is already given in line {}", metadata.name, before->line), "keep one of them");
+      if (!read(child, depth + 1, metadata)) return false;
+      if (const Metadata* before = out.find(metadata.name)) {
+        report(ErrorCode::duplicate, metadata,
+               fmt::format("'{}' is already given in line {}", metadata.name, before->line), "keep one of them");
       } else {
         out.children.push_back(std::move(metadata));
       }
     }
-    return good;
+    return true;
   }
 
-  bool read_value(const std::string& type, const std::string& text, Metadata& out) {
-    if (type != "MetadataString" && text.find('"') != std::string::npos)
-      return refuse(ErrorCode::invalid_value, out, fmt::format("a {} cannot hold text", type),
-                    "write a MetadataString, or remove the quotes");
+  /// A value that cannot be read stays in its set, so that nobody takes it for one that is missing.
+  void read_value(const std::string& type, const std::string& text, Metadata& out) {
+    out.kind = MetadataKind::unreadable;
     if (type == "MetadataString") return take(parse_strings(text), MetadataKind::strings, out.strings, out);
+    if (text.find('"') != std::string::npos)
+      return report(ErrorCode::invalid_value, out, fmt::format("a {} cannot hold text", type),
+                    "write a MetadataString, or remove the quotes");
     out.commas = decimal_commas(text);
     if (type == "MetadataDouble" || type == "MetadataFloat")
       return take(parse_numbers(text), MetadataKind::numbers, out.numbers, out);
     if (type == "MetadataInteger") return take(parse_integers(text), MetadataKind::integers, out.numbers, out);
     if (type == "MetadataBoolean") return take(parse_booleans(text), MetadataKind::booleans, out.booleans, out);
-    return refuse(ErrorCode::unknown_name, out, fmt::format("{} is not a metadata node of X3D", type),
-                  "use MetadataSet, String, Double, Float, Integer or Boolean");
+    report(ErrorCode::unknown_name, out, fmt::format("{} is not a metadata node of X3D", type),
+           "use MetadataSet, String, Double, Float, Integer or Boolean");
   }
 
   template <class T>
-  bool take(Value<std::vector<T>> value, MetadataKind kind, std::vector<T>& into, Metadata& out) {
-    if (!value) return refuse(ErrorCode::invalid_value, out, value.error().what, value.error().remedy);
+  void take(Value<std::vector<T>> value, MetadataKind kind, std::vector<T>& into, Metadata& out) {
+    if (!value) return report(ErrorCode::invalid_value, out, value.error().what, value.error().remedy);
     out.kind = kind;
     into = std::move(*value);
-    return true;
   }
 
   const Document& document_;

@@ -11,9 +11,9 @@
 
 namespace mechane::x3d {
 
-enum class MetadataKind { set, strings, numbers, integers, booleans };
+enum class MetadataKind { set, strings, numbers, integers, booleans, unreadable };
 
-/// One Metadata node with its content; USE is resolved.
+/// One Metadata node with its content; USE is resolved. One whose value cannot be read has no content: its fault has been reported.
 struct Metadata {
   std::string name;
   MetadataKind kind = MetadataKind::set;
@@ -28,8 +28,8 @@ struct Metadata {
 };
 
 /// The MetadataSet of that name on an element, with all that is in it. It is the element's own metadata node, or a set within that node,
-/// because X3D allows one metadata node per element. None where the element has no such set, or where a value is faulty (which is added
-/// to `problems`).
+/// because X3D allows one metadata node per element. None where the element has no such set, or where it is too large (which is added to
+/// `problems`, as is each value that cannot be read).
 [[nodiscard]] std::optional<Metadata> read_metadata(const Document& document, NodeId owner, std::string_view name,
                                                     Problems& problems);
 

@@ -1,13 +1,15 @@
-// How stiff a wall may be, and how still a press is: a simulated stylus (client-sdk/haptic/simulated_stylus.hpp) on a
-// simulated clock, so that the figures are the same on every machine.
+// How stiff a wall may be, how still a press is, and how true grooves and clicks are: a simulated stylus
+// (client-sdk/haptic/simulated_stylus.hpp) on a simulated clock, so that the figures are the same on every machine.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <iostream>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "client-sdk/haptic/click_pulse.hpp"
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/simulated_stylus.hpp"
 #include "server/collision/superquadric_object.hpp"
@@ -150,7 +152,14 @@ class Press {
     energy_j_ += force_W.dot(stylus_.p_WH() - before);
     energy_max_j_ = std::max(energy_max_j_, energy_j_);
   }
+  /// From now on the hand has one click more.
+  void click(double strength_n) {
+    hand::Clicks& clicks = server_.user().clicks;
+    clicks = {clicks.count + 1, strength_n};
+  }
   [[nodiscard]] Vec3 force_W() const { return loop_->rendered().force_W.f; }
+  /// Where the stylus really is.
+  [[nodiscard]] const Vec3& p_WH() const { return stylus_.p_WH(); }
   [[nodiscard]] const haptic::LoopStats& stats() const { return loop_->stats(); }
   [[nodiscard]] const test::SlowNetwork& network() const { return network_; }
   /// The most that the hand was ever given beyond what it had put in, J.
@@ -245,6 +254,117 @@ void measure_delays(Report& report) {
       const Pressed held = worst_over(pull_over, mode, delay_ms, 5);
       report.metric(at + ".held.energy_mj.max", 1000 * held.energy_j);
       report.metric(at + ".held.force_share.min", held.stiffness_n_per_m / near_held.stiffness_n_per_m);
+    }
+  }
+}
+
+/// A place of a stylus across grooves, and the force along it.
+struct Stroked {
+  double x_m = 0, force_n = 0;
+};
+
+/// How strongly a force changes to and fro with each `distance_m`, N.
+double swing_n(const std::vector<Stroked>& felt, double distance_m) {
+  double mean_n = 0;
+  for (const Stroked& at : felt)
+    mean_n += at.force_n / static_cast<double>(felt.size());
+  std::complex<double> sum_n;
+  for (const Stroked& at : felt)
+    sum_n += (at.force_n - mean_n) * std::polar(1.0, 2 * kPi * at.x_m / distance_m);
+  return 2 * std::abs(sum_n) / static_cast<double>(felt.size());
+}
+
+/// A hand strokes across the deepest grooves of that distance, at 50 mm/s and some 2 N. How far apart its ridges feel, and how steep (the
+/// force aside over the force up), both over what is set.
+void stroke_grooves(Report& report, const std::string& name, haptic::RenderMode mode, int delay_ms, double distance_m) {
+  constexpr double kHalfWay_m = 0.05, kMeasured_m = 0.04, kSpeed_m_per_s = 0.05;  // measured are 20 or 8 grooves
+  const double wave_rad_per_m = 2 * kPi / distance_m;
+  state::HapticMaterial haptic{.stiffness_n_per_m = kFloor_n_per_m};
+  haptic.groove_depth_m = hand::max_groove_depth_m(wave_rad_per_m);
+  haptic.groove_wave_B = wave_rad_per_m * Vec3::UnitX();
+  Press press(mode, {.hand = haptic::ArmConfig{}}, {.delay_ms = delay_ms}, 1, test::FloorServer(haptic));
+  const auto stroke = [&](double t_s) {
+    const double along_m = kSpeed_m_per_s * (t_s - 1) - kHalfWay_m;  // first a second to come down
+    return Vec3(std::max(along_m, -kHalfWay_m), std::max(0.02 * (1 - t_s), Press::kInside_m) + kTip_m, 0);
+  };
+  std::vector<Stroked> felt;
+  double normal_n = 0;
+  for (int ms = 0; ms < 3000; ++ms) {
+    press.tick(stroke(ms * kTickSeconds));
+    if (std::abs(press.p_WH().x()) > kMeasured_m) continue;
+    felt.push_back({press.p_WH().x(), press.force_W().x()});
+    normal_n += press.force_W().y();
+  }
+  double best_m = distance_m;
+  for (double at_m = 0.5 * distance_m; at_m <= 2 * distance_m; at_m *= 1.002) {
+    if (swing_n(felt, at_m) > swing_n(felt, best_m)) best_m = at_m;
+  }
+  const double flank = 0.5 * haptic.groove_depth_m * wave_rad_per_m;
+  const double mean_n = normal_n / static_cast<double>(felt.size());
+  report.metric(name + ".distance_ratio", best_m / distance_m);
+  report.metric(name + ".flank_ratio", swing_n(felt, best_m) / (mean_n * flank));
+}
+
+void measure_grooves(Report& report) {
+  for (const int delay_ms : {0, 20}) {
+    for (const auto& [mode, mode_name] : kModes) {
+      for (const double distance_m : {0.004, 0.01})
+        stroke_grooves(report, fmt::format("groove{:g}.delay{}.{}", 1000 * distance_m, delay_ms, mode_name), mode,
+                       delay_ms, distance_m);
+    }
+  }
+}
+
+/// What of a shake counts: when it is strongest, and when nine tenths of that are gone, both from its begin.
+struct Shake {
+  double peak_n = 0, rise_s = 0, length_s = 0;
+};
+
+Shake shake_of(const std::vector<double>& force_n, double dt_s) {
+  Shake shake;
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 0; i < force_n.size(); ++i) {
+    if (shake.peak_n == 0) first = i;
+    if (std::abs(force_n[i]) <= shake.peak_n) continue;
+    shake.peak_n = std::abs(force_n[i]);
+    shake.rise_s = static_cast<double>(i + 1 - first) * dt_s;
+  }
+  for (std::size_t i = 0; i < force_n.size(); ++i)
+    if (std::abs(force_n[i]) > 0.1 * shake.peak_n) last = i;
+  shake.length_s = static_cast<double>(last + 1 - first) * dt_s;
+  return shake;
+}
+
+/// The shake that is asked for: as a device would draw it that is twenty times as fast.
+Shake asked_shake(double strength_n) {
+  constexpr Duration kFine = kTickPeriod / 20;
+  haptic::ClickPulse pulse;
+  pulse.hear({});
+  pulse.hear({.count = 1, .strength_n = strength_n});
+  std::vector<double> force_n;
+  for (Duration past{0}; past < 100ms; past += kFine)
+    force_n.push_back(pulse.render(kFine).y());
+  return shake_of(force_n, to_seconds(kFine));
+}
+
+/// The strongest click for a hand in the air: what the device is given of it.
+void measure_clicks(Report& report) {
+  const Shake asked = asked_shake(hand::kMaxClick_n);
+  for (const int delay_ms : {0, 20}) {
+    for (const auto& [mode, mode_name] : kModes) {
+      Press press(mode, {.hand = haptic::ArmConfig{}}, {.delay_ms = delay_ms});
+      press.press(5 * Press::kAbove_m, 1s);
+      press.click(hand::kMaxClick_n);
+      std::vector<double> force_n;
+      for (int ms = 0; ms < 150; ++ms) {
+        press.tick(Vec3(0, 5 * Press::kAbove_m, 0));
+        force_n.push_back(press.force_W().y());
+      }
+      const Shake felt = shake_of(force_n, kTickSeconds);
+      const std::string name = fmt::format("click.delay{}.{}", delay_ms, mode_name);
+      report.metric(name + ".peak_ratio", felt.peak_n / asked.peak_n);
+      report.metric(name + ".rise_late_ms", 1000 * (felt.rise_s - asked.rise_s));
+      report.metric(name + ".length_ratio", felt.length_s / asked.length_s);
     }
   }
 }
@@ -430,6 +550,8 @@ int main(int argc, char** argv) {
   mechane::benchmark::measure_walls(report);
   mechane::benchmark::measure_presses(report);
   mechane::benchmark::measure_delays(report);
+  mechane::benchmark::measure_grooves(report);
+  mechane::benchmark::measure_clicks(report);
   mechane::benchmark::measure_deadband(report);
   mechane::benchmark::measure_faults(report, "", 0, ticks);
   mechane::benchmark::measure_faults(report, "deadband.", 0.1, ticks / 10);

@@ -37,6 +37,20 @@ class Haptics(unittest.TestCase):
             self.assertGreaterEqual(self.metrics[f"delay{ms}.local.held.force_share.min"], 0.8, ms)
             self.assertLessEqual(self.metrics[f"delay{ms}.direct.held.force_share.min"], 0.5, "there is something to gain")
 
+    def test_grooves_feel_as_they_are_set(self):
+        for distance in ("groove4", "groove10"):
+            for delay in ("delay0", "delay20"):
+                for mode in ("direct", "local"):
+                    name = f"{distance}.{delay}.{mode}"
+                    self.assertAlmostEqual(self.metrics[f"{name}.distance_ratio"], 1, delta=0.02, msg=name)
+                    self.assertAlmostEqual(self.metrics[f"{name}.flank_ratio"], 1, delta=0.1, msg=name)
+
+    def test_a_click_is_as_short_and_nearly_as_strong_as_asked(self):
+        for name in (f"click.{delay}.{mode}" for delay in ("delay0", "delay20") for mode in ("direct", "local")):
+            self.assertAlmostEqual(self.metrics[f"{name}.length_ratio"], 1, delta=0.1, msg=name)
+            self.assertLessEqual(self.metrics[f"{name}.rise_late_ms"], 1, name)
+            self.assertGreaterEqual(self.metrics[f"{name}.peak_ratio"], 0.85, name)
+
     def test_a_deadband_saves_most_messages_and_is_hardly_felt(self):
         for mode in ("direct", "local"):
             for play in ("stroke", "press", "slide"):

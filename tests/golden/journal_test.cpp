@@ -1,4 +1,8 @@
-// Journals of earlier releases: they still replay, compared over the fields that their release hashed.
+// Journals of this release and of earlier ones: they replay, compared over the fields that their release hashed.
+//
+// Where the state has a new version, MECHANE_ACCEPT_GOLDEN=1 adds its journal. Those of earlier versions are never written again: each was
+// written by a server of its time.
+#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -15,7 +19,10 @@
 namespace mechane {
 namespace {
 
-const std::string kJournalOfVersion1 = (test::source_folder() / "tests/golden/version-1.journal").string();
+std::filesystem::path journal_of(state::StateVersion version) {
+  const auto number = static_cast<std::uint32_t>(version);
+  return test::source_folder() / "tests/golden" / ("version-" + std::to_string(number) + ".journal");
+}
 
 world::WorldConfig crank_config() {
   world::WorldConfig config;
@@ -37,11 +44,8 @@ state::TickInputs inputs_of(std::uint64_t tick) {
   return inputs;
 }
 
-constexpr auto kVersion1 = state::StateVersion::without_governors;
-
-/// What a server of version 1 wrote that took up the visit from a snapshot at tick 350. The accepted file came from such a server; this
-/// makes another where the physics was meant to change.
-void write_journal(const std::string& path) {
+/// What a server of today writes that took up the visit from a snapshot at tick 350.
+void write_journal(const std::filesystem::path& path) {
   SystemClock clock;
   world::PhaseTimer timer(clock);
   world::NoPublisher publisher;
@@ -49,35 +53,54 @@ void write_journal(const std::string& path) {
   auto before = world::World::create(description, crank_config()).value();
   while (before->state.tick < 350)
     world::step(*before, inputs_of(before->state.tick), publisher, timer);
-  record::JournalHeader header{"crank", "kiosk-1", "crank", description->content_hash, "test", 1, 351, {}, kVersion1};
-  state::write_snapshot(before->state, header.snapshot, kVersion1);
+  record::JournalHeader header{"crank", "kiosk-1", "crank", description->content_hash, "test", 1, 351, {}};
+  state::write_snapshot(before->state, header.snapshot);
   auto world = world::World::resume(description, crank_config(), header.snapshot).value();
   record::JournalWriter writer(header);
   while (world->state.tick < 950) {
     const state::TickInputs inputs = inputs_of(world->state.tick);
     world::step(*world, inputs, publisher, timer);
     record::TickRecord record{world->state.tick, &inputs, world->state.event_span(), {}};
-    if (record.tick % 50 == 0) record.hash = state::state_hash(world->state, kVersion1);
+    if (record.tick % 50 == 0) record.hash = state::state_hash(world->state);
     writer.add(record);
   }
-  writer.close(state::state_hash(world->state, kVersion1));
+  writer.close(state::state_hash(world->state));
   const std::vector<std::byte> bytes = writer.take_bytes();
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-TEST(Journal, OfVersion1ReplaysToItsHashes) {
+class Journals : public ::testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(Journals, ReplayToTheirHashes) {
   if (!test::gives_golden_bits()) GTEST_SKIP() << "the hashes are of processors with FMA";
-  if (std::getenv("MECHANE_ACCEPT_GOLDEN") != nullptr) write_journal(kJournalOfVersion1);
-  auto journal = record::JournalReader::open_file(kJournalOfVersion1);
+  const auto version = static_cast<state::StateVersion>(GetParam());
+  const std::filesystem::path path = journal_of(version);
+  const bool accepts = std::getenv("MECHANE_ACCEPT_GOLDEN") != nullptr;
+  if (accepts && version == state::kStateVersion) write_journal(path);
+  ASSERT_TRUE(std::filesystem::exists(path)) << "run this test once with MECHANE_ACCEPT_GOLDEN=1, and add the file";
+  auto journal = record::JournalReader::open_file(path.string());
   ASSERT_TRUE(journal.has_value()) << journal.error().to_string();
-  ASSERT_EQ(journal->header().state_version, kVersion1);
+  ASSERT_EQ(journal->header().state_version, version);
   const auto replayed = app::replay(*journal, test::make_crank_description(), crank_config(), {});
   ASSERT_TRUE(replayed.has_value()) << replayed.error().to_string();
   EXPECT_EQ(replayed->ticks, 600u);
   EXPECT_EQ(replayed->hashes_compared, 13u);
   EXPECT_TRUE(replayed->same()) << "first difference after tick " << replayed->first_difference.value_or(0);
 }
+
+/// Those that have a file, and today's, which must have one.
+std::vector<std::uint32_t> journal_versions() {
+  std::vector<std::uint32_t> versions;
+  for (std::uint32_t version = 1; state::is_known(static_cast<state::StateVersion>(version)); version *= 2) {
+    const auto known = static_cast<state::StateVersion>(version);
+    if (known == state::kStateVersion || std::filesystem::exists(journal_of(known))) versions.push_back(version);
+  }
+  return versions;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfVersion, Journals, ::testing::ValuesIn(journal_versions()),
+                         [](const auto& version) { return std::to_string(version.param); });
 
 }  // namespace
 }  // namespace mechane

@@ -76,6 +76,9 @@ TEST(Reference, VariationsSayWhatTheyPromise) {
   const auto oiled = read_variation("A surface that changes with the step");
   ASSERT_EQ(oiled.steps.size(), 2u);
   EXPECT_EQ(oiled.steps[1].enable, std::vector{oiled.find_agent("OILED")});
+  const auto pulled = read_variation("A place that pulls");
+  ASSERT_EQ(pulled.steps.size(), 2u);
+  EXPECT_EQ(*pulled.agents[pulled.find_agent("BEFORE_HUB").index()].written_text("object"), "PIN");
   const auto questions = read_variation("Questions");
   ASSERT_EQ(questions.activities.size(), 1u);
   EXPECT_EQ(questions.activities[0].questionnaire.size(), 2u);

@@ -219,6 +219,30 @@ TEST(Check, OneFaultIsOneMessageAtItsLine) {
   }
 }
 
+/// Each value in a set of metadata of the shipped file, in its turn with a letter too many behind its quote or number.
+TEST(Check, AValueThatCannotBeReadIsOneMessageWhateverItsKey) {
+  const std::string whole = text_of(shipped_file());
+  const std::string begin = " containerField='value' name='", value = "' value='";
+  std::size_t tried = 0;
+  for (std::size_t at = whole.find(begin); at != std::string::npos; at = whole.find(begin, at + 1)) {
+    const std::size_t from = at + begin.size();
+    const std::size_t end = whole.find('\'', whole.find('\'', from) + value.size());
+    if (whole.compare(whole.find('\'', from), value.size(), value) != 0) continue;
+    std::string text = whole;
+    text.insert(end, "x");
+    const Outcome outcome = compile_text(text);
+    EXPECT_FALSE(outcome.world);
+    ASSERT_FALSE(outcome.problems.empty()) << whole.substr(from, end - from);
+    EXPECT_TRUE(is_problem(outcome.problems[0], ErrorCode::invalid_value, line_of(text, text.substr(at, end + 1 - at)),
+                           "metadata '"))
+        << to_string(outcome.problems[0]);
+    for (std::size_t i = 1; i < outcome.problems.size(); ++i)
+      ADD_FAILURE() << whole.substr(from, end - from) << " is reported again: " << to_string(outcome.problems[i]);
+    ++tried;
+  }
+  EXPECT_GT(tried, 200u);
+}
+
 TEST(Check, ALanguageThatTheScenarioDoesNotNameIsToldOnce) {
   const EditedFile file("name='languages' value='\"el\" \"en\"'", "name='languages' value='\"el\"'");
   const std::vector<x3d::Problem> problems = check(file.path);

@@ -7,36 +7,6 @@
 namespace mechane::scenario {
 namespace {
 
-using Edits = std::vector<std::pair<std::string, std::string>>;
-
-std::string with_edits(const Edits& edits) {
-  std::string text = text_of(shipped_file());
-  for (const auto& [from, to] : edits) {
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << "the shipped file no longer has: " << from;
-    if (at != std::string::npos) text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
-/// The file has this problem alone, a warning on the line that holds `at`.
-void expect_one_warning(const std::string& text, const std::string& at, ErrorCode code, const std::string& name,
-                        FakeLoader loader = {}) {
-  const Outcome outcome = compile_text(text, loader);
-  EXPECT_TRUE(outcome.world) << outcome.world.error().to_string();
-  ASSERT_EQ(outcome.problems.size(), 1u) << (outcome.problems.empty() ? name : to_string(outcome.problems.back()));
-  const x3d::Problem& problem = outcome.problems.front();
-  EXPECT_EQ(problem.severity, x3d::Severity::warning);
-  EXPECT_TRUE(is_problem(problem, code, line_of(text, at), name)) << name_of(problem.code) << " " << to_string(problem);
-  EXPECT_FALSE(problem.node.empty());
-  EXPECT_FALSE(problem.remedy.empty());
-}
-
-void expect_nothing(const std::string& text, FakeLoader loader = {}) {
-  const Outcome outcome = compile_text(text, loader);
-  EXPECT_TRUE(outcome.problems.empty()) << to_string(outcome.problems.front());
-}
-
 const std::pair<std::string, std::string> kHeavy{"useGlobalGravity='false' autoDamp", "autoDamp"};
 const std::pair<std::string, std::string> kAxleLater{"value='\"AXLE\" \"HOLD\" \"COUNTER\"'",
                                                      "value='\"HOLD\" \"COUNTER\"'"};

@@ -29,13 +29,24 @@ inline int line_of(const std::string& text, const std::string& needle) {
          1;
 }
 
-/// The shipped file with the first `from` replaced.
-inline std::string edited(const std::string& from, const std::string& to) {
-  std::string text = text_of(shipped_file());
+inline void replace_first(std::string& text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << "the shipped file no longer holds: " << from;
   if (at != std::string::npos) text.replace(at, from.size(), to);
+}
+
+using Edits = std::vector<std::pair<std::string, std::string>>;
+
+/// The shipped file with each first `from` replaced.
+inline std::string with_edits(const Edits& edits) {
+  std::string text = text_of(shipped_file());
+  for (const auto& [from, to] : edits)
+    replace_first(text, from, to);
   return text;
+}
+
+inline std::string edited(const std::string& from, const std::string& to) {
+  return with_edits({{from, to}});
 }
 
 /// Makes empty objects and remembers what was asked of it.
@@ -108,6 +119,24 @@ inline Outcome compile_text(const std::string& text, FakeLoader& loader) {
 inline Outcome compile_text(const std::string& text) {
   FakeLoader loader;
   return compile_text(text, loader);
+}
+
+/// The file has this problem alone, a warning on the line that holds `at`.
+inline void expect_one_warning(const std::string& text, const std::string& at, ErrorCode code, const std::string& name,
+                               FakeLoader loader = {}) {
+  const Outcome outcome = compile_text(text, loader);
+  EXPECT_TRUE(outcome.world) << outcome.world.error().to_string();
+  ASSERT_EQ(outcome.problems.size(), 1u) << (outcome.problems.empty() ? name : to_string(outcome.problems.back()));
+  const x3d::Problem& problem = outcome.problems.front();
+  EXPECT_EQ(problem.severity, x3d::Severity::warning);
+  EXPECT_TRUE(is_problem(problem, code, line_of(text, at), name)) << name_of(problem.code) << " " << to_string(problem);
+  EXPECT_FALSE(problem.node.empty());
+  EXPECT_FALSE(problem.remedy.empty());
+}
+
+inline void expect_nothing(const std::string& text, FakeLoader loader = {}) {
+  const Outcome outcome = compile_text(text, loader);
+  EXPECT_TRUE(outcome.problems.empty()) << to_string(outcome.problems.front());
 }
 
 }  // namespace mechane::scenario

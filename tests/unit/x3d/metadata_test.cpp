@@ -35,6 +35,24 @@ TEST(Metadata, CopiesOfCopiesAreBounded) {
   EXPECT_EQ(problems.first_error().code, ErrorCode::too_large);
 }
 
+TEST(Metadata, AValueThatCannotBeReadIsReportedOnceAndStaysInItsSet) {
+  Problems problems("test.x3d");
+  const auto document = read_document(
+      "<X3D version='4.0'><Scene><WorldInfo DEF='W'><MetadataSet containerField='metadata' name='all'>\n"
+      "<MetadataDouble name='bad' value='0.5m'/>\n<MetadataDouble name='good' value='0.5'/>\n"
+      "<MetadataDouble name='good' value='0.6'/>\n</MetadataSet></WorldInfo></Scene></X3D>",
+      "test.x3d", problems);
+  ASSERT_TRUE(document) << document.error().to_string();
+  const auto all = read_metadata(*document, document->find_def("W"), "all", problems);
+  ASSERT_TRUE(all);
+  ASSERT_EQ(all->children.size(), 2u);
+  EXPECT_EQ(all->find("bad")->kind, MetadataKind::unreadable);
+  EXPECT_EQ(all->find("good")->numbers, std::vector<double>{0.5}) << "the first one counts";
+  ASSERT_EQ(problems.all().size(), 2u);
+  EXPECT_EQ(problems.all()[0].line, 2);
+  EXPECT_EQ(problems.all()[1].code, ErrorCode::duplicate);
+}
+
 RC_GTEST_PROP(Values, StringsSurviveQuoting, (const std::vector<std::string>& words)) {
   std::string text;
   for (const std::string& word : words) {
