@@ -56,6 +56,7 @@ void CalibrationGuide::hear(const std::vector<client::DeviceReport>& devices, Ti
   }
   thanked_.reset();
   user_ = asking->user;
+  side_ = asking->side;
   const client::CalibrationNews& news = asking->calibration;
   if (news == told_) return;
   const bool goes_on = news.step == told_.step && news.held > told_.held;
@@ -89,7 +90,7 @@ std::optional<picture::OverlayPose> CalibrationGuide::at(TimePoint now, const st
   const PoseWords& said = words.poses[static_cast<std::size_t>(*pose)];
   shown.done = static_cast<std::uint32_t>(*pose);
   shown.held = ring(now);
-  shown.drawing = draw_hand(*pose);
+  shown.drawing = draw_hand(*pose, side_);
   shown.text = said.text;
   shown.more = shown.held > 0 ? words.hold : said.more;
   if (told_.refusal != PoseRefusal::none) shown.again = words.again[static_cast<std::size_t>(told_.refusal) - 1];

@@ -29,6 +29,7 @@ class CalibrationGuide {
   [[nodiscard]] float ring(TimePoint now) const;
 
   std::uint32_t user_ = 0;
+  client::HandSide side_ = client::HandSide::right;
   client::CalibrationNews told_;
   float ring_before_ = 0;  // when told_ came
   TimePoint since_;
