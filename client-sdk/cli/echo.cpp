@@ -57,7 +57,10 @@ Json to_json(const proto::HapticInput& s) {
   j.update(
       {{"kiosk", text(s.kiosk)}, {"user", s.user}, {"session", s.session}, {"kind", s.kind}, {"X_WH", pose(s.X_WH)}});
   j.update({{"v_WH", list(s.v_WH)}, {"w_WH", list(s.w_WH)}, {"joints", list(s.joints)}, {"hand_scale", s.hand_scale}});
-  j.update({{"grasp_intent", s.grasp_intent}, {"buttons", s.buttons}});
+  j.update({{"grasp_intent", s.grasp_intent},
+            {"buttons", s.buttons},
+            {"finger_scale", list(s.finger_scale)},
+            {"side", s.side}});
   j.update({{"echo_epoch", s.echo_epoch}, {"echo_seq", s.echo_seq}, {"echo_held_us", s.echo_held_us}});
   j.update({{"deadband", s.deadband}});
   return j;
@@ -299,6 +302,8 @@ Json to_json(const proto::ServerStatus& s) {
 constexpr std::array kDeviceWords{"none",         "preparing", "ready", "let go", "not ready",
                                   "uncalibrated", "warm",      "hot",   "lost"};
 static_assert(kDeviceWords.size() == mechane_device_lost + 1);
+constexpr std::array kSideWords{"right", "left"};
+static_assert(kSideWords.size() == mechane_hand_left + 1);
 constexpr std::array kCalibrationWords{"none", "flat", "fist", "pinch", "done"};
 static_assert(kCalibrationWords.size() == mechane_calibration_done + 1);
 constexpr std::array kRefusalWords{"none", "moved", "unlike", "swapped", "unseen"};
@@ -316,7 +321,9 @@ Json to_json(const proto::KioskStatus& s) {
             {"role", s.role == mechane_role_hand ? "hand" : "watcher"}});
   j.update({{"program", text(s.program)}, {"host", text(s.host)}, {"process_id", s.process_id}});
   j.update({{"scenario", text(s.scenario)}, {"was_there", s.was_there != 0}, {"join_kiosk", text(s.join_kiosk)}});
-  j.update({{"device", word_of(kDeviceWords, s.device)}, {"device_name", text(s.device_name)}});
+  j.update({{"device", word_of(kDeviceWords, s.device)},
+            {"device_name", text(s.device_name)},
+            {"device_side", word_of(kSideWords, s.device_side)}});
   j.update({{"calibration", word_of(kCalibrationWords, s.calibration)},
             {"calibration_held", s.calibration_held},
             {"calibration_refusal", word_of(kRefusalWords, s.calibration_refusal)}});

@@ -239,6 +239,7 @@ void ClientImpl::report(TimePoint at) {
     const std::lock_guard lock(mutex_);
     wire.device = static_cast<std::uint32_t>(device_.state);
     wire.device_kind = static_cast<std::uint32_t>(device_.kind);
+    wire.device_side = static_cast<std::uint32_t>(device_.side);
     proto::set_text(wire.device_name, device_.name);
     wire.calibration = static_cast<std::uint32_t>(device_.calibration.step);
     wire.calibration_held = device_.calibration.held;

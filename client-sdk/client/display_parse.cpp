@@ -112,11 +112,13 @@ bool parse(const proto::KioskStatus& wire, DeviceReport& out) {
   if (wire.protocol != proto::kProtocol || !proto::is_name(proto::text_of(wire.kiosk))) return false;
   if (wire.role != mechane_role_hand || wire.user >= hand::kMaxUsers) return false;
   if (wire.device > mechane_device_lost || !hand::is_hand_kind(wire.device_kind)) return false;
+  if (!hand::is_hand_side(wire.device_side)) return false;
   if (wire.calibration > mechane_calibration_done || wire.calibration_refusal > mechane_refusal_unseen) return false;
   if (!(wire.calibration_held >= 0 && wire.calibration_held <= 1)) return false;
   out.user = wire.user;
   out.state = static_cast<DeviceState>(wire.device);
   out.kind = static_cast<HandKind>(wire.device_kind);
+  out.side = static_cast<HandSide>(wire.device_side);
   out.name = clean(wire.device_name);
   out.calibration = {static_cast<CalibrationStep>(wire.calibration), wire.calibration_held,
                      static_cast<PoseRefusal>(wire.calibration_refusal)};

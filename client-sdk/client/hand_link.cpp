@@ -47,9 +47,12 @@ bool HandLink::send(const HandSample& input) noexcept {
   for (std::size_t i = 0; i < kHandJoints; ++i)
     s.joints[i] = static_cast<float>(input.joints[i]);
   s.hand_scale = static_cast<float>(input.hand_scale);
+  for (std::size_t i = 0; i < kFingers; ++i)
+    s.finger_scale[i] = static_cast<float>(input.finger_scale[i]);
   s.grasp_intent = static_cast<float>(input.grasp_intent);
   s.buttons = input.buttons;
   s.kind = static_cast<std::uint32_t>(input.kind);
+  s.side = static_cast<std::uint32_t>(input.side);
   s.echo_epoch = heard_epoch_.load(std::memory_order_acquire);
   s.echo_seq = heard_seq_.load(std::memory_order_relaxed);
   const std::uint64_t heard_at_ns = heard_at_ns_.load(std::memory_order_relaxed);

@@ -71,7 +71,10 @@ struct Seen {
 
 void print_device(const mechane_device_info& i) {
   constexpr const char* kOutputs[] = {"no force", "a force", "a pull on each finger", "a brake on each finger"};
-  fmt::print("{}: {}, {}", log::printable(i.name), i.hand == MECHANE_HAND_GLOVE ? "a glove" : "one point",
+  fmt::print("{}: {}, {}", log::printable(i.name),
+             i.hand != MECHANE_HAND_GLOVE  ? "one point"
+             : i.side == MECHANE_HAND_LEFT ? "a left glove"
+                                           : "a right glove",
              kOutputs[i.output]);
   if (i.peak_force_n > 0)
     fmt::print(", {:.2g} N for a moment, {:.2g} N for long", i.peak_force_n, i.continuous_force_n);

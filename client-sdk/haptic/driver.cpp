@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "mechane_driver_";
 constexpr std::string_view kSuffix = ".so";
+constexpr std::uint32_t kFirstVersion = 1;  // its structures are the beginnings of today's
 // A brake knows only on and off: any force over 0 closes it.
 constexpr double kBrakeForceN = 1;
 
@@ -54,7 +55,7 @@ std::string out_of_range(const mechane_device_info& info) {
   for (const Range& r :
        {Range{"hand", double(info.hand), 0, MECHANE_HAND_GLOVE},
         Range{"output", double(info.output), 0, MECHANE_OUTPUT_FINGER_BRAKE},
-        Range{"peak_force_n", info.peak_force_n, 0, 100},
+        Range{"side", double(info.side), 0, MECHANE_HAND_LEFT}, Range{"peak_force_n", info.peak_force_n, 0, 100},
         Range{"continuous_force_n", info.continuous_force_n, 0, info.peak_force_n},
         Range{"peak_torque_nm", info.peak_torque_nm, 0, 10},
         Range{"peak_finger_force_n", info.peak_finger_force_n, 0, 40},
@@ -81,11 +82,16 @@ void keep_to_output(mechane_device_info& info) {
   info.name[sizeof(info.name) - 1] = 0;
 }
 
+bool is_size(double length_m, double least_m, double most_m) {
+  return length_m == 0 || within(length_m, least_m, most_m);
+}
+
 bool is_sane(const mechane_device_state& state) {
   const auto& q = state.orientation_wxyz;
   const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   return all_finite(state.position_m) && all_finite(state.joints_rad) && within(squared, 0.99, 1.01) &&
-         within(state.grasp, 0, 1) && !std::isnan(state.temperature);
+         within(state.grasp, 0, 1) && !std::isnan(state.temperature) && is_size(state.palm_m, 0.02, 0.25) &&
+         std::ranges::all_of(state.finger_m, [](double length_m) { return is_size(length_m, 0.005, 0.5); });
 }
 
 void clamp_norm(double (&v)[3], double limit) {
@@ -144,8 +150,9 @@ Expected<Driver> Driver::load(const std::string& name) {
   if (entry == nullptr)
     return fail(ErrorCode::damaged, "it is not a driver: it exports no mechane_driver()", *file,
                 "see mechane/driver.h");
-  const mechane_driver_table* const table = entry(MECHANE_DRIVER_VERSION);
-  if (table == nullptr || table->version != MECHANE_DRIVER_VERSION) {
+  const mechane_driver_table* table = entry(MECHANE_DRIVER_VERSION);
+  if (table == nullptr) table = entry(kFirstVersion);
+  if (table == nullptr || table->version < kFirstVersion || table->version > MECHANE_DRIVER_VERSION) {
     return fail(ErrorCode::wrong_version, "the driver is for another version of Mechane", *file,
                 "build it with the mechane/driver.h of this version");
   }
@@ -167,6 +174,7 @@ Expected<mechane_device_info> Driver::open(const std::string& options) {
     close();
     return fail(ErrorCode::io_failure, why(), "device");
   }
+  if (driver_->version == kFirstVersion) info_.side = MECHANE_HAND_RIGHT;  // padding, of which it knows nothing
   if (const std::string wrong = out_of_range(info_); !wrong.empty()) {
     close();
     return fail(ErrorCode::invalid_value, "the driver states limits that cannot be: " + wrong, file_,
@@ -182,8 +190,8 @@ bool Driver::read(mechane_device_state& state) noexcept {
   if (driver_->read(device_, &state, why_.data(), why_.size() - 1) != 0) return false;
   if (is_sane(state)) return true;
   constexpr std::string_view why =
-      "the driver gave a number that is not finite, a rotation that is not a unit quaternion, or a grasp outside 0 to "
-      "1";
+      "the driver gave a number that is not finite, a rotation that is not a unit quaternion, a grasp outside 0 to 1, "
+      "or a size that no hand has";
   *std::copy(why.begin(), why.end(), why_.begin()) = 0;
   return false;
 }

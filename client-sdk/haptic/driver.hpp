@@ -26,7 +26,7 @@ struct DeviceName {
 /// are out of their ranges counts as faulty, and no force over its limits is handed to it. One thread.
 class Driver {
  public:
-  /// Errors: no such driver (with the places looked at), it does not load, not a driver, another version.
+  /// Errors: no such driver (with the places looked at), it does not load, not a driver, of a later version.
   [[nodiscard]] static Expected<Driver> load(const std::string& name);
   ~Driver() { close(); }
   Driver(Driver&&) noexcept;

@@ -37,7 +37,7 @@ std::string in_words(const Error& error) {
 
 /// The limits that the loop has been told still hold.
 bool same_device(const mechane_device_info& a, const mechane_device_info& b) {
-  return a.hand == b.hand && a.output == b.output && a.peak_force_n == b.peak_force_n &&
+  return a.hand == b.hand && a.side == b.side && a.output == b.output && a.peak_force_n == b.peak_force_n &&
          a.continuous_force_n == b.continuous_force_n && a.peak_torque_nm == b.peak_torque_nm &&
          a.peak_finger_force_n == b.peak_finger_force_n && std::strcmp(a.name, b.name) == 0;
 }

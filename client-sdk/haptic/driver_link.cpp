@@ -1,14 +1,18 @@
 #include "client-sdk/haptic/driver_link.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "server/hand/hand_skeleton.hpp"
 
 namespace mechane::haptic {
 namespace {
@@ -23,6 +27,22 @@ DriverLink* map(int file) {
 }
 
 }  // namespace
+
+hand::HandBuild build_of(hand::HandSide side, const mechane_device_state& state, double hand_scale) noexcept {
+  const hand::FingerSizes model = hand::middle_sized_fingers();
+  const double palm_m = (model[1].X_HF.p + model[4].X_HF.p).norm() / 2;
+  hand::HandBuild build;
+  build.side = side;
+  build.hand_scale =
+      std::clamp(state.palm_m > 0 ? state.palm_m / palm_m : hand_scale, hand::kMinHandScale, hand::kMaxHandScale);
+  for (std::size_t f = 0; f < hand::kFingers; ++f) {
+    if (state.finger_m[f] == 0) continue;
+    const double finger_m = std::accumulate(model[f].length_m.begin(), model[f].length_m.end(), 0.0);
+    build.finger_scale[f] =
+        std::clamp(state.finger_m[f] / (build.hand_scale * finger_m), hand::kMinFingerScale, hand::kMaxFingerScale);
+  }
+  return build;
+}
 
 bool wait_for(sem_t& semaphore, TimePoint until) noexcept {
   const auto ns = to_ns(until);

@@ -58,6 +58,10 @@ inline constexpr int kNewsFile = 4;
   return (state.flags & MECHANE_STATE_READY) != 0 ? DeviceCondition::ready : DeviceCondition::not_ready;
 }
 
+/// What a driver tells of the size of a hand. What it does not measure is that of a hand of `hand_scale`.
+[[nodiscard]] hand::HandBuild build_of(hand::HandSide side, const mechane_device_state& state,
+                                       double hand_scale) noexcept;
+
 /// Whether a device in this state may be given a force.
 [[nodiscard]] inline bool may_render(const mechane_device_state& state) noexcept {
   return condition_of(state) == DeviceCondition::ready;

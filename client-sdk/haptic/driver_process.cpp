@@ -177,6 +177,7 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   if (!is_new) return last_;
   client::HandSample hand;
   hand.kind = info_.hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point;
+  static_cast<hand::HandBuild&>(hand) = build_of(static_cast<hand::HandSide>(info_.side), state, config_.hand_scale);
   hand.X_WH.p = workspace_.p_WH();
   const auto& q = state.orientation_wxyz;
   hand.X_WH.R = workspace_.R_WH(Quat(q[0], q[1], q[2], q[3]).normalized());

@@ -20,6 +20,7 @@ struct DriverProcessConfig {
   WorkspaceConfig workspace = {};
   int fifo_priority = 0;                      ///< of the driver's process; above the loop's
   std::optional<HandCalibration> glove = {};  ///< none: its angles are taken as they come
+  double hand_scale = 1;                      ///< of a visitor whose hand the device does not measure
 };
 
 /// open(), close(), check() and the description: main thread. wait(), read(), write() and condition(): the loop's thread.

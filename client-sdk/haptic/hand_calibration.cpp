@@ -118,9 +118,10 @@ Expected<void> compare(const HandAngles& flat, const HandAngles& fist, const Han
 
 /// The middle of a finger's round end, in H.
 Vec3 tip_of(std::size_t finger, const FingerAngles& angles) {
-  const hand::FingerSize size = hand::middle_sized_fingers()[finger];
+  const hand::FingerSizes sizes = hand::middle_sized_fingers();
+  const hand::FingerSize& size = sizes[finger];
   std::array<Pose, hand::kPhalanges> X_HS;
-  hand::place_finger(size, 1, finger == 0 ? hand::thumb_stand() : Quat::Identity(), angles, Pose{}, X_HS);
+  hand::place_finger(sizes, finger, {}, angles, Pose{}, X_HS);
   return X_HS.back() * Vec3((size.length_m.back() - size.radius_m.back()) / 2, 0, 0);
 }
 

@@ -19,7 +19,7 @@ tl::unexpected<Error> cannot_write(const std::string& name) {
 Expected<std::unique_ptr<HandRecorder>> HandRecorder::open(const std::string& file) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << "# A hand, recorded by mechane haptic: s, m, quaternion w x y z, grasp 0 to 1, buttons; of a glove 20 joints, "
-         "rad\n"
+         "rad; left: of a left hand\n"
       << std::flush;
   if (!out) return cannot_write(file);
   return std::unique_ptr<HandRecorder>(new HandRecorder(file, std::move(out)));
@@ -32,7 +32,10 @@ void HandRecorder::note(const client::HandSample& hand, TimePoint now) noexcept 
 Expected<void> HandRecorder::write() {
   fmt::memory_buffer text;
   for (Noted noted; noted_.pop(noted);) {
-    if (first_ == TimePoint{}) first_ = noted.at;
+    if (first_ == TimePoint{}) {
+      first_ = noted.at;
+      if (noted.hand.side == client::HandSide::left) fmt::format_to(std::back_inserter(text), "left\n");
+    }
     const Vec3& p = noted.hand.X_WH.p;
     const Quat& q = noted.hand.X_WH.R;
     fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.3f} {}",

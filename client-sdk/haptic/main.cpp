@@ -16,6 +16,7 @@
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/virtual_hand.hpp"
 #include "server/base/whole_file.hpp"
+#include "server/hand/hand_skeleton.hpp"
 #include "server/log/log.hpp"
 #include "server/realtime/periodic_thread.hpp"
 #include "server/realtime/quantiles_json.hpp"
@@ -38,6 +39,7 @@ struct Arguments {
   int clutch = 0;
   bool calibrate = false;
   bool wait = false;
+  double hand_length_m = hand::kHandLength_m;
   double radius_m = 0.05;
   double seconds = 0;
   TimePoint end = TimePoint::max();  ///< main() computes it from `seconds`
@@ -70,6 +72,10 @@ void add_options(CLI::App& app, Arguments& a) {
       "fit a glove to the visitor's hand by three poses (flat, fist, pinch), which the kiosk's displays show: at the "
       "start, and for each next visitor, when the glove was still for two minutes or the signal USR1 came; a virtual "
       "glove shows the poses once");
+  app.add_option("--hand-length", a.hand_length_m,
+                 "length of the visitor's hand, from the wrist to the tip of the middle finger, metres; a device that "
+                 "sees the hand measures it itself")
+      ->check(CLI::Range(hand::kMinHandScale * hand::kHandLength_m, hand::kMaxHandScale * hand::kHandLength_m));
   app.add_flag(
       "--wait", a.wait,
       "where the device cannot be opened, for whatever reason, say why and go on trying, each second; displays "
@@ -303,7 +309,7 @@ int run_virtual(const Arguments& a, const std::string& options, client::Client& 
   if (!choice) return log::error(choice.error()), 2;
   const auto intent = [&](double t_s) { return haptic::stroke(choice->hand, center_of(a), a.radius_m, t_s); };
   const auto device = haptic::make_virtual_device(*choice, intent(0).X_WH.p);
-  client::DeviceReport told{.kind = choice->hand, .name = std::string(haptic::kVirtualName)};
+  client::DeviceReport told{.kind = choice->hand, .side = choice->side, .name = std::string(haptic::kVirtualName)};
   if (a.calibrate && choice->hand == client::HandKind::glove) {
     // What comes out is not needed: the angles of a simulated hand are those of Mechane's.
     const auto shown = calibrate_virtual(a, client, told, *device);
@@ -344,11 +350,13 @@ haptic::DriverProcessConfig driver_config(const Arguments& a) {
                         .turn_rad = a.turn_deg * kPi / 180,
                         .scale = a.scale,
                         .clutch_button = a.clutch == 0 ? 0 : 1u << static_cast<unsigned>(a.clutch - 1)},
-          .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99)};
+          .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99),
+          .hand_scale = a.hand_length_m / hand::kHandLength_m};
 }
 
 client::DeviceReport report_of(const mechane_device_info& info) {
   return {.kind = info.hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point,
+          .side = static_cast<client::HandSide>(info.side),
           .name = info.name};
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client-sdk/drivers/joints/hand_geometry.hpp"
+#include "client-sdk/haptic/driver_link.hpp"
 #include "client-sdk/haptic/seen_hand.hpp"
 
 namespace mechane::haptic {
@@ -38,6 +39,8 @@ void TrackedHand::take_picture() {
   SeenHand real;
   real.joints_rad = intent_.joints;
   real.X_DH = intent_.X_WH;
+  real.build.side = side_;
+  seen.left = real.left();
   set(seen.points[0], real.in_D(Vec3::Zero()));
   for (std::size_t f = 0; f < hand::kFingers; ++f) {
     const auto joints = real.finger_D(f);
@@ -57,9 +60,12 @@ void TrackedHand::tell(const drivers::HandDatagram& seen) {
   ++since_told_;
   mechane_device_state state{};
   if (*drivers::place_tracked_hand(seen, state) != 0) return;  // as the driver does: the hand stays
+  measure_.add(seen.points);
+  measure_.tell(state);
   const Pose before = told_.X_WH;
   const auto& q = state.orientation_wxyz;
   told_.kind = client::HandKind::glove;
+  static_cast<hand::HandBuild&>(told_) = build_of(side_, state, 1);
   told_.X_WH = {Vec3(state.position_m[0], state.position_m[1], state.position_m[2]), Quat(q[0], q[1], q[2], q[3])};
   std::copy(std::begin(state.joints_rad), std::end(state.joints_rad), told_.joints.begin());
   told_.grasp_intent = state.grasp;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "client-sdk/drivers/joints/hand_datagram.hpp"
+#include "client-sdk/drivers/joints/hand_measure.hpp"
 #include "client-sdk/haptic/virtual_device.hpp"
 
 namespace mechane::haptic {
@@ -13,6 +14,7 @@ namespace mechane::haptic {
 /// A whole hand, by way of the geometry of the driver `joints`. Its noise is the same each time.
 class TrackedHand final : public SimulatedDevice {
  public:
+  explicit TrackedHand(client::HandSide side = client::HandSide::right) : side_(side) {}
   [[nodiscard]] Expected<void> open() override { return {}; }
   void close() noexcept override {}
   [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
@@ -33,11 +35,13 @@ class TrackedHand final : public SimulatedDevice {
   void tell(const drivers::HandDatagram& seen);
 
   const Vec3 no_force_ = Vec3::Zero();
+  client::HandSide side_;
   HandIntent intent_;
   std::array<drivers::HandDatagram, 2> on_the_way_;
   std::size_t pictures_ = 0;
   int since_told_ = 0;  // pictures since the last that showed a hand
   bool was_told_ = false;
+  drivers::HandMeasure measure_;
   client::HandSample told_;
   Duration until_picture_{0};
   std::mt19937 random_{1};

@@ -25,6 +25,7 @@ client::HandSample VirtualDevice::read(Duration dt) noexcept {
   }
   client::HandSample input;
   input.kind = intent_.kind;
+  input.side = side_;
   input.X_WH = X_WH_;
   input.V_WH = V_WH_;
   input.joints = intent_.joints;

@@ -34,7 +34,8 @@ struct ArmConfig {
 /// intention without lag. It begins where it is first intended to be.
 class VirtualDevice final : public SimulatedDevice {
  public:
-  explicit VirtualDevice(const ArmConfig& arm = {}) : arm_(arm) {}
+  explicit VirtualDevice(const ArmConfig& arm = {}, client::HandSide side = client::HandSide::right)
+      : arm_(arm), side_(side) {}
 
   [[nodiscard]] Expected<void> open() override { return {}; }
   void close() noexcept override {}
@@ -48,6 +49,7 @@ class VirtualDevice final : public SimulatedDevice {
 
  private:
   ArmConfig arm_;
+  client::HandSide side_;
   HandIntent intent_;
   Pose X_WH_;
   Twist V_WH_;

@@ -9,7 +9,7 @@
 namespace mechane::haptic {
 namespace {
 
-constexpr std::string_view kWholeHandOptions = "kind=phantom|glove|tracked";
+constexpr std::string_view kWholeHandOptions = "kind=phantom|glove|tracked hand=right|left";
 constexpr double kMaxDelay_ms = 20;
 constexpr double kMaxResolution_m = 0.001;
 constexpr double kLeastContinuous_n = 0.1;
@@ -21,12 +21,15 @@ Expected<VirtualChoice> read_virtual_options(const std::string& options) {
   const std::vector<std::string> kinds = {"phantom", "glove", "tracked"};
   const bool whole = drivers::Options(options, kVirtualOptions).choice("kind", kinds) > 0;
   drivers::Options given(options, whole ? kWholeHandOptions : kVirtualOptions);
+  const std::vector<std::string> kHeld = {"on", "off"}, kSides = {"right", "left"};
   VirtualChoice choice;
   if (whole) choice.hand = client::HandKind::glove;
   choice.tracked = given.choice("kind", kinds) == 2;
   const double delay_ms = given.number("delay", 0, 0, kMaxDelay_ms);
   choice.stylus.delay = static_cast<std::uint32_t>(delay_ms);
-  if (given.choice("hand", {"on", "off"}) == 1) choice.stylus.hand.reset();
+  const bool second = given.choice("hand", whole ? kSides : kHeld) == 1;
+  if (whole && second) choice.side = client::HandSide::left;
+  if (!whole && second) choice.stylus.hand.reset();
   choice.stylus.resolution_m = given.number("resolution", choice.stylus.resolution_m, 0, kMaxResolution_m);
   choice.stylus.continuous_n =
       given.number("continuous", choice.stylus.continuous_n, kLeastContinuous_n, choice.stylus.continuous_n);
@@ -42,9 +45,9 @@ std::unique_ptr<SimulatedDevice> make_virtual_device(const VirtualChoice& choice
   if (choice.hand == client::HandKind::one_point) return std::make_unique<SimulatedStylus>(choice.stylus, p_WH);
   std::unique_ptr<SimulatedDevice> whole;
   if (choice.tracked)
-    whole = std::make_unique<TrackedHand>();
+    whole = std::make_unique<TrackedHand>(choice.side);
   else
-    whole = std::make_unique<VirtualDevice>();
+    whole = std::make_unique<VirtualDevice>(ArmConfig{}, choice.side);
   HandIntent begin;
   begin.kind = choice.hand;
   begin.X_WH.p = p_WH;

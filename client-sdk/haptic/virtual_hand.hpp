@@ -15,11 +15,12 @@ inline constexpr std::string_view kVirtualName = "virtual";
 inline constexpr std::string_view kVirtualSummary =
     "no hardware: a simulated stylus of the Phantom's class, a glove, or a hand before a camera";
 inline constexpr std::string_view kVirtualOptions =
-    "kind=phantom|glove|tracked delay=0..20 hand=on|off resolution=METRES continuous=NEWTONS";
+    "kind=phantom|glove|tracked delay=0..20 hand=on|off|right|left resolution=METRES continuous=NEWTONS";
 
 /// Which device without hardware.
 struct VirtualChoice {
   client::HandKind hand = client::HandKind::one_point;
+  client::HandSide side = client::HandSide::right;
   bool tracked = false;                      ///< a whole hand is before a camera: a TrackedHand, not a VirtualDevice
   StylusConfig stylus{.hand = ArmConfig{}};  ///< of one point
 };

@@ -98,16 +98,6 @@ picture::MaterialData fading(picture::MaterialData cloth, std::uint32_t image) {
 
 }  // namespace
 
-double hand_scale(const client::HandPose& hand) {
-  // The index finger's first phalanx sits half its length beyond the joint, wherever the joint has turned it.
-  const hand::FingerSize& index = finger_sizes()[1];
-  const Pose X_PS = hand.X_WS[0].inverse() * hand.X_WS[4];
-  const Vec3 unscaled =
-      index.p_HF - Vec3(hand::kPalmHalfLength_m, 0, 0) + X_PS.rotate(Vec3(0.5 * index.length_m[0], 0, 0));
-  const double scale = X_PS.p.norm() / std::max(unscaled.norm(), 1e-3);
-  return std::clamp(scale, 0.5, 1.5);
-}
-
 SegmentPoses hand_at_tip(const Vec3& p_WT, bool holding, const picture::Camera& camera) {
   const SegmentPoses X_HS = place_hand(holding ? pinching_hand() : pointing_hand());
   const Vec3 tip_H = holding ? Vec3(0.5 * (finger_tip(X_HS, 0) + finger_tip(X_HS, 1))) : finger_tip(X_HS, 1);
@@ -149,13 +139,14 @@ HandModel::HandModel(AssetLibrary& library) {
 void HandModel::draw(const client::HandPose& hand, const picture::Camera& camera, picture::RenderScene& out) const {
   const bool glove = hand.kind == client::HandKind::glove;
   const SegmentPoses X_WS = glove ? hand.X_WS : hand_at_tip(hand.X_WS[0].p, hand.holding, camera);
-  const double scale = glove ? hand_scale(hand) : 1;
-  out.soft_bodies.push_back({HandSkin::shared().follow(X_WS, scale), hand.stale ? stale_material_ : skin_material_});
+  const hand::HandBuild build = glove ? build_of(X_WS) : hand::HandBuild{};
+  out.soft_bodies.push_back({HandSkin::shared().follow(X_WS, build), hand.stale ? stale_material_ : skin_material_});
   for (const Sleeve* sleeve : {&sleeve_, &fading_sleeve_})
-    out.instances.push_back({sleeve->mesh, hand.stale ? sleeve->stale : sleeve->fresh, placed(X_WS[0], scale), true});
+    out.instances.push_back(
+        {sleeve->mesh, hand.stale ? sleeve->stale : sleeve->fresh, placed(X_WS[0], build.hand_scale), true});
   for (std::size_t i = 0; i < client::kHandSegments; ++i) {
     const double radius = i == 0 ? 0.030 : 0.010;
-    out.occluders.push_back({X_WS[i].p.cast<float>(), static_cast<float>(scale * radius)});
+    out.occluders.push_back({X_WS[i].p.cast<float>(), static_cast<float>(build.length_scale(i) * radius)});
   }
 }
 

@@ -30,9 +30,6 @@ class HandModel {
   Sleeve fading_sleeve_;
 };
 
-/// The hand's size relative to the medium hand, from the poses of palm and index finger.
-[[nodiscard]] double hand_scale(const client::HandPose& hand);
-
 /// The segments of a one-point device's hand, in W: the index finger ends at `p_WT`, or index finger and thumb meet
 /// there.
 [[nodiscard]] SegmentPoses hand_at_tip(const Vec3& p_WT, bool holding, const picture::Camera& camera);

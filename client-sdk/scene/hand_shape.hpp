@@ -1,5 +1,5 @@
-// A right hand of medium size, as the server uses for contacts: where its segments are for given joint angles. Frames
-// as in server/hand/hand_skeleton.hpp. Segment 0 is the palm; then three per finger, from the thumb on, from the palm
+// The hand as the server uses it for contacts: where its segments are for given joint angles. Frames as in
+// server/hand/hand_skeleton.hpp. Segment 0 is the palm; then three per finger, from the thumb on, from the palm
 // outwards.
 #pragma once
 
@@ -22,9 +22,11 @@ using HandBend = std::array<FingerBend, client::kFingers>;
 using SegmentPoses = std::array<Pose, client::kHandSegments>;
 
 /// Poses of the segments in H.
-[[nodiscard]] SegmentPoses place_hand(const HandBend& bend);
+[[nodiscard]] SegmentPoses place_hand(const HandBend& bend, const hand::HandBuild& build = {});
+/// Which hand these segments are of, and its size, wherever it is and however it is bent.
+[[nodiscard]] hand::HandBuild build_of(const SegmentPoses& X_S);
 
-/// The centre of a finger's round end, in the frame of the poses.
+/// The centre of a medium hand's finger's round end, in the frame of the poses.
 [[nodiscard]] Vec3 finger_tip(const SegmentPoses& X_S, std::size_t finger);
 
 /// A hand that points with its index finger, the other fingers folded.

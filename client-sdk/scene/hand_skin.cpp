@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "client-sdk/scene/surface_net.hpp"
 
@@ -73,7 +74,7 @@ class RestingHand {
     float d = 1;
     // The metacarpal bones, one towards each finger.
     for (std::size_t f = 1; f < client::kFingers; ++f) {
-      const Vec3f to = finger_sizes()[f].p_HF.cast<float>();
+      const Vec3f to = finger_sizes()[f].X_HF.p.cast<float>();
       const Vec3f from(0.008F, 0.001F, 0.45F * to.z());
       const auto [away, t] = from_line(p, from, to);
       d = smooth_min(d, away - (0.0150F - 0.0042F * t), 0.016F);
@@ -148,12 +149,14 @@ HandSkin::HandSkin() {
   }
 }
 
-picture::MeshData HandSkin::follow(const SegmentPoses& X_WS, double scale) const {
+picture::MeshData HandSkin::follow(const SegmentPoses& X_WS, const hand::HandBuild& build) const {
   const SegmentPoses X_HS = rest_poses();
+  const bool left = build.side == client::HandSide::left;
+  const Vec3 mirror(1, 1, left ? -1 : 1);
   std::array<Eigen::Affine3f, client::kHandSegments> X_WH;
   for (std::size_t i = 0; i < client::kHandSegments; ++i) {
     Eigen::Affine3d X = Eigen::Affine3d::Identity();
-    X.linear() = scale * X_WS[i].R.toRotationMatrix();
+    X.linear() = build.length_scale(i) * X_WS[i].R.toRotationMatrix() * mirror.asDiagonal();
     X.translation() = X_WS[i].p;
     const Pose X_SH = X_HS[i].inverse();
     Eigen::Affine3d back = Eigen::Affine3d::Identity();
@@ -169,6 +172,9 @@ picture::MeshData HandSkin::follow(const SegmentPoses& X_WS, double scale) const
     out.positions[v] = sum * rest_.positions[v].homogeneous();
     out.normals[v] = (sum.leftCols<3>() * rest_.normals[v]).normalized();
   }
+  if (left)  // a mirror turns the triangles around
+    for (std::size_t i = 0; i < out.indices.size(); i += 3)
+      std::swap(out.indices[i], out.indices[i + 1]);
   return out;
 }
 

@@ -18,10 +18,10 @@ class HandSkin {
   /// Shared by all hands; made at the first use.
   [[nodiscard]] static const HandSkin& shared();
 
-  /// The skin for these poses, `scale` times the medium hand, in the frame of the poses.
-  [[nodiscard]] picture::MeshData follow(const SegmentPoses& X_WS, double scale) const;
+  /// The skin for these poses of such a hand, in the frame of the poses.
+  [[nodiscard]] picture::MeshData follow(const SegmentPoses& X_WS, const hand::HandBuild& build) const;
 
-  /// The skin at rest, in H: flat, the fingers a little apart.
+  /// The skin of a right hand at rest, in H: flat, the fingers a little apart.
   [[nodiscard]] const picture::MeshData& rest() const { return rest_; }
   [[nodiscard]] static SegmentPoses rest_poses();
 

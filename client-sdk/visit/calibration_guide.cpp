@@ -95,7 +95,7 @@ std::optional<picture::OverlayPose> CalibrationGuide::at(TimePoint now, const st
   const PoseWords& said = words.poses[static_cast<std::size_t>(*pose)];
   shown.done = static_cast<std::uint32_t>(*pose);
   shown.held = ring(now);
-  shown.drawing = draw_hand(*pose);
+  shown.drawing = draw_hand(*pose, glove_.side);
   shown.text = numbered_ ? by_number(words.glove, glove_) + ": " : "";
   shown.text += said.text;
   shown.more = shown.held > 0 ? words.hold : said.more;

@@ -55,20 +55,21 @@ Part palm_of(const View& view) {
   const auto sizes = hand::middle_sized_fingers();
   view.add(palm, Vec3(-0.01, 0, 0), Vec3(0.012, 0, 0), 0.023);
   for (std::size_t f = 1; f < hand::kFingers; ++f) {
-    const Vec3 knuckle = sizes[f].p_HF - Vec3(kPalmThickness_m, 0, 0);
+    const Vec3 knuckle = sizes[f].X_HF.p - Vec3(kPalmThickness_m, 0, 0);
     view.add(palm, Vec3(0.025, 0, 0.45 * knuckle.z()), knuckle, kPalmThickness_m);
   }
-  view.add(palm, sizes[0].p_HF, Vec3(0.078, 0, -0.026), 0.011);
+  view.add(palm, sizes[0].X_HF.p, Vec3(0.078, 0, -0.026), 0.011);
   view.add(palm, Vec3(0.02, 0, 0.016), Vec3(0.07, 0, 0.026), 0.016);
   palm.nearness = 0;  // fingers that are bent lie before it
   return palm;
 }
 
 Part finger_of(const View& view, std::size_t f, const hand::HandAngles& angles) {
-  const hand::FingerSize size = hand::middle_sized_fingers()[f];
+  const hand::FingerSizes sizes = hand::middle_sized_fingers();
+  const hand::FingerSize& size = sizes[f];
   std::array<Pose, hand::kPhalanges> X_HS;
-  hand::place_finger(size, 1, f == 0 ? hand::thumb_stand() : Quat::Identity(),
-                     std::span<const double, hand::kFingerJoints>(&angles[hand::kFingerJoints * f], 4), Pose{}, X_HS);
+  hand::place_finger(sizes, f, {}, std::span<const double, hand::kFingerJoints>(&angles[hand::kFingerJoints * f], 4),
+                     Pose{}, X_HS);
   Part finger;
   for (std::size_t k = 0; k < hand::kPhalanges; ++k) {
     const Vec3 half(size.length_m[k] / 2, 0, 0);
@@ -87,7 +88,7 @@ Part cuff_of(const View& view) {
 
 }  // namespace
 
-std::vector<HandStroke> draw_hand(CalibrationPose pose) {
+std::vector<HandStroke> draw_hand(CalibrationPose pose, hand::HandSide side) {
   const View view = view_of(pose);
   const hand::HandAngles angles = hand::model_pose(pose);
   std::vector<Part> parts{palm_of(view), cuff_of(view)};
@@ -98,6 +99,7 @@ std::vector<HandStroke> draw_hand(CalibrationPose pose) {
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     for (HandStroke stroke : parts[p].strokes) {
       stroke.part = p;
+      if (side == hand::HandSide::left) stroke.from.x() = -stroke.from.x(), stroke.to.x() = -stroke.to.x();
       all.push_back(stroke);
     }
   }

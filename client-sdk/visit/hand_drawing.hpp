@@ -8,7 +8,7 @@
 
 namespace mechane::visit {
 
-/// A right hand in its glove, fingers up, turned so that the pose is seen best.
-[[nodiscard]] std::vector<picture::HandStroke> draw_hand(hand::CalibrationPose pose);
+/// The hand in its glove, fingers up, turned so that the pose is seen best. A left hand is the right one's mirror image.
+[[nodiscard]] std::vector<picture::HandStroke> draw_hand(hand::CalibrationPose pose, hand::HandSide side);
 
 }  // namespace mechane::visit

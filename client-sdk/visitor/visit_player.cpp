@@ -102,6 +102,7 @@ double joint_angle(const state::JointDescription& joint, std::span<const Pose> X
 PlayerConfig fitted(PlayerConfig config, const haptic::VirtualChoice& device) {
   constexpr double kSeenLag_m = 0.03;
   config.kind = device.hand;
+  config.side = device.side;
   if (device.tracked) config.waits_for_lag_m = kSeenLag_m;
   return config;
 }
@@ -203,6 +204,7 @@ bool VisitPlayer::shape_hand(std::span<const Pose> X_WB) {
   const bool grasps = next != nullptr && next->kind == VisitMove::Kind::grasp;
   if (!grasps) {
     p_HG_ = kIndexTip_H;
+    if (config_.side == client::HandSide::left) p_HG_.z() = -p_HG_.z();
     X_WH_goal_.R = across(Vec3::UnitX());
     joints_goal_ = kPointing;
   } else if (after != nullptr && after->joint) {

@@ -32,6 +32,7 @@ struct PlayerConfig {
   Pose X_WH_rest{Vec3(0, 1.2, 1.5), Quat::Identity()};  ///< where the hand waits
   Vec3 offset_W = Vec3::Zero();  ///< added to each goal of the hand, to imitate a visitor who misses
   client::HandKind kind = client::HandKind::one_point;
+  client::HandSide side = client::HandSide::right;
   /// A whole hand turns towards its goal and bends its fingers; false: the wrist keeps its rotation.
   bool shapes_hand = true;
   double grasp_patience_s = 2;  ///< how long a grasp is tried before the visit continues without it

@@ -22,7 +22,7 @@ struct Finger {
 Finger finger_of(const state::UserState& user) {
   if (user.sample.kind == HandKind::one_point) return {user.X_WH.p, user.X_WH.rotate(-Vec3::UnitZ())};
   const Pose& X_WS = user.X_WS[kIndexTip];
-  return {X_WS * Vec3(kHalfTip_m * user.sample.hand_scale, 0, 0), X_WS.rotate(Vec3::UnitX())};
+  return {X_WS * Vec3(kHalfTip_m * user.sample.length_scale(kIndexTip), 0, 0), X_WS.rotate(Vec3::UnitX())};
 }
 
 class Point final : public Agent {

@@ -1,5 +1,6 @@
 #include "server/collision/superquadric_object.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "server/base/assert.hpp"
@@ -75,6 +76,22 @@ Object make_superquadric_object(const geometry::Superquadric& shape, double samp
   object.parts.push_back(std::move(part));
   append_samples(object, 0, std::move(points));
   close_clusters(object);
+  return object;
+}
+
+Object mirrored(Object object) {
+  const auto turn = [](auto& z) { z = -z; };
+  turn(object.bound_O.center.z());
+  for (Part& part : object.parts)
+    turn(part.bound_O.center.z());
+  for (Cluster& cluster : object.clusters) {
+    turn(cluster.bound_O.center.z());
+    std::ranges::for_each(cluster.samples_O.z, turn);
+  }
+  for (ClusterGroup& group : object.groups) {
+    turn(group.bound_O.center.z());
+    std::ranges::for_each(group.bounds_O.z, turn);
+  }
   return object;
 }
 

@@ -27,7 +27,7 @@ bool is_time(TimePoint sent_at, TimePoint now) {
 }
 
 bool differ_only_in_motion(const HandSample& a, const HandSample& b) {
-  return a.kind == b.kind && a.joints == b.joints && a.hand_scale == b.hand_scale && a.buttons == b.buttons &&
+  return a.kind == b.kind && static_cast<const HandBuild&>(a) == b && a.joints == b.joints && a.buttons == b.buttons &&
          a.grasp_intent == b.grasp_intent;
 }
 

@@ -24,6 +24,13 @@ enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
   return number <= static_cast<std::uint64_t>(HandKind::glove);
 }
 
+/// Which of a person's hands.
+enum class HandSide : std::uint8_t { right = 0, left = 1 };
+/// Whether a number from outside names a side.
+[[nodiscard]] constexpr bool is_hand_side(std::uint64_t number) noexcept {
+  return number <= static_cast<std::uint64_t>(HandSide::left);
+}
+
 [[nodiscard]] constexpr std::size_t segment_count(HandKind kind) noexcept {
   return kind == HandKind::glove ? kHandSegments : 1;
 }
@@ -39,13 +46,31 @@ enum class HandKind : std::uint8_t { one_point = 0, glove = 1 };
   return segment != 0 && segment % kPhalanges == 0;
 }
 
+inline constexpr double kMinHandScale = 0.5;
+inline constexpr double kMaxHandScale = 1.5;
+inline constexpr double kMinFingerScale = 0.7;
+inline constexpr double kMaxFingerScale = 1.4;
+
+/// Which hand it is, and its size against that of the model, which is a grown person's middle-sized hand. A measure of a person's body.
+struct HandBuild {
+  HandSide side = HandSide::right;
+  double hand_scale = 1.0;  ///< of palm and fingers, kMinHandScale .. kMaxHandScale
+  /// The length of each finger against that of the model at hand_scale, kMinFingerScale .. kMaxFingerScale (glove).
+  std::array<double, kFingers> finger_scale{1.0, 1.0, 1.0, 1.0, 1.0};
+
+  /// How much longer this segment is than the model's.
+  [[nodiscard]] constexpr double length_scale(std::size_t segment) const noexcept {
+    return segment == 0 ? hand_scale : hand_scale * finger_scale[finger_of(segment)];
+  }
+  friend bool operator==(const HandBuild&, const HandBuild&) = default;
+};
+
 /// One sample of a device. What comes from the network is checked before it becomes one: all numbers finite, the rotation of unit length.
-struct HandSample {
+struct HandSample : HandBuild {
   HandKind kind = HandKind::one_point;
   Pose X_WH;                                 ///< wrist (glove) or tip (one-point) in W
   Twist V_WH;                                ///< its velocity, m/s and rad/s
   std::array<double, kHandJoints> joints{};  ///< by finger, kFingerJoints each, radians (glove)
-  double hand_scale = 1.0;                   ///< size of the visitor's hand against the model's, 0.5 .. 1.5
   std::uint32_t buttons = 0;
   double grasp_intent = 0.0;  ///< 0 open .. 1 closed: a button, a pinch, or the glove's own estimate
 };

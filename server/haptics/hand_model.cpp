@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "server/collision/superquadric_object.hpp"
@@ -54,7 +55,7 @@ Expected<void> check(const HandSize& size) {
   }
   for (std::size_t f = 0; f < size.fingers.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (bad(size.fingers[f].length_m[k]) || bad(size.fingers[f].radius_m[k]) || !size.fingers[f].p_HF.allFinite()) {
+      if (bad(size.fingers[f].length_m[k]) || bad(size.fingers[f].radius_m[k]) || !size.fingers[f].X_HF.p.allFinite()) {
         return fail(ErrorCode::invalid_value,
                     "finger " + std::to_string(f) + ", phalanx " + std::to_string(k) + " has an impossible size",
                     "hand size", remedy);
@@ -68,26 +69,35 @@ Expected<void> check(const HandSize& size) {
   return {};
 }
 
+/// With lengths for which there are shapes.
+hand::HandBuild placeable(hand::HandBuild build) {
+  const auto limited = [](double scale) { return std::clamp(scale, HandModel::kLeastScale, HandModel::kMostScale); };
+  build.hand_scale = limited(build.hand_scale);
+  for (double& scale : build.finger_scale)
+    scale = limited(build.hand_scale * scale) / build.hand_scale;
+  return build;
+}
+
 }  // namespace
 
 Expected<HandModel> HandModel::create(const HandSize& size) {
   if (auto ok = check(size); !ok) return tl::unexpected(ok.error());
   HandModel model;
   model.size_ = size;
-  model.thumb_stand_ = hand::thumb_stand();
   for (std::size_t s = 0; s < kScales.size(); ++s) {
     const double scale = kScales[s];
     Sized& sized = model.sizes_[s];
-    sized.segments.push_back(collision::make_superquadric_object(palm_shape(size, scale), size.sample_spacing_m));
+    sized.right.push_back(collision::make_superquadric_object(palm_shape(size, scale), size.sample_spacing_m));
     for (const hand::FingerSize& finger : size.fingers) {
       for (std::size_t k = 0; k < 3; ++k) {
-        sized.segments.push_back(
+        sized.right.push_back(
             collision::make_superquadric_object(phalanx_shape(finger, k, scale), size.sample_spacing_m));
       }
     }
-    // The tip is small and alone: it can afford a finer skin than a hand.
-    sized.tip = ball(size.tip_radius_m, 0.75 * size.sample_spacing_m);
+    std::ranges::transform(sized.right, std::back_inserter(sized.left), collision::mirrored);
   }
+  // The tip is small and alone: it can afford a finer skin than a hand.
+  model.tip_ = ball(size.tip_radius_m, 0.75 * size.sample_spacing_m);
   // Few points: the surface samples of the bodies in the ball count too.
   model.near_ball_ = ball(size.tip_radius_m + kNear_m, 2 * size.sample_spacing_m);
   model.pad_ = make_pad();
@@ -103,25 +113,26 @@ std::size_t HandModel::nearest_size(double scale) noexcept {
 }
 
 const collision::Object& HandModel::segment(const hand::HandSample& sample, std::size_t index) const noexcept {
-  const Sized& of_size = sizes_[nearest_size(sample.hand_scale)];
-  return sample.kind == HandKind::glove ? of_size.segments[index] : of_size.tip;
+  if (sample.kind == HandKind::one_point) return tip_;
+  const Sized& of_size = sizes_[nearest_size(sample.length_scale(index))];
+  return sample.side == hand::HandSide::left ? of_size.left[index] : of_size.right[index];
 }
 
 double HandModel::inner_radius_m(const hand::HandSample& sample, std::size_t index) const noexcept {
   if (sample.kind == HandKind::one_point) return size_.tip_radius_m;
-  const double scale = kScales[nearest_size(sample.hand_scale)];
+  const double scale = kScales[nearest_size(sample.length_scale(index))];
   if (index == 0) return scale * size_.palm_half_m.minCoeff();
   return scale * size_.fingers[hand::finger_of(index)].radius_m[(index - 1) % hand::kPhalanges];
 }
 
 double HandModel::reach_m(const hand::HandSample& sample) const noexcept {
-  if (sample.kind == HandKind::one_point) return size_.tip_radius_m * kScales.back();
+  if (sample.kind == HandKind::one_point) return size_.tip_radius_m * kMostScale;
   double reach = 2 * size_.palm_half_m.x();
   for (const hand::FingerSize& finger : size_.fingers) {
     const double length = finger.length_m[0] + finger.length_m[1] + finger.length_m[2];
-    reach = std::max(reach, finger.p_HF.norm() + length + finger.radius_m[0]);
+    reach = std::max(reach, finger.X_HF.p.norm() + length + finger.radius_m[0]);
   }
-  return reach * kScales.back();
+  return reach * kMostScale;
 }
 
 void HandModel::place(const hand::HandSample& sample, const Pose& X_WH,
@@ -130,11 +141,10 @@ void HandModel::place(const hand::HandSample& sample, const Pose& X_WH,
     X_WS[0] = X_WH;
     return;
   }
-  // Sizes are placed with the same scale that their shapes were made with, so that segments always meet at the joints.
-  const double scale = kScales[nearest_size(sample.hand_scale)];
-  X_WS[0] = X_WH * Pose{Vec3(scale * size_.palm_half_m.x(), 0, 0), Quat::Identity()};
+  const hand::HandBuild build = placeable(sample);
+  X_WS[0] = X_WH * Pose{Vec3(build.hand_scale * size_.palm_half_m.x(), 0, 0), Quat::Identity()};
   for (std::size_t f = 0; f < hand::kFingers; ++f) {
-    hand::place_finger(size_.fingers[f], scale, f == 0 ? thumb_stand_ : Quat::Identity(),
+    hand::place_finger(size_.fingers, f, build,
                        std::span<const double, hand::kFingerJoints>(sample.joints.data() + hand::kFingerJoints * f,
                                                                     hand::kFingerJoints),
                        X_WH, std::span<Pose, hand::kPhalanges>(X_WS.data() + hand::first_segment(f), hand::kPhalanges));

@@ -23,17 +23,18 @@ struct HandSize {
   double sample_spacing_m = 0.004;  ///< of the points on its surface: under a third of a fingertip's breadth
 };
 
-/// Collision objects of a hand in five sizes, and its kinematics. Immutable once made; shared by all users of a world.
+/// Collision objects of right and left hands in six sizes, and their kinematics. Immutable once made; shared by all users of a world.
 class HandModel {
  public:
   /// Errors: a size that is not positive or not finite, naming which. Not in the tick.
   [[nodiscard]] static Expected<HandModel> create(const HandSize& size);
 
-  /// Poses of the segments in W. One-point: only segment 0, a sphere at the tip. In the tick; any thread.
+  /// Poses of the segments in W, with the hand's own lengths, from kLeastScale to kMostScale of the model's. One-point: only segment 0, a
+  /// sphere at the tip. In the tick; any thread.
   void place(const hand::HandSample& sample, const Pose& X_WH,
              std::array<Pose, hand::kHandSegments>& X_WS) const noexcept;
 
-  /// The segment's shape, of the size nearest to the sample's hand_scale.
+  /// The segment's shape, of the size nearest to its own. It reaches so far over its joints that a finger has no gaps.
   [[nodiscard]] const collision::Object& segment(const hand::HandSample& sample, std::size_t index) const noexcept;
   /// A ball of near_radius_m(): what is in it, placed around a segment's middle, may soon touch the segment.
   [[nodiscard]] const collision::Object& near_ball() const noexcept { return near_ball_; }
@@ -48,19 +49,19 @@ class HandModel {
   /// renders the share of the force along it.
   [[nodiscard]] static Vec3 finger_normal_W(const Pose& X_WS) noexcept { return X_WS.rotate(Vec3::UnitY()); }
 
-  static constexpr std::array<double, 5> kScales{0.70, 0.85, 1.0, 1.15, 1.30};
+  static constexpr std::array<double, 6> kScales{0.55, 0.70, 0.85, 1.0, 1.15, 1.30};
+  static constexpr double kLeastScale = 0.5, kMostScale = 1.4;
 
  private:
   HandModel() = default;
   struct Sized {
-    std::vector<collision::Object> segments;
-    collision::Object tip;
+    std::vector<collision::Object> right, left;  ///< segments
   };
   [[nodiscard]] static std::size_t nearest_size(double scale) noexcept;
 
   HandSize size_;
-  Quat thumb_stand_ = Quat::Identity();
   std::array<Sized, kScales.size()> sizes_;
+  collision::Object tip_;
   collision::Object near_ball_;
   collision::Object pad_;
 };

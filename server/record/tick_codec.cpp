@@ -9,8 +9,9 @@
 // user its age (signed varint, ns) and, where fresh, the sample. With commands: v count, then v id, u8 kind, v argument each. With events:
 // v count, then signed tick difference, u8 kind, v subject + 1, v object + 1 (mod 2^32, so that "none" is 0), u64 value each. With a
 // hash: u64.
-// A sample: u64 session, v sequence, v sent, u8 kind, v buttons, then 35 numbers: a varint with one bit for each that is not +0, and
-// the bits of those.
+// A sample: u64 session, v sequence, v sent, u8 kind (low half) and side (high half), v buttons, then 40 numbers: a varint with one bit for
+// each that is not what it mostly is, and the bits of those. The last five, the lengths of fingers, are mostly 1, and the others +0. A
+// journal from before there were sides and lengths has the bits of right hands with fingers of the model's length.
 namespace mechane::record {
 namespace {
 
@@ -24,11 +25,16 @@ using state::kMaxEventsPerTick;
 using state::UserInput;
 
 enum Content : std::uint8_t { kUsers = 1, kCommands = 2, kEvents = 4, kHash = 8 };
-constexpr std::size_t kScalars = 3 + 4 + 3 + 3 + kHandJoints + 2;
+constexpr std::size_t kScalars = 3 + 4 + 3 + 3 + kHandJoints + 2 + hand::kFingers;
 static_assert(kMaxUsers <= 4, "presence and freshness share a byte");
 static_assert(kScalars <= 64, "one bit for each number");
 
 using Scalars = std::array<double, kScalars>;
+
+/// What is not written, as bits.
+constexpr std::uint64_t mostly(std::size_t scalar) noexcept {
+  return std::bit_cast<std::uint64_t>(scalar < kScalars - hand::kFingers ? 0.0 : 1.0);
+}
 
 Scalars scalars_of(const SentSample& s) noexcept {
   Scalars out;
@@ -45,6 +51,8 @@ Scalars scalars_of(const SentSample& s) noexcept {
     out[n++] = angle;
   out[n++] = s.hand_scale;
   out[n++] = s.grasp_intent;
+  for (const double scale : s.finger_scale)
+    out[n++] = scale;
   return out;
 }
 
@@ -62,22 +70,24 @@ void set_scalars(const Scalars& in, SentSample& s) noexcept {
     angle = in[n++];
   s.hand_scale = in[n++];
   s.grasp_intent = in[n++];
+  for (double& scale : s.finger_scale)
+    scale = in[n++];
 }
 
 void put_sample(SpanSink& out, const SentSample& s) noexcept {
   put(out, s.session);
   put_varint(out, s.sequence);
   put_varint(out, s.sent_ns);
-  put(out, static_cast<std::uint8_t>(s.kind));
+  put(out, static_cast<std::uint8_t>(static_cast<unsigned>(s.kind) | static_cast<unsigned>(s.side) << 4));
   put_varint(out, s.buttons);
   const Scalars scalars = scalars_of(s);
   std::uint64_t mask = 0;
   for (std::size_t i = 0; i < kScalars; ++i) {
-    if (std::bit_cast<std::uint64_t>(scalars[i]) != 0) mask |= std::uint64_t{1} << i;
+    if (std::bit_cast<std::uint64_t>(scalars[i]) != mostly(i)) mask |= std::uint64_t{1} << i;
   }
   put_varint(out, mask);
-  for (const double value : scalars) {
-    if (const auto bits = std::bit_cast<std::uint64_t>(value); bits != 0) put(out, bits);
+  for (std::size_t i = 0; i < kScalars; ++i) {
+    if (((mask >> i) & 1) != 0) put(out, std::bit_cast<std::uint64_t>(scalars[i]));
   }
 }
 
@@ -85,18 +95,19 @@ void get_sample(ByteSource& in, SentSample& s) {
   s.session = in.get<std::uint64_t>();
   s.sequence = in.get_varint();
   s.sent_ns = in.get_varint();
-  const auto kind = in.get<std::uint8_t>();
-  if (!hand::is_hand_kind(kind)) in.fail();
+  const auto which = in.get<std::uint8_t>();
+  const unsigned kind = which & 15u, side = which >> 4;
+  if (!hand::is_hand_kind(kind) || !hand::is_hand_side(side)) in.fail();
   s.kind = static_cast<hand::HandKind>(kind);
+  s.side = static_cast<hand::HandSide>(side);
   const std::uint64_t buttons = in.get_varint();
   if (buttons > 0xffffffffu) in.fail();
   s.buttons = static_cast<std::uint32_t>(buttons);
   const std::uint64_t mask = in.get_varint();
   if ((mask >> kScalars) != 0) in.fail();
-  Scalars scalars{};
-  for (std::size_t i = 0; i < kScalars; ++i) {
-    if (((mask >> i) & 1) != 0) scalars[i] = std::bit_cast<double>(in.get<std::uint64_t>());
-  }
+  Scalars scalars;
+  for (std::size_t i = 0; i < kScalars; ++i)
+    scalars[i] = std::bit_cast<double>(((mask >> i) & 1) != 0 ? in.get<std::uint64_t>() : mostly(i));
   set_scalars(scalars, s);
 }
 

@@ -46,6 +46,12 @@ class StateWalk {
     if (version_ == StateVersion::with_anchors) return;
     for (auto& user : state_.users)
       walk_sides(user);
+    if (version_ == StateVersion::with_sides) return;
+    for (auto& user : state_.users) {
+      archive_.bytes(user.sample.side);
+      for (auto& scale : user.sample.finger_scale)
+        archive_.bytes(scale);
+    }
   }
 
  private:

@@ -91,7 +91,9 @@ bool same_tables(const Header& a, const Header& b) {
 bool ids_in_range(const WorldState& state) {
   for (const UserState& user : state.users) {
     if (user.grasp.active && (!user.grasp.body || user.grasp.body.index() >= state.bodies.size())) return false;
-    if (!hand::is_hand_kind(static_cast<std::uint8_t>(user.sample.kind))) return false;
+    if (!hand::is_hand_kind(static_cast<std::uint8_t>(user.sample.kind)) ||
+        !hand::is_hand_side(static_cast<std::uint8_t>(user.sample.side)))
+      return false;
     if (user.anchor_count > user.anchors.size() || user.side_count > user.sides.size()) return false;
     const auto in_hand = [&](const WallSide& side) {
       return side.body.index() < state.bodies.size() && side.segment < hand::segment_count(user.sample.kind);

@@ -196,8 +196,9 @@ enum class StateVersion : std::uint32_t {
   with_governors = 2,     ///< and with the age of each user's last sample
   with_anchors = 4,       ///< friction has static hold, before it was a damping; the normals of touches are smooth
   with_sides = 8,         ///< thin walls hold tips, and their normals are smooth
+  with_builds = 16,       ///< hands are right or left, and their fingers have lengths of their own
 };
-inline constexpr StateVersion kStateVersion = StateVersion::with_sides;
+inline constexpr StateVersion kStateVersion = StateVersion::with_builds;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {
   return std::has_single_bit(static_cast<std::uint32_t>(version)) && version <= kStateVersion;
 }

@@ -14,14 +14,22 @@ namespace {
 
 bool finite(const proto::HapticInput& s) {
   return proto::all_finite(s.X_WH) && proto::all_finite(s.v_WH) && proto::all_finite(s.w_WH) &&
-         proto::all_finite(s.joints) && std::isfinite(s.hand_scale) && std::isfinite(s.grasp_intent) &&
-         std::isfinite(s.deadband);
+         proto::all_finite(s.joints) && std::isfinite(s.hand_scale) && proto::all_finite(s.finger_scale) &&
+         std::isfinite(s.grasp_intent) && std::isfinite(s.deadband);
 }
 
 bool good_values(const proto::HapticInput& s) {
-  return s.user < hand::kMaxUsers && hand::is_hand_kind(s.kind) && s.grasp_intent >= 0 && s.grasp_intent <= 1 &&
-         s.deadband >= 0 && s.deadband <= hand::kMaxDeadband &&
+  return s.user < hand::kMaxUsers && hand::is_hand_kind(s.kind) && hand::is_hand_side(s.side) && s.grasp_intent >= 0 &&
+         s.grasp_intent <= 1 && s.deadband >= 0 && s.deadband <= hand::kMaxDeadband &&
          std::all_of(std::begin(s.joints), std::end(s.joints), [](float a) { return std::abs(a) <= kMaxJointRad; });
+}
+
+bool good_sizes(const proto::HapticInput& s) {
+  // A float of 0.7 is less than the double.
+  constexpr auto kLeast = static_cast<float>(hand::kMinFingerScale), kMost = static_cast<float>(hand::kMaxFingerScale);
+  return s.hand_scale >= hand::kMinHandScale && s.hand_scale <= hand::kMaxHandScale &&
+         std::all_of(std::begin(s.finger_scale), std::end(s.finger_scale),
+                     [&](float scale) { return scale >= kLeast && scale <= kMost; });
 }
 
 }  // namespace
@@ -40,8 +48,8 @@ std::string_view to_string(Reject reason) {
       return "over 100 m away";
     case Reject::too_fast:
       return "too fast for a hand";
-    case Reject::bad_hand_scale:
-      return "with a hand scale out of 0.5 to 1.5";
+    case Reject::bad_size:
+      return "with a size that no hand has";
     case Reject::bad_value:
       return "with a value out of range";
     case Reject::wrong_kiosk:
@@ -68,17 +76,19 @@ Reject validate(const proto::HapticInput& s, hand::SentSample& out) noexcept {
   if (!(X_WH.p.norm() < kMaxDistanceM)) return Reject::too_far;
   const Twist V_WH{proto::to_vec3(s.v_WH), proto::to_vec3(s.w_WH)};
   if (!(V_WH.v.norm() < kMaxSpeedMPerS && V_WH.w.norm() < kMaxTurnRadPerS)) return Reject::too_fast;
-  if (!(s.hand_scale >= kMinHandScale && s.hand_scale <= kMaxHandScale)) return Reject::bad_hand_scale;
+  if (!good_sizes(s)) return Reject::bad_size;
   if (!good_values(s)) return Reject::bad_value;
   if (s.session == 0) return Reject::wrong_session;
   out.session = s.session;
   out.sequence = s.seq;
   out.sent_ns = s.sent_ns;
   out.kind = static_cast<hand::HandKind>(s.kind);
+  out.side = static_cast<hand::HandSide>(s.side);
   out.X_WH = X_WH;
   out.V_WH = V_WH;
   std::copy(std::begin(s.joints), std::end(s.joints), out.joints.begin());
   out.hand_scale = s.hand_scale;
+  std::copy(std::begin(s.finger_scale), std::end(s.finger_scale), out.finger_scale.begin());
   out.buttons = s.buttons;
   out.grasp_intent = s.grasp_intent;
   return Reject::none;

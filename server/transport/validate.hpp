@@ -17,24 +17,22 @@ inline constexpr double kMaxDistanceM = 100;
 inline constexpr double kMaxSpeedMPerS = 50;
 inline constexpr double kMaxTurnRadPerS = 200;
 inline constexpr double kMaxJointRad = 7;
-inline constexpr double kMinHandScale = 0.5;
-inline constexpr double kMaxHandScale = 1.5;
 
 /// Why a sample is dropped.
 enum class Reject : std::uint8_t {
   none = 0,
   wrong_protocol,  ///< another version of the wire
   not_finite,
-  bad_rotation,    ///< not of unit length within 1 %
-  too_far,         ///< |p| over 100 m
-  too_fast,        ///< over 50 m/s or 200 rad/s
-  bad_hand_scale,  ///< not 0.5 .. 1.5
-  bad_value,       ///< a joint over 7 rad, intent out of 0 .. 1, an unknown kind or user
-  wrong_kiosk,     ///< the sample names another kiosk than its partition does
-  wrong_session,   ///< 0, or a session that does not own this hand
-  old_sequence,    ///< repeated or older
-  high_sequence,   ///< higher than any device can have counted since its last sample
-  too_late,        ///< its round trip was too long: what it shows of the hand is past
+  bad_rotation,   ///< not of unit length within 1 %
+  too_far,        ///< |p| over 100 m
+  too_fast,       ///< over 50 m/s or 200 rad/s
+  bad_size,       ///< hand_scale not 0.5 .. 1.5, or one of finger_scale not 0.7 .. 1.4
+  bad_value,      ///< a joint over 7 rad, intent out of 0 .. 1, an unknown kind, side or user
+  wrong_kiosk,    ///< the sample names another kiosk than its partition does
+  wrong_session,  ///< 0, or a session that does not own this hand
+  old_sequence,   ///< repeated or older
+  high_sequence,  ///< higher than any device can have counted since its last sample
+  too_late,       ///< its round trip was too long: what it shows of the hand is past
   kinds
 };
 

@@ -8,6 +8,7 @@
 
 #include "client-sdk/drivers/joints/hand_datagram.hpp"
 #include "client-sdk/drivers/joints/hand_geometry.hpp"
+#include "client-sdk/drivers/joints/hand_measure.hpp"
 
 namespace {
 
@@ -27,6 +28,17 @@ void check_state(const mechane_device_state& state) {
   must(state.grasp >= 0 && state.grasp <= 1);
 }
 
+/// Lengths as driver.h has them.
+void check_measure(const mechane::drivers::HandDatagram& hand) {
+  mechane::drivers::HandMeasure measure;
+  measure.add(hand.points);
+  mechane_device_state state{};
+  measure.tell(state);
+  must(state.palm_m >= 0.02 && state.palm_m <= 0.25);
+  for (const double length_m : state.finger_m)
+    must(length_m == 0 || (length_m >= 0.005 && length_m <= 0.5));
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -37,9 +49,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!is_hand || !hand.tracked) return 0;
   mechane_device_state state{};
   const mechane_device_state before = state;
-  if (*mechane::drivers::place_tracked_hand(hand, state) == '\0')
-    check_state(state);
-  else
+  if (*mechane::drivers::place_tracked_hand(hand, state) != '\0') {
     must(std::memcmp(&before, &state, sizeof(state)) == 0);
+    return 0;
+  }
+  check_state(state);
+  check_measure(hand);
   return 0;
 }

@@ -50,6 +50,9 @@ void fuzz_input(Bytes bytes) {
   must(sample.X_WH.p.norm() < transport::kMaxDistanceM && sample.session != 0);
   must(std::abs(sample.X_WH.R.norm() - 1) < 1e-9);
   must(wire.deadband >= 0 && wire.deadband <= hand::kMaxDeadband);
+  must(hand::is_hand_side(static_cast<std::uint8_t>(sample.side)));
+  for (const double scale : sample.finger_scale)
+    must(scale > 0.69 && scale < 1.41);
 }
 
 void fuzz_output(Bytes bytes) {
@@ -66,8 +69,9 @@ void fuzz_kiosk(Bytes bytes) {
   wire.protocol = proto::kProtocol;
   client::DeviceReport device;
   if (client::parse(wire, device))
-    must(device.user < hand::kMaxUsers && device.state <= client::DeviceState::lost && device.calibration.held >= 0 &&
-         device.calibration.held <= 1 && device.calibration.step <= client::CalibrationStep::done &&
+    must(device.user < hand::kMaxUsers && device.side <= client::HandSide::left &&
+         device.state <= client::DeviceState::lost && device.calibration.held >= 0 && device.calibration.held <= 1 &&
+         device.calibration.step <= client::CalibrationStep::done &&
          device.calibration.refusal <= client::PoseRefusal::unseen &&
          device.name.size() <= sizeof(wire.device_name));  // one without a closing zero is read to its end, not further
   transport::Session session;

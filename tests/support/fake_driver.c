@@ -28,6 +28,8 @@ typedef struct {
   int trace;
   char pose[256]; /* of a glove: the file with its angles */
   double joints[20];
+  double palm_m;
+  uint32_t side;
 } Device;
 
 static int opened = 0; /* how often in this process */
@@ -43,7 +45,8 @@ static int fails(char* why, size_t why_size, const char* what) {
   return 1;
 }
 
-/* "trace=FILE,fault=WORD,after=READS,until=FILE,pose=FILE": absent until this file is there; a glove with the 20 angles of that file */
+/* "trace=FILE,fault=WORD,after=READS,until=FILE,pose=FILE,side=left,palm=METRES": absent until this file is there; a glove with the 20 angles
+ * of that file */
 static int fake_open(const char* options, void** device, char* why, size_t why_size) {
   Device* made = calloc(1, sizeof(Device));
   char text[512];
@@ -55,6 +58,8 @@ static int fake_open(const char* options, void** device, char* why, size_t why_s
     if (strncmp(word, "fault=", 6) == 0) snprintf(made->fault, sizeof(made->fault), "%s", word + 6);
     if (strncmp(word, "after=", 6) == 0) made->after = atol(word + 6);
     if (strncmp(word, "pose=", 5) == 0) snprintf(made->pose, sizeof(made->pose), "%s", word + 5);
+    if (strcmp(word, "side=left") == 0) made->side = MECHANE_HAND_LEFT;
+    if (strncmp(word, "palm=", 5) == 0) made->palm_m = atof(word + 5);
     if (strncmp(word, "until=", 6) == 0 && access(word + 6, F_OK) != 0) strcpy(made->fault, "absent");
   }
   ++opened;
@@ -72,6 +77,10 @@ static int fake_describe(void* device, mechane_device_info* info, char* why, siz
   memset(info, 0, sizeof(*info));
   snprintf(info->name, sizeof(info->name), "Fake stylus");
   info->hand = d->pose[0] != 0 ? MECHANE_HAND_GLOVE : MECHANE_HAND_POINT;
+  info->side = d->side;
+#if FAKE_VERSION < 2
+  info->side = 0xcdcdcdcd; /* in its time nothing was there but padding */
+#endif
   info->output = MECHANE_OUTPUT_FORCE;
   info->peak_force_n = strcmp(d->fault, "limits") == 0 ? 1000 : 2;
   if (strcmp(d->fault, "other") == 0 && opened > 1) info->peak_force_n = 8;
@@ -100,6 +109,9 @@ static int fake_read(void* device, mechane_device_state* state, char* why, size_
   state->temperature = -1;
   if (d->pose[0] != 0 && d->reads % 20 == 0) read_pose(d);
   memcpy(state->joints_rad, d->joints, sizeof(d->joints));
+#if FAKE_VERSION >= 2
+  state->palm_m = d->palm_m;
+#endif
   if (!fault) return 0;
   if (strcmp(d->fault, "nan") == 0) state->position_m[0] = NAN;
   if (strcmp(d->fault, "hot") == 0) state->flags |= MECHANE_STATE_HOT;

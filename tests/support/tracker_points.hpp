@@ -14,8 +14,7 @@ inline std::vector<Vec3> tracker_points(const haptic::SeenHand& hand, const std:
   if (format == "openxr") all.insert(all.begin(), hand.in_D(Vec3(0.05, 0, 0)));
   for (std::size_t f = 0; f < hand::kFingers; ++f) {
     const auto joints = hand.finger_D(f);
-    if (f > 0 && format != "mediapipe")
-      all.push_back(hand.in_D(0.2 * hand.scale * hand::middle_sized_fingers()[f].p_HF));
+    if (f > 0 && format != "mediapipe") all.push_back(hand.in_D(0.2 * hand.sizes[f].X_HF.p));
     all.insert(all.end(), joints.begin(), joints.end());
   }
   if (format == "mediapipe")

@@ -27,7 +27,8 @@ constexpr std::size_t kSensorCounts[] = {22, 18};
 class CyberGlove {
  public:
   static constexpr const char* kSummary = "CyberGlove with 18 or 22 sensors on a serial line; it reads the hand";
-  static constexpr const char* kOptions = "port=/dev/ttyUSB0 baud=115200 sensors=22|18 calibration=FILE wait=SECONDS";
+  static constexpr const char* kOptions =
+      "port=/dev/ttyUSB0 baud=115200 sensors=22|18 hand=right|left calibration=FILE wait=SECONDS";
 
   CyberGlove() = default;
   ~CyberGlove() {
@@ -40,6 +41,7 @@ class CyberGlove {
     name_ = options.text("port", "/dev/ttyUSB0");
     baud_ = static_cast<int>(options.number("baud", 115200, 9600, 460800));
     sensors_ = kSensorCounts[options.choice("sensors", {"22", "18"})];
+    side_ = options.hand_side();
     const std::string file = options.text("calibration", "");
     const double wait_s = options.number("wait", 3, 0.1, 60);
     if (!options.fault().empty()) return options.fault();
@@ -53,9 +55,10 @@ class CyberGlove {
   }
 
   Fault describe(mechane_device_info& info) {
-    std::snprintf(info.name, sizeof(info.name), "CyberGlove, %d sensors%s", static_cast<int>(sensors_),
-                  calibrated_ ? "" : ", not calibrated");
+    std::snprintf(info.name, sizeof(info.name), "CyberGlove, %s hand, %d sensors%s", name_of_side(side_),
+                  static_cast<int>(sensors_), calibrated_ ? "" : ", not calibrated");
     info.hand = MECHANE_HAND_GLOVE;
+    info.side = side_;
     info.output = MECHANE_OUTPUT_NONE;
     info.rate_hz = 100;
     return {};
@@ -121,6 +124,7 @@ class CyberGlove {
   std::string name_;
   int baud_ = 0;
   std::size_t sensors_ = kSensorCounts[0];
+  std::uint32_t side_ = MECHANE_HAND_RIGHT;
   bool calibrated_ = false;
   bool open_ = false;
   GloveRecords records_{kSensorCounts[0]};

@@ -32,7 +32,7 @@ class CyberGrasp {
  public:
   static constexpr const char* kSummary =
       "CyberGrasp, by a library around the maker's VirtualHand SDK that a museum builds; it pulls the fingers open";
-  static constexpr const char* kOptions = "library=FILE host=NAME joints=yes|no full=NEWTONS";
+  static constexpr const char* kOptions = "library=FILE host=NAME hand=right|left joints=yes|no full=NEWTONS";
 
   CyberGrasp() = default;
   ~CyberGrasp() { close(); }
@@ -61,6 +61,7 @@ class CyberGrasp {
 
   cybergrasp::Api grasp_;
   mechane_grasp* glove_ = nullptr;
+  std::uint32_t side_ = MECHANE_HAND_RIGHT;
   bool wants_joints_ = true;
   bool tracked_ = false;  // a tracker has given a place
   double full_n_ = kFullPull_n;
@@ -73,6 +74,7 @@ class CyberGrasp {
 Fault CyberGrasp::open(Options& options) {
   const std::string library = options.text("library", "");
   const std::string host = options.text("host", "");
+  side_ = options.hand_side();
   wants_joints_ = options.choice("joints", {"yes", "no"}) == 0;
   full_n_ = options.number("full", kFullPull_n, 1, kGreatestFinger_n);
   if (!options.fault().empty()) return options.fault();
@@ -107,8 +109,10 @@ Fault CyberGrasp::take_over() {
 }
 
 Fault CyberGrasp::describe(mechane_device_info& info) {
-  std::snprintf(info.name, sizeof info.name, "CyberGrasp%s", wants_joints_ ? "" : ", without the hand's angles");
+  std::snprintf(info.name, sizeof info.name, "CyberGrasp, %s hand%s", name_of_side(side_),
+                wants_joints_ ? "" : ", without the hand's angles");
   info.hand = MECHANE_HAND_GLOVE;
+  info.side = side_;
   info.output = MECHANE_OUTPUT_FINGER_PULL;
   info.peak_finger_force_n = full_n_;
   info.rate_hz = 200;  // the glove has 90 to 150 records a second

@@ -15,6 +15,7 @@
 #include "client-sdk/drivers/joints/datagram_port.hpp"
 #include "client-sdk/drivers/joints/hand_datagram.hpp"
 #include "client-sdk/drivers/joints/hand_geometry.hpp"
+#include "client-sdk/drivers/joints/hand_measure.hpp"
 
 namespace mechane::drivers {
 namespace {
@@ -25,7 +26,8 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPace = 40ms;     // read() waits so long for a hand; a state that is 50 ms old is a lost device
 constexpr auto kFresh = 100ms;   // a hand is of now; and a datagram with a lower number is late, and not a new sender's
 constexpr auto kLetsGo = 500ms;  // a hand that is not tracked opens, and holds nothing in a place where it is no more
-constexpr int kAtOnce = 64;      // datagrams
+constexpr auto kNextVisitor = 5s;  // a hand that comes after such a pause may be another person's
+constexpr int kAtOnce = 64;        // datagrams
 constexpr int kMalformedInARow = 50;
 
 Clock::duration seconds(double number) {
@@ -53,7 +55,7 @@ class Joints {
       "port=9680 socket=FILE hand=right|left origin=X/Y/Z yaw=DEGREES wait=SECONDS silence=SECONDS";
 
   Fault open(Options& options) {
-    left_ = options.choice("hand", {"right", "left"}) == 1;
+    side_ = options.hand_side();
     const double yaw = options.number("yaw", 0, -360, 360) * std::numbers::pi / 180;
     cos_yaw_ = std::cos(yaw);
     sin_yaw_ = std::sin(yaw);
@@ -70,8 +72,9 @@ class Joints {
   }
 
   Fault describe(mechane_device_info& info) {
-    std::snprintf(info.name, sizeof(info.name), "Hand tracking (%s hand)", side(left_));
+    std::snprintf(info.name, sizeof(info.name), "Hand tracking (%s hand)", name_of_side(side_));
     info.hand = MECHANE_HAND_GLOVE;
+    info.side = side_;
     info.output = MECHANE_OUTPUT_NONE;
     info.rate_hz = 100;
     info.paces = 1;
@@ -93,8 +96,6 @@ class Joints {
   Fault write(const mechane_device_force&) { return {}; }
 
  private:
-  static const char* side(bool left) noexcept { return left ? "left" : "right"; }
-
   Fault listen(Options& options) {
     const std::string file = options.text("socket", "");
     const bool port_given = !options.text("port", "").empty();
@@ -144,7 +145,7 @@ class Joints {
   const char* take(std::string_view text) {
     HandDatagram hand;
     if (const char* const why = parse_hand_datagram(text, hand); *why != '\0') return why;
-    other_hand_ = hand.left != left_;
+    other_hand_ = hand.left != (side_ == MECHANE_HAND_LEFT);
     if (other_hand_) return "";
     const auto now = Clock::now();
     if (hand.sequence && sequence_ && *hand.sequence <= *sequence_ && now - heard_at_ <= kFresh) return "";
@@ -152,6 +153,9 @@ class Joints {
       for (HandPoint& point : hand.points)
         point = in_D(point);
       if (const char* const why = place_tracked_hand(hand, hand_); *why != '\0') return why;
+      if (now - tracked_at_ > kNextVisitor) measure_ = {};
+      measure_.add(hand.points);
+      measure_.tell(hand_);
       tracked_at_ = now;
     }
     sequence_ = hand.sequence;
@@ -168,15 +172,17 @@ class Joints {
   [[nodiscard]] Fault silence() const {
     if (*malformed_ != '\0')
       return "what arrives at " + where_ + " is not a hand: " + malformed_ + "; correct the program that sends it";
-    if (other_hand_)
-      return std::string("only the ") + side(!left_) + " hand arrives at " + where_ +
-             ": set the option hand=" + side(!left_) + ", or send the " + side(left_) + " hand";
+    if (other_hand_) {
+      const std::string other = name_of_side(MECHANE_HAND_LEFT - side_);
+      return "only the " + other + " hand arrives at " + where_ + ": set the option hand=" + other + ", or send the " +
+             name_of_side(side_) + " hand";
+    }
     return "no hand arrives at " + where_ + ": start the tracking program, and check where it sends to";
   }
 
   DatagramPort port_;
   std::string where_;  // "UDP port 9680 of 127.0.0.1"
-  bool left_ = false;
+  std::uint32_t side_ = MECHANE_HAND_RIGHT;
   HandPoint origin_{};
   double cos_yaw_ = 1, sin_yaw_ = 0;
   Clock::duration silence_{};
@@ -187,6 +193,7 @@ class Joints {
   int malformed_in_a_row_ = 0;
   std::optional<std::uint64_t> sequence_;
   mechane_device_state hand_{};  // the newest that was tracked
+  HandMeasure measure_;
   std::array<char, kLongestHandDatagram> buffer_{};
 };
 

@@ -56,7 +56,7 @@ HandPoint seen_from(const Axes& axes, const HandPoint& v) noexcept {
   return {dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)};
 }
 
-/// How the flat thumb of Mechane's hand stands in H: hand::thumb_stand() of the server, which a test compares.
+/// How the flat thumb of Mechane's hand stands in H: that of hand::middle_sized_fingers() of the server, which a test compares.
 Axes thumb_axes() noexcept {
   const HandPoint x = unit({0.62, -0.30, -0.72});
   const HandPoint towards_palm{0.25, -0.75, 0.60};

@@ -47,7 +47,7 @@ class LucidGloves {
   Fault open(Options& options) {
     name_ = options.text("port", "/dev/ttyUSB0");
     const int baud = static_cast<int>(options.number("baud", 115200, 9600, 460800));
-    hand_ = options.choice("hand", {"right", "left"}) == 0 ? "right" : "left";
+    side_ = options.hand_side();
     full_scale_ = kFullScales[options.choice("range", {"4095", "1023"})];
     const double wait_s = options.number("wait", 4, 0.1, 60);  // a board starts anew when its port is opened
     if (!options.fault().empty()) return options.fault();
@@ -60,8 +60,9 @@ class LucidGloves {
   }
 
   Fault describe(mechane_device_info& info) {
-    std::snprintf(info.name, sizeof(info.name), "LucidGloves (%s hand)", hand_);
+    std::snprintf(info.name, sizeof(info.name), "LucidGloves (%s hand)", name_of_side(side_));
     info.hand = MECHANE_HAND_GLOVE;
+    info.side = side_;
     info.output = MECHANE_OUTPUT_FINGER_BRAKE;
     info.rate_hz = 100;  // two lines of 45 and 25 bytes a round, at 115200 baud; servos take longer than this anyway
     return {};
@@ -136,7 +137,7 @@ class LucidGloves {
 
   SerialPort port_;
   std::string name_;
-  const char* hand_ = "right";
+  std::uint32_t side_ = MECHANE_HAND_RIGHT;
   int full_scale_ = kFullScales[0];
   bool open_ = false;
   AlphaStream stream_{kFullScales[0]};

@@ -39,6 +39,7 @@ class Playback {
   Fault describe(mechane_device_info& info) {
     std::snprintf(info.name, sizeof info.name, "A recorded hand");
     info.hand = recording_.is_glove ? MECHANE_HAND_GLOVE : MECHANE_HAND_POINT;
+    info.side = recording_.is_left ? MECHANE_HAND_LEFT : MECHANE_HAND_RIGHT;
     info.output = MECHANE_OUTPUT_NONE;
     info.rate_hz = 1000;
     return {};

@@ -77,6 +77,10 @@ std::string HandRecording::take_text(std::string_view text) {
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.find_first_not_of(" \t\r") == std::string_view::npos || line.front() == '#') continue;
+    if (line == "left" && hands.empty()) {
+      is_left = true;
+      continue;
+    }
     const std::string where = "line " + std::to_string(number) + " ";
     std::array<double, kGloveNumbers> numbers{};
     std::size_t count = 0;

@@ -16,10 +16,11 @@ struct RecordedHand {
 };
 
 /// A line is one moment: t_s x y z qw qx qy qz grasp buttons, and for a glove the 20 joints behind them. Times rise; blank lines and
-/// those that begin with # are left out. Any thread.
+/// those that begin with # are left out. A line "left" before the first moment: it is a left hand. Any thread.
 struct HandRecording {
   std::vector<RecordedHand> hands;  ///< one at least
   bool is_glove = false;
+  bool is_left = false;
 
   /// What is wrong with the text, in words for a person with the line's number; empty: nothing.
   [[nodiscard]] std::string take_text(std::string_view text);

@@ -16,12 +16,15 @@ static_assert(mechane_kHandSegments == hand::kHandSegments);
 static_assert(mechane_kMaxLocalContacts == hand::kMaxLocalContacts);
 
 static_assert(std::extent_v<decltype(HapticInput::joints)> == hand::kHandJoints);
+static_assert(std::extent_v<decltype(HapticInput::finger_scale)> == hand::kFingers);
 static_assert(std::extent_v<decltype(HapticOutput::finger_force_n)> == hand::kFingers);
 static_assert(std::extent_v<decltype(HapticOutput::contacts)> == hand::kMaxLocalContacts);
 static_assert(std::extent_v<decltype(WorldAssignment::owners)> == hand::kMaxUsers);
 
 static_assert(mechane_hand_one_point == static_cast<int>(hand::HandKind::one_point));
 static_assert(mechane_hand_glove == static_cast<int>(hand::HandKind::glove));
+static_assert(mechane_hand_right == static_cast<int>(hand::HandSide::right));
+static_assert(mechane_hand_left == static_cast<int>(hand::HandSide::left));
 
 static_assert(mechane_held_none == static_cast<int>(hand::HeldPath::Kind::none));
 static_assert(mechane_held_line == static_cast<int>(hand::HeldPath::Kind::line));

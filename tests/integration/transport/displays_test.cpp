@@ -197,8 +197,9 @@ TEST_F(Displays, AreToldAtOnceWhatTheStateOfTheirKiosksDeviceIsUntilItsProgramEn
   const auto hears = [&](const DeviceReport& report) {
     return wall.client->devices() == std::vector<DeviceReport>{report};
   };
-  haptic->tell_device({.state = DeviceState::preparing, .kind = client::HandKind::glove, .name = "Glove"});
-  ASSERT_TRUE(eventually([&] { return hears({1, DeviceState::preparing, client::HandKind::glove, "Glove"}); }, 10s));
+  const DeviceReport glove{1, DeviceState::preparing, client::HandKind::glove, client::HandSide::left, "Glove"};
+  haptic->tell_device(glove);
+  ASSERT_TRUE(eventually([&] { return hears(glove); }, 10s));
   Duration fastest = 10s;
   for (const DeviceState state : {DeviceState::ready, DeviceState::lost, DeviceState::ready, DeviceState::warm}) {
     const TimePoint told = Desk::now();

@@ -26,7 +26,9 @@ TEST_F(Loopback, AHandArrivesToTheBitAndItsForceComesBackWithItsEcho) {
   input.V_WH = {Vec3(1, 2, 3), Vec3(-4, 5, -6)};
   for (std::size_t i = 0; i < input.joints.size(); ++i)
     input.joints[i] = 0.0625 * static_cast<double>(i);
+  input.side = client::HandSide::left;
   input.hand_scale = 1.25;
+  input.finger_scale = {0.75, 0.875, 1, 1.125, 1.25};
   input.buttons = 0xa5a5a5a5u;
   input.grasp_intent = 0.75;
   ASSERT_TRUE(eventually([&] {
@@ -45,7 +47,7 @@ TEST_F(Loopback, AHandArrivesToTheBitAndItsForceComesBackWithItsEcho) {
   EXPECT_EQ(s.V_WH.v, input.V_WH.v);
   EXPECT_EQ(s.V_WH.w, input.V_WH.w);
   EXPECT_EQ(s.joints, input.joints);
-  EXPECT_EQ(s.hand_scale, 1.25);
+  EXPECT_EQ(static_cast<const hand::HandBuild&>(s), static_cast<const hand::HandBuild&>(input));
   EXPECT_EQ(s.buttons, 0xa5a5a5a5u);
   EXPECT_EQ(s.grasp_intent, 0.75);
 }
@@ -326,6 +328,7 @@ TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   honest.session = hand->session();
   honest.seq = 1'000'000;
   honest.hand_scale = 1;
+  std::ranges::fill(honest.finger_scale, 1.0F);
   honest.X_WH.q[0] = 1;
   honest.X_WH.p[0] = -7;
 
@@ -343,7 +346,7 @@ TEST_F(Loopback, LyingSamplesAreCountedAndNeverReachTheLoop) {
   lie(Reject::too_far, [](auto& s) { s.X_WH.p[2] = 1e9f; });
   lie(Reject::too_fast, [](auto& s) { s.v_WH[0] = 1e3f; });
   lie(Reject::bad_rotation, [](auto& s) { s.X_WH.q[0] = 2; });
-  lie(Reject::bad_hand_scale, [](auto& s) { s.hand_scale = 40; });
+  lie(Reject::bad_size, [](auto& s) { s.hand_scale = 40; });
   lie(Reject::bad_value, [](auto& s) { s.kind = 9; });
   lie(Reject::wrong_kiosk, [](auto& s) { proto::set_text(s.kiosk, "kiosk-2"); });
   lie(Reject::wrong_session, [](auto& s) { s.session += 2; });

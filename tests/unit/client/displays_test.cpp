@@ -130,15 +130,18 @@ TEST(DeviceReport, is_taken_from_a_hands_session_and_from_no_other) {
   wire.role = mechane_role_hand;
   wire.device = mechane_device_lost;
   wire.device_kind = mechane_hand_glove;
+  wire.device_side = mechane_hand_left;
   wire.calibration = mechane_calibration_pinch;
   wire.calibration_held = 0.5F;
   wire.calibration_refusal = mechane_refusal_moved;
   DeviceReport out;
   ASSERT_TRUE(parse(wire, out));
-  EXPECT_EQ(
-      out,
-      (DeviceReport{
-          3, DeviceState::lost, HandKind::glove, "Touch [31mX", {CalibrationStep::pinch, 0.5F, PoseRefusal::moved}}));
+  EXPECT_EQ(out, (DeviceReport{3,
+                               DeviceState::lost,
+                               HandKind::glove,
+                               HandSide::left,
+                               "Touch [31mX",
+                               {CalibrationStep::pinch, 0.5F, PoseRefusal::moved}}));
   const auto refused = [&wire](auto spoil) {
     proto::KioskStatus spoilt = wire;
     spoil(spoilt);
@@ -151,6 +154,7 @@ TEST(DeviceReport, is_taken_from_a_hands_session_and_from_no_other) {
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.user = hand::kMaxUsers; }));
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.device = mechane_device_lost + 1; }));
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.device_kind = 99; }));
+  EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.device_side = mechane_hand_left + 1; }));
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.calibration = mechane_calibration_done + 1; }));
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.calibration_held = std::numeric_limits<float>::quiet_NaN(); }));
   EXPECT_TRUE(refused([](proto::KioskStatus& s) { s.calibration_held = 1.5F; }));

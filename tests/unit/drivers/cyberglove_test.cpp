@@ -172,11 +172,12 @@ TEST_F(CyberGloveTest, ACalibrationIsTakenFromAFile) {
   for (int sensor = 0; sensor < 18; ++sensor)
     text << "0.01 20   # of sensor " << sensor << "\n\n";
   text.close();
-  ASSERT_EQ(open(box, ",sensors=18,calibration=" + file), "");
+  ASSERT_EQ(open(box, ",sensors=18,hand=left,calibration=" + file), "");
   ASSERT_EQ(driver_.read(state_), "");
   EXPECT_NEAR(state_.joints_rad[5], 0.01 * (70 - 20), 1e-9);
   mechane_device_info info;
   ASSERT_EQ(driver_.describe(info), "");
+  EXPECT_EQ(info.side, MECHANE_HAND_LEFT);
   EXPECT_EQ(std::string(info.name).find("not calibrated"), std::string::npos);
 }
 

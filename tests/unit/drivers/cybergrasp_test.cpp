@@ -69,6 +69,7 @@ TEST_F(CyberGraspDriver, OpensInModeForceWithoutForce) {
   EXPECT_EQ(info.hand, MECHANE_HAND_GLOVE);
   EXPECT_EQ(info.output, MECHANE_OUTPUT_FINGER_PULL);
   EXPECT_EQ(info.peak_finger_force_n, 12);
+  EXPECT_EQ(info.side, MECHANE_HAND_RIGHT);
 }
 
 TEST_F(CyberGraspDriver, PullsInPartsOfItsFullForce) {
@@ -81,10 +82,11 @@ TEST_F(CyberGraspDriver, PullsInPartsOfItsFullForce) {
   ASSERT_EQ(render({-6, 30, kGraspNan, std::numeric_limits<double>::infinity(), 1e300}), "");
   EXPECT_EQ(pulls(), (GraspPulls{0, 1, 0, 0, 1}));
   driver_.close();
-  ASSERT_EQ(open(",full=6"), "");
+  ASSERT_EQ(open(",full=6,hand=left"), "");
   mechane_device_info info{};
   ASSERT_EQ(driver_.describe(info), "");
   EXPECT_EQ(info.peak_finger_force_n, 6);
+  EXPECT_EQ(info.side, MECHANE_HAND_LEFT);
   ASSERT_EQ(render({3, 6, 0, 0, 0}), "");
   EXPECT_EQ(pulls(), (GraspPulls{0.5, 1, 0, 0, 0}));
 }

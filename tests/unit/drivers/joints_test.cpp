@@ -53,7 +53,7 @@ std::string joints_list(const std::vector<Vec3>& points) {
 }
 
 std::string joints_text(const SeenHand& hand, const std::string& format = "openxr", const std::string& more = "") {
-  return R"({"format":")" + format + R"(","hand":")" + (hand.left ? "left" : "right") + R"(","joints":)" +
+  return R"({"format":")" + format + R"(","hand":")" + (hand.left() ? "left" : "right") + R"(","joints":)" +
          joints_list(tracker_points(hand, format)) + more + "}";
 }
 
@@ -111,10 +111,17 @@ double any_degrees(double least, double most) {
   return *test::between(least * kJointsDegree, most * kJointsDegree);
 }
 
-SeenHand any_hand(bool left) {
+SeenHand hand_of(bool left) {
   SeenHand hand;
-  hand.left = left;
-  hand.scale = *test::between(0.6, 1.3);
+  if (left) hand.build.side = hand::HandSide::left;
+  return hand;
+}
+
+SeenHand any_hand(bool left) {
+  SeenHand hand = hand_of(left);
+  hand.build.hand_scale = *test::between(0.6, 1.3);
+  for (double& scale : hand.build.finger_scale)
+    scale = *test::between(0.8, 1.2);
   hand.X_DH.p = Vec3(*test::between(-2, 2), *test::between(-2, 2), *test::between(-2, 2));
   hand.X_DH.R = Quat(Eigen::AngleAxisd(*test::between(-kPi, kPi), test::any_unit()));
   for (std::size_t f = 0; f < MECHANE_FINGERS; ++f) {
@@ -133,7 +140,7 @@ double joints_along_palm(const SeenHand& hand, std::size_t finger) {
   double angle = 0, squares = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     angle += hand.joints_rad[4 * finger + k + 1];
-    squares += std::pow(hand.scale * size.length_m[k] * std::cos(angle), 2);
+    squares += std::pow(hand.build.length_scale(hand::first_segment(finger)) * size.length_m[k] * std::cos(angle), 2);
   }
   return std::sqrt(squares);
 }
@@ -233,10 +240,11 @@ class JointsTest : public ::testing::Test {
 
 TEST_F(JointsTest, AnyHandInAnyFormatGivesItsOwnAngles) {
   for (const bool left : {false, true}) {
-    SeenHand first;
-    first.left = left;
     driver_.close();
-    ASSERT_EQ(open(left ? ",hand=left" : "", first), "");
+    ASSERT_EQ(open(left ? ",hand=left" : "", hand_of(left)), "");
+    mechane_device_info info{};
+    ASSERT_EQ(driver_.describe(info), "");
+    EXPECT_EQ(info.side, left ? MECHANE_HAND_LEFT : MECHANE_HAND_RIGHT);
     EXPECT_TRUE(rc::check([&] { check_any_hand(left); }));
   }
 }
@@ -338,13 +346,40 @@ TEST_F(JointsTest, AnOvertakenHandIsDroppedAndANewSendersIsNot) {
 
 TEST_F(JointsTest, TheOtherHandIsNotThisOne) {
   ASSERT_EQ(open(), "");
-  SeenHand left;
-  left.left = true;
+  SeenHand left = hand_of(true);
   left.X_DH.p.x() = 0.7;
   ASSERT_EQ(take(joints_text(left)), "");
   EXPECT_DOUBLE_EQ(state_.position_m[0], 0.1);
   driver_.close();
   EXPECT_NE(open(",wait=0.1", left).find("hand=left"), std::string::npos);
+}
+
+TEST_F(JointsTest, ItMeasuresTheHandWhileItsFingersAreStraight) {
+  SeenHand hand;
+  hand.build = {.hand_scale = 0.7, .finger_scale = {0.9, 1.1, 1, 1, 1.2}};
+  const auto length_m = [&](std::size_t f) {
+    const auto& own = hand.sizes[f].length_m;
+    return hand.build.length_scale(hand::first_segment(f)) * (own[0] + own[1] + own[2]);
+  };
+  SeenHand fist = hand;
+  for (std::size_t f = 1; f < MECHANE_FINGERS; ++f)
+    for (std::size_t j = 1; j < 4; ++j)
+      fist.joints_rad[4 * f + j] = 1;
+  ASSERT_EQ(open("", fist), "");
+  ASSERT_EQ(take(joints_text(fist)), "");
+  EXPECT_NEAR(state_.palm_m, 0.7 * 0.0945, 1e-6);
+  EXPECT_NEAR(state_.finger_m[0], length_m(0), 1e-6) << "the thumb is straight";
+  EXPECT_EQ(state_.finger_m[1], 0) << "a tracker guesses at what a fist hides";
+  ASSERT_EQ(take(joints_text(hand)), "");
+  for (std::size_t f = 0; f < MECHANE_FINGERS; ++f)
+    EXPECT_NEAR(state_.finger_m[f], length_m(f), 1e-6) << f;
+  // A picture in which the tracker was mistaken does not count for much.
+  for (int i = 0; i < 3; ++i)
+    ASSERT_EQ(take(joints_text(hand)), "");
+  SeenHand mistaken = hand;
+  mistaken.build.finger_scale[1] = 0.8;
+  ASSERT_EQ(take(joints_text(mistaken)), "");
+  EXPECT_NEAR(state_.finger_m[1], length_m(1), 1e-6);
 }
 
 TEST_F(JointsTest, TheTrackerStandsWhereTheOptionsSay) {

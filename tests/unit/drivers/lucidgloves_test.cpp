@@ -141,6 +141,7 @@ TEST_F(LucidTest, TheDeviceIsAGloveThatBrakes) {
   EXPECT_EQ(info.hand, MECHANE_HAND_GLOVE);
   EXPECT_EQ(info.output, MECHANE_OUTPUT_FINGER_BRAKE);
   EXPECT_NE(std::string(info.name).find("left"), std::string::npos);
+  EXPECT_EQ(info.side, MECHANE_HAND_LEFT);
   EXPECT_TRUE(glove.was_started());
 }
 

@@ -37,6 +37,15 @@ TEST(PlaybackRecording, StandsBetweenItsMoments) {
   EXPECT_EQ(recording.at(9).position_m[1], 0.2) << "and after";
 }
 
+TEST(PlaybackRecording, SaysWhichHandItIsOfBeforeItsFirstMoment) {
+  HandRecording right, left;
+  ASSERT_EQ(right.take_text(kTwoSeconds), "");
+  EXPECT_FALSE(right.is_left);
+  ASSERT_EQ(left.take_text(std::string("left\n") + kTwoSeconds), "");
+  EXPECT_TRUE(left.is_left);
+  EXPECT_NE(fault_of_recording(std::string(kTwoSeconds) + "left\n"), "");
+}
+
 TEST(PlaybackRecording, TurnsTheShorterWay) {
   HandRecording recording;
   ASSERT_EQ(recording.take_text("0 0 0 0 1 0 0 0 0 0\n1 0 0 0 -0.8 -0.6 0 0 0 0\n"), "");

@@ -8,9 +8,10 @@ namespace mechane::hand {
 namespace {
 
 Vec3 middle_of_round_end(std::size_t finger, const HandAngles& angles) {
-  const FingerSize size = middle_sized_fingers()[finger];
+  const FingerSizes sizes = middle_sized_fingers();
+  const FingerSize& size = sizes[finger];
   std::array<Pose, kPhalanges> X_HS;
-  place_finger(size, 1, finger == 0 ? thumb_stand() : Quat::Identity(),
+  place_finger(sizes, finger, {},
                std::span<const double, kFingerJoints>(&angles[kFingerJoints * finger], kFingerJoints), Pose{}, X_HS);
   return X_HS.back() * Vec3((size.length_m.back() - size.radius_m.back()) / 2, 0, 0);
 }

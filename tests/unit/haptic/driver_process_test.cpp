@@ -25,7 +25,8 @@ class DriverProcessTest : public ::testing::Test {
   DriverProcess& open(const std::string& options) {
     device_.emplace(
         DriverProcessConfig{.device = parse_device_name(test::fake_device("trace=" + file_.string() + "," + options)),
-                            .workspace = {.p_WD = Vec3(1, 2, 3), .scale = 2, .clutch_button = 2}});
+                            .workspace = {.p_WD = Vec3(1, 2, 3), .scale = 2, .clutch_button = 2},
+                            .hand_scale = 1.1});
     const auto opened = device_->open();
     EXPECT_TRUE(opened) << (opened ? "" : opened.error().to_string());
     return *device_;
@@ -73,6 +74,15 @@ TEST_F(DriverProcessTest, WithTheClutchDownTheHandStaysAndNothingIsRendered) {
   const Vec3 held = tick(0).X_WH.p;
   ASSERT_TRUE(tick_until(0, [&] { return device.state().position_m[1] < -0.015; })) << "the device is moved on";
   EXPECT_EQ(tick(0).X_WH.p, held);
+}
+
+TEST_F(DriverProcessTest, TellsWhichHandItIsAndItsSize) {
+  open("side=left");
+  EXPECT_EQ(tick(0).side, client::HandSide::left);
+  EXPECT_EQ(tick(0).hand_scale, 1.1) << "nobody has measured it but staff";
+  open("palm=0.0756");
+  EXPECT_EQ(tick(0).side, client::HandSide::right);
+  EXPECT_NEAR(tick(0).hand_scale, 0.8, 1e-9);
 }
 
 TEST_F(DriverProcessTest, ALoopOnItAllocatesNothing) {

@@ -38,12 +38,33 @@ TEST(DriverName, HasItsOptionsBehindAColon) {
   EXPECT_EQ(parse_device_name("haply:host=a:1,key=vector").options, "host=a:1,key=vector");
 }
 
-TEST(DriverLoading, RefusesWhatIsNoDriverOfThisVersion) {
+TEST(DriverLoading, RefusesWhatIsNoDriverOfAKnownVersion) {
   EXPECT_EQ(code_of_loading("nobody-has-this"), ErrorCode::not_found);
-  EXPECT_EQ(code_of_loading(file_of("old")), ErrorCode::wrong_version);
+  EXPECT_EQ(code_of_loading(file_of("later")), ErrorCode::wrong_version);
   EXPECT_EQ(code_of_loading(file_of("none")), ErrorCode::damaged);
   const test::ScratchFolder folder;
   EXPECT_EQ(code_of_loading(folder.write("mechane_driver_text.so", "text").string()), ErrorCode::damaged);
+}
+
+TEST(DriverLoading, TakesADriverThatWasBuiltBeforeHandsHadSides) {
+  auto driver = Driver::load(file_of("first"));
+  ASSERT_TRUE(driver) << driver.error().to_string();
+  const auto info = driver->open("");
+  ASSERT_TRUE(info) << info.error().to_string();
+  EXPECT_EQ(info->side, MECHANE_HAND_RIGHT);
+  mechane_device_state state;
+  ASSERT_TRUE(driver->read(state));
+  EXPECT_EQ(state.palm_m, 0);
+}
+
+TEST(DriverDevice, ThatMeasuresAHandWhichNobodyHasIsFaulty) {
+  Driver driver = fake();
+  mechane_device_state state;
+  ASSERT_TRUE(driver.open("palm=0.08"));
+  EXPECT_TRUE(driver.read(state));
+  driver.close();
+  ASSERT_TRUE(driver.open("palm=80"));
+  EXPECT_FALSE(driver.read(state));
 }
 
 TEST(DriverLoading, FindsDriversInTheFoldersThatAreNamed) {
@@ -58,8 +79,8 @@ TEST(DriverLoading, FindsDriversInTheFoldersThatAreNamed) {
   ASSERT_NE(named("fake"), found.end());
   EXPECT_EQ(named("fake")->fault, "");
   EXPECT_NE(named("fake")->summary, "");
-  ASSERT_NE(named("old"), found.end());
-  EXPECT_NE(named("old")->fault, "");
+  ASSERT_NE(named("later"), found.end());
+  EXPECT_NE(named("later")->fault, "");
 }
 
 TEST(DriverDevice, ThatIsAbsentSaysWhy) {

@@ -55,8 +55,7 @@ double tips_apart_m(const HandAngles& angles) {
   std::array<Vec3, 2> tips;
   for (std::size_t f = 0; f < 2; ++f) {
     std::array<Pose, hand::kPhalanges> X_HS;
-    hand::place_finger(sizes[f], 1, f == 0 ? hand::thumb_stand() : Quat::Identity(),
-                       std::span<const double, 4>(&angles[4 * f], 4), Pose{}, X_HS);
+    hand::place_finger(sizes, f, {}, std::span<const double, 4>(&angles[4 * f], 4), Pose{}, X_HS);
     tips[f] = X_HS[2] * Vec3(sizes[f].length_m[2] / 2 - sizes[f].radius_m[2] / 2, 0, 0);
   }
   return (tips[0] - tips[1]).norm();

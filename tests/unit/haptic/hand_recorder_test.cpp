@@ -23,6 +23,7 @@ std::string text_of(const std::filesystem::path& file) {
 
 client::HandSample hand_at(double x, client::HandKind kind) {
   client::HandSample hand;
+  if (kind == client::HandKind::glove) hand.side = client::HandSide::left;
   hand.kind = kind;
   hand.X_WH.p = Vec3(x, 0.5, -0.25);
   hand.X_WH.R = Quat(0.5, 0.5, -0.5, 0.5);
@@ -50,6 +51,7 @@ TEST(HandRecorder, WritesWhatPlaybackReads) {
     ASSERT_EQ(recording.take_text(text_of(file)), "");
     EXPECT_EQ(recording.hands.size(), 100u);
     EXPECT_EQ(recording.is_glove, kind == client::HandKind::glove);
+    EXPECT_EQ(recording.is_left, recording.is_glove);
     EXPECT_NEAR(recording.length_s(), 0.099, 1e-9);
     const mechane_device_state state = recording.at(0.0505);
     EXPECT_NEAR(state.position_m[0], 0.0505, 1e-9);

@@ -33,16 +33,26 @@ TEST(VirtualHand, TakesItsOptions) {
   ASSERT_TRUE(glove);
   EXPECT_EQ(glove->hand, HandKind::glove);
   EXPECT_FALSE(glove->tracked);
+  EXPECT_EQ(glove->side, client::HandSide::right);
   const auto tracked = read_virtual_options("kind=tracked");
   ASSERT_TRUE(tracked);
   EXPECT_EQ(tracked->hand, HandKind::glove);
   EXPECT_TRUE(tracked->tracked);
+  for (const char* options : {"kind=glove,hand=left", "kind=tracked,hand=left"}) {
+    const auto left = read_virtual_options(options);
+    ASSERT_TRUE(left) << options;
+    const auto device = make_virtual_device(*left, Vec3::Zero());
+    client::HandSample sample;
+    for (int ms = 0; ms < 100; ++ms)
+      sample = device->read(kTickPeriod);
+    EXPECT_EQ(sample.side, client::HandSide::left) << options;
+  }
 }
 
 TEST(VirtualHand, RefusesWhatItDoesNotKnowAndValuesOutOfRange) {
-  for (const char* options :
-       {"kind=pen", "mass=1", "delay=21", "delay=-1", "delay=0.5", "hand=yes", "resolution=0.1", "continuous=4",
-        "resolution=nan", "kind=glove,delay=1", "kind=tracked,hand=off", "phantom", "kind=phantom,kind=phantom"}) {
+  for (const char* options : {"kind=pen", "mass=1", "delay=21", "delay=-1", "delay=0.5", "hand=yes", "resolution=0.1",
+                              "continuous=4", "resolution=nan", "kind=glove,delay=1", "kind=tracked,hand=off",
+                              "kind=phantom,hand=left", "phantom", "kind=phantom,kind=phantom"}) {
     const auto choice = read_virtual_options(options);
     ASSERT_FALSE(choice) << options;
     EXPECT_EQ(choice.error().code, ErrorCode::invalid_value) << options;

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "server/collision/samples.hpp"
+#include "tests/support/property_draw.hpp"
 
 namespace mechane::haptics {
 namespace {
@@ -54,18 +55,48 @@ TEST(HandModel, AFistBringsThumbAndIndexTogether) {
   EXPECT_LT((fist[3].p - fist[6].p).norm(), (flat[3].p - flat[6].p).norm());
 }
 
-RC_GTEST_PROP(HandModel, PhalangesMeetAtTheirJointsInEveryPose, ()) {
+/// Of any pose and of any size that is placed as it is.
+HandSample any_glove() {
   HandSample sample = glove(0);
   for (double& angle : sample.joints)
     angle = 0.01 * *rc::gen::inRange(-30, 150);
+  sample.hand_scale = *test::between(0.6, 1.15);
+  for (double& scale : sample.finger_scale)
+    scale = *test::between(0.85, 1.2);
+  return sample;
+}
+
+RC_GTEST_PROP(HandModel, PhalangesMeetAtTheirJointsInEveryPose, ()) {
+  HandSample sample = any_glove();
+  sample.side = *rc::gen::element(hand::HandSide::right, hand::HandSide::left);
   const auto X_WS = placed(sample);
   const HandSize size;
   for (std::size_t f = 0; f < 5; ++f) {
     for (std::size_t k = 0; k + 1 < 3; ++k) {
-      const Vec3 end = X_WS[1 + 3 * f + k] * Vec3(0.5 * size.fingers[f].length_m[k], 0, 0);
-      const Vec3 begin = X_WS[2 + 3 * f + k] * Vec3(-0.5 * size.fingers[f].length_m[k + 1], 0, 0);
+      const std::size_t s = 1 + 3 * f + k;
+      const double half = 0.5 * sample.length_scale(s);
+      const Vec3 end = X_WS[s] * Vec3(half * size.fingers[f].length_m[k], 0, 0);
+      const Vec3 begin = X_WS[s + 1] * Vec3(-half * size.fingers[f].length_m[k + 1], 0, 0);
       RC_ASSERT((end - begin).norm() < 1e-9);
+      // Shapes are made in a few sizes, and still reach over the joint.
+      const auto reaches = [&](std::size_t segment) {
+        return hand().segment(sample, segment).parts[0].superquadric.a.x() -
+               half * size.fingers[f].length_m[segment - 1 - 3 * f];
+      };
+      RC_ASSERT(reaches(s) > 0 && reaches(s + 1) > 0);
     }
+  }
+}
+
+RC_GTEST_PROP(HandModel, ALeftHandIsTheMirrorImageOfTheRightOne, ()) {
+  HandSample sample = any_glove();
+  const auto right = placed(sample);
+  sample.side = hand::HandSide::left;
+  const auto left = placed(sample);
+  RC_ASSERT(left[1].p.z() > left[0].p.z());  // its thumb is on the right
+  for (std::size_t s = 0; s < left.size(); ++s) {
+    RC_ASSERT(left[s].p == hand::mirrored(right[s]).p);
+    RC_ASSERT(left[s].R.coeffs() == hand::mirrored(right[s]).R.coeffs());
   }
 }
 
@@ -80,9 +111,10 @@ RC_GTEST_PROP(HandModel, MovingTheWristMovesEverySegmentRigidly, ()) {
 }
 
 TEST(HandModel, ReachCoversEverySegment) {
-  for (const double scale : {0.7, 1.0, 1.3}) {
+  for (const double scale : {hand::kMinHandScale, 0.7, 1.0, 1.3, hand::kMaxHandScale}) {
     HandSample sample = glove(0);
     sample.hand_scale = scale;
+    sample.finger_scale.fill(scale < 1 ? hand::kMinFingerScale : hand::kMaxFingerScale);
     const auto X_WS = placed(sample);
     for (std::size_t s = 0; s < X_WS.size(); ++s) {
       const auto& bound = hand().segment(sample, s).bound_O;

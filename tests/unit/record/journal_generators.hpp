@@ -35,6 +35,7 @@ inline hand::SentSample any_sample() {
   s.sequence = *rc::gen::arbitrary<std::uint64_t>();
   s.sent_ns = *rc::gen::arbitrary<std::uint64_t>();
   s.kind = *rc::gen::element(hand::HandKind::one_point, hand::HandKind::glove);
+  s.side = *rc::gen::element(hand::HandSide::right, hand::HandSide::left);
   for (int i = 0; i < 3; ++i)
     s.X_WH.p[i] = any_double();
   for (int i = 0; i < 4; ++i)
@@ -46,6 +47,8 @@ inline hand::SentSample any_sample() {
       angle = any_double();
   }
   s.hand_scale = any_double();
+  for (double& scale : s.finger_scale)
+    scale = *rc::gen::arbitrary<bool>() ? 1.0 : any_double();
   s.buttons = *rc::gen::arbitrary<std::uint32_t>();
   s.grasp_intent = any_double();
   return s;
@@ -83,7 +86,7 @@ inline bool same_bits(double a, double b) {
 
 inline bool same(const hand::SentSample& a, const hand::SentSample& b) {
   bool same = a.session == b.session && a.sequence == b.sequence && a.sent_ns == b.sent_ns && a.kind == b.kind &&
-              a.buttons == b.buttons && same_bits(a.hand_scale, b.hand_scale) &&
+              a.side == b.side && a.buttons == b.buttons && same_bits(a.hand_scale, b.hand_scale) &&
               same_bits(a.grasp_intent, b.grasp_intent);
   for (int i = 0; i < 3; ++i) {
     same = same && same_bits(a.X_WH.p[i], b.X_WH.p[i]) && same_bits(a.V_WH.v[i], b.V_WH.v[i]) &&
@@ -93,6 +96,8 @@ inline bool same(const hand::SentSample& a, const hand::SentSample& b) {
     same = same && same_bits(a.X_WH.R.coeffs()[i], b.X_WH.R.coeffs()[i]);
   for (std::size_t i = 0; i < a.joints.size(); ++i)
     same = same && same_bits(a.joints[i], b.joints[i]);
+  for (std::size_t i = 0; i < a.finger_scale.size(); ++i)
+    same = same && same_bits(a.finger_scale[i], b.finger_scale[i]);
   return same;
 }
 

@@ -21,6 +21,28 @@ Pose any_pose() {
   return {Vec3(any(), any(), any()), Quat(Eigen::AngleAxisd(3 * any(), axis.normalized()))};
 }
 
+hand::HandBuild any_build() {
+  const auto any = [](double least, double most) {
+    return least + (most - least) * *rc::gen::inRange(0, 1001) / 1000.0;
+  };
+  hand::HandBuild build;
+  build.side = *rc::gen::element(hand::HandSide::right, hand::HandSide::left);
+  build.hand_scale = any(0.6, 1.4);
+  for (double& scale : build.finger_scale)
+    scale = any(0.75, 1.35);
+  return build;
+}
+
+HandBend any_bend() {
+  HandBend bend{};
+  for (FingerBend& finger : bend) {
+    finger.aside = *rc::gen::inRange(-20, 21) / 57.3;
+    for (double& angle : finger.flexion)
+      angle = *rc::gen::inRange(0, 90) / 57.3;
+  }
+  return bend;
+}
+
 double away_from(const std::vector<Vec3f>& points, const Vec3& p) {
   double least = 1;
   for (const Vec3f& q : points)
@@ -69,7 +91,7 @@ RC_GTEST_PROP(HandSkin, moves_as_a_whole_with_its_segments, ()) {
   SegmentPoses X_WS = HandSkin::rest_poses();
   for (Pose& X : X_WS)
     X = X_WH * X;
-  const picture::MeshData moved = skin().follow(X_WS, 1);
+  const picture::MeshData moved = skin().follow(X_WS, {});
   const picture::MeshData& rest = skin().rest();
   for (std::size_t v = 0; v < rest.positions.size(); v += 37) {
     RC_ASSERT((moved.positions[v].cast<double>() - X_WH * rest.positions[v].cast<double>()).norm() < 1e-5);
@@ -78,18 +100,45 @@ RC_GTEST_PROP(HandSkin, moves_as_a_whole_with_its_segments, ()) {
 }
 
 RC_GTEST_PROP(HandSkin, fingertips_end_where_the_server_touches, ()) {
-  HandBend bend{};
-  for (FingerBend& finger : bend) {
-    for (double& angle : finger.flexion)
-      angle = *rc::gen::inRange(0, 90) / 57.3;
-  }
-  const SegmentPoses X_HS = place_hand(bend);
-  const picture::MeshData hand = skin().follow(X_HS, 1);
+  const hand::HandBuild build = any_build();
+  const SegmentPoses X_HS = place_hand(any_bend(), build);
+  const picture::MeshData hand = skin().follow(X_HS, build);
   for (std::size_t f = 0; f < client::kFingers; ++f) {
     const hand::FingerSize& size = finger_sizes()[f];
-    const Vec3 end = X_HS[3 + 3 * f] * Vec3(0.5 * size.length_m[2] + 0.4 * size.radius_m[2], 0, 0);
+    const double end_m = 0.5 * size.length_m[2] + 0.4 * size.radius_m[2];
+    const Vec3 end = X_HS[3 + 3 * f] * Vec3(build.length_scale(3 + 3 * f) * end_m, 0, 0);
     RC_ASSERT(away_from(hand.positions, end) < 0.004);
   }
+}
+
+RC_GTEST_PROP(HandSkin, of_a_left_hand_is_the_mirror_image_and_looks_outwards, ()) {
+  const HandBend bend = any_bend();
+  hand::HandBuild build = any_build();
+  build.side = hand::HandSide::right;
+  const picture::MeshData right = skin().follow(place_hand(bend, build), build);
+  build.side = hand::HandSide::left;
+  const picture::MeshData left = skin().follow(place_hand(bend, build), build);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < left.indices.size(); i += 3) {
+    const std::uint32_t v = left.indices[i];
+    RC_ASSERT((left.positions[v] - Vec3f(1, 1, -1).cwiseProduct(right.positions[v])).norm() < 1e-6F);
+    const auto side = [&](std::size_t k) { return Vec3f(left.positions[left.indices[i + k]] - left.positions[v]); };
+    wrong += side(1).cross(side(2)).dot(left.normals[v]) < 0 ? 1 : 0;
+  }
+  RC_ASSERT(wrong < left.indices.size() / 3 / 20);  // some faces fold where fingers bend
+}
+
+RC_GTEST_PROP(HandShape, tells_which_hand_it_is_and_how_large_from_its_poses, ()) {
+  const hand::HandBuild build = any_build();
+  SegmentPoses X_WS = place_hand(any_bend(), build);
+  const Pose X_WH = any_pose();
+  for (Pose& X : X_WS)
+    X = X_WH * X;
+  const hand::HandBuild found = build_of(X_WS);
+  RC_ASSERT(found.side == build.side);
+  RC_ASSERT(std::abs(found.hand_scale - build.hand_scale) < 1e-6);
+  for (std::size_t f = 0; f < client::kFingers; ++f)
+    RC_ASSERT(std::abs(found.finger_scale[f] - build.finger_scale[f]) < 1e-6);
 }
 
 RC_GTEST_PROP(HandModel, a_tip_has_a_hand_that_ends_in_it, ()) {

@@ -393,16 +393,6 @@ TEST(SceneBuilder, nothing_moves_but_what_the_frame_says) {
   EXPECT_LT(builder.build(&frame, &status, client::LinkState::joined).instances.size(), first.instances.size());
 }
 
-TEST(HandModel, knows_the_scale_from_the_poses) {
-  client::HandPose hand;
-  for (const double scale : {0.7, 1.0, 1.3}) {
-    const Quat bend(Eigen::AngleAxisd(-0.8, Vec3::UnitZ()));
-    hand.X_WS[0] = {Vec3(3, 2, 1), Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))};
-    hand.X_WS[4] = hand.X_WS[0] * Pose{scale * (Vec3(0.048, 0, -0.031) + bend * Vec3(0.0225, 0, 0)), bend};
-    EXPECT_NEAR(hand_scale(hand), scale, 1e-6);
-  }
-}
-
 TEST(SceneBuilder, what_came_loose_from_its_world_is_left_out_and_named) {
   int loads = 0;
   AssetLibrary library = library_of(loads);

@@ -176,6 +176,25 @@ TEST(StateHash, SeesTheSidesOfWalls) {
   EXPECT_EQ(state_hash(changed, StateVersion::with_anchors), state_hash(base, StateVersion::with_anchors));
 }
 
+TEST(StateHash, SeesWhichHandItIsAndHowLongItsFingersAre) {
+  const WorldState base = sample_state(1);
+  EXPECT_TRUE(changes_hash(base, [](UserState& user) { user.sample.side = hand::HandSide::left; }));
+  EXPECT_TRUE(changes_hash(base, [](UserState& user) { user.sample.finger_scale[4] = 1.01; }));
+  WorldState changed = base;
+  changed.users[1].sample.side = hand::HandSide::left;
+  EXPECT_EQ(state_hash(changed, StateVersion::with_sides), state_hash(base, StateVersion::with_sides));
+}
+
+TEST(Snapshot, FromBeforeThereWereSidesHasRightHandsOfTheModelsLengths) {
+  WorldState written = sample_state(1);
+  written.users[2].sample.kind = hand::HandKind::glove;
+  std::vector<std::byte> bytes;
+  write_snapshot(written, bytes, StateVersion::with_sides);
+  WorldState read = empty_state();
+  ASSERT_TRUE(read_snapshot(bytes, read));
+  EXPECT_EQ(static_cast<const hand::HandBuild&>(read.users[2].sample), hand::HandBuild{});
+}
+
 /// As a damaged file may be, with a checksum that fits.
 TEST(Snapshot, WithTouchesThatCannotBeIsRefused) {
   const auto is_read = [](auto change) {
@@ -186,6 +205,7 @@ TEST(Snapshot, WithTouchesThatCannotBeIsRefused) {
     WorldState read = sample_state(2);
     return read_snapshot(bytes, read).has_value();
   };
+  EXPECT_FALSE(is_read([](UserState& user) { user.sample.side = static_cast<hand::HandSide>(2); }));
   EXPECT_FALSE(is_read([](UserState& user) { user.anchor_count = kMaxPatches + 1; }));
   EXPECT_FALSE(is_read([](UserState& user) { user.side_count = kMaxSides + 1; }));
   const auto with_side = [&](BodyId body, std::uint8_t segment) {

@@ -1,5 +1,6 @@
 #include "server/transport/validate.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -15,6 +16,7 @@ proto::HapticInput honest() {
   s.session = 7;
   s.X_WH.q[0] = 1;
   s.hand_scale = 1;
+  std::ranges::fill(s.finger_scale, 1.0F);
   return s;
 }
 
@@ -35,7 +37,10 @@ RC_GTEST_PROP(Validate, WhatItTakesIsFitForTheLoop, ()) {
   RC_ASSERT(out.X_WH.p.norm() < kMaxDistanceM);
   RC_ASSERT(std::abs(out.X_WH.R.norm() - 1) < 1e-9);
   RC_ASSERT(out.V_WH.v.norm() < kMaxSpeedMPerS);
-  RC_ASSERT(out.hand_scale >= kMinHandScale && out.hand_scale <= kMaxHandScale);
+  RC_ASSERT(out.hand_scale >= hand::kMinHandScale && out.hand_scale <= hand::kMaxHandScale);
+  for (const double scale : out.finger_scale)
+    RC_ASSERT(scale >= hand::kMinFingerScale - 1e-6 && scale <= hand::kMaxFingerScale + 1e-6);
+  RC_ASSERT(hand::is_hand_side(static_cast<std::uint8_t>(out.side)));
   RC_ASSERT(out.grasp_intent >= 0 && out.grasp_intent <= 1);
   RC_ASSERT(out.session != 0);
 }
@@ -51,6 +56,28 @@ TEST(Validate, RefusesADeadbandThatIsNoShare) {
   EXPECT_EQ(refused(0.51F), Reject::bad_value);
   EXPECT_EQ(refused(-0.1F), Reject::bad_value);
   EXPECT_EQ(refused(std::numeric_limits<float>::quiet_NaN()), Reject::not_finite);
+}
+
+TEST(Validate, RefusesSizesThatNoHandHasAndTakesTheOthers) {
+  hand::SentSample out;
+  const auto of_finger = [&](float scale) {
+    proto::HapticInput s = honest();
+    s.finger_scale[4] = scale;
+    return validate(s, out);
+  };
+  for (const double scale : {hand::kMinFingerScale, 1.1, hand::kMaxFingerScale}) {
+    EXPECT_EQ(of_finger(static_cast<float>(scale)), Reject::none);
+    EXPECT_NEAR(out.finger_scale[4], scale, 1e-6);
+  }
+  for (const float scale : {0.0F, 0.69F, 1.41F, -1.0F})
+    EXPECT_EQ(of_finger(scale), Reject::bad_size);
+  EXPECT_EQ(of_finger(std::numeric_limits<float>::infinity()), Reject::not_finite);
+  proto::HapticInput s = honest();
+  s.side = mechane_hand_left;
+  EXPECT_EQ(validate(s, out), Reject::none);
+  EXPECT_EQ(out.side, hand::HandSide::left);
+  s.side = mechane_hand_left + 1;
+  EXPECT_EQ(validate(s, out), Reject::bad_value);
 }
 
 TEST(Validate, ReportsEachReasonOnce) {

@@ -40,6 +40,14 @@ TEST_F(CalibrationGuideTest, EachPoseHasItsOwnPictureAndWordsInBothLanguages) {
   EXPECT_EQ(drawings.size(), 3U);
 }
 
+TEST_F(CalibrationGuideTest, ThePictureIsOfTheHandThatIsInTheGlove) {
+  const CalibrationNews news{CalibrationStep::flat};
+  hear(0s, news);
+  const float thumb = at(0s)->drawing.back().to.x();
+  guide_.hear({{.side = client::HandSide::left, .calibration = news}}, kStart);
+  EXPECT_EQ(at(0s)->drawing.back().to.x(), -thumb);
+}
+
 TEST_F(CalibrationGuideTest, TheRingFillsSteadilyBetweenTheMessages) {
   hear(0s, {CalibrationStep::flat});
   float before = 0;

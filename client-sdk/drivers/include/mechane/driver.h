@@ -21,9 +21,10 @@
 extern "C" {
 #endif
 
-#define MECHANE_DRIVER_VERSION 1u
+/* Drivers of version 1 are loaded too; what is marked with 2 is not asked of them. */
+#define MECHANE_DRIVER_VERSION 2u
 #define MECHANE_FINGERS 5      /* thumb, index, middle, ring, little */
-#define MECHANE_HAND_JOINTS 20 /* by finger: abduction, then three flexions from the palm outwards */
+#define MECHANE_HAND_JOINTS 20 /* by finger: abduction, towards the thumb; then three flexions from the palm outwards */
 
 /* What a device can do to a hand. */
 typedef enum mechane_output {
@@ -38,6 +39,9 @@ typedef enum mechane_hand_kind {
   MECHANE_HAND_POINT = 0, /* one point: a stylus, a knob */
   MECHANE_HAND_GLOVE = 1  /* a hand with joints */
 } mechane_hand_kind;
+
+/* Which hand it is on. Angles mean the same on both: a left hand has those of the right hand that is its mirror image. */
+typedef enum mechane_hand_side { MECHANE_HAND_RIGHT = 0, MECHANE_HAND_LEFT = 1 } mechane_hand_side;
 
 /* What the device is and can bear. Does not change while it is open. It comes filled with zeros, as the state below does. */
 typedef struct mechane_device_info {
@@ -54,6 +58,7 @@ typedef struct mechane_device_info {
   double workspace_min_m[3];    /* in D; both all 0: not known */
   double workspace_max_m[3];
   uint32_t paces; /* 1: read() waits for the device's next sample, and so sets the pace */
+  uint32_t side;  /* 2: mechane_hand_side, of a glove */
 } mechane_device_info;
 
 /* Bits of mechane_device_state.flags. */
@@ -74,6 +79,9 @@ typedef struct mechane_device_state {
   double joints_rad[MECHANE_HAND_JOINTS]; /* of a glove; flexions grow as the hand closes */
   double grasp;                           /* 0 open .. 1 closed */
   double temperature;                     /* of the motors: 0 cold .. 1 too hot; below 0: not known */
+  /* 2: sizes of the visitor's hand, where the device measures them; 0: not known. They may become known, and better, while it is read. */
+  double palm_m; /* from the wrist to the middle between the first joints of index and little finger; 0.02 .. 0.25 */
+  double finger_m[MECHANE_FINGERS]; /* from its first joint along the bones to the last one's tip; 0.005 .. 0.5 */
 } mechane_device_state;
 
 /* What to render until the next call. */

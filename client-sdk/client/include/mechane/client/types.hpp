@@ -19,6 +19,7 @@ namespace mechane::client {
 // The types of a hand are declared once, for server and clients, in server/hand.
 using hand::HandKind;
 using hand::HandSample;
+using hand::HandSide;
 using hand::HeldPath;
 using hand::kFingers;
 using hand::kHandJoints;
@@ -73,6 +74,7 @@ struct DeviceReport {
   std::uint32_t user = 0;  ///< filled in by the client
   DeviceState state = DeviceState::none;
   HandKind kind = HandKind::one_point;
+  HandSide side = HandSide::right;
   std::string name{};  ///< maker and model; at most 63 bytes, longer ones are cut
   CalibrationNews calibration{};
   friend bool operator==(const DeviceReport&, const DeviceReport&) = default;
