@@ -110,7 +110,7 @@ PLANTED = [
     ("unity-name", "server/world/w.cpp", "int f() {\n  constexpr int kE = 2;\n  return kE;\n}\n"),
     ("unity-name", "server/world/w.cpp", "namespace {\nstruct V {\n};\n}  // namespace\n"),
     ("page", "ARCHITECTURE.md", "# Nothing of rooms\n"),
-    ("page", "ARCHITECTURE.md", PAGE.replace("-> client, haptic, scenario\n", "-> client, haptic\n")),
+    ("page", "ARCHITECTURE.md", PAGE.replace("-> haptic, pointer, scene, scenario\n", "-> haptic, pointer, scene\n")),
     ("page", "ARCHITECTURE.md", PAGE.replace("-> state, realtime\n", "-> state, realtime, log\n", 1)),
     ("page", "ARCHITECTURE.md", PAGE.replace("server/ log  what it is,\n            and what for  -> base\n", "")),
     ("page", "ARCHITECTURE.md", PAGE.replace("```\n\n|", "server/ garden  roses  -> base\n```\n\n|")),
