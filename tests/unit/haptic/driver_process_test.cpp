@@ -1,6 +1,7 @@
 // A device behind a driver in a process of its own: each test starts that process.
 #include "client-sdk/haptic/driver_process.hpp"
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
