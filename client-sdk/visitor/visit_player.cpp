@@ -22,6 +22,7 @@ constexpr double kNoticesLossS = 0.3;
 constexpr double kNearGripM = 0.2;
 // A thing that is farther than this from where it should have been carried was lost on the way.
 constexpr double kSlippedM = 0.1;
+constexpr double kPatienceS = 5;  // with a thing that is held and does not come after the hand
 
 // Places in a whole hand: where a handle lies, under the roots of the fingers; the tip of a stretched index finger.
 const Vec3 kGrip_H(0.095, -0.030, 0);
@@ -187,7 +188,6 @@ double VisitPlayer::to_grip_m(std::span<const Pose> X_WB) const {
 
 /// A thing that comes after the hand is waited for each time; one that does not come at all is pulled in the end.
 bool VisitPlayer::waits(std::span<const Pose> X_WB, bool holding, double dt_s) {
-  constexpr double kPatienceS = 5;
   if (!config_.waits_for_lag_m || !holding) return false;
   const bool lags = to_grip_m(X_WB) - to_grip_m_ > *config_.waits_for_lag_m;
   waited_s_ = lags ? waited_s_ + dt_s : 0;
@@ -351,10 +351,12 @@ bool VisitPlayer::lost_its_handle() const {
   return works && held_ && empty_s_ > kNoticesLossS && visit_.moves[last_reach_].kind == VisitMove::Kind::reach;
 }
 
-/// Whether the carried thing was lost. One that a snap took out of the hand was not: it is where it should be.
+/// Whether the carried thing was lost, or something else is in the hand. One that a snap took out of the hand was not lost: it is where it
+/// should be.
 bool VisitPlayer::slipped(std::span<const Pose> X_WB, bool holding) const {
   const VisitMove& move = visit_.moves[index_];
-  if (move.kind != VisitMove::Kind::move_to || holding) return false;
+  const bool it_comes = holding && waited_s_ <= kPatienceS;
+  if (move.kind != VisitMove::Kind::move_to || it_comes) return false;
   const VisitMove& reach = visit_.moves[last_reach_];
   if (reach.kind != VisitMove::Kind::reach || reach.body != move.body) return false;
   return (X_WB[move.body.index()].p - move.X_WB.p).norm() > kSlippedM;
