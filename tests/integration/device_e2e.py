@@ -278,7 +278,7 @@ class Devices(EndToEnd):
 
     def test_what_cannot_be_used_says_why(self):
         for device, words in (("nothing-has-this-name", "no driver of this name"), (self.device("fault=absent"), "plug it in"),
-                              ("old", "another version"), (self.device("fault=limits"), "peak_force_n is 1000")):
+                              ("later", "another version"), (self.device("fault=limits"), "peak_force_n is 1000")):
             for command in (["devices", "--test"], ["haptic", "--device"]):
                 self.assertIn(words, self.refused(*command, device))
 
@@ -309,7 +309,7 @@ class Devices(EndToEnd):
         drivers = {entry["name"]: entry for entry in json.loads(listed.text())}
         self.assertIn("kind=phantom|glove|tracked", drivers["virtual"]["options"])
         self.assertEqual(drivers["fake"]["fault"], "")
-        self.assertIn("another version", drivers["old"]["fault"])
+        self.assertIn("another version", drivers["later"]["fault"])
 
 
 if __name__ == "__main__":
