@@ -70,7 +70,8 @@ Expected<void> check(const HandSize& size) {
 }
 
 /// With lengths for which there are shapes.
-hand::HandBuild placeable(hand::HandBuild build) {
+hand::HandBuild placeable(const hand::HandBuild& own) {
+  hand::HandBuild build = own;
   const auto limited = [](double scale) { return std::clamp(scale, HandModel::kLeastScale, HandModel::kMostScale); };
   build.hand_scale = limited(build.hand_scale);
   for (double& scale : build.finger_scale)
