@@ -52,8 +52,8 @@ const DriverNeeds& needs_of(std::string_view driver) {
   return found == needs.end() ? none : *found;
 }
 
-/// The serial line that it is at. Where it does not begin with '/', it is none: Haply's port is a number, and somebody else's driver may
-/// have such an option, too.
+/// The option `port`. It names a serial line only where it begins with '/': Haply's port is a number, and somebody else's driver may have
+/// such an option, too.
 std::string line_of(const KioskDevice& kiosk) {
   const DriverNeeds& needs = needs_of(kiosk.driver);
   return value_or(kiosk.options, "port", needs.which == "port" ? needs.without : "");

@@ -155,7 +155,7 @@ class ClientImpl final : public Client {
   realtime::Wakeup news_;
   std::unique_ptr<HandLink> hand_;
   std::unique_ptr<DisplayLink> display_;
-  std::unique_ptr<DeviceWatch> watch_;  // null: a watcher that is no display
+  std::unique_ptr<DeviceWatch> watch_;  // only for a hand or a display
   proto::Reader<proto::ServerStatus> server_reader_;
   proto::Reader<proto::WorldAssignment> assignment_reader_;
   std::thread thread_;  // last

@@ -9,7 +9,7 @@
 
 namespace mechane::visit {
 
-/// A program without a device is none.
+/// A program without a device does not count.
 [[nodiscard]] inline bool is_another_of_its_kind(const client::DeviceReport& other,
                                                  const client::DeviceReport& device) {
   return other.user != device.user && other.kind == device.kind && other.state != client::DeviceState::none;

@@ -66,7 +66,7 @@ TEST(LintTouch, APullThatNoHandCanFeelIsNamed) {
   EXPECT_EQ(of_pull("1", {{"name='movable' value='true'", "name='movable' value='false'"}}), never);
   EXPECT_EQ(of_pull("1", {{"name='graspable' value='true'", "name='graspable' value='false'"}}), never);
   EXPECT_EQ(of_pull("1", {{kTakeEnables, agents_of_take("\"SEAT\"", "\"CARRY\"")}}), never);
-  EXPECT_EQ(of_pull("0", {kUntouchable}), std::vector<std::string>()) << "there is none";
+  EXPECT_EQ(of_pull("0", {kUntouchable}), std::vector<std::string>()) << "a pull of 0 is no pull";
 }
 
 TEST(LintTouch, WhatEarlierStepsSwitchedCountsForAPull) {
