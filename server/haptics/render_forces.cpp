@@ -129,8 +129,10 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     ContactPatch& patch = patches[i];
     if (patch.depth_m <= 0) continue;
     state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
-    touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config,
-                                                  user.X_WS[patch.segment].p + patch.out_W, patch.found_depth_m);
+    if (!patch.in_corner) {
+      touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config,
+                                                    user.X_WS[patch.segment].p + patch.out_W, patch.found_depth_m);
+    }
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const HapticMaterial& material = body.haptic;
