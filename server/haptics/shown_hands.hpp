@@ -9,9 +9,9 @@
 
 namespace mechane::haptics {
 
-/// By how far each hand of a world is shown beside where it is. People who see their hand stay on a surface feel that surface as stiffer, and
-/// do not press deeper. The hand is moved as a whole, out of all walls that hold its segments, as nearly as it can. One that holds something
-/// is shown where it is. Nothing that is felt depends on this. For the thread that steps the world; allocates nothing.
+/// By how far each hand of a world is shown beside where it is. People who see their hand stay on a surface feel that surface as stiffer,
+/// and do not press deeper. The hand is moved as a whole, out of all walls that hold its segments, as nearly as it can. One that holds
+/// something is shown where it is. Nothing that is felt depends on this. For the thread that steps the world; allocates nothing.
 class ShownHands {
  public:
   /// How fast the way between a hand and its picture may change, beyond what the hand itself moves.

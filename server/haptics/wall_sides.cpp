@@ -98,7 +98,7 @@ class MovedTouch {
     const auto other =
         std::ranges::partition(all, [&](const state::Contact& at) { return at.n_BH_W.dot(n_W) > kSameWay; });
     const ContactPatch a = patch_of(all.first(all.size() - other.size()), whole_.out_W);
-    const ContactPatch b = patch_of(other, whole_.out_W);
+    const ContactPatch b = patch_of(all.last(other.size()), whole_.out_W);
     const Vec3 p_AB_W = b.p_WC - a.p_WC;
     const double cosine = a.n_BH_W.dot(b.n_BH_W);
     const bool is_corner = b.depth_m > 0 && std::max(a.deepest_m, b.deepest_m) <= kCameFromOutside_m &&
@@ -217,6 +217,16 @@ Sides sides_of(std::span<const WallSide> sides, const ContactPatch& patch) {
   return found;
 }
 
+bool is_tip(const UserState& user, const ContactPatch& patch) {
+  return user.sample.kind == hand::HandKind::one_point || hand::is_fingertip(patch.segment);
+}
+
+/// The thumb's inner phalanges stand lower than a flat hand's palm: held, they would stop a hand that is led over an edge, and catch on
+/// seams deep inside.
+bool is_root_of_thumb(const UserState& user, const ContactPatch& patch) {
+  return !is_tip(user, patch) && patch.segment >= hand::first_segment(0) && patch.segment < hand::first_segment(1);
+}
+
 }  // namespace
 
 double depth_behind_m(const HandModel& hand, const state::WorldState& state, const UserState& user,
@@ -245,13 +255,10 @@ std::size_t hold_walls(const state::WorldDescription& description, const HandMod
   }
   const WallHolder holder(description, hand, state, user);
   std::uint32_t sides = 0;
-  const auto is_tip = [&](const ContactPatch& patch) {
-    return user.sample.kind == hand::HandKind::one_point || hand::is_fingertip(patch.segment);
-  };
-  for (const bool tips :
-       {true, false}) {  // the thinnest first, in case that there are more than the table has room for
+  for (const bool tips : {true, false}) {  // the thinnest first: the table may not have room for all
     for (ContactPatch& patch : std::span(patches).first(count)) {
-      if (is_tip(patch) != tips || user.holds(patch.body) || sides == user.sides.size()) continue;
+      if (is_tip(user, patch) != tips || is_root_of_thumb(user, patch) || user.holds(patch.body)) continue;
+      if (sides == user.sides.size()) break;
       const Sides held = holder.hold(patch, sides_of(before, patch));
       for (const WallSide& side : held.all()) {
         if (sides < user.sides.size()) user.sides[sides++] = side;

@@ -6,7 +6,8 @@
 
 namespace mechane::haptics {
 
-/// Puts right the touches of segments (a one-point device's tip, a glove's palm and phalanges) that are pressed in so deep that their
+/// Puts right the touches of segments (a one-point device's tip, a glove's palm and phalanges without
+/// the thumb's inner two) that are pressed in so deep that their
 /// contacts no longer tell the way out: once a segment's middle has passed a thin wall, they point to the other side, or there are none.
 /// Such a segment is moved back to where it lies in the surface that it came through, and touches there; its depth is how far it was moved,
 /// and how deep it then lies. As it goes along behind the wall, its place before it follows the surface, and where the wall ends, it is

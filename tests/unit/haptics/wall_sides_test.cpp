@@ -247,7 +247,7 @@ TEST(WallSides, ThinPlatesHoldPalmAndPhalangesOfARockingHand) {
       ASSERT_TRUE(has_side(server.user(), 0, BodyId(0))) << i << " about " << rocks_W.transpose();
       EXPECT_GT(output.force_W.f.y(), 0.1);
     }
-    for (std::size_t s = hand::first_segment(1); s < hand::kHandSegments; ++s)  // the thumb stands lower: it is let go
+    for (std::size_t s = hand::first_segment(1); s < hand::kHandSegments; ++s)
       EXPECT_TRUE(has_side(server.user(), s, BodyId(0))) << s << " about " << rocks_W.transpose();
   }
 }
