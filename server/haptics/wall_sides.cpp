@@ -95,10 +95,11 @@ class MovedTouch {
   [[nodiscard]] std::optional<std::array<ContactPatch, 2>> corner() {
     const std::span<state::Contact> all = contacts();
     const Vec3 n_W = std::ranges::max_element(all, {}, &state::Contact::depth_m)->n_BH_W;
-    const auto other =
-        std::ranges::partition(all, [&](const state::Contact& at) { return at.n_BH_W.dot(n_W) > kSameWay; });
-    const ContactPatch a = patch_of(all.first(all.size() - other.size()), whole_.out_W);
-    const ContactPatch b = patch_of(all.last(other.size()), whole_.out_W);
+    const auto end_of_a =
+        std::partition(all.begin(), all.end(), [&](const state::Contact& at) { return at.n_BH_W.dot(n_W) > kSameWay; });
+    const auto size_of_a = static_cast<std::size_t>(end_of_a - all.begin());
+    const ContactPatch a = patch_of(all.first(size_of_a), whole_.out_W);
+    const ContactPatch b = patch_of(all.subspan(size_of_a), whole_.out_W);
     const Vec3 p_AB_W = b.p_WC - a.p_WC;
     const double cosine = a.n_BH_W.dot(b.n_BH_W);
     const bool is_corner = b.depth_m > 0 && std::max(a.deepest_m, b.deepest_m) <= kCameFromOutside_m &&
