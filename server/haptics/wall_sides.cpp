@@ -218,14 +218,9 @@ Sides sides_of(std::span<const WallSide> sides, const ContactPatch& patch) {
   return found;
 }
 
-bool is_tip(const UserState& user, const ContactPatch& patch) {
-  return user.sample.kind == hand::HandKind::one_point || hand::is_fingertip(patch.segment);
-}
-
-/// The thumb's inner phalanges stand lower than a flat hand's palm: held, they would stop a hand that is led over an edge, and catch on
-/// seams deep inside.
-bool is_root_of_thumb(const UserState& user, const ContactPatch& patch) {
-  return !is_tip(user, patch) && patch.segment >= hand::first_segment(0) && patch.segment < hand::first_segment(1);
+/// Tips and palm. Inner phalanges would hook what a hand that opens has just put down.
+bool is_held(const UserState& user, std::size_t segment) {
+  return user.sample.kind == hand::HandKind::one_point || segment == 0 || hand::is_fingertip(segment);
 }
 
 }  // namespace
@@ -256,14 +251,11 @@ std::size_t hold_walls(const state::WorldDescription& description, const HandMod
   }
   const WallHolder holder(description, hand, state, user);
   std::uint32_t sides = 0;
-  for (const bool tips : {true, false}) {  // the thinnest first: the table may not have room for all
-    for (ContactPatch& patch : std::span(patches).first(count)) {
-      if (is_tip(user, patch) != tips || is_root_of_thumb(user, patch) || user.holds(patch.body)) continue;
-      if (sides == user.sides.size()) break;
-      const Sides held = holder.hold(patch, sides_of(before, patch));
-      for (const WallSide& side : held.all()) {
-        if (sides < user.sides.size()) user.sides[sides++] = side;
-      }
+  for (ContactPatch& patch : std::span(patches).first(count)) {
+    if (!is_held(user, patch.segment) || user.holds(patch.body)) continue;
+    const Sides held = holder.hold(patch, sides_of(before, patch));
+    for (const WallSide& side : held.all()) {
+      if (sides < user.sides.size()) user.sides[sides++] = side;
     }
   }
   user.side_count = sides;

@@ -6,13 +6,12 @@
 
 namespace mechane::haptics {
 
-/// Puts right the touches of segments (a one-point device's tip, a glove's palm and phalanges without
-/// the thumb's inner two) that are pressed in so deep that their
-/// contacts no longer tell the way out: once a segment's middle has passed a thin wall, they point to the other side, or there are none.
-/// Such a segment is moved back to where it lies in the surface that it came through, and touches there; its depth is how far it was moved,
-/// and how deep it then lies. As it goes along behind the wall, its place before it follows the surface, and where the wall ends, it is
-/// free. In a corner it is moved out of both walls. This is the god-object of Zilles and Salisbury (1995), with a size of its own
-/// (Ruspini et al. 1997), over distance maps. For a hand that begins inside a body, contacts count until it has been out of them.
+/// Puts right the touches of tips (of a one-point device, of fingers) and palms that are pressed in so deep that their contacts no longer
+/// tell the way out: once a segment's middle has passed a thin wall, they point to the other side, or there are none. Such a segment is
+/// moved back to where it lies in the surface that it came through, and touches there; its depth is how far it was moved, and how deep it
+/// then lies. As it goes along behind the wall, its place before it follows the surface, and where the wall ends, it is free. In a corner
+/// it is moved out of both walls. This is the god-object of Zilles and Salisbury (1995), with a size of its own (Ruspini et al. 1997), over
+/// distance maps. For a hand that begins inside a body, contacts count until it has been out of them.
 ///
 /// `patches`: the touches, `count` of them; returns how many there are now. Moves `user.sides`. Lives in the tick; allocates nothing.
 [[nodiscard]] std::size_t hold_walls(const state::WorldDescription& description, const HandModel& hand,

@@ -226,7 +226,7 @@ TEST(WallSides, ATipThatIsFarThroughIsLetGo) {
 }
 
 /// A whole hand that comes down on a plate, rocks on it and moves its fingers, until its palm's middle is 6 mm below the surface.
-TEST(WallSides, ThinPlatesHoldPalmAndPhalangesOfARockingHand) {
+TEST(WallSides, ThinPlatesHoldPalmAndTipsOfARockingHand) {
   constexpr int kTicks = 400;
   constexpr double kPalmHalf_m = 0.014, kBends = 0.12;
   const auto board = test::built(test::box(Vec3(0.2, 0.0015, 0.2), Vec3(0, -0.0015, 0)));
@@ -247,8 +247,10 @@ TEST(WallSides, ThinPlatesHoldPalmAndPhalangesOfARockingHand) {
       ASSERT_TRUE(has_side(server.user(), 0, BodyId(0))) << i << " about " << rocks_W.transpose();
       EXPECT_GT(output.force_W.f.y(), 0.1);
     }
-    for (std::size_t s = hand::first_segment(1); s < hand::kHandSegments; ++s)
-      EXPECT_TRUE(has_side(server.user(), s, BodyId(0))) << s << " about " << rocks_W.transpose();
+    for (std::size_t f = 1; f < hand::kFingers; ++f) {
+      EXPECT_TRUE(has_side(server.user(), hand::first_segment(f) + hand::kPhalanges - 1, BodyId(0)))
+          << "finger " << f << " about " << rocks_W.transpose();
+    }
   }
 }
 
