@@ -166,10 +166,10 @@ class WallHolder {
       before.add(side);
       told = std::min(told, patch.push_m.dot(wall.n_W) / (kPatchShare * wall.in_m));
     }
-    const auto behind = std::span(walls).first(before.all().size());
-    if (behind.empty()) return first_side(patch);
-    if (told >= kTells) return patch.deepest_m > behind.front().in_m ? Sides{side_of(patch)} : before;
-    return hold_from(patch, before, behind, std::clamp((kTells - told) / (kTells - kMisleads), 0.0, 1.0));
+    const auto passed = std::span(walls).first(before.all().size());
+    if (passed.empty()) return first_side(patch);
+    if (told >= kTells) return patch.deepest_m > passed.front().in_m ? Sides{side_of(patch)} : before;
+    return hold_from(patch, before, passed, std::clamp((kTells - told) / (kTells - kMisleads), 0.0, 1.0));
   }
 
  private:

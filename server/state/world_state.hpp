@@ -195,7 +195,7 @@ enum class StateVersion : std::uint32_t {
   without_governors = 1,  ///< journals of version 1
   with_governors = 2,     ///< and with the age of each user's last sample
   with_anchors = 4,       ///< friction has static hold, before it was a damping; the normals of touches are smooth
-  with_sides = 8,         ///< thin walls hold hands, and their normals are smooth
+  with_sides = 8,         ///< thin walls hold tips, and their normals are smooth
 };
 inline constexpr StateVersion kStateVersion = StateVersion::with_sides;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {
