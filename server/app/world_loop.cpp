@@ -18,7 +18,8 @@ class TickOutput final : public world::Publisher {
   void publish_forces(const state::WorldState& state) noexcept override { running_.port->publish_forces(state); }
 
   void publish(const state::WorldState& state) noexcept override {
-    running_.port->publish(state);
+    if (transport::WorldPort::shows(state.tick)) running_.shown.follow(*running_.world->hand, state);
+    running_.port->publish(state, running_.shown.out_W());
     if (running_.visits != nullptr) running_.visits->push(running_.port->description(), state, inputs_);
     if (!running_.recorder) return;
     record::TickRecord record;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "server/haptics/shown_hands.hpp"
 #include "server/realtime/histogram.hpp"
 #include "server/realtime/periodic_thread.hpp"
 #include "server/realtime/ring.hpp"
@@ -26,6 +27,7 @@ struct RunningWorld {
   /// Gives the state to the recorder, which must exist. For the thread that uses the world at the moment.
   void keep_snapshot() noexcept;
 
+  haptics::ShownHands shown;       ///< for the loop only
   StepId step;                     ///< where the visit was after the last tick; for the loop only
   std::atomic<StepId> sends_on{};  ///< a step that opens another scenario has begun; the main thread takes it
   std::atomic<bool> leave{false};  ///< the main thread asks the loop to give the world back

@@ -21,6 +21,7 @@ struct ContactPatch {
   double deepest_m = 0;        ///< of the points
   Vec3 out_W = Vec3::Zero();   ///< by what the segment was moved to find this touch; see hold_walls()
   double found_depth_m = 0;    ///< the depth there
+  bool in_corner = false;      ///< of two walls that hold: the normal lies between theirs
 };
 
 /// The points of a ball's cap are spread evenly over its depth, so that a patch is two thirds as deep as the ball.

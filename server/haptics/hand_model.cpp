@@ -126,6 +126,17 @@ double HandModel::inner_radius_m(const hand::HandSample& sample, std::size_t ind
   return scale * size_.fingers[hand::finger_of(index)].radius_m[(index - 1) % hand::kPhalanges];
 }
 
+double HandModel::stands_out_m(const hand::HandSample& sample, std::size_t index, const Vec3& n_S) const noexcept {
+  if (sample.kind == HandKind::one_point) return 0;
+  // The norm that is dual to that of which the superquadric is the unit ball.
+  const geometry::Superquadric& shape = segment(sample, index).parts.front().superquadric;
+  const double across = 2 / (2 - shape.e2), along = 2 / (2 - shape.e1);
+  const Vec3 stretched_m = shape.a.cwiseProduct(n_S).cwiseAbs();
+  const double section = std::pow(stretched_m.x(), across) + std::pow(stretched_m.y(), across);
+  const double whole = std::pow(section, along / across) + std::pow(stretched_m.z(), along);
+  return std::pow(whole, 1 / along) - inner_radius_m(sample, index);
+}
+
 double HandModel::reach_m(const hand::HandSample& sample) const noexcept {
   if (sample.kind == HandKind::one_point) return size_.tip_radius_m * kMostScale;
   double reach = 2 * size_.palm_half_m.x();

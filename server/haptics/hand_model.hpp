@@ -43,6 +43,9 @@ class HandModel {
   [[nodiscard]] const collision::Object& pad() const noexcept { return pad_; }
   /// Of the largest ball inside the segment.
   [[nodiscard]] double inner_radius_m(const hand::HandSample& sample, std::size_t index) const noexcept;
+  /// How much farther than that ball the segment reaches from its middle along `n_S`, a unit vector in its frame: along its thinnest
+  /// direction not at all.
+  [[nodiscard]] double stands_out_m(const hand::HandSample& sample, std::size_t index, const Vec3& n_S) const noexcept;
   /// Around the whole hand, in H: nothing outside can touch it.
   [[nodiscard]] double reach_m(const hand::HandSample& sample) const noexcept;
   /// n_f of equation 19: unit vector perpendicular to a phalanx, out of its back, in W. A glove that only pulls (CyberGrasp)

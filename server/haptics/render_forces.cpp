@@ -76,7 +76,8 @@ Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel
   if (config.normals == NormalKind::of_contacts || object == nullptr || !tip) return at.n_BH_W;
   const Pose& X_WB = state[at.body].X_WB;
   const Pose X_BW = X_WB.inverse();
-  Touch touch{.p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W), .thin_walls = config.thin_walls};
+  Touch touch{
+      .p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W), .thin_walls = config.thin_walls != ThinWalls::let_through};
   if (stylus) {  // under a ball, the surface lies in the direction of its normal
     touch.p_B = X_BW * p_WS;
     touch.surface_m = hand.inner_radius_m(user.sample, 0) - depth_m;
@@ -123,14 +124,17 @@ void render_patches(const state::WorldDescription& description, const HandModel&
                     UserState& user, const ForceConfig& config) {
   std::array<ContactPatch, kMaxPatches> patches;
   std::size_t count = gather_patches(user.contact_span(), patches);
-  if (config.thin_walls) count = hold_walls(description, hand, state, user, patches, count);
+  if (config.thin_walls != ThinWalls::let_through)
+    count = hold_walls(description, hand, state, user, config.thin_walls, patches, count);
   FrictionAnchors anchors(user);
   for (std::size_t i = 0; i < count; ++i) {
     ContactPatch& patch = patches[i];
     if (patch.depth_m <= 0) continue;
     state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
-    touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config,
-                                                  user.X_WS[patch.segment].p + patch.out_W, patch.found_depth_m);
+    if (!patch.in_corner) {
+      touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config,
+                                                    user.X_WS[patch.segment].p + patch.out_W, patch.found_depth_m);
+    }
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const HapticMaterial& material = body.haptic;

@@ -3,6 +3,7 @@
 
 #include "server/hand/governor.hpp"
 #include "server/haptics/hand_model.hpp"
+#include "server/haptics/wall_sides.hpp"
 #include "server/state/world_state.hpp"
 
 namespace mechane::haptics {
@@ -25,8 +26,7 @@ struct ForceConfig {
   ForceMode mode = ForceMode::continuous;
   FrictionKind friction = FrictionKind::sticks;
   NormalKind normals = NormalKind::smooth;
-  /// They hold tips (hold_walls()) and are smoothed; false: as in journals before StateVersion::with_sides.
-  bool thin_walls = true;
+  ThinWalls thin_walls = ThinWalls::hold_hands;
   double damping_depth_m = 0.001;  ///< damping comes in over this depth, so that a first touch is not a step
   hand::GovernorConfig
       governor;  ///< the server's own limits; the client's governor comes after it and has the last word

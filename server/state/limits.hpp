@@ -7,7 +7,7 @@ namespace mechane::state {
 
 inline constexpr std::size_t kMaxContacts = 512;   ///< of one user in one tick; see find_contacts()
 inline constexpr std::size_t kMaxPatches = 64;     ///< touches of one user, each of one segment with one body
-inline constexpr std::size_t kMaxSides = 16;       ///< touches of one user's tips whose side is remembered
+inline constexpr std::size_t kMaxSides = 16;       ///< of one user's tips and palm; two for each in a corner
 inline constexpr std::size_t kMaxRopeNodes = 12;   ///< of one rope: its two ends and what it runs over
 inline constexpr std::size_t kMaxPresented = 256;  ///< activities, questions of one, answers of one, views, effects
 inline constexpr std::size_t kMaxEventsPerTick = 64;

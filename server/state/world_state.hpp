@@ -67,12 +67,12 @@ struct FrictionAnchor {
   Vec3 p_BA = Vec3::Zero();  ///< on the body, in its frame
 };
 
-/// From which side a tip of a hand came to a body that it touches.
+/// From which side a tip or palm came to a body that it touches.
 struct WallSide {
   BodyId body;
   std::uint8_t segment = 0;
   Vec3 n_B = Vec3::Zero();  ///< unit, in the body's frame: the way out
-  double height_m = 0;      ///< along n_B from the body's origin: where the segment's middle is when it just touches
+  double height_m = 0;      ///< along n_B from the body's origin: where a ball in the segment is when it touches
 };
 
 /// A hand holds a body by a force-limited spring that dynamics solves as a constraint.
@@ -197,8 +197,9 @@ enum class StateVersion : std::uint32_t {
   with_anchors = 4,       ///< friction has static hold, before it was a damping; the normals of touches are smooth
   with_sides = 8,         ///< thin walls hold tips, and their normals are smooth
   with_builds = 16,       ///< hands are right or left, and their fingers have lengths of their own
+  with_corners = 32,      ///< thin walls hold palms, and corners of them hold by both
 };
-inline constexpr StateVersion kStateVersion = StateVersion::with_builds;
+inline constexpr StateVersion kStateVersion = StateVersion::with_corners;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {
   return std::has_single_bit(static_cast<std::uint32_t>(version)) && version <= kStateVersion;
 }

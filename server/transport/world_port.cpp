@@ -175,14 +175,14 @@ void WorldPort::publish_forces(const state::WorldState& state) noexcept {
   if (any_force) haptic_.forces_are_ready();
 }
 
-void WorldPort::publish(const state::WorldState& state) noexcept {
+void WorldPort::publish(const state::WorldState& state, std::span<const Vec3> shown_W) noexcept {
   for (const state::Event& event : state.event_span()) {
     if (!events_.push(event)) events_lost_.fetch_add(1, std::memory_order_relaxed);
   }
-  if (state.tick % kTicksPerFrame == 1) publish_snapshot(state);
+  if (shows(state.tick)) publish_snapshot(state, shown_W);
 }
 
-void WorldPort::publish_snapshot(const state::WorldState& state) noexcept {
+void WorldPort::publish_snapshot(const state::WorldState& state, std::span<const Vec3> shown_W) noexcept {
   SceneSnapshot& s = snapshots_.writable();
   s.tick = state.tick;
   s.sampled_ns = to_ns(now_);
@@ -194,8 +194,11 @@ void WorldPort::publish_snapshot(const state::WorldState& state) noexcept {
   copy_all(state.quantities, s.quantities);
   copy_all(state.agent_enabled, s.agent_enabled);
   s.progress = state.progress;
-  for (std::size_t i = 0; i < s.hands.size(); ++i)
+  for (std::size_t i = 0; i < s.hands.size(); ++i) {
     s.hands[i] = snapshot_of(state.users[i], current_.names[i]);
+    for (Pose& X_WS : s.hands[i].X_WS)
+      X_WS.p += i < shown_W.size() ? shown_W[i] : Vec3(Vec3::Zero());
+  }
   s.rope_count = 0;
   for (const state::Coupling& coupling : state.couplings) {
     if (coupling.kind == state::CouplingKind::rope && s.rope_count < s.ropes.size()) s.ropes[s.rope_count++] = coupling;

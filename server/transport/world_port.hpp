@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -103,8 +104,10 @@ class WorldPort {
   void gather(state::TickInputs& inputs, TimePoint now) noexcept;
   /// Sends the forces to their devices at once. At most one futex wake, together with gather()'s.
   void publish_forces(const state::WorldState& state) noexcept;
-  /// Publishes all events, and every 16th tick a snapshot for displays.
-  void publish(const state::WorldState& state) noexcept;
+  /// Whether publish() makes a snapshot of such a tick.
+  [[nodiscard]] static bool shows(std::uint64_t tick) noexcept { return tick % kTicksPerFrame == 1; }
+  /// Publishes all events, and every 16th tick a snapshot for displays. `shown_W`: in W, by user, how far beside its place a hand is shown.
+  void publish(const state::WorldState& state, std::span<const Vec3> shown_W = {}) noexcept;
 
   // For other threads of the transport, each function for the one named.
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
@@ -129,7 +132,7 @@ class WorldPort {
 
   void hand_over_bindings();
   void take_bindings() noexcept;
-  void publish_snapshot(const state::WorldState& state) noexcept;
+  void publish_snapshot(const state::WorldState& state, std::span<const Vec3> shown_W) noexcept;
 
   // For the main thread.
   std::string world_;

@@ -49,6 +49,7 @@ class FloorServer {
   }
   /// From now on the body is there.
   void place(const Pose& X_WB) { state_.bodies[0].X_WB = X_WB; }
+  [[nodiscard]] const state::WorldState& state() const { return state_; }
   [[nodiscard]] state::UserState& user() { return state_.users[0]; }
   /// From now on the block feels otherwise.
   void feel(const state::HapticMaterial& haptic) { state_.bodies[0].haptic = haptic; }

@@ -28,6 +28,8 @@ namespace mechane::test {
 
 inline constexpr std::uint32_t kServerDomain = 41;
 inline constexpr std::uint32_t kClientDomain = 42;
+/// How far beside their places the server below shows hands.
+inline const Vec3 kShown_W(0, 0.25, 0);
 
 /// Holds the configuration of one domain while it lives.
 class LoopbackDomain {
@@ -251,7 +253,9 @@ class EchoServer {
       state_.emit(state::EventKind::command_done, 0xffffffffu, 0xffffffffu, static_cast<double>(inputs.commands[i].id));
     }
     port_->publish_forces(state_);
-    port_->publish(state_);
+    std::array<Vec3, hand::kMaxUsers> shown_W;
+    shown_W.fill(kShown_W);
+    port_->publish(state_, shown_W);
   }
 
   std::unique_ptr<transport::ServerTransport> transport_;

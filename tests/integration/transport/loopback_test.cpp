@@ -77,7 +77,7 @@ TEST_F(Loopback, AWatcherLearnsManifestStatusFramesAndCommandsAreAnswered) {
   EXPECT_TRUE(eventually(
       [&] {
         return watcher->newest_frame(frame) && frame.hands.size() == 1 && frame.hands[0].user == 2 &&
-               frame.hands[0].X_WS[0].p == Vec3(0, 0, 1);
+               frame.hands[0].X_WS[0].p == Vec3(0, 0, 1) + test::kShown_W;
       },
       10s, [&] { hand->send(hand_at(Vec3(0, 0, 1))); }));
   EXPECT_EQ(frame.bodies.size(), 2u);  // the fixed one is in the manifest only

@@ -140,5 +140,21 @@ TEST(HandModel, ImpossibleSizesAreRefusedByName) {
   EXPECT_FALSE(made.error().remedy.empty());
 }
 
+RC_GTEST_PROP(HandModel, SegmentsReachAsFarAsTheirSurfaceDoes, ()) {
+  HandSample sample = glove(0);
+  sample.hand_scale = *rc::gen::element(0.7, 1.0, 1.3);
+  const Vec3 n_S = test::any_unit();
+  for (std::size_t s = 0; s < hand::kHandSegments; ++s) {
+    double farthest_m = 0;
+    for (const collision::Cluster& cluster : hand().segment(sample, s).clusters) {
+      for (std::size_t lane = 0; lane < cluster.count; ++lane)
+        farthest_m = std::max(farthest_m, n_S.dot(cluster.sample_O(lane).cast<double>()));
+    }
+    const double reach_m = hand().inner_radius_m(sample, s) + hand().stands_out_m(sample, s, n_S);
+    RC_ASSERT(reach_m > farthest_m - 1e-4);
+    RC_ASSERT(reach_m < farthest_m + 1.5e-3);  // between samples, 4 mm apart
+  }
+}
+
 }  // namespace
 }  // namespace mechane::haptics

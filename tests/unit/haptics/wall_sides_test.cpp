@@ -47,7 +47,7 @@ class Led {
   static ForceConfig config(bool walls_hold) {
     ForceConfig config;
     config.governor.passivity = false;
-    config.thin_walls = walls_hold;
+    config.thin_walls = walls_hold ? ThinWalls::hold_hands : ThinWalls::let_through;
     return config;
   }
   test::FloorServer server_;
@@ -122,6 +122,54 @@ TEST(WallSides, InACornerBothWallsPush) {
   EXPECT_NEAR(push_m.y(), kPatchShare * 0.005, 1e-3);
 }
 
+/// Of two plates of 3 mm that meet at x = y = 0, with the open side towards -x and +y, turned by so much about z.
+std::shared_ptr<const collision::Object> thin_corner(double lean_rad) {
+  geometry::Mesh wall = test::box(Vec3(0.0015, 0.05, 0.05), Vec3(0.0015, 0.05, 0));
+  for (Vec3& v : wall.vertices)
+    v = Quat(Eigen::AngleAxisd(lean_rad, Vec3::UnitZ())) * v;
+  return test::built(
+      std::array{geometry::NamedMesh{"floor", test::box(Vec3(0.05, 0.0015, 0.05), Vec3(-0.05, -0.0015, 0))},
+                 geometry::NamedMesh{"wall", wall}});
+}
+
+/// With the wall upright and leaning away from the floor; entered along the floor, along the wall and between them; in each the tip is then
+/// led behind both walls, back along one, and again behind both.
+TEST(WallSides, InACornerOfThinWallsBothHold) {
+  constexpr double kBehind_m = 0.012;
+  for (const double lean_deg : {0, -25}) {
+    const double lean_rad = lean_deg * kPi / 180;
+    const Vec3 n_W(-std::cos(lean_rad), -std::sin(lean_rad), 0);  // of the wall
+    const auto at = [&](double floor_m, double wall_m) {          // so far in front of both
+      const double y = floor_m;
+      return Vec3((wall_m - y * n_W.y()) / n_W.x(), y, 0);
+    };
+    const Vec3 deep_W = at(kLedTip_m - kBehind_m, kLedTip_m - kBehind_m);
+    for (const Vec3& start_W : {at(0.004, 0.04), at(0.04, 0.004), at(0.02, 0.0201)}) {
+      Led tip(thin_corner(lean_rad));
+      tip.begin(at(0.04, 0.04));
+      tip.go(start_W);
+      const auto see_both = [&](const Vec3&, const hand::LocalContact* contact) {
+        ASSERT_NE(contact, nullptr);
+        EXPECT_GT(contact->n_W.y(), -0.02) << "never down through the floor";
+        EXPECT_GT(contact->n_W.dot(n_W), -0.02) << "nor through the wall";
+      };
+      const auto expect_both = [&] {
+        tip.go(deep_W, see_both);
+        tip.go(deep_W + Vec3(0, 1e-4, 0), [&](const Vec3&, const hand::LocalContact* contact) {
+          ASSERT_NE(contact, nullptr);
+          EXPECT_NEAR(contact->n_W.y(), contact->n_W.dot(n_W), 0.1) << lean_deg << " from " << start_W.transpose();
+          EXPECT_GT(contact->depth_m, 0.0079);
+        });
+      };
+      expect_both();
+      tip.go(at(kLedTip_m - kBehind_m, 0.02), see_both);
+      expect_both();
+      tip.go(at(0.02, kLedTip_m - kBehind_m), see_both);
+      expect_both();
+    }
+  }
+}
+
 /// As the tip sees it, nothing differs from a plate that lies still.
 TEST(WallSides, APlateThatTurnsAndMovesHoldsATip) {
   test::FloorServer server(plate(0.003));
@@ -175,6 +223,35 @@ TEST(WallSides, ATipThatIsFarThroughIsLetGo) {
   tip.go({0, -0.03, 0}, [&](const Vec3&, const hand::LocalContact* contact) {
     EXPECT_TRUE(contact == nullptr || contact->depth_m <= 0);
   });
+}
+
+/// A whole hand that comes down on a plate, rocks on it and moves its fingers, until its palm's middle is 6 mm below the surface.
+TEST(WallSides, ThinPlatesHoldPalmAndTipsOfARockingHand) {
+  constexpr int kTicks = 400;
+  constexpr double kPalmHalf_m = 0.014, kBends = 0.12;
+  const auto board = test::built(test::box(Vec3(0.2, 0.0015, 0.2), Vec3(0, -0.0015, 0)));
+  for (const Vec3& rocks_W : {Vec3(0, 0, 0), Vec3(0.12, 0, 0.03), Vec3(-0.04, 0.3, 0.1)}) {
+    test::FloorServer server(board);
+    hand::HandSample sample;
+    sample.kind = hand::HandKind::glove;
+    for (int i = 0; i <= kTicks; ++i) {
+      const double sway = std::sin(2 * kPi * 1.5 * i / kTicks);
+      for (std::size_t f = 0; f < hand::kFingers; ++f)
+        test::close_finger(sample, f, kBends * std::abs(sway));
+      sample.X_WH.R =
+          Quat(Eigen::AngleAxisd(rocks_W.norm() * sway, rocks_W.isZero() ? Vec3::UnitX() : rocks_W.normalized()));
+      sample.X_WH.p = Vec3(0, 0.08 - 0.086 * i / kTicks, 0) - sample.X_WH.rotate(Vec3(0.05, 0, 0));
+      const hand::HapticOutput& output = server.answer(sample);
+      EXPECT_GE(output.force_W.f.y(), -1e-6);
+      if (server.user().X_WS[0].p.y() > kPalmHalf_m - 1e-3) continue;
+      ASSERT_TRUE(has_side(server.user(), 0, BodyId(0))) << i << " about " << rocks_W.transpose();
+      EXPECT_GT(output.force_W.f.y(), 0.1);
+    }
+    for (std::size_t f = 1; f < hand::kFingers; ++f) {
+      EXPECT_TRUE(has_side(server.user(), hand::first_segment(f) + hand::kPhalanges - 1, BodyId(0)))
+          << "finger " << f << " about " << rocks_W.transpose();
+    }
+  }
 }
 
 /// From outside and from inside, across the seams of the staves.
