@@ -31,8 +31,11 @@ class PlaneFit {
  public:
   void add(const Vec3& p, double weight) {
     weight_ += weight;
-    sum_ += weight * p;
-    squares_ += weight * p * p.transpose();
+    const Vec3 weighted = weight * p;
+    sum_ += weighted;
+    xy_xz_yz_ += Vec3(weighted.x() * p.y(), weighted.x() * p.z(), weighted.y() * p.z());
+    xx_ += weighted.x() * p.x();
+    yy_ += weighted.y() * p.y();
   }
   [[nodiscard]] double weight() const { return weight_; }
   /// How many points lay nearer to the other side of a wall.
@@ -42,12 +45,15 @@ class PlaneFit {
   [[nodiscard]] std::optional<Vec3> normal() const {
     constexpr double kLine = 1e-3;
     const Vec3 middle = sum_ / weight_;
-    const Mat3 C = squares_ / weight_ - middle * middle.transpose();
-    const double det = C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1);
-    const double trace = C(0, 0) + C(1, 1);
+    const double xx = xx_ / weight_ - middle.x() * middle.x(), yy = yy_ / weight_ - middle.y() * middle.y();
+    const double xy = xy_xz_yz_.x() / weight_ - middle.x() * middle.y();
+    const double xz = xy_xz_yz_.y() / weight_ - middle.x() * middle.z();
+    const double yz = xy_xz_yz_.z() / weight_ - middle.y() * middle.z();
+    const double det = xx * yy - xy * xy;
+    const double trace = xx + yy;
     if (!(det > kLine * trace * trace)) return std::nullopt;
-    const double slope_x = (C(1, 1) * C(0, 2) - C(0, 1) * C(1, 2)) / det;
-    const double slope_y = (C(0, 0) * C(1, 2) - C(0, 1) * C(0, 2)) / det;
+    const double slope_x = (yy * xz - xy * yz) / det;
+    const double slope_y = (xx * yz - xy * xz) / det;
     return Vec3(-slope_x, -slope_y, 1).normalized();
   }
 
@@ -55,7 +61,8 @@ class PlaneFit {
   double weight_ = 0;
   std::size_t behind_ = 0;
   Vec3 sum_ = Vec3::Zero();
-  Mat3 squares_ = Mat3::Zero();
+  double xx_ = 0, yy_ = 0;  // sums of products: those that the normal needs
+  Vec3 xy_xz_yz_ = Vec3::Zero();
 };
 
 /// Rises evenly from 0 to 1 between two values.
