@@ -63,7 +63,7 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
 
 bool parse_held(const proto::WireHeldPath& wire, HeldPath& out) noexcept {
   if (wire.kind == mechane_held_none) return true;
-  if (wire.kind > mechane_held_circle) return false;
+  if (wire.kind > mechane_held_free) return false;
   if (!(proto::all_finite(wire.p_HG) && proto::all_finite(wire.p_W) && proto::all_finite(wire.axis_W))) return false;
   for (const float v : {wire.radius_m, wire.along_n, wire.stiffness_n_per_m, wire.damping_ns_per_m, wire.limit_n}) {
     if (!std::isfinite(v)) return false;
@@ -78,6 +78,7 @@ bool parse_held(const proto::WireHeldPath& wire, HeldPath& out) noexcept {
   out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
   out.limit_n = std::max(0.0f, wire.limit_n);
   out.validity = parse_validity(wire.valid_us);
+  if (out.kind == HeldPath::Kind::free && out.along_n < 0) return false;
   return make_unit(out.axis_W) && (out.kind != HeldPath::Kind::circle || out.radius_m > 0);
 }
 

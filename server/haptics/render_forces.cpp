@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "server/hand/held_path.hpp"
 #include "server/haptics/clicks.hpp"
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/effective_mass.hpp"
@@ -242,6 +243,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, cons
   input.finger_force_n = user.output.finger_force_n;
   input.V_WH = user.V_WH;
   input.age = user.age;
+  if (config_.weights) input.weight_W = hand::held_weight(user.output.held, user.X_WH, user.age);
   input.engaged = user.present;
   static_cast<hand::HandForce&>(user.output) = governor_.apply(governor, input, kTickPeriod);
 }
