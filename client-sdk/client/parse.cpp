@@ -73,12 +73,11 @@ bool parse_held(const proto::WireHeldPath& wire, HeldPath& out) noexcept {
   out.p_W = proto::to_vec3(wire.p_W);
   out.axis_W = proto::to_vec3(wire.axis_W);
   out.radius_m = wire.radius_m;
-  out.along_n = wire.along_n;
+  out.along_n = wire.kind == mechane_held_free ? std::max(0.0f, wire.along_n) : wire.along_n;
   out.stiffness_n_per_m = std::max(0.0f, wire.stiffness_n_per_m);
   out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
   out.limit_n = std::max(0.0f, wire.limit_n);
   out.validity = parse_validity(wire.valid_us);
-  if (out.kind == HeldPath::Kind::free && out.along_n < 0) return false;
   return make_unit(out.axis_W) && (out.kind != HeldPath::Kind::circle || out.radius_m > 0);
 }
 

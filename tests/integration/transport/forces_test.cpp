@@ -50,12 +50,13 @@ bool same(const hand::LocalContact& a, const hand::LocalContact& b) {
 
 hand::HeldPath any_path() {
   using Kind = hand::HeldPath::Kind;
-  return {.kind = *rc::gen::element(Kind::none, Kind::line, Kind::circle, Kind::free),
+  const auto kind = *rc::gen::element(Kind::none, Kind::line, Kind::circle, Kind::free);
+  return {.kind = kind,
           .p_HG = vector_within(1),
           .p_W = vector_within(100),
           .axis_W = any_unit(),
           .radius_m = float_between(0.01, 5),
-          .along_n = float_between(-20, 20),
+          .along_n = float_between(kind == Kind::free ? 0 : -20, 20),
           .stiffness_n_per_m = float_between(0, 5000),
           .damping_ns_per_m = float_between(0, 50),
           .limit_n = float_between(0, 500),
