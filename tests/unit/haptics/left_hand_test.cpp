@@ -107,9 +107,11 @@ double from_mirror_image(const hand::HapticOutput& right, const hand::HapticOutp
 }
 
 TEST(LeftHand, FeelsTheMirrorImageOfWhatTheRightHandFeels) {
-  constexpr double kOnePoint_n = 0.15;  // a point that is just at the surface may count on one side alone, by rounding
+  constexpr double kOnePoint_n = 0.05;  // a point that is just at the surface may count on one side alone, by rounding
   ForceConfig config;
   config.normals = NormalKind::of_contacts;  // the pad that smooths touches is not the same in a mirror
+  // Without that pad, what holds a tip deep behind a wall turns by degrees with each point that lies in the surface.
+  config.thin_walls = ThinWalls::let_through;
   BothHands hands(config);
   double most_n = 0, most_finger_n = 0;
   int whole = 0;
