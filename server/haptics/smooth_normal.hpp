@@ -16,6 +16,14 @@ struct Touch {
   Vec3 n_B = Vec3::UnitZ();  ///< unit, as the contacts gave it
   bool thin_walls = true;    ///< those under 3 mm are smoothed, too
   int rounds = 1;            ///< how often a plane is fitted, each time with the normal of the last one
+  Vec3 v_B = Vec3::Zero();   ///< of the hand over the surface, m/s
+};
+
+/// A surface as a soft fingertip feels it, in the body's frame.
+struct SmoothSurface {
+  Vec3 n_B = Vec3::UnitZ();  ///< unit
+  double curvature_per_m =
+      0;  ///< along the hand's way; of a hand that is slow, the mean of all directions; > 0 bulges towards the hand
 };
 
 /// Fits a plane to where the pad's points come to lie on the body, around the place where its surface is felt, and returns the plane's
@@ -24,7 +32,7 @@ struct Touch {
 ///
 /// Compare the smoothed distance map of the paper (Figure 16) and force shading (Morgenbesser and Srinivasan 1996), which interpolates the
 /// normals of a mesh's corners: this needs no mesh.
-[[nodiscard]] Vec3 smooth_normal(const collision::Object& pad, const collision::Object& body,
-                                 const Touch& touch) noexcept;
+[[nodiscard]] SmoothSurface smooth_surface(const collision::Object& pad, const collision::Object& body,
+                                           const Touch& touch) noexcept;
 
 }  // namespace mechane::haptics
