@@ -85,7 +85,7 @@ void HapticLoop::set_local_contacts() noexcept {
   local_.set(answer_.contact_span(), sent(answer_.echo_sequence).p_WH);
 }
 
-/// The hand's mean velocity since the last call. The energy that a force gave is found from places: a device's own velocity is noisy.
+/// The hand's mean velocity since the last call. The energy that a force gave is found from places: a device's own velocity is late.
 Twist HapticLoop::moved(const HandSample& input, Duration dt) noexcept {
   const Pose before = std::exchange(X_WH_before_, input.X_WH).value_or(input.X_WH);
   return dt > Duration{0} ? mean_twist(before, input.X_WH, to_seconds(dt)) : Twist{};

@@ -66,7 +66,8 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, double curva
   KeepDeepest(out.contacts, out.contact_count).add(contact);
 }
 
-/// A ball on a surface moves like its middle on one that is as far away as its radius; in a narrow hollow it has no way to roll.
+/// The middle of a ball that moves over a surface keeps to a second surface, one radius farther out: the curvature of that one. A hollow
+/// narrower than two radii counts as that wide.
 double curvature_under_ball_per_m(double curvature_per_m, double radius_m) {
   const double under = std::max(curvature_per_m, -0.5 / radius_m);
   return under / (1 + under * radius_m);

@@ -31,8 +31,8 @@ constexpr std::array<double, 5> kSteps_m{-1.2e-3, -0.3e-3, 0.6e-3, 1.5e-3, 2.4e-
 constexpr double kOnset_m = 0.3e-3;
 constexpr double kEnough = 0.5 * kPadPoints;
 
-/// Which curvatures of a surface count, as a square form of trace 1 over its plane: those along the velocity `v`, or those of all directions
-/// alike where it is slow.
+/// Which curvatures of a surface count, as a square form of trace 1 over its plane: those along the velocity `v`, and where it is slow,
+/// those of all directions alike.
 Mat2 way_along(const Vec2& v) {
   constexpr double kSlow_m_per_s = 0.05;  // the steps of its encoders make a stylus at rest seem as fast as this
   const Mat2 way = v * v.transpose() + 0.5 * kSlow_m_per_s * kSlow_m_per_s * Mat2::Identity();
