@@ -181,8 +181,9 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   hand.X_WH.p = workspace_.p_WH();
   const auto& q = state.orientation_wxyz;
   hand.X_WH.R = workspace_.R_WH(Quat(q[0], q[1], q[2], q[3]).normalized());
-  const double step_s = to_seconds(newest_.at - last_at_);
-  if (step_s > 0 && newest_.at - last_at_ < kLostAfter) hand.V_WH = mean_twist(last_.X_WH, hand.X_WH, step_s);
+  const Duration step = newest_.at - last_at_;
+  if (step >= kLostAfter) speed_.forget();
+  hand.V_WH = speed_.note(hand.X_WH, step);
   std::copy(std::begin(state.joints_rad), std::end(state.joints_rad), hand.joints.begin());
   if (config_.glove) hand.joints = config_.glove->apply(hand.joints);
   hand.buttons = state.buttons & ~config_.workspace.clutch_button;

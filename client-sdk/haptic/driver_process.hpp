@@ -11,6 +11,7 @@
 #include "client-sdk/haptic/driver.hpp"
 #include "client-sdk/haptic/driver_link.hpp"
 #include "client-sdk/haptic/hand_calibration.hpp"
+#include "client-sdk/haptic/hand_speed.hpp"
 #include "client-sdk/haptic/workspace.hpp"
 
 namespace mechane::haptic {
@@ -37,7 +38,7 @@ class DriverProcess final : public Device {
 
   /// Waits until the device has given a state that read() has not seen. False: none within `limit`.
   [[nodiscard]] bool wait(Duration limit) noexcept;
-  /// The newest state. A hand without an own velocity gets the mean one since the state before. Button 0 of a one-point
+  /// The newest state. Its velocity is that of HandSpeed. Button 0 of a one-point
   /// device grasps. While the clutch is down, the device is not ready.
   [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
   void write(const hand::HandForce& force) noexcept override;
@@ -73,6 +74,7 @@ class DriverProcess final : public Device {
   DeviceCondition condition_ = DeviceCondition::lost;
   client::HandSample last_;
   TimePoint last_at_;
+  HandSpeed speed_;
   std::atomic<TimePoint> newest_at_{TimePoint{}};  // of newest_, for check()
   bool told_lost_ = false;                         // by the process
 };

@@ -38,16 +38,14 @@ HapticLoop::~HapticLoop() {
 }
 
 void HapticLoop::send(const HandSample& input, TimePoint now) noexcept {
-  HandSample told = input;
   if (deadband_.is_on()) {
     const double reach_m = hand::reach_m(answer_, sent(answer_.echo_sequence).p_WH, input.X_WH.p);
     if (!deadband_.is_due(input, reach_m, now)) return;
-    told = deadband_.with_mean_speed(input, now);
   }
-  if (!client_.send(told)) return;
+  if (!client_.send(input)) return;
   ++stats_.sent;
   sent_[client_.sent_sequence() % sent_.size()] = {input.X_WH.p, now};
-  if (deadband_.is_on()) deadband_.note_sent(told, now);
+  if (deadband_.is_on()) deadband_.note_sent(input, now);
 }
 
 bool HapticLoop::take_answer() noexcept {
@@ -87,7 +85,7 @@ void HapticLoop::set_local_contacts() noexcept {
   local_.set(answer_.contact_span(), sent(answer_.echo_sequence).p_WH);
 }
 
-/// The hand's mean velocity since the last call. The energy that a force gave is found from places: a device's own velocity is noisy.
+/// The hand's mean velocity since the last call. The energy that a force gave is found from places: a device's own velocity is late.
 Twist HapticLoop::moved(const HandSample& input, Duration dt) noexcept {
   const Pose before = std::exchange(X_WH_before_, input.X_WH).value_or(input.X_WH);
   return dt > Duration{0} ? mean_twist(before, input.X_WH, to_seconds(dt)) : Twist{};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace mechane::haptic {
 namespace {
@@ -41,8 +40,7 @@ client::HandSample SimulatedStylus::read(Duration dt) noexcept {
   client::HandSample sample;
   sample.X_WH = {rounded(p_WH_), intent_.X_WH.R};
   sample.grasp_intent = intent_.grasp_intent;
-  const Pose before = std::exchange(told_, sample.X_WH).value_or(sample.X_WH);
-  if (dt_s > 0) sample.V_WH = mean_twist(before, sample.X_WH, dt_s);
+  sample.V_WH = speed_.note(sample.X_WH, dt);
   return sample;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "client-sdk/haptic/device.hpp"
+#include "client-sdk/haptic/hand_speed.hpp"
 #include "client-sdk/haptic/virtual_device.hpp"
 
 namespace mechane::haptic {
@@ -36,7 +37,7 @@ class SimulatedStylus final : public SimulatedDevice {
 
   [[nodiscard]] Expected<void> open() override { return {}; }
   void close() noexcept override {}
-  /// The place as its encoders tell it, and the velocity that follows from two such places.
+  /// The place as its encoders tell it, and the velocity that follows from such places.
   [[nodiscard]] client::HandSample read(Duration dt) noexcept override;
   void write(const hand::HandForce& force) noexcept override {
     written_[++writes_ % written_.size()] = force.force_W.f;
@@ -63,7 +64,7 @@ class SimulatedStylus final : public SimulatedDevice {
   Vec3 p_WH_;
   Vec3 v_WH_ = Vec3::Zero();
   HandIntent intent_;
-  std::optional<Pose> told_;  // in the last call of read()
+  HandSpeed speed_;
   std::array<Vec3, 64> written_ = filled();
   std::uint64_t writes_ = 0;
 

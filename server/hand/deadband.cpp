@@ -13,8 +13,8 @@ constexpr double kFarthest_m = 0.02;  // a server tells of surfaces up to this d
 constexpr double kStiffness_n_per_m = kFineForce_n / kFineWay_m;
 // A wrong speed counts like the way in this time: damping over stiffness of the exhibits' parts.
 constexpr double kDampingTime_s = 0.0025;
-// A stylus reads its speed from encoder steps, and so knows it to two steps a tick.
-constexpr double kFineSpeed_m_per_s = 0.12;
+// A stylus reads its speed from two encoder steps in some milliseconds, and does not know it more exactly.
+constexpr double kFineSpeed_m_per_s = 0.01;
 // A wrong angle counts like the way at this distance: of a wrist to its fingertips, of a tip to the place where it holds something.
 constexpr double kGloveLever_m = 0.2;
 constexpr double kTipLever_m = 0.05;
@@ -114,14 +114,6 @@ InputDeadband::InputDeadband(double share) noexcept : share_(share) {
 bool InputDeadband::is_due(const HandSample& sample, double reach_m, TimePoint now) const noexcept {
   if (!is_on() || !sent_ || is_time(sent_at_, now)) return true;
   return !differ_only_in_motion(*sent_, sample) || !same_motion(*sent_, sample, share_ * reach_m);
-}
-
-HandSample InputDeadband::with_mean_speed(const HandSample& sample, TimePoint now) const noexcept {
-  HandSample mean = sample;
-  const double time_s = to_seconds(now - sent_at_);
-  if (!sent_ || !(time_s > 0) || now - sent_at_ > 2 * kKeepAlive) return mean;
-  mean.V_WH = mean_twist(sent_->X_WH, sample.X_WH, time_s);
-  return mean;
 }
 
 void InputDeadband::note_sent(const HandSample& sample, TimePoint now) noexcept {

@@ -35,9 +35,6 @@ class InputDeadband {
   /// Whether `sample` has to be sent at `now`: its place is farther from the last one's than kFineWay_m and the share of `reach_m`, or its
   /// speed differs by as much as that matters; fingers, buttons or grasp differ at all; a number is not finite; or it is time.
   [[nodiscard]] bool is_due(const HandSample& sample, double reach_m, TimePoint now) const noexcept;
-  /// `sample` as it is to be sent at `now`: with its mean speed since the last one that was sent, for it has to stand for some time. A
-  /// device's own speed is noisy.
-  [[nodiscard]] HandSample with_mean_speed(const HandSample& sample, TimePoint now) const noexcept;
   /// `sample` as it was sent.
   void note_sent(const HandSample& sample, TimePoint now) noexcept;
 

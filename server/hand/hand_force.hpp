@@ -43,7 +43,7 @@ struct LocalContact {
   Vec3 n_W = Vec3::UnitX();       ///< unit normal there, from the body into the hand
   Vec3 v_W = Vec3::Zero();        ///< velocity of the surface there, m/s
   double depth_m = 0;             ///< how far hand and body overlap along n_W; <= 0: still apart by that much
-  double curvature_per_m = 0;     ///< of the surface: > 0 bulges towards the hand, < 0 is hollow, 0 a plane
+  double curvature_per_m = 0;     ///< of what the hand's point may not pass: > 0 bulges out, < 0 is hollow
   double stiffness_n_per_m = 0;   ///< >= 0
   double damping_ns_per_m = 0;    ///< >= 0; acts only while the hand pushes in
   double static_friction = 0;     ///< Coulomb, >= 0; at least the dynamic one counts

@@ -39,7 +39,7 @@ class HandModel {
   /// A ball of near_radius_m(): what is in it, placed around a segment's middle, may soon touch the segment.
   [[nodiscard]] const collision::Object& near_ball() const noexcept { return near_ball_; }
   [[nodiscard]] double near_radius_m() const noexcept { return near_ball_.bound_O.radius; }
-  /// For smooth_normal().
+  /// For smooth_surface().
   [[nodiscard]] const collision::Object& pad() const noexcept { return pad_; }
   /// Of the largest ball inside the segment.
   [[nodiscard]] double inner_radius_m(const hand::HandSample& sample, std::size_t index) const noexcept;

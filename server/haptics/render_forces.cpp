@@ -51,12 +51,13 @@ hand::Grooves grooves_at(const HapticMaterial& material, const Pose& X_WB, const
           material.groove_wave_B.dot(p_BS)};
 }
 
-void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& v_B_W, const Spring& spring,
-                       const HapticMaterial& material, const hand::Grooves& grooves) {
+void add_local_contact(HapticOutput& out, const state::Contact& at, double curvature_per_m, const Vec3& v_B_W,
+                       const Spring& spring, const HapticMaterial& material, const hand::Grooves& grooves) {
   const hand::LocalContact contact{.p_W = at.p_WC,
                                    .n_W = at.n_BH_W,
                                    .v_W = v_B_W,
                                    .depth_m = at.depth_m,
+                                   .curvature_per_m = curvature_per_m,
                                    .stiffness_n_per_m = spring.stiffness_n_per_m,
                                    .damping_ns_per_m = spring.damping_ns_per_m,
                                    .static_friction = material.static_friction,
@@ -66,25 +67,38 @@ void add_local_contact(HapticOutput& out, const state::Contact& at, const Vec3& 
   KeepDeepest(out.contacts, out.contact_count).add(contact);
 }
 
-/// The normal of a tip's touch, or of a surface near it, as a soft finger feels it. The other segments are larger, and cover facets by
-/// themselves. `p_WS`, `depth_m`: where the segment's middle was when the touch was found, and how deep it was there.
-Vec3 smooth_normal_W(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
-                     const UserState& user, const state::Contact& at, const ForceConfig& config, const Vec3& p_WS,
-                     double depth_m) {
+/// The middle of a ball that moves over a surface keeps to a second surface, one radius farther out: the curvature of that one. A hollow
+/// narrower than two radii counts as that wide.
+double curvature_under_ball_per_m(double curvature_per_m, double radius_m) {
+  const double under = std::max(curvature_per_m, -0.5 / radius_m);
+  return under / (1 + under * radius_m);
+}
+
+/// Gives a tip's touch, or a surface near it, the normal that a soft finger feels, and returns how the surface is curved for the segment's
+/// middle. The other segments are larger, and cover facets by themselves. `p_WS`, `depth_m`: where the segment's middle was when the touch
+/// was found, and how deep it was there.
+double smooth_at(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
+                 const UserState& user, state::Contact& at, const ForceConfig& config, const Vec3& p_WS,
+                 double depth_m) {
   const collision::Object* const object = description.bodies[at.body.index()].object.get();
   const bool stylus = user.sample.kind == HandKind::one_point;
   const bool tip = stylus || hand::is_fingertip(at.segment);
-  if (config.normals == NormalKind::of_contacts || object == nullptr || !tip) return at.n_BH_W;
-  const Pose& X_WB = state[at.body].X_WB;
+  if (config.normals == NormalKind::of_contacts || object == nullptr || !tip) return 0;
+  const BodyState& body = state[at.body];
+  const Pose& X_WB = body.X_WB;
   const Pose X_BW = X_WB.inverse();
   Touch touch{
       .p_B = X_BW * at.p_WC, .n_B = X_BW.rotate(at.n_BH_W), .thin_walls = config.thin_walls != ThinWalls::let_through};
+  touch.v_B = X_BW.rotate(user.V_WH.at(at.p_WC - user.X_WH.p) - body.V_WB.at(at.p_WC - X_WB.p));
+  const double radius_m = hand.inner_radius_m(user.sample, at.segment);
   if (stylus) {  // under a ball, the surface lies in the direction of its normal
     touch.p_B = X_BW * p_WS;
-    touch.surface_m = hand.inner_radius_m(user.sample, 0) - depth_m;
+    touch.surface_m = radius_m - depth_m;
     touch.rounds = 2;
   }
-  return X_WB.rotate(smooth_normal(hand.pad(), *object, touch));
+  const SmoothSurface smooth = smooth_surface(hand.pad(), *object, touch);
+  at.n_BH_W = X_WB.rotate(smooth.n_B);
+  return curvature_under_ball_per_m(smooth.curvature_per_m, radius_m);
 }
 
 /// One touch of the product's mode, of so many. Moves its anchor.
@@ -131,9 +145,11 @@ void render_patches(const state::WorldDescription& description, const HandModel&
   for (ContactPatch& patch : patches) {
     if (patch.depth_m <= 0) continue;
     state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
+    double curvature_per_m = 0;
     if (!patch.in_corner) {
-      touch.n_BH_W = patch.n_BH_W = smooth_normal_W(description, hand, state, user, touch, config,
-                                                    user.X_WS[patch.segment].p + patch.out_W, patch.found_depth_m);
+      curvature_per_m = smooth_at(description, hand, state, user, touch, config,
+                                  user.X_WS[patch.segment].p + patch.out_W, patch.found_depth_m);
+      patch.n_BH_W = touch.n_BH_W;
     }
     BodyState& body = state[patch.body];
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
@@ -146,7 +162,7 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
     if (user.holds(patch.body)) continue;
     add_to_hand(user, force.f_H_W, patch.p_WC);
-    add_local_contact(user.output, touch, v_B_W, force.spring, material, grooves);
+    add_local_contact(user.output, touch, curvature_per_m, v_B_W, force.spring, material, grooves);
     add_force(body, -user.freshness * force.f_H_W, patch.p_WC);
   }
 }
@@ -157,13 +173,13 @@ void announce_near(const state::WorldDescription& description, const HandModel& 
   for (state::Contact near : user.near_span()) {
     if (user.holds(near.body)) continue;
     if (has_side(user, near.segment, near.body)) continue;  // behind a wall, it is the wrong one
-    near.n_BH_W =
-        smooth_normal_W(description, hand, state, user, near, config, user.X_WS[near.segment].p, near.depth_m);
+    const double curvature_per_m =
+        smooth_at(description, hand, state, user, near, config, user.X_WS[near.segment].p, near.depth_m);
     const BodyState& body = state[near.body];
     const HapticMaterial& material = body.haptic;
     Spring spring = bounded_spring(material, effective_mass_kg(description, state, near.body, near.p_WC, near.n_BH_W));
     spring.stiffness_n_per_m *= kPatchShare;
-    add_local_contact(user.output, near, body.V_WB.at(near.p_WC - body.X_WB.p), spring, material,
+    add_local_contact(user.output, near, curvature_per_m, body.V_WB.at(near.p_WC - body.X_WB.p), spring, material,
                       grooves_at(material, body.X_WB, user.X_WS[near.segment].p, near));
   }
 }

@@ -19,7 +19,7 @@ enum class ForceMode {
 /// What friction does below the speed at which it slides. `damps` is that of journals before StateVersion::with_anchors: it never holds.
 enum class FrictionKind { sticks, damps };
 
-/// The normal of a touch: that of smooth_normal(), or the mean of its contacts, as in journals before StateVersion::with_anchors.
+/// The normal of a touch: that of smooth_surface(), or the mean of its contacts, as in journals before StateVersion::with_anchors.
 enum class NormalKind { smooth, of_contacts };
 
 struct ForceConfig {

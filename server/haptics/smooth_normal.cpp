@@ -13,6 +13,11 @@
 namespace mechane::haptics {
 namespace {
 
+using Vec2 = Eigen::Vector2d;
+using Mat2 = Eigen::Matrix2d;
+using Vec4 = Eigen::Vector4d;
+using Mat4 = Eigen::Matrix4d;
+
 constexpr std::size_t kPadPoints = 48;
 constexpr double kSpread_m = 0.007;  // standard deviation: facets of up to twice this breadth are smoothed
 constexpr double kWithin = 0.95;     // of the distribution; the rest would lie far out
@@ -26,43 +31,64 @@ constexpr std::array<double, 5> kSteps_m{-1.2e-3, -0.3e-3, 0.6e-3, 1.5e-3, 2.4e-
 constexpr double kOnset_m = 0.3e-3;
 constexpr double kEnough = 0.5 * kPadPoints;
 
-/// A plane through weighted points, by least squares of the distances along z.
-class PlaneFit {
+/// Which curvatures of a surface count, as a square form of trace 1 over its plane: those along the velocity `v`, and where it is slow,
+/// those of all directions alike.
+Mat2 way_along(const Vec2& v) {
+  constexpr double kSlow_m_per_s = 0.05;  // the steps of its encoders make a stylus at rest seem as fast as this
+  const Mat2 way = v * v.transpose() + 0.5 * kSlow_m_per_s * kSlow_m_per_s * Mat2::Identity();
+  return way / way.trace();
+}
+
+/// A plane through weighted points and how they bend away from it, by least squares of the distances along z.
+class SurfaceFit {
  public:
+  explicit SurfaceFit(const Mat2& way) : way_(way) {}
+
   void add(const Vec3& p, double weight) {
+    const Vec4 terms(p.x(), p.y(), p.z(), p.head<2>().dot(way_ * p.head<2>()));
     weight_ += weight;
-    const Vec3 weighted = weight * p;
-    sum_ += weighted;
-    xy_xz_yz_ += Vec3(weighted.x() * p.y(), weighted.x() * p.z(), weighted.y() * p.z());
-    xx_ += weighted.x() * p.x();
-    yy_ += weighted.y() * p.y();
+    sum_ += weight * terms;
+    squares_ += weight * terms * terms.transpose();
   }
   [[nodiscard]] double weight() const { return weight_; }
   /// How many points lay nearer to the other side of a wall.
   [[nodiscard]] std::size_t behind() const { return behind_; }
   void note_behind() { ++behind_; }
+
+  struct Found {
+    Vec3 normal;
+    double curvature_per_m;  // over the way; > 0: the middle is highest
+  };
   /// None where the points lie on a line.
-  [[nodiscard]] std::optional<Vec3> normal() const {
+  [[nodiscard]] std::optional<Found> found() const {
     constexpr double kLine = 1e-3;
-    const Vec3 middle = sum_ / weight_;
-    const double xx = xx_ / weight_ - middle.x() * middle.x(), yy = yy_ / weight_ - middle.y() * middle.y();
-    const double xy = xy_xz_yz_.x() / weight_ - middle.x() * middle.y();
-    const double xz = xy_xz_yz_.y() / weight_ - middle.x() * middle.z();
-    const double yz = xy_xz_yz_.z() / weight_ - middle.y() * middle.z();
-    const double det = xx * yy - xy * xy;
-    const double trace = xx + yy;
+    constexpr double kLeastSpread_m4 =
+        0.1 * kSpread_m * kSpread_m * kSpread_m * kSpread_m;  // of points that can show a bend
+    const Vec4 middle = sum_ / weight_;
+    const Mat4 C = squares_ / weight_ - middle * middle.transpose();
+    const double det = C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1);
+    const double trace = C(0, 0) + C(1, 1);
     if (!(det > kLine * trace * trace)) return std::nullopt;
-    const double slope_x = (yy * xz - xy * yz) / det;
-    const double slope_y = (xx * yz - xy * xz) / det;
-    return Vec3(-slope_x, -slope_y, 1).normalized();
+    const auto slope = [&](int term) {
+      return Vec2((C(1, 1) * C(0, term) - C(0, 1) * C(1, term)) / det,
+                  (C(0, 0) * C(1, term) - C(0, 1) * C(0, term)) / det);
+    };
+    const Vec2 plane = slope(kZ), of_way = slope(kWay);
+    const double bend = C(kWay, kZ) - of_way.dot(C.block<2, 1>(0, kZ));
+    const double spread = C(kWay, kWay) - of_way.dot(C.block<2, 1>(0, kWay));
+    // Of an even spread of points, the squares along two directions do not depend on each other: so those across the way cancel.
+    const double curvature_per_m = -2 * way_.squaredNorm() * bend / std::max(spread, kLeastSpread_m4);
+    return Found{Vec3(-plane.x(), -plane.y(), 1).normalized(), curvature_per_m};
   }
 
  private:
+  static constexpr int kZ = 2, kWay = 3;
+
+  Mat2 way_;
   double weight_ = 0;
   std::size_t behind_ = 0;
-  Vec3 sum_ = Vec3::Zero();
-  double xx_ = 0, yy_ = 0;  // sums of products: those that the normal needs
-  Vec3 xy_xz_yz_ = Vec3::Zero();
+  Vec4 sum_ = Vec4::Zero();  // of x, y, z, and the square form of x and y
+  Mat4 squares_ = Mat4::Zero();
 };
 
 /// Rises evenly from 0 to 1 between two values.
@@ -73,7 +99,7 @@ double ramp(double value, double from, double to) {
 /// Adds the places of the body where the pad's points come to lie, seen from `p_BF`. Weights fall to zero before a point drops out, so
 /// that the normal is continuous. `step_m`: points that are deeper do not count.
 void add_below(const collision::Object& pad, const collision::Object& body, const Pose& X_BP, const Vec3& p_BF,
-               double step_m, PlaneFit& fit) {
+               double step_m, SurfaceFit& fit) {
   std::array<collision::SurfaceHit, kPadPoints> hits;
   const std::size_t count = collision::find_surface(pad, X_BP, body, hits);
   const Mat3 R_PB = X_BP.R.conjugate().toRotationMatrix();
@@ -107,24 +133,25 @@ collision::Object make_pad() {
   return pad;
 }
 
-Vec3 smooth_normal(const collision::Object& pad, const collision::Object& body, const Touch& touch) noexcept {
-  Vec3 smooth_B = touch.n_B;
+SmoothSurface smooth_surface(const collision::Object& pad, const collision::Object& body, const Touch& touch) noexcept {
+  SmoothSurface smooth{.n_B = touch.n_B};
   for (int round = 0; round < touch.rounds; ++round) {
     Pose X_BP;
-    X_BP.R = Quat::FromTwoVectors(Vec3::UnitZ(), smooth_B);
-    const auto push_in = [&](double deep_m) { X_BP.p = touch.p_B - (touch.surface_m + deep_m) * smooth_B; };
-    PlaneFit best;
+    X_BP.R = Quat::FromTwoVectors(Vec3::UnitZ(), smooth.n_B);
+    const auto push_in = [&](double deep_m) { X_BP.p = touch.p_B - (touch.surface_m + deep_m) * smooth.n_B; };
+    const Mat2 way = way_along((X_BP.R.conjugate() * touch.v_B).head<2>());
+    SurfaceFit best(way);
     std::size_t behind = 0;
     for (const double deep_m : kDeep_m) {
       push_in(deep_m);
-      PlaneFit fit;
+      SurfaceFit fit(way);
       add_below(pad, body, X_BP, X_BP.p, std::numeric_limits<double>::infinity(), fit);
       behind = fit.behind();
       if (fit.weight() > best.weight()) best = fit;
       if (best.weight() > kEnough) break;
     }
     if (touch.thin_walls && best.weight() <= kEnough && behind >= kPadPoints / 4) {
-      PlaneFit fit;
+      SurfaceFit fit(way);
       for (const double deep_m : kSteps_m) {
         push_in(deep_m);
         add_below(pad, body, X_BP, touch.p_B, kStep_m, fit);
@@ -132,11 +159,12 @@ Vec3 smooth_normal(const collision::Object& pad, const collision::Object& body, 
       if (fit.weight() > best.weight()) best = fit;
     }
     const double trust = ramp(best.weight() / kPadPoints, 0.25, 0.5);
-    const std::optional<Vec3> normal_P = trust > 0 ? best.normal() : std::nullopt;
-    if (!normal_P) return touch.n_B;
-    smooth_B = (touch.n_B + trust * (X_BP.rotate(*normal_P) - touch.n_B)).normalized();
+    const auto found = trust > 0 ? best.found() : std::nullopt;
+    if (!found) return {.n_B = touch.n_B};
+    smooth.n_B = (touch.n_B + trust * (X_BP.rotate(found->normal) - touch.n_B)).normalized();
+    smooth.curvature_per_m = trust * found->curvature_per_m;
   }
-  return smooth_B;
+  return smooth;
 }
 
 }  // namespace mechane::haptics

@@ -1,10 +1,14 @@
 #include "server/haptics/smooth_normal.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include "server/collision/superquadric_object.hpp"
 #include "tests/support/floor_server.hpp"
+#include "tests/support/property_draw.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
 #include "tests/support/touch.hpp"
@@ -62,18 +66,70 @@ TEST(SmoothNormal, ASurfaceThatIsNearHasTheSameNormalAsOneThatIsTouched) {
   EXPECT_LT(AlongTheEquator(ball, -5e-3).deviation_deg, 1);
 }
 
+std::shared_ptr<const collision::Object> round_thing(const Vec3& half_m, double e1) {
+  geometry::Superquadric shape;
+  shape.a = half_m;
+  shape.e1 = e1;
+  shape.e2 = 1;
+  return std::make_shared<const collision::Object>(collision::make_superquadric_object(shape, 0.004));
+}
+
+RC_GTEST_PROP(SmoothNormal, TellsTheCurvatureOfABall, ()) {
+  static const collision::Object pad = make_pad();
+  static const std::array<double, 2> radii_m{0.025, 0.1};
+  static const std::array balls{round_thing(Vec3::Constant(radii_m[0]), 1), round_thing(Vec3::Constant(radii_m[1]), 1)};
+  const auto which = *rc::gen::inRange<std::size_t>(0, radii_m.size());
+  const double radius_m = radii_m[which];
+  const Vec3 way_out = test::any_unit(), v_B = *test::between(0, 0.4) * test::any_unit();
+  const Touch touch{.p_B = radius_m * way_out, .n_B = way_out, .rounds = 2, .v_B = v_B};
+  const double share = smooth_surface(pad, *balls[which], touch).curvature_per_m * radius_m;
+  RC_LOG() << "curvature times radius " << share;
+  RC_ASSERT(share > 0.7);
+  RC_ASSERT(share < 1.2);
+}
+
+RC_GTEST_PROP(SmoothNormal, TellsTheCurvatureOfABarAlongTheWay, ()) {
+  static const collision::Object pad = make_pad();
+  constexpr double radius_m = 0.03;
+  static const auto bar = round_thing(Vec3(radius_m, radius_m, 0.3), 0.1);
+  const double angle = *test::between(-kPi, kPi);
+  const Vec3 way_out(std::cos(angle), std::sin(angle), 0);
+  const auto share_along = [&](const Vec3& v_B) {
+    const Touch touch{.p_B = radius_m * way_out, .n_B = way_out, .rounds = 2, .v_B = v_B};
+    return smooth_surface(pad, *bar, touch).curvature_per_m * radius_m;
+  };
+  const double along = share_along(0.3 * Vec3::UnitZ()), around = share_along(0.3 * way_out.cross(Vec3::UnitZ()));
+  const double at_rest = share_along(Vec3::Zero());
+  RC_LOG() << along << ", " << around << ", at rest " << at_rest;
+  RC_ASSERT(std::abs(along) < 0.2);
+  RC_ASSERT(std::abs(around - 1) < 0.25);
+  RC_ASSERT(std::abs(at_rest - 0.5) < 0.25);
+}
+
+TEST(SmoothNormal, APlateIsFlatUpToItsEdges) {
+  const auto block = built(test::box(Vec3(0.05, 0.02, 0.05)));
+  const collision::Object pad = make_pad();
+  for (const double from_edge_m : {0.05, 0.02, 0.01, 0.005, 0.002}) {
+    const Touch touch{.p_B = Vec3(0.05 - from_edge_m, 0.02, 0), .n_B = Vec3::UnitY(), .v_B = Vec3(0.2, 0, 0)};
+    EXPECT_NEAR(smooth_surface(pad, *block, touch).curvature_per_m, 0, 0.2) << from_edge_m;
+  }
+}
+
 TEST(SmoothNormal, AnEdgeStays) {
   const auto block = built(test::box(Vec3(0.05, 0.02, 0.05)));
   const collision::Object pad = make_pad();
   for (const double from_edge_m : {0.02, 0.005, 0.002, 0.0005}) {
     const Vec3 on_top(0.05 - from_edge_m, 0.02, 0), on_side(0.05, 0.02 - from_edge_m, 0);
-    EXPECT_LT(degrees_between(smooth_normal(pad, *block, {.p_B = on_top, .n_B = Vec3::UnitY()}), Vec3::UnitY()), 0.5)
+    EXPECT_LT(degrees_between(smooth_surface(pad, *block, {.p_B = on_top, .n_B = Vec3::UnitY()}).n_B, Vec3::UnitY()),
+              0.5)
         << from_edge_m;
-    EXPECT_LT(degrees_between(smooth_normal(pad, *block, {.p_B = on_side, .n_B = Vec3::UnitX()}), Vec3::UnitX()), 0.5)
+    EXPECT_LT(degrees_between(smooth_surface(pad, *block, {.p_B = on_side, .n_B = Vec3::UnitX()}).n_B, Vec3::UnitX()),
+              0.5)
         << from_edge_m;
   }
   const Vec3 between = Vec3(1, 1, 0).normalized();
-  EXPECT_LT(degrees_between(smooth_normal(pad, *block, {.p_B = Vec3(0.05, 0.02, 0), .n_B = between}), between), 0.5);
+  EXPECT_LT(degrees_between(smooth_surface(pad, *block, {.p_B = Vec3(0.05, 0.02, 0), .n_B = between}).n_B, between),
+            0.5);
 }
 
 /// As of a jar, with the seams of its staves. Facets alone turn by 7.5 degrees to both sides.
@@ -88,7 +144,7 @@ TEST(SmoothNormal, AThinWallKeepsItsSide) {
   for (const double thickness_m : {0.002, 0.004, 0.006, 0.012}) {
     const auto plate = built(test::box(Vec3(0.05, 0.5 * thickness_m, 0.05)));
     const Touch touch{.p_B = Vec3(0, 0.5 * thickness_m, 0), .n_B = Vec3(0.05, 1, 0).normalized()};
-    const Vec3 n_B = smooth_normal(pad, *plate, touch);
+    const Vec3 n_B = smooth_surface(pad, *plate, touch).n_B;
     EXPECT_LE(degrees_between(n_B, Vec3::UnitY()), degrees_between(touch.n_B, Vec3::UnitY()) + 1e-9) << thickness_m;
   }
 }
