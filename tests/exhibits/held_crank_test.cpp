@@ -11,7 +11,6 @@ namespace {
 using namespace std::chrono_literals;
 using haptic::RenderMode;
 using test::HeldCrank;
-using test::Network;
 
 TEST(HeldCrank, IsAsStiffAcrossItsCircleForAClientAsForTheServer) {
   HeldCrank server(RenderMode::server, {.delay_ms = 1}), local(RenderMode::local, {.delay_ms = 1});
