@@ -309,6 +309,43 @@ TEST(VisitPlayerTurn, AHandThatSeesDoesNotWaitForEverForWhatIsStuck) {
   EXPECT_LT(seconds, 10);
 }
 
+/// A force on a hand that is held off its goal, as by a spring of a grip and one of an arm.
+HandSense held_off(const VisitPlayer& player, const Vec3& p_WH) {
+  constexpr double kStiffness_n_per_m = 300;
+  const Vec3 f_W = kStiffness_n_per_m * (p_WH - player.intent().X_WH.p);
+  return {true, f_W.norm(), f_W, p_WH};
+}
+
+TEST(VisitPlayerGrasp, AHandThatHasCaughtAThingPressesNoMore) {
+  const state::WorldDescription world = lever_world();
+  state::VisitDescription visit = carrying();
+  visit.moves[1].duration_s = 1;
+  VisitPlayer player(world, visit, PlayerConfig{});
+  while (player.results().empty())
+    step(player, std::vector<Pose>{Pose{}, lever_at(0)}, false, 0);
+  const Vec3 p_WH = player.intent().X_WH.p + Vec3(0.01, 0, 0);
+  while (player.results().size() == 1)
+    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, held_off(player, p_WH));
+  EXPECT_LT((player.intent().X_WH.p - p_WH).norm(), 1e-4);
+}
+
+TEST(VisitPlayerTurn, AHandleThatGoesRoundKeepsTheHandOnItsCircle) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = turning(2);
+  for (const double wider_m : {0.02, -0.02}) {
+    VisitPlayer player(world, visit, PlayerConfig{});
+    double angle_rad = 0, across_m = 0;
+    while (player.results().size() < 3) {
+      const Vec3 p_WH = lever_at(angle_rad) * Vec3(kArmM + wider_m, 0, 0.01);
+      player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(angle_rad)}, held_off(player, p_WH));
+      const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
+      angle_rad = std::atan2(arm.y(), arm.x());
+      across_m = (player.intent().X_WH.p - lever_at(angle_rad) * Vec3(kArmM + wider_m, 0, 0.01)).norm();
+    }
+    EXPECT_LT(across_m, 1e-4) << wider_m;
+  }
+}
+
 TEST(VisitPlayerStep, IsTriedAgainFromTheReachBeforeIt) {
   const state::WorldDescription world = lever_world();
   const state::VisitDescription visit = turning(2);
