@@ -31,7 +31,7 @@ class DeviceHand final : public SessionHand {
     device_->intend(player_->intent());
   }
   void act(const SeenWorld& seen) override {
-    player_->advance(kTickSeconds, seen.X_WB, loop_->holding(), force_felt_n(*device_, *loop_));
+    player_->advance(kTickSeconds, seen.X_WB, sense_hand(*device_, *loop_));
     device_->intend(player_->intent());
   }
   void tick(TimePoint now) override { loop_->tick(now, kTickPeriod); }

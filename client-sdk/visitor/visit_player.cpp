@@ -22,6 +22,11 @@ constexpr double kNoticesLossS = 0.3;
 constexpr double kNearGripM = 0.2;
 // A thing that is farther than this from where it should have been carried was lost on the way.
 constexpr double kSlippedM = 0.1;
+// How fast a hand stops pressing: when it has caught a thing, or let it go; and across the way of a handle that it works.
+constexpr double kRelaxesInS = 0.1;
+constexpr double kGivesWayMPerNs = 0.05;
+// A stylus that feels more than this does not press harder to get hold of a thing.
+constexpr double kPressesN = 1;
 constexpr double kPatienceS = 5;  // with a thing that is held and does not come after the hand
 
 // Places in a whole hand: where a handle lies, under the roots of the fingers; the tip of a stretched index finger.
@@ -108,10 +113,10 @@ PlayerConfig fitted(PlayerConfig config, const haptic::VirtualChoice& device) {
   return config;
 }
 
-double force_felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop) {
+HandSense sense_hand(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop) {
   constexpr double kSeenTouchN = 1;
-  if (device.renders()) return device.force_W().norm();
-  return loop.touches() ? kSeenTouchN : 0;
+  const double felt_n = device.renders() ? device.force_W().norm() : loop.touches() ? kSeenTouchN : 0;
+  return {loop.holding(), felt_n, device.force_W(), loop.hand().X_WH.p};
 }
 
 double minimum_jerk(double s) {
@@ -128,16 +133,17 @@ VisitPlayer::VisitPlayer(const state::WorldDescription& description, const state
   done_rad_.resize(visit.moves.size());
 }
 
-void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n) {
+void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, const HandSense& hand) {
   if (finished()) return;
   if (!begun_) begin_move(X_WB);
-  if (waits(X_WB, holding, dt_s)) return;
+  if (waits(X_WB, hand.holding, dt_s)) return;
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
-  note_grip(X_WB, holding);
-  bend_fingers(holding);
-  const bool over = continue_move(X_WB, holding, felt_n);
-  const bool again = (lost_its_handle() || (over && slipped(X_WB, holding))) && fetched_again_ < config_.fetch_again;
+  note_grip(X_WB, hand);
+  bend_fingers(hand.holding);
+  const bool over = continue_move(X_WB, hand);
+  const bool again =
+      (lost_its_handle() || (over && slipped(X_WB, hand.holding))) && fetched_again_ < config_.fetch_again;
   if (!over && !again) return;
   end_move(again);
   if (again) fetch_again();
@@ -169,8 +175,10 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
     X_WH_goal_ = move.X_WB * X_BH;
   } else if (move.kind == VisitMove::Kind::turn || move.kind == VisitMove::Kind::swing) {
+    const state::JointDescription& joint = description_.joints[move.joint.index()];
     seen_rad_ = 0;
-    swing_from_rad_ = seen_at_rad_ = joint_angle(description_.joints[move.joint.index()], X_WB);
+    swing_from_rad_ = seen_at_rad_ = joint_angle(joint, X_WB);
+    arm_J_ = frame_of(joint).inverse() * (X_WH_start_ * p_HG_);
   } else if (move.kind == VisitMove::Kind::grasp) {
     intent_.grasp_intent = 1;
     grasp_ = {move.body, std::numeric_limits<double>::infinity(), false};
@@ -210,7 +218,7 @@ bool VisitPlayer::shape_hand(std::span<const Pose> X_WB) {
   } else if (after != nullptr && after->joint) {
     const state::JointDescription& joint = description_.joints[after->joint.index()];
     p_HG_ = kGrip_H;
-    X_WH_goal_.R = across((description_.bodies[joint.body1.index()].X_WB * joint.X_B1J).rotate(Vec3::UnitZ()));
+    X_WH_goal_.R = across(frame_of(joint).rotate(Vec3::UnitZ()));
     joints_goal_ = kOpen;
   } else {
     p_HG_.setZero();
@@ -255,28 +263,47 @@ void VisitPlayer::follow_grip(std::span<const Pose> X_WB) {
   intent_.X_WH.p += to_grip.norm() > step_m ? Vec3(to_grip.normalized() * step_m) : to_grip;
 }
 
-bool VisitPlayer::continue_move(std::span<const Pose> X_WB, bool holding, double felt_n) {
+/// Whether a stylus presses against a thing that it tries to take. A whole hand goes on until its fingers are around the thing.
+bool VisitPlayer::presses(const HandSense& hand) const {
+  return config_.kind == client::HandKind::one_point && hand.f_W.norm() > kPressesN;
+}
+
+/// It stops pressing: what it intends becomes where it is.
+void VisitPlayer::stay_at(const Vec3& p_WH, const HandSense& hand) {
+  if (hand.f_W.isZero(0)) return;  // it feels no reason to
+  intent_.X_WH.p += std::min(last_dt_s_ / kRelaxesInS, 1.0) * (p_WH - intent_.X_WH.p);
+}
+
+bool VisitPlayer::continue_move(std::span<const Pose> X_WB, const HandSense& hand) {
   const VisitMove& move = visit_.moves[index_];
   switch (move.kind) {
     case VisitMove::Kind::reach:
       move_hand_towards_goal(move.duration_s);
-      return time_s_ >= move.duration_s || touched_what_it_reaches_for(X_WB, felt_n);
+      return time_s_ >= move.duration_s || touched_what_it_reaches_for(X_WB, hand.felt_n);
     case VisitMove::Kind::move_to:
       move_hand_towards_goal(move.duration_s);
-      ok_ = ok_ && (holding || time_s_ > 0.8 * move.duration_s);  // placed early: the snap released it, not the hand
+      ok_ =
+          ok_ && (hand.holding || time_s_ > 0.8 * move.duration_s);  // placed early: the snap released it, not the hand
       return time_s_ >= move.duration_s;
     case VisitMove::Kind::grasp:
-      ok_ = holding;
-      note_grasp(X_WB, felt_n);
-      if (!holding) follow_grip(X_WB);
-      return time_s_ >= (holding ? move.duration_s : std::max(move.duration_s, config_.grasp_patience_s));
+      ok_ = hand.holding;
+      note_grasp(X_WB, hand.felt_n);
+      if (hand.holding)
+        stay_at(p_WH_caught_, hand);
+      else if (presses(hand))
+        stay_at(hand.p_WH, hand);
+      else
+        follow_grip(X_WB);
+      return time_s_ >= (hand.holding ? move.duration_s : std::max(move.duration_s, config_.grasp_patience_s));
     case VisitMove::Kind::turn:
-      ok_ = ok_ && holding;
-      return turn(move);
+      ok_ = ok_ && hand.holding;
+      return turn(move, hand);
     case VisitMove::Kind::swing:
-      ok_ = ok_ && holding;
-      return swing(move);
+      ok_ = ok_ && hand.holding;
+      return swing(move, hand);
     case VisitMove::Kind::release:
+      if (!hand.holding) stay_at(hand.p_WH, hand);
+      break;
     case VisitMove::Kind::wait:
       break;
   }
@@ -295,18 +322,19 @@ void VisitPlayer::move_hand_towards_goal(double duration_s) {
                        minimum_jerk((share - kDownFrom) / (1 - kDownFrom)) * over_m_;
 }
 
-bool VisitPlayer::turn(const VisitMove& move) {
+bool VisitPlayer::turn(const VisitMove& move, const HandSense& hand) {
   const double whole_rad = std::max(2 * kPi * std::abs(move.turns) - done_rad_[index_], 0.0);
-  go_round(move.joint, std::copysign(go_through(whole_rad, 2 * kPi / 60 * std::abs(move.rate_rpm)), move.turns));
+  const double gone = go_through(whole_rad, 2 * kPi / 60 * std::abs(move.rate_rpm));
+  go_round(move.joint, std::copysign(gone, move.turns), hand);
   return turned_rad_ >= whole_rad;
 }
 
 /// Back and forth as a sine; its phase starts where the lever stands and runs through all cycles.
-bool VisitPlayer::swing(const VisitMove& move) {
+bool VisitPlayer::swing(const VisitMove& move, const HandSense& hand) {
   const double whole_rad = std::max(2 * kPi * move.cycles - done_rad_[index_], 0.0);
   const double phase = std::asin(std::clamp(swing_from_rad_ / move.amplitude_rad, -1.0, 1.0));
   const double gone = go_through(whole_rad, 2 * kPi / 60 * move.cycles_per_min);
-  go_round(move.joint, move.amplitude_rad * (std::sin(phase + gone) - std::sin(phase)));
+  go_round(move.joint, move.amplitude_rad * (std::sin(phase + gone) - std::sin(phase)), hand);
   return turned_rad_ >= whole_rad;
 }
 
@@ -318,12 +346,23 @@ double VisitPlayer::go_through(double whole_rad, double rate_rad_per_s) {
   return std::min(turned_rad_, whole_rad);
 }
 
-/// The hand goes around the joint's axis; the wrist keeps its direction, and the handle turns in the hand.
-void VisitPlayer::go_round(JointId id, double angle_rad) {
-  const state::JointDescription& joint = description_.joints[id.index()];
-  const Pose X_WJ = description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
-  const Vec3 arm_J = X_WJ.inverse() * (X_WH_start_ * p_HG_);
-  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J) - X_WH_start_.R * p_HG_;
+/// The joint's frame in the world, with the body that bears it where it began.
+Pose VisitPlayer::frame_of(const state::JointDescription& joint) const {
+  return description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
+}
+
+/// The hand goes around the joint's axis; the wrist keeps its direction, and the handle turns in the hand. How far from the axis, and
+/// where along it, the handle that it holds tells by its force.
+void VisitPlayer::go_round(JointId id, double angle_rad, const HandSense& hand) {
+  const Pose X_WJ = frame_of(description_.joints[id.index()]);
+  const Vec3 p_HG_W = X_WH_start_.R * p_HG_;
+  if (hand.holding) {
+    const Vec3 grip_J = X_WJ.inverse() * Vec3(hand.p_WH + p_HG_W);
+    const Vec3 gives_way_J = kGivesWayMPerNs * last_dt_s_ * X_WJ.inverse().rotate(hand.f_W);
+    arm_J_.head<2>() += gives_way_J.head<2>().dot(grip_J.head<2>().normalized()) * arm_J_.head<2>().normalized();
+    arm_J_.z() += gives_way_J.z();
+  }
+  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J_) - p_HG_W;
 }
 
 void VisitPlayer::note_grasp(std::span<const Pose> X_WB, double felt_n) {
@@ -332,16 +371,17 @@ void VisitPlayer::note_grasp(std::span<const Pose> X_WB, double felt_n) {
   grasp_.touched = grasp_.touched || felt_n > kTouchN;
 }
 
-void VisitPlayer::note_grip(std::span<const Pose> X_WB, bool holding) {
+void VisitPlayer::note_grip(std::span<const Pose> X_WB, const HandSense& hand) {
   const VisitMove& move = visit_.moves[index_];
   if (move.joint) {
     const double angle_rad = joint_angle(description_.joints[move.joint.index()], X_WB);
     seen_rad_ += std::remainder(angle_rad - seen_at_rad_, 2 * kPi);
     seen_at_rad_ = angle_rad;
   }
-  held_ = held_ || holding;
-  if (holding) held_rad_ = turned_rad_;
-  empty_s_ = holding ? 0 : empty_s_ + last_dt_s_;
+  if (hand.holding && !held_) p_WH_caught_ = hand.p_WH;
+  held_ = held_ || hand.holding;
+  if (hand.holding) held_rad_ = turned_rad_;
+  empty_s_ = hand.holding ? 0 : empty_s_ + last_dt_s_;
 }
 
 /// Whether the hand has lost the handle that it had at the start of this turn or swing, or caught during it.

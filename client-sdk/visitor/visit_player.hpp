@@ -41,6 +41,14 @@ struct PlayerConfig {
   int fetch_again = 4;  ///< how often the hand goes back for a thing that it lost while carrying or working it
 };
 
+/// What a person knows of the own hand without looking.
+struct HandSense {
+  bool holding = false;      ///< it holds something, according to the server
+  double felt_n = 0;         ///< how strong its touch is
+  Vec3 f_W = Vec3::Zero();   ///< the force on it, N; zero where a device renders none
+  Vec3 p_WH = Vec3::Zero();  ///< where it is: not where it is intended, once something resists it
+};
+
 /// One visit, from rest to rest. Deterministic for given inputs. One thread; advance() allocates only when a move ends.
 class VisitPlayer {
  public:
@@ -48,10 +56,10 @@ class VisitPlayer {
   VisitPlayer(const state::WorldDescription& description, const state::VisitDescription& visit,
               const PlayerConfig& config);
 
-  /// Advances by dt_s. `X_WB`: the bodies' poses as last seen, in the order of the description; `holding`: whether the
-  /// hand holds something, according to the server; `felt_n`: the force on the hand. Like a person's, the hand closes
-  /// as soon as it feels its goal, and follows the goal by sight until it has caught it.
-  void advance(double dt_s, std::span<const Pose> X_WB, bool holding, double felt_n);
+  /// Advances by dt_s. `X_WB`: the bodies' poses as last seen, in the order of the description. Like a person's, the hand closes
+  /// as soon as it feels its goal, follows the goal by sight until it has caught it, and then presses against it no more than its
+  /// work asks: a handle that goes round keeps the hand on its circle.
+  void advance(double dt_s, std::span<const Pose> X_WB, const HandSense& hand);
 
   /// The visitor is shown another step of the activity: what is to be tried again begins with the present move.
   void note_step() { step_move_ = index_; }
@@ -71,20 +79,23 @@ class VisitPlayer {
   [[nodiscard]] bool taken_from_side(std::span<const Pose> X_WB) const;
   void bend_fingers(bool holding);
   /// True when the move is over.
-  bool continue_move(std::span<const Pose> X_WB, bool holding, double felt_n);
+  bool continue_move(std::span<const Pose> X_WB, const HandSense& hand);
   [[nodiscard]] bool touched_what_it_reaches_for(std::span<const Pose> X_WB, double felt_n) const;
   void follow_grip(std::span<const Pose> X_WB);
+  [[nodiscard]] bool presses(const HandSense& hand) const;
+  void stay_at(const Vec3& p_WH, const HandSense& hand);
   void move_hand_towards_goal(double duration_s);
-  bool turn(const state::VisitMove& move);
-  bool swing(const state::VisitMove& move);
+  bool turn(const state::VisitMove& move, const HandSense& hand);
+  bool swing(const state::VisitMove& move, const HandSense& hand);
   /// Advances a motion of `whole` radians at up to `rate` by one tick, with acceleration and deceleration; returns its
   /// angle.
   double go_through(double whole_rad, double rate_rad_per_s);
-  void go_round(JointId joint, double angle_rad);
+  [[nodiscard]] Pose frame_of(const state::JointDescription& joint) const;
+  void go_round(JointId joint, double angle_rad, const HandSense& hand);
   void end_move(bool again);
   [[nodiscard]] bool slipped(std::span<const Pose> X_WB, bool holding) const;
   void note_grasp(std::span<const Pose> X_WB, double felt_n);
-  void note_grip(std::span<const Pose> X_WB, bool holding);
+  void note_grip(std::span<const Pose> X_WB, const HandSense& hand);
   [[nodiscard]] bool lost_its_handle() const;
   void fetch_again();
 
@@ -111,22 +122,23 @@ class VisitPlayer {
   double empty_s_ = 0;    // time since the hand last held something in this move
   Pose X_WH_start_;
   Pose X_WH_goal_;
-  double turned_rad_ = 0;      // angle of a turn, or phase of a swing
-  double swing_from_rad_ = 0;  // the joint's angle at the start of the swing
-  Vec3 p_BG_ = Vec3::Zero();   // the grip of the last reach, in the body
-  Vec3 p_HG_ = Vec3::Zero();   // the same in the hand
-  double seen_rad_ = 0;        // how far the joint of this move has turned, by sight
-  double seen_at_rad_ = 0;     // its angle when it was last seen
-  double over_m_ = 0;          // how far above its goal the hand is before it goes down
+  Vec3 p_WH_caught_ = Vec3::Zero();  // where the hand was when it first held something in this move
+  Vec3 arm_J_ = Vec3::Zero();        // from the joint of a turn or swing to the grip, where this move begins
+  double turned_rad_ = 0;            // angle of a turn, or phase of a swing
+  double swing_from_rad_ = 0;        // the joint's angle at the start of the swing
+  Vec3 p_BG_ = Vec3::Zero();         // the grip of the last reach, in the body
+  Vec3 p_HG_ = Vec3::Zero();         // the same in the hand
+  double seen_rad_ = 0;              // how far the joint of this move has turned, by sight
+  double seen_at_rad_ = 0;           // its angle when it was last seen
+  double over_m_ = 0;                // how far above its goal the hand is before it goes down
   HandJoints joints_goal_{};
 };
 
 /// For a hand with such a device: its kind, and that one before a camera waits.
 [[nodiscard]] PlayerConfig fitted(PlayerConfig config, const haptic::VirtualChoice& device);
 
-/// What advance() takes as felt: the force on the hand, N. A hand without force feedback counts as touching what it overlaps, because
-/// displays highlight that.
-[[nodiscard]] double force_felt_n(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop);
+/// The hand in the device, after a tick of its loop. Without force feedback it feels what it overlaps, because displays highlight that.
+[[nodiscard]] HandSense sense_hand(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop);
 
 /// The reach with which a visitor begins who tries to do move `from` again, and what follows it: the last one up to there.
 [[nodiscard]] std::size_t reach_before(const state::VisitDescription& visit, std::size_t from);

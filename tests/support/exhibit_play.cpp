@@ -46,7 +46,7 @@ class DevicePerson final : public Person {
 
   void act(bool sets_out, state::TickInputs& inputs) override {
     if (sets_out) {
-      player_.advance(kTickSeconds, X_WB_, loop_->holding(), visitor::force_felt_n(*device_, *loop_));
+      player_.advance(kTickSeconds, X_WB_, visitor::sense_hand(*device_, *loop_));
       device_->intend(player_.intent());
     }
     now_ += kTickPeriod;
@@ -67,6 +67,7 @@ class DevicePerson final : public Person {
 
   [[nodiscard]] bool finished() const override { return player_.finished(); }
   [[nodiscard]] std::span<const visitor::MoveResult> results() const override { return player_.results(); }
+  [[nodiscard]] haptic::LoopStats stats() const override { return loop_->stats(); }
 
  private:
   visitor::VisitPlayer player_;
@@ -145,6 +146,9 @@ class Play {
     for (std::size_t i = 0; i < state.quantities.size(); ++i)
       report_.quantities[description_->quantities[i].name] = state.quantities[i];
     report_.seconds = static_cast<double>(state.tick) * kTickSeconds;
+    const haptic::LoopStats loop = person_->stats();
+    report_.warm_share =
+        static_cast<double>(loop.warm_ticks) / static_cast<double>(std::max<std::uint64_t>(loop.ticks, 1));
     report_.state_hash = state::state_hash(state);
     report_.tick_us_median = 1e6 * to_seconds(took_.quantile(0.5));
     return report_;
@@ -252,7 +256,8 @@ std::ostream& operator<<(std::ostream& out, const PlayedVisit& visit) {
     out << "\n  " << move.name << ": " << move.seconds << " s" << (move.ok ? "" : ", went wrong");
   for (const auto& [name, value] : visit.quantities)
     out << "\n  " << name << " = " << value;
-  return out << "\n  median tick " << visit.tick_us_median << " us\n";
+  return out << "\n  force lowered to spare the motors " << 100 * visit.warm_share << " % of the time\n  median tick "
+             << visit.tick_us_median << " us\n";
 }
 
 }  // namespace mechane::test

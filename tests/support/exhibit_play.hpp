@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/virtual_hand.hpp"
 #include "client-sdk/visitor/visit_player.hpp"
 #include "server/state/world_state.hpp"
@@ -29,6 +30,8 @@ class Person {
   virtual void see(const state::WorldState& state) = 0;
   [[nodiscard]] virtual bool finished() const = 0;
   [[nodiscard]] virtual std::span<const visitor::MoveResult> results() const = 0;
+  /// Of the device's loop, where there is one.
+  [[nodiscard]] virtual haptic::LoopStats stats() const { return {}; }
 };
 
 struct PlayOptions {
@@ -58,6 +61,7 @@ struct PlayedVisit {
   std::vector<visitor::MoveResult> moves;
   std::map<std::string, double> quantities;  ///< at the end
   double seconds = 0;                        ///< of the world's time, from the activity's start to the hand's last move
+  double warm_share = 0;  ///< of the ticks, in which the force was lowered to spare the device's motors
   std::uint64_t state_hash = 0;
   double tick_us_median = 0;  ///< of this machine's time; not in the hash
 };

@@ -32,6 +32,11 @@ state::WorldDescription lever_world() {
   return world;
 }
 
+/// A millisecond in which the hand is where it is intended.
+void step(VisitPlayer& player, std::span<const Pose> X_WB, bool holding, double felt_n) {
+  player.advance(0.001, X_WB, {holding, felt_n, Vec3::Zero(), player.intent().X_WH.p});
+}
+
 Pose lever_at(double angle_rad) {
   return {Vec3(0, 1, 0), Quat(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()))};
 }
@@ -60,7 +65,7 @@ RC_GTEST_PROP(VisitPlayerSwing, GoesToAndFroOnItsArcFromWhereTheLeverStands, ())
   double least = start, most = start, last = start, fastest = 0, seconds = 0;
   int turns = 0, direction = amplitude > 0 ? 1 : -1;
   while (!player.finished()) {
-    player.advance(0.001, std::vector<Pose>{Pose{}, X_WL}, true, 0);
+    step(player, std::vector<Pose>{Pose{}, X_WL}, true, 0);
     const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
     RC_ASSERT(std::abs(arm.norm() - kArmM) < 1e-9);
     RC_ASSERT(std::abs(arm.z()) < 1e-12);
@@ -94,7 +99,7 @@ TEST(VisitPlayerSwing, AHandThatHoldsNothingSaysSo) {
   config.X_WH_rest.p = Vec3(kArmM, 1, 0);
   VisitPlayer player(world, visit, config);
   for (int i = 0; i < 5000 && !player.finished(); ++i)
-    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, i < 300, 0);
+    step(player, std::vector<Pose>{Pose{}, lever_at(0)}, i < 300, 0);
   ASSERT_EQ(player.results().size(), 1u);
   EXPECT_FALSE(player.results()[0].ok);
   EXPECT_EQ(player.results()[0].name, "swing PIVOT");
@@ -121,7 +126,7 @@ std::vector<MoveResult> carry_to(const Vec3& p_WB_at_the_end, bool holding, cons
   for (int i = 0; i < 20000 && !player.finished(); ++i) {
     const bool carries = player.results().size() % 3 == 2;
     const Pose X_WB{carries ? p_WB_at_the_end : Vec3(0, 1, 0), Quat::Identity()};
-    player.advance(0.001, std::vector<Pose>{Pose{}, X_WB}, holding || !carries, 0);
+    step(player, std::vector<Pose>{Pose{}, X_WB}, holding || !carries, 0);
   }
   return {player.results().begin(), player.results().end()};
 }
@@ -156,7 +161,7 @@ TEST(VisitPlayerGrasp, WhatCaughtNothingSaysHowNearItWasAndWhetherItFelt) {
     config.offset_W = Vec3(0, 0, 0.3);
     VisitPlayer player(world, visit, config);
     while (player.results().size() < 2)
-      player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, false, player.results().empty() ? 0 : felt_n);
+      step(player, std::vector<Pose>{Pose{}, lever_at(0)}, false, player.results().empty() ? 0 : felt_n);
     EXPECT_FALSE(player.results()[0].failed_grasp);
     ASSERT_TRUE(player.results()[1].failed_grasp);
     EXPECT_EQ(player.results()[1].failed_grasp->body, BodyId(1));
@@ -174,7 +179,7 @@ double reach_that_feels_from(double felt_from_s) {
   config.X_WH_rest.p = Vec3(1, 1, 0);
   VisitPlayer player(world, visit, config);
   for (double t = 0; player.results().empty(); t += 0.001)
-    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, false, t < felt_from_s ? 0 : 1);
+    step(player, std::vector<Pose>{Pose{}, lever_at(0)}, false, t < felt_from_s ? 0 : 1);
   return player.results()[0].seconds;
 }
 
@@ -191,7 +196,7 @@ TEST(VisitPlayerReach, AHandOpensFirst) {
   config.X_WH_rest.p = Vec3(0.01, 1, 0);  // still at what it has just lost
   VisitPlayer player(world, slow, config);
   while (player.results().empty())
-    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, false, 1);
+    step(player, std::vector<Pose>{Pose{}, lever_at(0)}, false, 1);
   EXPECT_NEAR(player.results()[0].seconds, 0.3, 0.01);
 }
 
@@ -210,10 +215,10 @@ TEST(VisitPlayerReach, AWholeHandComesFromTheSideToWhatItTakesBelowTheMiddle) {
   const std::vector<Pose> X_WB{Pose{}, lever_at(0)};
   const Vec3 grip = X_WB[1] * visit.moves[0].p_BG;
   while (player.results().empty())
-    player.advance(0.001, X_WB, false, 0);
+    step(player, X_WB, false, 0);
   EXPECT_LT((player.intent().X_WH.p - (grip - Vec3(0.25, 0, 0))).norm(), 1e-9) << "it stops beside it";
   while (player.results().size() < 2)
-    player.advance(0.001, X_WB, false, 0);
+    step(player, X_WB, false, 0);
   EXPECT_LT((player.intent().X_WH.p - grip).norm(), 1e-9) << "and goes on, closing";
 }
 
@@ -226,7 +231,7 @@ TEST(VisitPlayerCarry, AWholeHandComesFromAboveOnWhatItTakes) {
   const Vec3 goal = X_WB[1] * visit.moves[0].p_BG;
   double highest_m = 0, last_m = config.X_WH_rest.p.y() - goal.y();
   while (player.results().empty()) {
-    player.advance(0.001, X_WB, false, 0);
+    step(player, X_WB, false, 0);
     const Vec3 way = player.intent().X_WH.p - goal;
     // Its fingers reach 0.2 m before its wrist: by then they are well over it.
     const bool fingers_there = std::abs(way.x()) < 0.2 && std::abs(way.x()) > 0.1;
@@ -261,7 +266,7 @@ class FollowingLever {
   explicit FollowingLever(double most_rad_per_ms) : most_rad_(most_rad_per_ms) {}
   /// One millisecond of the player.
   void advance(VisitPlayer& player, bool held) {
-    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(angle_rad)}, held, 0);
+    step(player, std::vector<Pose>{Pose{}, lever_at(angle_rad)}, held, 0);
     const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
     const double ahead_rad = std::remainder(std::atan2(arm.y(), arm.x()) - angle_rad, 2 * kPi);
     if (held) angle_rad += std::clamp(ahead_rad, -most_rad_, most_rad_);
@@ -304,6 +309,43 @@ TEST(VisitPlayerTurn, AHandThatSeesDoesNotWaitForEverForWhatIsStuck) {
   EXPECT_LT(seconds, 10);
 }
 
+/// A force on a hand that is held off its goal, as by a spring of a grip and one of an arm.
+HandSense held_off(const VisitPlayer& player, const Vec3& p_WH) {
+  constexpr double kStiffness_n_per_m = 300;
+  const Vec3 f_W = kStiffness_n_per_m * (p_WH - player.intent().X_WH.p);
+  return {true, f_W.norm(), f_W, p_WH};
+}
+
+TEST(VisitPlayerGrasp, AHandThatHasCaughtAThingPressesNoMore) {
+  const state::WorldDescription world = lever_world();
+  state::VisitDescription visit = carrying();
+  visit.moves[1].duration_s = 1;
+  VisitPlayer player(world, visit, PlayerConfig{});
+  while (player.results().empty())
+    step(player, std::vector<Pose>{Pose{}, lever_at(0)}, false, 0);
+  const Vec3 p_WH = player.intent().X_WH.p + Vec3(0.01, 0, 0);
+  while (player.results().size() == 1)
+    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(0)}, held_off(player, p_WH));
+  EXPECT_LT((player.intent().X_WH.p - p_WH).norm(), 1e-4);
+}
+
+TEST(VisitPlayerTurn, AHandleThatGoesRoundKeepsTheHandOnItsCircle) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = turning(2);
+  for (const double wider_m : {0.02, -0.02}) {
+    VisitPlayer player(world, visit, PlayerConfig{});
+    double angle_rad = 0, across_m = 0;
+    while (player.results().size() < 3) {
+      const Vec3 p_WH = lever_at(angle_rad) * Vec3(kArmM + wider_m, 0, 0.01);
+      player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(angle_rad)}, held_off(player, p_WH));
+      const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
+      angle_rad = std::atan2(arm.y(), arm.x());
+      across_m = (player.intent().X_WH.p - lever_at(angle_rad) * Vec3(kArmM + wider_m, 0, 0.01)).norm();
+    }
+    EXPECT_LT(across_m, 1e-4) << wider_m;
+  }
+}
+
 TEST(VisitPlayerStep, IsTriedAgainFromTheReachBeforeIt) {
   const state::WorldDescription world = lever_world();
   const state::VisitDescription visit = turning(2);
@@ -339,7 +381,7 @@ TEST(VisitPlayerTurn, AHandleThatIsLostIsCaughtAgainAndTurnedForTheRest) {
     // The handle goes with the hand, slips out once in the middle of the first try, and stays where it is.
     const std::size_t moves = player.results().size();
     const bool held = ((moves == 1 || moves == 2) && t < 1500) || moves == 4 || moves == 5;
-    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(lever_rad)}, held, 0);
+    step(player, std::vector<Pose>{Pose{}, lever_at(lever_rad)}, held, 0);
     const Vec3 arm = player.intent().X_WH.p - Vec3(0, 1, 0);
     const double angle = std::atan2(arm.y(), arm.x());
     const double share = moves < 3 ? 0.5 : 1;  // in the first try, it lags more and more
