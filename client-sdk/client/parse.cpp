@@ -63,7 +63,7 @@ bool parse_contact(const proto::WireLocalContact& wire, LocalContact& out) noexc
 
 bool parse_held(const proto::WireHeldPath& wire, HeldPath& out) noexcept {
   if (wire.kind == mechane_held_none) return true;
-  if (wire.kind > mechane_held_circle) return false;
+  if (wire.kind > mechane_held_free) return false;
   if (!(proto::all_finite(wire.p_HG) && proto::all_finite(wire.p_W) && proto::all_finite(wire.axis_W))) return false;
   for (const float v : {wire.radius_m, wire.along_n, wire.stiffness_n_per_m, wire.damping_ns_per_m, wire.limit_n}) {
     if (!std::isfinite(v)) return false;
@@ -73,7 +73,7 @@ bool parse_held(const proto::WireHeldPath& wire, HeldPath& out) noexcept {
   out.p_W = proto::to_vec3(wire.p_W);
   out.axis_W = proto::to_vec3(wire.axis_W);
   out.radius_m = wire.radius_m;
-  out.along_n = wire.along_n;
+  out.along_n = wire.kind == mechane_held_free ? std::max(0.0f, wire.along_n) : wire.along_n;
   out.stiffness_n_per_m = std::max(0.0f, wire.stiffness_n_per_m);
   out.damping_ns_per_m = std::max(0.0f, wire.damping_ns_per_m);
   out.limit_n = std::max(0.0f, wire.limit_n);

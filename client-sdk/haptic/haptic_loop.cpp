@@ -108,9 +108,15 @@ void HapticLoop::render(const HandSample& input, TimePoint now, Duration dt, boo
   std::transform(answer_.finger_force_n.begin(), answer_.finger_force_n.end(), wanted.finger_force_n.begin(),
                  [share](double force_n) { return share * force_n; });
   wanted.touching = answer_.touches();
-  const bool on_path = answer_.held.kind != hand::HeldPath::Kind::none;
-  path_share_ = on_path ? std::min(1.0, path_share_ + to_seconds(dt) / kPathComesInS) : 0;
-  if (mode_ == RenderMode::local && (on_path || !answer_.holding)) {
+  wanted.weight_W = hand::held_weight(answer_.held, input.X_WH, age);
+  const auto kind_before = std::exchange(path_kind_, answer_.held.kind);
+  const bool on_path = path_kind_ != hand::HeldPath::Kind::none;
+  path_share_ = on_path && path_kind_ == kind_before ? std::min(1.0, path_share_ + to_seconds(dt) / kPathComesInS) : 0;
+  if (mode_ == RenderMode::local && path_kind_ == hand::HeldPath::Kind::free) {
+    const double left_out = path_share_ * (1 - share);
+    wanted.wanted_W.f += left_out * wanted.weight_W.f;
+    wanted.wanted_W.t += left_out * wanted.weight_W.t;
+  } else if (mode_ == RenderMode::local && (on_path || !answer_.holding)) {
     const Vec3 touch = local_.render(input.X_WH.p, input.V_WH.v, age);
     // What is held does not count: else a force that was lost would not come back before the visitor lets go.
     wanted.touching = wanted.touching || !touch.isZero(0);

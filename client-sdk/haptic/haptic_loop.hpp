@@ -23,8 +23,8 @@ enum class RenderMode {
   /// The server's force; for a LAN, where an answer is a millisecond old.
   server,
   /// Computed from the server's contacts, and the path of what is held, at the device's own rate, whatever the network.
-  /// The server still computes torque, the forces on fingers, the force of a held object along its path, and the whole
-  /// force of one that has no path.
+  /// The server still computes torque, the forces on fingers, the force of a held object along its path, and the force of
+  /// one that has no path, save for the weight of what is carried freely.
   local,
 };
 
@@ -116,7 +116,8 @@ class HapticLoop {
   std::atomic<client::DeviceState> state_{client::DeviceState::preparing};
   hand::LocalContactModel local_;
   ClickPulse click_;
-  double path_share_ = 0;  // of the held object's path in the force
+  hand::HeldPath::Kind path_kind_ = hand::HeldPath::Kind::none;
+  double path_share_ = 0;  // of the held object's path or weight in the force
   hand::SampleAge age_;
   client::ForceSample answer_;
   client::HandSample hand_;

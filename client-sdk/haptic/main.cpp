@@ -14,6 +14,7 @@
 #include "client-sdk/haptic/driver_process.hpp"
 #include "client-sdk/haptic/hand_recorder.hpp"
 #include "client-sdk/haptic/haptic_loop.hpp"
+#include "client-sdk/haptic/link_news.hpp"
 #include "client-sdk/haptic/virtual_hand.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/hand/hand_skeleton.hpp"
@@ -33,7 +34,7 @@ constexpr Duration kVisitorLeft = std::chrono::minutes(2);
 struct Arguments {
   client::ClientConfig client;
   std::string device = "virtual";
-  std::vector<double> center{0.0, 0.72, 0.19};
+  std::vector<double> center;  ///< empty: center_of() chooses
   double turn_deg = 0;
   double scale = 1;
   int clutch = 0;
@@ -48,6 +49,15 @@ struct Arguments {
   std::string record_file;
 };
 
+CLI::Validator in_metres(double least_m, double most_m) {
+  const auto check = [=](const std::string& text) {
+    double value_m = 0;
+    const bool fits = CLI::detail::lexical_cast(text, value_m) && value_m >= least_m && value_m <= most_m;
+    return fits ? std::string() : fmt::format("'{}' is not a length of {:.3g} to {:.3g} metres", text, least_m, most_m);
+  };
+  return {check, fmt::format("METRES in [{:.3g}, {:.3g}]", least_m, most_m)};
+}
+
 void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--device", a.device,
                  fmt::format("NAME, or NAME:OPTION=VALUE,...: a driver ('mechane devices' lists them), or '{}', a "
@@ -59,8 +69,9 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--domain", a.client.domain, "DDS domain");
   app.add_option("--center", a.center,
                  "where the middle of the device's workspace, or of the virtual hand's circle, lies in the world, "
-                 "metres: x y z")
-      ->expected(3);
+                 "metres: x y z; without it 0 0.72 0.19, and 0 0 0 for a recording that is played")
+      ->expected(3)
+      ->check(in_metres(-hand::kFarthestHand_m, hand::kFarthestHand_m));
   app.add_option("--turn", a.turn_deg, "how the device is turned at its place, degrees anticlockwise from above");
   app.add_option("--scale", a.scale, "metres in the world for one of the device's, 1 to 100; forces are divided by it")
       ->check(CLI::Range(1.0, 100.0));
@@ -75,13 +86,13 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--hand-length", a.hand_length_m,
                  "length of the visitor's hand, from the wrist to the tip of the middle finger, metres; a device that "
                  "sees the hand measures it itself")
-      ->check(CLI::Range(hand::kMinHandScale * hand::kHandLength_m, hand::kMaxHandScale * hand::kHandLength_m));
+      ->check(in_metres(hand::kMinHandScale * hand::kHandLength_m, hand::kMaxHandScale * hand::kHandLength_m));
   app.add_flag(
       "--wait", a.wait,
       "where the device cannot be opened, for whatever reason, say why and go on trying, each second; displays "
       "say meanwhile that it is not connected");
-  app.add_option("--radius", a.radius_m, "radius of the circle, metres");
-  app.add_option("--seconds", a.seconds, "stop after this time; 0: run until stopped");
+  app.add_option("--radius", a.radius_m, "radius of the circle, metres")->check(in_metres(0, 10));
+  app.add_option("--seconds", a.seconds, "stop after this time; 0: run until stopped")->check(CLI::Range(0.0, 1e9));
   a.client.fifo_priority = 70;
   app.add_option("--fifo-priority", a.client.fifo_priority,
                  "SCHED_FIFO priority of the loop and of the thread that receives forces; 0: ordinary threads");
@@ -163,6 +174,7 @@ int report(const Arguments& a, const nlohmann::json& found) {
   const auto written = write_whole(a.report_file, std::as_bytes(std::span(json)), WholeFile::document);
   if (written) return 0;
   log::error(written.error());
+  std::fputs(json.c_str(), stdout);  // the run is over: its figures are not lost
   return 1;
 }
 
@@ -201,15 +213,23 @@ bool keep(haptic::HandRecorder& recorder) {
   return written.has_value();
 }
 
+struct Link {
+  client::Client& client;
+  haptic::LinkNews news;
+};
+
+void tell_news(Link& link, TimePoint now) {
+  const client::LinkState state = link.client.state();
+  const std::string refusal = state == client::LinkState::refused ? link.client.refusal() : std::string();
+  const auto line = link.news.look(state, refusal, now);
+  if (line) line->level == log::Level::warning ? log::warning(line->text) : log::info(line->text);
+}
+
 /// Until it is time to stop, or `look`, which is called five times a second, returns false.
-void wait_for_end(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder,
-                  const std::function<bool()>& look) {
+void wait_for_end(const Arguments& a, Link& link, haptic::HandRecorder* recorder, const std::function<bool()>& look) {
   SystemClock clock;
-  std::string told;
   while (!is_over(a) && look()) {
-    std::string refusal = client.state() == client::LinkState::refused ? client.refusal() : std::string();
-    if (!refusal.empty() && refusal != told) log::warning(refusal);
-    told = std::move(refusal);
+    tell_news(link, clock.now());
     if (recorder != nullptr && !keep(*recorder)) recorder = nullptr;
     clock.sleep_until(clock.now() + std::chrono::milliseconds(200));
   }
@@ -277,7 +297,9 @@ void tell_state(client::Client& client, client::DeviceReport report, client::Dev
 }
 
 Vec3 center_of(const Arguments& a) {
-  return {a.center[0], a.center[1], a.center[2]};
+  if (!a.center.empty()) return {a.center[0], a.center[1], a.center[2]};
+  const bool played = haptic::parse_device_name(a.device).driver == "playback";  // its places are in the world
+  return played ? Vec3(Vec3::Zero()) : Vec3(0.0, 0.72, 0.19);
 }
 
 /// The simulated hand shows what it is asked for.
@@ -303,8 +325,7 @@ int given_up(const Arguments& a, const Error& error) {
 }
 
 /// A virtual device has no clock of its own: its loop runs at 1 kHz.
-int run_virtual(const Arguments& a, const std::string& options, client::Client& client,
-                haptic::HandRecorder* recorder) {
+int run_virtual(const Arguments& a, const std::string& options, Link& link, haptic::HandRecorder* recorder) {
   const auto choice = haptic::read_virtual_options(options);
   if (!choice) return log::error(choice.error()), 2;
   const auto intent = [&](double t_s) { return haptic::stroke(choice->hand, center_of(a), a.radius_m, t_s); };
@@ -312,11 +333,11 @@ int run_virtual(const Arguments& a, const std::string& options, client::Client& 
   client::DeviceReport told{.kind = choice->hand, .side = choice->side, .name = std::string(haptic::kVirtualName)};
   if (a.calibrate && choice->hand == client::HandKind::glove) {
     // What comes out is not needed: the angles of a simulated hand are those of Mechane's.
-    const auto shown = calibrate_virtual(a, client, told, *device);
+    const auto shown = calibrate_virtual(a, link.client, told, *device);
     if (!shown) return given_up(a, shown.error());
     told.calibration.step = client::CalibrationStep::done;
   }
-  auto loop = make_loop(a, client, *device);
+  auto loop = make_loop(a, link.client, *device);
   if (!loop) return log::error(loop.error()), 2;
   SystemClock clock;
   realtime::PeriodicConfig config;
@@ -329,8 +350,8 @@ int run_virtual(const Arguments& a, const std::string& options, client::Client& 
     turns.turn(timing.woke, config.period * static_cast<std::int64_t>(1 + timing.skipped));
   });
   if (!started) return log::error(started.error()), 2;
-  wait_for_end(a, client, recorder, [&] {
-    tell_state(client, told, (*loop)->device_state());
+  wait_for_end(a, link, recorder, [&] {
+    tell_state(link.client, told, (*loop)->device_state());
     return true;
   });
   turns.end();
@@ -379,19 +400,19 @@ Expected<std::optional<haptic::HandCalibration>> calibrated(const Arguments& a, 
 
 /// What `open` opens: with --wait it is called each second until it does, or until it is time to stop.
 template <class Open>
-auto opened(const Arguments& a, client::Client& client, const Open& open) {
+auto opened(const Arguments& a, Link& link, const Open& open) {
   auto result = open();
   if (result || !a.wait) return result;
   std::string told;
   SystemClock clock;
   TimePoint next = clock.now();
-  wait_for_end(a, client, nullptr, [&] {
+  wait_for_end(a, link, nullptr, [&] {
     if (clock.now() < next) return true;
     next = clock.now() + std::chrono::seconds(1);
     std::string why = result.error().to_string();
     if (why != told) log::warning(why + "; trying again each second");
     told = std::move(why);
-    tell_state(client, unopened(a), client::DeviceState::lost);
+    tell_state(link.client, unopened(a), client::DeviceState::lost);
     result = open();
     return !result;
   });
@@ -405,9 +426,9 @@ bool calibrates_again(const Arguments& a, const haptic::HandMotion& motion) {
 }
 
 /// The device sets the pace of its loop. Returns the program's status; none: its glove has to be fitted to a hand first.
-std::optional<int> run_device(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder,
+std::optional<int> run_device(const Arguments& a, Link& link, haptic::HandRecorder* recorder,
                               haptic::DriverProcess& device, bool fitted, Record& record) {
-  auto loop = opened(a, client, [&] { return make_loop(a, client, device); });
+  auto loop = opened(a, link, [&] { return make_loop(a, link.client, device); });
   if (!loop) return given_up(a, loop.error());
   log::info(std::string("device: ") + device.info().name);
   client::DeviceReport told = report_of(device.info());
@@ -419,8 +440,8 @@ std::optional<int> run_device(const Arguments& a, client::Client& client, haptic
     motion.note(now, (*loop)->hand().joints, (*loop)->hand().X_WH);
   });
   bool failed = false, again = false;
-  wait_for_end(a, client, recorder, [&] {
-    tell_state(client, told, (*loop)->device_state());
+  wait_for_end(a, link, recorder, [&] {
+    tell_state(link.client, told, (*loop)->device_state());
     const auto news = device.check();
     if (!news) log::error(news.error());
     failed = !news;
@@ -440,27 +461,27 @@ std::optional<int> run_device(const Arguments& a, client::Client& client, haptic
 }
 
 /// Fits the glove to a hand, where `calibrate`, and runs the device. Returns what run_device() does.
-std::optional<int> run_once(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder, bool calibrate,
+std::optional<int> run_once(const Arguments& a, Link& link, haptic::HandRecorder* recorder, bool calibrate,
                             Record& record) {
   haptic::DriverProcessConfig config = driver_config(a);
-  tell_state(client, unopened(a), client::DeviceState::preparing);
+  tell_state(link.client, unopened(a), client::DeviceState::preparing);
   if (calibrate) {
-    auto calibration = opened(a, client, [&] { return calibrated(a, client); });
+    auto calibration = opened(a, link, [&] { return calibrated(a, link.client); });
     if (!calibration) return given_up(a, calibration.error());
     config.glove = *calibration;
     (void)take_calibration_signal();  // asked for meanwhile: it is done
   }
   const bool fitted = config.glove.has_value();
   haptic::DriverProcess device(std::move(config));
-  return run_device(a, client, recorder, device, fitted, record);
+  return run_device(a, link, recorder, device, fitted, record);
 }
 
-int run_driver(const Arguments& a, client::Client& client, haptic::HandRecorder* recorder) {
+int run_driver(const Arguments& a, Link& link, haptic::HandRecorder* recorder) {
   log::info("opening the device, which may take some seconds");
   Record record;
-  std::optional<int> status = run_once(a, client, recorder, a.calibrate, record);
+  std::optional<int> status = run_once(a, link, recorder, a.calibrate, record);
   while (!status)
-    status = run_once(a, client, recorder, true, record);
+    status = run_once(a, link, recorder, true, record);
   if (record.device.empty()) return *status;
   nlohmann::json json = to_json(record);
   json.update({{"device", record.device},
@@ -505,9 +526,10 @@ int main(int argc, char** argv) {
     }
     recorder = std::move(*opened);
   }
+  Link link{**client, haptic::LinkNews(a.client)};
   const haptic::DeviceName name = haptic::parse_device_name(a.device);
-  const int status = name.driver == haptic::kVirtualName ? run_virtual(a, name.options, **client, recorder.get())
-                                                         : run_driver(a, **client, recorder.get());
+  const int status = name.driver == haptic::kVirtualName ? run_virtual(a, name.options, link, recorder.get())
+                                                         : run_driver(a, link, recorder.get());
   if (recorder && !keep(*recorder)) return 1;
   if (recorder && recorder->lost() > 0)
     log::warning(fmt::format("{} samples of the hand were not recorded", recorder->lost()));

@@ -27,6 +27,8 @@ AIMS = {
     "delay50.local.held.energy_mj.max": (("at most", 1),),
     "delay20.local.held.force_share.min": (("at least", 0.8),),
     "delay50.local.held.force_share.min": (("at least", 0.8),),
+    "delay20.local.carried.force_share": (("at least", 0.95), ("at most", 1.05)),
+    "delay50.local.carried.force_share": (("at least", 0.95), ("at most", 1.05)),
     "groove4.delay20.local.distance_ratio": (("at least", 0.98), ("at most", 1.02)),
     "groove4.delay20.local.flank_ratio": (("at least", 0.9), ("at most", 1.1)),
     "click.delay20.local.length_ratio": (("at least", 0.9), ("at most", 1.1)),

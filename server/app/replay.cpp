@@ -42,8 +42,10 @@ void compare(const record::JournalTick& tick, const world::World& world, state::
 Expected<ReplayResult> replay(record::JournalReader& journal,
                               const std::shared_ptr<const state::WorldDescription>& description,
                               world::WorldConfig config, const ReplayOptions& options) {
-  if (journal.header().state_version < state::StateVersion::with_corners)
+  if (journal.header().state_version < state::StateVersion::with_corners) {
     config.force.thin_walls = haptics::ThinWalls::hold_tips;
+    config.force.weights = false;
+  }
   if (journal.header().state_version < state::StateVersion::with_sides)
     config.force.thin_walls = haptics::ThinWalls::let_through;
   if (journal.header().state_version < state::StateVersion::with_anchors) {

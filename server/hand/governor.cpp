@@ -15,8 +15,8 @@ HandForce nothing(std::uint32_t reasons) {
 }
 
 bool all_finite(const GovernorInput& in) {
-  const bool vectors =
-      in.wanted_W.f.allFinite() && in.wanted_W.t.allFinite() && in.V_WH.v.allFinite() && in.V_WH.w.allFinite();
+  const bool vectors = in.wanted_W.f.allFinite() && in.wanted_W.t.allFinite() && in.weight_W.f.allFinite() &&
+                       in.weight_W.t.allFinite() && in.V_WH.v.allFinite() && in.V_WH.w.allFinite();
   return vectors &&
          std::all_of(in.finger_force_n.begin(), in.finger_force_n.end(), [](double f) { return std::isfinite(f); });
 }
@@ -41,6 +41,22 @@ bool approach(double& value, double target, double step) {
   const bool limited = std::abs(target - value) > step;
   value = limited ? value + std::copysign(step, target - value) : target;
   return limited;
+}
+
+/// What of a force is a weight: no more than there is of it, along it.
+Vec3 weight_in(const Vec3& force, const Vec3& weight) {
+  const double size = weight.stableNorm();
+  if (!(size > 0)) return Vec3::Zero();
+  const Vec3 along = weight / size;
+  return std::clamp(force.dot(along), 0.0, size) * along;
+}
+
+Wrench weight_in(const Wrench& force, const Wrench& weight, double gain) {
+  return {weight_in(force.f, gain * weight.f), weight_in(force.t, gain * weight.t)};
+}
+
+Wrench operator-(const Wrench& a, const Wrench& b) {
+  return {a.f - b.f, a.t - b.t};
 }
 
 /// No force is on the hand, and none is wanted.
@@ -132,7 +148,8 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
     state.ramp = state.gain = 0;
     return finish(state, nothing(reasons | kNotFinite));
   }
-  settle_energy(state, input.V_WH, dt_s);
+  const Wrench last = state.last.force_W - weight_in(state.last.force_W, input.weight_W, gain_before);
+  settle_energy(state, last, input.V_WH, dt_s);
   if (config_.strict_energy && is_free(state, input))
     state.credit_j = std::min(state.credit_j, config_.energy_margin_j);
 
@@ -155,7 +172,18 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
   }
   if (clamped) reasons |= kClamped;
   if (limited) reasons |= kSlewLimited;
-  if (config_.passivity && state.gain > 0) keep_passive(state, input.V_WH, dt_s, out.force_W, reasons);
+  if (config_.passivity && state.gain > 0) {
+    const Wrench weight = weight_in(out.force_W, input.weight_W, state.gain);
+    const double most_n = out.force_W.f.norm(), most_nm = out.force_W.t.norm();
+    out.force_W = out.force_W - weight;
+    keep_passive(state, last, input.V_WH, dt_s, out.force_W, reasons);
+    if (!weight.f.isZero(0) || !weight.t.isZero(0)) {
+      out.force_W = {out.force_W.f + weight.f, out.force_W.t + weight.t};
+      // What was taken away may have borne a part of the weight.
+      clamp_norm(out.force_W.f, most_n);
+      clamp_norm(out.force_W.t, most_nm);
+    }
+  }
   out.reasons = reasons;
   return finish(state, out);
 }
@@ -178,19 +206,20 @@ double ForceGovernor::next_gain(GovernorState& state, const GovernorInput& input
 
 // The force of the last call acted while the hand moved to where it is now: its work is taken from the credit (a hand that works
 // against the force adds to it).
-void ForceGovernor::settle_energy(GovernorState& state, const Twist& V_WH, double dt_s) const noexcept {
-  const double given_out = (state.last.force_W.f.dot(V_WH.v) + state.last.force_W.t.dot(V_WH.w)) * dt_s;
+void ForceGovernor::settle_energy(GovernorState& state, const Wrench& last, const Twist& V_WH,
+                                  double dt_s) const noexcept {
+  const double given_out = (last.f.dot(V_WH.v) + last.t.dot(V_WH.w)) * dt_s;
   state.credit_j = std::min(state.credit_j - given_out, config_.energy_credit_j);
   // A velocity that is finite but absurd (1e300 m/s) must not spoil the account for good.
   state.credit_j = std::max(state.credit_j, -config_.energy_credit_j - config_.energy_margin_j);
 }
 
-void ForceGovernor::keep_passive(const GovernorState& state, const Twist& V_WH, double dt_s, Wrench& force,
-                                 std::uint32_t& reasons) const noexcept {
+void ForceGovernor::keep_passive(const GovernorState& state, const Wrench& last, const Twist& V_WH, double dt_s,
+                                 Wrench& force, std::uint32_t& reasons) const noexcept {
   if (dt_s <= 0) return;
   if (config_.strict_energy && state.credit_j <= 0 && force.f.dot(V_WH.v) + force.t.dot(V_WH.w) >= 0) {
-    bool held_back = clamp_norm(force.f, state.last.force_W.f.norm());
-    held_back |= clamp_norm(force.t, state.last.force_W.t.norm());
+    bool held_back = clamp_norm(force.f, last.f.norm());
+    held_back |= clamp_norm(force.t, last.t.norm());
     if (held_back) reasons |= kDamped;
   }
   const double power_f = force.f.dot(V_WH.v);
@@ -213,11 +242,10 @@ void ForceGovernor::keep_passive(const GovernorState& state, const Twist& V_WH, 
   Vec3 damping = -std::min(overdrawn / speed_squared, config_.max_damping_ns_per_m) * V_WH.v;
   clamp_norm(damping, step_n);
   if (config_.strict_energy) {  // the damping has no step of its own
-    const Vec3& last = state.last.force_W.f;
-    const double most_n = std::max(step_n, (force.f - last).norm());
-    Vec3 change = force.f + damping - last;
+    const double most_n = std::max(step_n, (force.f - last.f).norm());
+    Vec3 change = force.f + damping - last.f;
     clamp_norm(change, most_n);
-    force.f = last + change;
+    force.f = last.f + change;
   } else {
     force.f += damping;  // a server's journals were recorded with a step for the damping
   }

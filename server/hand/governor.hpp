@@ -35,6 +35,7 @@ struct GovernorConfig {
 /// The force that is wanted, and what is known of the hand. All in W, SI.
 struct GovernorInput {
   Wrench wanted_W;                                ///< force and torque on the visitor's hand
+  Wrench weight_W;                                ///< what of it is the weight of a body that the hand carries
   std::array<double, kFingers> finger_force_n{};  ///< each >= 0
   Twist V_WH;                                     ///< of the hand where `wanted_W` acts: its mean since the last call
   Duration age{0};                                ///< of the last new sample, on our own clock
@@ -70,7 +71,7 @@ struct GovernorState {
 /// The energy observer is the time-domain passivity control of Hannaford and Ryu (2002), eqs. (3)-(5), with three
 /// departures: the credit is capped (else an hour's friction would pay for any later push); removing the force's own
 /// part along the motion, which can only shrink it, has no limit, while added damping has one; force and torque share
-/// one account. With `strict_energy` the credit is forgotten when the hand is free, and while the account is overdrawn
+/// one account. A weight has no part in it: as in life, it gives a hand that sinks what no hand had put in. With `strict_energy` the credit is forgotten when the hand is free, and while the account is overdrawn
 /// no force rises on a hand that does not move against it: else a force that is cut as soon as the hand yields, and
 /// comes back as soon as it rests, would shake the hand, and give it a little energy each time. Nor does damping then add to the step that
 /// the slew limit allows.
@@ -98,8 +99,9 @@ class ForceGovernor {
 
   [[nodiscard]] double next_gain(GovernorState& state, const GovernorInput& input, double dt_s,
                                  std::uint32_t& reasons) const noexcept;
-  void settle_energy(GovernorState& state, const Twist& V_WH, double dt_s) const noexcept;
-  void keep_passive(const GovernorState& state, const Twist& V_WH, double dt_s, Wrench& force,
+  void settle_energy(GovernorState& state, const Wrench& last, const Twist& V_WH, double dt_s) const noexcept;
+  /// `last`, `force`: without the weight.
+  void keep_passive(const GovernorState& state, const Wrench& last, const Twist& V_WH, double dt_s, Wrench& force,
                     std::uint32_t& reasons) const noexcept;
 
   GovernorConfig config_;

@@ -55,14 +55,15 @@ struct LocalContact {
 
 /// The path on which the place that a hand holds can move: of a body on a hinge or a slider whose other side stands still. Nothing yields
 /// across it, so that a client can render that at its device's own rate; how the body moves along it, only the server knows.
+/// `free`: of a body that one hand carries and nothing else holds. Its weight is part of the server's force, and known beforehand.
 struct HeldPath {
-  enum class Kind : std::uint8_t { none, line, circle };
+  enum class Kind : std::uint8_t { none, line, circle, free };
   Kind kind = Kind::none;
-  Vec3 p_HG = Vec3::Zero();      ///< where the hand holds it, in the hand's frame
+  Vec3 p_HG = Vec3::Zero();      ///< where the hand holds it, in the hand's frame; free: its centre of mass
   Vec3 p_W = Vec3::Zero();       ///< a point of the line; the circle's centre
-  Vec3 axis_W = Vec3::UnitX();   ///< unit: the line's direction; the circle's axis
+  Vec3 axis_W = Vec3::UnitX();   ///< unit: the line's direction; the circle's axis; the weight's direction
   double radius_m = 0;           ///< of the circle, over 0
-  double along_n = 0;            ///< force on the hand along the path: along the axis, or counterclockwise about it
+  double along_n = 0;            ///< force on the hand along the axis, or counterclockwise about it; free: the weight
   double stiffness_n_per_m = 0;  ///< across the path, >= 0
   double damping_ns_per_m = 0;   ///< across the path, >= 0
   double limit_n = 0;            ///< the most that the grip bears across the path, >= 0

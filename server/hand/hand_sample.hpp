@@ -46,6 +46,7 @@ enum class HandSide : std::uint8_t { right = 0, left = 1 };
   return segment != 0 && segment % kPhalanges == 0;
 }
 
+inline constexpr double kFarthestHand_m = 100;  ///< from the world's origin: no visitor reaches so far
 inline constexpr double kMinHandScale = 0.5;
 inline constexpr double kMaxHandScale = 1.5;
 inline constexpr double kMinFingerScale = 0.7;

@@ -28,7 +28,7 @@ Nearest nearest(const HeldPath& path, const Vec3& p_WG) {
 
 Vec3 held_path_force(const HeldPath& path, const Pose& X_WH, const Twist& V_WH, Duration age,
                      double along_share) noexcept {
-  if (path.kind == HeldPath::Kind::none) return Vec3::Zero();
+  if (path.kind == HeldPath::Kind::none || path.kind == HeldPath::Kind::free) return Vec3::Zero();
   const Vec3 p_HG_W = X_WH.rotate(path.p_HG);
   const Nearest at = nearest(path, X_WH.p + p_HG_W);
   const Vec3 v_W = V_WH.at(p_HG_W);
@@ -37,6 +37,12 @@ Vec3 held_path_force(const HeldPath& path, const Pose& X_WH, const Twist& V_WH, 
   const double size_n = across_n.norm();
   if (size_n > path.limit_n) across_n *= path.limit_n / size_n;
   return share_left(age, path.validity) * (across_n + along_share * at.share * path.along_n * at.along_W);
+}
+
+Wrench held_weight(const HeldPath& path, const Pose& X_WH, Duration age) noexcept {
+  if (path.kind != HeldPath::Kind::free) return {};
+  const Vec3 f_W = share_left(age, path.validity) * path.along_n * path.axis_W;
+  return {f_W, X_WH.rotate(path.p_HG).cross(f_W)};
 }
 
 }  // namespace mechane::hand

@@ -5,48 +5,74 @@
 namespace mechane::haptics {
 namespace {
 
-ContactPatch* find_or_add(std::array<ContactPatch, kMaxPatches>& patches, std::size_t& count,
-                          const state::Contact& contact, ContactPatch* last) {
-  // Contacts of a patch mostly follow one another.
-  if (last != nullptr && last->body == contact.body && last->segment == contact.segment) return last;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (patches[i].body == contact.body && patches[i].segment == contact.segment) return &patches[i];
+bool is_of(const state::Contact& contact, const ContactPatch& patch) {
+  return patch.body == contact.body && patch.segment == contact.segment;
+}
+
+/// Contacts of one segment with one body. The sums are kept beside the patch: in memory, each addition would wait for the last one.
+void add_sums(std::span<const state::Contact> contacts, ContactPatch& patch, double& depth_sum_m) {
+  Vec3 push_m = patch.push_m, p_WC = patch.p_WC;
+  double sum_m = depth_sum_m, deepest_m = patch.deepest_m;
+  for (const state::Contact& contact : contacts) {
+    const double S = contact.depth_m;
+    sum_m += S;
+    push_m += S * S * contact.n_BH_W;
+    p_WC += S * contact.p_WC;
+    deepest_m = std::max(deepest_m, S);
   }
-  if (count == patches.size()) return nullptr;
-  ContactPatch& fresh = patches[count++];
-  fresh = ContactPatch{};
-  fresh.body = contact.body;
-  fresh.segment = contact.segment;
-  return &fresh;
+  patch.push_m = push_m;
+  patch.p_WC = p_WC;
+  patch.deepest_m = deepest_m;
+  patch.points += static_cast<std::uint32_t>(contacts.size());
+  depth_sum_m = sum_m;
+}
+
+void divide_sums(ContactPatch& patch, double depth_sum_m) {
+  if (depth_sum_m <= 0) return;
+  patch.push_m /= depth_sum_m;
+  patch.p_WC /= depth_sum_m;
+  patch.depth_m = patch.found_depth_m = patch.push_m.norm();
+  // Points on both sides of a thin segment can cancel: then there is no way out to push along.
+  if (patch.depth_m > 0) patch.n_BH_W = patch.push_m / patch.depth_m;
+}
+
+ContactPatch empty_patch(const state::Contact& of) {
+  ContactPatch patch;
+  patch.body = of.body;
+  patch.segment = of.segment;
+  return patch;
 }
 
 }  // namespace
 
-std::size_t gather_patches(std::span<const state::Contact> contacts,
-                           std::array<ContactPatch, kMaxPatches>& patches) noexcept {
-  std::size_t count = 0;
-  std::array<double, kMaxPatches> depth_sum{};
-  ContactPatch* touched = nullptr;
-  for (const state::Contact& contact : contacts) {
-    touched = find_or_add(patches, count, contact, touched);
-    if (touched == nullptr) break;
-    const double S = contact.depth_m;
-    depth_sum[static_cast<std::size_t>(touched - patches.data())] += S;
-    touched->push_m += S * S * contact.n_BH_W;
-    touched->p_WC += S * contact.p_WC;
-    touched->deepest_m = std::max(touched->deepest_m, S);
-    ++touched->points;
+void gather_patches(std::span<const state::Contact> contacts, ContactPatches& patches) noexcept {
+  boost::container::static_vector<double, kMaxPatches> depth_sums_m;
+  while (!contacts.empty()) {  // those of a patch mostly follow one another
+    const state::Contact& first = contacts.front();
+    const auto end = std::ranges::find_if(
+        contacts, [&](const state::Contact& c) { return c.body != first.body || c.segment != first.segment; });
+    const auto run = contacts.first(static_cast<std::size_t>(end - contacts.begin()));
+    contacts = contacts.subspan(run.size());
+    auto patch = std::ranges::find_if(patches, [&](const ContactPatch& known) { return is_of(first, known); });
+    if (patch == patches.end()) {
+      if (patches.size() == patches.capacity()) break;
+      patches.push_back(empty_patch(first));
+      depth_sums_m.push_back(0);
+      patch = patches.end() - 1;
+    }
+    add_sums(run, *patch, depth_sums_m[static_cast<std::size_t>(patch - patches.begin())]);
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    ContactPatch& patch = patches[i];
-    if (depth_sum[i] <= 0) continue;
-    patch.push_m /= depth_sum[i];
-    patch.p_WC /= depth_sum[i];
-    patch.depth_m = patch.found_depth_m = patch.push_m.norm();
-    // Points on both sides of a thin segment can cancel: then there is no way out to push along.
-    if (patch.depth_m > 0) patch.n_BH_W = patch.push_m / patch.depth_m;
-  }
-  return count;
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    divide_sums(patches[i], depth_sums_m[i]);
+}
+
+ContactPatch patch_of(std::span<const state::Contact> contacts) noexcept {
+  if (contacts.empty()) return {};
+  ContactPatch patch = empty_patch(contacts.front());
+  double depth_sum_m = 0;
+  add_sums(contacts, patch, depth_sum_m);
+  divide_sums(patch, depth_sum_m);
+  return patch;
 }
 
 }  // namespace mechane::haptics

@@ -1,9 +1,10 @@
 // The contacts of one hand segment with one body, put together: what acts as one touch.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
+
+#include <boost/container/static_vector.hpp>
 
 #include "server/state/world_state.hpp"
 
@@ -28,9 +29,12 @@ struct ContactPatch {
 inline constexpr double kPatchShare = 2.0 / 3.0;
 
 using state::kMaxPatches;
+/// Sets up only the patches that are there: all of them would take longer than to fill those of a hand.
+using ContactPatches = boost::container::static_vector<ContactPatch, kMaxPatches>;
 
-/// Groups contacts by segment and body, in the order of the contacts. Returns how many patches were filled.
-[[nodiscard]] std::size_t gather_patches(std::span<const state::Contact> contacts,
-                                         std::array<ContactPatch, kMaxPatches>& patches) noexcept;
+/// Groups contacts by segment and body, in the order of the contacts, into an empty list. Those of touches that find no room are left out.
+void gather_patches(std::span<const state::Contact> contacts, ContactPatches& patches) noexcept;
+/// The one patch of contacts of one segment with one body; of no contact: one without depth.
+[[nodiscard]] ContactPatch patch_of(std::span<const state::Contact> contacts) noexcept;
 
 }  // namespace mechane::haptics

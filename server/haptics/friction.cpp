@@ -38,10 +38,9 @@ Vec3 damping_friction(const Rubbing& rubbing) noexcept {
   return -mu * rubbing.normal_n / std::max(speed, kDampsBelow_m_per_s) * v_tangent;
 }
 
-FrictionAnchors::FrictionAnchors(state::UserState& user) noexcept : user_(user), before_count_(user.anchor_count) {
-  std::copy_n(user.anchors.begin(), before_count_, before_.begin());
+FrictionAnchors::FrictionAnchors(state::UserState& user) noexcept : user_(user) {
+  if (!user.jumped) before_.assign(user.anchors.begin(), user.anchors.begin() + user.anchor_count);
   user.anchor_count = 0;
-  if (user.jumped) before_count_ = 0;
 }
 
 /// The tip of a one-point device is a ball that does not roll.
@@ -52,7 +51,7 @@ Pose FrictionAnchors::X_WS(std::size_t segment) const noexcept {
 }
 
 std::optional<Stretch> FrictionAnchors::stretch_of(const ContactPatch& patch, const Pose& X_WB) const noexcept {
-  for (const state::FrictionAnchor& anchor : std::span(before_).first(before_count_)) {
+  for (const state::FrictionAnchor& anchor : before_) {
     if (anchor.body != patch.body || anchor.segment != patch.segment) continue;
     const Vec3 p_BS_W = X_WS(patch.segment) * anchor.p_SA - X_WB * anchor.p_BA;
     return Stretch{hand::along_surface(p_BS_W, patch.n_BH_W), anchor.slides};

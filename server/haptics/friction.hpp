@@ -58,8 +58,7 @@ class FrictionAnchors {
   [[nodiscard]] Pose X_WS(std::size_t segment) const noexcept;
 
   state::UserState& user_;
-  std::array<state::FrictionAnchor, kMaxPatches> before_;
-  std::uint32_t before_count_;
+  boost::container::static_vector<state::FrictionAnchor, kMaxPatches> before_;
 };
 
 }  // namespace mechane::haptics

@@ -1,5 +1,8 @@
 #include "server/haptics/held_path.hpp"
 
+#include <algorithm>
+#include <span>
+
 namespace mechane::haptics {
 namespace {
 
@@ -22,6 +25,34 @@ std::size_t only_joint(const state::WorldDescription& description, const state::
   return found;
 }
 
+/// Whether a body without joints is in one hand, and nothing else can hold it.
+bool is_free(const state::WorldDescription& description, const state::WorldState& state, BodyId body) {
+  if (description.bodies[body.index()].collides) return false;
+  const auto bears = [&](const JointDescription& joint) {
+    const auto j = static_cast<std::size_t>(&joint - description.joints.data());
+    return state.joints[j].enabled && (joint.body1 == body || joint.body2 == body);
+  };
+  const auto ties = [&](const state::Coupling& tie) {
+    const auto nodes = std::span(tie.nodes).first(tie.node_count);
+    return tie.enabled && (tie.body1 == body || tie.body2 == body ||
+                           std::ranges::any_of(nodes, [&](const auto& node) { return node.body == body; }));
+  };
+  return std::ranges::none_of(description.joints, bears) && std::ranges::none_of(state.couplings, ties) &&
+         std::ranges::count_if(state.users, [&](const auto& user) { return user.holds(body); }) == 1;
+}
+
+HeldPath weight(const state::WorldDescription& description, const state::Grasp& grasp) {
+  const state::BodyDescription& body = description.bodies[grasp.body.index()];
+  if (!body.use_gravity || description.gravity_W.isZero(0)) return {};
+  HeldPath path;
+  path.kind = HeldPath::Kind::free;
+  path.p_HG = grasp.X_HB * body.p_BCm;
+  path.axis_W = description.gravity_W.normalized();
+  path.along_n = std::min(body.mass_kg * body.effort_scale * description.gravity_W.norm(), grasp.force_limit_n);
+  path.stiffness_n_per_m = body.haptic.stiffness_n_per_m;
+  return path;
+}
+
 }  // namespace
 
 HeldPath held_path(const state::WorldDescription& description, const state::WorldState& state,
@@ -29,7 +60,8 @@ HeldPath held_path(const state::WorldDescription& description, const state::Worl
   const state::Grasp& grasp = user.grasp;
   if (!grasp.active || !state[grasp.body].movable) return {};
   const std::size_t j = only_joint(description, state, grasp.body);
-  if (j == description.joints.size()) return {};
+  if (j == description.joints.size())
+    return is_free(description, state, grasp.body) ? weight(description, grasp) : HeldPath{};
   const JointDescription& joint = description.joints[j];
   if (joint.kind == JointKind::ball || state.joints[j].pitch_m_per_rad != 0) return {};
   // Not one that is only held still for now: agents and machines move such bodies themselves.

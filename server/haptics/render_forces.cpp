@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "server/hand/held_path.hpp"
 #include "server/haptics/clicks.hpp"
 #include "server/haptics/contact_patch.hpp"
 #include "server/haptics/effective_mass.hpp"
@@ -136,13 +137,12 @@ PatchForce touch_force(const state::WorldDescription& description, const state::
 /// The product's mode: each touch on its own, summed at the wrist.
 void render_patches(const state::WorldDescription& description, const HandModel& hand, state::WorldState& state,
                     UserState& user, const ForceConfig& config) {
-  std::array<ContactPatch, kMaxPatches> patches;
-  std::size_t count = gather_patches(user.contact_span(), patches);
+  ContactPatches patches;
+  gather_patches(user.contact_span(), patches);
   if (config.thin_walls != ThinWalls::let_through)
-    count = hold_walls(description, hand, state, user, config.thin_walls, patches, count);
+    hold_walls(description, hand, state, user, config.thin_walls, patches);
   FrictionAnchors anchors(user);
-  for (std::size_t i = 0; i < count; ++i) {
-    ContactPatch& patch = patches[i];
+  for (ContactPatch& patch : patches) {
     if (patch.depth_m <= 0) continue;
     state::Contact touch{patch.body, patch.segment, patch.p_WC, patch.n_BH_W, patch.depth_m};
     double curvature_per_m = 0;
@@ -155,8 +155,8 @@ void render_patches(const state::WorldDescription& description, const HandModel&
     const Vec3 v_B_W = body.V_WB.at(patch.p_WC - body.X_WB.p);
     const HapticMaterial& material = body.haptic;
     const hand::Grooves grooves = grooves_at(material, body.X_WB, user.X_WS[patch.segment].p, touch);
-    const PatchForce force =
-        touch_force(description, state, user, patch, v_B_W, grooves, static_cast<double>(count), config, anchors);
+    const PatchForce force = touch_force(description, state, user, patch, v_B_W, grooves,
+                                         static_cast<double>(patches.size()), config, anchors);
     add_to_finger(user, patch.segment, force.f_H_W);
     if (force.knock_n > 0) add_click(user, state.tick, force.knock_n);
     // A hand feels what it holds through the grasp's spring; only its fingers feel the surface.
@@ -259,6 +259,7 @@ void ForceRenderer::render_user(const state::WorldDescription& description, cons
   input.finger_force_n = user.output.finger_force_n;
   input.V_WH = user.V_WH;
   input.age = user.age;
+  if (config_.weights) input.weight_W = hand::held_weight(user.output.held, user.X_WH, user.age);
   input.engaged = user.present;
   static_cast<hand::HandForce&>(user.output) = governor_.apply(governor, input, kTickPeriod);
 }

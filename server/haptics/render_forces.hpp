@@ -27,6 +27,7 @@ struct ForceConfig {
   FrictionKind friction = FrictionKind::sticks;
   NormalKind normals = NormalKind::smooth;
   ThinWalls thin_walls = ThinWalls::hold_hands;
+  bool weights = true;  ///< known as such to the governor; false: as in journals before StateVersion::with_corners
   double damping_depth_m = 0.001;  ///< damping comes in over this depth, so that a first touch is not a step
   hand::GovernorConfig
       governor;  ///< the server's own limits; the client's governor comes after it and has the last word

@@ -66,10 +66,9 @@ Vec3 way_out_W(std::span<const Behind> walls, double left_m) {
 }
 
 ContactPatch patch_of(std::span<const state::Contact> contacts, const Vec3& out_W) {
-  std::array<ContactPatch, kMaxPatches> patches;
-  if (gather_patches(contacts, patches) == 0) return {};
-  patches[0].out_W = out_W;
-  return patches[0];
+  ContactPatch patch = haptics::patch_of(contacts);
+  patch.out_W = out_W;
+  return patch;
 }
 
 /// What a segment touches of a body when it is moved by `out_W`.
@@ -238,23 +237,22 @@ bool has_side(const UserState& user, std::size_t segment, BodyId body) noexcept 
                              [&](const WallSide& side) { return side.body == body && side.segment == segment; });
 }
 
-std::size_t hold_walls(const state::WorldDescription& description, const HandModel& hand,
-                       const state::WorldState& state, UserState& user, ThinWalls walls,
-                       std::array<ContactPatch, kMaxPatches>& patches, std::size_t count) noexcept {
+void hold_walls(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
+                UserState& user, ThinWalls walls, ContactPatches& patches) noexcept {
   const std::array<WallSide, state::kMaxSides> all_before = user.sides;
   const std::span before(all_before.data(), user.jumped ? 0 : user.side_count);
   for (const WallSide& side : before) {  // a tip may be past all contact
     const auto of_side = [&](const ContactPatch& p) { return p.body == side.body && p.segment == side.segment; };
     // A client may go on with another kind of hand.
     if (side.segment >= hand::segment_count(user.sample.kind)) continue;
-    if (count == patches.size() || std::ranges::any_of(std::span(patches).first(count), of_side)) continue;
-    patches[count] = ContactPatch{};
-    patches[count].body = side.body;
-    patches[count++].segment = side.segment;
+    if (patches.size() == patches.capacity() || std::ranges::any_of(patches, of_side)) continue;
+    patches.emplace_back();
+    patches.back().body = side.body;
+    patches.back().segment = side.segment;
   }
   const WallHolder holder(description, hand, state, user, walls);
   std::uint32_t sides = 0;
-  for (ContactPatch& patch : std::span(patches).first(count)) {
+  for (ContactPatch& patch : patches) {
     if (!is_held(user, patch.segment, walls) || user.holds(patch.body)) continue;
     const Sides held = holder.hold(patch, sides_of(before, patch));
     for (const WallSide& side : held.all()) {
@@ -262,7 +260,6 @@ std::size_t hold_walls(const state::WorldDescription& description, const HandMod
     }
   }
   user.side_count = sides;
-  return count;
 }
 
 }  // namespace mechane::haptics

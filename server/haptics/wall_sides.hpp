@@ -17,10 +17,9 @@ enum class ThinWalls { let_through, hold_tips, hold_hands };
 /// it is moved out of both walls. This is the god-object of Zilles and Salisbury (1995), with a size of its own (Ruspini et al. 1997), over
 /// distance maps. For a hand that begins inside a body, contacts count until it has been out of them.
 ///
-/// `patches`: the touches, `count` of them; returns how many there are now. Moves `user.sides`. Lives in the tick; allocates nothing.
-[[nodiscard]] std::size_t hold_walls(const state::WorldDescription& description, const HandModel& hand,
-                                     const state::WorldState& state, state::UserState& user, ThinWalls walls,
-                                     std::array<ContactPatch, kMaxPatches>& patches, std::size_t count) noexcept;
+/// `patches`: the touches. Moves `user.sides`. Lives in the tick; allocates nothing.
+void hold_walls(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
+                state::UserState& user, ThinWalls walls, ContactPatches& patches) noexcept;
 
 /// How far the side's segment is behind its wall, m; not yet there: below 0.
 [[nodiscard]] double depth_behind_m(const HandModel& hand, const state::WorldState& state, const state::UserState& user,

@@ -197,7 +197,7 @@ enum class StateVersion : std::uint32_t {
   with_anchors = 4,       ///< friction has static hold, before it was a damping; the normals of touches are smooth
   with_sides = 8,         ///< thin walls hold tips, and their normals are smooth
   with_builds = 16,       ///< hands are right or left, and their fingers have lengths of their own
-  with_corners = 32,      ///< thin walls hold palms, and corners of them hold by both
+  with_corners = 32,  ///< thin walls hold palms, corners of them hold by both; carried things have their whole weight
 };
 inline constexpr StateVersion kStateVersion = StateVersion::with_corners;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {

@@ -73,7 +73,7 @@ Reject validate(const proto::HapticInput& s, hand::SentSample& out) noexcept {
   if (!finite(s)) return Reject::not_finite;
   Pose X_WH = proto::to_pose(s.X_WH);
   if (!proto::normalise(X_WH)) return Reject::bad_rotation;
-  if (!(X_WH.p.norm() < kMaxDistanceM)) return Reject::too_far;
+  if (!(X_WH.p.norm() < hand::kFarthestHand_m)) return Reject::too_far;
   const Twist V_WH{proto::to_vec3(s.v_WH), proto::to_vec3(s.w_WH)};
   if (!(V_WH.v.norm() < kMaxSpeedMPerS && V_WH.w.norm() < kMaxTurnRadPerS)) return Reject::too_fast;
   if (!good_sizes(s)) return Reject::bad_size;

@@ -13,7 +13,6 @@
 
 namespace mechane::transport {
 
-inline constexpr double kMaxDistanceM = 100;
 inline constexpr double kMaxSpeedMPerS = 50;
 inline constexpr double kMaxTurnRadPerS = 200;
 inline constexpr double kMaxJointRad = 7;

@@ -251,6 +251,8 @@ void measure_delays(Report& report) {
       report.metric(at + ".energy_mj.max", 1000 * worst.energy_j);
       report.metric(at + ".peak_ratio", worst.peak_n / near.peak_n);
       report.metric(at + ".force_share.min", worst.stiffness_n_per_m / near.stiffness_n_per_m);
+      test::HeldCrank carried(mode, {delay_ms, 5, 0.05}, 1, test::make_loose_crank());
+      report.metric(at + ".carried.force_share", carried.weight_share());
       const Pressed held = worst_over(pull_over, mode, delay_ms, 5);
       report.metric(at + ".held.energy_mj.max", 1000 * held.energy_j);
       report.metric(at + ".held.force_share.min", held.stiffness_n_per_m / near_held.stiffness_n_per_m);

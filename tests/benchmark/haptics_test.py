@@ -35,6 +35,7 @@ class Haptics(unittest.TestCase):
         for ms in (20, 50):
             self.assertLessEqual(self.metrics[f"delay{ms}.local.held.energy_mj.max"], 1, ms)
             self.assertGreaterEqual(self.metrics[f"delay{ms}.local.held.force_share.min"], 0.8, ms)
+            self.assertAlmostEqual(self.metrics[f"delay{ms}.local.carried.force_share"], 1, delta=0.05)
             self.assertLessEqual(self.metrics[f"delay{ms}.direct.held.force_share.min"], 0.5, "there is something to gain")
 
     def test_grooves_feel_as_they_are_set(self):

@@ -44,6 +44,21 @@ TEST(HeldCrank, ThatIsTiedAgainWhileItIsPulledGivesTheHandNoEnergy) {
   }
 }
 
+/// Carried up and down, so that the hand is given back what it had put in.
+TEST(HeldCrank, OffItsAxleWeighsAsMuchOverASlowNetwork) {
+  for (const int delay_ms : {1, 20, 50}) {
+    HeldCrank crank(RenderMode::local, {delay_ms, 5, 0.05}, 1, test::make_loose_crank());
+    EXPECT_NEAR(crank.weight_share(), 1, 0.02) << delay_ms << " ms";
+    crank.go(Vec3(0, 0.1, 0), 2s);
+    EXPECT_NEAR(crank.weight_share(), 1, 0.02) << delay_ms << " ms";
+    const double lifted_m = crank.p_WH().y();
+    crank.go(Vec3(0, -0.1, 0), 2s);
+    EXPECT_LT(crank.p_WH().y(), lifted_m - 0.09);
+    EXPECT_NEAR(crank.weight_share(), 1, 0.02) << delay_ms << " ms";
+    EXPECT_LE(crank.energy_max_j(), test::kLooseCrank_n * 0.02) << delay_ms << " ms: the arm sags when it grasps";
+  }
+}
+
 /// Two turns in eight seconds.
 TEST(HeldCrank, IsTurnedOverASlowNetworkWithTheHandKeptOnItsCircle) {
   HeldCrank crank(RenderMode::local, {20, 5, 0.05});

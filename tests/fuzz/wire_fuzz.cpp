@@ -47,7 +47,7 @@ void fuzz_input(Bytes bytes) {
   wire.protocol = proto::kProtocol;
   hand::SentSample sample;
   if (transport::validate(wire, sample) != transport::Reject::none) return;
-  must(sample.X_WH.p.norm() < transport::kMaxDistanceM && sample.session != 0);
+  must(sample.X_WH.p.norm() < hand::kFarthestHand_m && sample.session != 0);
   must(std::abs(sample.X_WH.R.norm() - 1) < 1e-9);
   must(wire.deadband >= 0 && wire.deadband <= hand::kMaxDeadband);
   must(hand::is_hand_side(static_cast<std::uint8_t>(sample.side)));

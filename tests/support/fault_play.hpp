@@ -112,6 +112,7 @@ class FaultPlay {
       until_turn_ = pick(50, 1500);
       aim_m_ = pick(0, 3) == 0 ? 0.01 : -0.001 * pick(0, 20);
       holds_ = pick(0, 2) == 0;
+      carries_ = pick(0, 1) == 0;
     }
     y_m_ += std::clamp(aim_m_ - y_m_, -2e-4, 2e-4);
     device_.stylus.intend(Vec3(0, y_m_, 0));
@@ -131,7 +132,7 @@ class FaultPlay {
     const Vec3 wave(800, 0, 0);
     sample.contacts[0].grooves = {.depth_m = 3e-4, .wave_W = wave, .phase_rad = wave.dot(client_.hand.X_WH.p)};
     sample.clicks = {static_cast<std::uint32_t>(found_.ticks / 97), 0.8};
-    if (holds_) {  // a handle at y = 0 on a slider along z
+    if (holds_) {  // a handle at y = 0 on a slider along z, or a body of 2 N
       sample.holding = true;
       sample.contact_count = 0;
       sample.held = {.kind = hand::HeldPath::Kind::line,
@@ -140,6 +141,7 @@ class FaultPlay {
                      .stiffness_n_per_m = kFloor_n_per_m,
                      .damping_ns_per_m = 1,
                      .limit_n = 6};
+      if (carries_) sample.held = {.kind = hand::HeldPath::Kind::free, .axis_W = -Vec3::UnitY(), .along_n = 2};
     }
     if (!fault_) return;
     switch (*fault_) {
@@ -217,6 +219,7 @@ class FaultPlay {
   int until_turn_ = 0;
   double aim_m_ = 0.01;
   bool holds_ = false;
+  bool carries_ = false;  // what is held hangs on nothing else
   double y_m_ = 0.01;
   FaultFindings found_;
 };

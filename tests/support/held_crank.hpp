@@ -8,11 +8,25 @@
 
 namespace mechane::test {
 
+/// The crank off its axle: of 2 kg, an eighth of which is felt, in its handle's middle.
+inline std::shared_ptr<const state::WorldDescription> make_loose_crank() {
+  auto world = make_crank_description();
+  world->joints[0].enabled_at_start = false;
+  world->agents.erase(world->agents.begin());  // the hinge's
+  world->quantities[0] = world->quantities[1];
+  world->bodies[1].use_gravity = true;
+  world->bodies[1].effort_scale = 0.125;
+  world->bodies[1].p_BCm = Vec3(kCrankRadiusM, 0, 0);
+  return world;
+}
+inline constexpr double kLooseCrank_n = 2 * 0.125 * 9.81;
+
 class HeldCrank {
  public:
   /// Grasps the handle. Throws where it is not held after a second.
-  HeldCrank(haptic::RenderMode mode, const Network& network, unsigned seed = 1)
-      : play_(make_crank_description(), std::span(&aim_, 1), mode, network, seed) {
+  HeldCrank(haptic::RenderMode mode, const Network& network, unsigned seed = 1,
+            std::shared_ptr<const state::WorldDescription> world = make_crank_description())
+      : play_(std::move(world), std::span(&aim_, 1), mode, network, seed) {
     stay(std::chrono::seconds(1));
     if (!state().users[0].grasp.active) throw std::runtime_error("the stylus did not grasp the handle");
   }
@@ -52,6 +66,12 @@ class HeldCrank {
     const double stiffness = -force_W().x() / (p_WH().x() - before.x());
     go(Vec3(-0.008, 0, 0), std::chrono::seconds(1));
     return stiffness;
+  }
+
+  /// The share of the loose crank's weight that is felt, once it is held still.
+  double weight_share() {
+    stay(std::chrono::seconds(2));
+    return -force_W().y() / kLooseCrank_n;
   }
 
   /// Where the hand began.

@@ -29,6 +29,7 @@ static_assert(mechane_hand_left == static_cast<int>(hand::HandSide::left));
 static_assert(mechane_held_none == static_cast<int>(hand::HeldPath::Kind::none));
 static_assert(mechane_held_line == static_cast<int>(hand::HeldPath::Kind::line));
 static_assert(mechane_held_circle == static_cast<int>(hand::HeldPath::Kind::circle));
+static_assert(mechane_held_free == static_cast<int>(hand::HeldPath::Kind::free));
 
 static_assert(mechane_reason_clamped == hand::kClamped);
 static_assert(mechane_reason_slew_limited == hand::kSlewLimited);

@@ -49,17 +49,18 @@ bool same(const hand::LocalContact& a, const hand::LocalContact& b) {
 }
 
 hand::HeldPath any_path() {
-  return {
-      .kind = *rc::gen::element(hand::HeldPath::Kind::none, hand::HeldPath::Kind::line, hand::HeldPath::Kind::circle),
-      .p_HG = vector_within(1),
-      .p_W = vector_within(100),
-      .axis_W = any_unit(),
-      .radius_m = float_between(0.01, 5),
-      .along_n = float_between(-20, 20),
-      .stiffness_n_per_m = float_between(0, 5000),
-      .damping_ns_per_m = float_between(0, 50),
-      .limit_n = float_between(0, 500),
-      .validity = std::chrono::microseconds(*rc::gen::inRange(0, 1'000'001))};
+  using Kind = hand::HeldPath::Kind;
+  const auto kind = *rc::gen::element(Kind::none, Kind::line, Kind::circle, Kind::free);
+  return {.kind = kind,
+          .p_HG = vector_within(1),
+          .p_W = vector_within(100),
+          .axis_W = any_unit(),
+          .radius_m = float_between(0.01, 5),
+          .along_n = float_between(kind == Kind::free ? 0 : -20, 20),
+          .stiffness_n_per_m = float_between(0, 5000),
+          .damping_ns_per_m = float_between(0, 50),
+          .limit_n = float_between(0, 500),
+          .validity = std::chrono::microseconds(*rc::gen::inRange(0, 1'000'001))};
 }
 
 bool same(const hand::HeldPath& a, const hand::HeldPath& b) {

@@ -54,6 +54,8 @@ GovernorInput wild_input() {
   GovernorInput in;
   in.wanted_W.f = vector(0.02);
   in.wanted_W.t = vector(0.001);
+  in.weight_W.f = vector(0.005);
+  in.weight_W.t = vector(0.0002);
   in.V_WH.v = vector(0.002);
   in.V_WH.w = vector(0.01);
   for (double& f : in.finger_force_n)
@@ -344,6 +346,30 @@ TEST(ForceGovernor, DampingOnADeviceKeepsToTheSlewLimit) {
   input.V_WH.v = Vec3(0, -0.3, 0);
   const Vec3 after = pressed.apply(input).force_W.f;
   EXPECT_LE((after - before).norm(), config.max_slew_n_per_s * kDt_s + 1e-9) << "nor across the force";
+}
+
+/// A hand sinks under what it carries, and something else pushes it down, too.
+TEST(ForceGovernor, AWeightIsGivenToAHandThatSinksAndNothingElseIs) {
+  for (const bool strict : {false, true}) {
+    OneHand governor({.strict_energy = strict});
+    GovernorInput input;
+    input.wanted_W = input.weight_W = {Vec3(0, -2, 0), Vec3(0, 0, 0.05)};
+    for (int i = 0; i < 1000; ++i)
+      (void)governor.apply(input);
+    input.V_WH.v = Vec3(0, -0.2, 0);
+    input.V_WH.w = Vec3(0, 0, 1);
+    input.wanted_W.f.y() = -2.5;
+    HandForce felt;
+    for (int i = 0; i < 500; ++i)
+      felt = governor.apply(input);
+    EXPECT_NEAR(felt.force_W.f.y(), -2, 1e-9);
+    EXPECT_NEAR(felt.force_W.t.z(), 0.05, 1e-9);
+    EXPECT_NE(felt.reasons & kDamped, 0u) << "the rest is held back";
+    input.weight_W = {};
+    for (int i = 0; i < 500; ++i)
+      felt = governor.apply(input);
+    EXPECT_GT(felt.force_W.f.y(), -0.01) << "the same push without a weight";
+  }
 }
 
 TEST(ForceGovernor, APassiveWallIsNotDamped) {

@@ -253,6 +253,16 @@ TEST_F(HapticLoopOnAPath, APathThatAppearsComesInSlowly) {
   EXPECT_LT((device_.force_W - Vec3(1, -1, 0)).norm(), 1e-6);
 }
 
+TEST_F(HapticLoopOnAPath, AWeightIsFeltInFullWhateverTheDelay) {
+  held_ = {.kind = hand::HeldPath::Kind::free, .axis_W = Vec3::UnitY(), .along_n = 0.75 * kPressN};
+  tick_for(1s, true);
+  EXPECT_NEAR(settled_N(0).y(), kPressN, 1e-6);
+  EXPECT_NEAR(settled_N(19).y(), (0.75 + 0.25 * 5.5 / 20.5) * kPressN, 0.01) << "the rest is lowered";
+  render(RenderMode::server);
+  tick_for(1s, true);
+  EXPECT_NEAR(settled_N(19).y(), 5.5 / 20.5 * kPressN, 0.01);
+}
+
 TEST_F(HapticLoopOnAPath, AForceThatWasLostComesBackWhileTheThingIsHeld) {
   tick_for(1s, true);
   EXPECT_EQ(tick_for(60ms, false), 0);

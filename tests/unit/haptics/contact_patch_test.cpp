@@ -18,11 +18,11 @@ state::Contact contact(double depth_m, const Vec3& n, std::uint8_t segment = 0, 
 }
 
 Vec3 total_push(const std::vector<state::Contact>& contacts) {
-  std::array<ContactPatch, kMaxPatches> patches;
-  const std::size_t count = gather_patches(contacts, patches);
+  ContactPatches patches;
+  gather_patches(contacts, patches);
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < count; ++i)
-    sum += patches[i].push_m;
+  for (const ContactPatch& patch : patches)
+    sum += patch.push_m;
   return sum;
 }
 
@@ -38,9 +38,10 @@ RC_GTEST_PROP(ContactPatch, APointThatJustTouchesChangesNothing, ()) {
 }
 
 TEST(ContactPatch, APinchDoesNotCancel) {
-  std::array<ContactPatch, kMaxPatches> patches;
+  ContactPatches patches;
   const std::vector<state::Contact> pinch{contact(0.002, Vec3::UnitX(), 3), contact(0.002, -Vec3::UnitX(), 6)};
-  ASSERT_EQ(gather_patches(pinch, patches), 2u);
+  gather_patches(pinch, patches);
+  ASSERT_EQ(patches.size(), 2u);
   EXPECT_NEAR(patches[0].depth_m, 0.002, 1e-12);
   EXPECT_NEAR(patches[1].depth_m, 0.002, 1e-12);
 }
@@ -55,8 +56,9 @@ TEST(ContactPatch, MoreTouchesThanThereIsRoomForAreLeftOut) {
   std::vector<state::Contact> many;
   for (std::size_t body = 0; body < 100; ++body)
     many.push_back(contact(0.001, Vec3::UnitY(), 0, body));
-  std::array<ContactPatch, kMaxPatches> patches;
-  EXPECT_EQ(gather_patches(many, patches), kMaxPatches);
+  ContactPatches patches;
+  gather_patches(many, patches);
+  EXPECT_EQ(patches.size(), kMaxPatches);
 }
 
 }  // namespace

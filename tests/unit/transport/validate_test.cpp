@@ -34,7 +34,7 @@ RC_GTEST_PROP(Validate, WhatItTakesIsFitForTheLoop, ()) {
   std::memcpy(reinterpret_cast<char*>(&s) + 4 * where, &bits, 4);
   hand::SentSample out;
   if (validate(s, out) != Reject::none) return;
-  RC_ASSERT(out.X_WH.p.norm() < kMaxDistanceM);
+  RC_ASSERT(out.X_WH.p.norm() < hand::kFarthestHand_m);
   RC_ASSERT(std::abs(out.X_WH.R.norm() - 1) < 1e-9);
   RC_ASSERT(out.V_WH.v.norm() < kMaxSpeedMPerS);
   RC_ASSERT(out.hand_scale >= hand::kMinHandScale && out.hand_scale <= hand::kMaxHandScale);
