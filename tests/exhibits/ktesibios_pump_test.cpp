@@ -60,14 +60,15 @@ TEST(KtesibiosPumpVisits, MistakesEndWellToo) {
   EXPECT_TRUE(std::ranges::any_of(pumping.moves, test::went_wrong)) << pumping;
 }
 
-/// Only what leaks past the leather lets a hand that leans on the handle move it.
+/// Only what leaks past the leather lets a hand that leans on the handle move it: its share of the real force, 14 N, is little more than
+/// the grip's 12 N.
 TEST(KtesibiosPumpVisits, OutletFlapsTheWrongWayRoundLockThePistons) {
   const test::PlayedVisit visit = play_with_valves("outletValves", {"reversed"});
   EXPECT_EQ(visit.quantities.at("head"), 0) << visit;
   EXPECT_TRUE(test::went_wrong(visit.moves.at(2))) << "the first swing: " << visit;
   const auto stroke = std::ranges::find(visit.steps, "stroke", &test::PlayedStep::name);
   ASSERT_NE(stroke, visit.steps.end()) << visit;
-  EXPECT_TRUE(visit.stopped_at == "stroke" || stroke->seconds > 20) << "good visits need less: " << visit;
+  EXPECT_TRUE(visit.stopped_at == "stroke" || stroke->seconds > 10) << "good visits need 3 s: " << visit;
 }
 
 TEST(KtesibiosPumpVisits, InletFlapsTheWrongWayRoundDrawNoWater) {
