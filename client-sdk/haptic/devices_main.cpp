@@ -21,6 +21,8 @@ namespace {
 using namespace mechane;
 using namespace mechane::haptic;
 
+constexpr std::chrono::milliseconds kLongestRead(100);  // as drivers are told
+
 volatile std::sig_atomic_t g_stop = 0;  // set by the signal handler
 
 struct Arguments {
@@ -83,11 +85,11 @@ void print_device(const mechane_device_info& i) {
   if (i.output == MECHANE_OUTPUT_FORCE) fmt::print("A soft floor lies 1 cm under where the hand is when it is ready. ");
   if (i.peak_finger_force_n > 0) fmt::print("Fingers are held when they are half closed. ");
   fmt::print(
-      "Ctrl-C ends the test.\n\nEach line: state; samples a second, and how late the latest one came; place of the "
+      "Ctrl-C ends the test.\n\nEach line: state; new samples within a second, and how late one came; place of the "
       "hand; force;\nenergy that the hand was given beyond what it gave, which should stay near 0.\n\n");
 }
 
-void print_line(const Seen& seen, double rate_hz, double worst_us) {
+void print_line(const Seen& seen, const DevicePace::Seen& pace, double wanted_hz) {
   const WallReport& w = seen.wall;
   const std::string warmth = seen.state.temperature < 0 || w.condition == DeviceCondition::lost
                                  ? ""
@@ -95,15 +97,16 @@ void print_line(const Seen& seen, double rate_hz, double worst_us) {
   fmt::print(
       "{}{:<15} {:5.0f} /s, late by up to {:4.0f} us  at {:6.1f} {:6.1f} {:6.1f} mm  {:4.2f} N  given out {:5.2f} "
       "mJ{}{}",
-      isatty(STDOUT_FILENO) != 0 ? "\r\033[K" : "", word(w.condition), rate_hz, worst_us, 1000 * w.p_WH.x(),
-      1000 * w.p_WH.y(), 1000 * w.p_WH.z(), w.force_n, 1000 * w.energy_out_j, warmth,
-      isatty(STDOUT_FILENO) != 0 ? "" : "\n");
+      isatty(STDOUT_FILENO) != 0 ? "\r\033[K" : "", word(w.condition), pace.rate_hz,
+      std::max(0.0, to_us(pace.longest) - 1e6 / wanted_hz), 1000 * w.p_WH.x(), 1000 * w.p_WH.y(), 1000 * w.p_WH.z(),
+      w.force_n, 1000 * w.energy_out_j, warmth, isatty(STDOUT_FILENO) != 0 ? "" : "\n");
   std::fflush(stdout);
 }
 
-void print_report(const Seen& seen, const DeviceThread& thread, double seconds) {
+void print_report(const Seen& seen, const DeviceThread& thread, Duration longest_read, double seconds) {
   const nlohmann::json json = {{"ticks", seen.wall.ticks},
                                {"seconds", seconds},
+                               {"read_ms_max", to_us(longest_read) / 1000},
                                {"interval_us", realtime::quantiles_json(thread.intervals())},
                                {"ticks_without_state", thread.without_state()},
                                {"force_max_n", seen.wall.force_max_n},
@@ -134,30 +137,27 @@ int test(const Arguments& a) {
     box.publish({wall->report(), device.state()});
   });
   SystemClock clock;
-  realtime::LatencyHistogram before;
-  std::uint64_t ticks = 0;
+  DevicePace pace(thread, begun);
   double passed_s = 0;
-  bool failed = false;  // now and then
   for (; g_stop == 0 && (a.seconds <= 0 || passed_s < a.seconds); passed_s = to_seconds(clock.now() - begun)) {
-    const TimePoint from = clock.now();
-    clock.sleep_until(from + std::chrono::milliseconds(100));
+    clock.sleep_until(clock.now() + std::chrono::milliseconds(100));
     (void)box.take_newest(seen);
-    const realtime::LatencyHistogram now = thread.intervals().since(before);
-    before = thread.intervals();
-    const double rate =
-        static_cast<double>(seen.wall.ticks - std::exchange(ticks, seen.wall.ticks)) / to_seconds(clock.now() - from);
-    if (!a.json) print_line(seen, rate, std::max(0.0, to_us(now.max()) - 1e6 / device.info().rate_hz));
+    const DevicePace::Seen now = pace.look(clock.now());
+    if (!a.json) print_line(seen, now, device.info().rate_hz);
     const auto news = device.check();
     if (!news) return log::error(news.error()), 1;
-    if (!*news) continue;
-    failed = true;
-    log::warning(**news);
+    if (*news) log::warning(**news);
   }
   thread.stop();
   device.write({});
+  const Duration longest_read = device.longest_read();
   device.close();
-  a.json ? print_report(seen, thread, passed_s) : fmt::print("\n");
-  return failed || seen.wall.condition == DeviceCondition::lost ? 1 : 0;
+  (void)box.take_newest(seen);
+  a.json ? print_report(seen, thread, longest_read, passed_s) : fmt::print("\n");
+  if (longest_read > kLongestRead)
+    log::warning(fmt::format("read() took {:.0f} ms at most; a driver may wait {} ms (see mechane/driver.h)",
+                             to_us(longest_read) / 1000, kLongestRead.count()));
+  return seen.wall.was_lost || seen.wall.condition == DeviceCondition::lost ? 1 : 0;
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <span>
 #include <sstream>
@@ -82,16 +84,38 @@ void keep_to_output(mechane_device_info& info) {
   info.name[sizeof(info.name) - 1] = 0;
 }
 
-bool is_size(double length_m, double least_m, double most_m) {
-  return length_m == 0 || within(length_m, least_m, most_m);
-}
-
-bool is_sane(const mechane_device_state& state) {
+/// Whether all numbers of a state can be. Otherwise `why` says which one cannot. The driver's loop calls it: no allocation.
+bool is_sane(const mechane_device_state& state, std::span<char> why) noexcept {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  struct Range {
+    const char* name;
+    std::span<const double> values;
+    double least, most;
+    bool may_be_0 = false;
+  };
+  const Range ranges[] = {{"position_m", state.position_m, -kMost, kMost},
+                          {"orientation_wxyz", state.orientation_wxyz, -kMost, kMost},
+                          {"joints_rad", state.joints_rad, -kMost, kMost},
+                          {"grasp", {&state.grasp, 1}, 0, 1},
+                          {"temperature", {&state.temperature, 1}, -kMost, kMost},
+                          {"palm_m", {&state.palm_m, 1}, 0.02, 0.25, true},
+                          {"finger_m", state.finger_m, 0.005, 0.5, true}};
+  for (const Range& r : ranges) {
+    const auto wrong = std::ranges::find_if(
+        r.values, [&](double value) { return !within(value, r.least, r.most) && !(r.may_be_0 && value == 0); });
+    if (wrong == r.values.end()) continue;
+    std::array<char, 8> index{};
+    if (r.values.size() > 1) std::snprintf(index.data(), index.size(), "[%d]", int(wrong - r.values.begin()));
+    std::array<char, 48> range{};
+    if (std::isfinite(*wrong)) std::snprintf(range.data(), range.size(), ", and not %g to %g", r.least, r.most);
+    std::snprintf(why.data(), why.size(), "read() gave %s%s = %g%s", r.name, index.data(), *wrong, range.data());
+    return false;
+  }
   const auto& q = state.orientation_wxyz;
-  const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-  return all_finite(state.position_m) && all_finite(state.joints_rad) && within(squared, 0.99, 1.01) &&
-         within(state.grasp, 0, 1) && !std::isnan(state.temperature) && is_size(state.palm_m, 0.02, 0.25) &&
-         std::ranges::all_of(state.finger_m, [](double length_m) { return is_size(length_m, 0.005, 0.5); });
+  const double length = std::hypot(std::hypot(q[0], q[1], q[2]), q[3]);
+  if (within(length, 0.995, 1.005)) return true;
+  std::snprintf(why.data(), why.size(), "read() gave orientation_wxyz of length %g, and not 1", length);
+  return false;
 }
 
 void clamp_norm(double (&v)[3], double limit) {
@@ -166,10 +190,12 @@ Expected<mechane_device_info> Driver::open(const std::string& options) {
   why_.fill(0);
   info_ = {};
   device_ = nullptr;
-  if (driver_->open(options.c_str(), &device_, why_.data(), why_.size() - 1) != 0 || device_ == nullptr) {
+  if (driver_->open(options.c_str(), &device_, why_.data(), why_.size() - 1) != 0) {
     device_ = nullptr;
     return fail(ErrorCode::io_failure, why(), "device");
   }
+  if (device_ == nullptr)
+    return fail(ErrorCode::damaged, "open() returned 0 but left *device NULL", file_, "see mechane/driver.h");
   if (driver_->describe(device_, &info_, why_.data(), why_.size() - 1) != 0) {
     close();
     return fail(ErrorCode::io_failure, why(), "device");
@@ -187,13 +213,7 @@ Expected<mechane_device_info> Driver::open(const std::string& options) {
 bool Driver::read(mechane_device_state& state) noexcept {
   state = {};
   why_[0] = 0;
-  if (driver_->read(device_, &state, why_.data(), why_.size() - 1) != 0) return false;
-  if (is_sane(state)) return true;
-  constexpr std::string_view why =
-      "the driver gave a number that is not finite, a rotation that is not a unit quaternion, a grasp outside 0 to 1, "
-      "or a size that no hand has";
-  *std::copy(why.begin(), why.end(), why_.begin()) = 0;
-  return false;
+  return driver_->read(device_, &state, why_.data(), why_.size() - 1) == 0 && is_sane(state, why_);
 }
 
 bool Driver::write(mechane_device_force force) noexcept {

@@ -88,8 +88,11 @@ bool DriverHost::serve() {
 
 bool DriverHost::exchange(Duration period) noexcept {
   Timed<mechane_device_state> state;
-  if (!driver_.read(state.value)) return false;
+  const TimePoint asked = now();
+  const bool read = driver_.read(state.value);
   state.at = now();
+  link_->longest_read = std::max(link_->longest_read.load(), state.at - asked);
+  if (!read) return false;
   link_->states.publish(state);
   ::sem_post(&link_->state_came);
   (void)wait_for(link_->force_came, state.at + period / 2);  // the answer to this state, if it comes in time

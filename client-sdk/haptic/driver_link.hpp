@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include <semaphore.h>
@@ -32,6 +33,7 @@ struct DriverLink {
   sem_t force_came;
   realtime::Mailbox<Timed<mechane_device_state>> states;
   realtime::Mailbox<Timed<mechane_device_force>> forces;
+  std::atomic<Duration> longest_read{Duration{0}};  ///< what one call of the driver's read() took
 };
 
 /// What the driver's process tells beside the link, over a socket whose end tells it to let the device go.

@@ -24,6 +24,7 @@ constexpr int kOpenMs = 30'000;        // some devices are sent their firmware f
 constexpr Duration kLostAfter = 50ms;  // without a state
 constexpr Duration kHangsAfter = 2s;
 constexpr Duration kCloseWithin = 2s;
+constexpr Duration kToldAfter = 1s;  // a condition that lasts
 
 constexpr const char* kAgain = "start it again; if it happens again, tell the driver's maker";
 
@@ -66,6 +67,23 @@ pid_t spawn(const DriverProcessConfig& config, int link_file, int news_file) {
   ::close(news);
   errno = error;
   return error == 0 ? process : -1;
+}
+
+/// For a technician: what is the matter with the device, and what to do.
+const char* in_words(client::DeviceState state) {
+  using client::DeviceState;
+  switch (state) {
+    case DeviceState::let_go:
+      return "the device is let go: hold its switch, or take it out of its holder";
+    case DeviceState::not_ready:
+      return "the device is not ready: take it in your hand; if that does not help, look at its power supply";
+    case DeviceState::uncalibrated:
+      return "the device is not calibrated, and renders no force: calibrate it as its maker says";
+    case DeviceState::hot:
+      return "the device's motors are too warm for any force: let it rest until they have cooled";
+    default:
+      return "the device is ready";
+  }
 }
 
 }  // namespace
@@ -138,8 +156,9 @@ std::optional<Error> DriverProcess::died(Duration within) const {
     if (std::chrono::steady_clock::now() >= until) return {};
     ::poll(nullptr, 0, 2);
   }
-  std::string what = "the driver's process ended";
-  if (status.si_code != CLD_EXITED) what += " by signal " + std::to_string(status.si_status);
+  const std::string what = std::string("the driver's process ended ") +
+                           (status.si_code == CLD_EXITED ? "with status " : "by signal ") +
+                           std::to_string(status.si_status);
   return Error{ErrorCode::failed_process, what, place(), kAgain};
 }
 
@@ -151,10 +170,19 @@ Expected<std::optional<std::string>> DriverProcess::check() {
     return fail(ErrorCode::conflict, news->text.data(), place(), kAgain);
   }
   if (const auto error = died(Duration{0})) return tl::unexpected(*error);
-  const TimePoint newest = newest_at_.load();
-  if (!told_lost_ && newest != TimePoint{} && std::chrono::steady_clock::now() - newest > kHangsAfter)
+  const TimePoint newest = newest_at_.load(), now = std::chrono::steady_clock::now();
+  if (!told_lost_ && newest != TimePoint{} && now - newest > kHangsAfter)
     return fail(ErrorCode::timed_out, "the driver hangs", place(), kAgain);
-  return std::optional<std::string>();
+  return changed_condition(now);
+}
+
+std::optional<std::string> DriverProcess::changed_condition(TimePoint now) {
+  const client::DeviceState state = state_for_visitors(condition_, false, renders());
+  if (std::exchange(seen_, state) != state) seen_since_ = now;
+  // That a device is lost is told by its process, with the reason.
+  if (state == client::DeviceState::lost || state == told_ || now - seen_since_ < kToldAfter) return {};
+  told_ = state;
+  return in_words(state);
 }
 
 bool DriverProcess::wait(Duration limit) noexcept {
@@ -172,8 +200,9 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   const bool is_new = std::exchange(came_, false);
   if (is_new)
     clutched_ = workspace_.follow({state.position_m[0], state.position_m[1], state.position_m[2]}, state.buttons);
-  condition_ = now - newest_.at > kLostAfter ? DeviceCondition::lost : condition_of(state);
-  if (condition_ == DeviceCondition::ready && clutched_) condition_ = DeviceCondition::clutched;
+  DeviceCondition condition = now - newest_.at > kLostAfter ? DeviceCondition::lost : condition_of(state);
+  if (condition == DeviceCondition::ready && clutched_) condition = DeviceCondition::clutched;
+  condition_ = condition;
   if (!is_new) return last_;
   client::HandSample hand;
   hand.kind = info_.hand == MECHANE_HAND_GLOVE ? client::HandKind::glove : client::HandKind::one_point;

@@ -45,9 +45,12 @@ class DriverProcess final : public Device {
   [[nodiscard]] DeviceCondition condition() const noexcept override { return condition_; }
   /// What the driver told with the newest state.
   [[nodiscard]] const mechane_device_state& state() const noexcept { return newest_.value; }
+  /// What one call of the driver's read() took, at most. After open(); any thread.
+  [[nodiscard]] Duration longest_read() const noexcept { return (*link_)->longest_read; }
 
-  /// What is new since the last call: the device failed, or is back. Error: its process died or hangs, or another device
-  /// took its place; then it has to be opened anew.
+  /// What is new since the last call, in words: the device failed, is back, or has for a second been in another
+  /// condition than was told. Error: its process died or hangs, or another device took its place; then it has to be
+  /// opened anew.
   [[nodiscard]] Expected<std::optional<std::string>> check();
 
   [[nodiscard]] hand::GovernorConfig limits() const override;
@@ -61,6 +64,7 @@ class DriverProcess final : public Device {
   [[nodiscard]] std::string place() const;
   /// How the process ended, if it does within this time.
   [[nodiscard]] std::optional<Error> died(Duration within) const;
+  [[nodiscard]] std::optional<std::string> changed_condition(TimePoint now);
 
   DriverProcessConfig config_;
   Workspace workspace_;
@@ -71,12 +75,15 @@ class DriverProcess final : public Device {
   mechane_device_info info_{};
   Timed<mechane_device_state> newest_;
   bool came_ = false;  // newest_ came since the last read()
-  DeviceCondition condition_ = DeviceCondition::lost;
+  std::atomic<DeviceCondition> condition_{DeviceCondition::lost};
   client::HandSample last_;
   TimePoint last_at_;
   HandSpeed speed_;
   std::atomic<TimePoint> newest_at_{TimePoint{}};  // of newest_, for check()
   bool told_lost_ = false;                         // by the process
+  // check()'s: what was told last, what was seen last, and since when.
+  client::DeviceState told_ = client::DeviceState::ready, seen_ = client::DeviceState::lost;
+  TimePoint seen_since_;
 };
 
 }  // namespace mechane::haptic

@@ -1,6 +1,7 @@
 #include "client-sdk/haptic/wall_test.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mechane::haptic {
 namespace {
@@ -33,7 +34,8 @@ Expected<WallTest> WallTest::make(Device& device, double stiffest_n_per_m) {
 
 void WallTest::tick(Duration dt) noexcept {
   const client::HandSample hand = device_.read(dt);
-  report_.condition = device_.condition();
+  const DeviceCondition before = std::exchange(report_.condition, device_.condition());
+  report_.was_lost |= report_.condition == DeviceCondition::lost && before != DeviceCondition::lost;
   ++report_.ticks;
   const bool ready = report_.condition == DeviceCondition::ready;
   if (!ready) {

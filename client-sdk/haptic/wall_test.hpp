@@ -11,6 +11,7 @@ namespace mechane::haptic {
 /// How the test goes.
 struct WallReport {
   DeviceCondition condition = DeviceCondition::lost;
+  bool was_lost = false;  ///< after its first state
   Vec3 p_WH = Vec3::Zero();
   double depth_m = 0;
   double force_n = 0;

@@ -73,8 +73,8 @@ class RepeatLimitSink final : public spdlog::sinks::dist_sink<std::mutex> {
  private:
   void tell(const std::vector<Repeats::Counted>& counted) {
     for (const Repeats::Counted& c : counted) {
-      const std::string text =
-          fmt::format("{} (again {} times within {} s)", c.text, c.repeats, Repeats::kWindow.count());
+      const std::string often = c.repeats == 1 ? "once" : fmt::format("{} times", c.repeats);
+      const std::string text = fmt::format("{} (again {} within {} s)", c.text, often, Repeats::kWindow.count());
       dist_sink::sink_it_({program_, static_cast<spdlog::level::level_enum>(c.level), text});
     }
   }

@@ -96,6 +96,13 @@ class Devices(EndToEnd):
         self.assertIn("the fake cable was pulled", wall.text())
         self.assertIn("the device is back", wall.text())
 
+    def test_a_driver_that_waits_too_long_is_told_with_its_time(self):
+        wall = self.start("wall", "devices", "--test", self.device("fault=slow,after=300"), "--seconds", "1.5")
+        self.assertEqual(wall.wait(20), 1, wall.text())
+        self.assertRegex(wall.text(), r"read\(\) took [3-9]\d\d ms at most; a driver may wait 100 ms")
+        last = [line for line in wall.text().splitlines() if " /s, late by up to " in line][-1]
+        self.assertLess(float(last.split(" /s")[0].split()[-1]), 400, "it is not its loop's time-outs that are counted")
+
     def test_a_stopped_loop_leaves_no_force_and_begins_again_from_zero(self):
         wall = self.start("wall", "devices", "--test", self.device())
         self.pressing(wall)

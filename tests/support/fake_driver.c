@@ -67,6 +67,10 @@ static int fake_open(const char* options, void** device, char* why, size_t why_s
     free(made);
     return fails(why, why_size, "the fake device is not there; plug it in");
   }
+  if (strcmp(made->fault, "null") == 0) {
+    free(made);
+    return 0;
+  }
   *device = made;
   return 0;
 }
@@ -114,6 +118,9 @@ static int fake_read(void* device, mechane_device_state* state, char* why, size_
 #endif
   if (!fault) return 0;
   if (strcmp(d->fault, "nan") == 0) state->position_m[0] = NAN;
+  if (strcmp(d->fault, "no_rotation") == 0) state->orientation_wxyz[0] = 0;
+  if (strcmp(d->fault, "slow") == 0) nanosleep(&(struct timespec){.tv_nsec = 300000000}, NULL);
+  if (strcmp(d->fault, "exit") == 0) exit(3);
   if (strcmp(d->fault, "hot") == 0) state->flags |= MECHANE_STATE_HOT;
   if (strcmp(d->fault, "let_go") == 0) state->flags |= MECHANE_STATE_DEAD_MAN;
   if (strcmp(d->fault, "not_ready") == 0) state->flags = 0;

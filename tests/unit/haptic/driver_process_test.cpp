@@ -146,6 +146,21 @@ TEST_F(DriverProcessTest, ADeviceThatIsNotReadyRendersNothingAndTellsWhy) {
   }
 }
 
+TEST_F(DriverProcessTest, AConditionThatLastsIsToldOnce) {
+  open("after=1,fault=hot");
+  std::vector<std::string> told;
+  const auto hear = [&] {
+    const auto news = device_->check();
+    EXPECT_TRUE(news);
+    if (news && *news) told.push_back(**news);
+  };
+  ASSERT_TRUE(tick_until(0, [&] { return hear(), !told.empty(); }));
+  const TimePoint end = std::chrono::steady_clock::now() + 1200ms;
+  ASSERT_TRUE(tick_until(0, [&] { return hear(), std::chrono::steady_clock::now() > end; }));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("too warm"), std::string::npos) << told[0];
+}
+
 TEST_F(DriverProcessTest, ADeviceThatFailsIsClosedAndOpenedAgain) {
   open("after=100,fault=gone");
   std::vector<std::string> told;
@@ -173,6 +188,13 @@ TEST_F(DriverProcessTest, ADriverThatCrashesIsAnErrorAndTheDeviceIsLost) {
   ASSERT_TRUE(tick_until(1, [&] { return !(news = device_->check()); }));
   EXPECT_EQ(news.error().code, ErrorCode::failed_process);
   ASSERT_TRUE(tick_until(1, [&] { return device_->condition() == DeviceCondition::lost; }));
+}
+
+TEST_F(DriverProcessTest, ADriverThatEndsIsAnErrorWithItsStatus) {
+  open("after=100,fault=exit");
+  Expected<std::optional<std::string>> news = std::optional<std::string>();
+  ASSERT_TRUE(tick_until(1, [&] { return !(news = device_->check()); }));
+  EXPECT_EQ(news.error().what, "the driver's process ended with status 3");
 }
 
 TEST_F(DriverProcessTest, ADriverThatHangsIsAnErrorAndIsEnded) {

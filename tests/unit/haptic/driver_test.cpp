@@ -65,6 +65,7 @@ TEST(DriverDevice, ThatMeasuresAHandWhichNobodyHasIsFaulty) {
   driver.close();
   ASSERT_TRUE(driver.open("palm=80"));
   EXPECT_FALSE(driver.read(state));
+  EXPECT_EQ(driver.why(), "read() gave palm_m = 80, and not 0.02 to 0.25");
 }
 
 TEST(DriverLoading, FindsDriversInTheFoldersThatAreNamed) {
@@ -90,6 +91,13 @@ TEST(DriverDevice, ThatIsAbsentSaysWhy) {
   EXPECT_NE(opened.error().what.find("plug it in"), std::string::npos);
 }
 
+TEST(DriverDevice, ThatIsNullSaysSo) {
+  Driver driver = fake();
+  const auto opened = driver.open("fault=null");
+  ASSERT_FALSE(opened);
+  EXPECT_NE(opened.error().what.find("left *device NULL"), std::string::npos);
+}
+
 TEST(DriverDevice, WithAbsurdLimitsIsRefused) {
   Driver driver = fake();
   const auto opened = driver.open("fault=limits");
@@ -104,7 +112,15 @@ TEST(DriverDevice, ThatGivesANumberThatIsNoneIsFaulty) {
   for (int i = 0; i < 3; ++i)
     EXPECT_TRUE(driver.read(state));
   EXPECT_FALSE(driver.read(state));
-  EXPECT_NE(driver.why(), "");
+  EXPECT_EQ(driver.why(), "read() gave position_m[0] = nan");
+}
+
+TEST(DriverDevice, WithoutARotationIsFaulty) {
+  Driver driver = fake();
+  ASSERT_TRUE(driver.open("fault=no_rotation"));
+  mechane_device_state state;
+  EXPECT_FALSE(driver.read(state));
+  EXPECT_EQ(driver.why(), "read() gave orientation_wxyz of length 0, and not 1");
 }
 
 TEST(DriverDevice, IsNeverGivenMoreThanItBears) {

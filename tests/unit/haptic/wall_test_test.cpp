@@ -27,6 +27,7 @@ TEST(WallTest, IsAGentleFloorThatStaysAtRest) {
 class ClosingGlove final : public Device {
  public:
   bool held = true;
+  bool lost = false;
   double closed_rad = 0;
   hand::HandForce force;
   [[nodiscard]] Expected<void> open() override { return {}; }
@@ -39,6 +40,7 @@ class ClosingGlove final : public Device {
   }
   void write(const hand::HandForce& wanted) noexcept override { force = wanted; }
   [[nodiscard]] DeviceCondition condition() const noexcept override {
+    if (lost) return DeviceCondition::lost;
     return held ? DeviceCondition::ready : DeviceCondition::not_ready;
   }
   [[nodiscard]] hand::GovernorConfig limits() const override { return {.max_force_n = 0, .max_torque_nm = 0}; }
@@ -59,6 +61,21 @@ TEST(WallTest, HoldsTheFingersOfAGloveUntilItIsLetGo) {
   glove.held = false;
   wall->tick(kTickPeriod);
   EXPECT_EQ(glove.force.finger_force_n[2], 0);
+}
+
+TEST(WallTest, RemembersThatTheDeviceWasLostButNotThatItWasWaitedFor) {
+  ClosingGlove glove;
+  auto wall = WallTest::make(glove, 0);
+  ASSERT_TRUE(wall);
+  const auto tick_with = [&](bool lost) {
+    glove.lost = lost;
+    wall->tick(kTickPeriod);
+    return wall->report().was_lost;
+  };
+  EXPECT_FALSE(tick_with(true)) << "it has given no state yet";
+  EXPECT_FALSE(tick_with(false));
+  EXPECT_TRUE(tick_with(true));
+  EXPECT_TRUE(tick_with(false)) << "it is back";
 }
 
 }  // namespace

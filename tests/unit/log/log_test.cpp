@@ -56,6 +56,17 @@ TEST(Log, EqualWarningsAreShownOnceAndCountedAndEachCountsAsTrouble) {
       "^[^\n]*no room for kiosk 'a'\n[^\n]*no room for kiosk 'a' .again 6435 times within 60 s.\n$");
 }
 
+TEST(Log, AWarningThatCameTwiceCameAgainOnce) {
+  EXPECT_EXIT(
+      {
+        start("test", Level::info);
+        warning("the device failed");
+        warning("the device failed");
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "the device failed .again once within 60 s.\n$");
+}
+
 TEST(Log, MessagesThatAreNoWarningsAndOtherWarningsAreShownEachTime) {
   testing::internal::CaptureStderr();
   start("test", Level::info);

@@ -57,7 +57,7 @@ typedef struct mechane_device_info {
   double rate_hz;               /* how often it wants to be served; 50 .. 8000 */
   double workspace_min_m[3];    /* in D; both all 0: not known */
   double workspace_max_m[3];
-  uint32_t paces; /* 1: read() waits for the device's next sample, and so sets the pace */
+  uint32_t paces; /* 1: read() waits for the device's next sample, 0.1 s at most, and so sets the pace */
   uint32_t side;  /* 2: mechane_hand_side, of a glove */
 } mechane_device_info;
 
