@@ -14,7 +14,6 @@ namespace {
 
 using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
 
 /// What is on stderr after one message.
 std::string shown(std::string_view text) {
