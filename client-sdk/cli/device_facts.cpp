@@ -41,8 +41,7 @@ Values values_of(const std::vector<std::string>& lines) {
 }
 
 /// What stands after an option of a command line, as in "--user 1" or "--user=1".
-std::optional<std::string> option_of(const std::string& command_line, const std::string& option) {
-  const std::vector<std::string> words = split(command_line, ' ');
+std::optional<std::string> option_of(const std::vector<std::string>& words, const std::string& option) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == option && i + 1 < words.size()) return words[i + 1];
     if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
@@ -115,7 +114,8 @@ std::vector<KioskDevice> kiosk_devices(const fs::path& root) {
     const Values values = values_of(split(lines.str(), '\n'));
     kiosk.text = value_or(values, "DEVICE", "");
     kiosk.kiosk = value_or(values, "KIOSK", kiosk.name);
-    kiosk.user = option_of(value_or(values, "OPTIONS", ""), "--user").value_or(kiosk.user);
+    kiosk.arguments = split(value_or(values, "OPTIONS", ""), ' ');
+    kiosk.user = option_of(kiosk.arguments, "--user").value_or(kiosk.user);
     kiosk.driver = kiosk.text.substr(0, kiosk.text.find(':'));
     if (kiosk.driver != kiosk.text) kiosk.options = values_of(split(kiosk.text.substr(kiosk.driver.size() + 1), ','));
     kiosks.push_back(kiosk);

@@ -29,8 +29,9 @@ struct KioskDevice {
   std::string text;  ///< "lucidgloves:port=/dev/ttyUSB0"
   std::string driver;
   Values options;
-  std::string kiosk{};     ///< KIOSK=, or else the name
-  std::string user = "0";  ///< which hand of the kiosk
+  std::string kiosk{};                   ///< KIOSK=, or else the name
+  std::string user = "0";                ///< which hand of the kiosk
+  std::vector<std::string> arguments{};  ///< OPTIONS=, word by word
 };
 [[nodiscard]] std::vector<KioskDevice> kiosk_devices(const std::filesystem::path& root);
 

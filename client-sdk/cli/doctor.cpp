@@ -45,24 +45,21 @@ std::string status_word(CheckStatus status) {
   return fmt::format("\033[{}m{}\033[0m", colour, word);
 }
 
-void print_table(const std::vector<CheckResult>& results, CheckStatus machine) {
+/// `devices`: the verdict on them; empty where it is good.
+void print_table(const std::vector<CheckResult>& results, CheckStatus machine, const std::string& devices) {
   for (const CheckResult& r : results) {
     fmt::print("{} {:<24} {}\n", status_word(r.status), r.name, r.found);
     if (r.status == CheckStatus::ok) continue;
     fmt::print("{:9}wanted: {}\n", "", r.wanted);
     if (!r.remedy.empty()) fmt::print("{:9}remedy: {}\n", "", r.remedy);
   }
-  switch (machine) {
-    case CheckStatus::ok:
-      fmt::print("\nThis machine can hold 1 kHz.\n");
-      break;
-    case CheckStatus::warning:
-      fmt::print("\nThis machine can run the loop, with late ticks now and then.\n");
-      break;
-    case CheckStatus::bad:
-      fmt::print("\nThis machine cannot hold 1 kHz as it is set up.\n");
-      break;
-  }
+  fmt::print("\n");
+  if (machine == CheckStatus::bad)
+    fmt::print("This machine cannot hold 1 kHz as it is set up.\n");
+  else if (devices.empty())
+    fmt::print("This machine can {}.\n",
+               machine == CheckStatus::ok ? "hold 1 kHz" : "run the loop, with late ticks now and then");
+  if (!devices.empty()) fmt::print("{}.\n", devices);
 }
 
 constexpr std::size_t kMostServers = 16;
@@ -117,13 +114,19 @@ class ServerListener {
   std::map<std::string, CheckResult> heard_;
 };
 
-void add_devices_to(std::vector<CheckResult>& results) {
-  for (CheckResult& r : check_devices({.devices_program = program_folder() / "mechane-devices"})) {
+/// Returns the verdict on them.
+std::string add_devices_to(std::vector<CheckResult>& results) {
+  const std::filesystem::path programs = program_folder();
+  std::vector<CheckResult> devices =
+      check_devices({.devices_program = programs / "mechane-devices", .haptic_program = programs / "mechane-haptic"});
+  std::string verdict = verdict_on(devices);
+  for (CheckResult& r : devices) {
     r.name = log::printable(r.name);
     r.found = log::printable(r.found);
     r.remedy = log::printable(r.remedy);
     results.push_back(std::move(r));
   }
+  return verdict;
 }
 
 }  // namespace
@@ -137,8 +140,8 @@ int run_doctor(const DoctorOptions& options) {
   std::vector<CheckResult> results = realtime::check_machine(machine_options);
   const CheckStatus machine = realtime::worst_of(results);
   servers.add_to(results);
-  add_devices_to(results);
-  options.json ? print_json(results) : print_table(results, machine);
+  const std::string devices = add_devices_to(results);
+  options.json ? print_json(results) : print_table(results, machine, devices);
   return realtime::worst_of(results) == CheckStatus::bad ? 1 : 0;
 }
 

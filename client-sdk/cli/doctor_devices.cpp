@@ -63,7 +63,8 @@ constexpr const char* kDeviceGroup = "mechane-devices";  // of the udev rules
 constexpr const char* kSerialGroup = "dialout";          // Debian's, for serial lines
 constexpr const char* kRules = "/etc/udev/rules.d/90-mechane-devices.rules";
 constexpr const char* kInstallDrivers = "cmake --install build/release --component drivers --prefix /usr";
-constexpr uid_t kNoUser = static_cast<uid_t>(-1);  // a unit's user is systemd's choice; its groups count
+constexpr std::string_view kDeviceOf = "device of ";  // begins the name of each result about a kiosk's device
+constexpr uid_t kNoUser = static_cast<uid_t>(-1);     // a unit's user is systemd's choice; its groups count
 
 /// What is wrong with one device.
 class Problems {
@@ -89,6 +90,7 @@ class DeviceCheck {
  public:
   explicit DeviceCheck(const DeviceCheckOptions& options)
       : root_(options.root),
+        haptic_program_(options.haptic_program),
         account_(options.account),
         open_files_(root_),
         kiosks_(kiosk_devices(root_)),
@@ -106,6 +108,7 @@ class DeviceCheck {
   [[nodiscard]] fs::path at(const std::string& path) const { return root_ / fs::path(path).relative_path(); }
 
   void check_kiosk(const KioskDevice& kiosk);
+  void check_arguments(const KioskDevice& kiosk, Problems& problems) const;
   void check_others(const KioskDevice& kiosk, Problems& problems) const;
   void check_plugged(const PluggedDevice& device);
   void check_adapter(const PluggedDevice& device);
@@ -121,6 +124,7 @@ class DeviceCheck {
   [[nodiscard]] std::string use_of(const std::string& node, const std::string& who) const;
 
   fs::path root_;
+  fs::path haptic_program_;
   Account account_;
   OpenFiles open_files_;
   std::vector<KioskDevice> kiosks_;
@@ -242,6 +246,26 @@ void DeviceCheck::check_is_plugged(const KioskDevice& kiosk, Problems& problems)
                                           : ""));
 }
 
+/// As the unit starts the program, which reads its arguments and ends. A shell joins what it says of them, on standard error, to its output.
+void DeviceCheck::check_arguments(const KioskDevice& kiosk, Problems& problems) const {
+  std::vector<std::string> words = {
+      "-c",      "exec \"$0\" \"$@\" 2>&1", haptic_program_.string(), "--check", "--kiosk", kiosk.kiosk, "--device",
+      kiosk.text};
+  words.insert(words.end(), kiosk.arguments.begin(), kiosk.arguments.end());
+  constexpr std::uint64_t kMostOutput = 1 << 16;
+  const auto child = content::run_child("/bin/sh", words, std::chrono::seconds(20), kMostOutput);
+  const bool ended = child && child->end == content::ChildResult::End::exited;
+  if (ended && child->code == 0) return;
+  constexpr int kWrongArguments = 2;
+  const std::string wanted = "arguments that mechane-haptic takes";
+  if (!ended || child->code != kWrongArguments)
+    return problems.add(haptic_program_.string() + " does not run", wanted,
+                        "install all programs of Mechane into one folder");
+  const std::string said(reinterpret_cast<const char*>(child->output.data()), child->output.size());
+  problems.add(said.substr(0, said.find('\n')), wanted,
+               fmt::format("correct {}; 'mechane haptic --help' lists the options", kiosk.file));
+}
+
 /// A hand has one device, and a device one owner. Of two that clash, the later one is told of it.
 void DeviceCheck::check_others(const KioskDevice& kiosk, Problems& problems) const {
   const std::string device = device_of(kiosk);
@@ -345,7 +369,7 @@ std::string DeviceCheck::use_of(const std::string& node, const std::string& who)
 }
 
 void DeviceCheck::check_kiosk(const KioskDevice& kiosk) {
-  const std::string name = "device of " + kiosk.name;
+  const std::string name = std::string(kDeviceOf) + kiosk.name;
   Problems problems;
   if (!kiosk.readable) {
     problems.add(kiosk.file + " cannot be read", "the name of the kiosk's device", "run mechane doctor as root");
@@ -362,13 +386,16 @@ void DeviceCheck::check_kiosk(const KioskDevice& kiosk) {
   check_driver(kiosk.driver, "; or correct DEVICE= in " + kiosk.file, problems);
   check_library(kiosk.driver, kiosk.options, problems);
   check_is_plugged(kiosk, problems);
+  check_arguments(kiosk, problems);
   check_others(kiosk, problems);
   if (kiosk.driver == "haply") check_haply(kiosk.options, problems);
   const std::string port = line_of(kiosk);
   const bool has_line = port.starts_with('/');
   if (has_line) check_port(kiosk, port, problems);
   problems.report(name, CheckStatus::bad,
-                  has_line ? kiosk.driver + " at " + use_of(port, account_of(kiosk).name) : kiosk.text, results_);
+                  fmt::format("{}, hand {} of {}{}", has_line ? kiosk.driver : kiosk.text, kiosk.user, kiosk.kiosk,
+                              has_line ? ", at " + use_of(port, account_of(kiosk).name) : ""),
+                  results_);
 }
 
 void DeviceCheck::check_plugged(const PluggedDevice& device) {
@@ -439,6 +466,14 @@ std::vector<CheckResult> DeviceCheck::results() {
 
 std::vector<CheckResult> check_devices(const DeviceCheckOptions& options) {
   return DeviceCheck(options).results();
+}
+
+std::string verdict_on(const std::vector<CheckResult>& devices) {
+  std::set<std::string> kiosks, others;  // others: what kiosks' devices need, such as a right or the drivers
+  for (const CheckResult& r : devices)
+    if (r.status == CheckStatus::bad) (r.name.starts_with(kDeviceOf) ? kiosks : others).insert(r.name);
+  const std::size_t count = kiosks.empty() ? others.size() : kiosks.size();
+  return count == 0 ? "" : fmt::format("{} haptic device{} will not start: see above", count, count == 1 ? "" : "s");
 }
 
 }  // namespace mechane::cli

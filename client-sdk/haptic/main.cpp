@@ -21,6 +21,7 @@
 #include "server/log/log.hpp"
 #include "server/realtime/periodic_thread.hpp"
 #include "server/realtime/quantiles_json.hpp"
+#include <mechane/proto/names.hpp>
 
 namespace {
 
@@ -33,6 +34,7 @@ constexpr Duration kVisitorLeft = std::chrono::minutes(2);
 
 struct Arguments {
   client::ClientConfig client;
+  bool check = false;
   std::string device = "virtual";
   std::vector<double> center;  ///< empty: center_of() chooses
   double turn_deg = 0;
@@ -58,14 +60,31 @@ CLI::Validator in_metres(double least_m, double most_m) {
   return {check, fmt::format("METRES in [{:.3g}, {:.3g}]", least_m, most_m)};
 }
 
+/// For CLI11, as the next one: what is wrong, or nothing.
+std::string fault_of_kiosk(const std::string& name) {
+  const auto named = proto::check_name(name, "kiosk");
+  return named ? "" : named.error().to_string();
+}
+
+/// A driver's options are its own to judge, when it opens its device.
+std::string fault_of_device(const std::string& text) {
+  const haptic::DeviceName name = haptic::parse_device_name(text);
+  if (name.driver != haptic::kVirtualName) return "";
+  const auto choice = haptic::read_virtual_options(name.options);
+  return choice ? "" : choice.error().to_string();
+}
+
 void add_options(CLI::App& app, Arguments& a) {
+  app.add_flag("--check", a.check, "only check the arguments, as 'mechane doctor' does with those of a kiosk's unit");
   app.add_option("--device", a.device,
                  fmt::format("NAME, or NAME:OPTION=VALUE,...: a driver ('mechane devices' lists them), or '{}', a "
                              "simulated stylus or glove that strokes a circle (options: {})",
-                             haptic::kVirtualName, haptic::kVirtualOptions));
-  app.add_option("--kiosk", a.client.kiosk, "name of the kiosk");
-  app.add_option("--user", a.client.user, "which hand of the kiosk, 0..3");
-  app.add_option("--join", a.client.join_kiosk, "share the world of this kiosk");
+                             haptic::kVirtualName, haptic::kVirtualOptions))
+      ->check(fault_of_device);
+  app.add_option("--kiosk", a.client.kiosk, "name of the kiosk")->check(fault_of_kiosk);
+  app.add_option("--user", a.client.user, "which hand of the kiosk, 0..3")
+      ->check(CLI::Range(0u, static_cast<unsigned>(hand::kMaxUsers - 1)));
+  app.add_option("--join", a.client.join_kiosk, "share the world of this kiosk")->check(fault_of_kiosk);
   app.add_option("--domain", a.client.domain, "DDS domain");
   app.add_option("--center", a.center,
                  "where the middle of the device's workspace, or of the virtual hand's circle, lies in the world, "
@@ -504,6 +523,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
   }
+  if (a.check) return 0;
   log::start("haptic", log::Level::info);
   a.client.role = client::Role::hand;
   a.client.program = "mechane-haptic";

@@ -9,6 +9,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import aims
 import collision
 import display
 import haptics
@@ -48,11 +49,12 @@ def table(name: str, metrics: dict[str, float]) -> str:
     return "\n".join([f"\n{name}", *(f"  {metric:<{width}}  {number(value):>12}" for metric, value in sorted(metrics.items()))])
 
 
-def write(name: str, result: Measured, seconds: float, out: Path) -> Path:
+def write(name: str, result: Measured, judged: dict[str, aims.Judged], seconds: float, out: Path) -> Path:
     file = out / f"{name}.json"
     file.write_text(json.dumps({
         "name": name, "commit": machine.commit(ROOT), "cpu": machine.cpu(), "cores": machine.cores(), "simd": machine.simd(),
         "seconds": round(seconds, 1), "metrics": {key: float(f"{value:.6g}") for key, value in sorted(result.metrics.items())},
+        "aims": {key: {"aim": one.aim, "met": one.met} for key, one in judged.items()},
         "notes": result.notes}, indent=1, ensure_ascii=False) + "\n")
     return file
 
@@ -60,11 +62,17 @@ def write(name: str, result: Measured, seconds: float, out: Path) -> Path:
 def run_one(name: str, context: Context) -> bool:
     print(f"bench {name}", flush=True)
     began = time.monotonic()
-    result, missing = BENCHMARKS[name].measure(context)
+    benchmark = BENCHMARKS[name]
+    result, missing = benchmark.measure(context)
     result.notes += [f"not measured: {reason}" for reason in missing]
-    file = write(name, result, time.monotonic() - began, context.out)
-    made = BENCHMARKS[name].plot(result, context.out, f"{machine.cpu()}, {machine.cores()} cores")
-    print(getattr(BENCHMARKS[name], "table", table)(name, result.metrics))
+    judged = aims.judge(result.metrics, benchmark.AIMS)
+    file = write(name, result, judged, time.monotonic() - began, context.out)
+    made = benchmark.plot(result, context.out, f"{machine.cpu()}, {machine.cores()} cores")
+    if hasattr(benchmark, "table"):
+        print(benchmark.table(name, result.metrics))
+    else:
+        print(table(name, {metric: value for metric, value in result.metrics.items() if metric not in judged}))
+    print(aims.table(result.metrics, judged))
     for note in result.notes:
         print(f"  note: {note}")
     print(f"  written: {', '.join(str(written.relative_to(ROOT)) for written in [file, *made])}\n", flush=True)

@@ -8,6 +8,20 @@ from text import grid
 
 PROGRAM_LIMIT_S = 1200  # before the program counts as hung; it takes some minutes
 OURS = "sqmap"
+AIMS = {
+    f"bytes.{OURS}": (("at most", 120_000),),
+    f"depth_error_pct.{OURS}.p99": (("at most", 0.3),),
+    f"missed.{OURS}": (("at most", 0),),
+    "ratio.fcl_contacts": (("at least", 50),),
+    "ratio.bt_sdf": (("at least", 8),),
+    "ratio.openvdb": (("at least", 8),),
+    "ratio.brick": (("at least", 1),),
+    "build_s": (("at most", 30),),
+    "fit.recovered_pct.noise0": (("at least", 97),),
+    "fit.recovered_pct.noise1": (("at least", 95),),
+    "fit.recovered_pct.noise3": (("at least", 90),),
+    "fit.ms.median": (("under", 20),),
+}
 # How each method goes by in tables and plots; what is not here goes by its own name.
 NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 brick, scalar", "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
          "embree": "Embree, exact", "paper": "the paper's search", "paper_along": "the same, depth along the normal", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no",

@@ -8,7 +8,10 @@ PROGRAM_LIMIT_S = 600
 SCENES = ("village", "odometer")
 PICTURES = (("mono", 1280, 720), ("mono", 1920, 1080), ("quad", 1280, 720), ("quad", 1920, 1080))  # quad: two eyes, each of the full size
 FRAMES_PER_S = 1  # that the slowest machine draws: the time given says how many pictures count
-AIM_EYES, AIM_FRAME_MS = 1.7, 1000 / 60
+AIMS = {
+    "*.eyes_ratio": (("under", 1.7),),
+    "*.frame.wall_ms.median": (("under", 16.7),),  # 60 pictures a second, on a graphics card
+}
 
 
 def _key(scene: str, stereo: str, height: int) -> str:
@@ -33,7 +36,6 @@ def measure(context) -> tuple[Measured, list[str]]:
     for scene in SCENES:
         add_ratio(result.metrics, scene)
     result.notes += [f"drawn by {name}" for name in sorted(drawn_by)]
-    result.notes += missed(result.metrics)
     return result, missing
 
 
@@ -41,18 +43,6 @@ def add_ratio(metrics: dict[str, float], scene: str) -> None:
     one, two = (metrics.get(f"{_key(scene, stereo, 720)}.frame.cpu_ms.median") for stereo in ("mono", "quad"))
     if one and two:
         metrics[f"{scene}.eyes_ratio"] = two / one
-
-
-def missed(metrics: dict[str, float]) -> list[str]:
-    found = []
-    for scene in SCENES:
-        if metrics.get(f"{scene}.eyes_ratio", 0) >= AIM_EYES:
-            found.append(f"missed: {scene}: two eyes cost {number(metrics[f'{scene}.eyes_ratio'])} times one, the aim is under {AIM_EYES}")
-        for stereo, _, height in PICTURES:
-            wall = metrics.get(f"{_key(scene, stereo, height)}.frame.wall_ms.median", 0)
-            if wall >= AIM_FRAME_MS:
-                found.append(f"missed: {scene}, {stereo} at {height} lines: {number(wall)} ms a picture, the aim (on a graphics card) is 60 a second")
-    return found
 
 
 def table(name: str, metrics: dict[str, float]) -> str:
@@ -68,7 +58,7 @@ def table(name: str, metrics: dict[str, float]) -> str:
     text = [f"\n{name}", *("  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in rows)]
     for scene in SCENES:
         if f"{scene}.eyes_ratio" in metrics:
-            text.append(f"  {scene}: two eyes of full size cost {number(metrics[f'{scene}.eyes_ratio'])} times one (aim: under {AIM_EYES})")
+            text.append(f"  {scene}: two eyes of full size cost {number(metrics[f'{scene}.eyes_ratio'])} times one")
     return "\n".join(text)
 
 

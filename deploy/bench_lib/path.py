@@ -11,6 +11,7 @@ from peers import LOOP_PRIORITY, Measured, Missing, cyclictest, ddsperf, over_ro
 from plots import bars, tails
 from running import Programs, network
 
+AIMS = {"ratio.rtt_udp.median": (("under", 1.5),)}
 ROUNDS = 3
 WIRE_PRIORITY = 50  # who asks and who answers in a round trip
 SCENARIO = "scenarios/archimedes-screw/archimedes-screw.x3d"

@@ -27,8 +27,8 @@ def _page(path: Path, width: int, height: int, title: str, subtitle: str, parts:
 
 
 def number(value: float) -> str:
-    """Three digits that count."""
-    if value == 0:
+    """Three digits that count. What is below 1e-9 is what rounding leaves of a zero."""
+    if abs(value) < 1e-9:
         return "0"
     digits = max(0, 2 - math.floor(math.log10(abs(value))))
     return f"{value:,.{digits}f}"
@@ -152,14 +152,27 @@ def _pieces(curve: list[list[float | None]]) -> list[list[tuple[float, float]]]:
     return [piece for piece in pieces if piece]
 
 
+def _curve(points: list[tuple[float, float]], colour: str, radius: float, broken: bool) -> str:
+    """A line through points of the page, with a dot on each where `radius` is not 0."""
+    way, dash = " ".join(f"{x:.1f},{y:.1f}" for x, y in points), " stroke-dasharray='7 5'" if broken else ""
+    dots = [f"<circle cx='{x:.1f}' cy='{y:.1f}' r='{radius:g}' fill='{colour}'/>" for x, y in points] if radius else []
+    return "".join([f"<polyline points='{way}' fill='none' stroke='{colour}' stroke-width='1.8' stroke-linejoin='round'{dash}/>", *dots])
+
+
 def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[float | None]]], x_name: str, y_name: str,
-          bands: list[tuple[float, float, str]] = (), *, logarithmic: bool = True) -> None:
+          bands: list[tuple[float, float, str]] = (), *, logarithmic: bool = True, points: tuple[str, ...] = (),
+          dashed: tuple[str, ...] = (), beside: dict[str, float] | None = None, limit: tuple[float, str] | None = None) -> None:
     """One line each over a plain x axis, y logarithmic or from zero. `series`: name -> pairs (x, y), y None where the line breaks;
-    `bands`: stretches of x with a name. Few points are marked, smaller from line to line, so that equal ones are all seen."""
+    `bands`: stretches of x with a name. Few points are marked, smaller from line to line, so that equal ones are all seen.
+    `points`: names of series that are open circles without a line; `dashed`: of broken lines; `beside`: a height for a series, a broken
+    line of its colour; `limit`: a height with a name."""
+    beside = beside or {}
     right = max(150, *(round(8.6 * len(name)) + 20 for name in series))  # room for the longest label
     width, height, left, top, bottom = 610 + right, 420, 64, 96, 56
-    every = [y for curve in series.values() for _, y in curve if y]
-    low, high = min(every) / 1.15 if logarithmic else 0, max(every) * 1.15
+    every = [y for curve in series.values() for _, y in curve if y] + [*beside.values()]
+    low, high = _marks(min(every) / 10, min(every) / 1.05)[-1] if logarithmic else 0, max(every) * 1.15
+    wide = logarithmic and high / low > 300  # decades alone
+    low = 10 ** math.floor(math.log10(low)) if wide else low
     begin = min(x for curve in series.values() for x, _ in curve)
     end = max(x for curve in series.values() for x, _ in curve)
 
@@ -170,7 +183,6 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
         return top + (height - top - bottom) * (1 - (math.log(y / low) / math.log(high / low) if logarithmic else y / high))
 
     parts = []
-    wide = logarithmic and high / low > 300
     step = _round_step(high - low)
     for mark in _marks(low, high) if logarithmic else [step * i for i in range(math.floor(high / step) + 1)]:
         if not wide or math.log10(mark) % 1 == 0:
@@ -185,15 +197,21 @@ def lines(path: Path, title: str, subtitle: str, series: dict[str, list[list[flo
         marks = [step * i for i in range(math.ceil(begin / step), math.floor(end / step) + 1)]
         parts += [_text(place_x(mark), height - bottom + 18, f"{mark:g}", 11, QUIET, "middle") for mark in marks]
     parts += [_text(24, top - 10, y_name, 11, QUIET), _text((left + width - right) / 2, height - 14, x_name, 11, QUIET, "middle")]
+    if limit:
+        parts += [_line(left, place_y(limit[0]), width - right, place_y(limit[0]), QUIET),
+                  _text(width - right - 16, place_y(limit[0]) - 4, limit[1], 11, QUIET, "end")]
     label_y = _apart([place_y([y for _, y in curve if y][-1]) + 4 for curve in series.values()], 18)
     for index, (name, curve) in enumerate(series.items()):
         colour = COLOURS[index % len(COLOURS)]
-        for piece in _pieces(curve):
-            points = " ".join(f"{place_x(x):.1f},{place_y(y):.1f}" for x, y in piece)
-            parts.append(f"<polyline points='{points}' fill='none' stroke='{colour}' stroke-width='1.8' stroke-linejoin='round'/>")
-        if len(curve) <= 8:
-            parts += [f"<circle cx='{place_x(x):.1f}' cy='{place_y(y):.1f}' r='{1 + 1.5 * (len(series) - index):g}' fill='{colour}'/>"
-                      for x, y in curve if y]
+        placed = [[(place_x(x), place_y(y)) for x, y in piece] for piece in _pieces(curve)]
+        if name in points:
+            parts += [f"<circle cx='{x:.1f}' cy='{y:.1f}' r='5' fill='none' stroke='{colour}' stroke-width='1.8'/>"
+                      for piece in placed for x, y in piece]
+        else:
+            radius = 1 + 1.5 * (len(series) - index) if len(curve) <= 8 else 0
+            parts += [_curve(piece, colour, radius, name in dashed) for piece in placed]
+        if name in beside:
+            parts.append(_curve([(x, place_y(beside[name])) for x in (left, width - right)], colour, 0, True))
         parts.append(_text(width - right + 10, label_y[index], name, 12, colour, weight="bold"))
     _page(path, width, height, title, subtitle, parts)
 

@@ -83,25 +83,29 @@ double largest_stable_n_per_m(const StylusConfig& config) {
 }
 
 void measure_walls(Report& report) {
-  constexpr double kTick_s = kTickSeconds;
   const StylusConfig honest{.load_W = kWeight_W};
   StylusConfig bare = honest;
   bare.coulomb_n = 0;
   bare.resolution_m = 1e-8;
   report.note(fmt::format("the simulated stylus: {:g} g, {:g} N s/m, {:g} N of dry friction, steps of {:g} um",
                           1e3 * honest.mass_kg, honest.viscous_ns_per_m, honest.coulomb_n, 1e6 * honest.resolution_m));
+  const auto limit_n_per_m = [&bare](double delay_ms) {
+    return bare.viscous_ns_per_m / ((0.5 + delay_ms) * kTickSeconds);
+  };
   std::vector<std::array<double, 2>> theory, measured;
+  for (double delay_ms = 0; delay_ms <= 20; delay_ms += 0.25)
+    theory.push_back({delay_ms, limit_n_per_m(delay_ms)});
   for (const std::uint32_t delay : {0u, 1u, 2u, 5u, 10u, 20u}) {
     bare.delay = delay;
-    const double limit = bare.viscous_ns_per_m / (0.5 * kTick_s + delay * kTick_s);
     const double largest = largest_stable_n_per_m(bare);
-    theory.push_back({static_cast<double>(delay), limit});
     measured.push_back({static_cast<double>(delay), largest});
-    report.metric(delay == 0 ? "wall.k_ratio" : "wall.delay" + std::to_string(delay) + ".k_ratio", largest / limit);
+    report.metric(delay == 0 ? "wall.k_ratio" : "wall.delay" + std::to_string(delay) + ".k_ratio",
+                  largest / limit_n_per_m(delay));
   }
   report.curve("wall.theory", theory);
   report.curve("wall.measured", measured);
-  const double passive = std::min(2 * honest.viscous_ns_per_m / kTick_s, 2 * honest.coulomb_n / honest.resolution_m);
+  const double passive =
+      std::min(2 * honest.viscous_ns_per_m / kTickSeconds, 2 * honest.coulomb_n / honest.resolution_m);
   report.metric("wall.with_friction.k_ratio", largest_stable_n_per_m(honest) / passive);
 }
 
@@ -533,7 +537,8 @@ void measure_faults(Report& report, const std::string& prefix, double deadband, 
     over_slew += found.over_slew;
     over_ramp += found.over_ramp;
   }
-  report.note(fmt::format("{}{} faults while the hand was pressed, in {} ticks", prefix, faults, ticks));
+  report.note(fmt::format("{}{} faults while the hand was pressed, in {} ticks",
+                          deadband > 0 ? "with a deadband: " : "", faults, ticks));
   report.metric(prefix + "fault.zero_ms.max", zero_ms);
   report.metric(prefix + "force.over_limit", static_cast<double>(over_limit));
   report.metric(prefix + "force.over_slew", static_cast<double>(over_slew));

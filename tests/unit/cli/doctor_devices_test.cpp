@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "client-sdk/cli/device_facts.hpp"
+#include "server/base/program_folder.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -104,7 +105,7 @@ class DoctorDevicesTest : public testing::Test {
   }
   /// What holds of every report holds here: what is wrong has a remedy, and nothing is said twice.
   std::vector<CheckResult> results() {
-    const auto found = check_devices({root_, program_, ada_});
+    const auto found = check_devices({root_, program_, haptic_, ada_});
     std::set<std::string> said;
     for (const CheckResult& r : found) {
       EXPECT_EQ(r.remedy.empty(), r.status == CheckStatus::ok) << r.name << ": " << r.found;
@@ -117,6 +118,7 @@ class DoctorDevicesTest : public testing::Test {
   const test::ScratchFolder scratch_;
   const fs::path& root_ = scratch_.path();
   fs::path program_;
+  fs::path haptic_ = program_folder() / "mechane-haptic";  // the program itself
   Account ada_;
   gid_t ours_ = 0;
 };
@@ -297,6 +299,43 @@ TEST_F(DoctorDevicesTest, TwoDevicesOfAKioskHaveAHandEach) {
                                 finds("/etc/mechane/haptic-kiosk-1 "), advises("--user 1"))));
   second("virtual", "");
   EXPECT_THAT(results(), Each(is(CheckStatus::ok))) << "a kiosk of its own";
+}
+
+TEST_F(DoctorDevicesTest, WhatTheProgramDoesNotTakeOfAUnitsFileIsNamed) {
+  const auto second_is = [&](const std::string& device, const std::string& more, const auto& matcher) {
+    second(device, more);
+    EXPECT_THAT(results(), ElementsAre(AllOf(is_about("device of kiosk-1-left"), matcher))) << device << "; " << more;
+  };
+  const auto refused = [](const std::string& part) {
+    return AllOf(is(CheckStatus::bad), finds(part), advises("/etc/mechane/haptic-kiosk-1-left"));
+  };
+  second_is("virtual:kind=glove,hand=left", "OPTIONS=--calibrate --turn 90 --center -0.2 0.9 0.3 --deadband=0.1",
+            AllOf(is(CheckStatus::ok), finds("hand 0 of kiosk-1-left")));
+  second_is("virtual", "KIOSK=kiosk-1\nOPTIONS=--user 3", AllOf(is(CheckStatus::ok), finds("hand 3 of kiosk-1")));
+  second_is("virtual:kind=foo", "", refused("foo"));
+  second_is("virtual:kind=glove,delay=1", "", refused("delay"));
+  second_is("virtual", "OPTIONS=--centre 0 0.9 0.3", refused("--centre"));
+  second_is("virtual", "OPTIONS=--center 0 0.9", refused("--center"));
+  second_is("virtual", "OPTIONS=--user 4", refused("--user"));
+  second_is("virtual", "KIOSK=kiosk 1", refused("kiosk 1"));
+  second_is("virtual", "KIOSK=", refused("kiosk"));
+  haptic_ = scratch_.script("mechane-haptic", "kill -SEGV $$");
+  second_is("virtual", "", AllOf(is(CheckStatus::bad), finds("mechane-haptic"), advises("install")));
+  haptic_ = root_ / "none";
+  second_is("virtual", "", AllOf(is(CheckStatus::bad), finds("none"), advises("install")));
+}
+
+TEST(DoctorDevices, CountsTheDevicesThatWillNotStart) {
+  const auto result = [](const char* name, CheckStatus status) { return CheckResult{name, status, "", "", ""}; };
+  const CheckResult good = result("device of a", CheckStatus::ok), odd = result("driver falcon", CheckStatus::warning);
+  const CheckResult bad = result("device of b", CheckStatus::bad), worse = result("device of c", CheckStatus::bad);
+  const CheckResult right = result("Novint Falcon", CheckStatus::bad);
+  EXPECT_EQ(verdict_on({}), "");
+  EXPECT_EQ(verdict_on({good, odd}), "");
+  EXPECT_THAT(verdict_on({good, bad, odd, bad}), HasSubstr("1 haptic device will not start"));
+  EXPECT_THAT(verdict_on({bad, right}), HasSubstr("1 haptic device will"));
+  EXPECT_THAT(verdict_on({good, right}), HasSubstr("1 haptic device will"));
+  EXPECT_THAT(verdict_on({bad, worse}), HasSubstr("2 haptic devices will"));
 }
 
 TEST_F(DoctorDevicesTest, ADeviceHasOneOwner) {

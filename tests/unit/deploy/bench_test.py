@@ -1,0 +1,85 @@
+"""What `deploy/bench` makes of figures: numbers, verdicts and plots. What it measures is tested in tests/benchmark."""
+
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "deploy/bench_lib"))
+
+import aims  # noqa: E402
+import bench  # noqa: E402
+import plots  # noqa: E402
+from peers import Measured  # noqa: E402
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+class Numbers(unittest.TestCase):
+    def test_three_digits_count_and_what_rounding_leaves_is_zero(self):
+        shown = {0: "0", 8.05e-47: "0", -2.24e-15: "0", 1.234e-5: "0.0000123", 0.98765: "0.988", 41: "41.0", 119_712: "119,712"}
+        for value, text in shown.items():
+            self.assertEqual(plots.number(value), text)
+
+
+class Aims(unittest.TestCase):
+    LIMITS = {"ratio": (("at least", 0.9), ("at most", 1.1)), "cost_us.*": (("under", 20),)}
+
+    def test_a_figure_on_its_limit_is_met_but_not_where_it_is_to_be_under_it(self):
+        for ratio, met in ((0.89, False), (0.9, True), (1.1, True), (1.11, False)):
+            self.assertEqual(aims.judge({"ratio": ratio}, self.LIMITS)["ratio"].met, met, ratio)
+        judged = aims.judge({"cost_us.b": 20, "cost_us.a": 19.9, "cost": 99}, self.LIMITS)
+        self.assertEqual([(name, one.met) for name, one in judged.items()], [("cost_us.a", True), ("cost_us.b", False)])
+
+    def test_the_table_tells_aim_and_verdict(self):
+        metrics = {"ratio": 1.0, "cost_us.a": 21.0}
+        rows = aims.table(metrics, aims.judge(metrics, self.LIMITS)).splitlines()[2:]
+        self.assertRegex(rows[0], r"ratio +1\.00 +at least 0\.9, at most 1\.1 +met$")
+        self.assertRegex(rows[1], r"cost_us\.a +21\.0 +under 20 +MISSED$")
+        self.assertEqual(aims.table({}, {}), "")
+
+    def test_every_benchmark_has_aims_with_words_that_can_be_judged(self):
+        for name, benchmark in bench.BENCHMARKS.items():
+            self.assertTrue(benchmark.AIMS, name)
+            figures = {pattern.replace("*", "x"): 1.0 for pattern in benchmark.AIMS}
+            self.assertEqual(len(aims.judge(figures, benchmark.AIMS)), len(figures), name)
+
+
+class Lines(unittest.TestCase):
+    def drawn(self, series, **style):
+        with tempfile.TemporaryDirectory() as folder:
+            plots.lines(Path(folder) / "plot.svg", "title", "subtitle", series, "x", "y", **style)
+            return ElementTree.parse(Path(folder) / "plot.svg").getroot()
+
+    def test_a_logarithmic_axis_begins_below_the_lowest_point(self):
+        for lowest in (24.4, 20, 10, 0.09):
+            svg = self.drawn({"a": [[0, 1000], [20, lowest]]})
+            grid = max(float(line.get("y1")) for line in svg.iter(SVG + "line"))
+            point = max(float(circle.get("cy")) for circle in svg.iter(SVG + "circle"))
+            self.assertLess(point, grid - 5, lowest)
+
+    def test_points_are_open_and_have_no_line_and_what_stands_beside_is_dashed(self):
+        curve = [[0, 4], [1, 2]]
+        svg = self.drawn({"theory": curve, "measured": curve}, points=("measured",), beside={"theory": 3}, limit=(5, "the most"))
+        circles = [circle.get("fill") for circle in svg.iter(SVG + "circle")]
+        self.assertEqual(circles.count("none"), 2)
+        dashes = [line.get("stroke-dasharray") is not None for line in svg.iter(SVG + "polyline")]
+        self.assertEqual(dashes, [False, True])
+        self.assertIn("the most", [text.text for text in svg.iter(SVG + "text")])
+
+
+class Haptics(unittest.TestCase):
+    def test_each_plot_is_drawn_from_its_curves(self):
+        curve = [[0.05, 0.5], [0.2, 0.75]]
+        plays = ("stroke", "press", "slide", "crank")
+        names = ["wall.theory", "wall.measured", *(f"deadband.{what}.{play}" for what in ("saved", "error") for play in plays)]
+        result = Measured({"deadband0.local.crank.one_ms_error_n.p99": 2.6}, {name: curve for name in names})
+        with tempfile.TemporaryDirectory() as folder:
+            made = bench.haptics.plot(result, Path(folder), "a machine")
+            self.assertEqual([file.stem for file in made], ["haptics-wall", "haptics-deadband-saved", "haptics-deadband-error"])
+            self.assertIn("stroke-dasharray", made[2].read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
