@@ -59,6 +59,14 @@ Wrench operator-(const Wrench& a, const Wrench& b) {
   return {a.f - b.f, a.t - b.t};
 }
 
+bool is_zero(const Wrench& wrench) {
+  return wrench.f.isZero(0) && wrench.t.isZero(0);
+}
+
+double work_j(const Wrench& force, const Twist& V_WH, double dt_s) {
+  return (force.f.dot(V_WH.v) + force.t.dot(V_WH.w)) * dt_s;
+}
+
 /// No force is on the hand, and none is wanted.
 bool is_free(const GovernorState& state, const GovernorInput& in) {
   return !in.touching && in.wanted_W.f.isZero(0) && in.wanted_W.t.isZero(0) && state.last.force_W.f.isZero(0) &&
@@ -82,6 +90,7 @@ HandForce finish(GovernorState& state, HandForce out) noexcept {
     ++state.counts[std::countr_zero(static_cast<std::uint32_t>(kNotFinite))];
     state.credit_j = std::min(state.credit_j, 0.0);
     if (!std::isfinite(state.credit_j)) state.credit_j = 0;
+    state.lifted_j = 0;
   }
   state.last = out;
   return out;
@@ -148,8 +157,9 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
     state.ramp = state.gain = 0;
     return finish(state, nothing(reasons | kNotFinite));
   }
-  const Wrench last = state.last.force_W - weight_in(state.last.force_W, input.weight_W, gain_before);
-  settle_energy(state, last, input.V_WH, dt_s);
+  const Wrench weight_before = weight_in(state.last.force_W, input.weight_W, gain_before);
+  const Wrench last = state.last.force_W - weight_before;
+  settle_energy(state, last, input, work_j(weight_before, input.V_WH, dt_s), dt_s);
   if (config_.strict_energy && is_free(state, input))
     state.credit_j = std::min(state.credit_j, config_.energy_margin_j);
 
@@ -177,7 +187,7 @@ HandForce ForceGovernor::apply(GovernorState& state, const GovernorInput& input,
     const double most_n = out.force_W.f.norm(), most_nm = out.force_W.t.norm();
     out.force_W = out.force_W - weight;
     keep_passive(state, last, input.V_WH, dt_s, out.force_W, reasons);
-    if (!weight.f.isZero(0) || !weight.t.isZero(0)) {
+    if (!is_zero(weight)) {
       out.force_W = {out.force_W.f + weight.f, out.force_W.t + weight.t};
       // What was taken away may have borne a part of the weight.
       clamp_norm(out.force_W.f, most_n);
@@ -206,10 +216,18 @@ double ForceGovernor::next_gain(GovernorState& state, const GovernorInput& input
 
 // The force of the last call acted while the hand moved to where it is now: its work is taken from the credit (a hand that works
 // against the force adds to it).
-void ForceGovernor::settle_energy(GovernorState& state, const Wrench& last, const Twist& V_WH,
-                                  double dt_s) const noexcept {
-  const double given_out = (last.f.dot(V_WH.v) + last.t.dot(V_WH.w)) * dt_s;
-  state.credit_j = std::min(state.credit_j - given_out, config_.energy_credit_j);
+void ForceGovernor::settle_energy(GovernorState& state, const Wrench& last, const GovernorInput& input,
+                                  double by_weight_j, double dt_s) const noexcept {
+  constexpr double kDeepest_j = 1e3;  // no hand sinks so far
+  const double most_j = config_.energy_credit_j;
+  state.credit_j = std::min(state.credit_j - work_j(last, input.V_WH, dt_s), most_j);
+  if (!is_zero(input.weight_W)) {
+    state.lifted_j = std::clamp(state.lifted_j - by_weight_j, -kDeepest_j, most_j);
+    if (!std::isfinite(state.lifted_j)) state.lifted_j = 0;
+  } else if (state.lifted_j != 0) {  // it has been put down
+    state.credit_j = std::min(state.credit_j + std::max(state.lifted_j, 0.0), most_j);
+    state.lifted_j = 0;
+  }
   // A velocity that is finite but absurd (1e300 m/s) must not spoil the account for good.
   state.credit_j = std::max(state.credit_j, -config_.energy_credit_j - config_.energy_margin_j);
 }
@@ -217,14 +235,15 @@ void ForceGovernor::settle_energy(GovernorState& state, const Wrench& last, cons
 void ForceGovernor::keep_passive(const GovernorState& state, const Wrench& last, const Twist& V_WH, double dt_s,
                                  Wrench& force, std::uint32_t& reasons) const noexcept {
   if (dt_s <= 0) return;
-  if (config_.strict_energy && state.credit_j <= 0 && force.f.dot(V_WH.v) + force.t.dot(V_WH.w) >= 0) {
+  const double credit_j = state.credit_j + std::max(state.lifted_j, 0.0);
+  if (config_.strict_energy && credit_j <= 0 && force.f.dot(V_WH.v) + force.t.dot(V_WH.w) >= 0) {
     bool held_back = clamp_norm(force.f, last.f.norm());
     held_back |= clamp_norm(force.t, last.t.norm());
     if (held_back) reasons |= kDamped;
   }
   const double power_f = force.f.dot(V_WH.v);
   const double power_t = force.t.dot(V_WH.w);
-  const double excess = power_f + power_t - state.credit_j / dt_s;  // watts over what the account can pay in this step
+  const double excess = power_f + power_t - credit_j / dt_s;  // watts over what the account can pay in this step
   if (excess <= 0) return;
   reasons |= kDamped;
   const double positive = std::max(power_f, 0.0) + std::max(power_t, 0.0);

@@ -51,6 +51,8 @@ struct GovernorState {
   double gain = 0;  ///< of the last call: freshness times ramp
   /// What the hand has put in and not yet got back, plus the margin. Below zero: the observer is damping.
   double credit_j = 0;
+  /// What the hand has put into the weight that it carries, by lifting; below zero where it has sunk. Pays for other forces, too.
+  double lifted_j = 0;
   std::array<std::uint64_t, kReasonCount> counts{};  ///< how many calls had each reason, by bit
 
   /// `reason` is one bit.
@@ -71,7 +73,8 @@ struct GovernorState {
 /// The energy observer is the time-domain passivity control of Hannaford and Ryu (2002), eqs. (3)-(5), with three
 /// departures: the credit is capped (else an hour's friction would pay for any later push); removing the force's own
 /// part along the motion, which can only shrink it, has no limit, while added damping has one; force and torque share
-/// one account. A weight has no part in it: as in life, it gives a hand that sinks what no hand had put in. With `strict_energy` the credit is forgotten when the hand is free, and while the account is overdrawn
+/// one account. A weight has an account of its own, which may be overdrawn: as in life, it gives a hand that sinks what no
+/// hand had put in. With `strict_energy` the credit is forgotten when the hand is free, and while the account is overdrawn
 /// no force rises on a hand that does not move against it: else a force that is cut as soon as the hand yields, and
 /// comes back as soon as it rests, would shake the hand, and give it a little energy each time. Nor does damping then add to the step that
 /// the slew limit allows.
@@ -99,7 +102,9 @@ class ForceGovernor {
 
   [[nodiscard]] double next_gain(GovernorState& state, const GovernorInput& input, double dt_s,
                                  std::uint32_t& reasons) const noexcept;
-  void settle_energy(GovernorState& state, const Wrench& last, const Twist& V_WH, double dt_s) const noexcept;
+  /// `last`: what was on the hand, without the weight, which gave the hand `by_weight_j`.
+  void settle_energy(GovernorState& state, const Wrench& last, const GovernorInput& input, double by_weight_j,
+                     double dt_s) const noexcept;
   /// `last`, `force`: without the weight.
   void keep_passive(const GovernorState& state, const Wrench& last, const Twist& V_WH, double dt_s, Wrench& force,
                     std::uint32_t& reasons) const noexcept;

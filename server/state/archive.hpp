@@ -52,6 +52,9 @@ class StateWalk {
       for (auto& scale : user.sample.finger_scale)
         archive_.bytes(scale);
     }
+    if (version_ == StateVersion::with_builds) return;
+    for (auto& governor : state_.governors)
+      archive_.bytes(governor.lifted_j);
   }
 
  private:

@@ -45,6 +45,15 @@ static int fails(char* why, size_t why_size, const char* what) {
   return 1;
 }
 
+/* A file of another length is just being written. */
+static void read_pose(Device* d) {
+  double joints[21];
+  const int file = open(d->pose, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  if (read(file, joints, sizeof(joints)) == sizeof(d->joints)) memcpy(d->joints, joints, sizeof(d->joints));
+  close(file);
+}
+
 /* "trace=FILE,fault=WORD,after=READS,until=FILE,pose=FILE,side=left,palm=METRES": absent until this file is there; a glove with the 20 angles
  * of that file */
 static int fake_open(const char* options, void** device, char* why, size_t why_size) {
@@ -71,6 +80,7 @@ static int fake_open(const char* options, void** device, char* why, size_t why_s
     free(made);
     return 0;
   }
+  read_pose(made); /* else a hand that shows another pose than the first one would seem to move */
   *device = made;
   return 0;
 }
@@ -93,19 +103,11 @@ static int fake_describe(void* device, mechane_device_info* info, char* why, siz
   return 0;
 }
 
-/* A file of another length is just being written. */
-static void read_pose(Device* d) {
-  double joints[21];
-  const int file = open(d->pose, O_RDONLY | O_CLOEXEC);
-  if (file < 0) return;
-  if (read(file, joints, sizeof(joints)) == sizeof(d->joints)) memcpy(d->joints, joints, sizeof(d->joints));
-  close(file);
-}
-
 static int fake_read(void* device, mechane_device_state* state, char* why, size_t why_size) {
   Device* d = device;
   const int fault = ++d->reads > d->after && d->fault[0] != 0;
-  const double depth_m = 1e-4 * (double)(d->reads > 700 ? d->reads - 700 : 0); /* first it is free, for the force's ramp */
+  const double depth_m =
+      1e-4 * (double)(d->reads > 700 ? d->reads - 700 : 0); /* first it is free, for the force's ramp */
   memset(state, 0, sizeof(*state));
   state->flags = MECHANE_STATE_READY;
   state->position_m[1] = depth_m < 0.02 ? -depth_m : -0.02; /* 0.1 m/s down to 20 mm */
@@ -129,7 +131,8 @@ static int fake_read(void* device, mechane_device_state* state, char* why, size_
   if (strcmp(d->fault, "crash") == 0) abort();
   if (strcmp(d->fault, "hang") == 0) pause();
   if (strcmp(d->fault, "other") == 0 && opened > 1) return 0;
-  const int pulled = strcmp(d->fault, "gone") == 0 || strcmp(d->fault, "unplugged") == 0 || strcmp(d->fault, "other") == 0;
+  const int pulled =
+      strcmp(d->fault, "gone") == 0 || strcmp(d->fault, "unplugged") == 0 || strcmp(d->fault, "other") == 0;
   if (pulled) return fails(why, why_size, "the fake cable was pulled");
   return 0;
 }
@@ -151,7 +154,13 @@ static void fake_close(void* device) {
 }
 
 const mechane_driver_table* mechane_driver(uint32_t version) {
-  static const mechane_driver_table table = {FAKE_VERSION,  "a stylus that is not there", "trace=FILE fault=WORD after=READS", fake_open,
-                                             fake_describe, fake_read, fake_write, fake_close};
+  static const mechane_driver_table table = {FAKE_VERSION,
+                                             "a stylus that is not there",
+                                             "trace=FILE fault=WORD after=READS",
+                                             fake_open,
+                                             fake_describe,
+                                             fake_read,
+                                             fake_write,
+                                             fake_close};
   return version == FAKE_VERSION ? &table : NULL;
 }

@@ -372,6 +372,31 @@ TEST(ForceGovernor, AWeightIsGivenToAHandThatSinksAndNothingElseIs) {
   }
 }
 
+/// What was lifted pays for another force, as the pull of a place, and up and down again leaves nothing.
+TEST(ForceGovernor, WhatAHandLiftedIsPaidOutOnce) {
+  const auto pushed_n = [](double lift_m_per_s, double then_m_per_s) {
+    OneHand governor({.strict_energy = true});
+    GovernorInput input;
+    input.wanted_W.f = input.weight_W.f = Vec3(0, -2, 0);
+    const auto go = [&](const Vec3& v_W, int ms) {
+      input.V_WH.v = v_W;
+      HandForce felt;
+      for (int i = 0; i < ms; ++i)
+        felt = governor.apply(input);
+      return felt.force_W.f.x();
+    };
+    go(Vec3::Zero(), 1000);
+    go(Vec3(0, lift_m_per_s, 0), 500);
+    go(Vec3(0, then_m_per_s, 0), 500);
+    input.wanted_W.f.x() = 1;
+    return go(Vec3(0.1, 0, 0), 300);  // 30 mJ
+  };
+  EXPECT_NEAR(pushed_n(0.1, 0), 1, 1e-9) << "100 mJ were put in";
+  EXPECT_LT(pushed_n(0.1, -0.1), 0.1) << "they were given back";
+  EXPECT_LT(pushed_n(-0.1, 0.1), 0.1) << "sunk first, and lifted to where it was";
+  EXPECT_LT(pushed_n(-0.1, 0), 0.1);
+}
+
 TEST(ForceGovernor, APassiveWallIsNotDamped) {
   const Bounce with = bounce(true, 1, 300, 0.1, 1.0);
   EXPECT_NEAR(with.speed_out, 1.0, 0.05);

@@ -28,6 +28,7 @@ WorldState sample_state(double x) {
   state.users[2].age = Duration(12'345);
   state.governors[2].last.force_W.f = Vec3(0.5, x, 0);
   state.governors[2].credit_j = 0.25;
+  state.governors[2].lifted_j = 0.125;
   state.governors[2].counts[4] = 7;
   return state;
 }
@@ -134,6 +135,7 @@ TEST(StateHash, SeesAllThatAGovernorRemembers) {
   EXPECT_TRUE(differs([](hand::GovernorState& g) { g.ramp = 1e-300; }));
   EXPECT_TRUE(differs([](hand::GovernorState& g) { g.gain = 1e-300; }));
   EXPECT_TRUE(differs([](hand::GovernorState& g) { g.credit_j = 1e-300; }));
+  EXPECT_TRUE(differs([](hand::GovernorState& g) { g.lifted_j = 1e-300; }));
   EXPECT_TRUE(differs([](hand::GovernorState& g) { g.counts[5] = 1; }));
 }
 
