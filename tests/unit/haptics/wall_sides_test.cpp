@@ -55,8 +55,8 @@ class Led {
 };
 
 /// How deep the tip gets from above before something pushes it down, or no longer up; of 40 mm.
-double holds_to_m(double thickness_m, bool walls_hold) {
-  Led tip(plate(thickness_m), walls_hold);
+double holds_to_m(const std::shared_ptr<const collision::Object>& plate, bool walls_hold) {
+  Led tip(plate, walls_hold);
   tip.begin({0, 0.012, 0});
   double depth_m = kLedTip_m - 0.012, held_m = 0;
   bool holds = true;
@@ -71,8 +71,9 @@ double holds_to_m(double thickness_m, bool walls_hold) {
 
 TEST(WallSides, ThinPlatesHoldATip) {
   for (const double thickness_m : {0.001, 0.002, 0.003, 0.006, 0.012}) {
-    EXPECT_GT(holds_to_m(thickness_m, true), 0.0395) << thickness_m;
-    EXPECT_LT(holds_to_m(thickness_m, false), 0.025) << thickness_m << ": what it was before, or this tests nothing";
+    const auto thin = plate(thickness_m);
+    EXPECT_GT(holds_to_m(thin, true), 0.0395) << thickness_m;
+    EXPECT_LT(holds_to_m(thin, false), 0.025) << thickness_m << ": what it was before, or this tests nothing";
   }
 }
 
@@ -143,9 +144,10 @@ TEST(WallSides, InACornerOfThinWallsBothHold) {
       const double y = floor_m;
       return Vec3((wall_m - y * n_W.y()) / n_W.x(), y, 0);
     };
+    const auto corner = thin_corner(lean_rad);
     const Vec3 deep_W = at(kLedTip_m - kBehind_m, kLedTip_m - kBehind_m);
     for (const Vec3& start_W : {at(0.004, 0.04), at(0.04, 0.004), at(0.02, 0.0201)}) {
-      Led tip(thin_corner(lean_rad));
+      Led tip(corner);
       tip.begin(at(0.04, 0.04));
       tip.go(start_W);
       const auto see_both = [&](const Vec3&, const hand::LocalContact* contact) {
