@@ -246,7 +246,8 @@ void DeviceCheck::check_is_plugged(const KioskDevice& kiosk, Problems& problems)
                                           : ""));
 }
 
-/// As the unit starts the program, which reads its arguments and ends. A shell joins what it says of them, on standard error, to its output.
+/// Starts the program as the unit does; it reads its arguments and ends. A shell joins what it says of them, on standard error, to its
+/// output.
 void DeviceCheck::check_arguments(const KioskDevice& kiosk, Problems& problems) const {
   std::vector<std::string> words = {
       "-c",      "exec \"$0\" \"$@\" 2>&1", haptic_program_.string(), "--check", "--kiosk", kiosk.kiosk, "--device",
