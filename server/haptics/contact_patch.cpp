@@ -32,7 +32,7 @@ void divide_sums(ContactPatch& patch, double depth_sum_m) {
   patch.push_m /= depth_sum_m;
   patch.p_WC /= depth_sum_m;
   patch.depth_m = patch.found_depth_m = patch.push_m.norm();
-  // Points on both sides of a thin segment can cancel: then there is no way out to push along.
+  // Points on both sides of a thin segment can cancel each other: a push of zero has no direction.
   if (patch.depth_m > 0) patch.n_BH_W = patch.push_m / patch.depth_m;
 }
 

@@ -1,6 +1,7 @@
 #include "server/haptics/shown_hands.hpp"
 
 #include <Eigen/Dense>
+#include <boost/container/static_vector.hpp>
 
 #include "server/hand/friction_spring.hpp"
 #include "server/haptics/wall_sides.hpp"
@@ -13,16 +14,21 @@ namespace {
 Vec3 out_of_walls_W(const HandModel& hand, const state::WorldState& state, const state::UserState& user) {
   constexpr double kCostOfMove = 0.01;
   constexpr int kRounds = 4;
+  struct Wall {
+    Vec3 n_W;
+    double in_m;
+  };
+  boost::container::static_vector<Wall, state::kMaxSides> walls;
+  for (const state::WallSide& side : user.side_span())
+    walls.push_back({state[side.body].X_WB.rotate(side.n_B), depth_behind_m(hand, state, user, side)});
   Vec3 out_W = Vec3::Zero();
   for (int round = 0; round < kRounds; ++round) {
     Mat3 A = kCostOfMove * Mat3::Identity();
     Vec3 b = Vec3::Zero();
-    for (const state::WallSide& side : user.side_span()) {
-      const Vec3 n_W = state[side.body].X_WB.rotate(side.n_B);
-      const double in_m = depth_behind_m(hand, state, user, side);
-      if (in_m <= n_W.dot(out_W)) continue;
-      A += n_W * n_W.transpose();
-      b += in_m * n_W;
+    for (const Wall& wall : walls) {
+      if (wall.in_m <= wall.n_W.dot(out_W)) continue;
+      A += wall.n_W * wall.n_W.transpose();
+      b += wall.in_m * wall.n_W;
     }
     out_W = A.ldlt().solve(b);
   }

@@ -106,8 +106,7 @@ static int fake_describe(void* device, mechane_device_info* info, char* why, siz
 static int fake_read(void* device, mechane_device_state* state, char* why, size_t why_size) {
   Device* d = device;
   const int fault = ++d->reads > d->after && d->fault[0] != 0;
-  const double depth_m =
-      1e-4 * (double)(d->reads > 700 ? d->reads - 700 : 0); /* first it is free, for the force's ramp */
+  const double depth_m = 1e-4 * (double)(d->reads > 700 ? d->reads - 700 : 0); /* first it is free, for the force's ramp */
   memset(state, 0, sizeof(*state));
   state->flags = MECHANE_STATE_READY;
   state->position_m[1] = depth_m < 0.02 ? -depth_m : -0.02; /* 0.1 m/s down to 20 mm */
@@ -131,8 +130,7 @@ static int fake_read(void* device, mechane_device_state* state, char* why, size_
   if (strcmp(d->fault, "crash") == 0) abort();
   if (strcmp(d->fault, "hang") == 0) pause();
   if (strcmp(d->fault, "other") == 0 && opened > 1) return 0;
-  const int pulled =
-      strcmp(d->fault, "gone") == 0 || strcmp(d->fault, "unplugged") == 0 || strcmp(d->fault, "other") == 0;
+  const int pulled = strcmp(d->fault, "gone") == 0 || strcmp(d->fault, "unplugged") == 0 || strcmp(d->fault, "other") == 0;
   if (pulled) return fails(why, why_size, "the fake cable was pulled");
   return 0;
 }
@@ -154,13 +152,7 @@ static void fake_close(void* device) {
 }
 
 const mechane_driver_table* mechane_driver(uint32_t version) {
-  static const mechane_driver_table table = {FAKE_VERSION,
-                                             "a stylus that is not there",
-                                             "trace=FILE fault=WORD after=READS",
-                                             fake_open,
-                                             fake_describe,
-                                             fake_read,
-                                             fake_write,
-                                             fake_close};
+  static const mechane_driver_table table = {FAKE_VERSION,  "a stylus that is not there", "trace=FILE fault=WORD after=READS", fake_open,
+                                             fake_describe, fake_read, fake_write, fake_close};
   return version == FAKE_VERSION ? &table : NULL;
 }
