@@ -126,7 +126,7 @@ TEST(Check, WarnsOfWhatIsLikelyNotMeant) {
   expect_warning("value='\"CARRY\" \"SEAT\"'/>",
                  "value='\"SEAT\"'/><MetadataString containerField='value' name='disable' value='\"CARRY\"'/>",
                  ErrorCode::conflict, "name='take'>", "'CARRY'");
-  expect_warning("name='effortScale' value='0.045'/>\n        <MetadataSet",
+  expect_warning("name='effortScale' value='0.0125'/>\n        <MetadataSet",
                  "name='colour' value='1'/>\n        <MetadataSet", ErrorCode::unknown_name, "name='colour'",
                  "'colour'");
 }

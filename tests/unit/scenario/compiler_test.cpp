@@ -96,8 +96,8 @@ TEST_F(ArchimedesScrew, AVisitorsHandCanDoIt) {
   const auto& hold = world.agents[world.find_agent("HOLD").index()];
   const double force_n =
       (world.effort_scale * (torque + number(hinge, "frictionTorque")) + number(hold, "torqueLimit")) / 0.25;
-  EXPECT_LT(force_n, 3.0);
-  EXPECT_GT(force_n, 2.0);
+  EXPECT_LT(force_n, 0.88);  // what a Touch bears for long, see deploy/decisions/034
+  EXPECT_GT(force_n, 0.5);   // and still felt
   // The scripted visit turns far enough: the screw fills first, then every turn pours.
   const auto& fill = world.steps[world.find_step("fill").index()];
   const double needed = number(pump, "length") / shape.pitch_m + fill.triggers[0].value / 1000 / volume;
