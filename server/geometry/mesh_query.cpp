@@ -39,19 +39,25 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + ab * (vb / sum) + ac * (vc / sum);
 }
 
-/// Slab test. `inverse` holds 1/direction, with infinities where a component is zero.
-bool ray_meets_box(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& inverse) {
-  double t0 = 0;
-  double t1 = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const double pad = 1e-12 * (std::abs(box.min()[i]) + std::abs(box.max()[i]) + 1e-12);
-    double near_t = (box.min()[i] - pad - origin[i]) * inverse[i];
-    double far_t = (box.max()[i] + pad - origin[i]) * inverse[i];
-    if (near_t > far_t) std::swap(near_t, far_t);
-    t0 = std::max(t0, near_t);
-    t1 = std::min(t1, far_t);
+/// A ray for slab tests.
+struct SlabRay {
+  Vec3 origin;
+  Vec3 inverse;  // 1/direction; large where a component is zero
+
+  SlabRay(const Vec3& from, const Vec3& direction)
+      : origin(from), inverse(direction.unaryExpr([](double d) { return 1 / (std::abs(d) < 1e-300 ? 1e-300 : d); })) {}
+
+  [[nodiscard]] bool meets(const Eigen::AlignedBox3d& box) const {
+    const Vec3 to_min = (box.min() - origin).cwiseProduct(inverse);
+    const Vec3 to_max = (box.max() - origin).cwiseProduct(inverse);
+    const double enters = std::max(to_min.cwiseMin(to_max).maxCoeff(), 0.0);
+    return enters <= to_min.cwiseMax(to_max).minCoeff();
   }
-  return t0 <= t1;
+};
+
+Eigen::AlignedBox3d padded(const Eigen::AlignedBox3d& box) {
+  const Vec3 pad = 1e-12 * (box.min().array().abs() + box.max().array().abs() + 1e-12);
+  return {box.min() - pad, box.max() + pad};
 }
 
 }  // namespace
@@ -64,7 +70,7 @@ MeshQuery::MeshQuery(const Mesh& mesh) : slot_of_(mesh.triangles.size()) {
   }
   if (triangles_.empty()) return;
   nodes_.reserve(triangles_.size());
-  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(triangles_.size())});
+  nodes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(triangles_.size())});
   // Children are appended, so this loop reaches them too.
   for (std::uint32_t n = 0; n < nodes_.size(); ++n)
     split(n);
@@ -83,6 +89,7 @@ void MeshQuery::split(std::uint32_t n) {
     centers.extend(Vec3(t.a + t.b + t.c));
   }
   nodes_[n].box = box;
+  nodes_[n].padded = padded(box);
   if (count <= kLeafTriangles) return;
   Eigen::Index axis = 0;
   centers.sizes().maxCoeff(&axis);
@@ -94,8 +101,8 @@ void MeshQuery::split(std::uint32_t n) {
     return cl < cr || (cl == cr && l.index < r.index);
   });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({{}, first, half});
-  nodes_.push_back({{}, first + half, count - half});
+  nodes_.push_back({{}, {}, first, half});
+  nodes_.push_back({{}, {}, first + half, count - half});
   nodes_[n].first = children;
   nodes_[n].count = 0;
 }
@@ -103,18 +110,25 @@ void MeshQuery::split(std::uint32_t n) {
 SurfacePoint MeshQuery::closest(const Vec3& p, double max_distance_m) const {
   SurfacePoint best;
   if (nodes_.empty()) return best;
+  struct Open {
+    std::uint32_t node;
+    double square;  // of the distance to its box
+  };
   double best_square = max_distance_m * max_distance_m;
-  std::array<std::uint32_t, kStackDepth> stack{};
+  std::array<Open, kStackDepth> stack;
   std::size_t top = 0;
-  stack[top++] = 0;
+  stack[top++] = {0, nodes_[0].box.squaredExteriorDistance(p)};
   while (top > 0) {
-    const Node& node = nodes_[stack[--top]];
-    if (node.box.squaredExteriorDistance(p) > best_square) continue;
+    const Open open = stack[--top];
+    if (open.square > best_square) continue;
+    const Node& node = nodes_[open.node];
     if (node.count == 0) {
       const double d0 = nodes_[node.first].box.squaredExteriorDistance(p);
       const double d1 = nodes_[node.first + 1].box.squaredExteriorDistance(p);
-      stack[top++] = d0 < d1 ? node.first + 1 : node.first;  // the nearer child is taken first
-      stack[top++] = d0 < d1 ? node.first : node.first + 1;
+      const Open first{node.first, d0};
+      const Open second{node.first + 1, d1};
+      stack[top++] = d0 < d1 ? second : first;  // the nearer child is taken first
+      stack[top++] = d0 < d1 ? first : second;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -129,19 +143,21 @@ SurfacePoint MeshQuery::closest(const Vec3& p, double max_distance_m) const {
   return best;
 }
 
-void MeshQuery::cast(const Vec3& origin, const Vec3& direction, std::vector<RayHit>& hits) const {
-  hits.clear();
+template <class Found>
+void MeshQuery::cast_each(const Vec3& origin, const Vec3& direction, const Found& found) const {
   if (nodes_.empty()) return;
-  const Vec3 inverse = direction.unaryExpr([](double d) { return 1 / (std::abs(d) < 1e-300 ? 1e-300 : d); });
-  std::array<std::uint32_t, kStackDepth> stack{};
+  const SlabRay ray(origin, direction);
+  const double square = direction.squaredNorm();
+  std::array<std::uint32_t, kStackDepth> stack;
   std::size_t top = 0;
-  stack[top++] = 0;
+  if (ray.meets(nodes_[0].padded)) stack[top++] = 0;
   while (top > 0) {
     const Node& node = nodes_[stack[--top]];
-    if (!ray_meets_box(node.box, origin, inverse)) continue;
     if (node.count == 0) {
-      stack[top++] = node.first + 1;
-      stack[top++] = node.first;
+      stack[top] = node.first;
+      top += ray.meets(nodes_[node.first].padded) ? 1 : 0;
+      stack[top] = node.first + 1;
+      top += ray.meets(nodes_[node.first + 1].padded) ? 1 : 0;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -156,10 +172,15 @@ void MeshQuery::cast(const Vec3& origin, const Vec3& direction, std::vector<RayH
       if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) continue;
       const double sum = u + v + w;
       if (sum == 0) continue;
-      const double t = (u * a + v * b + w * c).dot(direction) / (sum * direction.squaredNorm());
-      if (t > 0) hits.push_back({t, tri.index, sum > 0});
+      const double t = (u * a + v * b + w * c).dot(direction) / (sum * square);
+      if (t > 0) found(RayHit{t, tri.index, sum > 0});
     }
   }
+}
+
+void MeshQuery::cast(const Vec3& origin, const Vec3& direction, std::vector<RayHit>& hits) const {
+  hits.clear();
+  cast_each(origin, direction, [&](const RayHit& hit) { hits.push_back(hit); });
   std::sort(hits.begin(), hits.end(),
             [](const RayHit& l, const RayHit& r) { return l.t < r.t || (l.t == r.t && l.triangle < r.triangle); });
 }
@@ -168,15 +189,15 @@ int MeshQuery::winding(const Vec3& p) const {
   // Directions along no axis and no likely edge; three, so that one ray through an edge is outvoted.
   static const std::array<Vec3, 3> kDirections = {Vec3(0.5773, 0.6113, 0.5412), Vec3(-0.7071, 0.3019, 0.6397),
                                                   Vec3(0.1327, -0.8913, 0.4336)};
-  std::vector<RayHit> hits;
-  std::array<int, 3> counts{};
-  for (std::size_t i = 0; i < kDirections.size(); ++i) {
-    cast(p, kDirections[i], hits);
-    for (const RayHit& hit : hits)
-      counts[i] += hit.entering ? -1 : 1;
-  }
-  std::sort(counts.begin(), counts.end());
-  return counts[1];
+  const auto count = [&](const Vec3& direction) {
+    int crossings = 0;
+    cast_each(p, direction, [&](const RayHit& hit) { crossings += hit.entering ? -1 : 1; });
+    return crossings;
+  };
+  const int first = count(kDirections[0]);
+  const int second = count(kDirections[1]);
+  if (first == second) return first;
+  return std::clamp(count(kDirections[2]), std::min(first, second), std::max(first, second));
 }
 
 double MeshQuery::signed_distance(const Vec3& p) const {

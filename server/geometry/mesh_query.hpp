@@ -47,14 +47,18 @@ class MeshQuery {
  private:
   struct Node {
     Eigen::AlignedBox3d box;
-    std::uint32_t first = 0;  // of the leaf's triangles, or of two child nodes that lie side by side
-    std::uint32_t count = 0;  // 0: an inner node
+    Eigen::AlignedBox3d padded;  // for rays, whose arithmetic rounds
+    std::uint32_t first = 0;     // of the leaf's triangles, or of two child nodes that lie side by side
+    std::uint32_t count = 0;     // 0: an inner node
   };
   struct Triangle {
     Vec3 a, b, c;
     std::uint32_t index = 0;
   };
   void split(std::uint32_t node);
+  /// Calls `found(hit)` for each hit with t > 0, in no order.
+  template <class Found>
+  void cast_each(const Vec3& origin, const Vec3& direction, const Found& found) const;
 
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;
