@@ -6,9 +6,10 @@ import os
 import subprocess
 import sys
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import against
 import aims
 import collision
 import display
@@ -32,13 +33,13 @@ class Context:
     seed: int | None
 
 
-def build(out: Path) -> None:
+def build(root: Path, out: Path) -> None:
     log = out / "build.log"
-    print("bench: building for release", flush=True)
+    print(f"bench: building {machine.commit(root)} for release", flush=True)
     with log.open("w") as file:
         for command in (["cmake", "--preset", "release"],
                         ["cmake", "--build", "build/release", "-j", str(os.cpu_count()), "--target", "benchmarks", "mechane_programs"]):
-            if subprocess.run(command, cwd=ROOT, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL).returncode:
+            if subprocess.run(command, cwd=root, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL).returncode:
                 file.flush()
                 print("\n".join(log.read_text().splitlines()[-30:]), file=sys.stderr)
                 raise SystemExit(f"bench: the build failed; its log is {log.relative_to(ROOT)}")
@@ -59,11 +60,24 @@ def write(name: str, result: Measured, judged: dict[str, aims.Judged], seconds: 
     return file
 
 
-def run_one(name: str, context: Context) -> bool:
+def earlier(revision: str, context: Context, no_build: bool) -> Context:
+    """The same for an earlier revision, in a checkout of its own under build/against, which stays for the next time."""
+    try:
+        tree = against.checkout(context.root, revision)
+    except against.NoRevision as reason:
+        raise SystemExit(f"bench: {reason}") from None
+    out = context.out / "against"
+    out.mkdir(exist_ok=True)
+    if not no_build:
+        build(tree, out)
+    return replace(context, root=tree, bin=tree / "build/release/bin", out=out)
+
+
+def run_one(name: str, context: Context, before: Context | None) -> bool:
     print(f"bench {name}", flush=True)
     began = time.monotonic()
     benchmark = BENCHMARKS[name]
-    result, missing = benchmark.measure(context)
+    result, missing = against.measure(benchmark, context, before) if before else benchmark.measure(context)
     result.notes += [f"not measured: {reason}" for reason in missing]
     judged = aims.judge(result.metrics, benchmark.AIMS)
     file = write(name, result, judged, time.monotonic() - began, context.out)
@@ -86,6 +100,7 @@ def main() -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(BENCHMARKS)}; none: all")
     parser.add_argument("--seconds", type=float, default=15, help="how long each part is measured")
     parser.add_argument("--seed", type=int, help="collision: other objects of the same kinds, and other grasps")
+    parser.add_argument("--against", metavar="REV", help="build this revision too, measure both in turn, and compare")
     parser.add_argument("--no-build", action="store_true", help="measure what build/release holds")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.names if name not in BENCHMARKS]
@@ -94,9 +109,10 @@ def main() -> int:
     out = ROOT / "out/bench"
     out.mkdir(parents=True, exist_ok=True)
     if not arguments.no_build:
-        build(out)
+        build(ROOT, out)
     context = Context(ROOT, ROOT / "build/release/bin", out, arguments.seconds, arguments.seed)
-    good = [run_one(name, context) for name in arguments.names or BENCHMARKS]
+    before = earlier(arguments.against, context, arguments.no_build) if arguments.against else None
+    good = [run_one(name, context, before) for name in arguments.names or BENCHMARKS]
     return 0 if all(good) else 1
 
 

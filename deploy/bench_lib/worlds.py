@@ -18,6 +18,10 @@ AIMS = {
     "model_mb.*": (("under", 8),),
     "models_mb": (("under", 60),),
     "worlds_per_core": (("at least", 6),),
+    "force_later_us.third.p99": (("at most", 100),),
+    "against.cpu_ratio.*": (("at most", 0.8),),
+    "against.cpu_ratio_sum": (("at most", 0.4),),
+    "against.worlds_ratio": (("at least", 2.5),),
     "state_hash.stable": (("at least", 1),),
 }
 TICK_US = 1000
@@ -56,6 +60,18 @@ def add_models(result: Measured, scenarios: list[Path]) -> None:
     meshes = {file.stem: _meshes(file) for file in scenarios}
     result.metrics["models_mb"] = _megabytes(set().union(*meshes.values()))
     result.metrics |= {f"model_mb.{name}": _megabytes(files) for name, files in meshes.items()}
+
+
+def against(now: dict[str, float], before: dict[str, float]) -> dict[str, float]:
+    """Now over before: the processor time of each exhibit's mean tick, of all together, and the worlds that a core holds."""
+    both = [name for name in _exhibits(now) if f"tick_us.{name}.mean" in before]
+    ticks = [(now[f"tick_us.{name}.mean"], before[f"tick_us.{name}.mean"]) for name in both]
+    ratios = {f"against.cpu_ratio.{name}": ours / theirs for name, (ours, theirs) in zip(both, ticks, strict=True)}
+    if ticks:
+        ratios["against.cpu_ratio_sum"] = sum(ours for ours, _ in ticks) / sum(theirs for _, theirs in ticks)
+    if before.get("worlds_per_core"):
+        ratios["against.worlds_ratio"] = now["worlds_per_core"] / before["worlds_per_core"]
+    return ratios
 
 
 def _counts(metrics: dict[str, float]) -> list[int]:

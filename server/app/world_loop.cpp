@@ -13,18 +13,18 @@ constexpr std::uint64_t kSnapshotInterval = 1000;  // ticks: a killed server los
 /// Sends a tick's result to the network and to the journal.
 class TickOutput final : public world::Publisher {
  public:
-  TickOutput(RunningWorld& running, const state::TickInputs& inputs) : running_(running), inputs_(inputs) {}
+  explicit TickOutput(RunningWorld& running) : running_(running) {}
 
   void publish_forces(const state::WorldState& state) noexcept override { running_.port->publish_forces(state); }
 
   void publish(const state::WorldState& state) noexcept override {
     if (transport::WorldPort::shows(state.tick)) running_.shown.follow(*running_.world->hand, state);
     running_.port->publish(state, running_.shown.out_W());
-    if (running_.visits != nullptr) running_.visits->push(running_.port->description(), state, inputs_);
+    if (running_.visits != nullptr) running_.visits->push(running_.port->description(), state, running_.inputs);
     if (!running_.recorder) return;
     record::TickRecord record;
     record.tick = state.tick;
-    record.inputs = &inputs_;
+    record.inputs = &running_.inputs;
     record.events = state.event_span();
     if (state.tick % record::kHashInterval == 0) record.hash = state::state_hash(state);
     running_.recorder->push(record);
@@ -34,7 +34,6 @@ class TickOutput final : public world::Publisher {
 
  private:
   RunningWorld& running_;
-  const state::TickInputs& inputs_;
 };
 
 }  // namespace
@@ -71,7 +70,9 @@ void WorldLoop::tick(const realtime::TickTiming& timing) noexcept {
   const Duration before = clock_.thread_cpu_time();
   take_new_worlds();
   for (RunningWorld* running : worlds_)
-    step(*running, timing.woke);
+    feel(*running, timing.woke);
+  for (RunningWorld* running : worlds_)
+    move(*running);
   if (!worlds_.empty()) busy_time_.record(clock_.thread_cpu_time() - before);
   give_back_leaving();
 }
@@ -91,16 +92,25 @@ void WorldLoop::give_back_leaving() noexcept {
   worlds_.erase(end, worlds_.end());
 }
 
-void WorldLoop::step(RunningWorld& running, TimePoint now) noexcept {
-  state::TickInputs inputs;
-  running.port->gather(inputs, now);
-  TickOutput output(running, inputs);
-  world::step(*running.world, inputs, output, timer_);
-  if (const StepId step = running.world->state.progress.step; step != running.step) {
-    running.step = step;
-    if (step && !running.port->description().steps[step.index()].opens.empty()) running.sends_on.store(step);
-  }
-  for (std::size_t i = 0; i < world::kPhases; ++i)
+void WorldLoop::feel(RunningWorld& running, TimePoint now) noexcept {
+  running.port->gather(running.inputs, now);
+  TickOutput output(running);
+  world::feel(*running.world, running.inputs, output, timer_);
+  record_phases(0, world::kPhasesOfFeel);
+}
+
+void WorldLoop::move(RunningWorld& running) noexcept {
+  TickOutput output(running);
+  world::move(*running.world, output, timer_);
+  record_phases(world::kPhasesOfFeel, world::kPhases);
+  const StepId step = running.world->state.progress.step;
+  if (step == running.step) return;
+  running.step = step;
+  if (step && !running.port->description().steps[step.index()].opens.empty()) running.sends_on.store(step);
+}
+
+void WorldLoop::record_phases(std::size_t first, std::size_t end) noexcept {
+  for (std::size_t i = first; i < end; ++i)
     phases_[i].record(timer_.took()[i]);
 }
 

@@ -27,6 +27,7 @@ struct RunningWorld {
   /// Gives the state to the recorder, which must exist. For the thread that uses the world at the moment.
   void keep_snapshot() noexcept;
 
+  state::TickInputs inputs;        ///< of this tick; for the loop only
   haptics::ShownHands shown;       ///< for the loop only
   StepId step;                     ///< where the visit was after the last tick; for the loop only
   std::atomic<StepId> sends_on{};  ///< a step that opens another scenario has begun; the main thread takes it
@@ -39,7 +40,8 @@ struct LoopConfig {
   std::size_t max_worlds = 64;
 };
 
-/// Owns one thread, which steps its worlds one after another every millisecond. The other functions are for the main thread.
+/// Owns one thread, which steps its worlds every millisecond: first the forces of all, one world after another, then the bodies of all, so
+/// that a heavy world does not delay another's hands. The other functions are for the main thread.
 class WorldLoop {
  public:
   WorldLoop(const LoopConfig& config, Clock& clock);
@@ -63,7 +65,9 @@ class WorldLoop {
   void tick(const realtime::TickTiming& timing) noexcept;
   void take_new_worlds() noexcept;
   void give_back_leaving() noexcept;
-  void step(RunningWorld& running, TimePoint now) noexcept;
+  void feel(RunningWorld& running, TimePoint now) noexcept;
+  void move(RunningWorld& running) noexcept;
+  void record_phases(std::size_t first, std::size_t end) noexcept;
 
   std::size_t assigned_ = 0;  // for the main thread
   std::size_t max_worlds_;

@@ -21,11 +21,12 @@ enum class Phase {
 };
 
 inline constexpr std::size_t kPhases = 8;
+inline constexpr std::size_t kPhasesOfFeel = 5;  ///< the first half of a tick; see step.hpp
 inline constexpr std::array<std::string_view, kPhases> kPhaseNames{"take_inputs",   "move_hands",    "find_contacts",
                                                                    "run_agents",    "render_forces", "run_machines",
                                                                    "step_dynamics", "publish"};
 
-/// Notes when each phase of the last tick ended. Called by the tick; reads a clock, nothing else.
+/// Notes how long each phase of a tick took; each half starts it anew. Called by the tick; reads a clock, nothing else.
 class PhaseTimer {
  public:
   explicit PhaseTimer(Clock& clock) : clock_(clock) {}

@@ -6,7 +6,7 @@
 
 namespace mechane::world {
 
-void step(World& world, const state::TickInputs& inputs, Publisher& publisher, PhaseTimer& timer) noexcept {
+void feel(World& world, const state::TickInputs& inputs, Publisher& publisher, PhaseTimer& timer) noexcept {
   const state::WorldDescription& description = *world.description;
   state::WorldState& state = world.state;
   timer.start();
@@ -28,6 +28,11 @@ void step(World& world, const state::TickInputs& inputs, Publisher& publisher, P
   world.forces.run(description, *world.hand, state);
   publisher.publish_forces(state);
   timer.ended(Phase::render_forces);
+}
+
+void move(World& world, Publisher& publisher, PhaseTimer& timer) noexcept {
+  state::WorldState& state = world.state;
+  timer.start();
 
   world.machines->run(state, kTickSeconds);
   timer.ended(Phase::run_machines);
@@ -37,6 +42,11 @@ void step(World& world, const state::TickInputs& inputs, Publisher& publisher, P
 
   publisher.publish(state);
   timer.ended(Phase::publish);
+}
+
+void step(World& world, const state::TickInputs& inputs, Publisher& publisher, PhaseTimer& timer) noexcept {
+  feel(world, inputs, publisher, timer);
+  move(world, publisher, timer);
 }
 
 }  // namespace mechane::world

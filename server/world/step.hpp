@@ -24,8 +24,15 @@ class NoPublisher final : public Publisher {
   void publish(const state::WorldState&) noexcept override {}
 };
 
-/// Advances the world by one millisecond. Same state and inputs give the same bits. Allocates nothing, locks nothing, logs nothing,
-/// throws nothing.
+// A tick has two halves, so that a loop with several worlds can send the forces of all before it moves the bodies of any. Neither
+// allocates, locks, logs or throws.
+
+/// The first half: from what hands did to the forces that they feel; calls publish_forces().
+void feel(World& world, const state::TickInputs& inputs, Publisher& publisher, PhaseTimer& timer) noexcept;
+/// The second, after feel() in the same tick: the bodies move; calls publish().
+void move(World& world, Publisher& publisher, PhaseTimer& timer) noexcept;
+
+/// Both: advances the world by one millisecond. Same state and inputs give the same bits.
 void step(World& world, const state::TickInputs& inputs, Publisher& publisher, PhaseTimer& timer) noexcept;
 
 }  // namespace mechane::world

@@ -67,8 +67,8 @@ class Feed {
  public:
   Feed(std::unique_ptr<world::World> world, const Visit& visit) : world_(std::move(world)), visit_(&visit) {}
 
-  /// At the visit's end the hand stays where it is.
-  void step(world::PhaseTimer& timer) noexcept {
+  /// The first half of a tick. At the visit's end the hand stays where it is.
+  void feel(world::PhaseTimer& timer) noexcept {
     if (index_ < visit_->ticks.size()) {
       const Taken& taken = visit_->ticks[index_];
       inputs_.users[0] = taken.user;
@@ -78,7 +78,12 @@ class Feed {
       ++inputs_.users[0].sample.sequence;
     }
     ++index_;
-    world::step(*world_, inputs_, publisher_, timer);
+    world::feel(*world_, inputs_, publisher_, timer);
+  }
+  void move(world::PhaseTimer& timer) noexcept { world::move(*world_, publisher_, timer); }
+  void step(world::PhaseTimer& timer) noexcept {
+    feel(timer);
+    move(timer);
   }
   [[nodiscard]] std::size_t left() const { return visit_->ticks.size() - std::min(index_, visit_->ticks.size()); }
   [[nodiscard]] std::uint64_t state_hash() const { return state::state_hash(world_->state); }
@@ -243,7 +248,8 @@ class Seat {
       feed_->step(timer);
     return {};
   }
-  void step(world::PhaseTimer& timer) noexcept { feed_->step(timer); }
+  void feel(world::PhaseTimer& timer) noexcept { feed_->feel(timer); }
+  void move(world::PhaseTimer& timer) noexcept { feed_->move(timer); }
 
  private:
   const Show* show_;
@@ -254,14 +260,15 @@ class Seat {
 
 struct Paced {
   realtime::PeriodicReport counted;
-  realtime::LatencyHistogram cpu_time;  // of all worlds' ticks in one millisecond
+  realtime::LatencyHistogram cpu_time;     // of all worlds' ticks in one millisecond
+  realtime::LatencyHistogram third_later;  // the third world's force after the first's
 
   [[nodiscard]] double overrun_share() const {
     return static_cast<double>(counted.overruns) / static_cast<double>(counted.ticks);
   }
 };
 
-/// Steps all seats in each millisecond, for `ticks` of them.
+/// Steps all seats in each millisecond, for `ticks` of them, in two halves as the server's loop does.
 Expected<Paced> pace(std::vector<Seat>& seats, std::uint64_t ticks, int priority) {
   for (Seat& seat : seats) {
     if (auto ready = seat.prepare(ticks); !ready) return tl::unexpected(ready.error());
@@ -275,10 +282,17 @@ Expected<Paced> pace(std::vector<Seat>& seats, std::uint64_t ticks, int priority
   world::PhaseTimer timer(phases_clock);
   std::promise<void> done;
   std::uint64_t left = ticks;
+  realtime::LatencyHistogram third_later;
   auto started = loop.start([&](const realtime::TickTiming&) {
     if (left == 0) return;
+    TimePoint first{};
+    for (std::size_t i = 0; i < seats.size(); ++i) {
+      seats[i].feel(timer);
+      if (i == 0) first = phases_clock.now();
+      if (i == 2) third_later.record(phases_clock.now() - first);
+    }
     for (Seat& seat : seats)
-      seat.step(timer);
+      seat.move(timer);
     if (--left > 0) return;
     loop.request_stop();
     done.set_value();
@@ -286,7 +300,7 @@ Expected<Paced> pace(std::vector<Seat>& seats, std::uint64_t ticks, int priority
   if (!started) return tl::unexpected(started.error());
   done.get_future().wait();
   loop.stop();
-  return Paced{loop.report(), loop.cpu_time()};
+  return Paced{loop.report(), loop.cpu_time(), third_later};
 }
 
 /// One core, and more or fewer worlds on it. The dearest exhibits take their seats first.
@@ -325,6 +339,10 @@ class Core {
     for (const auto& [count, paced] : runs_) {
       report_.metric("worlds_over_pct." + std::to_string(count), 100 * paced.overrun_share());
       report_.metric("worlds_tick_us." + std::to_string(count) + ".median", to_us(paced.cpu_time.quantile(0.5)));
+    }
+    if (const auto three = runs_.find(3); three != runs_.end()) {
+      report_.metric("force_later_us.third.median", to_us(three->second.third_later.quantile(0.5)));
+      report_.metric("force_later_us.third.p99", to_us(three->second.third_later.quantile(0.99)));
     }
   }
 

@@ -5,12 +5,15 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from types import SimpleNamespace
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "deploy/bench_lib"))
 
+import against  # noqa: E402
 import aims  # noqa: E402
 import bench  # noqa: E402
 import plots  # noqa: E402
+import worlds  # noqa: E402
 from peers import Measured  # noqa: E402
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -44,6 +47,44 @@ class Aims(unittest.TestCase):
             self.assertTrue(benchmark.AIMS, name)
             figures = {pattern.replace("*", "x"): 1.0 for pattern in benchmark.AIMS}
             self.assertEqual(len(aims.judge(figures, benchmark.AIMS)), len(figures), name)
+
+
+class Against(unittest.TestCase):
+    """An earlier revision that slows down from turn to turn, as a machine does, and one that is always twice as slow."""
+
+    def measured(self, **of_benchmark):
+        turns = []
+
+        def measure(context):
+            turns.append(context.root.name)
+            return Measured({"step_us.median": context.us * len(turns), "step_us.max": 9.0}), ["no peer"] if context.us == 1 else []
+
+        now, before = SimpleNamespace(root=Path("/now"), us=1), SimpleNamespace(root=Path("/before"), us=2)
+        result, missing = against.measure(SimpleNamespace(measure=measure, **of_benchmark), now, before)
+        self.assertEqual(turns, ["before", "now", "now", "before"])
+        self.assertEqual(missing, ["now: no peer"] * 2)
+        return result.metrics
+
+    def test_both_run_in_turn_and_the_ratio_is_the_mean_of_both_orders(self):
+        metrics = self.measured()
+        self.assertAlmostEqual(metrics["against.step_us.median"], (2 / (2 * 1) * 3 / (2 * 4)) ** 0.5)
+        self.assertEqual(metrics["step_us.median"], 2, "of the first turn")
+        self.assertNotIn("against.step_us.max", metrics)
+
+    def test_a_benchmark_may_say_what_it_compares(self):
+        self.assertEqual(self.measured(against=lambda now, before: {"against.sum": 4.0})["against.sum"], 4)
+
+    def test_worlds_compare_each_exhibit_all_together_and_how_many_a_core_holds(self):
+        now = {"tick_us.a.median": 9.0, "tick_us.a.mean": 10.0, "tick_us.b.median": 1.0, "tick_us.b.mean": 2.0, "tick_us.new.median": 1.0,
+               "tick_us.new.mean": 1.0, "worlds_per_core": 30}
+        before = {"tick_us.a.mean": 40.0, "tick_us.b.mean": 2.0, "worlds_per_core": 10}
+        self.assertEqual(worlds.against(now, before), {"against.cpu_ratio.a": 0.25, "against.cpu_ratio.b": 1, "against.cpu_ratio_sum": 12 / 42,
+                                                       "against.worlds_ratio": 3})
+        self.assertEqual(worlds.against({}, {}), {})
+
+    def test_a_revision_that_is_not_there_is_said(self):
+        with self.assertRaisesRegex(against.NoRevision, "single revision|unknown revision"):
+            against.checkout(bench.ROOT, "no-such-revision")
 
 
 class Lines(unittest.TestCase):

@@ -1,5 +1,6 @@
 #include "server/world/step.hpp"
 
+#include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -86,6 +87,26 @@ TEST(Step, ForcesThatLeftEarlyAreThoseOfTheTicksEnd) {
   EXPECT_EQ(stage.watch.ticks, 4000U);
   EXPECT_EQ(stage.watch.late_changes, 0U);
   EXPECT_GT(stage.watch.early.echo_sequence, 0U);
+}
+
+TEST(Step, TheHalvesOfTwoWorldsInTurnGiveTheBitsOfEach) {
+  const std::array<test::ScriptedHand, 2> hands{test::ScriptedHand(kGrip, kAxis, 2 * kPi),
+                                                test::ScriptedHand(kGrip, kAxis, 3)};
+  std::array<Stage, 2> in_turn, alone;
+  std::array<TickInputs, 2> inputs;
+  for (std::uint64_t t = 0; t < 2000; ++t) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      inputs[i].users[0] = hands[i].sample(t);
+      alone[i].step(inputs[i]);
+      feel(*in_turn[i].world, inputs[i], in_turn[i].watch, in_turn[i].timer);
+      EXPECT_EQ(in_turn[i].watch.ticks, t);
+    }
+    for (Stage& stage : in_turn)
+      move(*stage.world, stage.watch, stage.timer);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(state::state_hash(in_turn[i].world->state), state::state_hash(alone[i].world->state));
+  EXPECT_GT(in_turn[0].turns(), 0.5);
 }
 
 TEST(Step, TheSameVisitFiveCentimetresBesideTurnsNothing) {
