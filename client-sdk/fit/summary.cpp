@@ -128,7 +128,9 @@ const char* up_axis_of(const geometry::Mesh& mesh) {
   return kNames[static_cast<std::size_t>(up)];
 }
 
-void note_up_axis(const Surface& surface, Summary& summary) {
+/// glTF says which way is up; other formats do not.
+void note_up_axis(const FittedObject& fitted, const Surface& surface, Summary& summary) {
+  if (const auto kind = fitted.mesh_file.extension(); kind == ".glb" || kind == ".gltf") return;
   const std::string up = up_axis_of(surface.mesh());
   if (up == "y") return;
   summary.notes.push_back(
@@ -213,7 +215,7 @@ Summary summarise(const FittedObject& fitted, const Surface& surface) {
   s.diagonal_mm = 1000 * surface.diagonal_m();
   measure_surface(surface, fitted.config.seed, s);
   note_size(fitted, s);
-  note_up_axis(surface, s);
+  note_up_axis(fitted, surface, s);
   note_meshes(fitted, s);
   note_parts(fitted, s);
   note_budget(fitted, s);

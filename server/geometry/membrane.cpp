@@ -21,7 +21,7 @@ using Lattice = std::array<std::int32_t, 3>;
 // Shares of a cell: lattice lines must not run along faces with round coordinates.
 const Vec3 kBesideRound(0.3183, 0.2718, 0.4142);
 constexpr std::size_t kMostCells = 4'000'000;
-constexpr std::size_t kTogether = 64;  // questions of one piece of work
+constexpr std::size_t kQuestionsTogether = 64;  // questions of one piece of work
 
 struct LatticeHash {
   std::size_t operator()(const Lattice& at) const {
@@ -116,8 +116,8 @@ class Follower {
 
   template <class Body>
   static void in_parallel(std::size_t count, const Body& body) {
-    for_each_index((count + kTogether - 1) / kTogether, [&](std::size_t chunk) {
-      for (std::size_t i = kTogether * chunk; i < std::min(count, kTogether * (chunk + 1)); ++i)
+    for_each_index((count + kQuestionsTogether - 1) / kQuestionsTogether, [&](std::size_t chunk) {
+      for (std::size_t i = kQuestionsTogether * chunk; i < std::min(count, kQuestionsTogether * (chunk + 1)); ++i)
         body(i);
     });
   }

@@ -15,7 +15,7 @@ constexpr double kAskedApart = 1.0 / 48;
 constexpr double kFlat = 1.0 / 200;  // of a triangle with edges below this, the middle speaks for all
 constexpr double kCut = 1.0 / 1000;
 constexpr double kInset = 0.1;  // from a corner, at which a triangle is asked
-constexpr std::size_t kTogether = 64;
+constexpr std::size_t kTrianglesTogether = 64;
 constexpr double kFaint = 0.01;  // a flat sheet has a winding number of one half on its back, and encloses nothing
 
 using Corners = std::array<Vec3, 3>;
@@ -93,8 +93,8 @@ OuterSurface outer_surface(const Mesh& mesh, const MeshQuery& query) {
   surface.pieces.resize(count);
   std::vector<std::vector<Vec3>> cuts(count);
   std::vector<std::uint8_t> whole(count);
-  for_each_index((count + kTogether - 1) / kTogether, [&](std::size_t chunk) {
-    for (std::size_t i = kTogether * chunk; i < std::min(count, kTogether * (chunk + 1)); ++i) {
+  for_each_index((count + kTrianglesTogether - 1) / kTrianglesTogether, [&](std::size_t chunk) {
+    for (std::size_t i = kTrianglesTogether * chunk; i < std::min(count, kTrianglesTogether * (chunk + 1)); ++i) {
       const auto& v = mesh.triangles[i];
       const Corners t = {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
       const Vec3 n = query.triangle_normal(static_cast<std::uint32_t>(i));

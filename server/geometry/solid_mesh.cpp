@@ -25,10 +25,10 @@ constexpr std::size_t kPlaces = 200;  // at which a shell is asked
 constexpr std::uint64_t kSeed = 1;
 constexpr double kBackToBack =
     0.9;  // of a shell's triangles: it is a surface with two sides, no place where two bodies touch
-constexpr double kInverted = -0.05;  // mean winding number on a patch of which the inner side is outside
-constexpr double kEnclosed = 0.6;    // a winding number to speak of: a dish as deep as a tenth of its width has it
-constexpr double kEnclosing = 0.25;  // of a shell's area: with less before it, it is a sheet
-constexpr double kCells = 256;       // of a membrane, along the diagonal
+constexpr double kInverted = -0.05;     // mean winding number on a patch of which the inner side is outside
+constexpr double kEnclosed = 0.6;       // a winding number to speak of: a dish as deep as a tenth of its width has it
+constexpr double kEnclosing = 0.25;     // of a shell's area: with less before it, it is a sheet
+constexpr double kMembraneCells = 256;  // of a membrane, along the diagonal
 constexpr std::size_t kCleanPlaces = 2000;  // of a closed mesh: all outer, and it stays as it is
 
 MeshQuery winding_query(const Mesh& mesh) {
@@ -203,7 +203,7 @@ void assemble(const Thick& thick, SolidMesh& solid) {
     }
   }
   solid.hidden_area_m2 = std::max(0.0, surface_area_m2(thick.mesh) - shown_m2);
-  const Mesh skin = membranes(thick.mesh, query, outer.cuts, thick.mesh.bounds().diagonal().norm() / kCells);
+  const Mesh skin = membranes(thick.mesh, query, outer.cuts, thick.mesh.bounds().diagonal().norm() / kMembraneCells);
   solid.membrane_area_m2 = surface_area_m2(skin);
   solid.mesh = pieces.take();
   solid.mesh.append(skin);

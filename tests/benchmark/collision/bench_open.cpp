@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@
 #include "server/base/random.hpp"
 #include "server/collision_build/object_builder.hpp"
 #include "server/geometry/area_normal.hpp"
+#include "server/geometry/mesh_check.hpp"
 #include "server/geometry/surface_samples.hpp"
 #include "tests/benchmark/bench_stats.hpp"
 #include "tests/benchmark/collision/models.hpp"
@@ -39,6 +41,11 @@ struct Case {
   geometry::Mesh truth;  // what was given before it was damaged
 };
 
+Vec3 nearest_on(const Vec3& from, const Vec3& to, const Vec3& p) {
+  const Vec3 way = to - from;
+  return from + std::clamp(way.dot(p - from) / std::max(way.squaredNorm(), 1e-30), 0.0, 1.0) * way;
+}
+
 /// The nearest place of the mesh, whichever side of it is asked; every triangle is looked at.
 geometry::SurfacePoint nearest_of(const geometry::Mesh& mesh, const Vec3& p) {
   geometry::SurfacePoint best;
@@ -59,11 +66,8 @@ geometry::SurfacePoint nearest_of(const geometry::Mesh& mesh, const Vec3& p) {
       const double w = ab.cross(foot).dot(n) / area;
       if (v >= 0 && w >= 0 && v + w <= 1) offer(a + foot);
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& from = mesh.vertices[t[k]];
-      const Vec3 way = mesh.vertices[t[(k + 1) % 3]] - from;
-      offer(from + std::clamp(way.dot(p - from) / std::max(way.squaredNorm(), 1e-30), 0.0, 1.0) * way);
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      offer(nearest_on(mesh.vertices[t[k]], mesh.vertices[t[(k + 1) % 3]], p));
   }
   return best;
 }
@@ -80,13 +84,20 @@ class Truth {
       encloses = test::exact_winding(mesh, box.min() + share.cwiseProduct(box.sizes())) > kEnclosing;
     }
     if (!encloses) sheet_m_ = sheet_m;
+    for (const auto& [a, b] : geometry::rims(mesh))
+      rims_.push_back({mesh.vertices[a], mesh.vertices[b]});
   }
 
   [[nodiscard]] bool is_sheet() const { return sheet_m_ > 0; }
 
   /// None where there is doubt.
   [[nodiscard]] std::optional<bool> is_inside(const Vec3& p) const {
-    if (is_sheet()) return nearest_of(mesh_, p).distance_m < 0.5 * sheet_m_;
+    if (is_sheet()) {
+      const double distance_m = nearest_of(mesh_, p).distance_m;
+      // A sheet ends at its rim; how round, is not judged.
+      if (distance_to_rim_m(p) <= (1 + 1e-9) * distance_m) return std::nullopt;
+      return distance_m < 0.5 * sheet_m_;
+    }
     const double winding = test::exact_winding(mesh_, p);
     if (winding > kDoubt && winding < 1 - kDoubt) return std::nullopt;
     return winding > 0.5;
@@ -107,7 +118,8 @@ class Truth {
     const geometry::SurfacePoint nearest = nearest_of(mesh_, p);
     if (is_sheet()) {
       const double depth_m = 0.5 * sheet_m_ - nearest.distance_m;
-      return depth_m > 0 ? std::optional(depth_m) : std::nullopt;
+      const bool at_rim = distance_to_rim_m(p) <= 0.5 * sheet_m_;  // there the wall at the rim is nearer
+      return depth_m > 0 && !at_rim ? std::optional(depth_m) : std::nullopt;
     }
     if (nearest.distance_m > at_most_m || test::exact_winding(mesh_, p) < kClear) return std::nullopt;
     const Vec3 out = kBefore * diagonal_m_ * geometry::area_normal(mesh_, nearest.triangle).normalized();
@@ -118,7 +130,15 @@ class Truth {
   }
 
  private:
+  [[nodiscard]] double distance_to_rim_m(const Vec3& p) const {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const auto& [from, to] : rims_)
+      least_m = std::min(least_m, (nearest_on(from, to, p) - p).norm());
+    return least_m;
+  }
+
   const geometry::Mesh& mesh_;
+  std::vector<std::pair<Vec3, Vec3>> rims_;
   double diagonal_m_;
   double sheet_m_ = 0;  // above 0: it encloses nothing
 };
