@@ -103,12 +103,12 @@ Expected<std::vector<geometry::SolidMesh>> make_solids(std::span<const geometry:
   std::vector<geometry::SolidMesh> solids;
   for (const geometry::NamedMesh& node : nodes) {
     if (auto ok = geometry::check_mesh(node.mesh, where_of(node.name)); !ok) return tl::unexpected(ok.error());
-    geometry::Mesh welded = geometry::weld(node.mesh);
+    const geometry::Mesh welded = geometry::weld(node.mesh);
     if (welded.triangles.empty()) {
       return fail(ErrorCode::invalid_value, "no triangle of the mesh has an area", where_of(node.name),
                   "export the model with its faces");
     }
-    solids.push_back(geometry::make_solid(std::move(welded), choice));
+    solids.push_back(geometry::make_solid(welded, choice));
     if (solids.back().mesh.empty()) {
       return fail(ErrorCode::invalid_value, "the mesh encloses nothing, even with its holes closed",
                   where_of(node.name), "let it be a sheet: solid 'auto', or 'sheet 0.001'");

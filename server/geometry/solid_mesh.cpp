@@ -234,7 +234,7 @@ std::string text_of(const SolidChoice& choice) {
   return "sheet " + std::string(number.data(), end);
 }
 
-SolidMesh make_solid(Mesh welded, const SolidChoice& choice) {
+SolidMesh make_solid(const Mesh& welded, const SolidChoice& choice) {
   SolidMesh solid;
   solid.open_edges = open_edges(welded);
   Mesh mesh = welded;

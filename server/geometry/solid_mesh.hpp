@@ -52,6 +52,6 @@ struct SolidMesh {
 /// by membranes. Before that, triangles that are turned against their neighbours or inwards are turned, and of triangles that stand back to
 /// back one is left. An empty mesh: it encloses nothing. The mesh must be welded and have an area. Same mesh and choice: same result, to
 /// the bit. Uses all cores; seconds for a hundred thousand triangles.
-[[nodiscard]] SolidMesh make_solid(Mesh welded, const SolidChoice& choice);
+[[nodiscard]] SolidMesh make_solid(const Mesh& welded, const SolidChoice& choice);
 
 }  // namespace mechane::geometry
