@@ -46,6 +46,19 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag("--whole", a.options.whole, "all meshes together form one part")
       ->excludes(from_nodes)
       ->excludes(cut_all);
+  app.add_option_function<std::string>(
+         "--solid",
+         [&config](const std::string& text) {
+           const auto choice = geometry::solid_choice_of(text);
+           if (!choice)
+             throw CLI::ValidationError("--solid", "write auto, closed, or 'sheet 0.001': metres, 0.0001 to 0.1");
+           config.solid = *choice;
+         },
+         "what is inside, where a mesh is open: closed closes its holes, 'sheet T' makes its surface T metres thick, "
+         "auto "
+         "closes what encloses something and makes a sheet of 1 mm of the rest")
+      ->type_name("TEXT")
+      ->default_str("auto");
   app.add_option("--concavity", config.max_concavity, "how hollow a part may be, as a share of its mesh's diagonal")
       ->check(CLI::Range(0.001, 1.0))
       ->capture_default_str();

@@ -97,4 +97,16 @@ Colour plain_colour() {
   return from_srgb(0xCFC8B8);
 }
 
+Colour origin_colour(geometry::SurfaceOrigin origin) {
+  switch (origin) {
+    case geometry::SurfaceOrigin::membrane:
+      return from_srgb(0x2F6FB0);
+    case geometry::SurfaceOrigin::sheet:
+      return from_srgb(0xE0A030);
+    case geometry::SurfaceOrigin::mesh:
+      break;
+  }
+  return plain_colour();
+}
+
 }  // namespace mechane::fit

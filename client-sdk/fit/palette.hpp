@@ -8,6 +8,7 @@
 
 #include "server/base/math.hpp"
 #include "server/collision/object.hpp"
+#include "server/geometry/solid_mesh.hpp"
 
 namespace mechane::fit {
 
@@ -33,5 +34,6 @@ enum class Scale : std::uint8_t {
 
 [[nodiscard]] Colour not_felt_colour();  ///< outside the scales: where a map feels nothing
 [[nodiscard]] Colour plain_colour();     ///< the object, without a meaning
+[[nodiscard]] Colour origin_colour(geometry::SurfaceOrigin origin);
 
 }  // namespace mechane::fit

@@ -113,17 +113,24 @@ Image Pictures::average(const Side& side, const std::function<Paint(std::size_t)
   return image;
 }
 
-Row Pictures::parts() const {
+Row Pictures::painted(const std::function<Colour(std::uint32_t triangle)>& colour_of) const {
   Row row;
   for (std::size_t i = 0; i < kSides; ++i) {
     const Side& side = sides_[i];
     row[i] = average(side, [&](std::size_t pixel) -> Paint {
       if (!side.buffer.covered(pixel)) return {};
-      const std::uint32_t part = surface_.part_of_triangle()[side.buffer.triangle[pixel]];
-      return {side.light[pixel] * part_colours_[part], 1};
+      return {side.light[pixel] * colour_of(side.buffer.triangle[pixel]), 1};
     });
   }
   return row;
+}
+
+Row Pictures::parts() const {
+  return painted([&](std::uint32_t triangle) { return part_colours_[surface_.part_of_triangle()[triangle]]; });
+}
+
+Row Pictures::origins() const {
+  return painted([&](std::uint32_t triangle) { return origin_colour(surface_.origin_of_triangle()[triangle]); });
 }
 
 std::vector<float> Pictures::probe_pixels(const Side& side) const {

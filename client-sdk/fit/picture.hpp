@@ -32,6 +32,9 @@ class Pictures {
 
   [[nodiscard]] Row parts() const;
 
+  /// Where each place of the surface comes from: origin_colour().
+  [[nodiscard]] Row origins() const;
+
   /// Evaluates Surface::error_at for each pixel. The scale ends at the rounded-up error of 99.5 % of the places, and at
   /// 0.01 mm at least. Places that are not felt have a colour of their own; surface between parts is plain.
   [[nodiscard]] ErrorRow errors() const;
@@ -50,6 +53,7 @@ class Pictures {
     Colour colour = Colour::Zero();
     float alpha = 0;
   };
+  [[nodiscard]] Row painted(const std::function<Colour(std::uint32_t triangle)>& colour_of) const;
   [[nodiscard]] static Image average(const Side& side, const std::function<Paint(std::size_t)>& paint);
   [[nodiscard]] std::vector<float> probe_pixels(const Side& side) const;
   [[nodiscard]] Side side_of(const View& view) const;

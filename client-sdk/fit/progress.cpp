@@ -16,6 +16,7 @@ constexpr std::chrono::milliseconds kRedraw{100};
 constexpr std::chrono::seconds kLine{5};
 constexpr std::size_t kMeshColumns = 28;
 constexpr std::size_t kBarCells = 24;
+constexpr double kKnownAfter_s = 2;
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -25,6 +26,13 @@ std::size_t columns_of(std::FILE* out) {
   winsize size{};
   if (ioctl(fileno(out), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
   return size.ws_col;
+}
+
+/// What is left, from what was done so far: parts take about the same time each.
+std::string time_left(const Stage& stage, double seconds) {
+  if (stage.done == 0 || stage.done >= stage.total || seconds < kKnownAfter_s) return "";
+  const auto left = static_cast<double>(stage.total - stage.done) / static_cast<double>(stage.done);
+  return fmt::format(", about {:.0f} s left", left * seconds);
 }
 
 }  // namespace
@@ -37,8 +45,8 @@ std::string bar_line(const Stage& stage, double seconds, std::size_t columns) {
       bar += i < full ? "█" : "░";
     bar += fmt::format(" {}/{}", std::min(stage.done, stage.total), stage.total);
   }
-  const std::string text =
-      fmt::format("{} {} {}, {:.0f} s", fitted_text(stage.mesh, kMeshColumns), bar, stage.what, seconds);
+  const std::string text = fmt::format("{} {} {}, {:.0f} s{}", fitted_text(stage.mesh, kMeshColumns), bar, stage.what,
+                                       seconds, time_left(stage, seconds));
   std::string line = fitted_text(text, std::max<std::size_t>(columns, 2) - 1);
   line.erase(line.find_last_not_of(' ') + 1);
   return line;
@@ -47,7 +55,7 @@ std::string bar_line(const Stage& stage, double seconds, std::size_t columns) {
 std::string plain_line(const Stage& stage, double seconds) {
   const std::string count =
       stage.total > 0 ? fmt::format(", {} of {}", std::min(stage.done, stage.total), stage.total) : "";
-  return fmt::format("{}: {}{}, {:.0f} s", stage.mesh, stage.what, count, seconds);
+  return fmt::format("{}: {}{}, {:.0f} s{}", stage.mesh, stage.what, count, seconds, time_left(stage, seconds));
 }
 
 Progress::Progress(std::FILE* out) : out_(out), terminal_(isatty(fileno(out)) != 0), thread_([this] { run(); }) {}

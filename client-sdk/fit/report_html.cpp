@@ -17,7 +17,7 @@ namespace {
 constexpr int kRowWidth = 1560;  // pixels of a row of three pictures; shown at two thirds of that
 constexpr int kRowHeight = 540;
 constexpr double kShown = 0.667;
-constexpr std::size_t kPictureBytes = 2'000'000;  // of all three rows: a third more as text, and maps and words beside
+constexpr std::size_t kPictureBytes = 2'000'000;  // of all rows: a third more as text, and maps and words beside
 constexpr int kMapTexels = 32;
 constexpr std::size_t kLegendParts = 30;
 constexpr std::size_t kMostMaps = 40;
@@ -29,6 +29,9 @@ std::size_t picture_bytes(const Report& report) {
     for (const Image& image : *row)
       bytes += encode_png(image).size();
   }
+  if (!report.origins) return bytes;
+  for (const Image& image : *report.origins)
+    bytes += encode_png(image).size();
   return bytes;
 }
 
@@ -84,6 +87,19 @@ std::string parts_section(const Report& report) {
   for (std::size_t i = 0; i < report.summary.parts.size(); ++i)
     out += fmt::format("<li>{}{}</li>", dot(report.part_colours[i]), escaped(report.summary.parts[i].name));
   return out + "</ul>\n";
+}
+
+std::string origin_section(const Report& report) {
+  if (!report.origins) return "";
+  using geometry::SurfaceOrigin;
+  return "<h2>What was closed</h2>\n<p class=\"lead\">The model is open somewhere, or has no inside. Holes were closed "
+         "where the "
+         "surface surrounds more than half of the view (generalized winding number), and surfaces that enclose nothing "
+         "were given a thickness. <code>--solid</code> decides otherwise.</p>\n" +
+         row_of(*report.origins, "the object in the colours of what was closed") + "<ul class=\"legend\"><li>" +
+         dot(origin_colour(SurfaceOrigin::mesh)) + "the model's own surface</li><li>" +
+         dot(origin_colour(SurfaceOrigin::membrane)) + "over a hole</li><li>" +
+         dot(origin_colour(SurfaceOrigin::sheet)) + "a sheet's two sides</li></ul>\n";
 }
 
 std::string error_section(const Report& report) {
@@ -156,6 +172,12 @@ std::string map_section(const Report& report) {
   for (std::size_t i = 0; i < report.maps.size(); ++i)
     out += map_card(report, i);
   return out + "</div>\n";
+}
+
+bool was_closed(const Surface& surface) {
+  const auto& origin = surface.origin_of_triangle();
+  return std::any_of(origin.begin(), origin.end(),
+                     [](geometry::SurfaceOrigin o) { return o != geometry::SurfaceOrigin::mesh; });
 }
 
 /// The parts whose maps are drawn: all, or the worst.
@@ -247,6 +269,7 @@ Report make_report(const FittedObject& fitted, const Surface& surface, const Sum
     const Pictures pictures(surface, fitted.object, static_cast<int>(scale * kRowWidth),
                             static_cast<int>(scale * kRowHeight));
     report.parts = pictures.parts();
+    if (was_closed(surface)) report.origins = pictures.origins();
     report.errors = pictures.errors();
     report.superquadrics = pictures.superquadrics();
     if (picture_bytes(report) <= kPictureBytes) break;
@@ -278,7 +301,8 @@ std::string html_page(const Report& report) {
       page += fmt::format("<li>{}</li>", with_flags(escaped(note)));
     page += "</ul>\n";
   }
-  page += parts_section(report) + error_section(report) + superquadric_section(report) + map_section(report);
+  page += parts_section(report) + origin_section(report) + error_section(report) + superquadric_section(report) +
+          map_section(report);
   page += table_section(report) + reading_section() + settings_section(report);
   page += fmt::format(
       "<footer>Made by mechane fit {}. Same mesh, same settings and same version: same object, to the bit.</footer>\n",

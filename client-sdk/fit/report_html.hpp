@@ -1,6 +1,7 @@
 // The report of a fitted object as one HTML page: no network, no scripts, pictures inside.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ struct Report {
   double reach_mm = 0;  ///< see Surface::reach_m
   std::vector<Colour> part_colours;
   Row parts;
+  std::optional<Row> origins;  ///< where a mesh was open or had no inside
   ErrorRow errors;
   Row superquadrics;
   std::vector<std::size_t> mapped;  ///< parts whose maps are shown

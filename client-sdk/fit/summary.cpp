@@ -1,12 +1,13 @@
 #include "client-sdk/fit/summary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "server/base/parallel.hpp"
-#include "server/geometry/mesh_check.hpp"
+#include "server/geometry/area_normal.hpp"
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::fit {
@@ -18,6 +19,14 @@ constexpr std::size_t kPlaces = 6000;
 constexpr double kMissedShare = 0.002;  // of the surface: if more is missing, a finger will find the hole
 constexpr double kLargeObject_mm = 20'000;
 constexpr double kSmallObject_mm = 10;
+constexpr double kHandled_mm[] = {30, 3000};  // from corner to corner, of things that a museum shows
+constexpr double kResting = 0.01;             // of the height: what lies below rests on the ground
+
+struct Unit {
+  const char* name;
+  double metres;
+};
+constexpr Unit kUnits[] = {{"millimetres", 0.001}, {"centimetres", 0.01}, {"inches", 0.0254}, {"metres", 1}};
 
 PartSummary part_summary(const collision::Part& part, const collision_build::PartReport& report,
                          std::size_t triangles) {
@@ -49,29 +58,85 @@ std::string listed(const std::vector<std::string>& names) {
   return fmt::format("parts '{}', '{}' and {} more", names[0], names[1], names.size() - 2);
 }
 
+/// What was decided of one mesh that was not a clean closed one.
+void note_solid(const std::string& name, const geometry::SolidMesh& solid, const geometry::SolidChoice& choice,
+                Summary& summary) {
+  const auto note = [&](const std::string& text) { summary.notes.push_back(fmt::format("part '{}': {}", name, text)); };
+  const double area_m2 = geometry::surface_area_m2(solid.mesh);
+  if (solid.membrane_area_m2 > 0) {
+    note(
+        fmt::format("open, with {} edges without a neighbour; its holes are closed, by {:.2g} % of its surface; if it "
+                    "is meant to be open, give --solid 'sheet 0.001'",
+                    solid.open_edges, 100 * solid.membrane_area_m2 / area_m2));
+  }
+  if (solid.sheet_area_m2 > 0) {
+    note(
+        fmt::format("{} cm² of it enclose nothing and are made a sheet of {} mm; --solid gives another thickness, or "
+                    "closes it",
+                    mm_text(1e4 * solid.sheet_area_m2), mm_text(1000 * choice.thickness_m)));
+  }
+  if (solid.hidden_area_m2 > 0.001 * area_m2) {
+    note(fmt::format("{} cm² of it lie inside other pieces of it and are left out",
+                     mm_text(1e4 * solid.hidden_area_m2)));
+  }
+  if (solid.doubled > 0) note(fmt::format("{} triangles have a second one on their back, left out", solid.doubled));
+  if (solid.turned > 0) note(fmt::format("{} triangles faced the wrong way and are turned", solid.turned));
+}
+
 void note_meshes(const FittedObject& fitted, Summary& summary) {
-  std::vector<std::string> open;
-  for (const geometry::NamedMesh& part : fitted.meshes) {
-    if (geometry::open_edges(part.mesh) > 0) open.push_back(part.name);
-  }
-  if (!open.empty()) {
-    summary.notes.push_back(
-        listed(open) +
-        ": edges without a neighbour, so the mesh is open and felt from outside only; close it to make it solid");
-  }
+  for (std::size_t i = 0; i < fitted.meshes.size(); ++i)
+    note_solid(fitted.meshes[i].name, fitted.report.solids[i], fitted.config.solid, summary);
   if (!fitted.turned.empty()) {
     summary.notes.push_back(listed(fitted.turned) +
                             ": inside out in the model, built with its faces turned round; turn them in the model");
   }
 }
 
-void note_size(Summary& summary) {
-  if (summary.diagonal_mm > kLargeObject_mm || summary.diagonal_mm < kSmallObject_mm) {
-    summary.notes.push_back(
-        fmt::format("the object measures {} mm from corner to corner; if that is not meant, export the model in "
-                    "metres, or give --scale",
-                    mm_text(summary.diagonal_mm)));
+/// A thing that people handle, in the unit that programs most often export: metres are what it is taken for.
+void note_size(const FittedObject& fitted, Summary& summary) {
+  if (summary.diagonal_mm <= kLargeObject_mm && summary.diagonal_mm >= kSmallObject_mm) return;
+  const auto guess = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& unit) {
+    const double diagonal_mm = summary.diagonal_mm * unit.metres / fitted.scale;
+    return diagonal_mm >= kHandled_mm[0] && diagonal_mm <= kHandled_mm[1];
+  });
+  const std::string remedy =
+      guess != std::end(kUnits)
+          ? fmt::format("it was probably made in {}: give --scale {:g}", guess->name, guess->metres)
+          : std::string("if that is not meant, export the model in metres, or give --scale");
+  summary.notes.push_back(
+      fmt::format("the object measures {} mm from corner to corner; {}", mm_text(summary.diagonal_mm), remedy));
+}
+
+/// The axis on whose lower end most of the surface rests; y where none does.
+const char* up_axis_of(const geometry::Mesh& mesh) {
+  const Eigen::AlignedBox3d box = mesh.bounds();
+  Vec3 resting_m2 = Vec3::Zero();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vec3 down = -0.5 * geometry::area_normal(mesh, i);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      double highest = box.min()[axis];
+      for (const std::uint32_t v : mesh.triangles[i])
+        highest = std::max(highest, mesh.vertices[v][axis]);
+      if (highest <= box.min()[axis] + kResting * box.sizes()[axis]) resting_m2[axis] += std::max(0.0, down[axis]);
+    }
   }
+  constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+  Eigen::Index up = 1;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (resting_m2[axis] > 1.5 * resting_m2[up]) up = axis;
+  }
+  return kNames[static_cast<std::size_t>(up)];
+}
+
+/// glTF says which way is up; other formats do not.
+void note_up_axis(const FittedObject& fitted, const Surface& surface, Summary& summary) {
+  if (const auto kind = fitted.mesh_file.extension(); kind == ".glb" || kind == ".gltf") return;
+  const std::string up = up_axis_of(surface.mesh());
+  if (up == "y") return;
+  summary.notes.push_back(
+      fmt::format("it seems to stand along {}, while up is y in Mechane: turn it in the model, or by "
+                  "the body's orientation",
+                  up));
 }
 
 /// Reports parts that exceed the requested error.
@@ -143,12 +208,14 @@ Summary summarise(const FittedObject& fitted, const Surface& surface) {
     s.map_bytes += s.parts.back().map_bytes;
     if (s.parts.back().depth_error_p99_mm > s.parts[s.worst_part].depth_error_p99_mm) s.worst_part = i;
   }
-  s.triangles = surface.mesh().triangles.size();
+  for (const geometry::NamedMesh& mesh : fitted.meshes)
+    s.triangles += mesh.mesh.triangles.size();
   s.file_bytes = fitted.part_file_bytes;
   s.build_s = fitted.report.seconds;
   s.diagonal_mm = 1000 * surface.diagonal_m();
   measure_surface(surface, fitted.config.seed, s);
-  note_size(s);
+  note_size(fitted, s);
+  note_up_axis(fitted, surface, s);
   note_meshes(fitted, s);
   note_parts(fitted, s);
   note_budget(fitted, s);
@@ -188,6 +255,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject&
           {"map resolution (--resolution)", resolution},
           {"sample spacing (--spacing)", fmt::format("{} mm", mm_text(1000 * config.sample_spacing_m))},
           {"samples a piece at most (--max-samples)", fmt::format("{}", config.max_samples_per_part)},
+          {"inside (--solid)", geometry::text_of(config.solid)},
           {"seam gap (--seam-gap)", fmt::format("{} mm", mm_text(1000 * config.seam_gap_m))},
           {"seed (--seed)", fmt::format("{}", config.seed)}};
 }

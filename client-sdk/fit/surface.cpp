@@ -49,9 +49,9 @@ std::uint32_t nearest_part(const collision::Object& object, const Vec3& p_O) {
 
 collision_build::Solid solid_of(const FittedObject& fitted) {
   std::vector<geometry::Mesh> meshes;
-  meshes.reserve(fitted.meshes.size());
-  for (const auto& part : fitted.meshes)
-    meshes.push_back(part.mesh);
+  meshes.reserve(fitted.report.solids.size());
+  for (const geometry::SolidMesh& solid : fitted.report.solids)
+    meshes.push_back(solid.mesh);
   return {meshes, fitted.config.seam_gap_m};
 }
 
@@ -59,8 +59,10 @@ collision_build::Solid solid_of(const FittedObject& fitted) {
 
 Surface::Surface(const FittedObject& fitted)
     : probe_(fitted.object), solid_(solid_of(fitted)), skin_(geometry::Mesh{}), parts_(fitted.object.parts.size()) {
-  for (std::uint32_t m = 0; m < fitted.meshes.size(); ++m) {
-    const geometry::Mesh& mesh = fitted.meshes[m].mesh;
+  for (std::uint32_t m = 0; m < fitted.report.solids.size(); ++m) {
+    const geometry::Mesh& mesh = fitted.report.solids[m].mesh;
+    const auto& origin = fitted.report.solids[m].origin;
+    origin_.insert(origin_.end(), origin.begin(), origin.end());
     const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
     mesh_.vertices.insert(mesh_.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const auto& t : mesh.triangles)

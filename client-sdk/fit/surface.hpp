@@ -24,7 +24,8 @@ class Surface {
  public:
   explicit Surface(const FittedObject& fitted);
 
-  [[nodiscard]] const geometry::Mesh& mesh() const { return mesh_; }  ///< all meshes, in O
+  [[nodiscard]] const geometry::Mesh& mesh() const { return mesh_; }  ///< all solids, in O
+  [[nodiscard]] const std::vector<geometry::SurfaceOrigin>& origin_of_triangle() const { return origin_; }
   [[nodiscard]] const std::vector<std::uint32_t>& part_of_triangle() const { return part_of_triangle_; }
   [[nodiscard]] std::vector<std::size_t> triangles_of_parts() const;
 
@@ -44,6 +45,7 @@ class Surface {
 
   Probe probe_;
   geometry::Mesh mesh_;
+  std::vector<geometry::SurfaceOrigin> origin_;
   std::vector<bool> exposed_;
   std::vector<std::uint32_t> mesh_of_triangle_;
   std::vector<std::uint32_t> part_of_triangle_;

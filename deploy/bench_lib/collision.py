@@ -17,6 +17,9 @@ AIMS = {
     "ratio.openvdb": (("at least", 8),),
     "ratio.brick": (("at least", 1),),
     "build_s": (("at most", 30),),
+    "open.missed_pct": (("at most", 0.1),),
+    "open.false_pct": (("at most", 0.1),),
+    "open.depth_error_pct.p99": (("at most", 0.3),),
     "fit.recovered_pct.noise0": (("at least", 97),),
     "fit.recovered_pct.noise1": (("at least", 95),),
     "fit.recovered_pct.noise3": (("at least", 90),),
@@ -29,6 +32,8 @@ NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 b
          "sqmap_portable": "Mechane, no vectors", "sqmap_nobrick": "Mechane, no bricks", "sqmap_boxes": "Mechane, boxes"}
 # What thread, staves and valves ask of maps; all models would take most of an hour (build/release/bin/bench_models measures any file).
 SHIPPED = ("archimedes-screw", "ktesibios-pump")
+# Of the meshes beside the repository: those that are open, judged against brute force.
+OPEN = ("alligator", "beetle-alt", "woody")
 MODEL_GRASP_METHODS = ("sqmap", "brick", "fcl_contacts")
 MESH_METHODS = ("fcl_contacts", "fcl_yesno", "fcl_gjk")  # contacts of meshes, not depths of points: listed apart
 IDLE_US = 2  # a step of FCL's below this met no sphere
@@ -55,7 +60,10 @@ def measure(context) -> tuple[Measured, list[str]]:
     found = sorted(str(file) for kind in ("obj", "stl", "ply", "glb") for file in (context.root / "../shared/meshes").resolve().glob(f"*.{kind}"))
     if not found:
         result.notes.append("no meshes beside the repository (../shared/meshes): the shipped models alone")
-    for program, arguments in (("bench_collision", seed), ("bench_models", [*shipped, *found, *seed]), ("bench_fit", seed)):
+    opened = [file for file in found if Path(file).stem in OPEN]
+    closed = [file for file in found if file not in opened]
+    for program, arguments in (("bench_collision", seed), ("bench_models", [*shipped, *closed, *seed]), ("bench_open", [*opened, *seed]),
+                               ("bench_fit", seed)):
         if program == "bench_fit" and not (context.bin / program).exists():
             continue
         print(f"  {program} ...", flush=True)
@@ -97,6 +105,17 @@ def _models(metrics: dict[str, float]) -> list[list[str]]:
     return rows if names else []
 
 
+def _open(metrics: dict[str, float]) -> list[list[str]]:
+    """A row for each open or overlapping mesh."""
+    names = sorted({name.split(".")[1] for name in metrics if name.startswith("open.") and name.endswith(".judged")})
+    rows = [["open or overlapping", "triangles", "sheet", "build s", "parts", "KB", "judged", "measured", "err p99 %", "missed %", "false %"]]
+    for name in names:
+        rows.append([name, *(_shown(metrics, f"open.{name}.{metric}", scale) for metric, scale in
+                             (("triangles", 1), ("sheet", 1), ("build_s", 1), ("parts", 1), ("bytes", 1e-3), ("judged", 1), ("measured", 1),
+                              ("depth_error_pct.p99", 1), ("missed_pct", 1), ("false_pct", 1)))])
+    return rows if names else []
+
+
 def table(name: str, metrics: dict[str, float]) -> str:
     """One row for each method, then our figures object by object, then what neither table holds."""
     def show(metric: str, scale: float = 1) -> str:
@@ -127,6 +146,8 @@ def table(name: str, metrics: dict[str, float]) -> str:
                       "  KB: our maps and what a part takes besides; radial, brick: the maps of either kind; peer: the int16 brick"]
     if models := _models(metrics):
         lines_out += ["", *grid(models)]
+    if opened := _open(metrics):
+        lines_out += ["", *grid(opened)]
     rest = {metric: value for metric, value in metrics.items() if metric.split(".")[0] in ("scene", "fit", "share", "ratio_avx2", "hulls") and not metric.startswith("scene.first_step")}
     if rest:
         width = max(len(metric) for metric in rest)

@@ -18,8 +18,11 @@ class StoreLoader final : public scenario::ObjectLoader {
  public:
   explicit StoreLoader(content::ObjectStore& store) : store_(store) {}
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
-                                                                        const std::string& node) override {
-    return store_.load(file, node, collision_build::BuildConfig{});
+                                                                        const std::string& node,
+                                                                        const geometry::SolidChoice& solid) override {
+    collision_build::BuildConfig config;
+    config.solid = solid;
+    return store_.load(file, node, config);
   }
   [[nodiscard]] Expected<std::string> content_hash(const std::filesystem::path& file) override {
     return scenario::hash_file(file);

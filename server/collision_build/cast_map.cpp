@@ -28,10 +28,10 @@ std::vector<SurfacePlace> some_of(std::span<const SurfacePlace> all, std::size_t
 }
 
 /// The share of the witnesses that are seen from the centre through the solid alone.
-double seen_share(const Solid& solid, std::size_t node, const Vec3& center, std::span<const SurfacePlace> all) {
+double seen_share(const Solid& solid, const Vec3& center, std::span<const SurfacePlace> all) {
   std::size_t seen = 0;
   for (const SurfacePlace& w : all) {
-    if (solid.walk(node, center, w.p_O - center, 2) > 0.98 && w.n_O.dot(w.p_O - center) > 0) ++seen;
+    if (solid.walk(center, w.p_O - center, 2) > 0.98 && w.n_O.dot(w.p_O - center) > 0) ++seen;
   }
   return all.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(all.size());
 }
@@ -50,10 +50,9 @@ std::vector<Vec3> candidate_centers(const Solid& solid, std::size_t node, std::s
 
 Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const SurfacePlace> places,
                    std::span<const geometry::HalfSpace> cell, const Vec3& own) {
-  if (!solid.is_closed(node)) return own;
   const std::vector<SurfacePlace> witnesses = some_of(places, kWitnesses);
   std::vector<Vec3> centers = candidate_centers(solid, node, places);
-  if (solid.part(node).winding(own) > 0) centers.insert(centers.begin(), own);
+  if (solid.part(node).contains(own)) centers.insert(centers.begin(), own);
   // A centre in another piece would make a map of that piece.
   std::erase_if(centers, [&](const Vec3& c) { return !geometry::cell_contains(cell, c); });
   std::vector<double> clearance;
@@ -64,7 +63,7 @@ Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const Surface
   Vec3 best = own;
   double best_score = -1;
   for (std::size_t i = 0; i < centers.size(); ++i) {
-    double score = seen_share(solid, node, centers[i], witnesses) + kClearanceWeight * clearance[i] / widest;
+    double score = seen_share(solid, centers[i], witnesses) + kClearanceWeight * clearance[i] / widest;
     if (centers[i] == own) score += kOwnCenterBonus;
     if (score > best_score) {
       best_score = score;
@@ -92,7 +91,7 @@ MapFrame choose_frame(const Solid& solid, std::size_t node, std::span<const Surf
   return frame;
 }
 
-collision::RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame, int resolution) {
+collision::RadialMap cast_map(const Solid& solid, const MapFrame& frame, int resolution) {
   const Vec3f half_Q = frame.half_Q.cast<float>();
   const Vec3 center_O = frame.X_OQ * frame.center_Q;
   const int rays = (resolution - 1) * rays_per_cell(resolution) + 1;
@@ -102,7 +101,7 @@ collision::RadialMap cast_map(const Solid& solid, std::size_t node, const MapFra
   for (int face = 0; face < 6; ++face) {
     for (int ray = 0; ray < rays * rays; ++ray) {
       const Vec3 direction_Q = collision::RadialMap::texel_direction(rays, half_Q, face, ray % rays, ray / rays);
-      const double rho = solid.walk(node, center_O, frame.X_OQ.rotate(direction_Q), kMaxRho);
+      const double rho = solid.walk(center_O, frame.X_OQ.rotate(direction_Q), kMaxRho);
       sigma[static_cast<std::size_t>(ray)] = static_cast<float>(1 / std::max(rho, kMinRho));
     }
     const std::vector<float> fitted = fit_texels(resolution, sigma);

@@ -35,7 +35,6 @@ struct SurfacePlace {
 /// would take the first thing that it meets: the far wall, or another part within the bound, would then fill the air in front of this
 /// part. The paper's two special values become: 'no hit' (the centre itself is in air this way) a surface close to the centre, sigma
 /// 16; 'covered' (the bound lies in a neighbour's solid) the neighbour's surface where the ray leaves it, so that seams make no walls.
-[[nodiscard]] collision::RadialMap cast_map(const Solid& solid, std::size_t node, const MapFrame& frame,
-                                            int resolution);
+[[nodiscard]] collision::RadialMap cast_map(const Solid& solid, const MapFrame& frame, int resolution);
 
 }  // namespace mechane::collision_build

@@ -45,11 +45,10 @@ struct Trend {
 /// The candidates of one part, tried one after the other.
 class Trials {
  public:
-  Trials(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node, const MapFrame& frame,
-         std::span<const Probe> probes, const ErrorBudget& budget, const MapCandidates& allowed)
+  Trials(const Solid& solid, const geometry::MeshQuery& skin, const MapFrame& frame, std::span<const Probe> probes,
+         const ErrorBudget& budget, const MapCandidates& allowed)
       : solid_(solid),
         skin_(skin),
-        node_(node),
         frame_(frame),
         X_QO_(frame.X_OQ.inverse()),
         probes_(probes),
@@ -66,7 +65,7 @@ class Trials {
       const bool hopeless = trend.rules_out(collision::RadialMap::kResolutions.back(), budget_);
       if (trend.rules_out(n, budget_) && (!hopeless || may_try_bricks())) continue;
       if (trend.fineness >= 16 && trend.is_blind()) return;
-      trend = judge(cast_map(solid_, node_, frame_, n), n);
+      trend = judge(cast_map(solid_, frame_, n), n);
       if (is_done()) return;
     }
   }
@@ -92,8 +91,7 @@ class Trials {
     }
   }
 
-  /// An open mesh has no inside.
-  [[nodiscard]] bool may_try_bricks() const { return allowed_.brick && solid_.is_closed(node_); }
+  [[nodiscard]] bool may_try_bricks() const { return allowed_.brick; }
   [[nodiscard]] MapChoice take() { return std::move(best_); }
   [[nodiscard]] bool is_done() const { return !best_.map.empty() && (best_.met || probes_.empty()); }
 
@@ -116,7 +114,6 @@ class Trials {
 
   const Solid& solid_;
   const geometry::MeshQuery& skin_;
-  std::size_t node_;
   const MapFrame& frame_;
   Pose X_QO_;
   std::span<const Probe> probes_;
@@ -127,7 +124,7 @@ class Trials {
 
 }  // namespace
 
-std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
+std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin,
                                std::span<const SurfacePlace> places, const ErrorBudget& budget, std::size_t count,
                                std::uint64_t seed) {
   Random random(seed);
@@ -139,9 +136,7 @@ std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& sk
     for (int halvings = 0; halvings < kHalvings; ++halvings, depth *= 0.5) {
       const Vec3 p = places[i].p_O - depth * places[i].n_O;
       const geometry::SurfacePoint nearest = skin.closest(p);
-      const bool inside =
-          solid.is_closed(node) ? solid.contains(p) : skin.triangle_normal(nearest.triangle).dot(p - nearest.p) < 0;
-      if (inside != (depth > 0)) continue;
+      if (solid.contains(p) != (depth > 0)) continue;
       probes.push_back({p, depth > 0 ? nearest.distance_m : -nearest.distance_m});
       break;
     }
@@ -172,9 +167,9 @@ MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const
   return error;
 }
 
-MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node, const MapFrame& frame,
+MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, const MapFrame& frame,
                      std::span<const Probe> probes, const ErrorBudget& budget, const MapCandidates& candidates) {
-  Trials trials(solid, skin, node, frame, probes, budget, candidates);
+  Trials trials(solid, skin, frame, probes, budget, candidates);
   if (candidates.radial) trials.try_radial_maps();
   const bool asked_once = probes.empty() && trials.is_done();
   if (trials.may_try_bricks() && !asked_once) trials.try_bricks();

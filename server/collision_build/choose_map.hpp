@@ -57,9 +57,8 @@ struct MapChoice {
 };
 
 /// Points up to `budget.probe_depth_m` under and above the places of a node, with their exact depths; less deep where the solid is thin.
-/// Places whose normal does not lead from solid into air (seams) are left out. An open mesh has no inside: there the nearest triangle
-/// tells the side.
-[[nodiscard]] std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
+/// Places whose normal does not lead from solid into air (seams) are left out.
+[[nodiscard]] std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& skin,
                                              std::span<const SurfacePlace> places, const ErrorBudget& budget,
                                              std::size_t count, std::uint64_t seed);
 
@@ -69,8 +68,8 @@ using Ask = std::function<collision::MapHit(const Vec3& p_O)>;
 /// Tries the candidates of either kind from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap
 /// it, and the whole object is measured afterwards. Where none meets the budget: the one with the least error, `met` false; an empty map
 /// where no candidate is left.
-[[nodiscard]] MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, std::size_t node,
-                                   const MapFrame& frame, std::span<const Probe> probes, const ErrorBudget& budget,
+[[nodiscard]] MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, const MapFrame& frame,
+                                   std::span<const Probe> probes, const ErrorBudget& budget,
                                    const MapCandidates& candidates);
 
 }  // namespace mechane::collision_build

@@ -17,7 +17,6 @@
 #include "server/collision_build/part_source.hpp"
 #include "server/collision_build/solid.hpp"
 #include "server/geometry/mesh_check.hpp"
-#include "server/geometry/mesh_orient.hpp"
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::collision_build {
@@ -61,6 +60,9 @@ Expected<void> check_budget(const BuildConfig& config) {
   if (!(config.probe_depth_m >= 1e-5 && config.probe_depth_m <= 10)) {
     return wrong_setting("probe_depth_m is outside 0.00001 to 10 m", "use 0.004, which is how far a finger sinks in");
   }
+  if (!(config.solid.thickness_m >= geometry::kLeastSheet_m && config.solid.thickness_m <= geometry::kMostSheet_m)) {
+    return wrong_setting("the thickness of sheets is outside 0.0001 to 0.1 m", "use 0.001");
+  }
   if (!config.radial_maps && !config.bricks) {
     return fail(ErrorCode::conflict, "neither radial maps nor bricks are allowed", "build settings",
                 "allow at least one of them");
@@ -95,19 +97,31 @@ Expected<void> check_count(std::size_t parts) {
   return {};
 }
 
-Expected<std::vector<geometry::Mesh>> weld_nodes(std::span<const geometry::NamedMesh> nodes) {
+Expected<std::vector<geometry::SolidMesh>> make_solids(std::span<const geometry::NamedMesh> nodes,
+                                                       const geometry::SolidChoice& choice) {
   if (auto ok = check_count(nodes.size()); !ok) return tl::unexpected(ok.error());
-  std::vector<geometry::Mesh> welded;
+  std::vector<geometry::SolidMesh> solids;
   for (const geometry::NamedMesh& node : nodes) {
     if (auto ok = geometry::check_mesh(node.mesh, where_of(node.name)); !ok) return tl::unexpected(ok.error());
-    welded.push_back(geometry::weld(node.mesh));
-    if (welded.back().triangles.empty()) {
+    const geometry::Mesh welded = geometry::weld(node.mesh);
+    if (welded.triangles.empty()) {
       return fail(ErrorCode::invalid_value, "no triangle of the mesh has an area", where_of(node.name),
                   "export the model with its faces");
     }
-    static_cast<void>(geometry::turn_outwards(welded.back()));
+    solids.push_back(geometry::make_solid(welded, choice));
+    if (solids.back().mesh.empty()) {
+      return fail(ErrorCode::invalid_value, "the mesh encloses nothing, even with its holes closed",
+                  where_of(node.name), "let it be a sheet: solid 'auto', or 'sheet 0.001'");
+    }
   }
-  return welded;
+  return solids;
+}
+
+std::vector<geometry::Mesh> meshes_of(std::span<const geometry::SolidMesh> solids) {
+  std::vector<geometry::Mesh> meshes;
+  for (const geometry::SolidMesh& solid : solids)
+    meshes.push_back(solid.mesh);
+  return meshes;
 }
 
 double diagonal_of(std::span<const geometry::Mesh> meshes) {
@@ -146,7 +160,6 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
     config.grid_cells = input.config.grid_cells;
     config.seed = input.config.seed;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (!input.solid.is_closed(i)) continue;  // no inside, no pieces
       auto cut = geometry::decompose(input.nodes[i], config);
       if (!cut) return at_part(cut.error(), nodes[i].name);
       cuts[i] = std::move(*cut);
@@ -190,8 +203,8 @@ struct BuiltPart {
   std::vector<Probe> probes;
 };
 
-MapChoice map_for(const BuiltPart& built, std::size_t node, const BuildInput& input, std::size_t more_than,
-                  std::span<const Probe> must, bool may_grow = false) {
+MapChoice map_for(const BuiltPart& built, const BuildInput& input, std::size_t more_than, std::span<const Probe> must,
+                  bool may_grow = false) {
   const BuildConfig& config = input.config;
   MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
   candidates.must = must;
@@ -199,7 +212,7 @@ MapChoice map_for(const BuiltPart& built, std::size_t node, const BuildInput& in
   if (more_than > 0 && !may_grow)
     candidates.at_most =
         std::max(kAlwaysGranted, static_cast<std::size_t>(kMostGrowth * static_cast<double>(more_than)));
-  return choose_map(input.solid, input.skin, node, built.frame, built.probes, input.budget, candidates);
+  return choose_map(input.solid, input.skin, built.frame, built.probes, input.budget, candidates);
 }
 
 void set_map(MapChoice&& choice, collision::Part& part, PartReport& report) {
@@ -215,18 +228,17 @@ Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input,
   if (!fit) return tl::unexpected(fit.error());
   BuiltPart built;
   built.frame = choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
-  built.probes = make_probes(input.solid, input.skin, source.node, source.places, input.budget, kProbesPerPart,
-                             input.config.seed + 2);
+  built.probes =
+      make_probes(input.solid, input.skin, source.places, input.budget, kProbesPerPart, input.config.seed + 2);
   report.name = source.name;
   report.fit = fit->report;
-  report.closed = input.solid.is_closed(source.node);
   report.samples = source.samples_O.size();
   report.spacing_m = source.spacing_m;
   built.part.name = source.name;
   built.part.X_OQ = fit->X_OQ;
   built.part.superquadric = fit->shape;
   built.part.bound_O = collision::bounding_sphere(source.bound_points_O);
-  set_map(map_for(built, source.node, input, 0, {}), built.part, report);
+  set_map(map_for(built, input, 0, {}), built.part, report);
   if (source.places.empty()) {  // wholly inside others: nobody feels it
     report.error = {0, 0, 0, 0, 0, 0};
     report.met = true;
@@ -330,8 +342,8 @@ std::vector<Probe> make_witnesses(const BuildInput& input, std::size_t parts) {
 }
 
 /// Gives parts finer maps until the object as a whole meets the budget, or nothing finer is left.
-void refine(std::vector<collision::Part>& parts, std::span<const BuiltPart> built, std::span<const PartSource> sources,
-            std::span<const Probe> witnesses, const BuildInput& input, std::vector<PartReport>& reports) {
+void refine(std::vector<collision::Part>& parts, std::span<const BuiltPart> built, std::span<const Probe> witnesses,
+            const BuildInput& input, std::vector<PartReport>& reports) {
   std::vector<std::vector<Probe>> must(parts.size());
   std::vector<bool> exhausted(parts.size());
   for (int round = 0; round < kRefinements; ++round) {
@@ -350,7 +362,7 @@ void refine(std::vector<collision::Part>& parts, std::span<const BuiltPart> buil
     std::vector<MapChoice> finer(guilty.size());
     for_each_index(guilty.size(), [&](std::size_t k) {
       const std::size_t i = guilty[k];
-      finer[k] = map_for(built[i], sources[i].node, input, parts[i].map.bytes(), must[i], may_grow[i]);
+      finer[k] = map_for(built[i], input, parts[i].map.bytes(), must[i], may_grow[i]);
     });
     for (std::size_t k = 0; k < guilty.size(); ++k) {
       const std::size_t i = guilty[k];
@@ -413,7 +425,7 @@ std::optional<collision::Part> make_whole(const PartSource& whole, std::span<con
   for (const collision::Part& part : parts)
     candidates.at_most += bytes_of(part);
   candidates.at_most *= kWorthOfWhole;
-  MapChoice choice = choose_map(input.solid, input.skin, 0, frame_around(whole.bound_points_O, fit->X_OQ), probes,
+  MapChoice choice = choose_map(input.solid, input.skin, frame_around(whole.bound_points_O, fit->X_OQ), probes,
                                 input.budget, candidates);
   if (!choice.met) return std::nullopt;
   report.name = whole.name;
@@ -430,20 +442,16 @@ std::optional<collision::Part> make_whole(const PartSource& whole, std::span<con
 }
 
 /// Parts that the author named are not united.
-bool may_be_whole(const BuildConfig& config, const Solid& solid, std::size_t nodes, std::size_t parts) {
-  if (!config.bricks || !wants_pieces(config, nodes) || parts < 2 || parts > kMostPartsOfWhole) return false;
-  for (std::size_t i = 0; i < nodes; ++i) {
-    if (!solid.is_closed(i)) return false;
-  }
-  return true;
+bool may_be_whole(const BuildConfig& config, std::size_t nodes, std::size_t parts) {
+  return config.bricks && wants_pieces(config, nodes) && parts >= 2 && parts <= kMostPartsOfWhole;
 }
 
 /// For the object's error: of the same number from each source.
 std::vector<Probe> make_report_probes(std::span<const PartSource> sources, const BuildInput& input) {
   std::vector<std::vector<Probe>> probes(sources.size());
   for_each_index(sources.size(), [&](std::size_t i) {
-    probes[i] = make_probes(input.solid, input.skin, sources[i].node, sources[i].places, input.budget, kReportProbes,
-                            input.config.seed + 3);
+    probes[i] =
+        make_probes(input.solid, input.skin, sources[i].places, input.budget, kReportProbes, input.config.seed + 3);
   });
   std::vector<Probe> all;
   for (const auto& some : probes)
@@ -457,13 +465,14 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
                                          BuildReport* report, const PartDone& on_part) {
   const auto start = std::chrono::steady_clock::now();
   if (auto ok = check_config(config); !ok) return tl::unexpected(ok.error());
-  const auto welded = weld_nodes(nodes);
-  if (!welded) return tl::unexpected(welded.error());
-  const Solid solid(*welded, config.seam_gap_m);
-  const geometry::Mesh skin_mesh = air_side(*welded, solid);
+  auto solids = make_solids(nodes, config.solid);
+  if (!solids) return tl::unexpected(solids.error());
+  const std::vector<geometry::Mesh> meshes = meshes_of(*solids);
+  const Solid solid(meshes, config.seam_gap_m);
+  const geometry::Mesh skin_mesh = air_side(meshes, solid);
   const geometry::MeshQuery skin(skin_mesh);
-  const double diagonal_m = diagonal_of(*welded);
-  const BuildInput input{*welded, solid, skin_mesh, skin, config, budget_of(config, diagonal_m)};
+  const double diagonal_m = diagonal_of(meshes);
+  const BuildInput input{meshes, solid, skin_mesh, skin, config, budget_of(config, diagonal_m)};
 
   auto sources = find_sources(nodes, input);
   if (!sources) return tl::unexpected(sources.error());
@@ -483,10 +492,10 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
     built.push_back(std::move(*one));
   }
   const std::vector<Probe> witnesses = make_witnesses(input, object.parts.size());
-  refine(object.parts, built, *sources, witnesses, input, full_report.parts);
+  refine(object.parts, built, witnesses, input, full_report.parts);
   std::vector<Probe> report_probes;
   if (report != nullptr) report_probes = make_report_probes(*sources, input);
-  if (may_be_whole(config, solid, nodes.size(), object.parts.size())) {
+  if (may_be_whole(config, nodes.size(), object.parts.size())) {
     PartSource whole = unite(nodes, *sources, input);
     PartReport whole_report;
     if (auto part = make_whole(whole, object.parts, built, witnesses, input, whole_report)) {
@@ -502,6 +511,7 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
   collision::close_clusters(object);
 
   if (report != nullptr) {
+    full_report.solids = std::move(*solids);
     full_report.diagonal_m = diagonal_m;
     full_report.budget = input.budget;
     full_report.error =

@@ -13,6 +13,7 @@
 #include "server/collision_build/choose_map.hpp"
 #include "server/geometry/fit.hpp"
 #include "server/geometry/mesh.hpp"
+#include "server/geometry/solid_mesh.hpp"
 
 namespace mechane::collision_build {
 
@@ -29,6 +30,7 @@ enum class Bounds { superquadrics, boxes };
 
 struct BuildConfig {
   Parts parts = Parts::automatic;
+  geometry::SolidChoice solid;  ///< what is inside, where a mesh is open or is a sheet
   double max_concavity = 0.02;  ///< of a piece, as a share of its mesh's diagonal; see geometry::decompose
   std::size_t max_pieces = 48;  ///< of one mesh
   int grid_cells = 64;          ///< of the grid on which pieces are searched; see geometry::DecomposeConfig
@@ -51,7 +53,6 @@ struct BuildConfig {
 struct PartReport {
   std::string name;
   geometry::FitReport fit;
-  bool closed = true;  ///< a part with open edges is mapped by its first surface from outside
   std::size_t samples = 0;
   double spacing_m = 0;  ///< of the samples, after the cap
   std::string map;       ///< see PartMap::name
@@ -62,6 +63,7 @@ struct PartReport {
 
 struct BuildReport {
   std::vector<PartReport> parts;
+  std::vector<geometry::SolidMesh> solids;  ///< of each mesh: what the parts were made from
   double diagonal_m = 0;
   ErrorBudget budget;
   MapError error;         ///< of the whole object, as a query answers
@@ -73,8 +75,8 @@ struct BuildReport {
 using PartDone = std::function<void(std::size_t done, std::size_t parts)>;
 
 /// Decomposes, fits, maps and samples meshes in the object's frame O. A part gets the smallest map that meets the error budget, and the
-/// report says where none does. Parts that touch or overlap make one solid: seams are neither mapped nor sampled. Errors name the part:
-/// no triangles, NaN, flat, too many parts or triangles. `report` may be null. Uses all cores.
+/// report says where none does. Each mesh becomes a solid first (make_solid). Parts that touch or overlap make one solid: seams are neither
+/// mapped nor sampled. Errors name the part: no triangles, NaN, flat, enclosing nothing, too many parts or triangles. `report` may be null. Uses all cores.
 [[nodiscard]] Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> parts,
                                                        const BuildConfig& config, BuildReport* report = nullptr,
                                                        const PartDone& on_part = {});

@@ -7,11 +7,10 @@
 namespace mechane::collision_build {
 namespace {
 
-geometry::Mesh merge_closed(std::span<const geometry::Mesh> parts) {
+geometry::Mesh merged(std::span<const geometry::Mesh> parts) {
   geometry::Mesh whole;
-  for (const geometry::Mesh& part : parts) {
-    if (geometry::open_edges(part) == 0) whole.append(part);
-  }
+  for (const geometry::Mesh& part : parts)
+    whole.append(part);
   return whole;
 }
 
@@ -23,32 +22,40 @@ Vec3 aside(const Vec3& direction) {
 
 }  // namespace
 
-Solid::Solid(std::span<const geometry::Mesh> welded_parts, double seam_gap_m)
-    : seam_gap_m_(welded_parts.size() > 1 ? seam_gap_m : 0), whole_(merge_closed(welded_parts)) {
-  for (const geometry::Mesh& part : welded_parts) {
-    parts_.emplace_back(part);
+Solid::Solid(std::span<const geometry::Mesh> parts, double seam_gap_m)
+    : seam_gap_m_(parts.size() > 1 ? seam_gap_m : 0), whole_(merged(parts)) {
+  for (const geometry::Mesh& part : parts) {
+    const bool closed = geometry::open_edges(part) == 0;
+    parts_.emplace_back(part, closed ? geometry::Inside::by_rays : geometry::Inside::by_winding_number);
     boxes_.push_back(part.bounds());
-    closed_.push_back(geometry::open_edges(part) == 0);
+    closed_ = closed_ && closed;
   }
+}
+
+bool Solid::contains(const Vec3& p) const {
+  if (closed_) return whole_.winding(p) > 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (boxes_[i].contains(p) && parts_[i].contains(p)) return true;
+  }
+  return false;
 }
 
 bool Solid::is_exposed(std::size_t part, const Vec3& p, const Vec3& n) const {
   // Half a gap more than the widest crack, so that a neighbour across it is reached.
   const Vec3 before = p + (1.5 * seam_gap_m_ + 1e-6) * n;
   for (std::size_t other = 0; other < parts_.size(); ++other) {
-    if (other == part || !closed_[other] || !boxes_[other].contains(before)) continue;
-    if (parts_[other].winding(before) > 0) return false;
+    if (other != part && boxes_[other].contains(before) && parts_[other].contains(before)) return false;
   }
   return true;
 }
 
-double Solid::walk(std::size_t part, const Vec3& origin, const Vec3& direction, double limit) const {
+double Solid::walk(const Vec3& origin, const Vec3& direction, double limit) const {
   std::vector<geometry::RayHit> hits;
-  if (!closed_[part]) {
-    parts_[part].cast(origin, aside(direction), hits);
-    return hits.empty() ? 0 : std::min(hits.back().t, limit);
-  }
   whole_.cast(origin, aside(direction), hits);
+  return closed_ ? walk_by_counting(hits, direction, limit) : walk_by_asking(hits, origin, direction, limit);
+}
+
+double Solid::walk_by_counting(std::span<const geometry::RayHit> hits, const Vec3& direction, double limit) const {
   int winding = 0;
   for (const geometry::RayHit& hit : hits)
     winding += hit.entering ? -1 : 1;
@@ -62,6 +69,17 @@ double Solid::walk(std::size_t part, const Vec3& origin, const Vec3& direction, 
     last_exit = &hit;
   }
   return last_exit == nullptr ? 0 : std::min(last_exit->t, limit);
+}
+
+/// A ray may slip through a crack of a mesh that was mended: what lies between two hits is asked of the solid.
+double Solid::walk_by_asking(std::span<const geometry::RayHit> hits, const Vec3& origin, const Vec3& direction,
+                             double limit) const {
+  if (hits.empty() || !contains(origin + 0.5 * hits.front().t * direction)) return 0;
+  for (std::size_t i = 0; i + 1 < hits.size() && hits[i].t < limit; ++i) {
+    const double middle = 0.5 * (hits[i].t + hits[i + 1].t);
+    if (!is_crack(hits[i], hits[i + 1], direction) && !contains(origin + middle * direction)) return hits[i].t;
+  }
+  return std::min(hits.back().t, limit);
 }
 
 /// A ray may cross a crack at a slant, so its way through the air is longer than the crack is wide: the width is measured along the faces'

@@ -10,23 +10,21 @@
 
 namespace mechane::collision_build {
 
-/// Built once from welded part meshes; any thread may ask.
+/// Built once from part meshes as make_solid gives them; any thread may ask.
 class Solid {
  public:
   /// `seam_gap_m`: cracks between parts up to this width are solid.
-  Solid(std::span<const geometry::Mesh> welded_parts, double seam_gap_m);
+  Solid(std::span<const geometry::Mesh> parts, double seam_gap_m);
 
-  [[nodiscard]] bool is_closed(std::size_t part) const { return closed_[part]; }
-
-  /// Whether p lies inside some closed part.
-  [[nodiscard]] bool contains(const Vec3& p) const { return whole_.winding(p) > 0; }
+  /// Whether p lies inside some part.
+  [[nodiscard]] bool contains(const Vec3& p) const;
 
   /// Whether a surface point of `part`, n its triangle's outward normal, borders on air, and not on another part.
   [[nodiscard]] bool is_exposed(std::size_t part, const Vec3& p, const Vec3& n) const;
 
   /// How far one can go from `origin` along `direction` inside the solid, in units of `direction`; at most `limit`. Seams are passed.
-  /// For an open part: the outermost hit with its own mesh, whatever lies before it. 0: the ray starts in air, or never meets the part.
-  [[nodiscard]] double walk(std::size_t part, const Vec3& origin, const Vec3& direction, double limit) const;
+  /// 0: the ray starts in air.
+  [[nodiscard]] double walk(const Vec3& origin, const Vec3& direction, double limit) const;
 
   /// Cracks at seams up to this width are solid; 0 for an object of one part.
   [[nodiscard]] double seam_gap_m() const { return seam_gap_m_; }
@@ -35,12 +33,16 @@ class Solid {
 
  private:
   [[nodiscard]] bool is_crack(const geometry::RayHit& exit, const geometry::RayHit& entry, const Vec3& direction) const;
+  [[nodiscard]] double walk_by_counting(std::span<const geometry::RayHit> hits, const Vec3& direction,
+                                        double limit) const;
+  [[nodiscard]] double walk_by_asking(std::span<const geometry::RayHit> hits, const Vec3& origin, const Vec3& direction,
+                                      double limit) const;
 
   double seam_gap_m_;
   std::vector<geometry::MeshQuery> parts_;
   std::vector<Eigen::AlignedBox3d> boxes_;
-  std::vector<bool> closed_;
-  geometry::MeshQuery whole_;  // all closed parts
+  bool closed_ = true;         // all of them: rays can count
+  geometry::MeshQuery whole_;  // all parts
 };
 
 }  // namespace mechane::collision_build

@@ -123,11 +123,12 @@ Expected<Decomposition> decompose(const Mesh& mesh, const DecomposeConfig& confi
         last = std::max(last, share);
         if (progress) progress(last);
       };
-  if (open_edges(*used) > 0) {
+  const auto closed = check_closed(*used);
+  if (!closed && open_edges(*used) > 0) {
     heard(1);
     return one_open_piece(*used, config);
   }
-  if (auto ok = check_closed(*used); !ok) return tl::unexpected(ok.error());
+  if (!closed) return tl::unexpected(closed.error());
 
   const DecomposeModel model(std::move(*used), config.max_concavity, config.grid_cells, config.seed);
   const std::vector<PieceRegion> regions = search(model, config, heard);

@@ -29,8 +29,8 @@ struct Piece {
   std::vector<Vec3>
       surface_points;  ///< on the object's surface, spread evenly by area; none where pieces of the mesh overlap
   std::vector<Vec3> cut_points;  ///< on the cutting planes, inside the solid
-  double concavity_pct = 0;      ///< of the object's diagonal, over sampled chords; 100 for an open mesh
-  double volume_m3 = 0;          ///< from the grid's voxels; 0 for an open mesh
+  double concavity_pct = 0;      ///< of the object's diagonal, over sampled chords; 100 for a sheet
+  double volume_m3 = 0;          ///< from the grid's voxels; 0 for a sheet
 };
 
 struct Decomposition {
@@ -42,9 +42,9 @@ struct Decomposition {
 /// `progress` hears a share from 0 to 1, on the calling thread, and may be empty.
 ///
 /// Closed pieces of mesh that overlap are one solid. Bodies that lie in one cell but do not touch (found by flooding the grid; gaps
-/// below two of its cells are not seen) are parted by further cuts, even where their concavity is small. A mesh with open edges has no
-/// inside: it comes back as one piece with met = false. Errors: what check_mesh refuses, a mesh without extent, one that is inside
-/// out or encloses no volume, settings out of range.
+/// below two of its cells are not seen) are parted by further cuts, even where their concavity is small. Small holes are
+/// closed, as MeshQuery::contains does by winding number; an open mesh that encloses no volume comes back as one piece with met = false.
+/// Errors: what check_mesh refuses, a mesh without extent, a closed one that is inside out or encloses no volume, settings out of range.
 [[nodiscard]] Expected<Decomposition> decompose(const Mesh& mesh, const DecomposeConfig& config,
                                                 const std::function<void(double share)>& progress = {});
 

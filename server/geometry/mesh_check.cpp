@@ -86,7 +86,7 @@ Mesh weld(const Mesh& mesh) {
   return weld(mesh, 1e-6 * mesh.bounds().diagonal().norm());
 }
 
-std::size_t open_edges(const Mesh& welded) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> rims(const Mesh& welded) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
   for (const auto& t : welded.triangles) {
     for (int i = 0; i < 3; ++i) {
@@ -96,10 +96,15 @@ std::size_t open_edges(const Mesh& welded) {
       if (to < from) --balance[{to, from}];
     }
   }
-  std::size_t open = 0;
-  for (const auto& [edge, sum] : balance)
-    open += sum != 0 ? 1 : 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
+  for (const auto& [edge, sum] : balance) {
+    if (sum != 0) open.push_back(edge);
+  }
   return open;
+}
+
+std::size_t open_edges(const Mesh& welded) {
+  return rims(welded).size();
 }
 
 double enclosed_volume_m3(const Mesh& mesh) {

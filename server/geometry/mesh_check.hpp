@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "server/base/error.hpp"
 #include "server/geometry/mesh.hpp"
@@ -20,6 +23,10 @@ inline constexpr std::size_t kMaxTriangles = 2'000'000;
 [[nodiscard]] Mesh weld(const Mesh& mesh, double tolerance_m);
 /// The same within a millionth of its diagonal.
 [[nodiscard]] Mesh weld(const Mesh& mesh);
+
+/// Edges, as pairs of vertices, that triangles pass more often one way than the other: those around holes, and where a triangle is turned
+/// against its neighbour. The mesh must be welded.
+[[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> rims(const Mesh& welded);
 
 /// How many directed edges have no partner that runs the other way: 0 means closed. The mesh must be welded.
 [[nodiscard]] std::size_t open_edges(const Mesh& welded);

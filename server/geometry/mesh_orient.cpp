@@ -1,48 +1,18 @@
 #include "server/geometry/mesh_orient.hpp"
 
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "server/base/math.hpp"
 #include "server/geometry/mesh_check.hpp"
 #include "server/geometry/mesh_query.hpp"
+#include "server/geometry/shells.hpp"
 
 namespace mechane::geometry {
 namespace {
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) {
-    parent[v] = parent[parent[v]];
-    v = parent[v];
-  }
-  return v;
-}
-
-/// Triangles by shell, the shells in the order of their first triangles.
-std::vector<std::vector<std::uint32_t>> shells_of(const Mesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  for (const auto& t : mesh.triangles) {
-    for (int k = 1; k < 3; ++k)
-      parent[root_of(parent, t[k])] = root_of(parent, t[0]);
-  }
-  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> shell_of(mesh.vertices.size(), kNone);
-  std::vector<std::vector<std::uint32_t>> shells;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    std::uint32_t& shell = shell_of[root_of(parent, mesh.triangles[i][0])];
-    if (shell == kNone) {
-      shell = static_cast<std::uint32_t>(shells.size());
-      shells.emplace_back();
-    }
-    shells[shell].push_back(i);
-  }
-  return shells;
-}
-
 /// Six times; about a vertex of its own, so that a shell far from the origin is as exact as one that is near.
-double volume_of(const Mesh& mesh, const std::vector<std::uint32_t>& shell) {
+double volume_of(const Mesh& mesh, const Shell& shell) {
   const Vec3 from = mesh.vertices[mesh.triangles[shell.front()][0]];
   double volume = 0;
   for (const std::uint32_t i : shell) {
@@ -52,14 +22,14 @@ double volume_of(const Mesh& mesh, const std::vector<std::uint32_t>& shell) {
   return volume;
 }
 
-bool is_closed(const Mesh& mesh, const std::vector<std::uint32_t>& shell) {
+bool is_closed(const Mesh& mesh, const Shell& shell) {
   Mesh alone;  // edges are told from indices
   for (const std::uint32_t i : shell)
     alone.triangles.push_back(mesh.triangles[i]);
   return open_edges(alone) == 0;
 }
 
-void turn(Mesh& mesh, const std::vector<std::uint32_t>& shell) {
+void turn(Mesh& mesh, const Shell& shell) {
   for (const std::uint32_t i : shell)
     std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
 }
@@ -67,7 +37,7 @@ void turn(Mesh& mesh, const std::vector<std::uint32_t>& shell) {
 }  // namespace
 
 std::size_t turn_outwards(Mesh& welded) {
-  std::vector<std::vector<std::uint32_t>> shells = shells_of(welded);
+  std::vector<Shell> shells = shells_of(welded);
   std::erase_if(shells, [&](const auto& shell) { return !is_closed(welded, shell); });
   double sum = 0;
   for (const auto& shell : shells)

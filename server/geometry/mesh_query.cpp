@@ -4,10 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "server/base/assert.hpp"
+
 namespace mechane::geometry {
 namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
+// A node this many times its radius away is seen as a point.
+constexpr double kFar = 2;
 constexpr std::size_t kStackDepth = 96;  // a median split of 2^32 triangles is 30 levels deep, two entries a level
 
 /// Ericson, Real-Time Collision Detection, 5.1.5: the region of the triangle decides which feature is closest.
@@ -60,9 +64,19 @@ Eigen::AlignedBox3d padded(const Eigen::AlignedBox3d& box) {
   return {box.min() - pad, box.max() + pad};
 }
 
+/// From p = 0; positive where the triangle shows its inner side (Van Oosterom & Strackee 1983).
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double la = a.norm();
+  const double lb = b.norm();
+  const double lc = c.norm();
+  const double across = a.dot(b.cross(c));
+  const double along = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+  return across == 0 && along == 0 ? 0 : 2 * std::atan2(across, along);
+}
+
 }  // namespace
 
-MeshQuery::MeshQuery(const Mesh& mesh) : slot_of_(mesh.triangles.size()) {
+MeshQuery::MeshQuery(const Mesh& mesh, Inside inside) : slot_of_(mesh.triangles.size()) {
   triangles_.reserve(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
@@ -76,6 +90,83 @@ MeshQuery::MeshQuery(const Mesh& mesh) : slot_of_(mesh.triangles.size()) {
     split(n);
   for (std::uint32_t slot = 0; slot < triangles_.size(); ++slot)
     slot_of_[triangles_[slot].index] = slot;
+  if (inside == Inside::by_winding_number) add_moments();
+}
+
+void MeshQuery::Moments::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 area_normal = 0.5 * (b - a).cross(c - a);
+  const Vec3 middle = (a + b + c) / 3;
+  const Vec3 d = middle - center;
+  Mat3 square = d * d.transpose();
+  for (const Vec3& corner : {a, b, c})
+    square += (corner - middle) * (corner - middle).transpose() / 12;
+  dipole += area_normal;
+  spread += d * area_normal.transpose();
+  for (std::size_t k = 0; k < 3; ++k)
+    bend[k] += area_normal[static_cast<Eigen::Index>(k)] * square;
+}
+
+void MeshQuery::Moments::add(const Moments& child) {
+  const Vec3 d = child.center - center;
+  dipole += child.dipole;
+  spread += child.spread + d * child.dipole.transpose();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const Mat3 across = child.spread.col(axis) * d.transpose();
+    bend[k] += child.bend[k] + across + across.transpose() + child.dipole[axis] * d * d.transpose();
+  }
+}
+
+/// The first three terms of the series of r / |r|^3 about the center.
+double MeshQuery::Moments::solid_angle(const Vec3& r) const {
+  const double square = r.squaredNorm();
+  double traces = 0;  // of the third derivative's parts with a Kronecker delta
+  double cubic = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const Vec3 bent = bend[k] * r;
+    traces += 2 * bent[axis] + bend[k].trace() * r[axis];
+    cubic += bent.dot(r) * r[axis];
+  }
+  const double first = dipole.dot(r);
+  const double second = spread.trace() - 3 * r.dot(spread * r) / square;
+  const double third = 1.5 * (5 * cubic / square - traces) / square;
+  return (first + second + third) / (square * std::sqrt(square));
+}
+
+MeshQuery::Moments MeshQuery::moments_of_leaf(const Node& leaf) const {
+  Moments m;
+  for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    const Triangle& t = triangles_[i];
+    const double area = 0.5 * (t.b - t.a).cross(t.c - t.a).norm();
+    m.area += area;
+    m.center += area / 3 * (t.a + t.b + t.c);
+  }
+  m.center = m.area > 0 ? Vec3(m.center / m.area) : leaf.box.center();
+  for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+    m.add_triangle(triangles_[i].a, triangles_[i].b, triangles_[i].c);
+  return m;
+}
+
+MeshQuery::Moments MeshQuery::moments_of_children(const Node& node) const {
+  const Moments& a = moments_[node.first];
+  const Moments& b = moments_[node.first + 1];
+  Moments m;
+  m.area = a.area + b.area;
+  m.center = m.area > 0 ? Vec3((a.area * a.center + b.area * b.center) / m.area) : node.box.center();
+  m.add(a);
+  m.add(b);
+  return m;
+}
+
+void MeshQuery::add_moments() {
+  moments_.resize(nodes_.size());
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children stand behind their parents
+    const Node& node = nodes_[n];
+    moments_[n] = node.count > 0 ? moments_of_leaf(node) : moments_of_children(node);
+    const Vec3 reach = (node.box.max() - moments_[n].center).cwiseMax(moments_[n].center - node.box.min());
+    moments_[n].radius = reach.norm();
+  }
 }
 
 void MeshQuery::split(std::uint32_t n) {
@@ -200,9 +291,38 @@ int MeshQuery::winding(const Vec3& p) const {
   return std::clamp(count(kDirections[2]), std::min(first, second), std::max(first, second));
 }
 
+double MeshQuery::winding_number(const Vec3& p) const {
+  MECHANE_ASSERT(nodes_.empty() || !moments_.empty());
+  if (nodes_.empty()) return 0;
+  double angle = 0;
+  std::array<std::uint32_t, kStackDepth> stack{};
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const std::uint32_t n = stack[--top];
+    const Node& node = nodes_[n];
+    const Moments& m = moments_[n];
+    const Vec3 r = m.center - p;
+    if (r.squaredNorm() > kFar * kFar * m.radius * m.radius) {
+      angle += m.solid_angle(r);
+    } else if (node.count == 0) {
+      stack[top++] = node.first + 1;
+      stack[top++] = node.first;
+    } else {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+        angle += solid_angle(triangles_[i].a - p, triangles_[i].b - p, triangles_[i].c - p);
+    }
+  }
+  return angle / (4 * kPi);
+}
+
+bool MeshQuery::contains(const Vec3& p) const {
+  return moments_.empty() ? winding(p) > 0 : winding_number(p) > 0.5;
+}
+
 double MeshQuery::signed_distance(const Vec3& p) const {
   const double distance = closest(p).distance_m;
-  return winding(p) > 0 ? -distance : distance;
+  return contains(p) ? -distance : distance;
 }
 
 Vec3 MeshQuery::triangle_normal(std::uint32_t triangle) const {

@@ -30,7 +30,7 @@ double share_within(const DistanceGrid& grid, const HalfSpace& plane, const Vec3
 std::vector<OrientedPoint> exposed_only(const DecomposeModel& model, std::vector<OrientedPoint> points) {
   if (!model.grid.overlaps()) return points;
   std::erase_if(points, [&](const OrientedPoint& s) {
-    return model.query.winding(s.p + kAboveSurface * model.diagonal_m * s.n) > 0;
+    return model.query.contains(s.p + kAboveSurface * model.diagonal_m * s.n);
   });
   return points;
 }
@@ -135,7 +135,7 @@ void measure_with(const DecomposeModel& model, PieceRegion& region, std::size_t 
 
 DecomposeModel::DecomposeModel(Mesh welded, double max_concavity, int grid_cells, std::uint64_t seed_)
     : mesh(std::move(welded)),
-      query(mesh),
+      query(mesh, open_edges(mesh) == 0 ? Inside::by_rays : Inside::by_winding_number),
       grid(mesh, query, grid_cells),
       box(mesh.bounds()),
       diagonal_m(box.diagonal().norm()),
@@ -207,7 +207,7 @@ std::vector<Vec3> cut_points(const DecomposeModel& model, std::span<const HalfSp
     for (const Vec3& p : lattice_on(plane_section(plane, cell, model.box), plane.n, spacing_m, most)) {
       const double d = model.grid.at(p);
       // Beside edges the grid is off by a third of a cell.
-      if (d > unsure || (d > -unsure && model.query.winding(p) <= 0)) continue;
+      if (d > unsure || (d > -unsure && !model.query.contains(p))) continue;
       points.push_back(p);
     }
   }

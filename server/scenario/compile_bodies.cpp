@@ -77,7 +77,14 @@ bool read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::B
                      "remove touchable false: touch and collisions use the same shape");
     return false;
   }
-  auto object = c.loader.load(file, body.mesh.node);
+  const auto choice = geometry::solid_choice_of(fields.string("solid"));
+  if (!choice) {
+    c.problems.error(ErrorCode::invalid_value, fields.line("solid"), fields.where(),
+                     fmt::format("solid is '{}'", fields.string("solid")),
+                     "write auto, closed, or sheet with a thickness from 0.0001 to 0.1 m: sheet 0.001");
+    return true;
+  }
+  auto object = c.loader.load(file, body.mesh.node, *choice);
   if (object) {
     body.object = std::move(*object);
   } else {

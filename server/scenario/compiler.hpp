@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/base/error.hpp"
+#include "server/geometry/solid_mesh.hpp"
 #include "server/scenario/solid.hpp"
 #include "server/state/description.hpp"
 #include "server/x3d/document.hpp"
@@ -18,9 +19,10 @@ class ObjectLoader {
  public:
   virtual ~ObjectLoader() = default;
   /// The collision object of a node of a mesh file (its children named part_*, or each child mesh). Errors name the file and the node.
-  /// A loader that builds nothing returns null.
+  /// `solid`: what of it is inside. A loader that builds nothing returns null.
   [[nodiscard]] virtual Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
-                                                                                const std::string& node) = 0;
+                                                                                const std::string& node,
+                                                                                const geometry::SolidChoice& solid) = 0;
   /// Success where a mesh file has the node, for bodies that are only drawn; also from a loader that does not look into files.
   [[nodiscard]] virtual Expected<void> find_node(const std::filesystem::path&, const std::string&) { return {}; }
   /// The solid of a node's mesh, to check or compute a body's mass; none from a loader that does not look into files. This one imports the

@@ -9,7 +9,8 @@ namespace mechane::scenario {
 class FileFinder final : public ObjectLoader {
  public:
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path&,
-                                                                        const std::string&) override {
+                                                                        const std::string&,
+                                                                        const geometry::SolidChoice&) override {
     return nullptr;
   }
   [[nodiscard]] Expected<std::optional<Solid>> solid(const std::filesystem::path&, const std::string&) override {

@@ -37,7 +37,8 @@ Expected<const content::ImportedScene*> MeshFinder::scene_of(const std::filesyst
 }
 
 Expected<std::shared_ptr<const collision::Object>> MeshFinder::load(const std::filesystem::path& file,
-                                                                    const std::string& node) {
+                                                                    const std::string& node,
+                                                                    const geometry::SolidChoice& /*solid*/) {
   if (auto found = find_node(file, node); !found) return tl::unexpected(std::move(found.error()));
   const auto scene = scene_of(file);
   if (scene && *scene != nullptr) {

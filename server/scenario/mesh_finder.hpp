@@ -24,7 +24,8 @@ class MeshFinder final : public ObjectLoader {
   /// Returns null. Errors: the file cannot be imported (reported once per file); it has no such node (unknown_name, with the nearest);
   /// the node has nothing to touch.
   [[nodiscard]] Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
-                                                                        const std::string& node) override;
+                                                                        const std::string& node,
+                                                                        const geometry::SolidChoice& solid) override;
   [[nodiscard]] Expected<void> find_node(const std::filesystem::path& file, const std::string& node) override;
   /// None where the file could not be imported, which has been reported.
   [[nodiscard]] Expected<std::optional<Solid>> solid(const std::filesystem::path& file,

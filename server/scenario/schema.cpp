@@ -461,6 +461,11 @@ constexpr Key kBodyKeys[] = {
      .names = Names::model},
     {.name = "node", .summary = "the node in that file; else the one named as the body", .example = "\"INNER\""},
     {.name = "touchable", .kind = boolean, .summary = "false: drawn only", .default_number = 1},
+    {.name = "solid",
+     .summary = "what is inside, where the mesh is open: closed closes its holes, sheet T makes its surface T metres "
+                "thick, auto closes what encloses something and makes a sheet of 1 mm of the rest",
+     .example = "\"sheet 0.002\"",
+     .default_text = "auto"},
     {.name = "collides",
      .kind = boolean,
      .summary = "with every other body that does, but for those joined or snapped to it"},

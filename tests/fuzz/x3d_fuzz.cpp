@@ -18,8 +18,8 @@ namespace {
 
 class NoFiles final : public scenario::ObjectLoader {
  public:
-  mechane::Expected<std::shared_ptr<const mechane::collision::Object>> load(const std::filesystem::path&,
-                                                                            const std::string&) override {
+  mechane::Expected<std::shared_ptr<const mechane::collision::Object>> load(
+      const std::filesystem::path&, const std::string&, const mechane::geometry::SolidChoice&) override {
     return nullptr;
   }
   mechane::Expected<std::optional<scenario::Solid>> solid(const std::filesystem::path&, const std::string&) override {

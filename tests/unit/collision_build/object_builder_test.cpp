@@ -52,7 +52,6 @@ TEST(BuildObject, ABoxIsABox) {
   expect_sound(*object);
   EXPECT_GT(collision::sample_count(*object), 1500U);
   ASSERT_EQ(report.parts.size(), 1U);
-  EXPECT_TRUE(report.parts[0].closed);
   EXPECT_LT(report.parts[0].error.p50_m, 2e-5);
   EXPECT_LE(report.parts[0].error.p99_m, report.budget.depth_p99_m);
   EXPECT_TRUE(report.parts[0].met);
@@ -105,7 +104,6 @@ TEST_P(Barrel, HollowIsAirAndSolidIsSolidAlsoAtTheSeams) {
   EXPECT_LT(sideways, exact ? kProbes / 100 : kProbes / 50) << "worst " << worst;
   const double bound_m = exact ? config.max_error_m : 0.002;
   for (const PartReport& part : report.parts) {
-    EXPECT_TRUE(part.closed);
     EXPECT_TRUE(part.met || !exact) << part.name;
     EXPECT_LE(part.error.p99_m, bound_m) << part.name;
   }
@@ -182,16 +180,38 @@ TEST(BuildObject, TheCapOnSamplesWidensTheSpacing) {
   EXPECT_GT(report.parts[0].spacing_m, config.sample_spacing_m);
 }
 
-TEST(BuildObject, AnOpenPartIsMappedAndReported) {
+TEST(BuildObject, AnOpenPartIsClosedOrASheet) {
   std::vector<NamedMesh> parts = {{"cup", test::box({0.05, 0.05, 0.05})}};
   parts[0].mesh.triangles.erase(parts[0].mesh.triangles.begin(), parts[0].mesh.triangles.begin() + 2);
-  BuildReport report;
-  const auto object = build_object(parts, {}, &report);
-  ASSERT_TRUE(object);
-  EXPECT_FALSE(report.parts[0].closed);
-  const collision::MapHit hit = ask(*object, {0.047, 0.01, 0.01});
-  ASSERT_TRUE(hit.hit);
-  EXPECT_NEAR(hit.depth_m, 0.003, 3e-4);
+  for (const geometry::SolidKind kind : {geometry::SolidKind::automatic, geometry::SolidKind::sheet}) {
+    BuildConfig config;
+    config.solid = {kind, 0.006};
+    config.parts = Parts::as_given;
+    BuildReport report;
+    const auto object = build_object(parts, config, &report);
+    ASSERT_TRUE(object) << object.error().to_string();
+    expect_sound(*object);
+    EXPECT_GT(report.solids[0].open_edges, 0U);
+    const bool sheet = kind == geometry::SolidKind::sheet;
+    EXPECT_EQ(report.solids[0].membrane_area_m2 > 0, !sheet);
+    const collision::MapHit hit = ask(*object, {sheet ? 0.051 : 0.048, 0.01, 0.01});
+    ASSERT_TRUE(hit.hit);
+    EXPECT_NEAR(hit.depth_m, 0.002, 6e-4);
+    EXPECT_EQ(ask(*object, {0.01, 0.01, 0.02}).hit, !sheet);
+    EXPECT_FALSE(ask(*object, {0.01, 0.01, -0.055}).hit) << "over the hole";
+  }
+}
+
+TEST(BuildObject, WhatEnclosesNothingIsNoSolidIfItMustBeClosed) {
+  std::vector<NamedMesh> parts = {{"sail", {}}};
+  parts[0].mesh.vertices = {{0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}};
+  parts[0].mesh.triangles = {{0, 1, 2}};
+  BuildConfig config;
+  config.solid.kind = geometry::SolidKind::closed;
+  const auto none = build_object(parts, config);
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error(), test::is_error(ErrorCode::invalid_value, 0, {"part 'sail'"}));
+  EXPECT_TRUE(build_object(parts, {}));
 }
 
 TEST(BuildObject, ABudgetOutOfReachGetsNoWorseMapThanOneWithinReach) {

@@ -74,9 +74,10 @@ RC_GTEST_PROP(Progress, ABarStaysOnItsLine, ()) {
 }
 
 TEST(Progress, LinesSayHowFarItIs) {
-  EXPECT_EQ(plain_line({"screw.glb", "parts built", 12, 57}, 8.2), "screw.glb: parts built, 12 of 57, 8 s");
+  EXPECT_EQ(plain_line({"screw.glb", "parts built", 12, 57}, 8.2),
+            "screw.glb: parts built, 12 of 57, 8 s, about 31 s left");
   const std::string half = bar_line({"screw.glb", "parts built", 5, 10}, 3, 100);
-  EXPECT_NE(half.find("████████████░░░░░░░░░░░░ 5/10 parts built, 3 s"), std::string::npos) << half;
+  EXPECT_NE(half.find("████████████░░░░░░░░░░░░ 5/10 parts built, 3 s, about 3 s left"), std::string::npos) << half;
 }
 
 TEST(Report, AHostileNameIsTextAndThePageNeedsNothingFromOutside) {

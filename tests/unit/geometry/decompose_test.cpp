@@ -238,18 +238,14 @@ TEST(Decompose, ProgressRisesToOne) {
   EXPECT_EQ(last, 1);
 }
 
-TEST(Decompose, AnOpenMeshIsOnePieceThatMeetsNothing) {
-  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it samples a thousand times what its neighbours sample");
-  Mesh mesh = test::box({1, 1, 1});
-  mesh.triangles.pop_back();
-  const Decomposition d = taken_apart(mesh);
+TEST(Decompose, ASheetIsOnePieceThatMeetsNothing) {
+  const Mesh two{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const Decomposition d = taken_apart(two);
   ASSERT_EQ(d.pieces.size(), 1U);
   EXPECT_FALSE(d.met);
   EXPECT_TRUE(d.pieces[0].cell.empty());
   EXPECT_FALSE(d.pieces[0].surface_points.empty());
   EXPECT_EQ(d.pieces[0].concavity_pct, 100);
-  const Mesh two{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  EXPECT_FALSE(taken_apart(two).met);
 }
 
 TEST(Decompose, WhatCannotBeTakenApartIsNamed) {

@@ -244,6 +244,21 @@ TEST(Compiler, BodiesCollideWhenAskedToAndWhatSnapsTogetherIsMated) {
   EXPECT_EQ(outcome.world->mates[0].body2, outer);
 }
 
+TEST(Compiler, ABodySaysWhatOfItsMeshIsSolid) {
+  const std::string node = "name='node' value='\"INNER\"'/>";
+  const auto with = [&](const std::string& value) {
+    return edited(node, node + "<MetadataString containerField='value' name='solid' value='\"" + value + "\"'/>");
+  };
+  FakeLoader loader;
+  ASSERT_TRUE(compile_text(with("sheet 0.002"), loader).world);
+  EXPECT_EQ(loader.solids,
+            (std::vector<geometry::SolidChoice>{{}, {.kind = geometry::SolidKind::sheet, .thickness_m = 0.002}}));
+  const std::string wrong = with("hollow");
+  const Outcome outcome = compile_text(wrong);
+  EXPECT_FALSE(outcome.world);
+  static_cast<void>(outcome.find(ErrorCode::invalid_value, line_of(wrong, "name='solid'"), "'hollow'"));
+}
+
 TEST(Compiler, ABodyHasATitleForVisitorsWhereTheAuthorGivesOne) {
   const std::string greek = "<MetadataString containerField='value' name='title.el' value='\"Ο κύλινδρος\"'/>";
   const std::string english = "<MetadataString containerField='value' name='title.en' value='\"The barrel\"'/>";

@@ -52,9 +52,10 @@ inline std::string edited(const std::string& from, const std::string& to) {
 /// Makes empty objects and remembers what was asked of it.
 class FakeLoader final : public ObjectLoader {
  public:
-  Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
-                                                          const std::string& node) override {
+  Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file, const std::string& node,
+                                                          const geometry::SolidChoice& solid) override {
     loaded.push_back(file.filename().string() + "#" + node);
+    solids.push_back(solid);
     if (node == missing_node)
       return fail(ErrorCode::unknown_name, "the node does not exist", file.string(), "name one of: OUTER");
     return std::make_shared<collision::Object>();
@@ -68,7 +69,8 @@ class FakeLoader final : public ObjectLoader {
   bool has_meshes_at_hand() const override { return true; }
 
   std::vector<std::string> loaded;
-  std::optional<Solid> shape;  ///< of every body
+  std::vector<geometry::SolidChoice> solids;  // of what was loaded
+  std::optional<Solid> shape;                 ///< of every body
   std::string hash = std::string(32, 'a');
   std::string missing_node;
   bool no_files = false;
